@@ -1,0 +1,56 @@
+//! Which passes run: those whose writes reach a root.
+
+use crate::declaration::{Declaration, Origin, PassDecl};
+use crate::handle::{PassId, ResourceId};
+use crate::plan::CullReason;
+
+/// Returns, for each pass, why it does not run, or `None` if it does.
+///
+/// Walks backwards and keeps, for each resource, whether its contents at this point are needed. Roots are what is
+/// imported or exported, and passes that are kept.
+pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
+    let mut needed: Vec<bool> =
+        decl.resources.iter().map(|r| r.exported || matches!(r.origin, Origin::Imported { .. })).collect();
+    let mut live = vec![false; decl.passes.len()];
+    for (index, pass) in decl.passes.iter().enumerate().rev() {
+        live[index] = pass.keep || writes(pass).any(|r| needed[r.index()]);
+        if !live[index] {
+            continue;
+        }
+        for access in &pass.accesses {
+            if access.contents.is_some_and(|c| !c.preserves()) {
+                needed[access.resource.index()] = false;
+            }
+        }
+        for access in &pass.accesses {
+            if access.contents.is_none_or(|c| c.preserves()) {
+                needed[access.resource.index()] = true;
+            }
+        }
+    }
+    (0..decl.passes.len()).map(|index| (!live[index]).then(|| reason(decl, index, &live))).collect()
+}
+
+fn writes(pass: &PassDecl) -> impl Iterator<Item = ResourceId> + '_ {
+    pass.accesses.iter().filter(|a| a.access.writes()).map(|a| a.resource)
+}
+
+fn reason(decl: &Declaration, index: usize, live: &[bool]) -> CullReason {
+    let Some(resource) = writes(&decl.passes[index]).next() else {
+        return CullReason::WritesNothing;
+    };
+    let later = decl.passes.iter().enumerate().skip(index + 1);
+    for (other, pass) in later {
+        for access in pass.accesses.iter().filter(|a| a.resource == resource) {
+            let id = PassId(other as u32);
+            match access.contents {
+                Some(contents) if !contents.preserves() && live[other] => {
+                    return CullReason::Overwritten(resource, id);
+                }
+                Some(contents) if !contents.preserves() => return CullReason::Unread(resource),
+                _ => return CullReason::OnlyCulledReaders(resource, id),
+            }
+        }
+    }
+    CullReason::Unread(resource)
+}

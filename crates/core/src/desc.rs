@@ -1,0 +1,78 @@
+//! What a texture or buffer is, before anything is known of its use.
+
+use serde::Serialize;
+use wgpu_types::{Extent3d, TextureDimension};
+
+/// A texture format, as wgpu names it.
+pub type Format = wgpu_types::TextureFormat;
+/// A size in texels: width, height, and depth or layers.
+pub type Extent = Extent3d;
+
+/// The shape of a texture. Usage flags are absent on purpose: the graph derives them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct TextureDesc {
+    /// Size in texels; `depth_or_array_layers` counts layers of a 2D texture.
+    pub size: Extent,
+    /// Texel format.
+    pub format: Format,
+    /// Number of mip levels, at least 1.
+    pub mip_levels: u32,
+    /// Samples per texel: 1, or 4 for multisampling.
+    pub samples: u32,
+    /// 1D, 2D or 3D.
+    pub dimension: TextureDimension,
+}
+
+impl TextureDesc {
+    /// Describes a 2D texture of `width` x `height` texels with one layer, one mip level and one sample.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Format, TextureDesc};
+    /// let desc = TextureDesc::d2(256, 128, Format::Depth32Float);
+    /// assert_eq!(desc.bytes(), 256 * 128 * 4);
+    /// ```
+    pub fn d2(width: u32, height: u32, format: Format) -> Self {
+        Self {
+            size: Extent { width, height, depth_or_array_layers: 1 },
+            format,
+            mip_levels: 1,
+            samples: 1,
+            dimension: TextureDimension::D2,
+        }
+    }
+
+    /// Returns the description with `layers` array layers.
+    pub fn layers(mut self, layers: u32) -> Self {
+        self.size.depth_or_array_layers = layers;
+        self
+    }
+
+    /// Returns the memory of the texture in bytes, all mips, layers and samples, without the driver's padding.
+    pub fn bytes(&self) -> u64 {
+        let layers = if self.dimension == TextureDimension::D3 { 1 } else { self.size.depth_or_array_layers };
+        (0..self.mip_levels)
+            .map(|mip| {
+                let mut size = self.size.mip_level_size(mip, self.dimension);
+                if self.dimension != TextureDimension::D3 {
+                    size.depth_or_array_layers = layers;
+                }
+                self.format.theoretical_memory_footprint(size)
+            })
+            .sum::<u64>()
+            * u64::from(self.samples)
+    }
+}
+
+/// The shape of a buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct BufferDesc {
+    /// Size in bytes, at least 4 and a multiple of 4.
+    pub bytes: u64,
+}
+
+impl BufferDesc {
+    /// Describes a buffer of `bytes` bytes, rounded up to a multiple of 4 as copies need it.
+    pub fn new(bytes: u64) -> Self {
+        Self { bytes: bytes.next_multiple_of(4).max(4) }
+    }
+}

@@ -1,0 +1,91 @@
+//! Names for things: handles outside a pass, tokens inside one, ids in the plan.
+
+use serde::Serialize;
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+        pub struct $name(pub(crate) u32);
+
+        impl $name {
+            /// Returns the position in the plan's list of this kind.
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+
+id!(
+    /// A pass, in order of declaration: indexes [`Plan::passes`](crate::Plan::passes).
+    PassId
+);
+id!(
+    /// A texture or buffer, in order of declaration: indexes [`Plan::resources`](crate::Plan::resources).
+    ResourceId
+);
+id!(
+    /// A node, in order of declaration: indexes [`Plan::nodes`](crate::Plan::nodes).
+    NodeId
+);
+id!(
+    /// A physical texture or buffer that resources take turns in: indexes [`Plan::slots`](crate::Plan::slots).
+    SlotId
+);
+
+/// One version of a resource of one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Version {
+    pub(crate) frame: u64,
+    pub(crate) resource: ResourceId,
+    pub(crate) version: u32,
+}
+
+/// A texture of a frame, at one version of its contents.
+///
+/// Clone it to keep the name; a clone left behind by a write is stale, and using it is an error.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Texture(pub(crate) Version);
+
+/// A buffer of a frame, at one version of its contents. See [`Texture`] for clones.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Buffer(pub(crate) Version);
+
+impl Texture {
+    /// Returns the resource's id in the plan.
+    pub fn id(&self) -> ResourceId {
+        self.0.resource
+    }
+}
+
+impl Buffer {
+    /// Returns the resource's id in the plan.
+    pub fn id(&self) -> ResourceId {
+        self.0.resource
+    }
+}
+
+/// The right to touch one resource in one pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Token {
+    pub(crate) frame: u64,
+    pub(crate) pass: PassId,
+    pub(crate) resource: ResourceId,
+}
+
+/// The right to touch a texture inside the body of the pass that declared the access.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureToken(pub(crate) Token);
+
+/// The right to touch a buffer inside the body of the pass that declared the access.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BufferToken(pub(crate) Token);
+
+/// The right to take a texture out of an executed frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureExport(pub(crate) Version);
+
+/// The right to take a buffer out of an executed frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BufferExport(pub(crate) Version);

@@ -1,0 +1,79 @@
+//! A render graph for wgpu: a frame is declared as passes and the resources they read and write, and is compiled
+//! every frame into a [`Plan`]: which passes run, in what order, in which physical textures, with which load and
+//! store operations, and why.
+//!
+//! The declaration is the only thing you write. Usage flags, load and store operations, lifetimes and the sharing
+//! of textures are derived from it, and what was not declared cannot be touched.
+//!
+//! ```
+//! use shadowgraph_core::{BufferDesc, Contents, Format, Frame, TextureDesc};
+//!
+//! let mut frame = Frame::new();
+//! let mut scene = frame.create_texture("scene", TextureDesc::d2(1280, 720, Format::Rgba16Float));
+//! let mut picture = frame.create_texture("picture", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
+//!
+//! frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
+//! let mut tonemap = frame.render_pass("tonemap");
+//! let _scene = tonemap.sample(&scene);
+//! tonemap.color(&mut picture, Contents::Cover);
+//! frame.export_texture(&picture);
+//!
+//! let plan = frame.compile()?.into_plan();
+//! assert_eq!(plan.order.len(), 2);
+//! println!("{}", plan.to_text());
+//! # Ok::<(), shadowgraph_core::Error>(())
+//! ```
+//!
+//! # Rules
+//!
+//! - Reading takes `&handle`; writing takes `&mut handle` and moves it on to the next version. An older clone is
+//!   stale from then on, and using it is an error that names the writer. So cycles cannot be written, and the order
+//!   of declaration is always a valid order.
+//! - Every write says what becomes of the old contents ([`Contents`]): cleared, covered or preserved. Reading
+//!   contents that nothing has defined is an error.
+//! - Declaring an access returns a token. Inside a pass body only a token of that very pass resolves.
+//! - Mistakes are collected while declaring and returned by [`Frame::compile`], the first one first.
+//!
+//! # Features
+//!
+//! `gpu` (default): the pool and the executor. Without it the crate has no device and no wgpu, only the graph, its
+//! compiler and the dumps.
+
+mod access;
+mod builder;
+mod compile;
+mod declaration;
+mod desc;
+mod dump;
+mod error;
+#[cfg(feature = "gpu")]
+mod execute;
+mod frame;
+mod handle;
+mod plan;
+#[cfg(feature = "gpu")]
+mod pool;
+
+pub use access::{Access, ClearValue, Contents};
+pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
+pub use declaration::{CopyOp, Origin, PassKind};
+pub use desc::{BufferDesc, Extent, Format, TextureDesc};
+pub use error::Error;
+#[cfg(feature = "gpu")]
+pub use execute::{
+    Bind, BodyResult, ComputeContext, EncoderContext, Executed, PassTime, RenderContext, Resources, Timer,
+};
+pub use frame::{Compiled, Frame};
+pub use handle::{
+    Buffer, BufferExport, BufferToken, NodeId, PassId, ResourceId, SlotId, Texture, TextureExport,
+    TextureToken,
+};
+pub use plan::{
+    AccessPlan, AttachmentOps, CullReason, Dependency, DependencyKind, LoadAction, LoadReason, NodePlan,
+    PassPlan, Plan, ResourceDesc, ResourcePlan, SlotPlan, Step, StoreAction, StoreReason,
+};
+#[cfg(feature = "gpu")]
+pub use pool::Pool;
+#[cfg(feature = "gpu")]
+pub use wgpu;
+pub use wgpu_types::{BufferUsages, TextureUsages};
