@@ -1,0 +1,64 @@
+//! Puts files together into one module.
+
+use naga::valid::Capabilities;
+use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor};
+
+use crate::{
+    Error, ModuleSource,
+    imports::Library,
+    report::wgsl_error,
+    source::{ENTRIES, names},
+};
+
+/// Composes a built-in entry file, such as `"forward.wgsl"`, with the modules that it imports. `extra` adds
+/// modules, such as the shadow technique's, or takes the place of built-in ones with the same import path.
+///
+/// # Errors
+///
+/// No entry file has that name, an import is not found, or the WGSL is wrong: the text gives file and line.
+pub fn compose(entry_file: &str, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
+    match ENTRIES.iter().find(|entry| entry.file == entry_file) {
+        Some(entry) => compose_source(entry, extra),
+        None => Err(Error::UnknownFile { file: entry_file.to_owned(), known: names(ENTRIES) }),
+    }
+}
+
+/// Composes an entry file of the caller's own with the modules that it imports: the built-in ones and `extra`.
+///
+/// ```
+/// use shadowgraph_shaders::{ModuleSource, compose_source};
+///
+/// let entry = ModuleSource::new(
+///     "fog.wgsl",
+///     "#import shadowgraph::view::view
+///      @fragment fn fs_fog() -> @location(0) vec4f { return vec4f(view.ambient_sky, 1.0); }",
+/// );
+/// assert_eq!(compose_source(&entry, &[])?.entry_points.len(), 1);
+/// # Ok::<(), shadowgraph_shaders::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// An import is not found, or the WGSL is wrong: the text gives file and line.
+pub fn compose_source(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
+    let library = Library::new(extra)?;
+    // What the device can do is checked when it gets the module.
+    let mut composer = Composer::default().with_capabilities(Capabilities::all());
+    for path in library.needed_by(entry)? {
+        let Some(module) = library.get(&path) else { continue };
+        let added = composer.add_composable_module(ComposableModuleDescriptor {
+            source: &module.source,
+            file_path: &module.file,
+            ..Default::default()
+        });
+        if let Err(error) = added {
+            return Err(wgsl_error(&error, &composer, &library, entry));
+        }
+    }
+    let composed = composer.make_naga_module(NagaModuleDescriptor {
+        source: &entry.source,
+        file_path: &entry.file,
+        ..Default::default()
+    });
+    composed.map_err(|error| wgsl_error(&error, &composer, &library, entry))
+}

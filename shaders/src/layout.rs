@@ -1,0 +1,146 @@
+//! Checks that a struct lies in memory in WGSL as it does in Rust.
+
+use naga::TypeInner;
+
+use crate::{Error, report::plain_names};
+
+/// A member of a WGSL struct.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Field {
+    /// Its name in WGSL.
+    pub name: String,
+    /// Its place in the struct, in bytes.
+    pub offset: usize,
+}
+
+/// A WGSL struct's size and fields.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layout {
+    /// Bytes, rounded up to the struct's alignment.
+    pub size: usize,
+    /// In the order of declaration.
+    pub fields: Vec<Field>,
+}
+
+/// Finds the layout of a struct in a composed module by its name (`View`).
+///
+/// # Errors
+///
+/// [`Error::StructNotFound`] where no struct is called so, or several that differ.
+pub fn of(module: &naga::Module, struct_name: &str) -> Result<Layout, Error> {
+    let structs = structs(module);
+    let mut found: Vec<&Layout> = Vec::new();
+    for (name, layout) in &structs {
+        if name == struct_name && !found.contains(&layout) {
+            found.push(layout);
+        }
+    }
+    match found[..] {
+        [layout] => Ok(layout.clone()),
+        _ => Err(Error::StructNotFound {
+            name: struct_name.to_owned(),
+            count: found.len(),
+            known: structs.into_iter().map(|(name, _)| name).collect::<Vec<_>>().join(", "),
+        }),
+    }
+}
+
+/// Checks a struct of a composed module against the size and the field offsets (in bytes) that Rust has for it.
+/// All of the WGSL fields must be listed, in any order; padding that WGSL does not declare is not.
+///
+/// ```
+/// use shadowgraph_shaders::{compose, layout};
+///
+/// let module = compose("depth.wgsl", &[])?;
+/// layout::check(&module, "Instance", 48, &[("row_x", 0), ("row_y", 16), ("row_z", 32)])?;
+/// # Ok::<(), shadowgraph_shaders::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// The first difference: the struct is not there, has another size, or has a field missing, too many or elsewhere.
+pub fn check(
+    module: &naga::Module,
+    struct_name: &str,
+    size: usize,
+    fields: &[(&str, usize)],
+) -> Result<(), Error> {
+    let layout = of(module, struct_name)?;
+    let name = || struct_name.to_owned();
+    for &(field, expected) in fields {
+        let Some(actual) = layout.fields.iter().find(|f| f.name == field) else {
+            let known = layout.fields.iter().map(|f| f.name.as_str()).collect::<Vec<_>>().join(", ");
+            return Err(Error::FieldMissing { name: name(), field: field.to_owned(), known });
+        };
+        let actual = actual.offset;
+        if actual != expected {
+            return Err(Error::FieldOffset { name: name(), field: field.to_owned(), actual, expected });
+        }
+    }
+    if let Some(extra) = layout.fields.iter().find(|f| !fields.iter().any(|(field, _)| *field == f.name)) {
+        let Field { name: field, offset } = extra.clone();
+        return Err(Error::FieldUnexpected { name: name(), field, offset });
+    }
+    if layout.size != size {
+        return Err(Error::StructSize { name: name(), actual: layout.size, expected: size });
+    }
+    Ok(())
+}
+
+/// Every struct of the module under the name its author gave it.
+fn structs(module: &naga::Module) -> Vec<(String, Layout)> {
+    let mut structs = Vec::new();
+    for (_, ty) in module.types.iter() {
+        if let (Some(name), TypeInner::Struct { members, span }) = (&ty.name, &ty.inner) {
+            let fields = members.iter().map(|member| Field {
+                name: member.name.clone().unwrap_or_default(),
+                offset: member.offset as usize,
+            });
+            structs.push((plain_names(name), Layout { size: *span as usize, fields: fields.collect() }));
+        }
+    }
+    structs
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+    use super::*;
+
+    const TWO: &str = "struct Two { first: vec3f, second: f32, third: f32 }\n\
+        @group(0) @binding(0) var<uniform> two: Two;";
+
+    fn two() -> naga::Module {
+        naga::front::wgsl::parse_str(TWO).unwrap()
+    }
+
+    #[test]
+    fn equal_layouts_pass_in_any_order_of_fields() {
+        check(&two(), "Two", 32, &[("third", 16), ("first", 0), ("second", 12)]).unwrap();
+    }
+
+    #[test]
+    fn each_difference_is_named() {
+        let module = two();
+        let text =
+            |size, fields: &[(&str, usize)]| check(&module, "Two", size, fields).unwrap_err().to_string();
+        let right = [("first", 0), ("second", 12), ("third", 16)];
+        assert_eq!(text(20, &right), "WGSL struct `Two` takes 32 bytes, not 20");
+        let moved = [("first", 0), ("second", 16), ("third", 16)];
+        assert_eq!(text(32, &moved), "field `second` of WGSL struct `Two` is at byte 12, not 16");
+        let renamed = [("first", 0), ("other", 12)];
+        assert_eq!(
+            text(32, &renamed),
+            "WGSL struct `Two` has no field `other`; it has: first, second, third"
+        );
+        assert_eq!(
+            text(32, &right[..2]),
+            "WGSL struct `Two` also has a field `third` at byte 16, which was not expected"
+        );
+        assert_eq!(
+            check(&module, "One", 0, &[]).unwrap_err().to_string(),
+            "0 structs are called `One`, one was expected; the module's structs: Two"
+        );
+    }
+}

@@ -1,0 +1,32 @@
+//! The WGSL of Shadowgraph by import path, and its composition.
+//!
+//! A WGSL file is either a *module*, which names its import path (`#define_import_path shadowgraph::view`) and
+//! is imported by others (`#import shadowgraph::view::{view, lights}`), or an *entry file* with entry points.
+//! [`compose`] puts a built-in entry file together with everything that it imports, [`compose_source`] does so
+//! for a file of the caller's own. What comes out is a validated [`naga::Module`] (for wgpu,
+//! `ShaderSource::Naga`).
+//!
+//! The module `shadowgraph::technique` is the caller's to pass: [`PCF`], [`NONE`] or that of another technique.
+//! It defines `shadow_visibility` and `shadow_debug_color`; `shadows/none.wgsl` shows their signatures.
+//!
+//! ```
+//! use shadowgraph_shaders::{NONE, compose};
+//!
+//! let module = compose("forward.wgsl", &[NONE])?;
+//! assert!(module.entry_points.iter().any(|entry| entry.name == "fs_forward"));
+//! # Ok::<(), shadowgraph_shaders::Error>(())
+//! ```
+//!
+//! Names of what a module exports (struct members too) must not end in a digit or hold two underscores in a row:
+//! naga gives such names another ending when it writes them for those who import the module.
+
+mod compose;
+mod error;
+mod imports;
+pub mod layout;
+mod report;
+mod source;
+
+pub use compose::{compose, compose_source};
+pub use error::Error;
+pub use source::{ModuleSource, NONE, PCF, builtin, builtin_files};

@@ -1,0 +1,76 @@
+//! The WGSL files that come with the crate.
+
+use std::borrow::Cow;
+
+/// A WGSL file: its name, for messages, and its text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ModuleSource {
+    /// The name that errors give, such as a path.
+    pub file: Cow<'static, str>,
+    /// The WGSL text. A module has a line `#define_import_path a::b`; an entry file needs none.
+    pub source: Cow<'static, str>,
+}
+
+impl ModuleSource {
+    /// Makes a source from a name for messages and a text.
+    pub fn new(file: impl Into<Cow<'static, str>>, source: impl Into<Cow<'static, str>>) -> Self {
+        Self { file: file.into(), source: source.into() }
+    }
+}
+
+/// A file under `wgsl/`.
+macro_rules! file {
+    ($file:literal) => {
+        ModuleSource {
+            file: Cow::Borrowed($file),
+            source: Cow::Borrowed(include_str!(concat!("../wgsl/", $file))),
+        }
+    };
+}
+
+/// The technique `none`: no shadows, no bindings.
+pub const NONE: ModuleSource = file!("shadows/none.wgsl");
+
+/// The technique `pcf`: cascades and an atlas, filtered with a 5 x 5 tent.
+pub const PCF: ModuleSource = file!("shadows/pcf.wgsl");
+
+/// The modules that any file can import.
+pub(crate) const MODULES: &[ModuleSource] = &[
+    file!("draw.wgsl"),
+    file!("fullscreen.wgsl"),
+    file!("lighting.wgsl"),
+    file!("material.wgsl"),
+    file!("receiver.wgsl"),
+    file!("shadows/types.wgsl"),
+    file!("view.wgsl"),
+];
+
+/// The modules of which the caller passes one, as all have the import path [`TECHNIQUE`].
+pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF];
+
+/// The files with entry points.
+pub(crate) const ENTRIES: &[ModuleSource] =
+    &[file!("depth.wgsl"), file!("forward.wgsl"), file!("show.wgsl"), file!("tonemap.wgsl")];
+
+/// The import path of every shadow technique's module.
+pub(crate) const TECHNIQUE: &str = "shadowgraph::technique";
+
+/// Gives a built-in WGSL file by its name, such as `"shadows/none.wgsl"`.
+#[must_use]
+pub fn builtin(file: &str) -> Option<ModuleSource> {
+    all().find(|module| module.file == file).cloned()
+}
+
+/// Lists the names of the built-in WGSL files: modules, techniques, entry files, each by name.
+pub fn builtin_files() -> impl Iterator<Item = &'static str> {
+    all().map(|module| module.file.as_ref())
+}
+
+/// The names of some files, with commas.
+pub(crate) fn names(files: &[ModuleSource]) -> String {
+    files.iter().map(|module| module.file.as_ref()).collect::<Vec<_>>().join(", ")
+}
+
+fn all() -> impl Iterator<Item = &'static ModuleSource> {
+    MODULES.iter().chain(TECHNIQUES).chain(ENTRIES)
+}

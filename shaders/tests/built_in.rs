@@ -1,0 +1,183 @@
+//! Every built-in file composes, is valid under wgpu's default limits, and keeps what Rust code relies on.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use naga::{
+    BuiltIn, ShaderStage,
+    valid::{Capabilities, ValidationFlags, Validator},
+};
+use shadowgraph_shaders::{ModuleSource, NONE, PCF, builtin, builtin_files, compose, layout};
+
+const ENTRIES: [&str; 4] = ["depth.wgsl", "forward.wgsl", "show.wgsl", "tonemap.wgsl"];
+
+/// The files whose module is `shadowgraph::technique`.
+fn techniques() -> Vec<ModuleSource> {
+    let files = builtin_files().filter_map(builtin);
+    files.filter(|file| file.source.contains("#define_import_path shadowgraph::technique")).collect()
+}
+
+fn composed(entry: &str) -> naga::Module {
+    compose(entry, &[NONE]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The author's name of something that naga_oil has marked.
+fn plain(name: &Option<String>) -> String {
+    let name = name.as_deref().unwrap_or_default();
+    name.split("X_naga_oil").next().unwrap_or_default().to_owned()
+}
+
+/// `group.binding name` of every resource, in order.
+fn bindings(module: &naga::Module) -> Vec<String> {
+    let variables = module.global_variables.iter().filter_map(|(_, v)| v.binding.map(|b| (b, &v.name)));
+    let mut table: Vec<_> = variables.map(|(b, name)| (b.group, b.binding, plain(name))).collect();
+    table.sort();
+    table.into_iter().map(|(group, binding, name)| format!("{group}.{binding} {name}")).collect()
+}
+
+#[test]
+fn every_entry_is_valid_with_every_technique() {
+    assert_eq!(techniques(), [NONE, PCF]);
+    for entry in ENTRIES {
+        for technique in techniques() {
+            let name = format!("{entry} with {}", technique.file);
+            let module = compose(entry, &[technique]).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
+            validator.validate(&module).unwrap_or_else(|error| panic!("{name}: {error:?}"));
+        }
+    }
+}
+
+#[test]
+fn every_file_is_reached_by_composition() {
+    // A module that nothing imports would never be parsed by the other tests.
+    let text: String = builtin_files().filter_map(builtin).map(|file| file.source).collect();
+    for file in builtin_files().filter(|file| !ENTRIES.contains(file)) {
+        let source = builtin(file).unwrap().source;
+        let path = source.lines().find_map(|line| line.strip_prefix("#define_import_path ")).unwrap();
+        assert!(text.contains(&format!("#import {path}")), "nothing imports {file}");
+    }
+}
+
+#[test]
+fn entry_points_have_the_names_that_pipelines_use() {
+    let names = |entry| -> Vec<_> { composed(entry).entry_points.into_iter().map(|e| e.name).collect() };
+    assert_eq!(names("depth.wgsl"), ["vs_depth", "vs_depth_clamp", "fs_mask", "fs_clamp", "fs_mask_clamp"]);
+    assert_eq!(names("forward.wgsl"), ["vs_forward", "fs_forward"]);
+    assert_eq!(names("tonemap.wgsl"), ["vs_tonemap", "fs_tonemap"]);
+    let show = ["vs_show_depth", "vs_show_texture", "fs_show_depth", "fs_show_atlas", "fs_show_texture"];
+    assert_eq!(names("show.wgsl"), show);
+}
+
+#[test]
+fn bindings_are_where_bind_group_layouts_have_them() {
+    let depth = ["0.0 depth_view", "2.0 material", "2.1 base_color_texture", "2.6 base_color_sampler"];
+    assert_eq!(bindings(&composed("depth.wgsl"))[..4], depth);
+    assert_eq!(bindings(&composed("depth.wgsl"))[4..], ["3.0 instances"]);
+    let forward = bindings(&composed("forward.wgsl"));
+    let expected = [
+        "0.0 view",
+        "0.1 lights",
+        "2.0 material",
+        "2.1 base_color_texture",
+        "2.2 metallic_roughness_texture",
+        "2.3 normal_texture",
+        "2.4 occlusion_texture",
+        "2.5 emissive_texture",
+        "2.6 base_color_sampler",
+        "2.7 metallic_roughness_sampler",
+        "2.8 normal_sampler",
+        "2.9 occlusion_sampler",
+        "2.10 emissive_sampler",
+        "3.0 instances",
+    ];
+    assert_eq!(forward, expected);
+    assert_eq!(bindings(&composed("tonemap.wgsl")), ["0.0 hdr_texture"]);
+    assert_eq!(bindings(&composed("show.wgsl")), ["0.0 view", "0.2 depth_texture", "0.3 float_texture"]);
+}
+
+#[test]
+fn constants_that_pipelines_set_keep_their_names() {
+    let names = |entry| -> Vec<_> {
+        let module = composed(entry);
+        let mut names: Vec<_> = module.overrides.iter().filter_map(|(_, o)| o.name.clone()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names("forward.wgsl"), ["AOV", "AOV_LIGHT"]);
+    assert_eq!(names("depth.wgsl"), ["SLOPE_BIAS"]);
+}
+
+#[test]
+fn structs_lie_in_memory_as_agreed() {
+    let forward = composed("forward.wgsl");
+    let view = [
+        ("clip_from_world", 0),
+        ("world_from_clip", 64),
+        ("view_from_world", 128),
+        ("position", 192),
+        ("near", 204),
+        ("size_px", 208),
+        ("far", 216),
+        ("exposure", 220),
+        ("ambient_sky", 224),
+        ("light_count", 236),
+        ("ambient_ground", 240),
+        ("orthographic", 252),
+    ];
+    layout::check(&forward, "View", 256, &view).unwrap();
+    let light = [
+        ("position", 0),
+        ("kind", 12),
+        ("direction", 16),
+        ("range", 28),
+        ("color", 32),
+        ("spot_scale", 44),
+        ("spot_offset", 48),
+    ];
+    layout::check(&forward, "Light", 64, &light).unwrap();
+    layout::check(&forward, "Instance", 48, &[("row_x", 0), ("row_y", 16), ("row_z", 32)]).unwrap();
+    let material = [
+        ("base_color", 0),
+        ("emissive", 16),
+        ("metallic", 28),
+        ("roughness", 32),
+        ("normal_scale", 36),
+        ("occlusion_strength", 40),
+        ("alpha_cutoff", 44),
+        ("flags", 48),
+        ("uv_sets", 52),
+        ("uv_transforms", 64),
+    ];
+    layout::check(&forward, "Material", 224, &material).unwrap();
+    layout::check(&composed("depth.wgsl"), "DepthView", 64, &[("clip_from_world", 0)]).unwrap();
+}
+
+/// How a vertex stage arrives at its position: the functions it calls, by name, in order.
+fn functions_called(module: &naga::Module, entry: &str) -> Vec<String> {
+    let entry = module.entry_points.iter().find(|e| e.name == entry).unwrap();
+    let called = entry.function.body.iter().filter_map(|statement| match statement {
+        naga::Statement::Call { function, .. } => Some(plain(&module.functions[*function].name)),
+        _ => None,
+    });
+    called.collect()
+}
+
+/// True where the stage's position output is declared invariant.
+fn has_invariant_position(module: &naga::Module, entry: &str) -> bool {
+    let entry = module.entry_points.iter().find(|e| e.name == entry).unwrap();
+    assert_eq!(entry.stage, ShaderStage::Vertex);
+    let ty = entry.function.result.as_ref().unwrap().ty;
+    let naga::TypeInner::Struct { members, .. } = &module.types[ty].inner else { panic!("not a struct") };
+    let invariant = naga::Binding::BuiltIn(BuiltIn::Position { invariant: true });
+    members.iter().any(|member| member.binding.as_ref() == Some(&invariant))
+}
+
+#[test]
+fn depth_and_lit_passes_compute_positions_by_the_same_functions() {
+    let (depth, forward) = (composed("depth.wgsl"), composed("forward.wgsl"));
+    assert!(has_invariant_position(&depth, "vs_depth"));
+    assert!(has_invariant_position(&forward, "vs_forward"));
+    let shared = ["world_position", "clip_position"];
+    assert_eq!(functions_called(&depth, "vs_depth"), shared);
+    let lit = functions_called(&forward, "vs_forward");
+    assert_eq!(lit.iter().filter(|name| shared.contains(&name.as_str())).count(), 2);
+}

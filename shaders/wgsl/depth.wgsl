@@ -1,0 +1,75 @@
+// Depth only: the prepass and the shadow maps.
+//
+//   opaque        vs_depth, no fragment stage
+//   with holes    vs_depth, fs_mask
+//   casters before the near plane are kept at depth 1:
+//     the device clamps (unclipped_depth)      as above
+//     it does not: orthographic views only     vs_depth_clamp with fs_clamp or fs_mask_clamp
+#import shadowgraph::draw::{Vertex, world_position, clip_position}
+#import shadowgraph::material::{TextureCoordinates, base_color, is_hole}
+
+// The head of a View, and of a ShadowView: bound at a dynamic offset.
+struct DepthView {
+    clip_from_world: mat4x4f,
+}
+
+@group(0) @binding(0) var<storage, read> depth_view: DepthView;
+
+// fs_clamp and fs_mask_clamp write the depth themselves, which the pipeline's own slope bias does not reach:
+// they add this times the depth's steepest change per pixel. Reversed depth: negative pushes away.
+override SLOPE_BIAS: f32 = 0.0;
+
+struct DepthVertex {
+    @invariant @builtin(position) position: vec4f,
+    @location(0) uv_first: vec2f,
+    @location(1) uv_second: vec2f,
+    @location(2) color: vec4f,
+    // As it was before clamping.
+    @location(3) depth: f32,
+}
+
+@vertex
+fn vs_depth(vertex: Vertex) -> DepthVertex {
+    let position = world_position(vertex.instance, vertex.position);
+    let clip = clip_position(depth_view.clip_from_world, position);
+    return DepthVertex(clip, vertex.uv_first, vertex.uv_second, vertex.color, clip.z);
+}
+
+@vertex
+fn vs_depth_clamp(vertex: Vertex) -> DepthVertex {
+    let position = world_position(vertex.instance, vertex.position);
+    let clip = clip_position(depth_view.clip_from_world, position);
+    // Halfway between the planes nothing is clipped; the fragment stage puts the depth back.
+    let kept = vec4f(clip.xy, 0.5 * clip.w, clip.w);
+    return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.z);
+}
+
+fn covers(in: DepthVertex) -> bool {
+    return !is_hole(base_color(TextureCoordinates(in.uv_first, in.uv_second), in.color).a);
+}
+
+fn clamped_depth(depth: f32, slope: f32) -> f32 {
+    return saturate(depth + SLOPE_BIAS * slope);
+}
+
+@fragment
+fn fs_mask(in: DepthVertex) {
+    if !covers(in) {
+        discard;
+    }
+}
+
+@fragment
+fn fs_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
+    let slope = max(abs(dpdx(in.depth)), abs(dpdy(in.depth)));
+    return clamped_depth(in.depth, slope);
+}
+
+@fragment
+fn fs_mask_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
+    let slope = max(abs(dpdx(in.depth)), abs(dpdy(in.depth)));
+    if !covers(in) {
+        discard;
+    }
+    return clamped_depth(in.depth, slope);
+}

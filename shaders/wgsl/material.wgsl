@@ -1,0 +1,107 @@
+// A metallic-roughness material: group 2. Absent textures are 1x1 stand-ins: white, and for normals flat.
+#define_import_path shadowgraph::material
+
+const MATERIAL_MASK: u32 = 1u;
+const MATERIAL_BLEND: u32 = 2u;
+const MATERIAL_UNLIT: u32 = 4u;
+const MATERIAL_DOUBLE_SIDED: u32 = 8u;
+// Without it the normal texture is not read.
+const MATERIAL_NORMAL_MAP: u32 = 16u;
+
+const BASE_COLOR: u32 = 0u;
+const METALLIC_ROUGHNESS: u32 = 1u;
+const NORMAL: u32 = 2u;
+const OCCLUSION: u32 = 3u;
+const EMISSIVE: u32 = 4u;
+
+// 224 bytes.
+struct Material {
+    base_color: vec4f,
+    // Factor times strength.
+    emissive: vec3f,
+    metallic: f32,
+    roughness: f32,
+    normal_scale: f32,
+    occlusion_strength: f32,
+    // Below this alpha a masked material has holes.
+    alpha_cutoff: f32,
+    // MATERIAL_* bits.
+    flags: u32,
+    // Bit i: texture i reads the second uv set.
+    uv_sets: u32,
+    // Two rows a texture (w unused): uv' = (dot(row, (u, v, 1)), dot(next row, (u, v, 1))).
+    uv_transforms: array<vec4f, 10>,
+}
+
+@group(2) @binding(0) var<uniform> material: Material;
+// base_color and emissive are sRGB formats, the others are not.
+@group(2) @binding(1) var base_color_texture: texture_2d<f32>;
+@group(2) @binding(2) var metallic_roughness_texture: texture_2d<f32>;
+@group(2) @binding(3) var normal_texture: texture_2d<f32>;
+@group(2) @binding(4) var occlusion_texture: texture_2d<f32>;
+@group(2) @binding(5) var emissive_texture: texture_2d<f32>;
+@group(2) @binding(6) var base_color_sampler: sampler;
+@group(2) @binding(7) var metallic_roughness_sampler: sampler;
+@group(2) @binding(8) var normal_sampler: sampler;
+@group(2) @binding(9) var occlusion_sampler: sampler;
+@group(2) @binding(10) var emissive_sampler: sampler;
+
+struct TextureCoordinates {
+    first: vec2f,
+    second: vec2f,
+}
+
+// True where all of `bits` (MATERIAL_*) are set. The answer is the same for a whole draw.
+fn material_has(bits: u32) -> bool {
+    return (material.flags & bits) == bits;
+}
+
+fn texture_uv(slot: u32, uv: TextureCoordinates) -> vec2f {
+    let use_second = ((material.uv_sets >> slot) & 1u) == 1u;
+    let p = vec3f(select(uv.first, uv.second, use_second), 1.0);
+    return vec2f(
+        dot(material.uv_transforms[2u * slot].xyz, p),
+        dot(material.uv_transforms[2u * slot + 1u].xyz, p),
+    );
+}
+
+// The functions below sample with implicit derivatives: call them in uniform control flow.
+
+// Linear colour and alpha; `vertex_color` is the mesh's own.
+fn base_color(uv: TextureCoordinates, vertex_color: vec4f) -> vec4f {
+    let texel = textureSample(base_color_texture, base_color_sampler, texture_uv(BASE_COLOR, uv));
+    return material.base_color * vertex_color * texel;
+}
+
+// x: metallic, y: perceptual roughness, both 0 to 1.
+fn metallic_roughness(uv: TextureCoordinates) -> vec2f {
+    let texel = textureSample(
+        metallic_roughness_texture, metallic_roughness_sampler, texture_uv(METALLIC_ROUGHNESS, uv));
+    return saturate(vec2f(material.metallic, material.roughness) * texel.bg);
+}
+
+// In tangent space, unit length.
+fn normal_in_tangent_space(uv: TextureCoordinates) -> vec3f {
+    let texel = textureSample(normal_texture, normal_sampler, texture_uv(NORMAL, uv)).xyz;
+    let scaled = (texel * 2.0 - 1.0) * vec3f(material.normal_scale, material.normal_scale, 1.0);
+    // A filtered texel can be as short as 0.
+    return scaled * inverseSqrt(max(dot(scaled, scaled), 1e-8));
+}
+
+// 1: all of the ambient light arrives.
+fn occlusion(uv: TextureCoordinates) -> f32 {
+    let texel = textureSample(occlusion_texture, occlusion_sampler, texture_uv(OCCLUSION, uv)).r;
+    return 1.0 + material.occlusion_strength * (texel - 1.0);
+}
+
+// Radiance the surface gives off by itself, before exposure.
+fn emissive(uv: TextureCoordinates) -> vec3f {
+    return material.emissive * textureSample(emissive_texture, emissive_sampler, texture_uv(EMISSIVE, uv)).rgb;
+}
+
+// True where an alpha below the cutoff makes a hole. Blended surfaces are cut at one half where they must be
+// one or the other (in depth).
+fn is_hole(alpha: f32) -> bool {
+    let cutoff = select(0.5, material.alpha_cutoff, material_has(MATERIAL_MASK));
+    return (material.flags & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u && alpha < cutoff;
+}

@@ -1,0 +1,25 @@
+// A point that may be in shadow: what a technique is asked about.
+#define_import_path shadowgraph::receiver
+
+// The surface is blended: what is behind it shows.
+const RECEIVER_TRANSPARENT: u32 = 1u;
+// The surface was seen from behind and its normals were turned to the viewer.
+const RECEIVER_BACK_FACE: u32 = 2u;
+
+struct Receiver {
+    // Metres relative to the frame's origin.
+    position: vec3f,
+    // Metres in front of the camera.
+    view_depth: f32,
+    // Of the triangle itself, towards the viewer, unit length.
+    geometric_normal: vec3f,
+    // RECEIVER_* bits.
+    flags: u32,
+    // Interpolated and normal mapped, unit length.
+    shading_normal: vec3f,
+    // Pixel centre in the target: (0.5, 0.5) is the first.
+    pixel: vec2f,
+    // How the position changes to the next pixel right and down, metres.
+    ddx_position: vec3f,
+    ddy_position: vec3f,
+}

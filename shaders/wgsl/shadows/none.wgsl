@@ -1,0 +1,11 @@
+// The technique that casts no shadow. It needs no bindings.
+#define_import_path shadowgraph::technique
+#import shadowgraph::receiver::Receiver
+
+fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
+    return vec3f(1.0);
+}
+
+fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
+    return vec3f(1.0);
+}

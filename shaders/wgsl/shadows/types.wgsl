@@ -1,0 +1,66 @@
+// What is known of each shadow view (a tile of a map) and of each light's shadows.
+// World is relative to the frame's origin. Depth is reversed: 1 nearest to the light, 0 farthest.
+#define_import_path shadowgraph::shadows::types
+
+// 256 bytes: also the dynamic offset at which a view is bound to draw into its tile.
+struct ShadowView {
+    // To the tile: x and y -w to w, y up.
+    clip_from_world: mat4x4f,
+    // To the map: x/w and y/w 0 to 1 over all of it, y down.
+    map_from_world: mat4x4f,
+    // The tile without its border, in parts of the map: around points in here the filter stays in the tile.
+    uv_min: vec2f,
+    uv_max: vec2f,
+    // The way to the light (w 0, unit length), or the light's position (w 1).
+    light: vec4f,
+    // The sphere that the tile was made for.
+    center: vec3f,
+    radius: f32,
+    // Width of a texel, metres; for a spot light at 1 m along its axis.
+    texel_world: f32,
+    // How much depth changes over the width of a texel towards the light; for a spot light times the distance.
+    depth_per_texel: f32,
+    // What rows 0 and 1 of clip_from_world are to be multiplied by to get the light's unit axes.
+    axis_scale: f32,
+    // Metres from depth 1 to depth 0.
+    depth_range_m: f32,
+    // Metres from a spot light to depth 1 along its axis; 0 for a directional light.
+    near_m: f32,
+    // NOT_A_CASCADE in the atlas.
+    cascade: u32,
+    unused: vec2u,
+    // Left, top, width, height.
+    tile_px: vec4u,
+    reserved: array<vec4u, 2>,
+}
+
+const NOT_A_CASCADE: u32 = 0xffffffffu;
+
+// 48 bytes. One for each light of the scene.
+struct ShadowLight {
+    first_view: u32,
+    // 0: no shadows.
+    view_count: u32,
+    // MAP_*.
+    map: u32,
+    unused: u32,
+    // How dark the shadows are, 0 to 1.
+    strength: f32,
+    // How far a receiver is moved along its normal, texels, times the sine of the light's angle to it.
+    normal_bias_texels: f32,
+    // How far a tap is moved towards the light, in parts of the receiver's depth change from its middle to there.
+    slope_bias: f32,
+    // The flattest depth change that taps allow for in every direction, texels per texel.
+    min_slope: f32,
+    // The steepest depth change that slope_bias follows, texels per texel.
+    max_slope: f32,
+    // How far all taps are moved towards the light, texels.
+    depth_bias_texels: f32,
+    // View depth where the shadows end, metres.
+    fade_end_m: f32,
+    // How fast they fade out before that.
+    fade_per_m: f32,
+}
+
+const MAP_CASCADES: u32 = 0u;
+const MAP_ATLAS: u32 = 1u;

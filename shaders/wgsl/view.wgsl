@@ -1,0 +1,72 @@
+// The camera and the lights of a frame: group 0 of every pass that lights.
+#define_import_path shadowgraph::view
+
+// Positions are metres relative to the frame's origin. Depth is reversed: near 1, far 0. 256 bytes.
+struct View {
+    clip_from_world: mat4x4f,
+    world_from_clip: mat4x4f,
+    view_from_world: mat4x4f,
+    // The camera.
+    position: vec3f,
+    near: f32,
+    size_px: vec2f,
+    // 0: infinitely far (perspective only).
+    far: f32,
+    // Everything a lit pass writes is multiplied by this.
+    exposure: f32,
+    // Radiance of the sky above and of the ground below, before exposure.
+    ambient_sky: vec3f,
+    light_count: u32,
+    ambient_ground: vec3f,
+    // 1: orthographic, 0: perspective.
+    orthographic: u32,
+}
+
+const LIGHT_DIRECTIONAL: u32 = 0u;
+const LIGHT_SPOT: u32 = 1u;
+const LIGHT_POINT: u32 = 2u;
+
+// 64 bytes, the last 12 of them padding.
+struct Light {
+    position: vec3f,
+    kind: u32,
+    // The way the light travels, unit length.
+    direction: vec3f,
+    // Metres; 0: no end.
+    range: f32,
+    // Linear colour times lux (directional) or candela (spot, point).
+    color: vec3f,
+    // Spot cone: saturate(cos(angle) * spot_scale + spot_offset) squared.
+    spot_scale: f32,
+    spot_offset: f32,
+}
+
+@group(0) @binding(0) var<storage, read> view: View;
+@group(0) @binding(1) var<storage, read> lights: array<Light>;
+
+// Metres in front of the camera, of a point.
+fn view_depth_of(position: vec3f) -> f32 {
+    return -(view.view_from_world * vec4f(position, 1.0)).z;
+}
+
+// Metres in front of the camera, of a value of the depth buffer. The far plane's value (0) has no depth
+// where the view is infinitely far: ask for `depth > 0` first.
+fn view_depth_from_depth(depth: f32) -> f32 {
+    if view.orthographic == 1u {
+        return view.far - depth * (view.far - view.near);
+    }
+    if view.far == 0.0 {
+        return view.near / depth;
+    }
+    return view.near * view.far / (view.near + depth * (view.far - view.near));
+}
+
+// The way to the camera, unit length, from a point given relative to the camera.
+fn direction_to_camera(from_camera: vec3f) -> vec3f {
+    if view.orthographic == 1u {
+        // The third row of the rotation: the view's +Z axis, which points from the scene to the camera.
+        let m = view.view_from_world;
+        return normalize(vec3f(m[0].z, m[1].z, m[2].z));
+    }
+    return normalize(-from_camera);
+}
