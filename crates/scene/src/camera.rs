@@ -1,0 +1,269 @@
+//! Cameras: placement, reversed-depth projection, view volume.
+
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
+use serde::{Deserialize, Serialize};
+
+use crate::{Aabb, ConvexVolume, Plane};
+
+/// A camera. It looks along its -Z, +Y up, +X to the right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Camera {
+    /// The name in the file, if it has one.
+    pub name: Option<String>,
+    /// Where the camera is. Rigid: a rotation and a translation, no scale.
+    pub world_from_view: DAffine3,
+    /// What it sees.
+    pub projection: Projection,
+}
+
+/// The shape of the space that a camera sees.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Projection {
+    /// A pyramid.
+    Perspective {
+        /// The whole vertical angle, radians, above 0 and below π.
+        fov_y: f64,
+        /// The near plane, metres, above 0.
+        near: f64,
+        /// The far plane, metres, above `near`; `None`: infinitely far.
+        far: Option<f64>,
+    },
+    /// A box.
+    ///
+    /// Where the picture is not of the shape `half_width : half_height`, more is seen to the sides or
+    /// above and below, so that nothing is stretched or cut off.
+    Orthographic {
+        /// Half the width that is seen at least, metres, above 0.
+        half_width: f64,
+        /// Half the height that is seen at least, metres, above 0.
+        half_height: f64,
+        /// The near plane, metres.
+        near: f64,
+        /// The far plane, metres, above `near`.
+        far: f64,
+    },
+}
+
+impl Camera {
+    /// Makes a camera at `eye` that looks at `target` with `up` upwards in the picture.
+    ///
+    /// Where this leaves the direction open (`eye` is `target`, `up` along the view) a direction is chosen.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use shadowgraph_scene::{Camera, Projection};
+    /// let projection = Projection::Perspective { fov_y: 0.8, near: 0.1, far: None };
+    /// let camera = Camera::look_at(DVec3::new(0.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, projection);
+    /// assert_eq!(camera.position_world(), DVec3::new(0.0, 2.0, 5.0));
+    /// assert!(camera.forward_world().z < 0.0);
+    /// ```
+    #[must_use]
+    pub fn look_at(eye: DVec3, target: DVec3, up: DVec3, projection: Projection) -> Self {
+        let back = (eye - target).try_normalize().unwrap_or(DVec3::Z);
+        let right = [up, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .find_map(|up| up.cross(back).try_normalize())
+            .unwrap_or_else(|| back.any_orthonormal_vector());
+        let rotation = DMat3::from_cols(right, back.cross(right), back);
+        Self { name: None, world_from_view: DAffine3::from_mat3_translation(rotation, eye), projection }
+    }
+
+    /// Makes a camera that frames `bounds` from the front, the right and above.
+    ///
+    /// It has a vertical angle of 45 degrees and is as near as it can be with every corner of the box in a
+    /// picture of the shape `aspect` (width over height). Near and far plane follow from the size of the
+    /// box. Empty bounds are taken as a box of 1 m around the origin.
+    #[must_use]
+    pub fn framing(bounds: &Aabb, aspect: f64) -> Self {
+        let fov_y = 45f64.to_radians();
+        let bounds = if bounds.is_empty() {
+            Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) }
+        } else {
+            *bounds
+        };
+        let center = bounds.center();
+        // A single point still needs some distance, on the scale of where it is.
+        let radius = bounds.radius().max(1e-3).max(center.abs().max_element() * 1e-6);
+        let (azimuth, elevation) = (35f64.to_radians(), 28f64.to_radians());
+        let to_eye =
+            DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
+        let near = radius * 0.002;
+        let aim = Self::look_at(
+            center + to_eye * radius,
+            center,
+            DVec3::Y,
+            Projection::Perspective { fov_y, near, far: None },
+        );
+        let fit = fit(&bounds, &aim, fov_y, aspect, radius);
+        let eye = center + aim.world_from_view.transform_vector3(fit.eye_from_center);
+        let far = (fit.farthest * 1.05).max(near * 2.0);
+        let near = near.max(fit.nearest * 0.5);
+        Self {
+            world_from_view: DAffine3::from_mat3_translation(aim.world_from_view.matrix3, eye),
+            projection: Projection::Perspective { fov_y, near, far: Some(far) },
+            ..aim
+        }
+    }
+
+    /// Returns where the camera is, metres.
+    #[must_use]
+    pub fn position_world(&self) -> DVec3 {
+        self.world_from_view.translation
+    }
+
+    /// Returns the direction in which the camera looks, unit length.
+    #[must_use]
+    pub fn forward_world(&self) -> DVec3 {
+        -self.world_from_view.matrix3.z_axis
+    }
+
+    /// Returns the matrix from absolute world space to view space.
+    #[must_use]
+    pub fn view_from_world(&self) -> DMat4 {
+        DMat4::from(self.world_from_view.inverse())
+    }
+
+    /// Returns the reversed-depth projection: x and y -1 to 1 with y up, z 1 at the near plane and 0 at
+    /// the far plane or infinitely far.
+    ///
+    /// `aspect` is the picture's width over its height, above 0.
+    #[must_use]
+    pub fn clip_from_view(&self, aspect: f64) -> DMat4 {
+        match self.projection {
+            Projection::Perspective { fov_y, near, far } => {
+                let scale_y = 1.0 / (fov_y * 0.5).tan();
+                let (z, offset) = match far {
+                    Some(far) => (near / (far - near), near * far / (far - near)),
+                    None => (0.0, near),
+                };
+                DMat4::from_cols(
+                    DVec4::X * (scale_y / aspect),
+                    DVec4::Y * scale_y,
+                    DVec4::new(0.0, 0.0, z, -1.0),
+                    DVec4::Z * offset,
+                )
+            }
+            Projection::Orthographic { near, far, .. } => {
+                let half = self.half_size(aspect, near);
+                let scale_z = 1.0 / (far - near);
+                DMat4::from_cols(
+                    DVec4::X / half.x,
+                    DVec4::Y / half.y,
+                    DVec4::Z * scale_z,
+                    DVec4::new(0.0, 0.0, far * scale_z, 1.0),
+                )
+            }
+        }
+    }
+
+    /// Returns the space that the camera sees, in absolute world space: four sides, near, and far if it is finite.
+    #[must_use]
+    pub fn volume(&self, aspect: f64) -> ConvexVolume {
+        let sides = match self.projection {
+            Projection::Perspective { .. } => {
+                let half = self.half_size(aspect, 1.0);
+                [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(x, y)| {
+                    let reach: f64 = if y == 0.0 { half.x } else { half.y };
+                    (DVec3::ZERO, DVec3::new(x, y, -reach).normalize())
+                })
+            }
+            Projection::Orthographic { near, .. } => {
+                let half = self.half_size(aspect, near);
+                [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y]
+                    .map(|inward| (-inward * half.extend(0.0), inward))
+            }
+        };
+        let near = (DVec3::NEG_Z * self.near(), DVec3::NEG_Z);
+        let far = self.far().map(|far| (DVec3::NEG_Z * far, DVec3::Z));
+        let planes = sides.into_iter().chain([near]).chain(far).map(|(point, normal)| {
+            Plane::through(
+                self.world_from_view.transform_point3(point),
+                self.world_from_view.transform_vector3(normal),
+            )
+        });
+        ConvexVolume { planes: planes.collect() }
+    }
+
+    /// Returns the corners of the part of the view between the distances `near` and `far`, in view space.
+    ///
+    /// Bit 0 of the index chooses x, bit 1 y (set: positive), bit 2 the distance (set: `far`).
+    #[must_use]
+    pub fn slice_corners_view(&self, aspect: f64, near: f64, far: f64) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            let distance = if i & 4 == 0 { near } else { far };
+            let sign = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
+            let half = self.half_size(aspect, distance);
+            DVec3::new(half.x * sign(1), half.y * sign(2), -distance)
+        })
+    }
+
+    /// Returns the distance of the near plane, metres.
+    #[must_use]
+    pub fn near(&self) -> f64 {
+        match self.projection {
+            Projection::Perspective { near, .. } | Projection::Orthographic { near, .. } => near,
+        }
+    }
+
+    /// Returns the distance of the far plane, metres; `None`: infinitely far.
+    #[must_use]
+    pub fn far(&self) -> Option<f64> {
+        match self.projection {
+            Projection::Perspective { far, .. } => far,
+            Projection::Orthographic { far, .. } => Some(far),
+        }
+    }
+
+    /// Half of the width and height that are seen at a distance, metres.
+    fn half_size(&self, aspect: f64, distance: f64) -> DVec2 {
+        match self.projection {
+            Projection::Perspective { fov_y, .. } => {
+                let half_height = (fov_y * 0.5).tan() * distance;
+                DVec2::new(half_height * aspect, half_height)
+            }
+            Projection::Orthographic { half_width, half_height, .. } => {
+                DVec2::new(half_width.max(half_height * aspect), half_height.max(half_width / aspect))
+            }
+        }
+    }
+}
+
+/// Where the eye must be to see a box, and how far the box then reaches.
+struct Fit {
+    /// In the axes of the camera, metres.
+    eye_from_center: DVec3,
+    /// The distances of the nearest and the farthest corner along the view, metres.
+    nearest: f64,
+    farthest: f64,
+}
+
+/// Finds the nearest eye that sees every corner, moved sideways so that the box is in the middle.
+fn fit(bounds: &Aabb, aim: &Camera, fov_y: f64, aspect: f64, radius: f64) -> Fit {
+    const MARGIN: f64 = 1.06;
+    let tan_y = (fov_y * 0.5).tan() / MARGIN;
+    let tan = DVec2::new(tan_y * aspect, tan_y);
+    let to_view = aim.world_from_view.matrix3.transpose();
+    let corners = bounds.corners().map(|corner| to_view * (corner - bounds.center()));
+    // Along an axis the edges of the view are lines of slope ±tan. The eye lies where the line that
+    // touches the box from above meets the line that touches it from below.
+    let axis = |pick: fn(DVec3) -> f64, tan: f64| {
+        let touch = |side: f64| {
+            corners.iter().map(|corner| side * pick(*corner) + tan * corner.z).fold(f64::MIN, f64::max)
+        };
+        let (above, below) = (touch(1.0), touch(-1.0));
+        ((above - below) * 0.5, (above + below) * 0.5 / tan)
+    };
+    let (x, distance_x) = axis(|corner| corner.x, tan.x);
+    let (y, distance_y) = axis(|corner| corner.y, tan.y);
+    let highest_z = corners.iter().map(|corner| corner.z).fold(f64::MIN, f64::max);
+    let lowest_z = corners.iter().map(|corner| corner.z).fold(f64::MAX, f64::min);
+    let distance = distance_x.max(distance_y).max(highest_z + radius * 0.1);
+    Fit {
+        eye_from_center: DVec3::new(x, y, distance),
+        nearest: distance - highest_z,
+        farthest: distance - lowest_z,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,148 @@
+//! Materials, and which images they use.
+
+use ::gltf::json;
+use glam::{Vec3, Vec4};
+use json::validation::Checked;
+
+use super::document::Document;
+use super::fault::{At, Fault, clean_name, fault, place};
+use super::notes::Notes;
+use super::textures::Use;
+use crate::{AlphaMode, Material, TextureRef};
+
+const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
+
+/// The materials of a file.
+#[derive(Debug)]
+pub(super) struct Materials {
+    pub(super) materials: Vec<Material>,
+    /// Indices in the file of the images that the materials use, ascending: the scene's images.
+    pub(super) images: Vec<usize>,
+}
+
+/// Converts all materials of a file.
+///
+/// # Errors
+/// Names the material or sampler with a value that glTF does not allow.
+pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, Fault> {
+    let uses = |(i, material)| Uses::of(material).at(|| there(i, material));
+    let uses: Vec<Uses> = document.materials.iter().enumerate().map(uses).collect::<Result<_, _>>()?;
+    let mut images: Vec<usize> = uses
+        .iter()
+        .flat_map(|uses| uses.all.iter().flatten())
+        .filter_map(|texture| texture.image(document))
+        .collect();
+    images.sort_unstable();
+    images.dedup();
+    let materials = document.materials.iter().zip(&uses).enumerate().map(|(i, (material, uses))| {
+        let there = there(i, material);
+        let textures = uses.convert(document, &images, &there, notes)?;
+        convert(material, textures, &there)
+    });
+    Ok(Materials { materials: materials.collect::<Result<_, _>>()?, images })
+}
+
+fn there(index: usize, material: &json::Material) -> String {
+    place("material", index, material.name.as_deref())
+}
+
+/// The textures of a material: base colour, metallic and roughness, normal, occlusion, emissive.
+struct Uses {
+    all: [Option<Use>; 5],
+}
+
+impl Uses {
+    fn of(material: &json::Material) -> Result<Self, json::Error> {
+        let pbr = &material.pbr_metallic_roughness;
+        let normal = material.normal_texture.as_ref().map(|info| {
+            let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
+            Use::with_raw_transform(info.index.value(), info.tex_coord, transform)
+        });
+        let occlusion = material.occlusion_texture.as_ref().map(|info| {
+            let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
+            Use::with_raw_transform(info.index.value(), info.tex_coord, transform)
+        });
+        let all = [
+            pbr.base_color_texture.as_ref().map(Use::from),
+            pbr.metallic_roughness_texture.as_ref().map(Use::from),
+            normal.transpose()?,
+            occlusion.transpose()?,
+            material.emissive_texture.as_ref().map(Use::from),
+        ];
+        Ok(Self { all })
+    }
+
+    fn convert(
+        &self,
+        document: &Document,
+        images: &[usize],
+        there: &str,
+        notes: &mut Notes,
+    ) -> Result<[Option<TextureRef>; 5], Fault> {
+        let mut refs = [None; 5];
+        for (texture, result) in self.all.iter().zip(&mut refs) {
+            let Some(texture) = texture else { continue };
+            let image = texture.image(document).and_then(|image| images.binary_search(&image).ok());
+            let image = image.ok_or_else(|| fault(there, "uses a texture that does not exist"))?;
+            *result = Some(texture.convert(document, image, there, notes)?);
+        }
+        Ok(refs)
+    }
+}
+
+fn convert(
+    material: &json::Material,
+    textures: [Option<TextureRef>; 5],
+    there: &str,
+) -> Result<Material, Fault> {
+    let pbr = &material.pbr_metallic_roughness;
+    let finite = |name, value, min, max| clamped(name, value, min, max).at(|| there);
+    let [r, g, b, a] = pbr.base_color_factor.0;
+    let base = |value| finite("baseColorFactor", value, 0.0, 1.0);
+    let strength = material.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
+    let strength = finite("emissiveStrength", strength.map_or(1.0, |s| s.emissive_strength.0), 0.0, 1e9)?;
+    let [er, eg, eb] = material.emissive_factor.0;
+    let emissive = |value| Ok(finite("emissiveFactor", value, 0.0, 1.0)? * strength);
+    let [base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture] =
+        textures;
+    let scale = material.normal_texture.as_ref().map_or(1.0, |normal| normal.scale);
+    let occlusion = material.occlusion_texture.as_ref().map_or(1.0, |occlusion| occlusion.strength.0);
+    Ok(Material {
+        name: clean_name(material.name.as_deref()),
+        base_color: Vec4::new(base(r)?, base(g)?, base(b)?, base(a)?),
+        metallic: finite("metallicFactor", pbr.metallic_factor.0, 0.0, 1.0)?,
+        roughness: finite("roughnessFactor", pbr.roughness_factor.0, 0.0, 1.0)?,
+        emissive: Vec3::new(emissive(er)?, emissive(eg)?, emissive(eb)?),
+        normal_scale: finite("normalTexture scale", scale, -1e6, 1e6)?,
+        occlusion_strength: finite("occlusionTexture strength", occlusion, 0.0, 1.0)?,
+        alpha: alpha(material).at(|| there)?,
+        double_sided: material.double_sided,
+        unlit: material.extensions.as_ref().is_some_and(|e| e.unlit.is_some()),
+        base_color_texture,
+        metallic_roughness_texture,
+        normal_texture,
+        occlusion_texture,
+        emissive_texture,
+    })
+}
+
+fn alpha(material: &json::Material) -> Result<AlphaMode, String> {
+    match material.alpha_mode {
+        Checked::Valid(json::material::AlphaMode::Opaque) => Ok(AlphaMode::Opaque),
+        Checked::Valid(json::material::AlphaMode::Blend) => Ok(AlphaMode::Blend),
+        Checked::Valid(json::material::AlphaMode::Mask) => {
+            let cutoff = material.alpha_cutoff.unwrap_or_default().0;
+            Ok(AlphaMode::Mask { cutoff: clamped("alphaCutoff", cutoff, 0.0, f32::MAX)? })
+        }
+        Checked::Invalid => Err("unknown alphaMode (allowed: OPAQUE, MASK, BLEND)".into()),
+    }
+}
+
+/// Brings a value into its range; values a little out of it are common and harmless.
+fn clamped(name: &str, value: f32, min: f32, max: f32) -> Result<f32, String> {
+    if value.is_finite() {
+        Ok(value.clamp(min, max))
+    } else {
+        Err(format!("{name} is {value} (allowed: {min} to {max})"))
+    }
+}

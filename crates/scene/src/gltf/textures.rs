@@ -1,0 +1,128 @@
+//! Samplers, texture coordinates and texture transforms.
+
+use ::gltf::json;
+use json::extensions::texture::TextureTransform;
+use json::texture::{MagFilter, MinFilter, WrappingMode};
+use json::validation::Checked;
+
+use super::document::Document;
+use super::fault::{At, Fault, fault, place};
+use super::notes::Notes;
+use crate::{Filter, Sampler, TextureRef, Wrap};
+
+/// The use of a texture by a material, as the file has it.
+pub(super) struct Use {
+    texture: usize,
+    uv_set: u32,
+    transform: Option<TextureTransform>,
+}
+
+impl From<&json::texture::Info> for Use {
+    fn from(info: &json::texture::Info) -> Self {
+        let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.clone());
+        Self { texture: info.index.value(), uv_set: info.tex_coord, transform }
+    }
+}
+
+impl Use {
+    /// Reads the use of a texture whose type in the gltf crate leaves the transform as it is in the file.
+    pub(super) fn with_raw_transform(
+        texture: usize,
+        uv_set: u32,
+        transform: Option<&json::Value>,
+    ) -> Result<Self, json::Error> {
+        let transform = transform.map(|value| serde_json::from_value(value.clone())).transpose()?;
+        Ok(Self { texture, uv_set, transform })
+    }
+
+    /// Returns the index of the image in the file, if all references are right.
+    pub(super) fn image(&self, document: &Document) -> Option<usize> {
+        Some(document.textures.get(self.texture)?.source.value())
+    }
+
+    /// Converts to the scene's form. `image` is the index of the image in the scene.
+    ///
+    /// # Errors
+    /// If the sampler or the transform has values that glTF does not allow.
+    pub(super) fn convert(
+        &self,
+        document: &Document,
+        image: usize,
+        there: &str,
+        notes: &mut Notes,
+    ) -> Result<TextureRef, Fault> {
+        let sampler = document.textures.get(self.texture).and_then(|texture| texture.sampler);
+        let sampler =
+            match sampler.and_then(|sampler| document.samplers.get(sampler.value()).zip(Some(sampler))) {
+                None => Sampler::default(),
+                Some((sampler, index)) => convert_sampler(sampler)
+                    .at(|| place("sampler", index.value(), sampler.name.as_deref()))?,
+            };
+        let uv_set = self.transform.as_ref().and_then(|transform| transform.tex_coord).unwrap_or(self.uv_set);
+        let uv_set = u8::try_from(uv_set).ok().filter(|set| *set < 2).unwrap_or_else(|| {
+            notes.add(there, "texture coordinates above TEXCOORD_1 are not drawn, TEXCOORD_0 is used");
+            0
+        });
+        let uv_transform = self.transform.as_ref().map_or(TextureRef::UV_IDENTITY, uv_transform);
+        if !uv_transform.as_flattened().iter().all(|value| value.is_finite()) {
+            return Err(fault(there, "KHR_texture_transform has values that are not finite"));
+        }
+        Ok(TextureRef { image, sampler, uv_set, uv_transform })
+    }
+}
+
+/// Combines offset, rotation and scale: first scaled, then rotated, then moved.
+fn uv_transform(transform: &TextureTransform) -> [[f32; 3]; 2] {
+    let ([offset_u, offset_v], [scale_u, scale_v]) = (transform.offset.0, transform.scale.0);
+    // Texture coordinates are rotated counter-clockwise as seen with v upwards, and v points down.
+    let (sin, cos) = transform.rotation.0.sin_cos();
+    [[cos * scale_u, sin * scale_v, offset_u], [-sin * scale_u, cos * scale_v, offset_v]]
+}
+
+fn convert_sampler(sampler: &json::texture::Sampler) -> Result<Sampler, &'static str> {
+    let wrap = |wrap: Checked<WrappingMode>| match wrap {
+        Checked::Valid(WrappingMode::Repeat) => Ok(Wrap::Repeat),
+        Checked::Valid(WrappingMode::MirroredRepeat) => Ok(Wrap::MirrorRepeat),
+        Checked::Valid(WrappingMode::ClampToEdge) => Ok(Wrap::ClampToEdge),
+        Checked::Invalid => Err("unknown wrap mode (allowed: 10497, 33071, 33648)"),
+    };
+    let mag = match sampler.mag_filter {
+        None | Some(Checked::Valid(MagFilter::Linear)) => Filter::Linear,
+        Some(Checked::Valid(MagFilter::Nearest)) => Filter::Nearest,
+        Some(Checked::Invalid) => return Err("unknown magFilter (allowed: 9728, 9729)"),
+    };
+    let (min, mip) = match sampler.min_filter {
+        None => (Filter::Linear, Some(Filter::Linear)),
+        Some(Checked::Invalid) => return Err("unknown minFilter (allowed: 9728, 9729, 9984 to 9987)"),
+        Some(Checked::Valid(filter)) => match filter {
+            MinFilter::Nearest => (Filter::Nearest, None),
+            MinFilter::Linear => (Filter::Linear, None),
+            MinFilter::NearestMipmapNearest => (Filter::Nearest, Some(Filter::Nearest)),
+            MinFilter::LinearMipmapNearest => (Filter::Linear, Some(Filter::Nearest)),
+            MinFilter::NearestMipmapLinear => (Filter::Nearest, Some(Filter::Linear)),
+            MinFilter::LinearMipmapLinear => (Filter::Linear, Some(Filter::Linear)),
+        },
+    };
+    Ok(Sampler { wrap_u: wrap(sampler.wrap_s)?, wrap_v: wrap(sampler.wrap_t)?, mag, min, mip })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    fn transformed(json: &str, [u, v]: [f32; 2]) -> [f32; 2] {
+        let rows = uv_transform(&serde_json::from_str(json).unwrap());
+        rows.map(|[a, b, c]| ((a * u + b * v + c) * 1e4).round() / 1e4)
+    }
+
+    #[test]
+    fn the_example_of_the_extension_shows_the_lower_left_quadrant() {
+        // The extension's own example: the lower left quadrant of the image, turned clockwise.
+        let quadrant = r#"{"offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5]}"#;
+        assert_eq!(transformed(quadrant, [0.0, 0.0]), [0.0, 1.0]);
+        assert_eq!(transformed(quadrant, [1.0, 1.0]), [0.5, 0.5]);
+        assert_eq!(transformed(quadrant, [0.0, 1.0]), [0.5, 1.0]);
+        assert_eq!(transformed(r#"{"offset": [0, 1], "scale": [1, -1]}"#, [0.25, 0.25]), [0.25, 0.75]);
+    }
+}

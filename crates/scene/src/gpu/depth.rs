@@ -1,0 +1,256 @@
+//! Pipelines that draw depth alone: the prepass and shadow maps.
+
+use std::borrow::Cow;
+use std::num::NonZeroU64;
+
+use super::upload::vertex_layout;
+use super::{AlphaKey, MaterialKey, MaterialLayouts};
+use crate::Error;
+
+/// What depth pipelines draw into, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthTarget {
+    /// The format of the depth texture.
+    pub format: wgpu::TextureFormat,
+    /// Keeps what lies before the near plane, at depth 1. On a device without `Features::DEPTH_CLIP_CONTROL`
+    /// this is right for orthographic views only.
+    pub clamp_near: bool,
+    /// Bias by the slope of a surface, in steepest changes of depth per pixel. Depth is reversed: negative
+    /// pushes away.
+    pub slope_bias: f32,
+    /// Which faces are left out.
+    pub faces: CullFaces,
+    /// Clamps in the fragment shader even where the device could do it: for tests of that path.
+    pub emulate_clamp: bool,
+}
+
+impl Default for DepthTarget {
+    /// Returns `Depth32Float`, without clamping or bias, back faces left out.
+    fn default() -> Self {
+        Self {
+            format: wgpu::TextureFormat::Depth32Float,
+            clamp_near: false,
+            slope_bias: 0.0,
+            faces: CullFaces::AsMaterial,
+            emulate_clamp: false,
+        }
+    }
+}
+
+/// Which faces are not drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CullFaces {
+    /// The back faces of materials that are not double-sided.
+    #[default]
+    AsMaterial,
+    /// None: for shadow maps, where a wall without a back casts a shadow to either side.
+    None,
+}
+
+/// A pipeline for each key. Opaque ones have no fragment stage and do not read the material; mask and blend
+/// ones leave holes where alpha is low (blend: under one half).
+///
+/// Group 0 is [`view_layout`](Self::view_layout), group 1 is free.
+pub struct DepthPipelines {
+    view_layout: wgpu::BindGroupLayout,
+    /// By [`MaterialKey::index`].
+    pipelines: Vec<wgpu::RenderPipeline>,
+}
+
+impl DepthPipelines {
+    /// Makes the pipelines for a target.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Shader`] if the shader cannot be composed.
+    pub fn new(
+        device: &wgpu::Device,
+        layouts: &MaterialLayouts,
+        target: &DepthTarget,
+    ) -> Result<Self, Error> {
+        let recipe = Recipe::new(device, layouts, target)?;
+        // Keys that come to the same share a pipeline.
+        let mut made: Vec<(Variant, wgpu::RenderPipeline)> = Vec::new();
+        let pipeline = |key: MaterialKey| {
+            let variant = Variant::new(key, target.faces);
+            if let Some((_, pipeline)) = made.iter().find(|(other, _)| *other == variant) {
+                return pipeline.clone();
+            }
+            let pipeline = recipe.pipeline(device, variant);
+            made.push((variant, pipeline.clone()));
+            pipeline
+        };
+        let pipelines = MaterialKey::all().map(pipeline).collect();
+        Ok(Self { view_layout: recipe.view_layout, pipelines })
+    }
+
+    /// Returns the pipeline of a key.
+    #[must_use]
+    pub fn get(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
+        &self.pipelines[key.index()]
+    }
+
+    /// Returns the layout of group 0: at binding 0 a storage buffer, read by vertices, at a dynamic offset, that
+    /// begins with the matrix clip_from_world (64 bytes).
+    #[must_use]
+    pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.view_layout
+    }
+}
+
+/// What of a key matters where only depth is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Variant {
+    holes: bool,
+    /// The winding whose backs are left out; none: both sides are drawn.
+    culled: Option<wgpu::FrontFace>,
+}
+
+impl Variant {
+    fn new(key: MaterialKey, faces: CullFaces) -> Self {
+        let state = key.primitive_state();
+        let culls = faces == CullFaces::AsMaterial && state.cull_mode.is_some();
+        Self { holes: key.alpha != AlphaKey::Opaque, culled: culls.then_some(state.front_face) }
+    }
+}
+
+/// What all pipelines of a target share.
+struct Recipe {
+    shader: wgpu::ShaderModule,
+    target: DepthTarget,
+    /// The device clamps.
+    unclipped: bool,
+    /// The fragment shader clamps.
+    emulated: bool,
+    view_layout: wgpu::BindGroupLayout,
+    opaque_layout: wgpu::PipelineLayout,
+    holes_layout: wgpu::PipelineLayout,
+}
+
+impl Recipe {
+    fn new(device: &wgpu::Device, layouts: &MaterialLayouts, target: &DepthTarget) -> Result<Self, Error> {
+        let name = "depth.wgsl";
+        let module = shadowgraph_shaders::compose(name, &[])
+            .map_err(|error| Error::Shader { name: name.to_owned(), reason: error.to_string() })?;
+        let view_layout = view_layout(device);
+        let layout = |material| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("depth"),
+                bind_group_layouts: &[Some(&view_layout), None, material, Some(&layouts.draw)],
+                immediate_size: 0,
+            })
+        };
+        let can_clamp = device.features().contains(wgpu::Features::DEPTH_CLIP_CONTROL);
+        let unclipped = target.clamp_near && can_clamp && !target.emulate_clamp;
+        Ok(Self {
+            shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(name),
+                source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+            }),
+            target: *target,
+            unclipped,
+            emulated: target.clamp_near && !unclipped,
+            opaque_layout: layout(None),
+            holes_layout: layout(Some(&layouts.material)),
+            view_layout,
+        })
+    }
+
+    fn pipeline(&self, device: &wgpu::Device, variant: Variant) -> wgpu::RenderPipeline {
+        let fragment_entry = match (variant.holes, self.emulated) {
+            (false, false) => None,
+            (true, false) => Some("fs_mask"),
+            (false, true) => Some("fs_clamp"),
+            (true, true) => Some("fs_mask_clamp"),
+        };
+        let constants = [("SLOPE_BIAS", f64::from(self.target.slope_bias))];
+        let options = wgpu::PipelineCompilationOptions {
+            constants: if self.emulated { &constants } else { &[] },
+            ..wgpu::PipelineCompilationOptions::default()
+        };
+        let vertex = wgpu::VertexState {
+            module: &self.shader,
+            entry_point: Some(if self.emulated { "vs_depth_clamp" } else { "vs_depth" }),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[Some(vertex_layout())],
+        };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("depth"),
+            layout: Some(if variant.holes { &self.holes_layout } else { &self.opaque_layout }),
+            vertex,
+            primitive: wgpu::PrimitiveState {
+                front_face: variant.culled.unwrap_or_default(),
+                cull_mode: variant.culled.map(|_| wgpu::Face::Back),
+                unclipped_depth: self.unclipped,
+                ..wgpu::PrimitiveState::default()
+            },
+            depth_stencil: Some(self.depth_state()),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: fragment_entry.map(|entry| wgpu::FragmentState {
+                module: &self.shader,
+                entry_point: Some(entry),
+                compilation_options: options,
+                targets: &[],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    fn depth_state(&self) -> wgpu::DepthStencilState {
+        // Depth from the fragment shader has the bias already.
+        let slope_scale = if self.emulated { 0.0 } else { self.target.slope_bias };
+        wgpu::DepthStencilState {
+            format: self.target.format,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState { slope_scale, ..wgpu::DepthBiasState::default() },
+        }
+    }
+}
+
+fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("depth view"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: true,
+                min_binding_size: NonZeroU64::new(64),
+            },
+            count: None,
+        }],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_that_come_to_the_same_share_a_variant() {
+        let count = |faces| {
+            let mut variants: Vec<Variant> = Vec::new();
+            for variant in MaterialKey::all().map(|key| Variant::new(key, faces)) {
+                if !variants.contains(&variant) {
+                    variants.push(variant);
+                }
+            }
+            variants.len()
+        };
+        assert_eq!(count(CullFaces::AsMaterial), 6);
+        assert_eq!(count(CullFaces::None), 2);
+    }
+
+    #[test]
+    fn mirrored_instances_flip_their_front_and_double_sided_ones_keep_their_back() {
+        let key = |double_sided, mirrored| MaterialKey { alpha: AlphaKey::Mask, double_sided, mirrored };
+        let culled = |key| Variant::new(key, CullFaces::AsMaterial).culled;
+        assert_eq!(culled(key(false, false)), Some(wgpu::FrontFace::Ccw));
+        assert_eq!(culled(key(false, true)), Some(wgpu::FrontFace::Cw));
+        assert_eq!(culled(key(true, true)), None);
+    }
+}

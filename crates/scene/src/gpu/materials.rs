@@ -1,0 +1,275 @@
+//! Materials as bind groups: group 2.
+
+use std::num::NonZeroU64;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec4};
+
+use super::mips::Encoding;
+use super::textures::{Reading, Textures};
+use super::{limits, upload};
+use crate::{AlphaMode, Error, Material, Sampler, TextureRef};
+
+/// Bytes from one material to the next in their buffer: the alignment that every device has.
+const STRIDE: u64 = 256;
+const TEXTURES: usize = 5;
+
+const MASK: u32 = 1;
+const BLEND: u32 = 2;
+const UNLIT: u32 = 4;
+const DOUBLE_SIDED: u32 = 8;
+const NORMAL_MAP: u32 = 16;
+
+/// `Material` of `material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+struct MaterialUniform {
+    base_color: Vec4,
+    emissive: Vec3,
+    metallic: f32,
+    roughness: f32,
+    normal_scale: f32,
+    occlusion_strength: f32,
+    alpha_cutoff: f32,
+    flags: u32,
+    uv_sets: u32,
+    pad: [u32; 2],
+    uv_transforms: [[f32; 4]; 2 * TEXTURES],
+}
+
+/// The layouts of the bind groups that draws need.
+#[derive(Clone, Debug)]
+pub struct MaterialLayouts {
+    /// Group 2, a material: a uniform, five textures, five samplers; seen by fragments.
+    pub material: wgpu::BindGroupLayout,
+    /// Group 3, the placements of all instances: a storage buffer; seen by vertices.
+    pub draw: wgpu::BindGroupLayout,
+}
+
+impl MaterialLayouts {
+    /// Makes the layouts. Those of one device are alike, so pipelines and scenes may each make their own.
+    #[must_use]
+    pub fn new(device: &wgpu::Device) -> Self {
+        let entry = |binding: u32, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let count = TEXTURES as u32;
+        let uniform = [entry(0, upload::buffer_binding(wgpu::BufferBindingType::Uniform, uniform_size()))];
+        let textures = (1..=count).map(|binding| entry(binding, texture));
+        let samplers = (1..=count).map(|binding| entry(count + binding, sampler));
+        let entries: Vec<_> = uniform.into_iter().chain(textures).chain(samplers).collect();
+        Self {
+            material: device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("material"),
+                entries: &entries,
+            }),
+            draw: upload::instance_layout(device),
+        }
+    }
+}
+
+fn uniform_size() -> Option<NonZeroU64> {
+    NonZeroU64::new(size_of::<MaterialUniform>() as u64)
+}
+
+/// Uploads the materials and the images that they use: a bind group for each.
+///
+/// # Errors
+///
+/// An image is larger than the device allows, is not there, or is not of the size it says.
+pub(super) fn bind_groups(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    layouts: &MaterialLayouts,
+    scene: &crate::Scene,
+) -> Result<Vec<wgpu::BindGroup>, Error> {
+    let buffer = uniforms(device, queue, &scene.materials)?;
+    let mut textures = Textures::new(device, queue, &scene.images);
+    let white = textures.single("white", [255; 4]);
+    let flat = textures.single("flat normal", [128, 128, 255, 255]);
+    let bind_group = |(index, material): (usize, &Material)| {
+        let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &buffer,
+            offset: index as u64 * STRIDE,
+            size: uniform_size(),
+        });
+        let (mut views, mut samplers) = (Vec::with_capacity(TEXTURES), Vec::with_capacity(TEXTURES));
+        for (slot, (reference, reading)) in slots(material).into_iter().enumerate() {
+            views.push(match reference {
+                Some(reference) => textures.image(reference.image, reading)?,
+                None if slot == 2 => flat.clone(),
+                None => white.clone(),
+            });
+            samplers.push(textures.sampler(reference.map_or_else(Sampler::default, |used| used.sampler)));
+        }
+        let views = views.iter().map(wgpu::BindingResource::TextureView);
+        let samplers = samplers.iter().map(wgpu::BindingResource::Sampler);
+        let resources = [uniform].into_iter().chain(views).chain(samplers);
+        let entries =
+            resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
+        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&material.name),
+            layout: &layouts.material,
+            entries: &entries.collect::<Vec<_>>(),
+        }))
+    };
+    scene.materials.iter().enumerate().map(bind_group).collect()
+}
+
+/// One buffer with every material's uniform.
+fn uniforms(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    materials: &[Material],
+) -> Result<wgpu::Buffer, Error> {
+    let bytes = materials.len() as u64 * STRIDE;
+    limits::buffer(&device.limits(), "the scene's materials", bytes)?;
+    let mut data = vec![0; bytes as usize];
+    for (material, place) in materials.iter().zip(data.chunks_exact_mut(STRIDE as usize)) {
+        place[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform(material)));
+    }
+    let usage = wgpu::BufferUsages::UNIFORM;
+    Ok(upload::buffer(device, queue, "materials", usage, STRIDE, bytes, [data.as_slice()]))
+}
+
+/// The textures of a material in the order of their bindings, and how each is read.
+fn slots(material: &Material) -> [(Option<TextureRef>, Reading); TEXTURES] {
+    let colors = Reading { encoding: Encoding::Srgb, cutoff: None };
+    let values = Reading { encoding: Encoding::Linear, cutoff: None };
+    [
+        (material.base_color_texture, Reading { cutoff: texture_cutoff(material), ..colors }),
+        (material.metallic_roughness_texture, values),
+        (material.normal_texture, values),
+        (material.occlusion_texture, values),
+        (material.emissive_texture, colors),
+    ]
+}
+
+/// The texture's alpha from which on a masked material is there, vertex colours aside; none if that is not
+/// between 1 and 255.
+fn texture_cutoff(material: &Material) -> Option<u8> {
+    let AlphaMode::Mask { cutoff } = material.alpha else { return None };
+    let bytes = (cutoff / material.base_color.w * 255.0).ceil();
+    (1.0..=255.0).contains(&bytes).then_some(bytes as u8)
+}
+
+fn uniform(material: &Material) -> MaterialUniform {
+    let (alpha_flag, alpha_cutoff) = match material.alpha {
+        AlphaMode::Opaque => (0, 0.0),
+        AlphaMode::Mask { cutoff } => (MASK, cutoff),
+        AlphaMode::Blend => (BLEND, 0.5),
+    };
+    let flag = |set: bool, bit: u32| if set { bit } else { 0 };
+    let mut uv_sets = 0;
+    let mut uv_transforms = [[0.0; 4]; 2 * TEXTURES];
+    for (slot, (reference, _)) in slots(material).into_iter().enumerate() {
+        let rows = reference.map_or(TextureRef::UV_IDENTITY, |used| used.uv_transform);
+        for (place, [x, y, z]) in uv_transforms[slot * 2..].iter_mut().zip(rows) {
+            *place = [x, y, z, 0.0];
+        }
+        uv_sets |= flag(reference.is_some_and(|used| used.uv_set == 1), 1 << slot);
+    }
+    MaterialUniform {
+        base_color: material.base_color,
+        emissive: material.emissive,
+        metallic: material.metallic,
+        roughness: material.roughness,
+        normal_scale: material.normal_scale,
+        occlusion_strength: material.occlusion_strength,
+        alpha_cutoff,
+        flags: alpha_flag
+            | flag(material.unlit, UNLIT)
+            | flag(material.double_sided, DOUBLE_SIDED)
+            | flag(material.normal_texture.is_some(), NORMAL_MAP),
+        uv_sets,
+        pad: [0; 2],
+        uv_transforms,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+    use std::mem::offset_of;
+
+    use super::*;
+
+    #[test]
+    fn uniform_lies_in_memory_as_the_shader_has_it() {
+        let module = shadowgraph_shaders::compose("depth.wgsl", &[]).unwrap();
+        macro_rules! fields {
+            ($($field:ident),*) => { &[$((stringify!($field), offset_of!(MaterialUniform, $field))),*] };
+        }
+        let fields = fields![
+            base_color,
+            emissive,
+            metallic,
+            roughness,
+            normal_scale,
+            occlusion_strength,
+            alpha_cutoff,
+            flags,
+            uv_sets,
+            uv_transforms
+        ];
+        shadowgraph_shaders::layout::check(&module, "Material", size_of::<MaterialUniform>(), fields)
+            .unwrap();
+        assert!(size_of::<MaterialUniform>() as u64 <= STRIDE);
+    }
+
+    #[test]
+    fn flags_are_those_of_the_shader() {
+        let source = shadowgraph_shaders::builtin("material.wgsl").unwrap().source;
+        for (name, value) in [
+            ("MASK", MASK),
+            ("BLEND", BLEND),
+            ("UNLIT", UNLIT),
+            ("DOUBLE_SIDED", DOUBLE_SIDED),
+            ("NORMAL_MAP", NORMAL_MAP),
+        ] {
+            let line = format!("const MATERIAL_{name}: u32 = {value}u;");
+            assert!(source.contains(&line), "{line}");
+        }
+    }
+
+    #[test]
+    fn uniform_has_flags_transforms_and_uv_sets_of_the_material() {
+        let moved = TextureRef { uv_transform: [[2.0, 0.0, 0.5], [0.0, 3.0, 0.25]], ..TextureRef::new(0) };
+        let material = Material {
+            alpha: AlphaMode::Mask { cutoff: 0.3 },
+            double_sided: true,
+            normal_texture: Some(TextureRef { uv_set: 1, ..moved }),
+            ..Material::default()
+        };
+        let uniform = uniform(&material);
+        assert_eq!(uniform.flags, MASK | DOUBLE_SIDED | NORMAL_MAP);
+        assert_eq!(uniform.alpha_cutoff, 0.3);
+        assert_eq!(uniform.uv_sets, 0b00100);
+        assert_eq!(uniform.uv_transforms[4..6], [[2.0, 0.0, 0.5, 0.0], [0.0, 3.0, 0.25, 0.0]]);
+        assert_eq!(uniform.uv_transforms[0..2], [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]]);
+    }
+
+    #[test]
+    fn alpha_of_the_factor_raises_the_cutoff_of_the_texture() {
+        let mask = |cutoff: f32, alpha: f32| Material {
+            alpha: AlphaMode::Mask { cutoff },
+            base_color: Vec4::new(1.0, 1.0, 1.0, alpha),
+            ..Material::default()
+        };
+        assert_eq!(texture_cutoff(&mask(0.5, 1.0)), Some(128));
+        assert_eq!(texture_cutoff(&mask(0.25, 0.5)), Some(128));
+        assert_eq!(texture_cutoff(&mask(0.0, 1.0)), None);
+        assert_eq!(texture_cutoff(&mask(0.5, 0.0)), None);
+        assert_eq!(texture_cutoff(&Material::default()), None);
+    }
+}

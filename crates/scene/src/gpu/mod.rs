@@ -1,0 +1,41 @@
+//! The GPU copy of a scene, and the draws of it.
+//!
+//! [`GpuScene`] holds all vertices in one buffer, all indices in another, the placements of the instances in a
+//! storage buffer (group 3) and a bind group for each material (group 2). It draws what it is asked to draw,
+//! with the pipelines that it is given; [`DepthPipelines`] has those for depth alone. Groups 0 and 1 are the
+//! caller's.
+//!
+//! ```
+//! use shadowgraph_scene::{demo::demo_scene, gpu::GpuScene, origin_near};
+//!
+//! // A device that does nothing; yours comes from an adapter.
+//! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+//! let scene = demo_scene();
+//! let eye_world = scene.cameras[0].position_world();
+//! let gpu = GpuScene::new(&device, &queue, &scene, origin_near(eye_world))?;
+//! let all: Vec<u32> = (0..scene.instances.len() as u32).collect();
+//! let draws = gpu.draw_list(&all, eye_world);
+//! assert_eq!(draws.solid.len() + draws.blend.len(), scene.instances.len());
+//! # Ok::<(), shadowgraph_scene::Error>(())
+//! ```
+
+mod coverage;
+mod depth;
+mod draw_list;
+mod key;
+mod limits;
+mod materials;
+mod mips;
+mod scene;
+mod textures;
+mod upload;
+
+pub use depth::{CullFaces, DepthPipelines, DepthTarget};
+pub use draw_list::{Draw, DrawList};
+pub use key::{AlphaKey, MaterialKey};
+pub use materials::MaterialLayouts;
+pub use scene::GpuScene;
+pub use upload::vertex_layout;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,161 @@
+//! Images as textures, and samplers: each made once.
+
+use std::collections::BTreeMap;
+
+use super::limits;
+use super::mips::{Encoding, Level, for_each_level, level_count};
+use crate::{Error, Filter, Image, Sampler, Wrap};
+
+/// Bytes handed to the queue before it is told to begin copying, so that they do not all wait in memory.
+const BYTES_IN_FLIGHT: usize = 64 << 20;
+/// How many samples along the surface a smooth filter takes where it is seen at a grazing angle.
+const ANISOTROPY: u16 = 4;
+
+/// How an image is read. The same image read in two ways is two textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Reading {
+    pub(super) encoding: Encoding,
+    /// The alpha (1 to 255) from which on it is there, if it is cut by alpha.
+    pub(super) cutoff: Option<u8>,
+}
+
+/// Textures and samplers of a scene, made when first asked for.
+pub(super) struct Textures<'a> {
+    device: &'a wgpu::Device,
+    queue: &'a wgpu::Queue,
+    images: &'a [Image],
+    limits: wgpu::Limits,
+    made: BTreeMap<(usize, Reading), wgpu::TextureView>,
+    samplers: BTreeMap<Sampler, wgpu::Sampler>,
+    bytes_in_flight: usize,
+}
+
+impl<'a> Textures<'a> {
+    pub(super) fn new(device: &'a wgpu::Device, queue: &'a wgpu::Queue, images: &'a [Image]) -> Self {
+        Self {
+            device,
+            queue,
+            images,
+            limits: device.limits(),
+            made: BTreeMap::new(),
+            samplers: BTreeMap::new(),
+            bytes_in_flight: 0,
+        }
+    }
+
+    /// The texture of an image.
+    ///
+    /// # Errors
+    ///
+    /// The image is larger than the device allows, is not there, or is not of the size it says.
+    pub(super) fn image(&mut self, index: usize, reading: Reading) -> Result<wgpu::TextureView, Error> {
+        if let Some(view) = self.made.get(&(index, reading)) {
+            return Ok(view.clone());
+        }
+        let image = self.images.get(index).ok_or_else(|| Error::Inconsistent {
+            what: format!("image {index}"),
+            reason: format!("a material refers to it, the scene has {} images", self.images.len()),
+        })?;
+        limits::image(&self.limits, index, image)?;
+        let view = self.upload(image, reading);
+        self.made.insert((index, reading), view.clone());
+        Ok(view)
+    }
+
+    /// A texture of one pixel, for where there is no image.
+    pub(super) fn single(&mut self, name: &str, rgba: [u8; 4]) -> wgpu::TextureView {
+        let image = Image { name: name.to_owned(), width: 1, height: 1, rgba8: rgba.to_vec() };
+        self.upload(&image, Reading { encoding: Encoding::Linear, cutoff: None })
+    }
+
+    /// The sampler with these properties.
+    pub(super) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
+        let device = self.device;
+        let made = self.samplers.entry(sampler);
+        made.or_insert_with(|| device.create_sampler(&sampler_descriptor(&sampler))).clone()
+    }
+
+    fn upload(&mut self, image: &Image, reading: Reading) -> wgpu::TextureView {
+        let format = match reading.encoding {
+            Encoding::Linear => wgpu::TextureFormat::Rgba8Unorm,
+            Encoding::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+        };
+        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(&image.name),
+            size: extent(image.width, image.height),
+            mip_level_count: level_count(image.width, image.height),
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        for_each_level(image, reading.encoding, reading.cutoff, |level| self.write(&texture, level));
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
+    fn write(&mut self, texture: &wgpu::Texture, level: Level<'_>) {
+        let target = wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: level.number,
+            origin: wgpu::Origin3d::ZERO,
+            aspect: wgpu::TextureAspect::All,
+        };
+        let rows = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(level.width * 4),
+            rows_per_image: None,
+        };
+        self.queue.write_texture(target, level.rgba8, rows, extent(level.width, level.height));
+        self.bytes_in_flight += level.rgba8.len();
+        if self.bytes_in_flight > BYTES_IN_FLIGHT {
+            self.queue.submit([]);
+            self.bytes_in_flight = 0;
+        }
+    }
+}
+
+fn extent(width: u32, height: u32) -> wgpu::Extent3d {
+    wgpu::Extent3d { width, height, depth_or_array_layers: 1 }
+}
+
+fn sampler_descriptor(sampler: &Sampler) -> wgpu::SamplerDescriptor<'static> {
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::MirrorRepeat => wgpu::AddressMode::MirrorRepeat,
+        Wrap::ClampToEdge => wgpu::AddressMode::ClampToEdge,
+    };
+    let filter = |filter: Filter| match filter {
+        Filter::Nearest => wgpu::FilterMode::Nearest,
+        Filter::Linear => wgpu::FilterMode::Linear,
+    };
+    let smooth = [Some(sampler.mag), Some(sampler.min), sampler.mip] == [Some(Filter::Linear); 3];
+    wgpu::SamplerDescriptor {
+        label: Some("material"),
+        address_mode_u: wrap(sampler.wrap_u),
+        address_mode_v: wrap(sampler.wrap_v),
+        mag_filter: filter(sampler.mag),
+        min_filter: filter(sampler.min),
+        mipmap_filter: match sampler.mip {
+            Some(Filter::Linear) => wgpu::MipmapFilterMode::Linear,
+            _ => wgpu::MipmapFilterMode::Nearest,
+        },
+        // Below half a level the nearest one is the largest.
+        lod_max_clamp: if sampler.mip.is_some() { 32.0 } else { 0.25 },
+        anisotropy_clamp: if smooth { ANISOTROPY } else { 1 },
+        ..wgpu::SamplerDescriptor::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sampler_without_mips_stays_on_the_largest_level_and_smooth_ones_are_anisotropic() {
+        let flat = Sampler { mip: None, ..Sampler::default() };
+        assert!(sampler_descriptor(&flat).lod_max_clamp < 0.5);
+        assert_eq!(sampler_descriptor(&flat).anisotropy_clamp, 1);
+        assert_eq!(sampler_descriptor(&Sampler::default()).anisotropy_clamp, ANISOTROPY);
+    }
+}

@@ -1,0 +1,224 @@
+//! Vertices, indices and placements as buffers.
+
+use std::num::NonZeroU64;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DAffine3, DVec3, Vec4};
+
+use super::limits;
+use crate::{Error, Mesh, Scene, Vertex};
+
+/// Bytes that are handed to the queue at once.
+const CHUNK: usize = 4 << 20;
+
+const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
+    0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Float32x2, 5 => Unorm8x4
+];
+
+/// Returns how vertices lie in their buffer: locations 0 to 5 are position, normal, tangent, both texture
+/// coordinates and colour.
+#[must_use]
+pub fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &ATTRIBUTES,
+    }
+}
+
+/// `Instance` of `draw.wgsl`: the rows of world_from_local, relative to the origin.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(super) struct GpuInstance {
+    row_x: Vec4,
+    row_y: Vec4,
+    row_z: Vec4,
+}
+
+impl GpuInstance {
+    /// Subtracts in f64, then rounds.
+    pub(super) fn new(world_from_local: &DAffine3, origin_world: DVec3) -> Self {
+        let rows = world_from_local.matrix3.transpose();
+        let offset = world_from_local.translation - origin_world;
+        Self {
+            row_x: rows.x_axis.extend(offset.x).as_vec4(),
+            row_y: rows.y_axis.extend(offset.y).as_vec4(),
+            row_z: rows.z_axis.extend(offset.z).as_vec4(),
+        }
+    }
+
+    /// All instances of a scene.
+    pub(super) fn all(scene: &Scene, origin_world: DVec3) -> Vec<Self> {
+        let instances = scene.instances.iter();
+        instances.map(|instance| Self::new(&instance.world_from_local, origin_world)).collect()
+    }
+}
+
+/// Where a mesh lies in the buffers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct MeshRange {
+    pub(super) first_index: u32,
+    pub(super) index_count: u32,
+    pub(super) base_vertex: i32,
+}
+
+/// The buffers of a scene's meshes.
+pub(super) struct Geometry {
+    pub(super) vertices: wgpu::Buffer,
+    pub(super) indices: wgpu::Buffer,
+    pub(super) ranges: Vec<MeshRange>,
+}
+
+impl Geometry {
+    /// Uploads all meshes.
+    ///
+    /// # Errors
+    ///
+    /// They are larger than the device allows.
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, meshes: &[Mesh]) -> Result<Self, Error> {
+        let (ranges, vertex_count, index_count) = ranges(meshes)?;
+        let (vertex_size, index_size) = (size_of::<Vertex>() as u64, size_of::<u32>() as u64);
+        let (vertex_bytes, index_bytes) = (vertex_count * vertex_size, index_count * index_size);
+        limits::buffer(&device.limits(), "the scene's vertices", vertex_bytes)?;
+        limits::buffer(&device.limits(), "the scene's indices", index_bytes)?;
+        let vertices = meshes.iter().map(|mesh| bytemuck::cast_slice(&mesh.vertices));
+        let indices = meshes.iter().map(|mesh| bytemuck::cast_slice(&mesh.indices));
+        use wgpu::BufferUsages as Usage;
+        Ok(Self {
+            vertices: buffer(device, queue, "vertices", Usage::VERTEX, vertex_size, vertex_bytes, vertices),
+            indices: buffer(device, queue, "indices", Usage::INDEX, index_size, index_bytes, indices),
+            ranges,
+        })
+    }
+}
+
+/// Where each mesh begins, and the number of vertices and indices of all.
+fn ranges(meshes: &[Mesh]) -> Result<(Vec<MeshRange>, u64, u64), Error> {
+    let vertex_count = meshes.iter().map(|mesh| mesh.vertices.len() as u64).sum();
+    let index_count = meshes.iter().map(|mesh| mesh.indices.len() as u64).sum();
+    limits::addressable(vertex_count, index_count)?;
+    let (mut first_vertex, mut first_index) = (0, 0);
+    let range = |mesh: &Mesh| {
+        let index_count = mesh.indices.len() as u32;
+        let range = MeshRange { first_index, index_count, base_vertex: first_vertex };
+        first_vertex += mesh.vertices.len() as i32;
+        first_index += index_count;
+        range
+    };
+    Ok((meshes.iter().map(range).collect(), vertex_count, index_count))
+}
+
+/// Makes a buffer of `bytes` (at least `least`: a buffer of nothing cannot be bound) and fills it with parts.
+pub(super) fn buffer<'p>(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    label: &str,
+    usage: wgpu::BufferUsages,
+    least: u64,
+    bytes: u64,
+    parts: impl IntoIterator<Item = &'p [u8]>,
+) -> wgpu::Buffer {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes.max(least),
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    // Many small meshes in one write.
+    let (mut offset, mut chunk) = (0, Vec::new());
+    let mut flush = |chunk: &mut Vec<u8>| {
+        queue.write_buffer(&buffer, offset, chunk);
+        offset += chunk.len() as u64;
+        chunk.clear();
+    };
+    for part in parts {
+        for piece in part.chunks(CHUNK) {
+            if chunk.len() + piece.len() > CHUNK {
+                flush(&mut chunk);
+            }
+            chunk.extend_from_slice(piece);
+        }
+    }
+    flush(&mut chunk);
+    buffer
+}
+
+/// A buffer bound whole, at no dynamic offset.
+pub(super) fn buffer_binding(
+    ty: wgpu::BufferBindingType,
+    min_binding_size: Option<NonZeroU64>,
+) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size }
+}
+
+/// The layout of group 3.
+pub(super) fn instance_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let least = NonZeroU64::new(size_of::<GpuInstance>() as u64);
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("instances"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX,
+            ty: buffer_binding(wgpu::BufferBindingType::Storage { read_only: true }, least),
+            count: None,
+        }],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+    use std::mem::offset_of;
+
+    use super::*;
+
+    #[test]
+    fn instance_lies_in_memory_as_the_shader_has_it() {
+        let module = shadowgraph_shaders::compose("depth.wgsl", &[]).unwrap();
+        let fields = [
+            ("row_x", offset_of!(GpuInstance, row_x)),
+            ("row_y", offset_of!(GpuInstance, row_y)),
+            ("row_z", offset_of!(GpuInstance, row_z)),
+        ];
+        shadowgraph_shaders::layout::check(&module, "Instance", size_of::<GpuInstance>(), &fields).unwrap();
+    }
+
+    #[test]
+    fn instance_far_from_the_world_origin_is_exact_relative_to_its_own() {
+        let world = DVec3::new(1.0e7 + 0.015_625, -3.0, 2.5);
+        let origin = DVec3::new(1.0e7, 0.0, 0.0);
+        let transform = DAffine3::from_rotation_y(0.5) * DAffine3::from_scale(DVec3::new(1.0, 2.0, 3.0));
+        let instance = GpuInstance::new(&(DAffine3::from_translation(world) * transform), origin);
+        assert_eq!([instance.row_x.w, instance.row_y.w, instance.row_z.w], [0.015_625, -3.0, 2.5]);
+        let local = DVec3::new(0.3, -0.7, 1.9);
+        let placed = [instance.row_x, instance.row_y, instance.row_z]
+            .map(|row| f64::from(row.truncate().dot(local.as_vec3())));
+        assert!(DVec3::from(placed).abs_diff_eq(transform.transform_point3(local), 1e-6));
+    }
+
+    #[test]
+    fn attributes_cover_the_vertex() {
+        let offsets = ATTRIBUTES.map(|attribute| attribute.offset as usize);
+        let expected = [
+            offset_of!(Vertex, position),
+            offset_of!(Vertex, normal),
+            offset_of!(Vertex, tangent),
+            offset_of!(Vertex, uv0),
+            offset_of!(Vertex, uv1),
+            offset_of!(Vertex, color),
+        ];
+        assert_eq!(offsets, expected);
+        assert_eq!(vertex_layout().array_stride, 60);
+    }
+
+    #[test]
+    fn meshes_follow_each_other_in_the_buffers() {
+        let mesh =
+            |vertices, indices: &[u32]| Mesh::new("", vec![Vertex::default(); vertices], indices.to_vec());
+        let (ranges, vertices, indices) =
+            ranges(&[mesh(3, &[0, 1, 2]), mesh(4, &[0, 1, 2, 2, 1, 3])]).unwrap();
+        assert_eq!((vertices, indices), (7, 9));
+        assert_eq!(ranges[1], MeshRange { first_index: 3, index_count: 6, base_vertex: 3 });
+    }
+}

@@ -1,0 +1,34 @@
+//! Cameras, lights, bounds, meshes and materials; glTF import, culling and GPU upload.
+//!
+//! The vocabulary is plain data: an engine with its own scene uses [`Camera`], [`Light`], [`Aabb`] and
+//! [`ConvexVolume`] alone, without the features `gltf` (import of glTF and GLB files) and `gpu` (the GPU
+//! copy of a scene and the draws of it).
+//!
+//! Conventions: right-handed world, +Y up, metres, seconds, radians; cameras look along -Z; depth is
+//! reversed (near 1, far 0); matrices are named `destination_from_source`. Transforms are f64 and
+//! absolute; GPU space is relative to [`origin_near`] the camera.
+
+mod bounds;
+mod camera;
+mod cull;
+pub mod demo;
+mod error;
+#[cfg(feature = "gltf")]
+pub mod gltf;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod light;
+mod material;
+mod mesh;
+mod origin;
+mod scene;
+
+pub use bounds::{Aabb, ConvexVolume, Plane};
+pub use camera::{Camera, Projection};
+pub use cull::visible;
+pub use error::Error;
+pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
+pub use material::{AlphaMode, Filter, Image, Material, Sampler, TextureRef, Wrap};
+pub use mesh::{Mesh, Vertex};
+pub use origin::{ORIGIN_GRID_M, origin_near};
+pub use scene::{Instance, Scene};

@@ -1,0 +1,122 @@
+//! Punctual lights, as glTF's KHR_lights_punctual has them.
+
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// The illuminance, lux, under which a spot or point light without a range counts as having no effect.
+pub const MIN_ILLUMINANCE_LX: f64 = 0.01;
+
+/// A punctual light.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Light {
+    /// The name in the file, if it has one.
+    pub name: Option<String>,
+    /// Which kind of light, and where it is.
+    pub kind: LightKind,
+    /// Linear RGB, each 0 or more, usually up to 1.
+    pub color: Vec3,
+    /// Lux for directional lights, candela for spot and point lights; 0 or more.
+    pub intensity: f32,
+    /// Whether things lit by it can lie in shadow.
+    pub casts_shadow: bool,
+}
+
+/// The kind of a light and its placement in the world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum LightKind {
+    /// A light infinitely far away.
+    Directional {
+        /// The way the light travels, unit length.
+        direction: DVec3,
+    },
+    /// A cone of light.
+    Spot {
+        /// The tip of the cone, metres.
+        position_world: DVec3,
+        /// The axis of the cone, the way the light travels, unit length.
+        direction: DVec3,
+        /// The distance where the light ends, metres; `None`: unlimited.
+        range: Option<f64>,
+        /// Half angle of the fully lit cone, radians, 0 up to `outer_angle`.
+        inner_angle: f64,
+        /// Half angle of the whole cone, radians, above 0 up to π/2.
+        outer_angle: f64,
+    },
+    /// A light that shines to all sides.
+    Point {
+        /// The centre, metres.
+        position_world: DVec3,
+        /// The distance where the light ends, metres; `None`: unlimited.
+        range: Option<f64>,
+    },
+}
+
+impl LightKind {
+    /// Returns the place of the kind in a scene's light list: directional 0, spot 1, point 2.
+    #[must_use]
+    pub fn order(&self) -> u8 {
+        match self {
+            Self::Directional { .. } => 0,
+            Self::Spot { .. } => 1,
+            Self::Point { .. } => 2,
+        }
+    }
+}
+
+impl Light {
+    /// Returns how far the light reaches, metres; `None` for directional lights.
+    ///
+    /// That is the given range, else the distance at which its illuminance falls under
+    /// [`MIN_ILLUMINANCE_LX`].
+    ///
+    /// ```
+    /// use glam::{DVec3, Vec3};
+    /// use shadowgraph_scene::{Light, LightKind};
+    /// let kind = LightKind::Point { position_world: DVec3::ZERO, range: None };
+    /// let light = Light { name: None, kind, color: Vec3::ONE, intensity: 100.0, casts_shadow: true };
+    /// assert_eq!(light.effective_range(), Some(100.0));
+    /// ```
+    #[must_use]
+    pub fn effective_range(&self) -> Option<f64> {
+        let range = match self.kind {
+            LightKind::Directional { .. } => return None,
+            LightKind::Spot { range, .. } | LightKind::Point { range, .. } => range,
+        };
+        let candela = f64::from(self.intensity) * f64::from(self.color.max_element());
+        Some(range.unwrap_or_else(|| (candela.max(0.0) / MIN_ILLUMINANCE_LX).sqrt()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn light(kind: LightKind) -> Light {
+        Light { name: None, kind, color: Vec3::new(0.25, 0.5, 0.0), intensity: 8.0, casts_shadow: true }
+    }
+
+    #[test]
+    fn a_given_range_is_the_effective_range() {
+        let kind = LightKind::Point { position_world: DVec3::ZERO, range: Some(3.0) };
+        assert_eq!(light(kind).effective_range(), Some(3.0));
+    }
+
+    #[test]
+    fn without_a_range_light_ends_where_it_gets_too_faint() {
+        let kind = LightKind::Spot {
+            position_world: DVec3::ZERO,
+            direction: DVec3::NEG_Y,
+            range: None,
+            inner_angle: 0.0,
+            outer_angle: 0.5,
+        };
+        // The brightest channel has 4 candela, which is 0.01 lux at 20 m.
+        assert_eq!(light(kind).effective_range(), Some(20.0));
+        assert_eq!(Light { intensity: 0.0, ..light(kind) }.effective_range(), Some(0.0));
+    }
+
+    #[test]
+    fn directional_lights_reach_everywhere() {
+        assert_eq!(light(LightKind::Directional { direction: DVec3::NEG_Y }).effective_range(), None);
+    }
+}

@@ -1,0 +1,102 @@
+//! Normals for meshes that have none, or broken ones.
+
+use glam::{DVec3, Vec3};
+
+use super::{Mesh, Vertex, position};
+
+impl Mesh {
+    /// Gives every triangle its own three vertices, with the triangle's own normal.
+    ///
+    /// This is what glTF asks for where a mesh has no normals. The mesh gets as many vertices as indices.
+    pub fn flat_normals(&mut self) {
+        let mut vertices = Vec::with_capacity(self.indices.len());
+        for corners in triangles(&self.indices, &self.vertices) {
+            let normal = to_array(face_normal(&corners).unwrap_or(DVec3::Z));
+            vertices.extend(corners.map(|corner| Vertex { normal, ..corner }));
+        }
+        self.indices = (0u32..).take(vertices.len()).collect();
+        self.vertices = vertices;
+    }
+
+    /// Gives every vertex the mean normal of the triangles around it, weighted by their angles there.
+    pub fn smooth_normals(&mut self) {
+        let normals = self.angle_weighted_normals();
+        for (vertex, normal) in self.vertices.iter_mut().zip(normals) {
+            vertex.normal = normal.to_array();
+        }
+    }
+
+    /// Brings all normals to unit length, and replaces those that have no direction (zero or not finite)
+    /// by the mean normal of the triangles around. Returns how many were replaced.
+    pub fn repair_normals(&mut self) -> usize {
+        let mut broken = Vec::new();
+        for (i, vertex) in self.vertices.iter_mut().enumerate() {
+            match unit(Vec3::from(vertex.normal)) {
+                Some(normal) => vertex.normal = normal.to_array(),
+                None => broken.push(i),
+            }
+        }
+        if !broken.is_empty() {
+            let normals = self.angle_weighted_normals();
+            for i in &broken {
+                if let (Some(vertex), Some(normal)) = (self.vertices.get_mut(*i), normals.get(*i)) {
+                    vertex.normal = normal.to_array();
+                }
+            }
+        }
+        broken.len()
+    }
+
+    fn angle_weighted_normals(&self) -> Vec<Vec3> {
+        let mut sums = vec![Vec3::ZERO; self.vertices.len()];
+        for indices in self.indices.as_chunks::<3>().0 {
+            let Some(corners) = corners(*indices, &self.vertices) else { continue };
+            let Some(normal) = face_normal(&corners) else { continue };
+            for (index, angle) in indices.iter().zip(angles(&corners)) {
+                if let Some(sum) = sums.get_mut(*index as usize) {
+                    *sum += (normal * angle).as_vec3();
+                }
+            }
+        }
+        sums.into_iter().map(|sum| sum.try_normalize().unwrap_or(Vec3::Z)).collect()
+    }
+}
+
+/// Returns the direction of a vector, however long or short it is; `None` if it has none.
+pub(super) fn unit(vector: Vec3) -> Option<Vec3> {
+    vector.as_dvec3().try_normalize().map(|unit| unit.as_vec3())
+}
+
+/// Iterates over the triangles whose indices are right.
+fn triangles(indices: &[u32], vertices: &[Vertex]) -> impl Iterator<Item = [Vertex; 3]> {
+    indices.as_chunks::<3>().0.iter().filter_map(|indices| corners(*indices, vertices))
+}
+
+/// Returns the vertices of a triangle; `None` if an index is out of range.
+pub(super) fn corners(indices: [u32; 3], vertices: &[Vertex]) -> Option<[Vertex; 3]> {
+    let [a, b, c] = indices.map(|index| vertices.get(index as usize).copied());
+    Some([a?, b?, c?])
+}
+
+/// Returns the angles of a triangle at its corners, radians.
+pub(super) fn angles(corners: &[Vertex; 3]) -> [f64; 3] {
+    let [a, b, c] = corners.each_ref().map(position);
+    let angle = |at: DVec3, to: DVec3, and: DVec3| {
+        let (Some(to), Some(and)) = ((to - at).try_normalize(), (and - at).try_normalize()) else {
+            return 0.0;
+        };
+        to.dot(and).clamp(-1.0, 1.0).acos()
+    };
+    [angle(a, b, c), angle(b, c, a), angle(c, a, b)]
+}
+
+/// Returns the unit normal of a triangle; `None` if it has no area.
+fn face_normal(corners: &[Vertex; 3]) -> Option<DVec3> {
+    // In f64, so that neither tiny nor huge triangles lose their area.
+    let [a, b, c] = corners.each_ref().map(position);
+    (b - a).cross(c - a).try_normalize()
+}
+
+fn to_array(vector: DVec3) -> [f32; 3] {
+    vector.as_vec3().to_array()
+}

@@ -1,0 +1,143 @@
+//! Loads every file of the shared folders of good and of hostile glTF files, where they are there.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use glam::Vec4;
+use shadowgraph_scene::Scene;
+use shadowgraph_scene::gltf;
+
+/// No file of these folders may take longer.
+const MAX_TIME: Duration = Duration::from_secs(10);
+
+/// Returns a folder of shared files, or says that the test is skipped.
+fn shared(folder: &str) -> Option<PathBuf> {
+    let shared = std::env::var_os("SHADOWGRAPH_SHARED")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
+    let path = shared.join(folder);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!("SKIP no folder {folder} (set SHADOWGRAPH_SHARED to the folder that has it)");
+    None
+}
+
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            match path.extension().and_then(|extension| extension.to_str()) {
+                _ if path.is_dir() => open.push(path),
+                Some("gltf" | "glb") => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Checks what a renderer may rely on in any scene that was loaded.
+fn check(scene: &Scene, file: &Path) {
+    let file = file.display();
+    for mesh in &scene.meshes {
+        assert!(!mesh.indices.is_empty() && mesh.indices.len() % 3 == 0, "{file}");
+        assert!(mesh.indices.iter().all(|index| (*index as usize) < mesh.vertices.len()), "{file}");
+        for vertex in &mesh.vertices {
+            assert!(
+                vertex.position.iter().chain(&vertex.uv0).chain(&vertex.uv1).all(|x| x.is_finite()),
+                "{file}"
+            );
+            let length = |v: &[f32]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
+            assert!((length(&vertex.normal) - 1.0).abs() < 1e-3, "{file}: {:?}", vertex.normal);
+            assert!((length(&vertex.tangent[..3]) - 1.0).abs() < 1e-3, "{file}: {:?}", vertex.tangent);
+            assert!(vertex.tangent[3].abs() == 1.0, "{file}: {:?}", vertex.tangent);
+        }
+    }
+    for instance in &scene.instances {
+        assert!(instance.mesh < scene.meshes.len() && instance.material < scene.materials.len(), "{file}");
+        assert!(instance.world_from_local.is_finite(), "{file}");
+    }
+    for material in &scene.materials {
+        let textures = [
+            material.base_color_texture,
+            material.metallic_roughness_texture,
+            material.normal_texture,
+            material.occlusion_texture,
+            material.emissive_texture,
+        ];
+        assert!(textures.iter().flatten().all(|t| t.image < scene.images.len() && t.uv_set < 2), "{file}");
+    }
+    for image in &scene.images {
+        assert_eq!(image.rgba8.len() as u64, u64::from(image.width) * u64::from(image.height) * 4, "{file}");
+    }
+    let kinds: Vec<u8> = scene.lights.iter().map(|light| light.kind.order()).collect();
+    assert!(kinds.is_sorted(), "{file}: {kinds:?}");
+    assert!(scene.notes.iter().all(|note| !note.contains('\n')), "{file}: {:?}", scene.notes);
+}
+
+#[test]
+fn every_good_scene_loads() {
+    let Some(folder) = shared("scenes") else { return };
+    let files = files_below(&folder);
+    for file in &files {
+        let start = Instant::now();
+        let scene = gltf::load(file).unwrap();
+        check(&scene, file);
+        assert!(!scene.instances.is_empty() && !scene.bounds().is_empty(), "{}", file.display());
+        println!(
+            "{}: {} triangles, {} instances, {} images, {} lights, {} cameras, {:.2} s; {:?}",
+            file.file_name().unwrap().display(),
+            scene.triangle_count(),
+            scene.instances.len(),
+            scene.images.len(),
+            scene.lights.len(),
+            scene.cameras.len(),
+            start.elapsed().as_secs_f64(),
+            scene.notes
+        );
+    }
+    assert!(files.len() >= 21, "{} scenes", files.len());
+}
+
+#[test]
+fn every_hostile_file_loads_or_gives_one_line() {
+    let Some(folder) = shared("bad-gltf") else { return };
+    let files = files_below(&folder);
+    for file in &files {
+        let start = Instant::now();
+        match gltf::load(file) {
+            Ok(scene) => {
+                check(&scene, file);
+                println!("loads: {} {:?}", file.file_name().unwrap().display(), scene.notes);
+            }
+            Err(error) => {
+                let line = error.to_string();
+                assert!(!line.contains('\n') && line.starts_with(&file.display().to_string()), "{line}");
+                println!("error: {}", line.trim_start_matches(&folder.display().to_string()));
+            }
+        }
+        assert!(start.elapsed() < MAX_TIME, "{} took {:?}", file.display(), start.elapsed());
+    }
+    assert!(files.len() >= 119, "{} files", files.len());
+}
+
+#[test]
+fn computed_tangents_agree_with_those_of_a_file() {
+    let Some(folder) = shared("scenes") else { return };
+    let mut scene = gltf::load(&folder.join("FlightHelmet.glb")).unwrap();
+    for instance in &scene.instances {
+        let map = scene.materials[instance.material].normal_texture.unwrap();
+        let mesh = &mut scene.meshes[instance.mesh];
+        let given: Vec<_> = mesh.vertices.iter().map(|vertex| Vec4::from(vertex.tangent)).collect();
+        mesh.generate_tangents(map.uv_set, &map.uv_transform);
+        let alike = mesh.vertices.iter().zip(&given).filter(|(vertex, given)| {
+            let computed = Vec4::from(vertex.tangent);
+            computed.w == given.w && computed.truncate().dot(given.truncate()) > 0.9
+        });
+        let share = alike.count() as f64 / given.len() as f64;
+        assert!(share > 0.98, "{:?}: {share}", mesh.name);
+    }
+}
