@@ -1,0 +1,108 @@
+//! Where tiles lie in a map.
+
+use glam::{DMat4, DVec2, DVec3, Vec2};
+
+use crate::filter::BORDER_PX;
+
+/// The most tiles that the atlas holds.
+pub const MAX_ATLAS_TILES: usize = 16;
+
+/// The pixels of a tile. The first pixel of a map is its top left one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TileRect {
+    /// First column.
+    pub x: u32,
+    /// First row.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// A map's size and its tiles: squares of one size that do not overlap.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TileLayout {
+    /// Width and height of the map, pixels. Rows of tiles that nobody needs are left off.
+    pub size_px: [u32; 2],
+    /// Width and height of a tile, pixels.
+    pub tile_px: u32,
+    /// The tiles, row by row.
+    pub tiles: Vec<TileRect>,
+}
+
+/// Lays out the tiles of `count` cascades: one has all of the map, two lie side by side, three and four are in
+/// a square.
+///
+/// ```
+/// use shadowgraph_shadows::cascade_layout;
+/// assert_eq!(cascade_layout(2, 4096).size_px, [4096, 2048]);
+/// ```
+#[must_use]
+pub fn cascade_layout(count: usize, map_size_px: u32) -> TileLayout {
+    grid(count, if count > 1 { 2 } else { 1 }, map_size_px)
+}
+
+/// Lays out `count` tiles of the atlas: 1, 2, 3 or 4 per row for up to 1, 4, 9 and 16 tiles.
+#[must_use]
+pub fn atlas_layout(count: usize, map_size_px: u32) -> TileLayout {
+    let per_row = match count {
+        0..=1 => 1,
+        2..=4 => 2,
+        5..=9 => 3,
+        _ => 4,
+    };
+    grid(count, per_row, map_size_px)
+}
+
+/// Returns the width of the smallest tile that the atlas can have, pixels.
+#[must_use]
+pub fn smallest_atlas_tile_px(map_size_px: u32) -> u32 {
+    map_size_px / 4
+}
+
+fn grid(count: usize, per_row: u32, map_size_px: u32) -> TileLayout {
+    let tile_px = map_size_px / per_row;
+    let count = u32::try_from(count).unwrap_or(u32::MAX).min(per_row * per_row);
+    let tile = |i: u32| TileRect {
+        x: i % per_row * tile_px,
+        y: i / per_row * tile_px,
+        width: tile_px,
+        height: tile_px,
+    };
+    // Whole maps in width, so that a third of a map leaves its last columns free.
+    let rows = count.div_ceil(per_row).max(1);
+    let height = if rows == per_row { map_size_px } else { rows * tile_px };
+    TileLayout { size_px: [map_size_px, height], tile_px, tiles: (0..count).map(tile).collect() }
+}
+
+impl TileRect {
+    /// Tells whether the two have a pixel in common.
+    #[must_use]
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let apart = |a: u32, a_len: u32, b: u32, b_len: u32| a + a_len <= b || b + b_len <= a;
+        !apart(self.x, self.width, other.x, other.width) && !apart(self.y, self.height, other.y, other.height)
+    }
+
+    /// Returns the matrix from the tile's clip space to the map: x and y from 0 to 1 over the whole map, y
+    /// downwards; depth stays.
+    #[must_use]
+    pub fn map_from_clip(&self, map_size_px: [u32; 2]) -> DMat4 {
+        let map = DVec2::new(f64::from(map_size_px[0]), f64::from(map_size_px[1]));
+        let half = DVec2::new(f64::from(self.width), f64::from(self.height)) * 0.5;
+        let center = DVec2::new(f64::from(self.x), f64::from(self.y)) + half;
+        let (scale, center) = (half / map, center / map);
+        DMat4::from_translation(center.extend(0.0)) * DMat4::from_scale(DVec3::new(scale.x, -scale.y, 1.0))
+    }
+
+    /// Returns the corners, in parts of the map, of the part of the tile around whose points the filter stays
+    /// inside the tile.
+    #[must_use]
+    pub fn inner_uv(&self, map_size_px: [u32; 2]) -> (Vec2, Vec2) {
+        let map = Vec2::new(map_size_px[0] as f32, map_size_px[1] as f32);
+        let at = |x: u32, y: u32| Vec2::new(x as f32, y as f32) / map;
+        let min = at(self.x + BORDER_PX, self.y + BORDER_PX);
+        let max = at(self.x + self.width - BORDER_PX, self.y + self.height - BORDER_PX);
+        (min, max)
+    }
+}

@@ -1,0 +1,35 @@
+//! The axes of a light, and spheres.
+
+use glam::{DMat3, DVec3};
+
+/// A sphere in absolute world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Its centre, metres.
+    pub center_world: DVec3,
+    /// Its radius, metres.
+    pub radius_m: f64,
+}
+
+/// Steeper than this, in cosine to the vertical, a light's up axis is taken from north instead of the sky.
+const STEEP: f64 = 0.999;
+
+/// Returns the rotation from world to light axes: +Z towards the light, +Y as near to the world's up as can be
+/// (the world's -Z for lights from straight above or below). It depends on nothing but the direction, so it
+/// stands still while the camera moves. `None` for a direction that has no length or is not finite.
+///
+/// ```
+/// use glam::DVec3;
+/// use shadowgraph_shadows::light_from_world;
+/// let rotation = light_from_world(DVec3::NEG_Y).ok_or("no direction")?;
+/// assert_eq!(rotation * DVec3::Y, DVec3::Z);
+/// # Ok::<(), &str>(())
+/// ```
+#[must_use]
+pub fn light_from_world(direction: DVec3) -> Option<DMat3> {
+    let towards_light = -direction.try_normalize()?;
+    let up = if towards_light.y.abs() > STEEP { DVec3::NEG_Z } else { DVec3::Y };
+    let right = up.cross(towards_light).try_normalize()?;
+    // Rows of the result: a transposed matrix of the axes is its inverse, exactly.
+    Some(DMat3::from_cols(right, towards_light.cross(right), towards_light).transpose())
+}

@@ -1,0 +1,32 @@
+//! What an engine tells about the things that cast shadows.
+
+use shadowgraph_scene::{Aabb, ConvexVolume};
+
+/// The things that can cast shadows. Implement it for a scene of your own.
+///
+/// Casters are numbered; what a number stands for is the implementer's affair. All coordinates here are
+/// absolute, in f64.
+pub trait ShadowCasters: Sync {
+    /// Appends the numbers of all casters that touch the volume, ascending. Casters that only come near may
+    /// be among them; none that touches may be missing.
+    fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>);
+
+    /// Returns the bounds of all casters, [`Aabb::EMPTY`] where there are none.
+    fn bounds(&self) -> Aabb;
+
+    /// Draws the depth of the casters into the pass. Viewport, scissor and group 0 are already set: binding 0
+    /// is a storage buffer (read) that begins with the matrix `clip_from_world: mat4x4f`, where world is
+    /// relative to the frame's origin. Leave all of these as they are.
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]);
+}
+
+/// What a pipeline that draws casters must be made for: depth only, written, compared with
+/// `GreaterEqual` (depth is reversed), one sample, no depth bias (it is applied where the map is read).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CasterTarget {
+    /// The map's format.
+    pub format: wgpu::TextureFormat,
+    /// Whether the view is a spot light's pyramid rather than a box. In both, casters between the light and
+    /// the near plane are to be kept with depth 1 (`unclipped_depth`, or its emulation).
+    pub perspective: bool,
+}

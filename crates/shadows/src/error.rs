@@ -1,0 +1,23 @@
+//! What can go wrong before a device is involved.
+
+/// Why shadows could not be planned.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A value of [`ShadowSettings`](crate::ShadowSettings) is not allowed.
+    #[error("shadow setting `{field}` is {value}; allowed: {allowed}")]
+    Setting {
+        /// The field's path, such as `cascades.map_size_px`.
+        field: &'static str,
+        /// The value it has.
+        value: String,
+        /// The values it can have.
+        allowed: &'static str,
+    },
+    /// The picture's width over its height is not a positive number.
+    #[error("the picture's aspect ratio is {0}; it must be a number above 0")]
+    Aspect(f64),
+    /// The camera's position, direction or planes are not finite numbers.
+    #[error("the camera's {0} is not a finite number")]
+    Camera(&'static str),
+}

@@ -1,0 +1,44 @@
+//! Cascaded and atlas shadow maps as render-graph nodes, and the technique contract.
+//!
+//! [`plan_shadows`] turns a camera, lights and casters ([`ShadowCasters`]) into a [`ShadowPlan`]: the maps and
+//! tiles of a frame, who is drawn into each, and the records ([`ShadowView`], [`ShadowLight`]) that shaders read.
+//! It is pure maths in f64 and can be used without the nodes.
+//!
+//! - *Cascades*: up to four tiles for the brightest directional light, each around a slice of the view.
+//! - *Atlas*: up to 16 tiles for spot lights and further directional lights.
+//!
+//! Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0). Directional tiles move through the
+//! world in whole texels, so shadows do not flicker when the camera moves.
+
+mod atlas;
+mod basis;
+mod cascades;
+mod casters;
+mod error;
+mod filter;
+mod ortho;
+mod plan;
+mod planner;
+mod select;
+mod settings;
+mod spot;
+mod technique;
+mod techniques;
+mod views;
+
+pub use atlas::{
+    MAX_ATLAS_TILES, TileLayout, TileRect, atlas_layout, cascade_layout, smallest_atlas_tile_px,
+};
+pub use basis::{Sphere, light_from_world};
+pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
+pub use casters::{CasterTarget, ShadowCasters};
+pub use error::Error;
+pub use filter::{BORDER_PX, FILTER_REACH_TEXELS, FILTER_SUM, Needs, filter_taps};
+pub use ortho::OrthoFit;
+pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePlan, plan_shadows};
+pub use select::{Unshadowed, UnshadowedReason};
+pub use settings::{AtlasSettings, BiasSettings, CascadeSettings, ShadowSettings, SplitScheme};
+pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
+pub use technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
+pub use techniques::Pcf;
+pub use views::{MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowLight, ShadowView};

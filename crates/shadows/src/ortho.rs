@@ -1,0 +1,90 @@
+//! The box that a directional light's tile covers, fixed to whole texels of the world.
+
+use glam::{DMat3, DMat4, DVec3, DVec4};
+use shadowgraph_scene::{ConvexVolume, Plane};
+
+use crate::Sphere;
+
+/// A cube around a sphere, with its axes along a light's, that moves through the world in whole texels only.
+///
+/// Width, height and depth range are all `texel_m * tile_px`. The centre is a whole number of texels from the
+/// world's origin on each of the light's axes, so while rotation and radius stay as they are, what a texel
+/// covers stays as it is, and a depth changes by a multiple of `1 / tile_px`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrthoFit {
+    /// The rotation from world to the light's axes, +Z towards the light.
+    pub light_from_world: DMat3,
+    /// The centre on the light's axes, in texels from the world's origin: whole numbers.
+    pub center_texels: DVec3,
+    /// The width of a texel in the world, metres.
+    pub texel_m: f64,
+    /// The width of the tile, pixels, border and all.
+    pub tile_px: u32,
+    /// The sphere that it was made for.
+    pub sphere: Sphere,
+}
+
+/// Radii come in this many steps per factor of two: a small change of the camera's angle changes no texel.
+const RADIUS_STEPS: f64 = 32.0;
+
+/// Offsets from the frame's origin are rounded to this part of a texel. With up to 20 bits of whole texels
+/// (2 km of 2 mm texels) they fit an f32, so steps of whole texels reach the GPU exactly.
+const PHASE_STEPS: f64 = 16.0;
+
+impl OrthoFit {
+    /// Fits the cube: the sphere, wherever snapping puts the centre, stays `margin_px` away from the tile's edges.
+    ///
+    /// `margin_px` must be below half of `tile_px`.
+    #[must_use]
+    pub fn new(light_from_world: DMat3, sphere: Sphere, tile_px: u32, margin_px: f64) -> Self {
+        let radius_m = round_up(sphere.radius_m.max(f64::MIN_POSITIVE.sqrt()), RADIUS_STEPS);
+        let texel_m = 2.0 * radius_m / (f64::from(tile_px) - 2.0 * margin_px);
+        let center_texels = (light_from_world * sphere.center_world / texel_m).round();
+        Self { light_from_world, center_texels, texel_m, tile_px, sphere }
+    }
+
+    /// Half the width, height and depth of the cube, metres.
+    #[must_use]
+    pub fn half_extent_m(&self) -> f64 {
+        self.texel_m * f64::from(self.tile_px) * 0.5
+    }
+
+    /// The matrix from world space relative to `origin_world` to the tile: x right and y up from -1 to 1, z 1
+    /// on the side of the light and 0 on the far side.
+    #[must_use]
+    pub fn clip_from_world(&self, origin_world: DVec3) -> DMat4 {
+        let half_px = f64::from(self.tile_px) * 0.5;
+        let rotation = DMat4::from_mat3(self.light_from_world);
+        // Counted in texels, every step of the camera adds whole numbers.
+        let origin_texels = self.light_from_world * origin_world / self.texel_m;
+        let phase = (origin_texels * PHASE_STEPS).round() / PHASE_STEPS;
+        let translation = DMat4::from_translation((phase - self.center_texels) / half_px);
+        // x and y as they are; z from -1..1 to 0..1.
+        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::Z * 0.5, DVec4::new(0.0, 0.0, 0.5, 1.0));
+        let scale = DMat4::from_scale(DVec3::splat(1.0 / self.half_extent_m()));
+        depth * translation * scale * rotation
+    }
+
+    /// The space whose casters can matter: the cube without its side towards the light, since what is nearer
+    /// to the light throws its shadow in all the same.
+    #[must_use]
+    pub fn cull_volume(&self) -> ConvexVolume {
+        let center = self.center_texels * self.texel_m;
+        let half = self.half_extent_m();
+        let axes = self.light_from_world.transpose();
+        let sides = [(axes.x_axis, center.x), (axes.y_axis, center.y)];
+        let mut planes = Vec::with_capacity(5);
+        for (axis, at) in sides {
+            planes.push(Plane { normal: axis, distance: half - at });
+            planes.push(Plane { normal: -axis, distance: half + at });
+        }
+        planes.push(Plane { normal: axes.z_axis, distance: half - center.z });
+        ConvexVolume { planes }
+    }
+}
+
+/// The next of `steps` equal steps per factor of two that is not below `value`. `value` must be above 0.
+fn round_up(value: f64, steps: f64) -> f64 {
+    let step = value.log2().floor().exp2() / steps;
+    (value / step).ceil() * step
+}

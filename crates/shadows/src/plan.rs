@@ -1,0 +1,158 @@
+//! The plan of a frame's shadows: which maps there are, their tiles, who is drawn into each, and the records
+//! that shaders read. Pure: no device.
+
+use glam::DVec3;
+use shadowgraph_scene::{Camera, Light};
+
+use crate::planner::Planner;
+use crate::{
+    Error, FILTER_REACH_TEXELS, Needs, ShadowCasters, ShadowLight, ShadowSettings, ShadowView, TileRect,
+    Unshadowed,
+};
+
+/// What shadows are planned for.
+#[derive(Clone, Copy)]
+pub struct ShadowInputs<'a> {
+    /// Who looks.
+    pub camera: &'a Camera,
+    /// The picture's width over its height.
+    pub aspect: f64,
+    /// All lights of the scene; only those with `casts_shadow` are considered.
+    pub lights: &'a [Light],
+    /// What can cast shadows.
+    pub casters: &'a dyn ShadowCasters,
+    /// The point that GPU space is relative to (see [`shadowgraph_scene::origin_near`]).
+    pub origin_world: DVec3,
+    /// What the user chose.
+    pub settings: &'a ShadowSettings,
+}
+
+/// A frame's shadows. Equal inputs give equal plans.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShadowPlan {
+    /// The map of the main light's cascades, if there is one.
+    pub cascades: Option<MapPlan>,
+    /// The map of all other lights, if there is one.
+    pub atlas: Option<MapPlan>,
+    /// One for each tile of both maps, the cascades first.
+    pub views: Vec<ShadowView>,
+    /// One for each light of the scene, in its order.
+    pub lights: Vec<ShadowLight>,
+    /// The lights that are to cast shadows but have none in this frame, in the scene's order.
+    pub unshadowed: Vec<Unshadowed>,
+    /// What the technique needs of shared services.
+    pub needs: Needs,
+}
+
+/// A shadow map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapPlan {
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// What it holds. Some casters are in reach of at least one tile.
+    pub tiles: Vec<TilePlan>,
+}
+
+/// A tile of a shadow map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TilePlan {
+    /// Whose tile, by place in the scene's list of lights.
+    pub light: u32,
+    /// Index of its [`ShadowView`] in [`ShadowPlan::views`].
+    pub view: u32,
+    /// Which cascade it is, from 0; `None` in the atlas.
+    pub cascade: Option<u32>,
+    /// Viewport and scissor.
+    pub rect: TileRect,
+    /// The casters to draw, as [`ShadowCasters::cull`] gave them. Can be empty: cleared means lit.
+    pub casters: Vec<u32>,
+}
+
+/// Plans the shadows of a frame.
+///
+/// ```
+/// use glam::{DVec3, Vec3};
+/// use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Projection, origin_near};
+/// use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowInputs, ShadowSettings, plan_shadows};
+///
+/// struct OneBox(Aabb);
+/// impl ShadowCasters for OneBox {
+///     fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
+///         casters.extend(volume.intersects(&self.0).then_some(0));
+///     }
+///     fn bounds(&self) -> Aabb {
+///         self.0
+///     }
+///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
+/// }
+///
+/// let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
+/// let camera = Camera::look_at(DVec3::new(0.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, projection);
+/// let sun = Light {
+///     name: None,
+///     kind: LightKind::Directional { direction: DVec3::new(0.5, -1.0, 0.2) },
+///     color: Vec3::ONE,
+///     intensity: 100_000.0,
+///     casts_shadow: true,
+/// };
+/// let plan = plan_shadows(&ShadowInputs {
+///     camera: &camera,
+///     aspect: 16.0 / 9.0,
+///     lights: &[sun],
+///     casters: &OneBox(Aabb { min: DVec3::splat(-1.0), max: DVec3::ONE }),
+///     origin_world: origin_near(camera.position_world()),
+///     settings: &ShadowSettings::default(),
+/// })?;
+/// assert_eq!(plan.cascades.map(|map| map.size_px), Some([4096, 4096]));
+/// assert_eq!(plan.lights[0].view_count, 4);
+/// assert!(plan.atlas.is_none());
+/// # Ok::<(), shadowgraph_shadows::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::Setting`] for a setting out of range, [`Error::Aspect`] and [`Error::Camera`] for a view that is
+/// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
+pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
+    Ok(Planner::new(inputs)?.plan())
+}
+
+impl ShadowPlan {
+    /// Returns the plan of a frame without shadows: no maps, and every light lights everything.
+    #[must_use]
+    pub fn all_lit(light_count: usize, settings: &ShadowSettings) -> Self {
+        Self {
+            cascades: None,
+            atlas: None,
+            views: Vec::new(),
+            lights: vec![ShadowLight::default(); light_count],
+            unshadowed: Vec::new(),
+            needs: needs(settings),
+        }
+    }
+
+    /// Returns the bytes for the buffer of views. Never empty, as a buffer cannot be.
+    #[must_use]
+    pub fn view_bytes(&self) -> Vec<u8> {
+        bytes_or_one(&self.views)
+    }
+
+    /// Returns the bytes for the buffer of lights. Never empty, as a buffer cannot be.
+    #[must_use]
+    pub fn light_bytes(&self) -> Vec<u8> {
+        bytes_or_one(&self.lights)
+    }
+}
+
+/// What the `pcf` technique needs of shared services.
+pub(crate) fn needs(settings: &ShadowSettings) -> Needs {
+    Needs {
+        kernel_radius_texels: FILTER_REACH_TEXELS,
+        bias_texels: settings.bias.normal_texels,
+        blocker_reach_m: 0.0,
+    }
+}
+
+fn bytes_or_one<T: bytemuck::Pod>(records: &[T]) -> Vec<u8> {
+    if records.is_empty() { vec![0; size_of::<T>()] } else { bytemuck::cast_slice(records).to_vec() }
+}

@@ -1,0 +1,99 @@
+//! The contract between shadow techniques and whoever lights a scene.
+
+use shadowgraph_core::{Bind, Error as GraphError, Frame, Pass, Resources, ShaderPass};
+use shadowgraph_core::{Buffer, BufferToken, Texture, TextureToken};
+use shadowgraph_shaders::ModuleSource;
+
+use crate::{Error, Needs, ShadowInputs, Unshadowed};
+
+/// A way of making shadows: nodes for the graph, and a WGSL module that answers "how much of this light arrives
+/// here".
+///
+/// The module has `#define_import_path shadowgraph::technique` and the functions
+/// `shadow_visibility(light: u32, receiver: Receiver) -> vec3f` (1 lit, 0 in shadow) and
+/// `shadow_debug_color(light: u32, receiver: Receiver) -> vec3f`. It is called in loops and from compute passes, so
+/// it never uses implicit derivatives. All of bind group 1 is its own.
+pub trait ShadowTechnique: Sync {
+    /// Returns the name that users choose it by.
+    fn name(&self) -> &str;
+
+    /// Returns what it needs of shared services, with the settings in use.
+    fn needs(&self, inputs: &ShadowInputs<'_>) -> Needs;
+
+    /// Returns its WGSL module.
+    fn module(&self) -> ModuleSource;
+
+    /// Returns the layout of bind group 1.
+    fn bind_group_layout(&self) -> &wgpu::BindGroupLayout;
+
+    /// Adds its passes to the frame. What is not needed (no shadowed light, no caster in reach) adds no pass.
+    ///
+    /// # Errors
+    /// For settings, a camera or an aspect ratio that are out of range.
+    fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+    ) -> Result<ShadowOutputs<'f>, Error>;
+}
+
+/// What a technique gives to the passes that light.
+pub struct ShadowOutputs<'f> {
+    /// Bind group 1: its place in the list is the binding number.
+    pub bindings: Vec<ShadowBinding<'f>>,
+    /// Textures worth looking at, by name.
+    pub debug: Vec<(&'static str, Texture)>,
+    /// The lights that are to cast shadows but have none in this frame, and why.
+    pub unshadowed: Vec<Unshadowed>,
+}
+
+/// One binding of group 1.
+pub enum ShadowBinding<'f> {
+    /// A storage buffer, read.
+    Buffer(Buffer),
+    /// A sampled texture.
+    Texture(Texture),
+    /// A sampler of the technique's.
+    Sampler(&'f wgpu::Sampler),
+}
+
+/// The bindings of a pass that has declared to read them.
+pub struct ShadowTokens<'f>(Vec<Token<'f>>);
+
+enum Token<'f> {
+    Buffer(BufferToken),
+    Texture(TextureToken),
+    Sampler(&'f wgpu::Sampler),
+}
+
+impl<'f> ShadowOutputs<'f> {
+    /// Declares that `pass` reads the shadows; move what it returns into the pass's body.
+    pub fn read_in<K: ShaderPass>(&self, pass: &mut Pass<'_, 'f, K>) -> ShadowTokens<'f> {
+        let declare = |binding: &ShadowBinding<'f>| match binding {
+            ShadowBinding::Buffer(buffer) => Token::Buffer(pass.storage_buffer(buffer)),
+            ShadowBinding::Texture(texture) => Token::Texture(pass.sample(texture)),
+            ShadowBinding::Sampler(sampler) => Token::Sampler(sampler),
+        };
+        ShadowTokens(self.bindings.iter().map(declare).collect())
+    }
+}
+
+impl ShadowTokens<'_> {
+    /// Returns bind group 1.
+    ///
+    /// # Errors
+    /// If used in another pass than it was declared in.
+    pub fn bind_group(
+        &self,
+        resources: &mut Resources<'_>,
+        layout: &wgpu::BindGroupLayout,
+    ) -> Result<wgpu::BindGroup, GraphError> {
+        let bind = |token| match token {
+            &Token::Buffer(buffer) => Bind::Buffer(buffer),
+            &Token::Texture(texture) => Bind::Texture(texture),
+            &Token::Sampler(sampler) => Bind::Sampler(sampler),
+        };
+        let entries: Vec<Bind<'_>> = self.0.iter().map(bind).collect();
+        resources.bind_group(layout, &entries)
+    }
+}

@@ -1,0 +1,5 @@
+//! The techniques that come with Shadowgraph, a room each.
+
+mod pcf;
+
+pub use pcf::Pcf;

@@ -1,0 +1,162 @@
+//! The view and light records that shaders read: `ShadowView` and `ShadowLight` of `shadowgraph::shadows::types`.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
+
+use crate::{OrthoFit, ShadowSettings, Sphere, SpotFit, TileRect};
+
+/// One tile, 256 bytes: the dynamic offset at which it is bound to draw into it, and what is needed to look
+/// something up in it. World space here is relative to the frame's origin.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ShadowView {
+    /// From world to the tile: x and y -w to w, y up; z/w 1 nearest to the light, 0 farthest.
+    pub clip_from_world: Mat4,
+    /// From world to the map: x/w and y/w 0 to 1 over the whole map, y down; z/w as above.
+    pub map_from_world: Mat4,
+    /// Top left of the tile without its border, parts of the map.
+    pub uv_min: Vec2,
+    /// Bottom right of the tile without its border, parts of the map.
+    pub uv_max: Vec2,
+    /// The way to the light (w 0, unit length), or the light's position (w 1).
+    pub light: Vec4,
+    /// Centre of the sphere that the tile was made for.
+    pub center: Vec3,
+    /// Radius of that sphere, metres.
+    pub radius: f32,
+    /// Width of a texel in the world, metres; for a spot light at 1 m along its axis.
+    pub texel_world: f32,
+    /// How much depth changes over the width of a texel towards the light; for a spot light times the distance.
+    pub depth_per_texel: f32,
+    /// What rows 0 and 1 of `clip_from_world` are to be multiplied by to get the light's unit axes.
+    pub axis_scale: f32,
+    /// Metres between depth 1 and depth 0.
+    pub depth_range_m: f32,
+    /// Metres from the light to depth 1 along its axis; 0 for a directional light.
+    pub near_m: f32,
+    /// Which cascade it is, from 0; [`NOT_A_CASCADE`] for others.
+    pub cascade: u32,
+    /// Zero.
+    pub unused: [u32; 2],
+    /// The tile in the map, pixels: left, top, width, height.
+    pub tile_px: [u32; 4],
+    /// Zero.
+    pub reserved: [u32; 8],
+}
+
+/// Which views a light has and how they are read, 48 bytes. One for each light of the scene, in its order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ShadowLight {
+    /// Index of its first [`ShadowView`].
+    pub first_view: u32,
+    /// How many views it has; 0: no shadows, everything is lit.
+    pub view_count: u32,
+    /// Which map they are in: [`MAP_CASCADES`] or [`MAP_ATLAS`].
+    pub map: u32,
+    /// Zero.
+    pub unused: u32,
+    /// How dark its shadows are, 0 to 1.
+    pub strength: f32,
+    /// See [`BiasSettings::normal_texels`](crate::BiasSettings::normal_texels).
+    pub normal_bias_texels: f32,
+    /// See [`BiasSettings::slope`](crate::BiasSettings::slope).
+    pub slope_bias: f32,
+    /// See [`BiasSettings::min_slope`](crate::BiasSettings::min_slope).
+    pub min_slope: f32,
+    /// See [`BiasSettings::max_slope`](crate::BiasSettings::max_slope).
+    pub max_slope: f32,
+    /// See [`BiasSettings::depth_texels`](crate::BiasSettings::depth_texels).
+    pub depth_bias_texels: f32,
+    /// View depth where shadows have faded out, metres.
+    pub fade_end_m: f32,
+    /// How fast they fade before that, parts per metre.
+    pub fade_per_m: f32,
+}
+
+/// [`ShadowView::cascade`] of a tile that is none.
+pub const NOT_A_CASCADE: u32 = u32::MAX;
+
+/// [`ShadowLight::map`]: the map of the main light's cascades.
+pub const MAP_CASCADES: u32 = 0;
+
+/// [`ShadowLight::map`]: the atlas of all other lights.
+pub const MAP_ATLAS: u32 = 1;
+
+impl ShadowView {
+    /// Describes a directional light's tile.
+    #[must_use]
+    pub fn directional(fit: &OrthoFit, rect: TileRect, map_size_px: [u32; 2], origin_world: DVec3) -> Self {
+        let towards_light = fit.light_from_world.transpose().z_axis;
+        Self {
+            light: towards_light.as_vec3().extend(0.0),
+            texel_world: fit.texel_m as f32,
+            depth_per_texel: (1.0 / f64::from(fit.tile_px)) as f32,
+            axis_scale: fit.half_extent_m() as f32,
+            depth_range_m: (2.0 * fit.half_extent_m()) as f32,
+            ..Self::tile(&fit.clip_from_world(origin_world), rect, map_size_px)
+        }
+        .around(fit.sphere, origin_world)
+    }
+
+    /// Describes a spot light's tile.
+    #[must_use]
+    pub fn spot(fit: &SpotFit, rect: TileRect, map_size_px: [u32; 2], origin_world: DVec3) -> Self {
+        let sphere = fit.cone.bounding_sphere();
+        Self {
+            light: (fit.cone.position_world - origin_world).as_vec3().extend(1.0),
+            texel_world: fit.texel_per_m() as f32,
+            depth_per_texel: (fit.depth_scale_m() * fit.texel_per_m()) as f32,
+            axis_scale: fit.tan_half as f32,
+            depth_range_m: (fit.far_m - fit.near_m) as f32,
+            near_m: fit.near_m as f32,
+            ..Self::tile(&fit.clip_from_world(origin_world), rect, map_size_px)
+        }
+        .around(sphere, origin_world)
+    }
+
+    fn tile(clip_from_world: &DMat4, rect: TileRect, map_size_px: [u32; 2]) -> Self {
+        let (uv_min, uv_max) = rect.inner_uv(map_size_px);
+        Self {
+            clip_from_world: clip_from_world.as_mat4(),
+            map_from_world: (rect.map_from_clip(map_size_px) * *clip_from_world).as_mat4(),
+            uv_min,
+            uv_max,
+            cascade: NOT_A_CASCADE,
+            tile_px: [rect.x, rect.y, rect.width, rect.height],
+            ..Self::zeroed()
+        }
+    }
+
+    fn around(self, sphere: Sphere, origin_world: DVec3) -> Self {
+        let center = (sphere.center_world - origin_world).as_vec3();
+        Self { center, radius: sphere.radius_m as f32, ..self }
+    }
+}
+
+impl ShadowLight {
+    /// Describes how the shadows of a light without views are read: its shadows fade out before `distance_m`
+    /// (above 0) as the settings say.
+    #[must_use]
+    pub fn new(settings: &ShadowSettings, distance_m: f64) -> Self {
+        let ShadowSettings { bias, fade_fraction, .. } = settings;
+        Self {
+            strength: 1.0,
+            normal_bias_texels: bias.normal_texels,
+            slope_bias: bias.slope,
+            min_slope: bias.min_slope,
+            max_slope: bias.max_slope,
+            depth_bias_texels: bias.depth_texels,
+            fade_end_m: distance_m as f32,
+            fade_per_m: (1.0 / (distance_m * f64::from(*fade_fraction))) as f32,
+            ..Self::default()
+        }
+    }
+
+    /// Returns how much of the shadow is left at a view depth: 1 before the fade begins, 0 from its end on.
+    /// The twin of `pcf.wgsl`.
+    #[must_use]
+    pub fn fade(&self, view_depth_m: f32) -> f32 {
+        ((self.fade_end_m - view_depth_m) * self.fade_per_m).clamp(0.0, 1.0)
+    }
+}
