@@ -1,0 +1,205 @@
+//! Forward lighting: a depth prepass, and one pass for all lights and materials.
+
+use std::borrow::Cow;
+
+use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_scene::gpu::{
+    AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialKey, MaterialLayouts, vertex_layout,
+};
+use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
+
+use crate::{Error, GpuView, ViewBuffers};
+
+/// The format of the depth that the prepass draws.
+const DEPTH_FORMAT: Format = Format::Depth32Float;
+
+/// What is drawn, seen by which camera.
+#[derive(Clone, Copy)]
+pub struct Geometry<'f> {
+    /// The scene on the GPU.
+    pub scene: &'f GpuScene,
+    /// Its visible draws.
+    pub draws: &'f DrawList,
+    /// Width and height of the picture, pixels.
+    pub size_px: [u32; 2],
+}
+
+/// What the lit pass writes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shows {
+    /// Light, scene-linear, exposure applied.
+    #[default]
+    Light,
+    /// The visibility of this light as grey, with alpha 0 where nothing is drawn or the surface faces away. What is
+    /// blended is left out, here and in the following.
+    Visibility(u32),
+    /// The technique's debug colours for this light.
+    Cascades(u32),
+    /// The shading normal, each axis from -1..1 to 0..1.
+    Normal,
+}
+
+/// Pipelines and nodes of forward lighting with one shadow technique.
+pub struct Forward {
+    shows: Shows,
+    format: Format,
+    view_layout: wgpu::BindGroupLayout,
+    shadow_layout: wgpu::BindGroupLayout,
+    /// By [`MaterialKey::index`].
+    pipelines: Vec<wgpu::RenderPipeline>,
+    prepass: DepthPipelines,
+}
+
+impl Forward {
+    /// Makes the pipelines that light `layouts`' materials with the shadows of `technique` into `format`.
+    ///
+    /// # Errors
+    /// If the technique's WGSL does not compose; the message has its file and line.
+    pub fn new(
+        device: &wgpu::Device,
+        layouts: &MaterialLayouts,
+        technique: &dyn ShadowTechnique,
+        format: Format,
+        shows: Shows,
+    ) -> Result<Self, Error> {
+        let module = shadowgraph_shaders::compose("forward.wgsl", &[technique.module()])?;
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("forward.wgsl"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
+        let view_layout = view_layout(device);
+        let shadow_layout = technique.bind_group_layout().clone();
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("forward"),
+            bind_group_layouts: &[
+                Some(&view_layout),
+                Some(&shadow_layout),
+                Some(&layouts.material),
+                Some(&layouts.draw),
+            ],
+            immediate_size: 0,
+        });
+        let pipeline = |key| pipeline(device, &layout, &shader, key, format, shows);
+        Ok(Self {
+            shows,
+            format,
+            pipelines: MaterialKey::all().map(pipeline).collect(),
+            prepass: DepthPipelines::new(device, layouts, &DepthTarget::default())?,
+            view_layout,
+            shadow_layout,
+        })
+    }
+
+    /// Adds the pass that draws the depth of all solid geometry, and returns the depth.
+    pub fn prepass<'f>(&'f self, frame: &mut Frame<'f>, view: &ViewBuffers, geometry: Geometry<'f>) -> Texture {
+        let [width, height] = geometry.size_px;
+        let mut depth = frame.create_texture("depth", TextureDesc::d2(width, height, DEPTH_FORMAT));
+        let mut pass = frame.render_pass("depth prepass");
+        let view = pass.storage_buffer(&view.view);
+        pass.depth(&mut depth, Contents::clear_depth(0.0));
+        pass.body(move |ctx| {
+            let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
+            let group = ctx.bind_group(self.prepass.view_layout(), &[whole])?;
+            ctx.pass.set_bind_group(0, &group, &[0]);
+            geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, false, &|key| self.prepass.get(key));
+            Ok(())
+        });
+        depth
+    }
+
+    /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it.
+    pub fn lit<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        shadows: &ShadowOutputs<'f>,
+        depth: &Texture,
+        geometry: Geometry<'f>,
+    ) -> Texture {
+        let [width, height] = geometry.size_px;
+        let mut color = frame.create_texture("lit", TextureDesc::d2(width, height, self.format));
+        let mut pass = frame.render_pass("forward");
+        let shadows = shadows.read_in(&mut pass);
+        let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
+        pass.depth_read(depth);
+        pass.color(&mut color, Contents::clear_color([0.0; 4]));
+        pass.body(move |ctx| {
+            let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?;
+            let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
+            ctx.pass.set_bind_group(0, &view, &[]);
+            ctx.pass.set_bind_group(1, &shadows, &[]);
+            let blend: &[Draw] = if self.shows == Shows::Light { &geometry.draws.blend } else { &[] };
+            for draws in [&geometry.draws.solid, blend] {
+                geometry.scene.draw(&mut ctx.pass, draws, true, &|key| &self.pipelines[key.index()]);
+            }
+            Ok(())
+        });
+        color
+    }
+}
+
+/// Group 0: the view and the lights.
+fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let label = Some("view");
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[entry(0), entry(1)] })
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    shader: &wgpu::ShaderModule,
+    key: MaterialKey,
+    format: Format,
+    shows: Shows,
+) -> wgpu::RenderPipeline {
+    let (aov, light) = match shows {
+        Shows::Light => (0, 0),
+        Shows::Visibility(light) => (1, light),
+        Shows::Cascades(light) => (2, light),
+        Shows::Normal => (3, 0),
+    };
+    let constants = [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))];
+    let blended = key.alpha == AlphaKey::Blend;
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("forward"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: shader,
+            entry_point: Some("vs_forward"),
+            compilation_options: Default::default(),
+            buffers: &[Some(vertex_layout())],
+        },
+        primitive: key.primitive_state(),
+        // The prepass has drawn the depth of all that is solid.
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(false),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: shader,
+            entry_point: Some("fs_forward"),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            targets: &[Some(wgpu::ColorTargetState {
+                format,
+                blend: blended.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,24 @@
+//! Lit passes that consume shadows through the technique contract, as render-graph nodes.
+//!
+//! A frame is lit in a few calls, each of which adds passes to the graph:
+//!
+//! 1. [`ViewRecords::upload`] writes the camera and the lights;
+//! 2. [`Forward::prepass`] draws depth;
+//! 3. the shadow technique adds its maps (`shadowgraph_shadows::ShadowTechnique::add_to`);
+//! 4. [`Forward::lit`] draws the scene, every light and material, asking `shadow_visibility` for each light;
+//! 5. [`Tonemap::add_to`] makes a picture of it.
+//!
+//! Nothing here knows how a shadow technique works. Cameras are those of `shadowgraph_scene`, depth is reversed,
+//! and colours are scene-linear until the tonemap.
+
+mod error;
+mod exposure;
+mod forward;
+mod records;
+mod tonemap;
+
+pub use error::Error;
+pub use exposure::{Ambience, key_illuminance};
+pub use forward::{Forward, Geometry, Shows};
+pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
+pub use tonemap::Tonemap;

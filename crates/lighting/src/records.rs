@@ -1,0 +1,229 @@
+//! The camera and the lights as shaders read them: `View` and `Light` of `shadowgraph::view`.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
+use shadowgraph_core::{Buffer, Frame};
+use shadowgraph_scene::{Camera, Light, LightKind, Projection};
+
+use crate::Ambience;
+
+/// The camera of a frame, 256 bytes. World space here is relative to the frame's origin.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct GpuView {
+    /// World to clip space; depth reversed.
+    pub clip_from_world: Mat4,
+    /// Clip space to world.
+    pub world_from_clip: Mat4,
+    /// World to view space.
+    pub view_from_world: Mat4,
+    /// Where the camera is, metres.
+    pub position: Vec3,
+    /// Near plane, metres.
+    pub near: f32,
+    /// Picture size, pixels.
+    pub size_px: Vec2,
+    /// Far plane, metres; 0: infinitely far.
+    pub far: f32,
+    /// What radiance is multiplied by.
+    pub exposure: f32,
+    /// Radiance of the sky.
+    pub ambient_sky: Vec3,
+    /// How many lights there are.
+    pub light_count: u32,
+    /// Radiance of the ground.
+    pub ambient_ground: Vec3,
+    /// 1 for an orthographic camera, else 0.
+    pub orthographic: u32,
+}
+
+/// A light, 64 bytes. World space here is relative to the frame's origin.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct GpuLight {
+    /// Where it is, metres; zero for directional lights.
+    pub position: Vec3,
+    /// 0 directional, 1 spot, 2 point.
+    pub kind: u32,
+    /// The way the light travels, unit length; zero for point lights.
+    pub direction: Vec3,
+    /// Metres; 0: no end.
+    pub range: f32,
+    /// Linear colour times lux or candela.
+    pub color: Vec3,
+    /// Spot cone: `saturate(cos(angle) * spot_scale + spot_offset)` squared.
+    pub spot_scale: f32,
+    /// See `spot_scale`.
+    pub spot_offset: f32,
+    /// Zero.
+    pub padding: [u32; 3],
+}
+
+/// A frame's camera and lights.
+pub struct ViewRecords {
+    /// The camera.
+    pub view: GpuView,
+    /// The lights, in the scene's order.
+    pub lights: Vec<GpuLight>,
+}
+
+/// The buffers behind bind group 0.
+#[derive(Clone, Debug)]
+pub struct ViewBuffers {
+    /// One [`GpuView`].
+    pub view: Buffer,
+    /// [`GpuLight`]s; one of zeros where there is no light.
+    pub lights: Buffer,
+}
+
+impl ViewRecords {
+    /// Describes what `camera` sees of `lights` in a picture of `size_px`, relative to `origin_world`.
+    pub fn new(
+        camera: &Camera,
+        size_px: [u32; 2],
+        lights: &[Light],
+        origin_world: DVec3,
+        ambience: &Ambience,
+    ) -> Self {
+        let view = GpuView {
+            ambient_sky: ambience.sky,
+            ambient_ground: ambience.ground,
+            exposure: ambience.exposure,
+            light_count: lights.len() as u32,
+            ..GpuView::of_camera(camera, size_px, origin_world)
+        };
+        Self { view, lights: lights.iter().map(|light| GpuLight::new(light, origin_world)).collect() }
+    }
+
+    /// Adds the node that writes the records.
+    pub fn upload(&self, frame: &mut Frame<'_>) -> ViewBuffers {
+        let none = [GpuLight::zeroed()];
+        let lights = if self.lights.is_empty() { &none } else { &self.lights[..] };
+        frame.node("view", |frame| ViewBuffers {
+            view: frame.upload_buffer("view", bytemuck::bytes_of(&self.view).to_vec()),
+            lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
+        })
+    }
+}
+
+impl GpuView {
+    fn of_camera(camera: &Camera, size_px: [u32; 2], origin_world: DVec3) -> Self {
+        let [width, height] = size_px.map(f64::from);
+        // In f64 up to the end: the translation is small once it is relative to the origin.
+        let view_from_world = camera.view_from_world() * DMat4::from_translation(origin_world);
+        let clip_from_world = camera.clip_from_view(width / height) * view_from_world;
+        Self {
+            clip_from_world: clip_from_world.as_mat4(),
+            world_from_clip: clip_from_world.inverse().as_mat4(),
+            view_from_world: view_from_world.as_mat4(),
+            position: (camera.position_world() - origin_world).as_vec3(),
+            near: camera.near() as f32,
+            size_px: Vec2::new(width as f32, height as f32),
+            far: camera.far().map_or(0.0, |far| far as f32),
+            orthographic: u32::from(matches!(camera.projection, Projection::Orthographic { .. })),
+            ..Self::zeroed()
+        }
+    }
+}
+
+impl GpuLight {
+    /// Describes a light relative to `origin_world`.
+    pub fn new(light: &Light, origin_world: DVec3) -> Self {
+        let relative = |position: DVec3| (position - origin_world).as_vec3();
+        let range = |range: Option<f64>| range.map_or(0.0, |range| range as f32);
+        let record = Self {
+            kind: u32::from(light.kind.order()),
+            color: light.color * light.intensity,
+            ..Self::zeroed()
+        };
+        match light.kind {
+            LightKind::Directional { direction } => Self { direction: direction.as_vec3(), ..record },
+            LightKind::Point { position_world, range: end } => {
+                Self { position: relative(position_world), range: range(end), ..record }
+            }
+            LightKind::Spot { position_world, direction, range: end, inner_angle, outer_angle } => {
+                // KHR_lights_punctual: full light up to the inner angle, none from the outer angle on.
+                let scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(0.001);
+                Self {
+                    position: relative(position_world),
+                    direction: direction.as_vec3(),
+                    range: range(end),
+                    spot_scale: scale as f32,
+                    spot_offset: (-outer_angle.cos() * scale) as f32,
+                    ..record
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+    use shadowgraph_shaders::{PCF, compose, layout};
+    use std::mem::offset_of;
+
+    #[test]
+    fn records_have_the_layout_of_the_wgsl() {
+        let module = compose("forward.wgsl", &[PCF]).unwrap();
+        let view = [
+            ("clip_from_world", offset_of!(GpuView, clip_from_world)),
+            ("world_from_clip", offset_of!(GpuView, world_from_clip)),
+            ("view_from_world", offset_of!(GpuView, view_from_world)),
+            ("position", offset_of!(GpuView, position)),
+            ("near", offset_of!(GpuView, near)),
+            ("size_px", offset_of!(GpuView, size_px)),
+            ("far", offset_of!(GpuView, far)),
+            ("exposure", offset_of!(GpuView, exposure)),
+            ("ambient_sky", offset_of!(GpuView, ambient_sky)),
+            ("light_count", offset_of!(GpuView, light_count)),
+            ("ambient_ground", offset_of!(GpuView, ambient_ground)),
+            ("orthographic", offset_of!(GpuView, orthographic)),
+        ];
+        layout::check(&module, "View", size_of::<GpuView>(), &view).unwrap();
+        let light = [
+            ("position", offset_of!(GpuLight, position)),
+            ("kind", offset_of!(GpuLight, kind)),
+            ("direction", offset_of!(GpuLight, direction)),
+            ("range", offset_of!(GpuLight, range)),
+            ("color", offset_of!(GpuLight, color)),
+            ("spot_scale", offset_of!(GpuLight, spot_scale)),
+            ("spot_offset", offset_of!(GpuLight, spot_offset)),
+        ];
+        layout::check(&module, "Light", size_of::<GpuLight>(), &light).unwrap();
+    }
+
+    fn spot(inner_angle: f64, outer_angle: f64) -> GpuLight {
+        let kind = LightKind::Spot {
+            position_world: DVec3::new(1024.5, 0.0, 0.0),
+            direction: DVec3::NEG_Y,
+            range: None,
+            inner_angle,
+            outer_angle,
+        };
+        let light = Light { name: None, kind, color: Vec3::ONE, intensity: 2.0, casts_shadow: true };
+        GpuLight::new(&light, DVec3::new(1024.0, 0.0, 0.0))
+    }
+
+    #[test]
+    fn a_spot_is_full_inside_its_inner_angle_and_nothing_outside_its_outer_angle() {
+        let light = spot(0.3, 0.6);
+        let factor = |angle: f32| (angle.cos() * light.spot_scale + light.spot_offset).clamp(0.0, 1.0);
+        assert_eq!(factor(0.2), 1.0);
+        assert!(factor(0.601) < 1e-3 && factor(0.45) > 0.0);
+        assert_eq!(light.position, Vec3::new(0.5, 0.0, 0.0));
+    }
+
+    #[test]
+    fn positions_keep_their_precision_far_from_the_world_origin() {
+        let eye = DVec3::new(1.0e7 + 0.125, 2.0, -3.0e6);
+        let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
+        let camera = Camera::look_at(eye, eye + DVec3::NEG_Z, DVec3::Y, projection);
+        let origin_world = shadowgraph_scene::origin_near(eye);
+        let records = ViewRecords::new(&camera, [64, 64], &[], origin_world, &Ambience::for_key(1.0));
+        assert_eq!(records.view.position.as_dvec3() + origin_world, eye);
+        let clip = records.view.clip_from_world * (records.view.position + Vec3::NEG_Z * 0.1).extend(1.0);
+        assert!((clip.z / clip.w - 1.0).abs() < 1e-4, "the near plane has depth 1: {clip}");
+    }
+}
