@@ -1,0 +1,212 @@
+//! The command line.
+
+use crate::failure::Failure;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use shadowgraph::options::{OptionError, Options, SettingsFile, ShadowDistance};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+const USEFUL: &str = "\
+The three most useful commands:
+  shadowgraph render model.glb --sun \"dir=-1,-2,-1 lux=20000\" -o out/model.png
+  shadowgraph render model.glb --aov visibility:0 -o out/shadow.png
+  shadowgraph dump model.glb --format text
+
+Without a SCENE the built-in demo scene is taken.";
+
+/// Draws scenes with shadows through a render graph, and shows the graph.
+#[derive(Debug, Parser)]
+#[command(name = "shadowgraph", version, after_help = USEFUL)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Draw a glTF or GLB file, or the built-in scene, to a PNG
+    Render(RenderArgs),
+    /// Show the plan of a frame: passes, resources, and why each is as it is
+    Dump(DumpArgs),
+}
+
+/// `shadowgraph render`
+#[derive(Debug, Args)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+    /// The PNG; a missing folder is created
+    #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
+    pub(crate) output: PathBuf,
+}
+
+/// `shadowgraph dump`
+#[derive(Debug, Args)]
+pub(crate) struct DumpArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+    /// The form of the dump
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+    /// The file; a missing folder is created. Without it the dump goes to standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// The form of a dump.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Aligned tables
+    Text,
+    /// Data for tools
+    Json,
+    /// Graphviz
+    Dot,
+}
+
+/// The options that all drawing commands share.
+#[derive(Debug, Args)]
+pub(crate) struct DrawArgs {
+    /// A glTF or GLB file; without it the built-in demo scene
+    pub(crate) scene: Option<PathBuf>,
+    /// The pipeline: forward
+    #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
+    pipeline: String,
+    /// The sun's shadow technique: pcf
+    #[arg(long, value_name = "NAME", default_value = "pcf")]
+    technique: String,
+    /// Shadow settings in RON
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
+    /// Size of the picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    size: String,
+    /// A camera of the file by index or name, or "eye=X,Y,Z target=X,Y,Z fov_deg=F near=N far=F"
+    /// (fov_deg is vertical). Default: the file's first, else one that frames the scene
+    #[arg(long, value_name = "CAMERA")]
+    camera: Option<String>,
+    /// "dir=X,Y,Z lux=L color=R,G,B" replaces the file's directional lights (dir = the way the light
+    /// travels); none removes them
+    #[arg(long, value_name = "SUN")]
+    sun: Option<String>,
+    /// How far shadows reach, metres. Default: what --settings says, else auto, as far as the scene is seen
+    #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
+    shadow_distance: Option<String>,
+    /// What the picture shows: color, visibility:N (light N), cascade, depth, normal, atlas, or a
+    /// texture of the graph by name
+    #[arg(long, value_name = "NAME", default_value = "color")]
+    aov: String,
+    /// Which GPU; cpu insists on a software driver
+    #[arg(long, value_name = "auto|NAME|cpu", default_value = "auto")]
+    adapter: String,
+    /// Print a table of CPU and GPU time per pass
+    #[arg(long)]
+    timings: bool,
+}
+
+impl DrawArgs {
+    /// Parses and checks every option.
+    ///
+    /// # Errors
+    /// One line with the option and what is wrong with its value.
+    pub(crate) fn options(&self) -> Result<Options, Failure> {
+        let file = self.settings.as_deref().map(SettingsFile::load).transpose()?.unwrap_or_default();
+        let shadow_distance = match &self.shadow_distance {
+            None if file.has_distance => ShadowDistance::Metres(file.settings.distance_m.into()),
+            given => or_default(given.as_deref())?,
+        };
+        Ok(Options {
+            pipeline: self.pipeline.parse()?,
+            technique: self.technique.parse()?,
+            settings: file.settings,
+            size: self.size.parse()?,
+            camera: or_default(self.camera.as_deref())?,
+            sun: or_default(self.sun.as_deref())?,
+            shadow_distance,
+            aov: self.aov.parse()?,
+            adapter: self.adapter.parse()?,
+            timings: self.timings,
+        })
+    }
+}
+
+fn or_default<T: FromStr<Err = OptionError> + Default>(text: Option<&str>) -> Result<T, OptionError> {
+    text.map_or_else(|| Ok(T::default()), str::parse)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+    use clap::CommandFactory;
+    use shadowgraph::options::{AdapterChoice, Aov};
+
+    fn options(line: &str) -> Result<Options, String> {
+        let words =
+            ["shadowgraph", "render"].into_iter().chain(line.split(';').filter(|word| !word.is_empty()));
+        let cli = Cli::try_parse_from(words).map_err(|error| error.to_string())?;
+        let Some(Command::Render(args)) = cli.command else { panic!("{cli:?}") };
+        args.draw.options().map_err(|failure| failure.message)
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn no_option_at_all_means_the_defaults() {
+        assert_eq!(options("").unwrap(), Options::default());
+    }
+
+    #[test]
+    fn every_option_of_the_design_is_taken() {
+        let line = "scene.glb;--pipeline;forward;--technique;pcf;--size;320x180;--camera;1;--sun;none;\
+            --shadow-distance;80;--aov;visibility:1;--adapter;cpu;--timings;-o;a/b.png";
+        let options = options(line).unwrap();
+        assert_eq!(options.size.to_string(), "320x180");
+        assert_eq!(options.aov, Aov::Visibility(1));
+        assert_eq!(options.adapter, AdapterChoice::Cpu);
+        assert_eq!(options.shadow_distance, ShadowDistance::Metres(80.0));
+        assert!(options.timings);
+    }
+
+    #[test]
+    fn a_wrong_value_is_one_line_with_the_option() {
+        for (line, start) in [
+            ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf"),
+            ("--pipeline;my.ron", "--pipeline: there is no pipeline `my.ron`; there is: forward"),
+            ("--size;0x4", "--size: the width 0"),
+            ("--sun;dir=0,0,0", "--sun: dir has no length"),
+            ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
+        ] {
+            let error = options(line).unwrap_err();
+            assert!(error.starts_with(start) && error.lines().count() == 1, "{error}");
+        }
+    }
+
+    #[test]
+    fn the_distance_of_the_settings_holds_unless_the_option_says_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("settings.ron");
+        std::fs::write(&file, "(distance_m: 60.0)").unwrap();
+        let line = format!("--settings;{}", file.display());
+        assert_eq!(options(&line).unwrap().shadow_distance, ShadowDistance::Metres(60.0));
+        assert_eq!(
+            options(&format!("{line};--shadow-distance;auto")).unwrap().shadow_distance,
+            ShadowDistance::Auto
+        );
+    }
+
+    #[test]
+    fn a_value_that_starts_with_a_minus_sign_reaches_its_option() {
+        let error = options("--shadow-distance;-3").unwrap_err();
+        assert!(error.starts_with("--shadow-distance: `-3` is neither auto"), "{error}");
+    }
+
+    #[test]
+    fn the_help_names_the_most_useful_commands() {
+        let help = Cli::command().render_help().to_string();
+        assert!(help.contains("three most useful") && help.contains("shadowgraph dump model.glb"), "{help}");
+    }
+}

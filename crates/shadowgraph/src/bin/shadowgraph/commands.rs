@@ -1,0 +1,116 @@
+//! The commands, one call per step.
+
+use std::path::Path;
+
+use crate::args::{DrawArgs, DumpArgs, Format, RenderArgs};
+use crate::console;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report;
+use shadowgraph::core::Timer;
+use shadowgraph::options::{Aov, Options};
+use shadowgraph::output::{Pixels, write_png, write_text};
+use shadowgraph::scene::{Camera, Scene};
+use shadowgraph::{Drawn, Gpu, Picture, Renderer, ViewOptions};
+
+/// What every drawing command starts from.
+struct Input {
+    options: Options,
+    scene: Scene,
+    camera: Camera,
+}
+
+/// `shadowgraph render`
+pub(crate) fn render(args: &RenderArgs) -> Result<(), Failure> {
+    let input = input(&args.draw)?;
+    let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+    let drawn = draw(&gpu, input)?;
+    let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
+    let [width, height] = drawn.size_px;
+    write_png(&args.output, width, height, pixels, &bytes)?;
+    if drawn.timings {
+        console::print(&report::times(&drawn.view.times, &gpu.adapter))?;
+    }
+    Ok(())
+}
+
+struct DrawnView {
+    view: Drawn,
+    size_px: [u32; 2],
+    aov: Aov,
+    timings: bool,
+}
+
+fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
+    let _drawing = Progress::if_slow("drawing");
+    let Options { aov, timings, .. } = input.options.clone();
+    let view = view_options(&input);
+    let mut renderer = Renderer::new(gpu, input.scene, &input.camera, aov.clone())?;
+    let mut timer = timings.then(Timer::new);
+    if timings {
+        // A software driver compiles shaders at the first draw.
+        renderer.draw(gpu, &view)?;
+    }
+    let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
+    for unshadowed in &drawn.unshadowed {
+        console::warning(&report::unshadowed(renderer.scene(), unshadowed));
+    }
+    Ok(DrawnView { view: drawn, size_px: view.size_px, aov, timings })
+}
+
+/// `shadowgraph dump`
+pub(crate) fn dump(args: &DumpArgs) -> Result<(), Failure> {
+    let input = input(&args.draw)?;
+    // A plan needs no GPU.
+    let gpu = Gpu::noop()?;
+    let view = view_options(&input);
+    let renderer = Renderer::new(&gpu, input.scene, &input.camera, input.options.aov.clone())?;
+    let (plan, unshadowed) = renderer.plan(&view)?;
+    let text = match args.format {
+        Format::Text => report::text(renderer.scene(), &plan, &unshadowed),
+        Format::Json => report::json(renderer.scene(), &plan, &unshadowed)?,
+        Format::Dot => plan.to_dot(),
+    };
+    match &args.output {
+        Some(file) => Ok(write_text(file, &text)?),
+        None => console::print(&text),
+    }
+}
+
+/// Parses the options, loads the scene and applies the options to it.
+fn input(args: &DrawArgs) -> Result<Input, Failure> {
+    let options = args.options()?;
+    let mut scene = load(args.scene.as_deref())?;
+    scene.notes.iter().for_each(|note| console::warning(note));
+    if let Some(note) = options.sun.apply(&mut scene) {
+        console::warning(&note);
+    }
+    let camera = options.camera.of(&scene, options.size.aspect())?;
+    Ok(Input { options, scene, camera })
+}
+
+fn load(file: Option<&Path>) -> Result<Scene, Failure> {
+    match file {
+        Some(file) => {
+            let _loading = Progress::now(&format!("loading {}", file.display()));
+            Ok(shadowgraph::scene::gltf::load(file)?)
+        }
+        None => Ok(shadowgraph::scene::demo::demo_scene()),
+    }
+}
+
+fn view_options(input: &Input) -> ViewOptions {
+    let Options { size, settings, shadow_distance, .. } = &input.options;
+    let size_px = [size.width_px, size.height_px];
+    ViewOptions { camera: input.camera.clone(), size_px, shadows: settings.clone() }
+        .with_shadow_distance(*shadow_distance, &input.scene)
+}
+
+/// What of a picture goes into the file.
+fn file_pixels(aov: &Aov, picture: Picture) -> (Pixels, Vec<u8>) {
+    let pixels = picture.rgba8.chunks_exact(4);
+    match aov {
+        Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),
+        _ => (Pixels::Rgb, pixels.flat_map(|p| [p[0], p[1], p[2]]).collect()),
+    }
+}

@@ -1,0 +1,39 @@
+//! The `shadowgraph` program.
+//!
+//! Exit codes: 0 done, 1 the input or a setting is wrong, 2 usage, 3 no usable adapter. Whatever is wrong
+//! is told in one line on standard error that starts with `error:`.
+
+mod args;
+mod commands;
+mod console;
+mod failure;
+mod progress;
+mod report;
+
+use args::{Cli, Command};
+use clap::{CommandFactory, Parser};
+use failure::Failure;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let done = match Cli::try_parse() {
+        Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
+        Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args),
+        Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args),
+        Err(usage) => return tell_usage(&usage),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            console::error(&failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Help and version go to standard output with code 0, wrong usage to standard error with code 2.
+fn tell_usage(usage: &clap::Error) -> ExitCode {
+    // Nobody may be left to read it.
+    let _unread = usage.print();
+    if usage.use_stderr() { ExitCode::from(Failure::USAGE) } else { ExitCode::SUCCESS }
+}

@@ -1,0 +1,124 @@
+//! What the program tells of a scene, a plan and its times. Tables are at most 110 columns wide.
+
+use std::fmt::Write as _;
+
+use crate::failure::Failure;
+use serde_json::{Value, json};
+use shadowgraph::core::{PassTime, Plan};
+use shadowgraph::scene::{Light, LightKind, Scene};
+use shadowgraph::shadows::Unshadowed;
+use shadowgraph::wgpu::AdapterInfo;
+
+/// The plan as text, with the scene's lights.
+pub(crate) fn text(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> String {
+    let mut out = plan.to_text();
+    out.push_str("\nlights\n");
+    if scene.lights.is_empty() {
+        out.push_str("  none\n");
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        let name: String = light.name.as_deref().unwrap_or("-").chars().take(28).collect();
+        let strength = format!("{:.1} {}", light.intensity, unit(light));
+        let shadows = shadows(light, index, unshadowed);
+        let _ = writeln!(out, "  {index:>3}  {:<12} {name:<28} {strength:>14}  {shadows}", kind(light));
+    }
+    out
+}
+
+/// The plan as JSON, with the scene's lights.
+pub(crate) fn json(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> Result<String, Failure> {
+    let mut document: Value = serde_json::from_str(&plan.to_json()?)?;
+    let lights = scene.lights.iter().enumerate().map(|(index, light)| {
+        json!({
+            "index": index,
+            "kind": kind(light),
+            "name": light.name,
+            "intensity": light.intensity,
+            "unit": unit(light),
+            "shadows": shadows(light, index, unshadowed),
+        })
+    });
+    document["lights"] = lights.collect();
+    let mut text = serde_json::to_string_pretty(&document)?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Why a light has no shadows, in a sentence.
+pub(crate) fn unshadowed(scene: &Scene, unshadowed: &Unshadowed) -> String {
+    let light = scene.lights.get(unshadowed.light as usize);
+    let name = light.and_then(|light| light.name.as_deref()).unwrap_or("without a name");
+    let kind = light.map_or("unknown", kind);
+    format!("light {} ({kind}, {name}) has no shadows: {}", unshadowed.light, unshadowed.reason.text())
+}
+
+/// A table of times per pass, by node.
+pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
+    let mut out = format!("times on {}\n  {:<60} {:>10} {:>10}\n", adapter.name, "pass", "CPU ms", "GPU ms");
+    let mut nodes: Vec<&str> = Vec::new();
+    for time in times {
+        if !nodes.contains(&time.node.as_str()) {
+            nodes.push(&time.node);
+        }
+    }
+    for node in nodes {
+        let of_node = || times.iter().filter(|time| time.node == node);
+        let _ = writeln!(out, "  {}", if node.is_empty() { "(no node)" } else { node });
+        for time in of_node() {
+            let name = time.pass.rsplit('/').next().unwrap_or_default();
+            let _ = writeln!(out, "    {name:<58} {}", columns(time.cpu_ms, time.gpu_ms));
+        }
+    }
+    let gpu_ms = times.iter().filter_map(|time| time.gpu_ms).reduce(|a, b| a + b);
+    let cpu_ms = times.iter().map(|time| time.cpu_ms).sum();
+    let _ = writeln!(out, "  {:<60} {}", "sum", columns(cpu_ms, gpu_ms));
+    out
+}
+
+fn columns(cpu_ms: f64, gpu_ms: Option<f64>) -> String {
+    format!("{cpu_ms:>10.3} {:>10}", gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}")))
+}
+
+fn kind(light: &Light) -> &'static str {
+    match light.kind {
+        LightKind::Directional { .. } => "directional",
+        LightKind::Spot { .. } => "spot",
+        LightKind::Point { .. } => "point",
+    }
+}
+
+fn unit(light: &Light) -> &'static str {
+    if matches!(light.kind, LightKind::Directional { .. }) { "lx" } else { "cd" }
+}
+
+fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String {
+    let missing = unshadowed.iter().find(|unshadowed| unshadowed.light as usize == index);
+    match missing {
+        _ if !light.casts_shadow => "no shadows asked for".into(),
+        Some(missing) => format!("no shadows: {}", missing.reason.text()),
+        None => "casts shadows".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_grouped_by_node_and_summed() {
+        let time = |pass: &str, node: &str, gpu_ms| PassTime {
+            pass: pass.into(),
+            node: node.into(),
+            cpu_ms: 1.0,
+            gpu_ms,
+        };
+        let list = [time("a/x", "a", Some(2.0)), time("y", "", None), time("a/z", "a", Some(0.5))];
+        let table = columns(3.0, Some(2.5));
+        let adapter = shadowgraph::Gpu::noop().map(|gpu| gpu.adapter);
+        let Ok(adapter) = adapter else { panic!("the noop adapter is always there") };
+        let text = times(&list, &adapter);
+        assert!(text.contains(&table), "{text}");
+        let (a, z, none) = (text.find("  a\n"), text.find("    z"), text.find("(no node)"));
+        assert!(a < z && z < none, "{text}");
+    }
+}

@@ -1,0 +1,67 @@
+//! What can go wrong between a scene and its picture.
+
+/// Why a scene could not be drawn. Every message is one line.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is no adapter to draw with.
+    #[error("no usable graphics adapter ({wanted}): {reason}")]
+    NoAdapter {
+        /// Which was asked for.
+        wanted: String,
+        /// What was found, and what to install.
+        reason: String,
+    },
+    /// The adapter gives no device.
+    #[error("{adapter} gives no device: {reason}")]
+    NoDevice {
+        /// The adapter's name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// The picture is larger than the adapter allows.
+    #[error("--size {width}x{height}: this adapter's max_texture_dimension_2d is {limit}")]
+    PictureSize {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// Pixels.
+        limit: u32,
+    },
+    /// A light that the scene does not have.
+    #[error("--aov visibility:{light}: {there_are}")]
+    NoLight {
+        /// The index asked for.
+        light: u32,
+        /// How many there are.
+        there_are: String,
+    },
+    /// A texture that the graph does not have.
+    #[error("--aov {name}: the graph has no such texture; it has: {known}")]
+    NoTexture {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// The GPU refused something that was recorded, or was lost.
+    #[error("the GPU failed: {0}")]
+    Gpu(String),
+    /// The frame does not compile or record.
+    #[error(transparent)]
+    Graph(#[from] shadowgraph_core::Error),
+    /// The scene does not load or fit.
+    #[error(transparent)]
+    Scene(#[from] shadowgraph_scene::Error),
+    /// The shadows cannot be planned.
+    #[error(transparent)]
+    Shadows(#[from] shadowgraph_shadows::Error),
+    /// The lit passes cannot be made.
+    #[error(transparent)]
+    Lighting(#[from] shadowgraph_lighting::Error),
+    /// A shader does not compose.
+    #[error(transparent)]
+    Shader(#[from] shadowgraph_shaders::Error),
+}

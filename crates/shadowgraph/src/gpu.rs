@@ -1,0 +1,106 @@
+//! Finding an adapter and opening a device.
+
+use crate::Error;
+use crate::options::AdapterChoice;
+
+/// What to do where no adapter is found.
+const INSTALL: &str = "install a Vulkan driver, for example `sudo apt-get install mesa-vulkan-drivers`";
+
+/// Features that are used where the adapter has them.
+const WANTED: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
+    .union(wgpu::Features::TIMESTAMP_QUERY)
+    .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+
+/// A device, its queue and the adapter they come from.
+pub struct Gpu {
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// The adapter, for people.
+    pub adapter: wgpu::AdapterInfo,
+}
+
+impl Gpu {
+    /// Opens a device without a window.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`] says what to install, or which adapters there are; [`Error::NoDevice`] if the driver
+    /// refuses.
+    pub fn open(choice: &AdapterChoice) -> Result<Self, Error> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::PRIMARY,
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        });
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+        Self::from_adapter(&choose(adapters, choice)?)
+    }
+
+    /// Opens wgpu's noop device: everything is validated and nothing is drawn. For plans without a GPU.
+    ///
+    /// # Errors
+    /// None in practice: the noop adapter is always there.
+    pub fn noop() -> Result<Self, Error> {
+        let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::NOOP,
+            backend_options: wgpu::BackendOptions { noop, ..Default::default() },
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        });
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::NOOP));
+        Self::from_adapter(&choose(adapters, &AdapterChoice::Auto)?)
+    }
+
+    /// Opens a device of `adapter`, with the features that are of use here and its limits for sizes.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] if the driver refuses.
+    pub fn from_adapter(adapter: &wgpu::Adapter) -> Result<Self, Error> {
+        let info = adapter.get_info();
+        let (has, default) = (adapter.limits(), wgpu::Limits::default());
+        let limits = wgpu::Limits {
+            max_buffer_size: has.max_buffer_size,
+            max_storage_buffer_binding_size: has.max_storage_buffer_binding_size,
+            ..default.using_resolution(has)
+        };
+        let device = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("shadowgraph"),
+            required_features: adapter.features() & WANTED,
+            required_limits: limits,
+            ..Default::default()
+        }));
+        let (device, queue) = device
+            .map_err(|error| Error::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+        Ok(Self { device, queue, adapter: info })
+    }
+}
+
+/// The best adapter of those that are asked for.
+fn choose(adapters: Vec<wgpu::Adapter>, choice: &AdapterChoice) -> Result<wgpu::Adapter, Error> {
+    let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let fits = |info: &wgpu::AdapterInfo| match choice {
+        AdapterChoice::Auto => true,
+        AdapterChoice::Cpu => info.device_type == wgpu::DeviceType::Cpu,
+        AdapterChoice::Name(_) => choice.is_named(&info.name),
+    };
+    let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    };
+    let found = adapters.into_iter().filter(|adapter| fits(&adapter.get_info())).min_by_key(rank);
+    found.ok_or_else(|| {
+        let wanted = match choice {
+            AdapterChoice::Auto => "any",
+            AdapterChoice::Cpu => "a software driver",
+            AdapterChoice::Name(name) => name,
+        };
+        let reason = match names.as_slice() {
+            [] => INSTALL.into(),
+            names => format!("there is: {}; {INSTALL}", names.join(", ")),
+        };
+        Error::NoAdapter { wanted: wanted.into(), reason }
+    })
+}

@@ -1,0 +1,43 @@
+//! A render-graph framework for wgpu whose shadow passes are nodes.
+//!
+//! - [`core`] is the graph: declare passes and what they read and write, compile, record. It knows nothing of
+//!   scenes or shadows.
+//! - [`scene`] has cameras, lights, meshes and materials, and imports glTF.
+//! - [`shadows`] has the shadow techniques and their contract, [`lighting`] the passes that consume them.
+//! - This crate wires them up: [`Renderer`] draws a scene with a pipeline of [`pipelines`], which is a script of one
+//!   call per step, there to be copied and edited.
+//!
+//! ```
+//! use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
+//!
+//! let mut frame = Frame::new();
+//! let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+//! frame.render_pass("clear").color(&mut color, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
+//! frame.export_texture(&color);
+//! println!("{}", frame.compile()?.plan().to_text());
+//! # Ok::<(), shadowgraph::core::Error>(())
+//! ```
+
+mod casters;
+mod error;
+mod gpu;
+pub mod options;
+pub mod output;
+mod picture;
+pub mod pipelines;
+mod renderer;
+mod show;
+
+pub use casters::SceneCasters;
+pub use error::Error;
+pub use gpu::Gpu;
+pub use picture::{Drawn, Picture};
+pub use renderer::{Renderer, ViewOptions};
+pub use show::Show;
+
+pub use shadowgraph_core as core;
+pub use shadowgraph_core::wgpu;
+pub use shadowgraph_lighting as lighting;
+pub use shadowgraph_scene as scene;
+pub use shadowgraph_shaders as shaders;
+pub use shadowgraph_shadows as shadows;

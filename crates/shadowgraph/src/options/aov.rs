@@ -1,0 +1,101 @@
+//! `--aov`: what the picture shows.
+
+use super::OptionError;
+use std::fmt;
+use std::str::FromStr;
+
+const OPTION: &str = "--aov";
+
+/// What the picture shows (AOV: arbitrary output variable).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Aov {
+    /// The finished picture.
+    #[default]
+    Color,
+    /// The visibility of a light by its index, 8 bit each of grey (255 lit, 0 in shadow) and alpha (0
+    /// where nothing is drawn or the surface faces away from the light).
+    Visibility(u32),
+    /// Which cascade shades each pixel.
+    Cascade,
+    /// The depth.
+    Depth,
+    /// The shading normal.
+    Normal,
+    /// The shadow atlas.
+    Atlas,
+    /// A texture of the graph by name.
+    Texture(String),
+}
+
+impl fmt::Display for Aov {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Color => f.write_str("color"),
+            Self::Visibility(light) => write!(f, "visibility:{light}"),
+            Self::Cascade => f.write_str("cascade"),
+            Self::Depth => f.write_str("depth"),
+            Self::Normal => f.write_str("normal"),
+            Self::Atlas => f.write_str("atlas"),
+            Self::Texture(name) => f.write_str(name),
+        }
+    }
+}
+
+impl FromStr for Aov {
+    type Err = OptionError;
+
+    /// ```
+    /// use shadowgraph::options::Aov;
+    /// assert_eq!("depth".parse(), Ok(Aov::Depth));
+    /// assert_eq!("visibility:0".parse(), Ok(Aov::Visibility(0)));
+    /// assert_eq!("hdr".parse(), Ok(Aov::Texture("hdr".to_owned())));
+    /// ```
+    fn from_str(text: &str) -> Result<Self, OptionError> {
+        let light = text.strip_prefix("visibility").filter(|rest| rest.is_empty() || rest.starts_with(':'));
+        if let Some(light) = light {
+            let number = light.trim_start_matches(':').parse().ok();
+            let reason =
+                format!("`{text}` needs the number of a light, such as visibility:0 (dump lists the lights)");
+            return number.map(Self::Visibility).ok_or_else(|| OptionError::new(OPTION, reason));
+        }
+        Ok(match text {
+            "" => return Err(OptionError::new(OPTION, "it is empty; color is the default")),
+            "color" => Self::Color,
+            "cascade" => Self::Cascade,
+            "depth" => Self::Depth,
+            "normal" => Self::Normal,
+            "atlas" => Self::Atlas,
+            name => Self::Texture(name.to_owned()),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn every_name_reads_as_it_prints() {
+        for text in [
+            "color",
+            "visibility:3",
+            "cascade",
+            "depth",
+            "normal",
+            "atlas",
+            "shadow/cascades",
+            "visibility_mask",
+        ] {
+            assert_eq!(text.parse::<Aov>().unwrap().to_string(), text);
+        }
+    }
+
+    #[test]
+    fn visibility_without_a_lights_number_is_refused() {
+        for text in ["visibility", "visibility:", "visibility:sun", "visibility:-1", "visibility:99999999999"]
+        {
+            assert!(text.parse::<Aov>().unwrap_err().to_string().contains("such as visibility:0"), "{text}");
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! `--shadow-distance`
+
+use super::OptionError;
+use super::pairs::Range;
+use std::str::FromStr;
+
+const OPTION: &str = "--shadow-distance";
+const METRES: Range = Range::above(0.0, 1.0e6, "metres");
+
+/// How far from the camera the sun's shadows reach.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ShadowDistance {
+    /// As far as the visible part of the scene's bounds, at most the far plane.
+    #[default]
+    Auto,
+    /// This far, metres, above 0.
+    Metres(f64),
+}
+
+impl FromStr for ShadowDistance {
+    type Err = OptionError;
+
+    /// ```
+    /// use shadowgraph::options::ShadowDistance;
+    /// assert_eq!("auto".parse(), Ok(ShadowDistance::Auto));
+    /// assert_eq!("80".parse(), Ok(ShadowDistance::Metres(80.0)));
+    /// ```
+    fn from_str(text: &str) -> Result<Self, OptionError> {
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        let metres = text.parse().ok().filter(|metres| METRES.contains(*metres));
+        let reason = || format!("`{text}` is neither auto nor in the range {METRES}");
+        metres.map(Self::Metres).ok_or_else(|| OptionError::new(OPTION, reason()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn what_is_neither_auto_nor_a_distance_is_refused_with_the_range() {
+        for text in ["", "0", "-1", "NaN", "inf", "far", "1e7"] {
+            let error = text.parse::<ShadowDistance>().unwrap_err().to_string();
+            assert_eq!(
+                error,
+                format!(
+                    "--shadow-distance: `{text}` is neither auto nor in the range above 0 to 1000000 metres"
+                )
+            );
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! `--technique` and `--pipeline`: what exists by name.
+
+use super::OptionError;
+use std::str::FromStr;
+
+/// The names of the sun's shadow techniques, the default first.
+pub const TECHNIQUES: &[&str] = &["pcf"];
+
+/// The names of the built-in pipelines, the default first.
+pub const PIPELINES: &[&str] = &["forward"];
+
+/// A shadow technique that exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Technique(&'static str);
+
+/// A built-in pipeline that exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pipeline(&'static str);
+
+impl Technique {
+    /// Returns its name, one of [`TECHNIQUES`].
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.0
+    }
+}
+
+impl Pipeline {
+    /// Returns its name, one of [`PIPELINES`].
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.0
+    }
+}
+
+impl Default for Technique {
+    fn default() -> Self {
+        Self("pcf")
+    }
+}
+
+impl Default for Pipeline {
+    fn default() -> Self {
+        Self("forward")
+    }
+}
+
+impl FromStr for Technique {
+    type Err = OptionError;
+
+    /// ```
+    /// use shadowgraph::options::Technique;
+    /// assert_eq!("pcf".parse(), Ok(Technique::default()));
+    /// let error = "soft".parse::<Technique>().unwrap_err();
+    /// assert_eq!(error.to_string(), "--technique: there is no technique `soft`; there is: pcf");
+    /// ```
+    fn from_str(text: &str) -> Result<Self, OptionError> {
+        known("--technique", "technique", text, TECHNIQUES).map(Self)
+    }
+}
+
+impl FromStr for Pipeline {
+    type Err = OptionError;
+
+    fn from_str(text: &str) -> Result<Self, OptionError> {
+        known("--pipeline", "pipeline", text, PIPELINES).map(Self)
+    }
+}
+
+fn known(
+    option: &'static str,
+    what: &str,
+    text: &str,
+    names: &[&'static str],
+) -> Result<&'static str, OptionError> {
+    let found = names.iter().find(|name| **name == text).copied();
+    let reason = || format!("there is no {what} `{text}`; there is: {}", names.join(", "));
+    found.ok_or_else(|| OptionError::new(option, reason()))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_the_first_of_their_lists() {
+        assert_eq!(Technique::default().name(), TECHNIQUES[0]);
+        assert_eq!(Pipeline::default().name(), PIPELINES[0]);
+    }
+
+    #[test]
+    fn an_unknown_name_is_refused_with_those_that_exist() {
+        let error = "deferred".parse::<Pipeline>().unwrap_err().to_string();
+        assert_eq!(error, "--pipeline: there is no pipeline `deferred`; there is: forward");
+    }
+}

@@ -1,0 +1,147 @@
+//! `key=value key=value`: the form of `--camera` and `--sun`.
+
+use super::OptionError;
+use glam::DVec3;
+use std::fmt;
+
+/// The values that a key may have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    min: f64,
+    max: f64,
+    /// Whether `min` itself is left out.
+    open: bool,
+    unit: &'static str,
+}
+
+impl Range {
+    pub(super) const fn within(min: f64, max: f64, unit: &'static str) -> Self {
+        Self { min, max, open: false, unit }
+    }
+
+    pub(super) const fn above(min: f64, max: f64, unit: &'static str) -> Self {
+        Self { min, max, open: true, unit }
+    }
+
+    /// Returns whether a value lies in the range; NaN never does.
+    pub(super) fn contains(&self, value: f64) -> bool {
+        value <= self.max && if self.open { value > self.min } else { value >= self.min }
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let start = if self.open { "above " } else { "" };
+        write!(
+            f,
+            "{start}{} to {}{}{}",
+            self.min,
+            self.max,
+            if self.unit.is_empty() { "" } else { " " },
+            self.unit
+        )
+    }
+}
+
+/// The keys of one option and their values, as text.
+pub(super) struct Pairs<'a> {
+    option: &'static str,
+    pairs: Vec<(&'a str, &'a str)>,
+}
+
+impl<'a> Pairs<'a> {
+    /// Splits `text`; a key that is not among `known`, or comes twice, is refused.
+    pub(super) fn parse(option: &'static str, text: &'a str, known: &[&str]) -> Result<Self, OptionError> {
+        let mut pairs: Vec<(&str, &str)> = Vec::new();
+        for word in text.split_whitespace() {
+            let Some((key, value)) = word.split_once('=') else {
+                return Err(OptionError::new(option, format!("`{word}` is not of the form key=value")));
+            };
+            if !known.contains(&key) {
+                let reason = format!("there is no key `{key}`; the keys are {}", known.join(", "));
+                return Err(OptionError::new(option, reason));
+            }
+            if pairs.iter().any(|(other, _)| *other == key) {
+                return Err(OptionError::new(option, format!("{key} is given twice")));
+            }
+            pairs.push((key, value));
+        }
+        Ok(Self { option, pairs })
+    }
+
+    /// Returns the error for a key that must be given.
+    pub(super) fn missing(&self, key: &str, form: &str) -> OptionError {
+        OptionError::new(self.option, format!("{key} is missing; write {form}"))
+    }
+
+    /// Returns a number within a range, `None` when the key is absent.
+    pub(super) fn number(&self, key: &str, range: Range) -> Result<Option<f64>, OptionError> {
+        let Some(text) = self.get(key) else { return Ok(None) };
+        self.one(key, text, text, range).map(Some)
+    }
+
+    /// Returns three numbers, each within a range, `None` when the key is absent.
+    pub(super) fn vector(&self, key: &str, range: Range) -> Result<Option<DVec3>, OptionError> {
+        let Some(text) = self.get(key) else { return Ok(None) };
+        let parts: Vec<&str> = text.split(',').collect();
+        let [x, y, z] = parts.as_slice() else {
+            let reason = format!("{key}={text} is not three numbers X,Y,Z without spaces");
+            return Err(OptionError::new(self.option, reason));
+        };
+        let one = |part: &str| self.one(key, text, part, range);
+        Ok(Some(DVec3::new(one(x)?, one(y)?, one(z)?)))
+    }
+
+    fn get(&self, key: &str) -> Option<&'a str> {
+        self.pairs.iter().find(|(other, _)| *other == key).map(|(_, value)| *value)
+    }
+
+    fn one(&self, key: &str, whole: &str, part: &str, range: Range) -> Result<f64, OptionError> {
+        let value: f64 = part.parse().map_err(|_| {
+            OptionError::new(self.option, format!("{key}={whole}: `{part}` is not a number; it is {range}"))
+        })?;
+        if range.contains(value) {
+            return Ok(value);
+        }
+        Err(OptionError::new(self.option, format!("{key}={whole} is out of range: {range}")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+
+    const RANGE: Range = Range::above(0.0, 10.0, "m");
+
+    fn error(text: &str) -> String {
+        let number = |text| Pairs::parse("--o", text, &["a", "b"])?.number("a", RANGE);
+        number(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn an_unknown_key_is_named_with_the_known_ones() {
+        assert_eq!(error("c=1"), "--o: there is no key `c`; the keys are a, b");
+    }
+
+    #[test]
+    fn a_key_given_twice_is_refused() {
+        assert_eq!(error("a=1 b=2 a=3"), "--o: a is given twice");
+    }
+
+    #[test]
+    fn nan_infinite_and_large_values_are_refused_with_the_range() {
+        for text in ["a=NaN", "a=inf", "a=-inf", "a=0", "a=10.5", "a=1e999"] {
+            assert!(error(text).ends_with("is out of range: above 0 to 10 m"), "{}", error(text));
+        }
+        assert_eq!(error("a=ten"), "--o: a=ten: `ten` is not a number; it is above 0 to 10 m");
+        assert_eq!(error("a="), "--o: a=: `` is not a number; it is above 0 to 10 m");
+    }
+
+    #[test]
+    fn a_vector_needs_exactly_three_numbers() {
+        let pairs = Pairs::parse("--o", "a=1,2 b=1,2,3", &["a", "b"]).unwrap();
+        assert!(pairs.vector("a", RANGE).unwrap_err().to_string().contains("not three numbers"));
+        assert_eq!(pairs.vector("b", RANGE).unwrap(), Some(DVec3::new(1.0, 2.0, 3.0)));
+    }
+}

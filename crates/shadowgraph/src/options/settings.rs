@@ -1,0 +1,93 @@
+//! `--settings FILE`: shadow settings in RON.
+
+use super::OptionError;
+use serde::Deserialize;
+use shadowgraph_shadows::ShadowSettings;
+use std::path::Path;
+
+const OPTION: &str = "--settings";
+
+/// Shadow settings as a file has them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SettingsFile {
+    /// The settings; what the file leaves out is the default.
+    pub settings: ShadowSettings,
+    /// Whether the file itself says how far shadows reach.
+    pub has_distance: bool,
+}
+
+impl SettingsFile {
+    /// Reads a RON file and checks every value.
+    ///
+    /// # Errors
+    /// When the file cannot be read, does not parse, has an unknown field, or a value is out of range: one
+    /// line with the file, the place, and the field.
+    pub fn load(file: &Path) -> Result<Self, OptionError> {
+        let refused = |reason: String| OptionError::new(OPTION, format!("{}: {reason}", file.display()));
+        let text =
+            std::fs::read_to_string(file).map_err(|error| refused(format!("cannot be read: {error}")))?;
+        let settings: ShadowSettings = ron::from_str(&text).map_err(|error| refused(error.to_string()))?;
+        settings.validate().map_err(|error| refused(error.to_string()))?;
+        Ok(Self { settings, has_distance: has_distance(&text) })
+    }
+}
+
+/// The one field for which it matters whether it was left out.
+fn has_distance(text: &str) -> bool {
+    #[derive(Deserialize)]
+    struct Distance {
+        #[serde(default = "absent")]
+        distance_m: f64,
+    }
+    fn absent() -> f64 {
+        f64::NAN
+    }
+    ron::from_str(text).is_ok_and(|distance: Distance| !distance.distance_m.is_nan())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+
+    fn load(text: &str) -> Result<SettingsFile, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("settings.ron");
+        std::fs::write(&file, text).unwrap();
+        SettingsFile::load(&file).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn an_empty_record_is_the_default() {
+        assert_eq!(load("()"), Ok(SettingsFile::default()));
+    }
+
+    #[test]
+    fn a_file_that_says_the_distance_is_told_from_one_that_does_not() {
+        let cascades = "cascades: (count: 2, split: Practical(lambda: 0.5))";
+        let without = load(&format!("({cascades})")).unwrap();
+        assert!(!without.has_distance && without.settings.cascades.count == 2);
+        let with = load(&format!("({cascades}, distance_m: 150.0)")).unwrap();
+        assert!(with.has_distance);
+        assert_eq!(with.settings, without.settings);
+    }
+
+    #[test]
+    fn an_unknown_field_is_named_with_the_file_and_the_place() {
+        let error = load("(no_such_field: 3)").unwrap_err();
+        assert!(error.contains("settings.ron: 1:") && error.contains("no_such_field"), "{error}");
+        assert_eq!(error.lines().count(), 1);
+    }
+
+    #[test]
+    fn a_value_out_of_range_is_named_with_the_range() {
+        let error = load("(cascades: (count: 9))").unwrap_err();
+        assert!(error.contains("cascades.count") && error.contains("1 to 4"), "{error}");
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_named() {
+        let error = SettingsFile::load(Path::new("no/such/file.ron")).unwrap_err().to_string();
+        assert!(error.starts_with("--settings: no/such/file.ron: cannot be read"), "{error}");
+    }
+}

@@ -1,0 +1,71 @@
+//! `forward`: shadow maps, a depth prepass, one lit pass, a tonemap.
+
+use shadowgraph_core::{Frame, Texture, TextureDesc};
+use shadowgraph_lighting::{Geometry, ViewRecords};
+use shadowgraph_shadows::{ShadowInputs, ShadowOutputs};
+
+use super::{Output, View};
+use crate::options::Aov;
+use crate::renderer::PICTURE_FORMAT;
+use crate::{Error, Renderer};
+
+/// Adds all passes of a view to a frame.
+///
+/// # Errors
+/// Shadow settings out of range, or an output that the frame does not have.
+pub fn forward<'f>(
+    frame: &mut Frame<'f>,
+    renderer: &'f Renderer,
+    view: &'f View<'f>,
+) -> Result<Output, Error> {
+    let Renderer { casters, technique, forward, tonemap, show, .. } = renderer;
+    let options = view.options;
+    let size_px = options.size_px;
+    let lights = &renderer.scene().lights;
+    let origin_world = casters.scene.origin_world();
+
+    // The camera and the lights, for every shader.
+    let records = ViewRecords::new(&options.camera, size_px, lights, origin_world, &view.ambience);
+    let buffers = records.upload(frame);
+
+    // Shadow maps, by whatever technique.
+    let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
+    let (camera, settings) = (&options.camera, &options.shadows);
+    let inputs = ShadowInputs { camera, aspect, lights, casters, origin_world, settings };
+    let shadows = technique.add_to(frame, &inputs)?;
+
+    // The scene, depth first.
+    let geometry = Geometry { scene: &casters.scene, draws: &view.draws, size_px };
+    let (depth, lit) = frame.node("lighting", |frame| {
+        let depth = forward.prepass(frame, &buffers, geometry);
+        let lit = forward.lit(frame, &buffers, &shadows, &depth, geometry);
+        (depth, lit)
+    });
+
+    // The picture. What an output does not need is culled.
+    let picture = frame.node("picture", |frame| match renderer.aov() {
+        Aov::Color => {
+            let desc = TextureDesc::d2(size_px[0], size_px[1], PICTURE_FORMAT);
+            let mut picture = frame.create_texture("picture", desc);
+            tonemap.add_to(frame, &lit, &mut picture);
+            Ok(picture)
+        }
+        Aov::Visibility(_) | Aov::Cascade | Aov::Normal => Ok(lit),
+        Aov::Depth => Ok(show.depth(frame, &buffers, &depth, size_px)),
+        Aov::Atlas => Ok(show.textures(frame, &buffers, &maps(&shadows), size_px)),
+        Aov::Texture(name) => {
+            let texture = frame.find_texture(name).ok_or_else(|| no_texture(frame, name))?;
+            Ok(show.textures(frame, &buffers, &[&texture], size_px))
+        }
+    });
+    picture.map(|picture| Output { picture, unshadowed: shadows.unshadowed })
+}
+
+fn maps<'s>(shadows: &'s ShadowOutputs<'_>) -> Vec<&'s Texture> {
+    shadows.debug.iter().map(|(_, texture)| texture).collect()
+}
+
+fn no_texture(frame: &Frame<'_>, name: &str) -> Error {
+    let known: Vec<_> = frame.texture_names().collect();
+    Error::NoTexture { name: name.into(), known: known.join(", ") }
+}

@@ -1,0 +1,207 @@
+//! Drawing a scene: what stays from frame to frame, and what one view needs.
+
+use std::sync::Mutex;
+
+use shadowgraph_core::{Executed, Format, Frame, PassTime, Plan, Pool, Timer};
+use shadowgraph_lighting::{Ambience, Forward, Shows, Tonemap, key_illuminance};
+use shadowgraph_scene::gpu::{DrawList, GpuScene};
+use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
+use shadowgraph_shadows::{Pcf, ShadowSettings, ShadowTechnique, Unshadowed};
+
+use crate::options::{Aov, ShadowDistance};
+use crate::picture::{Drawn, ReadBack};
+use crate::pipelines::{self, View};
+use crate::{Error, Gpu, SceneCasters, Show};
+
+/// What a view shows, and how.
+#[derive(Clone, Debug)]
+pub struct ViewOptions {
+    /// Who looks.
+    pub camera: Camera,
+    /// Width and height of the picture, pixels.
+    pub size_px: [u32; 2],
+    /// What the user chose of shadows.
+    pub shadows: ShadowSettings,
+}
+
+impl ViewOptions {
+    /// Sets how far shadows reach. `Auto` is as far as something of the scene is seen, at most the far plane.
+    pub fn with_shadow_distance(mut self, distance: ShadowDistance, scene: &Scene) -> Self {
+        self.shadows.distance_m = match distance {
+            ShadowDistance::Metres(metres) => metres as f32,
+            ShadowDistance::Auto => self.visible_depth_m(scene) as f32,
+        };
+        self
+    }
+
+    fn aspect(&self) -> f64 {
+        f64::from(self.size_px[0]) / f64::from(self.size_px[1])
+    }
+
+    /// The view depth of the farthest corner of what is seen, metres, a little above the near plane at least.
+    fn visible_depth_m(&self, scene: &Scene) -> f64 {
+        let bounds: Vec<_> = (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect();
+        let view_from_world = self.camera.view_from_world();
+        let seen = visible(scene, &bounds, &self.camera.volume(self.aspect()));
+        let corners = seen.iter().flat_map(|&instance| bounds[instance as usize].corners());
+        let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
+        let near = self.camera.near();
+        farthest.min(self.camera.far().unwrap_or(f64::INFINITY)).clamp(near * 1.001 + 0.001, 1.0e6)
+    }
+}
+
+/// Draws one scene with one shadow technique.
+pub struct Renderer {
+    pub(crate) casters: SceneCasters,
+    pub(crate) technique: Box<dyn ShadowTechnique>,
+    pub(crate) forward: Forward,
+    pub(crate) tonemap: Tonemap,
+    pub(crate) show: Show,
+    scene: Scene,
+    aov: Aov,
+    pool: Mutex<Pool>,
+}
+
+/// The format of finished pictures.
+pub(crate) const PICTURE_FORMAT: Format = Format::Rgba8UnormSrgb;
+
+impl Renderer {
+    /// Uploads a scene and makes the pipelines for pictures of `aov`. GPU space is relative to a point near
+    /// `eye` until a view moves it.
+    ///
+    /// # Errors
+    /// Names the limit of the device that the scene is over, or the light that `aov` asks for and that is not there.
+    pub fn new(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
+        let device = &gpu.device;
+        let origin_world = origin_near(eye.position_world());
+        let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
+        let technique: Box<dyn ShadowTechnique> = Box::new(Pcf::new(device));
+        let (shows, format) = shows(&aov, &scene.lights)?;
+        let forward = Forward::new(device, uploaded.layouts(), technique.as_ref(), format, shows)?;
+        Ok(Self {
+            casters: SceneCasters::new(device, uploaded)?,
+            technique,
+            forward,
+            tonemap: Tonemap::new(device, PICTURE_FORMAT)?,
+            show: Show::new(device)?,
+            scene,
+            aov,
+            pool: Mutex::default(),
+        })
+    }
+
+    /// Returns the scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Returns what pictures show.
+    pub(crate) fn aov(&self) -> &Aov {
+        &self.aov
+    }
+
+    /// Draws a view and reads the picture back.
+    ///
+    /// # Errors
+    /// Settings out of range, a picture over the adapter's limits, or a failure of the GPU.
+    pub fn draw(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<Drawn, Error> {
+        self.draw_timed(gpu, options, None)
+    }
+
+    /// Draws like [`draw`](Self::draw) and measures every pass with `timer`.
+    ///
+    /// # Errors
+    /// As `draw`.
+    pub fn draw_timed(
+        &mut self,
+        gpu: &Gpu,
+        options: &ViewOptions,
+        mut timer: Option<&mut Timer>,
+    ) -> Result<Drawn, Error> {
+        let [width, height] = options.size_px;
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        if width.max(height) > limit {
+            return Err(Error::PictureSize { width, height, limit });
+        }
+        let origin_world = origin_near(options.camera.position_world());
+        self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
+        let view = self.view(options);
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let read_back = ReadBack::new(&gpu.device, options.size_px);
+        let mut frame = Frame::new();
+        let output = pipelines::forward(&mut frame, self, &view)?;
+        read_back.add_to(&mut frame, &output.picture);
+        let compiled = frame.compile()?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pool = self.pool.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let executed = match timer.as_deref_mut() {
+            Some(timer) => compiled.execute_timed(&mut pool, &gpu.device, &mut encoder, timer)?,
+            None => compiled.execute(&mut pool, &gpu.device, &mut encoder)?,
+        };
+        gpu.queue.submit([encoder.finish()]);
+        if let Some(error) = pollster::block_on(scope.pop()) {
+            return Err(Error::Gpu(error.to_string()));
+        }
+        let picture = read_back.read(&gpu.device)?;
+        let times = times(gpu, timer.as_deref(), &executed)?;
+        Ok(Drawn { picture, plan: executed.plan().clone(), times, unshadowed: output.unshadowed })
+    }
+
+    /// Compiles the frame of a view without drawing it. Any device will do, [`Gpu::noop`] too.
+    ///
+    /// # Errors
+    /// Settings out of range.
+    pub fn plan(&self, options: &ViewOptions) -> Result<(Plan, Vec<Unshadowed>), Error> {
+        let view = self.view(options);
+        let mut frame = Frame::new();
+        let output = pipelines::forward(&mut frame, self, &view)?;
+        frame.export_texture(&output.picture);
+        Ok((frame.compile()?.into_plan(), output.unshadowed))
+    }
+
+    fn view<'v>(&'v self, options: &'v ViewOptions) -> View<'v> {
+        let gpu_scene = &self.casters.scene;
+        let seen = visible(&self.scene, gpu_scene.bounds(), &options.camera.volume(options.aspect()));
+        let draws: DrawList = gpu_scene.draw_list(&seen, options.camera.position_world());
+        let key = key_illuminance(&self.scene.lights, &self.scene.bounds());
+        View { options, draws, ambience: Ambience::for_key(key) }
+    }
+}
+
+fn times(gpu: &Gpu, timer: Option<&Timer>, executed: &Executed) -> Result<Vec<PassTime>, Error> {
+    match timer {
+        Some(timer) => Ok(timer.read(&gpu.device, &gpu.queue, executed.plan())?),
+        None => Ok(Vec::new()),
+    }
+}
+
+/// What the lit pass writes for an output, and in which format.
+fn shows(aov: &Aov, lights: &[Light]) -> Result<(Shows, Format), Error> {
+    Ok(match aov {
+        Aov::Visibility(light) if *light as usize >= lights.len() => {
+            let there_are = match lights.len() {
+                0 => "the scene has no light".into(),
+                1 => "the scene has one light, 0".into(),
+                count => format!("the scene has lights 0 to {}", count - 1),
+            };
+            return Err(Error::NoLight { light: *light, there_are });
+        }
+        Aov::Visibility(light) => (Shows::Visibility(*light), Format::Rgba8Unorm),
+        Aov::Cascade => (Shows::Cascades(main_light(lights)), Format::Rgba8Unorm),
+        Aov::Normal => (Shows::Normal, Format::Rgba8Unorm),
+        Aov::Color | Aov::Depth | Aov::Atlas | Aov::Texture(_) => (Shows::Light, Format::Rgba16Float),
+    })
+}
+
+/// Of linear red, green and blue.
+const LUMINANCE: glam::Vec3 = glam::Vec3::new(0.2126, 0.7152, 0.0722);
+
+/// The brightest directional light that casts shadows, else the first light.
+fn main_light(lights: &[Light]) -> u32 {
+    let brightness = |light: &Light| light.color.dot(LUMINANCE) * light.intensity;
+    let is_sun = |light: &Light| light.casts_shadow && matches!(light.kind, LightKind::Directional { .. });
+    let suns = lights.iter().enumerate().filter(|(_, light)| is_sun(light));
+    // Of equals the first, as the shadow plan has it.
+    let brightest = suns.min_by(|a, b| brightness(b.1).total_cmp(&brightness(a.1)));
+    brightest.map_or(0, |(index, _)| index as u32)
+}
