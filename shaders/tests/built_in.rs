@@ -91,7 +91,7 @@ fn bindings_are_where_bind_group_layouts_have_them() {
     ];
     assert_eq!(forward, expected);
     assert_eq!(bindings(&composed("tonemap.wgsl")), ["0.0 hdr_texture"]);
-    assert_eq!(bindings(&composed("show.wgsl")), ["0.0 view", "0.2 depth_texture", "0.3 float_texture"]);
+    assert_eq!(bindings(&composed("show.wgsl")), ["0.0 view", "1.0 depth_texture", "1.0 float_texture"]);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //   with holes    vs_depth, fs_mask
 //   casters before the near plane are kept at depth 1:
 //     the device clamps (unclipped_depth)      as above
-//     it does not: orthographic views only     vs_depth_clamp with fs_clamp or fs_mask_clamp
+//     it does not                              vs_depth_clamp with fs_clamp or fs_mask_clamp
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
 #import shadowgraph::material::{TextureCoordinates, base_color, is_hole}
 
@@ -24,15 +24,15 @@ struct DepthVertex {
     @location(0) uv_first: vec2f,
     @location(1) uv_second: vec2f,
     @location(2) color: vec4f,
-    // As it was before clamping.
-    @location(3) depth: f32,
+    // z and w as they were before clamping.
+    @location(3) unclamped: vec2f,
 }
 
 @vertex
 fn vs_depth(vertex: Vertex) -> DepthVertex {
     let position = world_position(vertex.instance, vertex.position);
     let clip = clip_position(depth_view.clip_from_world, position);
-    return DepthVertex(clip, vertex.uv_first, vertex.uv_second, vertex.color, clip.z);
+    return DepthVertex(clip, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
 }
 
 @vertex
@@ -41,14 +41,17 @@ fn vs_depth_clamp(vertex: Vertex) -> DepthVertex {
     let clip = clip_position(depth_view.clip_from_world, position);
     // Halfway between the planes nothing is clipped; the fragment stage puts the depth back.
     let kept = vec4f(clip.xy, 0.5 * clip.w, clip.w);
-    return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.z);
+    return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
 }
 
 fn covers(in: DepthVertex) -> bool {
     return !is_hole(base_color(TextureCoordinates(in.uv_first, in.uv_second), in.color).a);
 }
 
-fn clamped_depth(depth: f32, slope: f32) -> f32 {
+// Takes derivatives: call in uniform control flow.
+fn clamped_depth(in: DepthVertex) -> f32 {
+    let depth = in.unclamped.x / in.unclamped.y;
+    let slope = max(abs(dpdx(depth)), abs(dpdy(depth)));
     return saturate(depth + SLOPE_BIAS * slope);
 }
 
@@ -61,15 +64,14 @@ fn fs_mask(in: DepthVertex) {
 
 @fragment
 fn fs_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
-    let slope = max(abs(dpdx(in.depth)), abs(dpdy(in.depth)));
-    return clamped_depth(in.depth, slope);
+    return clamped_depth(in);
 }
 
 @fragment
 fn fs_mask_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
-    let slope = max(abs(dpdx(in.depth)), abs(dpdy(in.depth)));
+    let depth = clamped_depth(in);
     if !covers(in) {
         discard;
     }
-    return clamped_depth(in.depth, slope);
+    return depth;
 }

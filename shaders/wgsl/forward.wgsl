@@ -164,11 +164,11 @@ fn fs_forward(in: ForwardVertex, @builtin(front_facing) front_facing: bool) -> @
         return vec4f(normal * 0.5 + 0.5, 1.0);
     }
 
-    // Unlit colours are what the picture shows: light and exposure do not change them.
+    // Unlit colours and glow are what the picture shows: exposure, which follows the lights, does not change them.
     var radiance = color.rgb;
     if !material_has(MATERIAL_UNLIT) {
         let surface = surface_of(color.rgb, metal_rough, open, normal, to_camera);
-        radiance = (lit(surface, receiver) + glow) * view.exposure;
+        radiance = lit(surface, receiver) * view.exposure + glow;
     }
     let alpha = select(1.0, saturate(color.a), blended);
     return vec4f(min(radiance, vec3f(BRIGHTEST)) * alpha, alpha);

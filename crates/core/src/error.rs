@@ -53,10 +53,9 @@ pub enum Error {
     NoAttachment { pass: String },
     /// Attachments that differ in size or sample count.
     #[error(
-        "the attachments of pass `{pass}` differ: `{first}` is {first_is}, `{second}` is {second_is}; give them the \
-         same size and sample count"
+        "the attachments of pass `{pass}` differ: {first}, {second}; give them the same size and sample count"
     )]
-    AttachmentMismatch { pass: String, first: String, first_is: String, second: String, second_is: String },
+    AttachmentMismatch { pass: String, first: String, second: String },
     /// A format that cannot be used so.
     #[error("pass `{pass}` uses `{resource}` as {access}, but its format {format:?} {problem}")]
     Format {
@@ -87,8 +86,8 @@ pub enum Error {
     #[error("`{resource}` has no size in at least one direction: every side must be 1 or more")]
     EmptyResource { resource: String },
     /// Two ends of a copy do not fit.
-    #[error("copy pass `{pass}`: `{from}` ({from_is}) does not fit `{to}` ({to_is})")]
-    CopyMismatch { pass: String, from: String, from_is: String, to: String, to_is: String },
+    #[error("copy pass `{pass}`: {from} does not fit {to}; sizes and formats must agree")]
+    CopyMismatch { pass: String, from: String, to: String },
     /// A resource is larger than the device allows.
     #[error("`{resource}` needs {needed} ({limit}), but this device allows {allowed}: ask for a smaller one")]
     Limit { resource: String, limit: &'static str, needed: u64, allowed: u64 },

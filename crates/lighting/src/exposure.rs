@@ -32,6 +32,12 @@ impl Ambience {
             exposure: 1.5 / white,
         }
     }
+
+    /// Returns the colour of the empty sky in a lit pass: scene-linear, exposure applied.
+    pub fn background(&self) -> [f64; 4] {
+        let [red, green, blue] = (self.sky * self.exposure).as_dvec3().to_array();
+        [red, green, blue, 1.0]
+    }
 }
 
 /// Returns the illuminance, lux, that the scene's lights give where they matter: the directional lights together,

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{
-    AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialKey, MaterialLayouts, vertex_layout,
+    AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialKey, MaterialLayouts,
+    vertex_layout,
 };
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
 
@@ -91,7 +92,12 @@ impl Forward {
     }
 
     /// Adds the pass that draws the depth of all solid geometry, and returns the depth.
-    pub fn prepass<'f>(&'f self, frame: &mut Frame<'f>, view: &ViewBuffers, geometry: Geometry<'f>) -> Texture {
+    pub fn prepass<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        geometry: Geometry<'f>,
+    ) -> Texture {
         let [width, height] = geometry.size_px;
         let mut depth = frame.create_texture("depth", TextureDesc::d2(width, height, DEPTH_FORMAT));
         let mut pass = frame.render_pass("depth prepass");
@@ -107,7 +113,8 @@ impl Forward {
         depth
     }
 
-    /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it.
+    /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where
+    /// nothing is drawn it holds `background`, in the texture's own terms.
     pub fn lit<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -115,6 +122,7 @@ impl Forward {
         shadows: &ShadowOutputs<'f>,
         depth: &Texture,
         geometry: Geometry<'f>,
+        background: [f64; 4],
     ) -> Texture {
         let [width, height] = geometry.size_px;
         let mut color = frame.create_texture("lit", TextureDesc::d2(width, height, self.format));
@@ -122,7 +130,7 @@ impl Forward {
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
         pass.depth_read(depth);
-        pass.color(&mut color, Contents::clear_color([0.0; 4]));
+        pass.color(&mut color, Contents::clear_color(background));
         pass.body(move |ctx| {
             let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?;
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
@@ -151,7 +159,8 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         count: None,
     };
     let label = Some("view");
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[entry(0), entry(1)] })
+    device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[entry(0), entry(1)] })
 }
 
 fn pipeline(
@@ -192,7 +201,10 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module: shader,
             entry_point: Some("fs_forward"),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
             targets: &[Some(wgpu::ColorTargetState {
                 format,
                 blend: blended.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),

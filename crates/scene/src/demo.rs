@@ -61,13 +61,13 @@ fn sun() -> Light {
 /// The whole court first, then the place where the ball touches the ground.
 fn cameras() -> Vec<Camera> {
     let named = |name: &str, eye: DVec3, target: DVec3, fov_deg: f64| {
-        let projection = Projection::Perspective { fov_y: fov_deg.to_radians(), near: 0.1, far: Some(600.0) };
+        let projection = Projection::Perspective { fov_y: fov_deg.to_radians(), near: 0.1, far: Some(320.0) };
         Camera { name: Some(name.to_owned()), ..Camera::look_at(eye, target, DVec3::Y, projection) }
     };
     let (ball, radius) = props::BALL;
     vec![
         named("courtyard", DVec3::new(9.6, 4.9, 14.4), DVec3::new(-2.3, 1.7, -4.6), 46.0),
-        named("contact", ball + DVec3::new(2.7, 1.7, 4.6), ball + DVec3::new(-0.4, radius * 0.5, 0.0), 40.0),
+        named("contact", ball + DVec3::new(2.6, 3.2, 5.2), ball + DVec3::new(-0.6, radius * 0.4, -0.2), 38.0),
     ]
 }
 

@@ -29,7 +29,12 @@ impl SceneCasters {
             ..DepthTarget::default()
         };
         let pipelines = DepthPipelines::new(device, scene.layouts(), &target)?;
-        Ok(Self { scene, pipelines })
+        Ok(Self::with_pipelines(scene, pipelines))
+    }
+
+    /// Draws the casters with pipelines of your own, made for `Depth32Float`.
+    pub fn with_pipelines(scene: GpuScene, pipelines: DepthPipelines) -> Self {
+        Self { scene, pipelines }
     }
 }
 

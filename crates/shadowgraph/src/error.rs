@@ -30,6 +30,12 @@ pub enum Error {
         /// Pixels.
         limit: u32,
     },
+    /// The target is not for colours.
+    #[error("the target has the format {format:?}, which stores light as it is: give an sRGB format")]
+    TargetFormat {
+        /// The target's format.
+        format: shadowgraph_core::Format,
+    },
     /// A light that the scene does not have.
     #[error("--aov visibility:{light}: {there_are}")]
     NoLight {

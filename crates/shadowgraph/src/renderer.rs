@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use shadowgraph_core::{Executed, Format, Frame, PassTime, Plan, Pool, Timer};
+use shadowgraph_core::{Compiled, Executed, Format, Frame, PassTime, Plan, Pool, Timer};
 use shadowgraph_lighting::{Ambience, Forward, Shows, Tonemap, key_illuminance};
 use shadowgraph_scene::gpu::{DrawList, GpuScene};
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
@@ -10,7 +10,7 @@ use shadowgraph_shadows::{Pcf, ShadowSettings, ShadowTechnique, Unshadowed};
 
 use crate::options::{Aov, ShadowDistance};
 use crate::picture::{Drawn, ReadBack};
-use crate::pipelines::{self, View};
+use crate::pipelines::{self, Target, View};
 use crate::{Error, Gpu, SceneCasters, Show};
 
 /// What a view shows, and how.
@@ -55,8 +55,10 @@ pub struct Renderer {
     pub(crate) casters: SceneCasters,
     pub(crate) technique: Box<dyn ShadowTechnique>,
     pub(crate) forward: Forward,
-    pub(crate) tonemap: Tonemap,
     pub(crate) show: Show,
+    tonemap: Tonemap,
+    /// For the caller's targets of this format.
+    target_tonemap: Option<(Format, Tonemap)>,
     scene: Scene,
     aov: Aov,
     pool: Mutex<Pool>,
@@ -82,8 +84,9 @@ impl Renderer {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
             forward,
-            tonemap: Tonemap::new(device, PICTURE_FORMAT)?,
             show: Show::new(device)?,
+            tonemap: Tonemap::new(device, PICTURE_FORMAT)?,
+            target_tonemap: None,
             scene,
             aov,
             pool: Mutex::default(),
@@ -93,6 +96,11 @@ impl Renderer {
     /// Returns the scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Returns the scene on the GPU, as shadow casters.
+    pub fn casters(&self) -> &SceneCasters {
+        &self.casters
     }
 
     /// Returns what pictures show.
@@ -123,9 +131,8 @@ impl Renderer {
         if width.max(height) > limit {
             return Err(Error::PictureSize { width, height, limit });
         }
-        let origin_world = origin_near(options.camera.position_world());
-        self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
-        let view = self.view(options);
+        self.move_origin(gpu, options);
+        let view = self.view(options, None);
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let read_back = ReadBack::new(&gpu.device, options.size_px);
         let mut frame = Frame::new();
@@ -133,11 +140,7 @@ impl Renderer {
         read_back.add_to(&mut frame, &output.picture);
         let compiled = frame.compile()?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut pool = self.pool.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let executed = match timer.as_deref_mut() {
-            Some(timer) => compiled.execute_timed(&mut pool, &gpu.device, &mut encoder, timer)?,
-            None => compiled.execute(&mut pool, &gpu.device, &mut encoder)?,
-        };
+        let executed = self.execute(compiled, gpu, &mut encoder, timer.as_deref_mut())?;
         gpu.queue.submit([encoder.finish()]);
         if let Some(error) = pollster::block_on(scope.pop()) {
             return Err(Error::Gpu(error.to_string()));
@@ -147,24 +150,111 @@ impl Renderer {
         Ok(Drawn { picture, plan: executed.plan().clone(), times, unshadowed: output.unshadowed })
     }
 
+    /// Records a view into an encoder of the caller's, who submits it. The picture covers `target`, such as a
+    /// window's surface, and is as large as it; `options.size_px` is not looked at. Colours need a target of an
+    /// sRGB format with `RENDER_ATTACHMENT`; other outputs are copied, so they need `Rgba8Unorm` (textures that are
+    /// not depth: `Rgba8UnormSrgb`) with `COPY_DST`.
+    ///
+    /// The returned frame holds the plan.
+    ///
+    /// # Errors
+    /// Settings out of range, or a target that does not fit.
+    pub fn record(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        options: &ViewOptions,
+    ) -> Result<Executed, Error> {
+        self.record_timed(gpu, encoder, target, options, None)
+    }
+
+    /// Records like [`record`](Self::record) and measures every pass with `timer`: read it when the encoder is
+    /// submitted.
+    ///
+    /// # Errors
+    /// As `record`.
+    pub fn record_timed(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        options: &ViewOptions,
+        timer: Option<&mut Timer>,
+    ) -> Result<Executed, Error> {
+        let options = ViewOptions { size_px: [target.width(), target.height()], ..options.clone() };
+        self.prepare_target(&gpu.device, target.format())?;
+        self.move_origin(gpu, &options);
+        let view = self.view(&options, Some(target));
+        let mut frame = Frame::new();
+        let output = pipelines::forward(&mut frame, self, &view)?;
+        if self.aov != Aov::Color {
+            let mut target = frame.import_texture("target", target, false);
+            frame.copy_pass("copy to target").texture(&output.picture, &mut target);
+        }
+        self.execute(frame.compile()?, gpu, encoder, timer)
+    }
+
     /// Compiles the frame of a view without drawing it. Any device will do, [`Gpu::noop`] too.
     ///
     /// # Errors
     /// Settings out of range.
     pub fn plan(&self, options: &ViewOptions) -> Result<(Plan, Vec<Unshadowed>), Error> {
-        let view = self.view(options);
+        let view = self.view(options, None);
         let mut frame = Frame::new();
         let output = pipelines::forward(&mut frame, self, &view)?;
         frame.export_texture(&output.picture);
         Ok((frame.compile()?.into_plan(), output.unshadowed))
     }
 
-    fn view<'v>(&'v self, options: &'v ViewOptions) -> View<'v> {
+    /// Culls and sorts what the view sees. `target` is one that was prepared for.
+    pub(crate) fn view<'v>(
+        &'v self,
+        options: &'v ViewOptions,
+        target: Option<&'v wgpu::Texture>,
+    ) -> View<'v> {
         let gpu_scene = &self.casters.scene;
         let seen = visible(&self.scene, gpu_scene.bounds(), &options.camera.volume(options.aspect()));
         let draws: DrawList = gpu_scene.draw_list(&seen, options.camera.position_world());
         let key = key_illuminance(&self.scene.lights, &self.scene.bounds());
-        View { options, draws, ambience: Ambience::for_key(key) }
+        let tonemap = match (target, &self.target_tonemap) {
+            (Some(_), Some((_, tonemap))) => tonemap,
+            _ => &self.tonemap,
+        };
+        let target = Target { texture: target, tonemap };
+        View { options, draws, ambience: Ambience::for_key(key), target }
+    }
+
+    /// Makes the pipeline that draws colours into a target of the caller's, if there is none yet.
+    pub(crate) fn prepare_target(&mut self, device: &wgpu::Device, format: Format) -> Result<(), Error> {
+        let known = self.target_tonemap.as_ref().is_some_and(|(known, _)| *known == format);
+        if known || self.aov != Aov::Color {
+            return Ok(());
+        }
+        if !format.is_srgb() {
+            return Err(Error::TargetFormat { format });
+        }
+        self.target_tonemap = Some((format, Tonemap::new(device, format)?));
+        Ok(())
+    }
+
+    fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) {
+        let origin_world = origin_near(options.camera.position_world());
+        self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
+    }
+
+    fn execute(
+        &self,
+        compiled: Compiled<'_>,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: Option<&mut Timer>,
+    ) -> Result<Executed, Error> {
+        let mut pool = self.pool.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        Ok(match timer {
+            Some(timer) => compiled.execute_timed(&mut pool, &gpu.device, encoder, timer)?,
+            None => compiled.execute(&mut pool, &gpu.device, encoder)?,
+        })
     }
 }
 

@@ -5,11 +5,12 @@ use shadowgraph_scene::{ConvexVolume, Plane};
 
 use crate::Sphere;
 
-/// A cube around a sphere, with its axes along a light's, that moves through the world in whole texels only.
+/// A box around a sphere, with its axes along a light's, that moves through the world in whole texels only.
 ///
-/// Width, height and depth range are all `texel_m * tile_px`. The centre is a whole number of texels from the
+/// Width and height are `texel_m * tile_px`; the depth range is twice that, so that the surroundings of what lies
+/// in the sphere are not clamped to the near plane even where they slope up steeply to the light. The centre is a whole number of texels from the
 /// world's origin on each of the light's axes, so while rotation and radius stay as they are, what a texel
-/// covers stays as it is, and a depth changes by a multiple of `1 / tile_px`.
+/// covers stays as it is, and a depth changes by a multiple of `1 / (2 * tile_px)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthoFit {
     /// The rotation from world to the light's axes, +Z towards the light.
@@ -43,7 +44,7 @@ impl OrthoFit {
         Self { light_from_world, center_texels, texel_m, tile_px, sphere }
     }
 
-    /// Half the width, height and depth of the cube, metres.
+    /// Half the width and height of the box, metres.
     #[must_use]
     pub fn half_extent_m(&self) -> f64 {
         self.texel_m * f64::from(self.tile_px) * 0.5
@@ -59,13 +60,19 @@ impl OrthoFit {
         let origin_texels = self.light_from_world * origin_world / self.texel_m;
         let phase = (origin_texels * PHASE_STEPS).round() / PHASE_STEPS;
         let translation = DMat4::from_translation((phase - self.center_texels) / half_px);
-        // x and y as they are; z from -1..1 to 0..1.
-        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::Z * 0.5, DVec4::new(0.0, 0.0, 0.5, 1.0));
+        // x and y as they are; z from -1..3 to 0..1.
+        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::Z * 0.25, DVec4::new(0.0, 0.0, 0.25, 1.0));
         let scale = DMat4::from_scale(DVec3::splat(1.0 / self.half_extent_m()));
         depth * translation * scale * rotation
     }
 
-    /// The space whose casters can matter: the cube without its side towards the light, since what is nearer
+    /// The depth range, metres.
+    #[must_use]
+    pub fn depth_range_m(&self) -> f64 {
+        4.0 * self.half_extent_m()
+    }
+
+    /// The space whose casters can matter: the box without its side towards the light, since what is nearer
     /// to the light throws its shadow in all the same.
     #[must_use]
     pub fn cull_volume(&self) -> ConvexVolume {

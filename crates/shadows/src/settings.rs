@@ -103,7 +103,7 @@ impl Default for ShadowSettings {
 
 impl Default for CascadeSettings {
     fn default() -> Self {
-        Self { count: 4, map_size_px: 4096, split: SplitScheme::Standard }
+        Self { count: 4, map_size_px: 4096, split: SplitScheme::Practical { lambda: 0.9 } }
     }
 }
 

@@ -91,9 +91,9 @@ impl ShadowView {
         Self {
             light: towards_light.as_vec3().extend(0.0),
             texel_world: fit.texel_m as f32,
-            depth_per_texel: (1.0 / f64::from(fit.tile_px)) as f32,
+            depth_per_texel: (fit.texel_m / fit.depth_range_m()) as f32,
             axis_scale: fit.half_extent_m() as f32,
-            depth_range_m: (2.0 * fit.half_extent_m()) as f32,
+            depth_range_m: fit.depth_range_m() as f32,
             ..Self::tile(&fit.clip_from_world(origin_world), rect, map_size_px)
         }
         .around(fit.sphere, origin_world)

@@ -15,6 +15,8 @@ const NEAREST: f32 = 0.999999;
 // The cosine below which a surface counts as edge-on to the light.
 const EDGE_ON: f32 = 1e-4;
 const FILTER_SUM: f32 = 144.0;
+// Texels.
+const FILTER_REACH: f32 = 3.0;
 
 // A receiver as one view sees it.
 struct Lookup {
@@ -45,8 +47,6 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     }
     lookup.uv = position.xy / position.w;
     lookup.depth = position.z / position.w;
-    let inside = all(lookup.uv >= shadow_view.uv_min) && all(lookup.uv <= shadow_view.uv_max);
-    lookup.covered = inside && lookup.depth > 0.0 && lookup.depth < 1.0;
     let depth_per_texel = shadow_view.depth_per_texel / position.w;
     // On a plane, depth is linear in the map, for both kinds of light: its change per texel follows from where
     // the normal lies between the light's axes and the way to the light.
@@ -56,6 +56,10 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     let steepest = light.max_slope * depth_per_texel;
     lookup.slope = slope * (light.slope_bias * steepest / max(length(slope), steepest));
     lookup.min_slope = light.min_slope * depth_per_texel;
+    // Where the receiver's own surroundings are clamped to the near plane, they would be taken for blockers.
+    let rise = FILTER_REACH * (abs(lookup.slope.x) + abs(lookup.slope.y));
+    let inside = all(lookup.uv >= shadow_view.uv_min) && all(lookup.uv <= shadow_view.uv_max);
+    lookup.covered = inside && lookup.depth > 0.0 && lookup.depth + rise < NEAREST;
     lookup.depth += light.depth_bias_texels * depth_per_texel;
     return lookup;
 }

@@ -40,17 +40,15 @@ fn reason(decl: &Declaration, index: usize, live: &[bool]) -> CullReason {
         return CullReason::WritesNothing;
     };
     let later = decl.passes.iter().enumerate().skip(index + 1);
-    for (other, pass) in later {
-        for access in pass.accesses.iter().filter(|a| a.resource == resource) {
-            let id = PassId(other as u32);
-            match access.contents {
-                Some(contents) if !contents.preserves() && live[other] => {
-                    return CullReason::Overwritten(resource, id);
-                }
-                Some(contents) if !contents.preserves() => return CullReason::Unread(resource),
-                _ => return CullReason::OnlyCulledReaders(resource, id),
-            }
-        }
+    let mut accesses =
+        later.flat_map(|(other, pass)| pass.accesses.iter().map(move |access| (other, access)));
+    let Some((next, access)) = accesses.find(|(_, access)| access.resource == resource) else {
+        return CullReason::Unread(resource);
+    };
+    let overwrites = access.contents.is_some_and(|contents| !contents.preserves());
+    match (overwrites, live[next]) {
+        (true, true) => CullReason::Overwritten(resource, PassId(next as u32)),
+        (true, false) => CullReason::Unread(resource),
+        (false, _) => CullReason::OnlyCulledReaders(resource, PassId(next as u32)),
     }
-    CullReason::Unread(resource)
 }

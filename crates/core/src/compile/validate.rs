@@ -97,10 +97,8 @@ impl Check<'_> {
         match attachments.find(|other| shape(other) != shape(first)) {
             Some(other) => Err(Error::AttachmentMismatch {
                 pass: (self.path)(),
-                first: self.name(first.resource),
-                first_is: words(shape(first)),
-                second: self.name(other.resource),
-                second_is: words(shape(other)),
+                first: format!("`{}` is {}", self.name(first.resource), words(shape(first))),
+                second: format!("`{}` is {}", self.name(other.resource), words(shape(other))),
             }),
             None => Ok(()),
         }
@@ -189,10 +187,8 @@ impl Check<'_> {
             if !copy_fits(from, to) {
                 return Err(Error::CopyMismatch {
                     pass: (self.path)(),
-                    from: self.name(source),
-                    from_is: shape(from),
-                    to: self.name(target),
-                    to_is: shape(to),
+                    from: format!("`{}` ({})", self.name(source), shape(from)),
+                    to: format!("`{}` ({})", self.name(target), shape(to)),
                 });
             }
         }

@@ -36,7 +36,7 @@ pub(super) fn build(stage: &mut Stage) {
 
 /// A wide plain, cut into cells so that no triangle is as large as the world, and the paved court on it.
 fn ground(stage: &mut Stage) {
-    const HALF: f64 = 400.0;
+    const HALF: f64 = 235.0;
     let mut plain = Shape::default();
     plain.grid(24, 24, |u, v| {
         let position = DVec3::new((u * 2.0 - 1.0) * HALF, -0.15, (v * 2.0 - 1.0) * HALF);

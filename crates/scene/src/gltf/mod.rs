@@ -3,6 +3,7 @@
 //! Drawn: meshes (triangles, strips and fans) and their instances, metallic-roughness materials,
 //! PNG and JPEG images, cameras, and the extensions [`SUPPORTED_EXTENSIONS`]. Skins, morph targets and
 //! animations are drawn at rest; each thing that is not drawn as written gives a line in `Scene::notes`.
+//! Meshes that no drawn node uses, and images that no material uses, are not read.
 //!
 //! A file is not trusted: every index, offset, count and size is checked against the bytes that are
 //! there before anything is allocated, references may not leave the file's own folder, and the size of

@@ -12,8 +12,8 @@ use crate::Error;
 pub struct DepthTarget {
     /// The format of the depth texture.
     pub format: wgpu::TextureFormat,
-    /// Keeps what lies before the near plane, at depth 1. On a device without `Features::DEPTH_CLIP_CONTROL`
-    /// this is right for orthographic views only.
+    /// Keeps what lies before the near plane, at depth 1: by `Features::DEPTH_CLIP_CONTROL` where the device has
+    /// it, else in the fragment shader.
     pub clamp_near: bool,
     /// Bias by the slope of a surface, in steepest changes of depth per pixel. Depth is reversed: negative
     /// pushes away.

@@ -1,6 +1,6 @@
 //! `forward`: shadow maps, a depth prepass, one lit pass, a tonemap.
 
-use shadowgraph_core::{Frame, Texture, TextureDesc};
+use shadowgraph_core::{Frame, Texture};
 use shadowgraph_lighting::{Geometry, ViewRecords};
 use shadowgraph_shadows::{ShadowInputs, ShadowOutputs};
 
@@ -18,7 +18,7 @@ pub fn forward<'f>(
     renderer: &'f Renderer,
     view: &'f View<'f>,
 ) -> Result<Output, Error> {
-    let Renderer { casters, technique, forward, tonemap, show, .. } = renderer;
+    let Renderer { casters, technique, forward, show, .. } = renderer;
     let options = view.options;
     let size_px = options.size_px;
     let lights = &renderer.scene().lights;
@@ -34,20 +34,21 @@ pub fn forward<'f>(
     let inputs = ShadowInputs { camera, aspect, lights, casters, origin_world, settings };
     let shadows = technique.add_to(frame, &inputs)?;
 
-    // The scene, depth first.
+    // The scene, depth first. Only pictures have a sky: in the others nothing is where nothing is drawn.
+    let is_data = matches!(renderer.aov(), Aov::Visibility(_) | Aov::Cascade | Aov::Normal);
+    let background = if is_data { [0.0; 4] } else { view.ambience.background() };
     let geometry = Geometry { scene: &casters.scene, draws: &view.draws, size_px };
     let (depth, lit) = frame.node("lighting", |frame| {
         let depth = forward.prepass(frame, &buffers, geometry);
-        let lit = forward.lit(frame, &buffers, &shadows, &depth, geometry);
+        let lit = forward.lit(frame, &buffers, &shadows, &depth, geometry, background);
         (depth, lit)
     });
 
     // The picture. What an output does not need is culled.
     let picture = frame.node("picture", |frame| match renderer.aov() {
         Aov::Color => {
-            let desc = TextureDesc::d2(size_px[0], size_px[1], PICTURE_FORMAT);
-            let mut picture = frame.create_texture("picture", desc);
-            tonemap.add_to(frame, &lit, &mut picture);
+            let mut picture = view.target.add_to(frame, size_px, PICTURE_FORMAT);
+            view.target.tonemap.add_to(frame, &lit, &mut picture);
             Ok(picture)
         }
         Aov::Visibility(_) | Aov::Cascade | Aov::Normal => Ok(lit),

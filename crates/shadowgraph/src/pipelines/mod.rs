@@ -4,8 +4,8 @@ mod forward;
 
 pub use forward::forward;
 
-use shadowgraph_core::Texture;
-use shadowgraph_lighting::Ambience;
+use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
+use shadowgraph_lighting::{Ambience, Tonemap};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_shadows::Unshadowed;
 
@@ -19,6 +19,27 @@ pub struct View<'v> {
     pub draws: DrawList,
     /// The light from all around, and the exposure.
     pub ambience: Ambience,
+    /// Where a colour picture goes.
+    pub target: Target<'v>,
+}
+
+/// Where a colour picture goes.
+#[derive(Clone, Copy)]
+pub struct Target<'v> {
+    /// A texture of the caller's, as large as the view; `None`: a texture of the frame.
+    pub texture: Option<&'v wgpu::Texture>,
+    /// The tonemap for its format.
+    pub tonemap: &'v Tonemap,
+}
+
+impl Target<'_> {
+    /// Imports the caller's texture, or creates one of the frame.
+    pub fn add_to(&self, frame: &mut Frame<'_>, size_px: [u32; 2], format: Format) -> Texture {
+        match self.texture {
+            Some(texture) => frame.import_texture("target", texture, false),
+            None => frame.create_texture("picture", TextureDesc::d2(size_px[0], size_px[1], format)),
+        }
+    }
 }
 
 /// What a pipeline gives.

@@ -52,9 +52,7 @@ fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
         renderer.draw(gpu, &view)?;
     }
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
-    for unshadowed in &drawn.unshadowed {
-        console::warning(&report::unshadowed(renderer.scene(), unshadowed));
-    }
+    report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
     Ok(DrawnView { view: drawn, size_px: view.size_px, aov, timings })
 }
 

@@ -44,12 +44,21 @@ pub(crate) fn json(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> Res
     Ok(text)
 }
 
-/// Why a light has no shadows, in a sentence.
-pub(crate) fn unshadowed(scene: &Scene, unshadowed: &Unshadowed) -> String {
-    let light = scene.lights.get(unshadowed.light as usize);
-    let name = light.and_then(|light| light.name.as_deref()).unwrap_or("without a name");
-    let kind = light.map_or("unknown", kind);
-    format!("light {} ({kind}, {name}) has no shadows: {}", unshadowed.light, unshadowed.reason.text())
+/// Which lights have no shadows and why, a sentence for each reason.
+pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for light in unshadowed {
+        let (reason, index) = (light.reason.text(), light.light.to_string());
+        match reasons.iter_mut().find(|(other, _)| *other == reason) {
+            Some((_, lights)) => lights.push(index),
+            None => reasons.push((reason, vec![index])),
+        }
+    }
+    let sentence = |(reason, lights): (&str, Vec<String>)| match &lights[..] {
+        [light] => format!("light {light} has no shadows: {reason}"),
+        lights => format!("lights {} have no shadows: {reason}", lights.join(", ")),
+    };
+    reasons.into_iter().map(sentence).collect()
 }
 
 /// A table of times per pass, by node.

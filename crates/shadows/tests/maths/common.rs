@@ -1,9 +1,10 @@
-//! Scenes and a CPU twin of `pcf.wgsl` for the tests of this crate.
-#![allow(dead_code, reason = "each test file uses a part")]
+//! Scenes and a CPU twin of `pcf.wgsl`.
 
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Projection};
-use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowLight, ShadowView, filter_taps};
+use shadowgraph_shadows::{
+    CasterTarget, FILTER_REACH_TEXELS, ShadowCasters, ShadowLight, ShadowView, filter_taps,
+};
 
 /// Boxes that cast shadows.
 pub(crate) struct Boxes(pub(crate) Vec<Aabb>);
@@ -74,7 +75,6 @@ pub(crate) struct Lookup {
     pub(crate) uv: DVec2,
     pub(crate) depth: f64,
     pub(crate) slope: DVec2,
-    pub(crate) depth_per_texel: f64,
     pub(crate) min_slope: f64,
 }
 
@@ -92,21 +92,22 @@ impl Lookup {
             return None;
         }
         let (uv, depth) = (moved.truncate().truncate() / moved.w, moved.z / moved.w);
-        let inside = uv.cmpge(view.uv_min.as_dvec2()).all() && uv.cmple(view.uv_max.as_dvec2()).all();
-        if !(inside && depth > 0.0 && depth < 1.0) {
-            return None;
-        }
         let depth_per_texel = f64::from(view.depth_per_texel) / moved.w;
         let across = (view.clip_from_world.as_dmat4() * receiver.normal.extend(0.0)).truncate().truncate()
             * f64::from(view.axis_scale);
         let facing = receiver.normal.dot(to_light).max(1e-4);
         let slope = DVec2::new(-across.x, across.y) * f64::from(view.depth_per_texel) / facing;
         let steepest = f64::from(light.max_slope) * depth_per_texel;
+        let slope = slope * f64::from(light.slope_bias) * steepest / slope.length().max(steepest);
+        let inside = uv.cmpge(view.uv_min.as_dvec2()).all() && uv.cmple(view.uv_max.as_dvec2()).all();
+        let rise = f64::from(FILTER_REACH_TEXELS) * (slope.x.abs() + slope.y.abs());
+        if !(inside && depth > 0.0 && depth + rise < 0.999_999) {
+            return None;
+        }
         Some(Self {
             uv,
             depth: depth + f64::from(light.depth_bias_texels) * depth_per_texel,
-            slope: slope * f64::from(light.slope_bias) * steepest / slope.length().max(steepest),
-            depth_per_texel,
+            slope,
             min_slope: f64::from(light.min_slope) * depth_per_texel,
         })
     }

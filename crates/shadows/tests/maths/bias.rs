@@ -1,9 +1,6 @@
 //! Self-shadowing and the place of outlines, with the CPU twin of `pcf.wgsl` on analytic scenes.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
-mod common;
-
-use common::{Analytic, Receiver};
+use crate::common::{Analytic, Receiver};
 use glam::DVec3;
 use shadowgraph_scene::Aabb;
 use shadowgraph_shadows::{

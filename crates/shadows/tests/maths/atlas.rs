@@ -1,0 +1,85 @@
+//! Where tiles lie.
+
+use glam::DVec3;
+use shadowgraph_shadows::{
+    BORDER_PX, FILTER_REACH_TEXELS, MAX_ATLAS_TILES, TileLayout, atlas_layout, cascade_layout,
+    smallest_atlas_tile_px,
+};
+
+const SIZES_PX: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
+
+fn layouts() -> impl Iterator<Item = (usize, TileLayout)> {
+    SIZES_PX.into_iter().flat_map(|size| {
+        let cascades = (1..=4).map(move |count| (count, cascade_layout(count, size)));
+        cascades.chain((1..=MAX_ATLAS_TILES).map(move |count| (count, atlas_layout(count, size))))
+    })
+}
+
+#[test]
+fn tiles_are_inside_the_map_and_do_not_overlap() {
+    for (count, layout) in layouts() {
+        assert_eq!(layout.tiles.len(), count);
+        for (i, tile) in layout.tiles.iter().enumerate() {
+            assert!(tile.x + tile.width <= layout.size_px[0] && tile.y + tile.height <= layout.size_px[1]);
+            assert_eq!((tile.width, tile.height), (layout.tile_px, layout.tile_px));
+            assert!(layout.tiles[..i].iter().all(|other| !other.overlaps(tile)), "{layout:?}");
+        }
+    }
+}
+
+#[test]
+fn border_is_as_wide_as_the_filter_reaches() {
+    assert!(BORDER_PX as f32 >= FILTER_REACH_TEXELS);
+    for (_, layout) in layouts() {
+        for tile in &layout.tiles {
+            let (min, max) = tile.inner_uv(layout.size_px);
+            let size = glam::Vec2::new(layout.size_px[0] as f32, layout.size_px[1] as f32);
+            let (min, max) = (min * size, max * size);
+            let reach = FILTER_REACH_TEXELS - 1e-2;
+            assert!(min.x - reach >= tile.x as f32 && min.y - reach >= tile.y as f32);
+            assert!(max.x + reach <= (tile.x + tile.width) as f32);
+            assert!(max.y + reach <= (tile.y + tile.height) as f32);
+            assert!(min.cmplt(max).all());
+        }
+    }
+}
+
+#[test]
+fn atlas_is_split_one_two_three_or_four_times_by_count() {
+    for (count, per_row) in [(1, 1), (2, 2), (4, 2), (5, 3), (9, 3), (10, 4), (16, 4)] {
+        assert_eq!(atlas_layout(count, 2048).tile_px, 2048 / per_row, "{count}");
+    }
+    assert_eq!(atlas_layout(16, 2048).tile_px, smallest_atlas_tile_px(2048));
+    assert_eq!(atlas_layout(1, 2048).size_px, [2048, 2048]);
+}
+
+#[test]
+fn rows_that_nobody_needs_are_left_off() {
+    assert_eq!(cascade_layout(1, 4096).size_px, [4096, 4096]);
+    assert_eq!(cascade_layout(2, 4096).size_px, [4096, 2048]);
+    assert_eq!(cascade_layout(3, 4096).size_px, [4096, 4096]);
+    assert_eq!(atlas_layout(2, 2048).size_px, [2048, 1024]);
+    assert_eq!(atlas_layout(12, 2048).size_px, [2048, 1536]);
+}
+
+#[test]
+fn more_tiles_than_fit_are_not_laid_out() {
+    assert_eq!(atlas_layout(40, 1024).tiles.len(), MAX_ATLAS_TILES);
+    assert_eq!(cascade_layout(9, 1024).tiles.len(), 4);
+}
+
+#[test]
+fn clip_space_of_a_tile_is_its_pixels_with_y_down() {
+    for (_, layout) in layouts() {
+        for tile in &layout.tiles {
+            let map_from_clip = tile.map_from_clip(layout.size_px);
+            let size = DVec3::new(f64::from(layout.size_px[0]), f64::from(layout.size_px[1]), 1.0);
+            let top_left = map_from_clip.project_point3(DVec3::new(-1.0, 1.0, 0.25)) * size;
+            let bottom_right = map_from_clip.project_point3(DVec3::new(1.0, -1.0, 0.25)) * size;
+            let corner = DVec3::new(f64::from(tile.x), f64::from(tile.y), 0.25);
+            assert!((top_left - corner).abs().max_element() < 1e-9);
+            let across = DVec3::new(f64::from(tile.width), f64::from(tile.height), 0.0);
+            assert!((bottom_right - corner - across).abs().max_element() < 1e-9);
+        }
+    }
+}

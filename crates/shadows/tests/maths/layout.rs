@@ -1,0 +1,59 @@
+//! The records of Rust and WGSL lie in memory alike.
+
+use std::mem::offset_of;
+
+use shadowgraph_shaders::{ModuleSource, builtin, compose, compose_source, layout};
+use shadowgraph_shadows::{MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowLight, ShadowView};
+
+macro_rules! fields {
+    ($record:ty: $($field:ident),* $(,)?) => {
+        [$((stringify!($field), offset_of!($record, $field))),*]
+    };
+}
+
+const ENTRY: &str = "
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight}
+@group(1) @binding(0) var<storage, read> all_views: array<ShadowView>;
+@group(1) @binding(1) var<storage, read> all_lights: array<ShadowLight>;
+@compute @workgroup_size(1) fn touch() {
+    _ = all_views[0].radius + all_lights[0].strength;
+}";
+
+#[test]
+fn records_lie_in_wgsl_as_in_rust() {
+    let module = compose_source(&ModuleSource::new("touch.wgsl", ENTRY), &[]).unwrap();
+    let view = fields!(ShadowView: clip_from_world, map_from_world, uv_min, uv_max, light, center, radius,
+        texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, unused, tile_px, reserved);
+    layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
+    assert_eq!(size_of::<ShadowView>(), 256);
+    assert_eq!(offset_of!(ShadowView, clip_from_world), 0);
+    let light = fields!(ShadowLight: first_view, view_count, map, unused, strength, normal_bias_texels,
+        slope_bias, min_slope, max_slope, depth_bias_texels, fade_end_m, fade_per_m);
+    layout::check(&module, "ShadowLight", size_of::<ShadowLight>(), &light).unwrap();
+}
+
+#[test]
+fn constants_are_the_same_in_wgsl_and_rust() {
+    let types = builtin("shadows/types.wgsl").unwrap().source;
+    for (name, value) in [("MAP_CASCADES", MAP_CASCADES), ("MAP_ATLAS", MAP_ATLAS)] {
+        assert!(types.contains(&format!("const {name}: u32 = {value}u;")), "{name}");
+    }
+    assert!(types.contains(&format!("const NOT_A_CASCADE: u32 = {NOT_A_CASCADE:#x}u;")));
+}
+
+#[test]
+fn technique_composes_into_the_lit_pass_and_into_compute() {
+    let technique = builtin("shadows/pcf.wgsl").unwrap();
+    compose("forward.wgsl", std::slice::from_ref(&technique)).unwrap();
+    // Called from compute, implicit derivatives would be refused.
+    let entry = "
+        #import shadowgraph::receiver::Receiver
+        #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
+        @group(0) @binding(0) var<storage, read_write> result: array<vec4f>;
+        @compute @workgroup_size(1) fn ask() {
+            let receiver = Receiver();
+            result[0] = vec4f(shadow_visibility(0u, receiver), 1.0);
+            result[1] = vec4f(shadow_debug_color(0u, receiver), 1.0);
+        }";
+    compose_source(&ModuleSource::new("ask.wgsl", entry), &[technique]).unwrap();
+}

@@ -1,0 +1,13 @@
+//! The maths of shadows, without a device.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+mod atlas;
+mod bias;
+mod cascades;
+mod common;
+mod filter;
+mod layout;
+mod plan;
+mod settings;
+mod snapping;
+mod spot;

@@ -1,0 +1,246 @@
+//! Which lights get which maps, tiles and casters.
+
+use glam::DVec3;
+use shadowgraph_scene::{Camera, Light, LightKind, Projection, origin_near};
+use shadowgraph_shadows::{
+    Error, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings,
+    ShadowView, Unshadowed, UnshadowedReason, plan_shadows,
+};
+
+use crate::common::{Boxes, camera, cube, light, spot, sun};
+
+const DOWN: DVec3 = DVec3::new(0.3, -1.0, 0.2);
+
+fn look() -> Camera {
+    camera(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO)
+}
+
+fn try_plan(
+    camera: &Camera,
+    lights: &[Light],
+    casters: &Boxes,
+    settings: &ShadowSettings,
+) -> Result<ShadowPlan, Error> {
+    let origin_world = origin_near(camera.position_world());
+    plan_shadows(&ShadowInputs { camera, aspect: 1.5, lights, casters, origin_world, settings })
+}
+
+fn plan_with(lights: &[Light], casters: Vec<shadowgraph_scene::Aabb>) -> ShadowPlan {
+    try_plan(&look(), lights, &Boxes(casters), &ShadowSettings::default()).unwrap()
+}
+
+fn plan(lights: &[Light]) -> ShadowPlan {
+    plan_with(lights, vec![cube(DVec3::ZERO, 1.0)])
+}
+
+fn lamp(x: f64) -> Light {
+    spot(DVec3::new(x, 4.0, 0.0), DVec3::new(-x, -4.0, 0.0), 12.0, 0.6)
+}
+
+fn reasons(plan: &ShadowPlan) -> Vec<(u32, UnshadowedReason)> {
+    plan.unshadowed.iter().map(|u: &Unshadowed| (u.light, u.reason)).collect()
+}
+
+#[test]
+fn nothing_to_shadow_costs_nothing() {
+    let no_shadow = Light { casts_shadow: false, ..sun(DOWN, 1.0) };
+    for plan in [plan(&[]), plan(&[no_shadow]), plan_with(&[sun(DOWN, 1.0), lamp(1.0)], vec![])] {
+        assert!(plan.cascades.is_none() && plan.atlas.is_none() && plan.views.is_empty());
+        assert!(plan.lights.iter().all(|light| *light == ShadowLight::default()));
+        // Buffers cannot be empty.
+        assert_eq!(plan.view_bytes().len(), size_of::<ShadowView>());
+        assert!(!plan.light_bytes().is_empty());
+    }
+}
+
+#[test]
+fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
+    let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 90.0), sun(-DVec3::ONE, 20.0), lamp(2.0)]);
+    let cascades = plan.cascades.as_ref().unwrap();
+    assert!(cascades.tiles.iter().all(|tile| tile.light == 1 && tile.casters == [0]));
+    assert_eq!(cascades.tiles.iter().map(|tile| tile.cascade).collect::<Vec<_>>(), [0, 1, 2, 3].map(Some));
+    let atlas = plan.atlas.as_ref().unwrap();
+    assert_eq!(
+        atlas.tiles.iter().map(|tile| (tile.light, tile.view)).collect::<Vec<_>>(),
+        [(0, 4), (2, 5), (3, 6)]
+    );
+    assert_eq!(plan.views.len(), 7);
+    let of =
+        |light: usize| (plan.lights[light].map, plan.lights[light].first_view, plan.lights[light].view_count);
+    assert_eq!(
+        [of(0), of(1), of(2), of(3)],
+        [(MAP_ATLAS, 4, 1), (MAP_CASCADES, 0, 4), (MAP_ATLAS, 5, 1), (MAP_ATLAS, 6, 1),]
+    );
+    assert_eq!(plan.view_bytes().len(), 7 * 256);
+    assert!(plan.unshadowed.is_empty());
+}
+
+#[test]
+fn views_describe_their_tiles() {
+    let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 9.0), lamp(2.0)]);
+    for map in [plan.cascades.as_ref().unwrap(), plan.atlas.as_ref().unwrap()] {
+        for tile in &map.tiles {
+            let view = &plan.views[tile.view as usize];
+            let rect = tile.rect;
+            assert_eq!(view.tile_px, [rect.x, rect.y, rect.width, rect.height]);
+            assert_eq!(view.cascade, tile.cascade.unwrap_or(NOT_A_CASCADE));
+            assert_eq!((view.uv_min, view.uv_max), rect.inner_uv(map.size_px));
+            assert_eq!(view.light.w, if tile.light == 2 { 1.0 } else { 0.0 });
+            assert!(view.map_from_world.is_finite() && view.radius > 0.0);
+        }
+    }
+    // Finer texels nearby.
+    assert!(plan.views[..4].windows(2).all(|pair| pair[0].texel_world < pair[1].texel_world));
+}
+
+#[test]
+fn each_cascade_has_its_own_casters() {
+    let near = cube(DVec3::new(0.0, 0.0, 5.0), 1.0);
+    let far = cube(DVec3::new(0.0, 0.0, -110.0), 1.0);
+    let above = cube(DVec3::new(0.0, 0.0, 5.0) - DOWN * 500.0, 1.0);
+    let behind_sun_side = cube(DVec3::new(900.0, 0.0, 0.0), 1.0);
+    let plan = plan_with(&[sun(DOWN, 1.0)], vec![near, far, above, behind_sun_side]);
+    let tiles = plan.cascades.unwrap().tiles;
+    assert_eq!(tiles[0].casters, [0, 2], "what is between light and view casts into it");
+    assert!(tiles[3].casters.contains(&1) && !tiles[1].casters.contains(&1));
+    assert!(tiles.iter().all(|tile| !tile.casters.contains(&3)));
+}
+
+#[test]
+fn lights_that_cannot_have_shadows_are_reported() {
+    let point = light(LightKind::Point { position_world: DVec3::Y, range: None }, 10.0);
+    let nowhere = spot(DVec3::new(0.0, 2.0, 500.0), DVec3::Z, 5.0, 0.5);
+    let too_far = spot(DVec3::new(0.0, 2.0, -400.0), DVec3::NEG_Y, 5.0, 0.5);
+    let alone = spot(DVec3::new(4.0, 2.0, 0.0), DVec3::NEG_Y, 3.0, 0.3);
+    let broken = spot(DVec3::NAN, DVec3::NEG_Y, 3.0, 0.3);
+    let bright_nan = Light { intensity: f32::NAN, ..sun(DOWN, 1.0) };
+    let plan =
+        plan(&[sun(DVec3::ZERO, 1.0), sun(DOWN, 0.0), bright_nan, nowhere, too_far, alone, broken, point]);
+    use UnshadowedReason::{NoCasterInReach, NoLight, OutOfReach, PointLight, Unusable};
+    assert_eq!(
+        reasons(&plan),
+        [
+            (0, Unusable),
+            (1, NoLight),
+            (2, Unusable),
+            (3, OutOfReach),
+            (4, OutOfReach),
+            (5, NoCasterInReach),
+            (6, Unusable),
+            (7, PointLight),
+        ]
+    );
+    assert!(plan.cascades.is_none() && plan.atlas.is_none());
+    assert!(plan.unshadowed.iter().all(|u| !u.reason.text().is_empty()));
+}
+
+#[test]
+fn seventeenth_light_is_reported_and_the_least_important_one() {
+    let mut lights: Vec<Light> = (0..17).map(|i| lamp(f64::from(i) * 0.2 - 1.7)).collect();
+    // Small and far away: the least of them.
+    lights[4] = spot(DVec3::new(0.0, 1.5, -30.0), DVec3::NEG_Y, 2.0, 0.5);
+    let casters = vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(0.0, 0.0, -30.0), 1.0)];
+    let plan = plan_with(&lights, casters);
+    assert_eq!(reasons(&plan), [(4, UnshadowedReason::AtlasFull)]);
+    let atlas = plan.atlas.unwrap();
+    assert_eq!(atlas.tiles.len(), 16);
+    assert!(atlas.tiles.windows(2).all(|pair| pair[0].light < pair[1].light));
+    assert_eq!(plan.lights[4].view_count, 0);
+}
+
+#[test]
+fn light_without_casters_gives_up_its_tile() {
+    let alone = spot(DVec3::new(4.0, 2.0, 0.0), DVec3::NEG_Y, 3.0, 0.3);
+    let with = plan(&[lamp(1.0), alone.clone()]);
+    assert_eq!(with.atlas.unwrap().tiles[0].rect.width, 2048, "one light has the whole map");
+    let casters = vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(4.0, 0.0, 0.0), 1.0)];
+    let both = plan_with(&[lamp(1.0), alone], casters).atlas.unwrap();
+    assert_eq!((both.size_px, both.tiles.len()), ([2048, 1024], 2));
+    assert_eq!((both.tiles[0].casters.as_slice(), both.tiles[1].casters.as_slice()), (&[0][..], &[1][..]));
+}
+
+#[test]
+fn equal_inputs_give_equal_plans() {
+    let lights: Vec<Light> = (0..20).map(|i| lamp(f64::from(i % 7))).chain([sun(DOWN, 1.0)]).collect();
+    let (a, b) = (plan(&lights), plan(&lights));
+    assert_eq!(a, b);
+    assert_eq!(a.view_bytes(), b.view_bytes());
+}
+
+#[test]
+fn one_to_four_cascades_have_their_maps() {
+    for (count, size_px) in [(1, [512, 512]), (2, [512, 256]), (3, [512, 512]), (4, [512, 512])] {
+        let mut settings = ShadowSettings::default();
+        settings.cascades.count = count;
+        settings.cascades.map_size_px = 512;
+        let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
+        let map = try_plan(&look(), &[sun(DOWN, 1.0)], &casters, &settings).unwrap().cascades.unwrap();
+        assert_eq!((map.size_px, map.tiles.len()), (size_px, count as usize));
+    }
+}
+
+#[test]
+fn shadows_fade_out_at_the_distance_or_the_far_plane() {
+    for (distance_m, end) in [(60.0, 60.0), (5000.0, 1000.0)] {
+        let settings = ShadowSettings { distance_m, fade_fraction: 0.25, ..ShadowSettings::default() };
+        let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
+        let plan = try_plan(&look(), &[sun(DOWN, 1.0), lamp(1.0)], &casters, &settings).unwrap();
+        for light in &plan.lights {
+            assert_eq!(light.fade_end_m, end);
+            assert_eq!((light.fade(0.0), light.fade(0.75 * end - 0.1), light.fade(end)), (1.0, 1.0, 0.0));
+            assert_eq!(light.fade(2.0 * end), 0.0);
+            assert!((light.fade(0.875 * end) - 0.5).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn view_that_begins_beyond_the_shadow_distance_has_none() {
+    let projection = Projection::Perspective { fov_y: 1.0, near: 200.0, far: None };
+    let camera = Camera::look_at(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO, DVec3::Y, projection);
+    let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
+    let plan = try_plan(&camera, &[sun(DOWN, 1.0)], &casters, &ShadowSettings::default()).unwrap();
+    assert_eq!(reasons(&plan), [(0, UnshadowedReason::OutOfReach)]);
+}
+
+#[test]
+fn views_that_are_none_are_errors() {
+    let (good, casters, settings) = (look(), Boxes(vec![cube(DVec3::ZERO, 1.0)]), ShadowSettings::default());
+    let inputs = ShadowInputs {
+        camera: &good,
+        aspect: 1.5,
+        lights: &[],
+        casters: &casters,
+        origin_world: DVec3::ZERO,
+        settings: &settings,
+    };
+    for aspect in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(plan_shadows(&ShadowInputs { aspect, ..inputs }), Err(Error::Aspect(_))));
+    }
+    let mut lost = look();
+    lost.world_from_view.translation.x = f64::NAN;
+    assert_eq!(plan_shadows(&ShadowInputs { camera: &lost, ..inputs }), Err(Error::Camera("placement")));
+    let projection = Projection::Perspective { fov_y: f64::NAN, near: 0.1, far: None };
+    let blind = Camera { projection, ..look() };
+    assert_eq!(plan_shadows(&ShadowInputs { camera: &blind, ..inputs }), Err(Error::Camera("projection")));
+    let wrong = ShadowSettings { distance_m: 0.0, ..ShadowSettings::default() };
+    let error = plan_shadows(&ShadowInputs { settings: &wrong, ..inputs }).unwrap_err();
+    assert!(error.to_string().contains("distance_m"));
+}
+
+#[test]
+fn light_at_the_camera_and_a_hemisphere_wide_spot_have_usable_views() {
+    let at_camera = spot(look().position_world(), DVec3::NEG_Z, 20.0, std::f64::consts::FRAC_PI_2);
+    let plan = plan(&[at_camera]);
+    assert_eq!(plan.views.len(), 1);
+    assert!(plan.views[0].map_from_world.is_finite());
+}
+
+#[test]
+fn needs_name_filter_and_bias() {
+    let mut settings = ShadowSettings::default();
+    settings.bias.normal_texels = 2.0;
+    let needs = ShadowPlan::all_lit(0, &settings).needs;
+    assert_eq!((needs.kernel_radius_texels, needs.bias_texels, needs.blocker_reach_m), (3.0, 2.0, 0.0));
+    assert_eq!(needs.margin_px(), 6.0);
+}
