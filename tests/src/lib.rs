@@ -1,0 +1,10 @@
+//! What the tests that need the whole house share: places, skips, the built program.
+
+mod places;
+mod program;
+mod skip;
+pub mod watch;
+
+pub use places::{repository, shared};
+pub use program::{ProgramError, program};
+pub use skip::skip;

@@ -1,0 +1,23 @@
+//! Where things lie.
+
+use std::path::{Path, PathBuf};
+
+/// Returns the repository's root.
+#[must_use]
+pub fn repository() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// Returns a folder of the test material that is not in the repository, if it is on this machine.
+///
+/// It is looked for in the folder that the variable `SHADOWGRAPH_SHARED` names, else in `shared` beside
+/// the repository.
+#[must_use]
+pub fn shared(folder: &str) -> Option<PathBuf> {
+    let base = match std::env::var_os("SHADOWGRAPH_SHARED") {
+        Some(base) => PathBuf::from(base),
+        None => repository().parent()?.join("shared"),
+    };
+    Some(base.join(folder)).filter(|path| path.is_dir())
+}

@@ -1,0 +1,197 @@
+//! Holds what the design says of rooms: who may know whom, and which words a room must not use.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use serde_json::Value;
+use shadowgraph_tests::repository;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const CORE: &str = "shadowgraph-core";
+const SHADERS: &str = "shadowgraph-shaders";
+const SCENE: &str = "shadowgraph-scene";
+const SHADOWS: &str = "shadowgraph-shadows";
+const LIGHTING: &str = "shadowgraph-lighting";
+const FACADE: &str = "shadowgraph";
+
+/// Which members a member may depend on, in tests and build scripts too.
+const ARROWS: [(&str, &[&str]); 9] = [
+    (CORE, &[]),
+    (SHADERS, &[]),
+    (SCENE, &[CORE, SHADERS]),
+    (SHADOWS, &[CORE, SHADERS, SCENE]),
+    (LIGHTING, &[CORE, SHADERS, SCENE, SHADOWS]),
+    (FACADE, &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING]),
+    ("shadowgraph-examples", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE]),
+    ("shadowgraph-tests", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE]),
+    ("xtask", &[]),
+];
+
+/// Members that are published, and so may not depend on the others.
+const PUBLISHED: [&str; 6] = [CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE];
+
+fn packages() -> BTreeMap<String, Value> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let arguments = ["metadata", "--no-deps", "--format-version", "1", "--offline"];
+    let output = Command::new(cargo).args(arguments).current_dir(repository()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let packages = metadata["packages"].as_array().unwrap().iter();
+    packages.map(|package| (package["name"].as_str().unwrap().to_owned(), package.clone())).collect()
+}
+
+fn dependencies(package: &Value) -> Vec<String> {
+    let list = package["dependencies"].as_array().unwrap().iter();
+    list.map(|dependency| dependency["name"].as_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn members_depend_only_on_the_rooms_to_their_left() {
+    let packages = packages();
+    let arrows: BTreeMap<&str, &[&str]> = ARROWS.into_iter().collect();
+    assert!(packages.keys().map(String::as_str).eq(arrows.keys().copied()), "{:?}", packages.keys());
+    for (name, package) in &packages {
+        for dependency in dependencies(package).iter().filter(|dependency| packages.contains_key(*dependency))
+        {
+            let allowed = arrows[name.as_str()];
+            assert!(
+                allowed.contains(&dependency.as_str()),
+                "{name} must not depend on {dependency}, only on {allowed:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn only_the_six_crates_are_published() {
+    for (name, package) in packages() {
+        let never = package["publish"].as_array().is_some_and(Vec::is_empty);
+        assert_eq!(!never, PUBLISHED.contains(&name.as_str()), "{name}");
+    }
+}
+
+#[test]
+fn xtask_needs_nothing_but_the_standard_library() {
+    assert_eq!(dependencies(&packages()["xtask"]), Vec::<String>::new());
+}
+
+#[test]
+fn the_graph_and_its_compiler_build_without_a_gpu_library() {
+    let core = &packages()[CORE];
+    let wgpu = core["dependencies"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|dependency| dependency["name"] == "wgpu")
+        .unwrap();
+    assert_eq!(wgpu["optional"], true);
+}
+
+#[test]
+fn core_speaks_of_no_light_shadow_mesh_camera_or_window() {
+    let words =
+        ["light", "shadow", "mesh", "camera", "window", "lights", "shadows", "meshes", "cameras", "windows"];
+    refuse_words("crates/core/src", &words);
+}
+
+#[test]
+fn the_compiler_does_not_touch_wgpu() {
+    refuse("crates/core/src/compile", |line| line.contains("wgpu::").then(|| "wgpu::".to_owned()));
+}
+
+#[test]
+fn only_one_file_of_core_has_shader_text() {
+    let is_shader = |path: &PathBuf| {
+        let text = std::fs::read_to_string(path).unwrap();
+        ["@vertex", "@fragment", "@compute"].iter().any(|stage| text.contains(stage))
+    };
+    let files: Vec<PathBuf> =
+        sources("crates/core/src", &["rs", "wgsl"]).into_iter().filter(is_shader).collect();
+    assert!(files.len() <= 1, "{files:?}");
+}
+
+#[test]
+fn scene_speaks_of_no_shadow_technique_and_no_lighting_model() {
+    let techniques =
+        ["pcf", "pcss", "vsm", "evsm", "esm", "msm", "csm", "sdsm", "cascade", "cascades", "cascaded"];
+    let models =
+        ["ggx", "brdf", "bsdf", "lambert", "lambertian", "phong", "fresnel", "burley", "smith", "tonemap"];
+    refuse_words("crates/scene/src", &[techniques.as_slice(), models.as_slice()].concat());
+}
+
+#[test]
+fn shadows_know_nothing_of_gltf() {
+    refuse("crates/shadows/src", |line| line.to_lowercase().contains("gltf").then(|| "glTF".to_owned()));
+}
+
+#[test]
+fn nothing_is_left_for_later_in_the_source() {
+    // In two parts, so that this file does not hold them itself.
+    let marks = [concat!("todo", "!"), concat!("unimplemented", "!"), concat!("FIX", "ME")];
+    for folder in ["crates", "shaders", "examples", "tests", "xtask"] {
+        refuse(folder, |line| marks.iter().find(|mark| line.contains(**mark)).map(|mark| (*mark).to_owned()));
+    }
+}
+
+fn refuse_words(folder: &str, refused: &[&str]) {
+    refuse(folder, |line| words(line).into_iter().find(|word| refused.contains(&word.as_str())));
+}
+
+/// Fails with every line of a folder's sources in which `find` finds something.
+fn refuse(folder: &str, find: impl Fn(&str) -> Option<String>) {
+    let mut found = Vec::new();
+    for path in sources(folder, &["rs", "wgsl"]) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for (number, line) in text.lines().enumerate() {
+            if let Some(what) = find(line) {
+                found.push(format!("{}:{}: `{what}` in: {}", path.display(), number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{folder} must not say this:\n{}", found.join("\n"));
+}
+
+/// Every source file under a folder of the repository, in order.
+fn sources(folder: &str, ends: &[&str]) -> Vec<PathBuf> {
+    fn collect(folder: &Path, ends: &[&str], found: &mut Vec<PathBuf>) {
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                collect(&path, ends, found);
+            } else if path.extension().is_some_and(|end| ends.iter().any(|wanted| end == *wanted)) {
+                found.push(path);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    collect(&repository().join(folder), ends, &mut found);
+    assert!(!found.is_empty(), "{folder} has no source");
+    found.sort();
+    found
+}
+
+/// The words of a line in small letters; `shadow_map` and `ShadowMap` are two words each.
+fn words(line: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut before_was_small = false;
+    for c in line.chars() {
+        let starts = c.is_uppercase() && before_was_small;
+        before_was_small = c.is_lowercase();
+        if starts || !c.is_alphabetic() {
+            words.push(String::new());
+        }
+        if let Some(word) = words.last_mut().filter(|_| c.is_alphabetic()) {
+            word.extend(c.to_lowercase());
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+#[test]
+fn words_are_found_inside_names_but_not_inside_other_words() {
+    assert_eq!(
+        words("let shadow_map = ShadowMap2::new();"),
+        ["let", "shadow", "map", "shadow", "map", "new"]
+    );
+    assert_eq!(words("use shadowgraph_core::highlight;"), ["use", "shadowgraph", "core", "highlight"]);
+}

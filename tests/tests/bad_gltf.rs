@@ -1,0 +1,128 @@
+//! Malformed and hostile glTF files: each is drawn or refused in one line, quickly and in little memory.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+use shadowgraph_tests::watch::{Limits, Outcome, run};
+use shadowgraph_tests::{program, shared, skip};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+const LIMITS: Limits = Limits { time: Duration::from_secs(10), memory_bytes: 2 << 30 };
+const AT_A_TIME: usize = 2;
+const SIZE: (u32, u32) = (64, 36);
+
+#[test]
+fn every_malformed_file_is_drawn_or_refused_in_one_line() {
+    let Some(folder) = shared("bad-gltf") else {
+        return skip(
+            "bad_gltf",
+            "there is no folder bad-gltf in $SHADOWGRAPH_SHARED or in shared beside the repository",
+        );
+    };
+    let program = program().unwrap();
+    let cases = cases(&folder);
+    assert!(!cases.is_empty(), "{} has no case", folder.display());
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..AT_A_TIME {
+            scope.spawn(|| {
+                while let Some(file) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let result = check(program, file);
+                    results.lock().unwrap().push((file, result));
+                }
+            });
+        }
+    });
+    summarise(results.into_inner().unwrap());
+}
+
+/// The glTF or GLB file of each folder, by name.
+fn cases(folder: &Path) -> Vec<PathBuf> {
+    let files =
+        |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|end| end == "gltf" || end == "glb");
+    let mut cases: Vec<PathBuf> =
+        files(folder).flat_map(|case| files(&case).filter(is_scene).collect::<Vec<_>>()).collect();
+    cases.sort();
+    cases
+}
+
+/// Runs one case; the error says everything that is wrong with the answer.
+fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("case.png");
+    let mut command = Command::new(program);
+    command.arg("render").arg(file).arg("-o").arg(&picture);
+    command.args(["--size", &format!("{}x{}", SIZE.0, SIZE.1), "--adapter", adapter()]);
+    // Graphics libraries complain on standard error where a session has no such folder.
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    }
+    let outcome = run(&mut command, LIMITS).unwrap();
+    let errors: Vec<&str> = outcome.stderr.lines().filter(|line| line.starts_with("error:")).collect();
+    let left = std::fs::read_dir(folder.path()).unwrap().count();
+    let mut wrong: Vec<String> = outcome.stopped.iter().map(|limit| (*limit).to_owned()).collect();
+    if outcome.stderr.contains("panicked") || outcome.stderr.contains("overflowed its stack") {
+        wrong.push("it panicked".to_owned());
+    }
+    match outcome.code {
+        Some(0) => wrong.extend(what_is_wrong_with_the_picture(&picture, left, errors.len())),
+        Some(1) => wrong.extend(what_is_wrong_with_the_refusal(file, left, &errors)),
+        code => wrong.push(format!("it ended with code {code:?}")),
+    }
+    if wrong.is_empty() {
+        Ok(outcome)
+    } else {
+        Err(format!("{}\n    {}", wrong.join("; "), outcome.stderr.trim()))
+    }
+}
+
+fn what_is_wrong_with_the_picture(picture: &Path, files: usize, errors: usize) -> Option<String> {
+    let size = image::image_dimensions(picture);
+    if size.as_ref().ok() != Some(&SIZE) || image::open(picture).is_err() {
+        Some(format!("it succeeded, but its picture is {size:?}"))
+    } else if files != 1 || errors > 0 {
+        Some(format!("it succeeded with {errors} error lines and {files} files"))
+    } else {
+        None
+    }
+}
+
+fn what_is_wrong_with_the_refusal(file: &Path, files: usize, errors: &[&str]) -> Option<String> {
+    let name = file.file_name().unwrap().to_string_lossy();
+    if files > 0 {
+        Some(format!("it was refused, but {files} files were left"))
+    } else if errors.len() != 1 || !errors[0].contains(&*name) {
+        Some(format!("it was refused with {} error lines, one with the file's name is wanted", errors.len()))
+    } else {
+        None
+    }
+}
+
+/// The same driver everywhere, where the system has one in software.
+fn adapter() -> &'static str {
+    if cfg!(target_os = "macos") { "auto" } else { "cpu" }
+}
+
+fn summarise(mut results: Vec<(&PathBuf, Result<Outcome, String>)>) {
+    results.sort_by_key(|(file, _)| *file);
+    let good: Vec<&Outcome> = results.iter().filter_map(|(_, result)| result.as_ref().ok()).collect();
+    let drawn = good.iter().filter(|outcome| outcome.code == Some(0)).count();
+    let slowest = good.iter().map(|outcome| outcome.time).max().unwrap_or_default();
+    let largest = good.iter().map(|outcome| outcome.peak_bytes).max().unwrap_or_default();
+    println!(
+        "{} cases: {drawn} drawn, {} refused; at most {slowest:.1?} and {} MiB",
+        results.len(),
+        good.len() - drawn,
+        largest >> 20
+    );
+    for (file, result) in &results {
+        if let Err(wrong) = result {
+            println!("{}: {wrong}", file.display());
+        }
+    }
+    assert_eq!(good.len(), results.len(), "cases that were neither drawn nor refused well");
+}

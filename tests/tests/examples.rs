@@ -1,0 +1,112 @@
+//! The examples run, and draw what they say.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use serde_json::Value;
+use shadowgraph_tests::watch::{self, Limits, Outcome};
+use shadowgraph_tests::{repository, skip};
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::OnceLock;
+use std::time::Duration;
+
+/// A software driver draws a frame of the window in seconds.
+const LIMITS: Limits = Limits { time: Duration::from_secs(180), memory_bytes: 4 << 30 };
+
+/// Returns the path of a built example.
+fn example(name: &str) -> PathBuf {
+    static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
+    let built = BUILT.get_or_init(build);
+    let is_named = |path: &&PathBuf| path.file_stem().is_some_and(|stem| stem == name);
+    built.iter().find(is_named).unwrap_or_else(|| panic!("there is no example {name}: {built:?}")).clone()
+}
+
+/// Builds nothing new in a run of all tests: the whole workspace is named so that features are the same.
+fn build() -> Vec<PathBuf> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.args(["build", "--quiet", "--workspace", "--examples"]);
+    command.arg("--message-format=json-render-diagnostics").current_dir(repository());
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let messages = String::from_utf8_lossy(&output.stdout);
+    let executable = |line: &str| {
+        let message: Value = serde_json::from_str(line).ok()?;
+        message["executable"].as_str().map(PathBuf::from)
+    };
+    messages.lines().filter_map(executable).collect()
+}
+
+fn run(command: &mut Command) -> Outcome {
+    let outcome = watch::run(command, LIMITS).unwrap();
+    assert_eq!(outcome.stopped, None, "{outcome:?}");
+    outcome
+}
+
+fn on_path(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+}
+
+fn pixel(picture: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {
+    picture.get_pixel(x, y).0
+}
+
+#[test]
+fn custom_draws_into_the_canvas_of_the_application_and_prints_the_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = run(Command::new(example("custom")).current_dir(folder.path()));
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    for line in ["plan: 2 passes", "load: keeps what the import held", "320x180 Rgba16Float"] {
+        assert!(outcome.stdout.contains(line), "`{line}` is missing in:\n{}", outcome.stdout);
+    }
+    let picture = image::open(folder.path().join("out/custom.png")).unwrap().into_rgba8();
+    assert_eq!(picture.dimensions(), (320, 180));
+    // The colours in the example's source as sRGB. The application's own in the corners, rings under the lens.
+    let (green, orange, blue) = ([0, 124, 63, 255], [255, 188, 0, 255], [0, 137, 255, 255]);
+    for (x, y, expected) in [
+        (2, 2, green),
+        (317, 177, green),
+        (160, 16, green),
+        (160, 90, orange),
+        (160, 110, blue),
+        (195, 90, orange),
+        (112, 90, blue),
+        (160, 24, orange),
+    ] {
+        let near = pixel(&picture, x, y).iter().zip(expected).all(|(is, to_be)| is.abs_diff(to_be) <= 2);
+        assert!(near, "at {x}, {y}: {:?} instead of {expected:?}", pixel(&picture, x, y));
+    }
+}
+
+#[test]
+fn window_draws_into_a_surface_and_ends_after_its_frames() {
+    if !on_path("xvfb-run") {
+        return skip("examples_window", "xvfb-run is not installed");
+    }
+    let mut command = Command::new("xvfb-run");
+    command.args(["--auto-servernum", "--server-args=-screen 0 1024x768x24"]);
+    let outcome = run(command.arg(example("window")).args(["--frames", "3"]));
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    // What wgpu refuses is a panic by default.
+    assert!(!outcome.stderr.contains("panicked"), "{}", outcome.stderr);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn window_without_a_display_ends_with_one_line() {
+    let mut command = Command::new(example("window"));
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    let outcome = run(&mut command);
+    assert_eq!(outcome.code, Some(1));
+    assert!(outcome.stderr.starts_with("error: there is no display"), "{}", outcome.stderr);
+    assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+}
+
+#[test]
+fn examples_stay_short() {
+    for name in ["custom", "window"] {
+        let file = repository().join("examples/examples").join(format!("{name}.rs"));
+        let lines = std::fs::read_to_string(&file).unwrap().lines().count();
+        assert!(lines < 150, "{} has {lines} lines", file.display());
+    }
+}

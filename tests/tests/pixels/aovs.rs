@@ -1,0 +1,147 @@
+//! What each output of the program shows.
+
+use crate::stage::{camera, cube_on_floor, draw, gpu, sun, view};
+use glam::DVec3;
+use shadowgraph::options::{Aov, ShadowDistance};
+use shadowgraph::scene::Scene;
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::{Error, Picture, Renderer, ViewOptions};
+use std::collections::HashSet;
+
+fn cube() -> (Scene, ViewOptions) {
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
+    (scene, view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0))
+}
+
+fn cube_picture(aov: Aov) -> Option<Picture> {
+    let (scene, options) = cube();
+    Some(draw(gpu()?, scene, aov, &options).picture)
+}
+
+/// Pixels of the picture: sky, sunlit floor, shadowed floor and the top of the cube.
+const SKY: (u32, u32) = (2, 2);
+const TOP: (u32, u32) = (160, 72);
+
+#[test]
+fn visibility_has_no_alpha_where_nothing_is_drawn_or_the_surface_faces_away() {
+    let Some(picture) = cube_picture(Aov::Visibility(0)) else { return };
+    assert_eq!(picture.pixel(SKY.0, SKY.1).unwrap()[3], 0);
+    assert_eq!(picture.pixel(TOP.0, TOP.1).unwrap(), [255; 4]);
+    let greys: HashSet<_> = picture.rgba8.chunks_exact(4).filter(|p| p[3] == 255).map(|p| p[0]).collect();
+    assert!(greys.contains(&0) && greys.contains(&255) && greys.len() > 10, "a filtered edge: {greys:?}");
+    assert!(
+        picture.rgba8.chunks_exact(4).all(|p| p[3] == 0 || (p[3] == 255 && p[0] == p[1] && p[1] == p[2]))
+    );
+}
+
+#[test]
+fn normals_are_those_of_the_world() {
+    let Some(picture) = cube_picture(Aov::Normal) else { return };
+    assert_eq!(picture.pixel(TOP.0, TOP.1).unwrap()[..3], [128, 255, 128]);
+}
+
+#[test]
+fn depth_is_white_near_dark_far_and_black_where_nothing_is() {
+    let Some(picture) = cube_picture(Aov::Depth) else { return };
+    let grey = |(x, y): (u32, u32)| picture.pixel(x, y).unwrap()[0];
+    assert_eq!(grey(SKY), 0);
+    let (near, far) = (grey((160, 175)), grey((160, 20)));
+    assert!(near > grey(TOP) && grey(TOP) > far && far > 0, "{near} {far}");
+}
+
+#[test]
+fn cascades_are_told_apart_by_colour() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
+    let options = view(camera(DVec3::new(0.0, 1.0, 18.0), DVec3::ZERO), 40.0);
+    let picture = draw(gpu, scene, Aov::Cascade, &options).picture;
+    let hue = |p: &[u8]| (p[0] > p[1], p[1] > p[2], p[0] > p[2]);
+    let hues: HashSet<_> = picture.rgba8.chunks_exact(4).filter(|p| p[0] != p[1]).map(hue).collect();
+    assert!(hues.len() >= 3, "{hues:?}");
+}
+
+#[test]
+fn the_atlas_shows_both_maps_and_only_what_they_need_runs() {
+    let Some(gpu) = gpu() else { return };
+    let scene = demo_scene();
+    let options = view(scene.cameras[0].clone(), 60.0);
+    let drawn = draw(gpu, scene, Aov::Atlas, &options);
+    let names: Vec<_> = drawn.plan.live_passes().map(|id| drawn.plan.pass(id).name.as_str()).collect();
+    assert!(
+        names.contains(&"cascades") && names.contains(&"atlas") && !names.contains(&"forward"),
+        "{names:?}"
+    );
+    let greys = |range: std::ops::Range<u32>| -> HashSet<_> {
+        range
+            .flat_map(|x| (0..180).map(move |y| (x, y)))
+            .map(|(x, y)| drawn.picture.pixel(x, y).unwrap()[0])
+            .collect()
+    };
+    assert!(greys(0..160).len() > 20 && greys(160..320).len() > 20, "something is drawn into each map");
+}
+
+#[test]
+fn any_texture_of_the_graph_can_be_shown_and_an_unknown_one_lists_those_there_are() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, options) = cube();
+    let lit = draw(gpu, scene, Aov::Texture("lit".into()), &options).picture;
+    assert_ne!(lit.pixel(TOP.0, TOP.1), lit.pixel(SKY.0, SKY.1));
+    let (scene, options) = cube();
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Texture("light".into())).unwrap();
+    let error = renderer.draw(gpu, &options).unwrap_err();
+    assert!(matches!(error, Error::NoTexture { .. }));
+    assert!(error.to_string().contains("it has: ") && error.to_string().contains("lit"), "{error}");
+}
+
+#[test]
+fn the_visibility_of_a_light_that_is_not_there_is_an_error() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, options) = cube();
+    let error = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(3)).err().unwrap().to_string();
+    assert_eq!(error, "--aov visibility:3: the scene has one light, 0");
+}
+
+#[test]
+fn two_draws_of_one_view_are_the_same_and_so_are_their_plans() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, options) = cube();
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color).unwrap();
+    let (first, second) = (renderer.draw(gpu, &options).unwrap(), renderer.draw(gpu, &options).unwrap());
+    assert_eq!(first.picture, second.picture);
+    assert_eq!(first.plan, second.plan);
+}
+
+#[test]
+fn the_shadows_end_by_a_fade_and_not_by_an_edge() {
+    let Some(gpu) = gpu() else { return };
+    // A roof over everything: the floor is dark up to the shadow distance, then light.
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.instances[1].world_from_local = glam::DAffine3::from_scale_rotation_translation(
+        DVec3::new(60.0, 1.0, 60.0),
+        glam::DQuat::IDENTITY,
+        DVec3::new(0.0, 8.0, 0.0),
+    );
+    scene.add_light(sun(DVec3::NEG_Y));
+    let options = view(camera(DVec3::new(0.0, 5.0, 18.0), DVec3::ZERO), 16.0);
+    let picture = draw(gpu, scene, Aov::Visibility(0), &options).picture;
+    let column: Vec<u8> = (0..180)
+        .rev()
+        .map(|y| picture.pixel(160, y).unwrap())
+        .filter(|p| p[3] == 255)
+        .map(|p| p[0])
+        .collect();
+    assert_eq!((column[0], *column.last().unwrap()), (0, 255), "{column:?}");
+    let between = column.iter().filter(|grey| (1..255).contains(*grey)).count();
+    assert!(between >= 3, "{column:?}");
+    assert!(column.windows(2).all(|pair| pair[1] >= pair[0]), "{column:?}");
+}
+
+#[test]
+fn the_automatic_shadow_distance_reaches_what_is_seen() {
+    let (scene, options) = cube();
+    let distance = options.with_shadow_distance(ShadowDistance::Auto, &scene).shadows.distance_m;
+    // The far corner of the floor is some 32 m from the camera.
+    assert!((20.0..40.0).contains(&distance), "{distance}");
+}

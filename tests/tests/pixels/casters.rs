@@ -1,0 +1,128 @@
+//! What casts a shadow, and what does not.
+
+use crate::maps::draw_map;
+use crate::stage::{
+    SIZE_PX, add_instance, camera, cube_on_floor, draw, floor_mesh, gpu, material, sun, vertex, view,
+};
+use glam::DVec3;
+use shadowgraph::SceneCasters;
+use shadowgraph::options::Aov;
+use shadowgraph::scene::gpu::{CullFaces, DepthPipelines, DepthTarget, GpuScene};
+use shadowgraph::scene::{AlphaMode, Image, Mesh, Scene, TextureRef};
+use shadowgraph::shadows::{Pcf, ShadowSettings};
+
+/// A floor under a sun straight above, and over it a square of 2 m whose left half is cut out by its texture.
+fn half_cut_sheet(alpha: AlphaMode) -> Scene {
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+    let mut vertices = corners.map(|(x, z)| vertex(DVec3::new(x, 0.0, z), [0.0, 1.0, 0.0]));
+    for (vertex, (x, z)) in vertices.iter_mut().zip(corners) {
+        vertex.uv0 = [x as f32 * 0.5 + 0.5, z as f32 * 0.5 + 0.5];
+    }
+    let sheet = Mesh::new("sheet", vertices.to_vec(), vec![0, 1, 2, 0, 2, 3]);
+    let rgba8 = (0..64).flat_map(|i| [255, 255, 255, if i % 8 < 4 { 0 } else { 255 }]).collect();
+    let image = Image { name: "half".into(), width: 8, height: 8, rgba8 };
+    let base_color_texture = Some(TextureRef::new(0));
+    let sheet_material = shadowgraph::scene::Material { alpha, base_color_texture, ..material() };
+    let mut scene = Scene {
+        meshes: vec![floor_mesh(20.0), sheet],
+        materials: vec![material(), sheet_material],
+        images: vec![image],
+        ..Scene::default()
+    };
+    add_instance(&mut scene, 0, 0, DVec3::ZERO);
+    add_instance(&mut scene, 1, 1, DVec3::new(0.0, 1.5, 0.0));
+    scene.add_light(sun(DVec3::NEG_Y));
+    scene
+}
+
+/// The visibility of a floor point, seen from the side, under the sheet.
+fn visibility(scene: Scene, at: DVec3) -> Option<u8> {
+    let gpu = gpu()?;
+    let options = view(camera(DVec3::new(0.0, 0.7, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
+    let picture = draw(gpu, scene, Aov::Visibility(0), &options).picture;
+    let clip = options.camera.clip_from_view(f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]))
+        * options.camera.view_from_world();
+    let ndc = clip.project_point3(at);
+    let x = ((ndc.x * 0.5 + 0.5) * f64::from(SIZE_PX[0])) as u32;
+    let y = ((0.5 - ndc.y * 0.5) * f64::from(SIZE_PX[1])) as u32;
+    let [grey, _, _, alpha] = picture.pixel(x, y).unwrap();
+    assert_eq!(alpha, 255, "the floor is seen at {x} {y}");
+    Some(grey)
+}
+
+#[test]
+fn an_alpha_cut_sheet_casts_the_shadow_of_what_is_left() {
+    let (hole, rest) = (DVec3::new(-0.6, 0.0, 0.3), DVec3::new(0.6, 0.0, 0.3));
+    let mask = AlphaMode::Mask { cutoff: 0.5 };
+    let Some(through) = visibility(half_cut_sheet(mask), hole) else { return };
+    assert_eq!(through, 255, "light falls through the hole");
+    assert_eq!(visibility(half_cut_sheet(mask), rest), Some(0));
+    assert_eq!(
+        visibility(half_cut_sheet(AlphaMode::Opaque), hole),
+        Some(0),
+        "and not through an opaque sheet"
+    );
+}
+
+#[test]
+fn a_blended_sheet_casts_the_shadow_of_its_opaque_part() {
+    let Some(through) = visibility(half_cut_sheet(AlphaMode::Blend), DVec3::new(-0.6, 0.0, 0.3)) else {
+        return;
+    };
+    assert_eq!(through, 255);
+    assert_eq!(visibility(half_cut_sheet(AlphaMode::Blend), DVec3::new(0.6, 0.0, 0.3)), Some(0));
+}
+
+#[test]
+fn a_wall_without_a_back_casts_a_shadow_to_both_sides() {
+    let mut scene = half_cut_sheet(AlphaMode::Opaque);
+    // Upside down: the sun sees only its back.
+    scene.instances[1].world_from_local.matrix3 = glam::DMat3::from_rotation_x(std::f64::consts::PI);
+    let Some(grey) = visibility(scene, DVec3::new(0.6, 0.0, 0.3)) else { return };
+    assert_eq!(grey, 0);
+}
+
+#[test]
+fn a_caster_far_above_the_view_keeps_its_shadow() {
+    let mut scene = half_cut_sheet(AlphaMode::Opaque);
+    // Far over the sphere that the cascades are fitted to: kept by the clamp to the near plane.
+    scene.instances[1].world_from_local.translation.y = 500.0;
+    let Some(grey) = visibility(scene, DVec3::new(0.6, 0.0, 0.3)) else { return };
+    assert_eq!(grey, 0);
+}
+
+#[test]
+fn clamping_in_the_fragment_shader_draws_the_map_that_the_hardware_draws() {
+    let Some(gpu) = gpu() else { return };
+    let clips = shadowgraph::wgpu::Features::DEPTH_CLIP_CONTROL;
+    if !gpu.device.features().contains(clips) {
+        return shadowgraph_tests::skip(
+            "depth_clip_control",
+            "the adapter has no DEPTH_CLIP_CONTROL to compare with",
+        );
+    }
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    let direction = DVec3::new(0.3, -1.0, 0.2).normalize();
+    scene.add_light(sun(direction));
+    // Another cube high over the cascades on the way of the light, so that something is clamped.
+    add_instance(&mut scene, 1, 0, direction * -60.0);
+    let upload = || GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
+    let target = |emulate_clamp| DepthTarget {
+        clamp_near: true,
+        faces: CullFaces::None,
+        emulate_clamp,
+        ..DepthTarget::default()
+    };
+    let maps = [false, true].map(|emulate| {
+        let upload = upload();
+        let pipelines = DepthPipelines::new(&gpu.device, upload.layouts(), &target(emulate)).unwrap();
+        let casters = SceneCasters::with_pipelines(upload, pipelines);
+        let camera = camera(DVec3::new(2.0, 2.0, 3.0), DVec3::ZERO);
+        let settings = ShadowSettings { distance_m: 10.0, ..ShadowSettings::default() };
+        draw_map(gpu, &Pcf::new(&gpu.device), &casters, &scene.lights, &camera, &settings, "cascades")
+    });
+    let clamped = maps[0].depth.iter().filter(|depth| **depth == 1.0).count();
+    let differ = maps[0].depth.iter().zip(&maps[1].depth).filter(|(a, b)| (*a - *b).abs() > 1e-6).count();
+    assert!(clamped > 100, "something is clamped: {clamped}");
+    assert!(differ <= maps[0].depth.len() / 10_000, "{differ} of {} texels differ", maps[0].depth.len());
+}

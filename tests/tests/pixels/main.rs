@@ -1,0 +1,10 @@
+//! What a GPU draws, against computed truth. One program that shares a device, pictures of at most 320x180.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+mod analytic;
+mod aovs;
+mod casters;
+mod maps;
+mod scenes;
+mod snapping;
+mod stage;

@@ -1,0 +1,142 @@
+//! The device, simple scenes, and drawing them.
+
+use glam::{DAffine3, DVec3, Vec3, Vec4};
+use shadowgraph::options::{AdapterChoice, Aov};
+use shadowgraph::scene::{
+    AlphaMode, Camera, Instance, Light, LightKind, Material, Mesh, Projection, Scene, Vertex,
+};
+use shadowgraph::shadows::ShadowSettings;
+use shadowgraph::{Drawn, Gpu, Renderer, ViewOptions};
+use std::sync::OnceLock;
+
+pub(crate) const SIZE_PX: [u32; 2] = [320, 180];
+
+/// The device that all tests share, or `None` after recording a skip.
+pub(crate) fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
+    match GPU.get_or_init(|| Gpu::open(&AdapterChoice::Auto).map_err(|error| error.to_string())) {
+        Ok(gpu) => Some(gpu),
+        Err(reason) => {
+            shadowgraph_tests::skip("pixels", reason);
+            None
+        }
+    }
+}
+
+/// A box from `min` to `max`, faces outwards.
+pub(crate) fn box_mesh(min: DVec3, max: DVec3) -> Mesh {
+    let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+    for axis in 0..3 {
+        for side in [0, 1] {
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let base = vertices.len() as u32;
+            for (cu, cv) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
+                let mut corner = [0; 3];
+                (corner[axis], corner[u], corner[v]) = (side, cu, cv);
+                let at = |i: usize| if corner[i] == 0 { min[i] } else { max[i] };
+                let mut normal = [0.0; 3];
+                normal[axis] = if side == 0 { -1.0 } else { 1.0 };
+                vertices.push(vertex(DVec3::new(at(0), at(1), at(2)), normal));
+            }
+            let quad = if side == 1 { [0, 1, 2, 0, 2, 3] } else { [0, 2, 1, 0, 3, 2] };
+            indices.extend(quad.map(|i| base + i));
+        }
+    }
+    Mesh::new("box", vertices, indices)
+}
+
+/// A square of half width `half` in the plane y = 0, facing up.
+pub(crate) fn floor_mesh(half: f64) -> Mesh {
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+    let vertices = corners.map(|(x, z)| vertex(DVec3::new(x * half, 0.0, z * half), [0.0, 1.0, 0.0]));
+    Mesh::new("floor", vertices.to_vec(), vec![0, 1, 2, 0, 2, 3])
+}
+
+pub(crate) fn vertex(position: DVec3, normal: [f32; 3]) -> Vertex {
+    Vertex {
+        position: position.as_vec3().to_array(),
+        normal,
+        tangent: [1.0, 0.0, 0.0, 1.0],
+        uv0: [position.x as f32, position.z as f32],
+        uv1: [0.0; 2],
+        color: [255; 4],
+    }
+}
+
+pub(crate) fn material() -> Material {
+    Material { base_color: Vec4::new(0.8, 0.8, 0.8, 1.0), alpha: AlphaMode::Opaque, ..Material::default() }
+}
+
+/// A floor at y = 0 and a cube of 1 m that stands on it, moved by `offset`.
+pub(crate) fn cube_on_floor(offset: DVec3) -> Scene {
+    let mut scene = Scene {
+        meshes: vec![floor_mesh(20.0), box_mesh(CUBE_MIN, CUBE_MAX)],
+        materials: vec![material()],
+        ..Scene::default()
+    };
+    for mesh in 0..2 {
+        add_instance(&mut scene, mesh, 0, offset);
+    }
+    scene
+}
+
+pub(crate) const CUBE_MIN: DVec3 = DVec3::new(-0.5, 0.0, -0.5);
+pub(crate) const CUBE_MAX: DVec3 = DVec3::new(0.5, 1.0, 0.5);
+
+pub(crate) fn add_instance(scene: &mut Scene, mesh: usize, material: usize, at: DVec3) {
+    let world_from_local = DAffine3::from_translation(at);
+    scene.instances.push(Instance { name: String::new(), mesh, material, world_from_local });
+}
+
+/// The way a sun's light travels that stands `elevation_deg` above the horizon.
+pub(crate) fn sun_direction(elevation_deg: f64, azimuth_deg: f64) -> DVec3 {
+    let (elevation, azimuth) = (elevation_deg.to_radians(), azimuth_deg.to_radians());
+    -DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos())
+}
+
+pub(crate) fn sun(direction: DVec3) -> Light {
+    light(LightKind::Directional { direction }, 20_000.0)
+}
+
+pub(crate) fn light(kind: LightKind, intensity: f32) -> Light {
+    Light { name: None, kind, color: Vec3::ONE, intensity, casts_shadow: true }
+}
+
+pub(crate) fn camera(eye: DVec3, target: DVec3) -> Camera {
+    let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: Some(100.0) };
+    Camera::look_at(eye, target, DVec3::Y, projection)
+}
+
+pub(crate) fn view(camera: Camera, distance_m: f32) -> ViewOptions {
+    let shadows = ShadowSettings { distance_m, ..ShadowSettings::default() };
+    ViewOptions { camera, size_px: SIZE_PX, shadows }
+}
+
+pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> Drawn {
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, aov).unwrap();
+    renderer.draw(gpu, options).unwrap()
+}
+
+/// Where the ray through a pixel's centre starts and goes, in world space.
+pub(crate) fn pixel_ray(options: &ViewOptions, x: u32, y: u32) -> (DVec3, DVec3) {
+    let [width, height] = options.size_px.map(f64::from);
+    let Projection::Perspective { fov_y, .. } = options.camera.projection else {
+        panic!("a perspective view")
+    };
+    let half = (fov_y * 0.5).tan();
+    let right = ((f64::from(x) + 0.5) / width * 2.0 - 1.0) * half * width / height;
+    let up = (1.0 - (f64::from(y) + 0.5) / height * 2.0) * half;
+    let direction = options.camera.world_from_view.transform_vector3(DVec3::new(right, up, -1.0));
+    (options.camera.position_world(), direction.normalize())
+}
+
+/// Where a ray enters a box: the distance and the face's normal.
+pub(crate) fn ray_box(origin: DVec3, direction: DVec3, min: DVec3, max: DVec3) -> Option<(f64, DVec3)> {
+    let (to_min, to_max) = ((min - origin) / direction, (max - origin) / direction);
+    let (near, far) = (to_min.min(to_max), to_min.max(to_max));
+    let (enter, leave) = (near.max_element(), far.min_element());
+    let axis = (0..3).find(|&i| near[i] == enter)?;
+    let mut normal = DVec3::ZERO;
+    normal[axis] = -direction[axis].signum();
+    (leave > enter && leave > 1e-9).then_some((enter, normal))
+}
