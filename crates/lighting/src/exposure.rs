@@ -3,6 +3,34 @@
 use glam::Vec3;
 use shadowgraph_scene::{Aabb, Light, LightKind};
 
+/// How much light a scene's light sources give where they matter, lux.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// The directional lights together.
+    pub directional_lx: f32,
+    /// The brightest spot or point light, at the distance of a tenth of the scene from it.
+    pub local_lx: f32,
+}
+
+impl Key {
+    /// Estimates the key light of a scene within `bounds`.
+    pub fn of(lights: &[Light], bounds: &Aabb) -> Self {
+        let size = if bounds.is_empty() { 1.0 } else { (bounds.max - bounds.min).length() };
+        let (mut directional, mut local) = (0.0, 0.0_f64);
+        for light in lights {
+            let intensity = f64::from(light.intensity) * f64::from(light.color.max_element());
+            match light.kind {
+                LightKind::Directional { .. } => directional += intensity,
+                LightKind::Spot { .. } | LightKind::Point { .. } => {
+                    let distance = typical_distance(light.effective_range(), size);
+                    local = local.max(intensity / (distance * distance));
+                }
+            }
+        }
+        Self { directional_lx: directional as f32, local_lx: local as f32 }
+    }
+}
+
 /// The light from all around, and how much of all light the picture takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ambience {
@@ -16,20 +44,24 @@ pub struct Ambience {
 
 impl Ambience {
     /// Chooses an exposure at which white in the full key light is a little under white in the picture, and a
-    /// sky and ground that fill shadows with some of the key light.
+    /// sky and ground that fill shadows with some of the light. The sky goes with the directional lights: lamps
+    /// light it little.
     ///
     /// ```
-    /// use shadowgraph_lighting::Ambience;
-    /// let (day, night) = (Ambience::for_key(100_000.0), Ambience::for_key(0.3));
-    /// assert!(day.exposure < night.exposure);
+    /// use shadowgraph_lighting::{Ambience, Key};
+    /// let day = Ambience::for_key(Key { directional_lx: 100_000.0, local_lx: 50.0 });
+    /// let night = Ambience::for_key(Key { directional_lx: 0.3, local_lx: 50.0 });
+    /// assert!(day.exposure < night.exposure && day.sky.x > night.sky.x);
     /// ```
-    pub fn for_key(illuminance_lx: f32) -> Self {
-        // White in the key light: illuminance / pi.
-        let white = illuminance_lx.max(1e-6) / std::f32::consts::PI;
+    pub fn for_key(key: Key) -> Self {
+        let Key { directional_lx, local_lx } = key;
+        // The radiance of white in one lux.
+        let white = std::f32::consts::FRAC_1_PI;
+        let around = (directional_lx + LAMPS_AROUND * local_lx).max(DARKEST_LX) * white;
         Self {
-            sky: Vec3::new(0.80, 0.95, 1.20) * (white * 0.20),
-            ground: Vec3::new(1.05, 0.95, 0.85) * (white * 0.08),
-            exposure: 1.5 / white,
+            sky: Vec3::new(0.80, 0.95, 1.20) * (around * 0.20),
+            ground: Vec3::new(1.05, 0.95, 0.85) * (around * 0.08),
+            exposure: 1.5 / (directional_lx.max(local_lx).max(DARKEST_LX) * white),
         }
     }
 
@@ -40,25 +72,10 @@ impl Ambience {
     }
 }
 
-/// Returns the illuminance, lux, that the scene's lights give where they matter: the directional lights together,
-/// or the brightest spot or point light at the distance of a tenth of the scene from it, whichever is more. 1 without
-/// any light.
-pub fn key_illuminance(lights: &[Light], bounds: &Aabb) -> f32 {
-    let size = if bounds.is_empty() { 1.0 } else { (bounds.max - bounds.min).length() };
-    let (mut directional, mut local) = (0.0, 0.0_f64);
-    for light in lights {
-        let intensity = f64::from(light.intensity) * f64::from(light.color.max_element());
-        match light.kind {
-            LightKind::Directional { .. } => directional += intensity,
-            LightKind::Spot { .. } | LightKind::Point { .. } => {
-                let distance = typical_distance(light.effective_range(), size);
-                local = local.max(intensity / (distance * distance));
-            }
-        }
-    }
-    let key = directional.max(local);
-    if key > 0.0 { key as f32 } else { 1.0 }
-}
+/// How much of the light of lamps comes back from all around.
+const LAMPS_AROUND: f32 = 0.1;
+/// A scene without light counts as having this much.
+const DARKEST_LX: f32 = 1e-6;
 
 /// How far from a light the things are that it is there for.
 fn typical_distance(range: Option<f64>, scene_size: f64) -> f64 {
@@ -75,15 +92,18 @@ mod tests {
     }
 
     #[test]
-    fn the_key_is_the_sun_where_there_is_one() {
+    fn suns_add_up_and_the_brightest_lamp_counts() {
         let sun = light(LightKind::Directional { direction: DVec3::NEG_Y }, 5_000.0);
-        let lamp = light(LightKind::Point { position_world: DVec3::ZERO, range: None }, 10.0);
-        let bounds = Aabb { min: DVec3::splat(-10.0), max: DVec3::splat(10.0) };
-        assert_eq!(key_illuminance(&[sun, lamp], &bounds), 5_000.0);
+        let lamp =
+            |intensity| light(LightKind::Point { position_world: DVec3::ZERO, range: None }, intensity);
+        let bounds = Aabb { min: DVec3::ZERO, max: DVec3::new(10.0, 0.0, 0.0) };
+        let key = Key::of(&[sun.clone(), sun, lamp(10.0), lamp(40.0)], &bounds);
+        assert_eq!(key, Key { directional_lx: 10_000.0, local_lx: 40.0 });
     }
 
     #[test]
-    fn a_scene_without_light_has_a_key_all_the_same() {
-        assert_eq!(key_illuminance(&[], &Aabb::EMPTY), 1.0);
+    fn a_scene_without_light_has_a_finite_exposure_all_the_same() {
+        let ambience = Ambience::for_key(Key::of(&[], &Aabb::EMPTY));
+        assert!(ambience.exposure.is_finite() && ambience.background().iter().all(|value| value.is_finite()));
     }
 }

@@ -91,6 +91,21 @@ impl Forward {
         })
     }
 
+    /// Returns the pipelines of the prepass, for one that is recorded without the graph.
+    pub fn depth_pipelines(&self) -> &DepthPipelines {
+        &self.prepass
+    }
+
+    /// Returns the pipeline of a key, for a lit pass that is recorded without the graph.
+    pub fn pipeline(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
+        &self.pipelines[key.index()]
+    }
+
+    /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.
+    pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.view_layout
+    }
+
     /// Adds the pass that draws the depth of all solid geometry, and returns the depth.
     pub fn prepass<'f>(
         &'f self,

@@ -18,7 +18,7 @@ mod records;
 mod tonemap;
 
 pub use error::Error;
-pub use exposure::{Ambience, key_illuminance};
+pub use exposure::{Ambience, Key};
 pub use forward::{Forward, Geometry, Shows};
 pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
 pub use tonemap::Tonemap;

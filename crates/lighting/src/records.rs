@@ -221,7 +221,8 @@ mod tests {
         let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
         let camera = Camera::look_at(eye, eye + DVec3::NEG_Z, DVec3::Y, projection);
         let origin_world = shadowgraph_scene::origin_near(eye);
-        let records = ViewRecords::new(&camera, [64, 64], &[], origin_world, &Ambience::for_key(1.0));
+        let ambience = Ambience::for_key(crate::Key { directional_lx: 1.0, local_lx: 0.0 });
+        let records = ViewRecords::new(&camera, [64, 64], &[], origin_world, &ambience);
         assert_eq!(records.view.position.as_dvec3() + origin_world, eye);
         let clip = records.view.clip_from_world * (records.view.position + Vec3::NEG_Z * 0.1).extend(1.0);
         assert!((clip.z / clip.w - 1.0).abs() < 1e-4, "the near plane has depth 1: {clip}");

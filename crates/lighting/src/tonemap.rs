@@ -65,6 +65,16 @@ impl Tonemap {
         Ok(Self { layout, pipeline })
     }
 
+    /// Returns the pipeline, for a pass that is recorded without the graph: three vertices and no buffers.
+    pub fn pipeline(&self) -> &wgpu::RenderPipeline {
+        &self.pipeline
+    }
+
+    /// Returns the layout of group 0: the texture of light.
+    pub fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
     /// Adds the pass that covers `target` with the picture of `light`, which is as large as the target.
     pub fn add_to<'f>(&'f self, frame: &mut Frame<'f>, light: &Texture, target: &mut Texture) {
         let mut pass = frame.render_pass("tonemap");

@@ -36,6 +36,9 @@ pub enum Error {
         /// The target's format.
         format: shadowgraph_core::Format,
     },
+    /// A renderer of another output.
+    #[error("only --aov color is measured: the passes encoded by hand draw nothing else")]
+    BenchAov,
     /// A light that the scene does not have.
     #[error("--aov visibility:{light}: {there_are}")]
     NoLight {

@@ -18,6 +18,7 @@
 //! # Ok::<(), shadowgraph::core::Error>(())
 //! ```
 
+pub mod bench;
 mod casters;
 mod error;
 mod gpu;
@@ -41,3 +42,11 @@ pub use shadowgraph_lighting as lighting;
 pub use shadowgraph_scene as scene;
 pub use shadowgraph_shaders as shaders;
 pub use shadowgraph_shadows as shadows;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+mod readme {}
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide.md")]
+mod guide {}

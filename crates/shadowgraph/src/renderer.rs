@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use shadowgraph_core::{Compiled, Executed, Format, Frame, PassTime, Plan, Pool, Timer};
-use shadowgraph_lighting::{Ambience, Forward, Shows, Tonemap, key_illuminance};
+use shadowgraph_lighting::{Ambience, Forward, Key, Shows, Tonemap};
 use shadowgraph_scene::gpu::{DrawList, GpuScene};
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
 use shadowgraph_shadows::{Pcf, ShadowSettings, ShadowTechnique, Unshadowed};
@@ -25,11 +25,12 @@ pub struct ViewOptions {
 }
 
 impl ViewOptions {
-    /// Sets how far shadows reach. `Auto` is as far as something of the scene is seen, at most the far plane.
+    /// Sets how far shadows reach. `Auto` is so far that all that is seen of the scene lies before their fade, at
+    /// most the far plane.
     pub fn with_shadow_distance(mut self, distance: ShadowDistance, scene: &Scene) -> Self {
         self.shadows.distance_m = match distance {
             ShadowDistance::Metres(metres) => metres as f32,
-            ShadowDistance::Auto => self.visible_depth_m(scene) as f32,
+            ShadowDistance::Auto => self.automatic_distance_m(scene) as f32,
         };
         self
     }
@@ -38,15 +39,15 @@ impl ViewOptions {
         f64::from(self.size_px[0]) / f64::from(self.size_px[1])
     }
 
-    /// The view depth of the farthest corner of what is seen, metres, a little above the near plane at least.
-    fn visible_depth_m(&self, scene: &Scene) -> f64 {
+    fn automatic_distance_m(&self, scene: &Scene) -> f64 {
         let bounds: Vec<_> = (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect();
         let view_from_world = self.camera.view_from_world();
         let seen = visible(scene, &bounds, &self.camera.volume(self.aspect()));
         let corners = seen.iter().flat_map(|&instance| bounds[instance as usize].corners());
         let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
+        let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
         let near = self.camera.near();
-        farthest.min(self.camera.far().unwrap_or(f64::INFINITY)).clamp(near * 1.001 + 0.001, 1.0e6)
+        with_fade.min(self.camera.far().unwrap_or(f64::INFINITY)).clamp(near * 1.001 + 0.001, 1.0e6)
     }
 }
 
@@ -216,7 +217,7 @@ impl Renderer {
         let gpu_scene = &self.casters.scene;
         let seen = visible(&self.scene, gpu_scene.bounds(), &options.camera.volume(options.aspect()));
         let draws: DrawList = gpu_scene.draw_list(&seen, options.camera.position_world());
-        let key = key_illuminance(&self.scene.lights, &self.scene.bounds());
+        let key = Key::of(&self.scene.lights, &self.scene.bounds());
         let tonemap = match (target, &self.target_tonemap) {
             (Some(_), Some((_, tonemap))) => tonemap,
             _ => &self.tonemap,
@@ -238,7 +239,7 @@ impl Renderer {
         Ok(())
     }
 
-    fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) {
+    pub(crate) fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) {
         let origin_world = origin_near(options.camera.position_world());
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
     }
@@ -295,3 +296,6 @@ fn main_light(lights: &[Light]) -> u32 {
     let brightest = suns.min_by(|a, b| brightness(b.1).total_cmp(&brightness(a.1)));
     brightest.map_or(0, |(index, _)| index as u32)
 }
+
+#[cfg(test)]
+mod tests;

@@ -14,9 +14,9 @@ pub trait ShadowCasters: Sync {
     /// Returns the bounds of all casters, [`Aabb::EMPTY`] where there are none.
     fn bounds(&self) -> Aabb;
 
-    /// Draws the depth of the casters into the pass. Viewport, scissor and group 0 are already set: binding 0
-    /// is a storage buffer (read) that begins with the matrix `clip_from_world: mat4x4f`, where world is
-    /// relative to the frame's origin. Leave all of these as they are.
+    /// Draws the depth of the casters into the pass. Viewport, scissor and group 0
+    /// ([`caster_view_layout`]) are already set: its matrix `clip_from_world` takes positions relative to the
+    /// frame's origin. Leave all of these as they are.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]);
 }
 
@@ -29,4 +29,23 @@ pub struct CasterTarget {
     /// Whether the view is a spot light's pyramid rather than a box. In both, casters between the light and
     /// the near plane are to be kept with depth 1 (`unclipped_depth`, or its emulation).
     pub perspective: bool,
+}
+
+/// Returns the layout of bind group 0 of pipelines that draw casters: at binding 0 a storage buffer, read by
+/// vertices, at a dynamic offset, that begins with the matrix `clip_from_world` (64 bytes).
+#[must_use]
+pub fn caster_view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("depth view"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: true,
+                min_binding_size: std::num::NonZeroU64::new(64),
+            },
+            count: None,
+        }],
+    })
 }

@@ -31,7 +31,7 @@ pub use atlas::{
 };
 pub use basis::{Sphere, light_from_world};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
-pub use casters::{CasterTarget, ShadowCasters};
+pub use casters::{CasterTarget, ShadowCasters, caster_view_layout};
 pub use error::Error;
 pub use filter::{BORDER_PX, FILTER_REACH_TEXELS, FILTER_SUM, Needs, filter_taps};
 pub use ortho::OrthoFit;

@@ -66,6 +66,16 @@ enum Token<'f> {
     Sampler(&'f wgpu::Sampler),
 }
 
+impl Token<'_> {
+    fn bind(&self) -> Bind<'_> {
+        match self {
+            Token::Buffer(buffer) => Bind::Buffer(*buffer),
+            Token::Texture(texture) => Bind::Texture(*texture),
+            Token::Sampler(sampler) => Bind::Sampler(sampler),
+        }
+    }
+}
+
 impl<'f> ShadowOutputs<'f> {
     /// Declares that `pass` reads the shadows; move what it returns into the pass's body.
     pub fn read_in<K: ShaderPass>(&self, pass: &mut Pass<'_, 'f, K>) -> ShadowTokens<'f> {
@@ -88,12 +98,7 @@ impl ShadowTokens<'_> {
         resources: &mut Resources<'_>,
         layout: &wgpu::BindGroupLayout,
     ) -> Result<wgpu::BindGroup, GraphError> {
-        let bind = |token| match token {
-            &Token::Buffer(buffer) => Bind::Buffer(buffer),
-            &Token::Texture(texture) => Bind::Texture(texture),
-            &Token::Sampler(sampler) => Bind::Sampler(sampler),
-        };
-        let entries: Vec<Bind<'_>> = self.0.iter().map(bind).collect();
+        let entries: Vec<_> = self.0.iter().map(Token::bind).collect();
         resources.bind_group(layout, &entries)
     }
 }

@@ -8,7 +8,7 @@ impl Plan {
     /// Returns the plan in Graphviz's DOT language. Culled passes are faint, and their tooltips say why.
     pub fn to_dot(&self) -> String {
         let mut out = String::from(
-            "digraph frame {\n  rankdir=LR;\n  node [shape=box, style=\"rounded,filled\", fillcolor=\"#eef3fa\", \
+            "digraph frame {\n  rankdir=LR;\n  fontname=\"sans-serif\";\n  node [shape=box, style=\"rounded,filled\", fillcolor=\"#eef3fa\", \
              fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", fontsize=10];\n",
         );
         self.dot_members(&mut out, None, 1);

@@ -8,7 +8,8 @@ use shadowgraph_shaders::{ModuleSource, PCF};
 use crate::plan;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
-    CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowView, TilePlan, plan_shadows,
+    CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowView, TilePlan,
+    caster_view_layout, plan_shadows,
 };
 
 /// The format of both maps.
@@ -29,7 +30,7 @@ impl Pcf {
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
             layout: group_layout(device),
-            view_layout: view_layout(device),
+            view_layout: caster_view_layout(device),
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("shadow comparison"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -177,21 +178,4 @@ fn group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         .collect();
     let label = Some("pcf shadows");
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
-}
-
-/// Group 0 of caster pipelines: one view of the array, chosen by the dynamic offset.
-fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("depth view"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: true,
-                min_binding_size: std::num::NonZeroU64::new(64),
-            },
-            count: None,
-        }],
-    })
 }

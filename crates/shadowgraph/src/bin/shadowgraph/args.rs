@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Show the plan of a frame: passes, resources, and why each is as it is
     Dump(DumpArgs),
+    /// Measure a frame: the graph beside the same passes encoded by hand, and the time of each pass
+    Bench(BenchArgs),
 }
 
 /// `shadowgraph render`
@@ -51,6 +53,16 @@ pub(crate) struct DumpArgs {
     /// The file; a missing folder is created. Without it the dump goes to standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// `shadowgraph bench`
+#[derive(Debug, Args)]
+pub(crate) struct BenchArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+    /// How many frames are measured on either side
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) frames: u32,
 }
 
 /// The form of a dump.
@@ -96,15 +108,20 @@ pub(crate) struct DrawArgs {
     /// texture of the graph by name
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
-    /// Which GPU; cpu insists on a software driver
-    #[arg(long, value_name = "auto|NAME|cpu", default_value = "auto")]
-    adapter: String,
+    /// Which GPU; cpu insists on a software driver. Default: auto; for bench no GPU, only the CPU's share
+    #[arg(long, value_name = "auto|NAME|cpu")]
+    adapter: Option<String>,
     /// Print a table of CPU and GPU time per pass
     #[arg(long)]
     timings: bool,
 }
 
 impl DrawArgs {
+    /// Returns whether a GPU is asked for.
+    pub(crate) fn names_adapter(&self) -> bool {
+        self.adapter.is_some()
+    }
+
     /// Parses and checks every option.
     ///
     /// # Errors
@@ -124,7 +141,7 @@ impl DrawArgs {
             sun: or_default(self.sun.as_deref())?,
             shadow_distance,
             aov: self.aov.parse()?,
-            adapter: self.adapter.parse()?,
+            adapter: or_default(self.adapter.as_deref())?,
             timings: self.timings,
         })
     }
@@ -202,6 +219,36 @@ mod tests {
     fn a_value_that_starts_with_a_minus_sign_reaches_its_option() {
         let error = options("--shadow-distance;-3").unwrap_err();
         assert!(error.starts_with("--shadow-distance: `-3` is neither auto"), "{error}");
+    }
+
+    fn bench(line: &str) -> Result<BenchArgs, String> {
+        let words = ["shadowgraph", "bench"].into_iter().chain(line.split_whitespace());
+        let cli = Cli::try_parse_from(words).map_err(|error| error.to_string())?;
+        let Some(Command::Bench(args)) = cli.command else { panic!("{cli:?}") };
+        Ok(args)
+    }
+
+    #[test]
+    fn bench_measures_a_thousand_frames_without_a_gpu_by_default() {
+        let args = bench("").unwrap();
+        assert_eq!((args.frames, args.draw.names_adapter()), (1000, false));
+        assert_eq!(args.draw.options().ok(), Some(Options::default()));
+    }
+
+    #[test]
+    fn bench_takes_the_options_of_drawing_and_a_number_of_frames() {
+        let args = bench("hall.glb --frames 20 --adapter cpu --size 64x36").unwrap();
+        assert_eq!((args.frames, args.draw.names_adapter()), (20, true));
+        let Ok(options) = args.draw.options() else { panic!("{args:?}") };
+        assert_eq!((options.adapter, options.size.width_px), (AdapterChoice::Cpu, 64));
+        assert_eq!(args.draw.scene, Some(PathBuf::from("hall.glb")));
+    }
+
+    #[test]
+    fn bench_refuses_no_frames_and_too_many() {
+        for line in ["--frames 0", "--frames 1000001", "--frames -1", "--frames many"] {
+            assert!(bench(line).unwrap_err().contains("--frames"), "{line}");
+        }
     }
 
     #[test]

@@ -10,14 +10,15 @@ use crate::report;
 use shadowgraph::core::Timer;
 use shadowgraph::options::{Aov, Options};
 use shadowgraph::output::{Pixels, write_png, write_text};
+use shadowgraph::scene::gltf::Progress as LoadProgress;
 use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::{Drawn, Gpu, Picture, Renderer, ViewOptions};
 
 /// What every drawing command starts from.
-struct Input {
-    options: Options,
-    scene: Scene,
-    camera: Camera,
+pub(crate) struct Input {
+    pub(crate) options: Options,
+    pub(crate) scene: Scene,
+    pub(crate) camera: Camera,
 }
 
 /// `shadowgraph render`
@@ -76,7 +77,7 @@ pub(crate) fn dump(args: &DumpArgs) -> Result<(), Failure> {
 }
 
 /// Parses the options, loads the scene and applies the options to it.
-fn input(args: &DrawArgs) -> Result<Input, Failure> {
+pub(crate) fn input(args: &DrawArgs) -> Result<Input, Failure> {
     let options = args.options()?;
     let mut scene = load(args.scene.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
@@ -90,14 +91,16 @@ fn input(args: &DrawArgs) -> Result<Input, Failure> {
 fn load(file: Option<&Path>) -> Result<Scene, Failure> {
     match file {
         Some(file) => {
-            let _loading = Progress::now(&format!("loading {}", file.display()));
-            Ok(shadowgraph::scene::gltf::load(file)?)
+            let loading = Progress::now(&format!("loading {}", file.display()));
+            let told = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
+            Ok(shadowgraph::scene::gltf::load_with_progress(file, told)?)
         }
         None => Ok(shadowgraph::scene::demo::demo_scene()),
     }
 }
 
-fn view_options(input: &Input) -> ViewOptions {
+/// What the options say of the view.
+pub(crate) fn view_options(input: &Input) -> ViewOptions {
     let Options { size, settings, shadow_distance, .. } = &input.options;
     let size_px = [size.width_px, size.height_px];
     ViewOptions { camera: input.camera.clone(), size_px, shadows: settings.clone() }

@@ -4,6 +4,7 @@
 //! is told in one line on standard error that starts with `error:`.
 
 mod args;
+mod bench;
 mod commands;
 mod console;
 mod failure;
@@ -20,6 +21,7 @@ fn main() -> ExitCode {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args),
         Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args),
+        Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args),
         Err(usage) => return tell_usage(&usage),
     };
     match done {

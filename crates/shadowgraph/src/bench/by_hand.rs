@@ -1,0 +1,224 @@
+//! The passes of `forward` without the graph, as one would write them for this very frame: every texture, view and
+//! bind group is made once, and a frame writes the buffers and encodes.
+
+use shadowgraph_core::Format;
+use shadowgraph_lighting::{GpuLight, GpuView, ViewRecords};
+use shadowgraph_shadows::{
+    CasterTarget, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, plan_shadows,
+};
+use wgpu::{BindingResource, TextureUsages};
+
+use super::objects::{attachment, begin, buffer, comparison_sampler, group, range};
+use super::{Clock, Counts, FrameTime};
+use crate::pipelines::View;
+use crate::{Error, Gpu, Renderer};
+
+const DEPTH: Format = Format::Depth32Float;
+const VIEW_BYTES: u32 = size_of::<ShadowView>() as u32;
+
+/// What stays the same from frame to frame.
+pub(super) struct ByHand<'v> {
+    renderer: &'v Renderer,
+    view: &'v View<'v>,
+    counts: Counts,
+    /// The view, the lights, the views of shadow maps, the lights' shadows.
+    buffers: [wgpu::Buffer; 4],
+    /// The cascades and the atlas, where there is one.
+    maps: [Option<wgpu::TextureView>; 2],
+    depth: wgpu::TextureView,
+    lit: wgpu::TextureView,
+    target: wgpu::TextureView,
+    groups: Groups,
+}
+
+struct Groups {
+    casters: wgpu::BindGroup,
+    prepass: wgpu::BindGroup,
+    view: wgpu::BindGroup,
+    shadows: wgpu::BindGroup,
+    tonemap: wgpu::BindGroup,
+}
+
+/// What a frame needs of the CPU before anything is encoded.
+struct Records {
+    view: ViewRecords,
+    shadows: ShadowPlan,
+}
+
+impl<'v> ByHand<'v> {
+    /// Makes everything for frames of `view` in pictures of `target`.
+    pub(super) fn new(
+        gpu: &Gpu,
+        renderer: &'v Renderer,
+        view: &'v View<'v>,
+        target: &wgpu::Texture,
+    ) -> Result<Self, Error> {
+        let device = &gpu.device;
+        let records = records(renderer, view)?;
+        let buffers = bytes(&records).map(|bytes| buffer(device, bytes.len() as u64));
+        let [width, height] = view.options.size_px;
+        let depth = attachment(device, [width, height], DEPTH, TextureUsages::empty());
+        let lit = attachment(device, [width, height], Format::Rgba16Float, TextureUsages::TEXTURE_BINDING);
+        let map = |plan: &Option<MapPlan>| {
+            plan.as_ref().map(|plan| attachment(device, plan.size_px, DEPTH, TextureUsages::TEXTURE_BINDING))
+        };
+        let maps = [map(&records.shadows.cascades), map(&records.shadows.atlas)];
+        Ok(Self {
+            counts: counts(&records, view),
+            groups: Groups::new(device, renderer, view, &buffers, &maps, &lit),
+            target: target.create_view(&wgpu::TextureViewDescriptor::default()),
+            renderer,
+            view,
+            buffers,
+            maps,
+            depth,
+            lit,
+        })
+    }
+
+    /// Returns what each frame consists of.
+    pub(super) fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Encodes and submits one frame.
+    pub(super) fn frame(&self, gpu: &Gpu) -> Result<FrameTime, Error> {
+        let mut clock = Clock::start();
+        let records = records(self.renderer, self.view)?;
+        let plan = clock.lap();
+        for (buffer, bytes) in self.buffers.iter().zip(bytes(&records)) {
+            gpu.queue.write_buffer(buffer, 0, &bytes);
+        }
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.encode(&mut encoder, &records.shadows);
+        drop(records);
+        let record = clock.lap();
+        let commands = encoder.finish();
+        let finish = clock.lap();
+        gpu.queue.submit([commands]);
+        Ok(FrameTime { plan, record, finish, submit: clock.lap(), ..FrameTime::default() })
+    }
+
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder, shadows: &ShadowPlan) {
+        let plans = [&shadows.cascades, &shadows.atlas];
+        for ((label, plan), map) in ["cascades", "atlas"].into_iter().zip(plans).zip(&self.maps) {
+            if let (Some(plan), Some(map)) = (plan, map) {
+                self.shadow_map(encoder, label, plan, map);
+            }
+        }
+        self.prepass(encoder);
+        self.lit(encoder);
+        self.tonemap(encoder);
+    }
+
+    fn shadow_map(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        label: &str,
+        plan: &MapPlan,
+        map: &wgpu::TextureView,
+    ) {
+        let mut pass = begin(encoder, label, None, Some((map, true)));
+        for tile in plan.tiles.iter().filter(|tile| !tile.casters.is_empty()) {
+            pass.set_bind_group(0, &self.groups.casters, &[tile.view * VIEW_BYTES]);
+            let rect = tile.rect;
+            let [x, y, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|px| px as f32);
+            pass.set_viewport(x, y, width, height, 0.0, 1.0);
+            pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
+            let target = CasterTarget { format: DEPTH, perspective: tile.cascade.is_none() };
+            self.renderer.casters.draw(&mut pass, target, &tile.casters);
+        }
+    }
+
+    fn prepass(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = begin(encoder, "depth prepass", None, Some((&self.depth, true)));
+        pass.set_bind_group(0, &self.groups.prepass, &[0]);
+        let pipelines = self.renderer.forward.depth_pipelines();
+        self.renderer.casters.scene.draw(&mut pass, &self.view.draws.solid, false, &|key| pipelines.get(key));
+    }
+
+    fn lit(&self, encoder: &mut wgpu::CommandEncoder) {
+        let background = self.view.ambience.background();
+        let mut pass = begin(encoder, "forward", Some((&self.lit, background)), Some((&self.depth, false)));
+        pass.set_bind_group(0, &self.groups.view, &[]);
+        pass.set_bind_group(1, &self.groups.shadows, &[]);
+        let forward = &self.renderer.forward;
+        for draws in [&self.view.draws.solid, &self.view.draws.blend] {
+            self.renderer.casters.scene.draw(&mut pass, draws, true, &|key| forward.pipeline(key));
+        }
+    }
+
+    fn tonemap(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = begin(encoder, "tonemap", Some((&self.target, [0.0; 4])), None);
+        pass.set_pipeline(self.view.target.tonemap.pipeline());
+        pass.set_bind_group(0, &self.groups.tonemap, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+impl Groups {
+    fn new(
+        device: &wgpu::Device,
+        renderer: &Renderer,
+        view: &View<'_>,
+        [view_buffer, lights, shadow_views, shadow_lights]: &[wgpu::Buffer; 4],
+        maps: &[Option<wgpu::TextureView>; 2],
+        lit: &wgpu::TextureView,
+    ) -> Self {
+        let Renderer { forward, technique, .. } = renderer;
+        let depth_layout = forward.depth_pipelines().view_layout();
+        // wgpu fills it with zeros, which mean lit.
+        let no_map = attachment(device, [1, 1], DEPTH, TextureUsages::TEXTURE_BINDING);
+        let map = |map: &Option<wgpu::TextureView>| map.clone().unwrap_or_else(|| no_map.clone());
+        let (cascades, atlas) = (map(&maps[0]), map(&maps[1]));
+        let sampler = comparison_sampler(device);
+        let shadows = [
+            shadow_views.as_entire_binding(),
+            shadow_lights.as_entire_binding(),
+            BindingResource::TextureView(&cascades),
+            BindingResource::TextureView(&atlas),
+            BindingResource::Sampler(&sampler),
+        ];
+        let view_and_lights = [view_buffer.as_entire_binding(), lights.as_entire_binding()];
+        let light = [BindingResource::TextureView(lit)];
+        Self {
+            casters: group(device, depth_layout, [range(shadow_views, VIEW_BYTES)]),
+            prepass: group(device, depth_layout, [range(view_buffer, size_of::<GpuView>() as u32)]),
+            view: group(device, forward.view_layout(), view_and_lights),
+            shadows: group(device, technique.bind_group_layout(), shadows),
+            tonemap: group(device, view.target.tonemap.layout(), light),
+        }
+    }
+}
+
+fn records(renderer: &Renderer, view: &View<'_>) -> Result<Records, Error> {
+    let options = view.options;
+    let (camera, size_px, lights) = (&options.camera, options.size_px, &renderer.scene().lights);
+    let (casters, settings) = (&renderer.casters, &options.shadows);
+    let origin_world = casters.scene.origin_world();
+    let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
+    let inputs = ShadowInputs { camera, aspect, lights, casters, origin_world, settings };
+    Ok(Records {
+        view: ViewRecords::new(camera, size_px, lights, origin_world, &view.ambience),
+        shadows: plan_shadows(&inputs)?,
+    })
+}
+
+/// The contents of the buffers, in their order.
+fn bytes(records: &Records) -> [Vec<u8>; 4] {
+    let none = [<GpuLight as bytemuck::Zeroable>::zeroed()];
+    let lights = if records.view.lights.is_empty() { &none } else { &records.view.lights[..] };
+    [
+        bytemuck::bytes_of(&records.view.view).to_vec(),
+        bytemuck::cast_slice(lights).to_vec(),
+        records.shadows.view_bytes(),
+        records.shadows.light_bytes(),
+    ]
+}
+
+fn counts(records: &Records, view: &View<'_>) -> Counts {
+    let maps = [&records.shadows.cascades, &records.shadows.atlas];
+    let casters = maps.into_iter().flatten().flat_map(|map| &map.tiles).map(|tile| tile.casters.len());
+    let draws = casters.sum::<usize>() + 2 * view.draws.solid.len() + view.draws.blend.len() + 1;
+    Counts { passes: maps.into_iter().flatten().count() + 3, uploads: 4, draws }
+}

@@ -1,0 +1,137 @@
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use super::*;
+use crate::options::{AdapterChoice, ShadowDistance};
+use crate::picture::{Picture, ReadBack};
+use shadowgraph_core::{PassKind, Plan};
+use shadowgraph_scene::{Camera, Scene, demo::demo_scene};
+use shadowgraph_shadows::ShadowSettings;
+use std::io::Write as _;
+
+fn options(scene: &Scene, camera: &Camera) -> ViewOptions {
+    let mut shadows = ShadowSettings::default();
+    shadows.cascades.map_size_px = 1024;
+    shadows.atlas.map_size_px = 1024;
+    ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows }
+        .with_shadow_distance(ShadowDistance::Auto, scene)
+}
+
+fn demo(gpu: &Gpu) -> (Renderer, ViewOptions) {
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let options = options(&scene, &camera);
+    (Renderer::new(gpu, scene, &camera, Aov::Color).unwrap(), options)
+}
+
+fn names(plan: &Plan, kind: PassKind) -> Vec<&str> {
+    let passes = plan.live_passes().map(|id| plan.pass(id)).filter(|pass| pass.kind == kind);
+    passes.map(|pass| pass.name.as_str()).collect()
+}
+
+#[test]
+fn by_hand_there_are_as_many_passes_and_uploads_as_in_the_plan() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let (plan, _) = renderer.plan(&options).unwrap();
+    let counts = compare(&gpu, &mut renderer, &options, 1).unwrap().counts;
+    let passes = names(&plan, PassKind::Render);
+    assert_eq!(passes, ["cascades", "atlas", "depth prepass", "forward", "tonemap"]);
+    assert_eq!(counts.passes, passes.len());
+    assert_eq!(counts.uploads, names(&plan, PassKind::Copy).len());
+    assert!(counts.draws > 100, "{counts:?}");
+}
+
+#[test]
+fn a_scene_without_shadows_has_two_passes_less_on_both_sides() {
+    let gpu = Gpu::noop().unwrap();
+    let mut scene = demo_scene();
+    scene.lights.iter_mut().for_each(|light| light.casts_shadow = false);
+    let camera = scene.cameras[0].clone();
+    let options = options(&scene, &camera);
+    let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();
+    let (plan, _) = renderer.plan(&options).unwrap();
+    let counts = compare(&gpu, &mut renderer, &options, 1).unwrap().counts;
+    assert_eq!((counts.passes, names(&plan, PassKind::Render).len()), (3, 3));
+}
+
+#[test]
+fn every_pair_is_measured_and_every_step_takes_time() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let comparison = compare(&gpu, &mut renderer, &options, 12).unwrap();
+    assert_eq!((comparison.graph.len(), comparison.by_hand.len()), (12, 12));
+    for time in &comparison.graph {
+        assert!(time.plan.is_zero() && !time.declare.is_zero() && !time.compile.is_zero(), "{time:?}");
+    }
+    for time in &comparison.by_hand {
+        assert!(!time.plan.is_zero() && time.declare.is_zero() && !time.record.is_zero(), "{time:?}");
+    }
+    let (whole, graph_work) = (comparison.ratio(), comparison.ratio_without_planning());
+    assert!(whole.median > 0.1 && graph_work.median.is_finite(), "{whole:?} {graph_work:?}");
+}
+
+#[test]
+fn only_colours_are_measured() {
+    let gpu = Gpu::noop().unwrap();
+    let (renderer, options) = demo(&gpu);
+    let camera = options.camera.clone();
+    let mut renderer = Renderer::new(&gpu, renderer.scene().clone(), &camera, Aov::Normal).unwrap();
+    assert!(matches!(compare(&gpu, &mut renderer, &options, 1), Err(Error::BenchAov)));
+}
+
+#[test]
+fn pass_times_are_those_of_every_pass_in_order() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let times = pass_times(&gpu, &mut renderer, &options, 3).unwrap();
+    let (plan, _) = renderer.plan(&options).unwrap();
+    let paths: Vec<_> = plan.live_passes().map(|id| plan.pass_path(id)).collect();
+    assert_eq!(times.iter().map(|time| &time.pass).collect::<Vec<_>>(), paths.iter().collect::<Vec<_>>());
+    assert!(times.iter().all(|time| time.cpu_ms > 0.0), "{times:?}");
+}
+
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Picture {
+    let read_back = ReadBack::new(&gpu.device, [texture.width(), texture.height()]);
+    let mut frame = Frame::new();
+    let texture = frame.import_texture("target", texture, true);
+    read_back.add_to(&mut frame, &texture);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    frame.compile().unwrap().execute(&mut Pool::new(), &gpu.device, &mut encoder).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    read_back.read(&gpu.device).unwrap()
+}
+
+/// The draws of both sides are the same: what is drawn is the same, to the bit.
+#[test]
+fn by_hand_the_picture_is_that_of_the_graph() {
+    let gpu = match Gpu::open(&AdapterChoice::Cpu) {
+        Ok(gpu) => gpu,
+        Err(error) => return skip("bench_pictures", &error.to_string()),
+    };
+    let (mut renderer, options) = demo(&gpu);
+    let target = target(&gpu.device, options.size_px).unwrap();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    renderer.record(&gpu, &mut encoder, &target, &options).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    let of_graph = read(&gpu, &target);
+    let other = super::target(&gpu.device, options.size_px).unwrap();
+    let view = renderer.view(&options, Some(&other));
+    ByHand::new(&gpu, &renderer, &view, &other).unwrap().frame(&gpu).unwrap();
+    let by_hand = read(&gpu, &other);
+    assert_eq!(of_graph, by_hand);
+    let mut colors: Vec<_> = of_graph.rgba8.chunks_exact(4).collect();
+    colors.sort_unstable();
+    colors.dedup();
+    assert!(colors.len() > 100, "a picture of {} colours", colors.len());
+}
+
+/// As `CONTRIBUTING.md` has it.
+#[allow(clippy::print_stdout, reason = "the line is for whoever runs the test")]
+fn skip(id: &str, reason: &str) {
+    let line = format!("SKIP {id}: {reason}\n");
+    print!("{line}");
+    if let Some(log) = std::env::var_os("SHADOWGRAPH_SKIP_LOG") {
+        let mut log = std::fs::OpenOptions::new().append(true).create(true).open(log).unwrap();
+        log.write_all(line.as_bytes()).unwrap();
+    }
+}

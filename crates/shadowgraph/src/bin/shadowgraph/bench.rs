@@ -1,0 +1,148 @@
+//! `shadowgraph bench`: what a frame costs. Tables are at most 110 columns wide.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use crate::args::BenchArgs;
+use crate::commands::{self, Input};
+use crate::console;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report;
+use shadowgraph::bench::{Comparison, FrameTime, Spread, compare, pass_times};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+/// Frames on a real GPU, of which each is waited for.
+const GPU_FRAMES: u32 = 20;
+
+/// Measures and prints, a table at a time.
+pub(crate) fn bench(args: &BenchArgs) -> Result<(), Failure> {
+    let input = commands::input(&args.draw)?;
+    let view = commands::view_options(&input);
+    if cfg!(debug_assertions) {
+        console::warning(
+            "this program was built without full optimisation: measure with `cargo run --release`",
+        );
+    }
+    console::print(&heading(args, &input))?;
+    let noop = Gpu::noop()?;
+    let mut renderer = renderer(&noop, &input)?;
+    let measuring = Progress::if_slow("measuring");
+    let comparison = compare(&noop, &mut renderer, &view, args.frames)?;
+    let gpu = match args.draw.names_adapter() {
+        true => Gpu::open(&input.options.adapter).map_err(Failure::no_device)?,
+        false => noop,
+    };
+    let passes = passes(&gpu, &input, &view, args.frames.min(GPU_FRAMES))?;
+    drop(measuring);
+    console::print(&format!("{}\n{passes}", table(&comparison)))
+}
+
+fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
+    Ok(Renderer::new(gpu, input.scene.clone(), &input.camera, input.options.aov.clone())?)
+}
+
+fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
+    let times = pass_times(gpu, &mut renderer(gpu, input)?, view, frames)?;
+    Ok(format!("medians of {frames} frames: {}", report::times(&times, &gpu.adapter)))
+}
+
+fn heading(args: &BenchArgs, input: &Input) -> String {
+    let scene = args.draw.scene.as_ref().map_or("the demo scene".into(), |file| file.display().to_string());
+    let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
+    format!("{scene}, {size}, pipeline {pipeline}, technique {}\n", input.options.technique.name())
+}
+
+/// One side's time of a step, or of several.
+type StepOf = fn(&FrameTime) -> Duration;
+
+/// The comparison as a table.
+fn table(comparison: &Comparison) -> String {
+    let steps: [(&str, Option<StepOf>, Option<StepOf>); 6] = [
+        ("plan the shadows", None, Some(|time| time.plan)),
+        ("declare, which plans the shadows too", Some(|time| time.declare), None),
+        ("compile", Some(|time| time.compile), None),
+        ("record", Some(|time| time.record), Some(|time| time.record)),
+        ("finish", Some(|time| time.finish), Some(|time| time.finish)),
+        ("submit", Some(|time| time.submit), Some(|time| time.submit)),
+    ];
+    let counts = comparison.counts;
+    let mut out = format!(
+        "CPU time of a frame of {} render passes, {} uploads and {} draws; wgpu's noop device, no driver\n",
+        counts.passes, counts.uploads, counts.draws
+    );
+    let _ = writeln!(
+        out,
+        "{:<40}{:^28}{:^28}",
+        format!("{} frames each", comparison.graph.len()),
+        "graph",
+        "by hand"
+    );
+    let _ = writeln!(out, "  {:<38}{}{}", "microseconds", columns("median", "p95"), columns("median", "p95"));
+    for (name, graph, by_hand) in steps {
+        row(&mut out, name, &comparison.graph, graph);
+        out.push_str(&times(&comparison.by_hand, by_hand));
+        out.push('\n');
+    }
+    row(&mut out, "whole frame", &comparison.graph, Some(FrameTime::total));
+    out.push_str(&times(&comparison.by_hand, Some(FrameTime::total)));
+    let _ = writeln!(out, "\n  graph / by hand, frame by frame: {}", ratio(comparison.ratio()));
+    let _ =
+        writeln!(out, "  without planning the shadows:    {}", ratio(comparison.ratio_without_planning()));
+    out.push_str("  In neither: culling and sorting what the camera sees.\n");
+    out
+}
+
+fn row(out: &mut String, name: &str, frames: &[FrameTime], step: Option<StepOf>) {
+    let _ = write!(out, "  {name:<38}{}", times(frames, step));
+}
+
+fn times(frames: &[FrameTime], step: Option<StepOf>) -> String {
+    let Some(step) = step else { return columns("-", "") };
+    let spread = Spread::of(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
+    columns(&format!("{:.1}", spread.median), &format!("{:.1}", spread.p95))
+}
+
+fn columns(median: &str, p95: &str) -> String {
+    format!("{median:>14}{p95:>14}")
+}
+
+fn ratio(spread: Spread) -> String {
+    let Spread { p5, p25, median, p75, p95 } = spread;
+    format!("median {median:.2}, half of them {p25:.2} to {p75:.2}, nine in ten {p5:.2} to {p95:.2}")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+    use shadowgraph::bench::Counts;
+
+    fn comparison(micros: u64) -> Comparison {
+        let step = Duration::from_micros(micros);
+        let none = Duration::ZERO;
+        let by_hand =
+            FrameTime { plan: step, declare: none, compile: none, record: step, finish: step, submit: step };
+        let graph = FrameTime { plan: none, declare: 3 * step, compile: step, ..by_hand };
+        let counts = Counts { passes: 5, uploads: 4, draws: 1_000_000 };
+        Comparison { counts, graph: vec![graph; 3], by_hand: vec![by_hand; 3] }
+    }
+
+    #[test]
+    fn the_table_is_at_most_110_columns_wide_and_its_columns_are_aligned() {
+        let text = table(&comparison(1_000_000));
+        assert!(text.lines().all(|line| line.chars().count() <= 110), "{text}");
+        let rows: Vec<_> = text.lines().filter(|line| line.contains("1000000.0")).collect();
+        assert_eq!(rows.len(), 5, "{text}");
+        assert!(rows.iter().all(|row| row.trim_end().len() == rows[2].len() || row.contains("-")), "{text}");
+    }
+
+    #[test]
+    fn the_ratio_is_told_with_and_without_planning() {
+        let text = table(&comparison(100));
+        // 7 steps to 4; without planning 6 to 3.
+        assert!(text.contains("frame by frame: median 1.75"), "{text}");
+        assert!(text.contains("shadows:    median 2.00"), "{text}");
+        assert!(text.lines().any(|line| line.contains("whole frame") && line.contains("700.0")), "{text}");
+    }
+}
