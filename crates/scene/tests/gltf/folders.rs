@@ -1,5 +1,6 @@
 //! Loads every file of the shared folders of good and of hostile glTF files, where they are there.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -18,8 +19,18 @@ fn shared(folder: &str) -> Option<PathBuf> {
     if path.is_dir() {
         return Some(path);
     }
-    println!("SKIP no folder {folder} (set SHADOWGRAPH_SHARED to the folder that has it)");
+    skip(&folder.replace('-', "_"), &format!("no folder {folder} (SHADOWGRAPH_SHARED names where it is)"));
     None
+}
+
+/// As `CONTRIBUTING.md` has it.
+fn skip(id: &str, reason: &str) {
+    let line = format!("SKIP {id}: {reason}\n");
+    print!("{line}");
+    if let Some(log) = std::env::var_os("SHADOWGRAPH_SKIP_LOG") {
+        let mut log = std::fs::OpenOptions::new().append(true).create(true).open(log).unwrap();
+        log.write_all(line.as_bytes()).unwrap();
+    }
 }
 
 fn files_below(folder: &Path) -> Vec<PathBuf> {

@@ -1,0 +1,118 @@
+//! Child processes: cargo and the program, started in the repository's root.
+
+use std::ffi::OsStr;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+
+/// The repository's root: the folder above this crate.
+pub(crate) fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// A cargo command in the repository's root, by the cargo that runs this program.
+pub(crate) fn cargo(arguments: &[&str]) -> Command {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = command(cargo);
+    command.args(arguments);
+    command
+}
+
+/// A command in the repository's root.
+pub(crate) fn command(program: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new(program);
+    command.current_dir(root());
+    command
+}
+
+/// Runs to the end with the terminal's own output.
+///
+/// # Errors
+/// One line when it could not start.
+pub(crate) fn stream(command: &mut Command) -> Result<ExitStatus, String> {
+    command.status().map_err(|error| start_error(command, &error))
+}
+
+/// Runs to the end, shows each line of standard output as it comes and hands it to `line`.
+///
+/// # Errors
+/// One line when it could not start or its output could not be read.
+pub(crate) fn stream_lines(command: &mut Command, mut line: impl FnMut(&str)) -> Result<ExitStatus, String> {
+    let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| start_error(command, &error))?;
+    if let Some(output) = child.stdout.take() {
+        let mut output = BufReader::new(output);
+        let mut bytes = Vec::new();
+        while output
+            .read_until(b'\n', &mut bytes)
+            .map_err(|error| format!("cannot read its output: {error}"))?
+            > 0
+        {
+            // A closed terminal must not end the run before its result is known.
+            let _closed = std::io::stdout().write_all(&bytes);
+            line(String::from_utf8_lossy(&bytes).trim_end());
+            bytes.clear();
+        }
+    }
+    child.wait().map_err(|error| format!("cannot wait for it: {error}"))
+}
+
+/// Whether a command runs and succeeds, in silence.
+pub(crate) fn succeeds(program: &str, arguments: &[&str]) -> bool {
+    let mut command = Command::new(program);
+    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// What a command prints, empty when it cannot run.
+pub(crate) fn output_of(program: &str, arguments: &[&str]) -> String {
+    let output = Command::new(program).args(arguments).stdin(Stdio::null()).output();
+    output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default()
+}
+
+fn start_error(command: &Command, error: &std::io::Error) -> String {
+    format!("cannot start `{}`: {error}", command.get_program().to_string_lossy())
+}
+
+/// A private folder for the children's sockets where the session has none: without one, graphics
+/// libraries print complaints that concern nobody. Removed at the end.
+pub(crate) struct RuntimeFolder(Option<PathBuf>);
+
+impl RuntimeFolder {
+    /// Makes the folder if `XDG_RUNTIME_DIR` is unset on a system that looks for it.
+    pub(crate) fn new() -> RuntimeFolder {
+        if !cfg!(target_os = "linux") || std::env::var_os("XDG_RUNTIME_DIR").is_some() {
+            return RuntimeFolder(None);
+        }
+        let path = std::env::temp_dir().join(format!("shadowgraph-runtime-{}", std::process::id()));
+        RuntimeFolder(create_private(&path).then_some(path))
+    }
+
+    /// Tells a child of the folder.
+    pub(crate) fn apply<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        if let Some(path) = &self.0 {
+            command.env("XDG_RUNTIME_DIR", path);
+        }
+        command
+    }
+}
+
+impl Drop for RuntimeFolder {
+    fn drop(&mut self) {
+        if let Some(path) = &self.0 {
+            // A folder left in the temporary files harms nobody.
+            let _left = std::fs::remove_dir_all(path);
+        }
+    }
+}
+
+#[cfg(unix)]
+fn create_private(path: &Path) -> bool {
+    use std::os::unix::fs::DirBuilderExt;
+    std::fs::DirBuilder::new().mode(0o700).create(path).is_ok()
+}
+
+#[cfg(not(unix))]
+fn create_private(path: &Path) -> bool {
+    std::fs::create_dir(path).is_ok()
+}

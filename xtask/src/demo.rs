@@ -1,0 +1,85 @@
+//! `cargo xtask demo`: the built-in scene as a picture and its graph as text, JSON and DOT.
+
+use crate::child::{self, RuntimeFolder};
+use crate::driver::{self, Need};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The program's arguments, the file that they write, and what it is.
+const PRODUCTS: [(&[&str], &str, &str); 4] = [
+    (&["render"], "out/demo.png", "the built-in scene"),
+    (&["dump", "--format", "text"], "out/demo.txt", "its render graph as a table, with reasons"),
+    (&["dump", "--format", "json"], "out/demo.json", "the same as data"),
+    (&["dump", "--format", "dot"], "out/demo.dot", "the same for Graphviz"),
+];
+
+const NEXT: &str = "\
+Try next:
+  cargo run -- render your.glb --sun \"dir=-1,-2,-1 lux=20000 color=1,0.95,0.9\" -o out/yours.png
+  cargo run -- render --aov visibility:0 -o out/sun_visibility.png
+  cargo run -- render --aov atlas -o out/atlas.png
+  dot -Tsvg out/demo.dot -o out/demo.svg
+";
+
+pub(crate) fn run() -> ExitCode {
+    if let Err(error) = driver::ensure(Need::Any) {
+        eprintln!("error: {error}");
+        return ExitCode::from(3);
+    }
+    match draw() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err((code, error)) => {
+            eprintln!("error: {error}");
+            ExitCode::from(code)
+        }
+    }
+}
+
+fn draw() -> Result<(), (u8, String)> {
+    println!("Building the program ...");
+    let built =
+        child::stream(&mut child::cargo(&["build", "--package", "shadowgraph"])).map_err(|e| (1, e))?;
+    if !built.success() {
+        return Err((1, "the program does not build".to_owned()));
+    }
+    let runtime = RuntimeFolder::new();
+    let program = program().map_err(|error| (1, error))?;
+    for (arguments, file, _) in PRODUCTS {
+        // What an earlier run wrote must not pass for this run's work.
+        let _absent = std::fs::remove_file(child::root().join(file));
+        let mut command = child::command(&program);
+        command.args(arguments).args(["-o", file]);
+        let status = child::stream(runtime.apply(&mut command)).map_err(|error| (1, error))?;
+        if !status.success() {
+            let code = status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1);
+            return Err((code, format!("`shadowgraph {} -o {file}` failed ({status})", arguments.join(" "))));
+        }
+    }
+    tell()
+}
+
+fn tell() -> Result<(), (u8, String)> {
+    println!("\nWritten:");
+    for (_, file, what) in PRODUCTS {
+        let bytes = std::fs::metadata(child::root().join(file)).map_or(0, |data| data.len());
+        if bytes == 0 {
+            return Err((1, format!("the program ended well but {file} is missing or empty")));
+        }
+        println!("  {file:<14} {:>5} KiB  {what}", bytes.div_ceil(1024));
+    }
+    print!("\n{NEXT}");
+    Ok(())
+}
+
+/// The built program: cargo puts it beside this one.
+fn program() -> Result<PathBuf, String> {
+    let here =
+        std::env::current_exe().map_err(|error| format!("cannot tell where this program lies: {error}"))?;
+    let folder = here.parent().unwrap_or(Path::new("."));
+    let program = folder.join(format!("shadowgraph{}", std::env::consts::EXE_SUFFIX));
+    if program.is_file() {
+        Ok(program)
+    } else {
+        Err(format!("{} is missing after the build", program.display()))
+    }
+}

@@ -1,0 +1,42 @@
+//! The project's two commands: `cargo xtask demo` and `cargo xtask test`.
+//!
+//! Nothing but the standard library, so that it builds at once and can prepare a machine for the rest.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool talks to its user")]
+
+mod child;
+mod demo;
+mod driver;
+mod report;
+mod suite;
+mod tally;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+Shadowgraph's two commands:
+
+  cargo xtask demo    draw the built-in scene and dump its render graph into out/
+  cargo xtask test    format, lints, every test, documentation: what a change must pass
+
+Both see to a Vulkan driver first (Linux): a software one is installed when there is none and
+apt-get may be used; otherwise the one line to run is printed.
+
+The program itself:  cargo run -- help
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            ExitCode::SUCCESS
+        }
+        ["demo"] => demo::run(),
+        ["test"] => suite::run(),
+        other => {
+            eprintln!("error: `cargo xtask {}` is not a command\n", other.join(" "));
+            eprint!("{HELP}");
+            ExitCode::from(2)
+        }
+    }
+}
