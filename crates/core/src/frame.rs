@@ -269,8 +269,11 @@ impl<'f> Frame<'f> {
         }
         let resource = &mut self.decl.resources[version.resource.index()];
         resource.exported = true;
-        resource.texture_usage |= texture;
-        resource.buffer_usage |= buffer;
+        // Of an import the usages are what its owner gave it.
+        if resource.origin == Origin::Transient {
+            resource.texture_usage |= texture;
+            resource.buffer_usage |= buffer;
+        }
     }
 
     pub(crate) fn declare_read(&mut self, pass: PassId, version: Version, access: Access) -> Token {

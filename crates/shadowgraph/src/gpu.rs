@@ -75,6 +75,22 @@ impl Gpu {
     }
 }
 
+impl Gpu {
+    /// Runs `work`, and returns what the device found wrong with it as an error: by default wgpu ends the program.
+    pub(crate) fn checked<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
+        let scopes = [Internal, OutOfMemory, Validation].map(|filter| self.device.push_error_scope(filter));
+        let done = work();
+        // Scopes end in reverse order, all of them.
+        let errors: Vec<_> =
+            scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
+        match errors.first() {
+            Some(error) => Err(Error::Gpu(error.to_string())),
+            None => done,
+        }
+    }
+}
+
 /// The best adapter of those that are asked for.
 fn choose(adapters: Vec<wgpu::Adapter>, choice: &AdapterChoice) -> Result<wgpu::Adapter, Error> {
     let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();

@@ -62,6 +62,7 @@ pub struct Renderer {
     target_tonemap: Option<(Format, Tonemap)>,
     scene: Scene,
     aov: Aov,
+    /// A frame borrows the renderer while the pool records it.
     pool: Mutex<Pool>,
 }
 
@@ -75,6 +76,10 @@ impl Renderer {
     /// # Errors
     /// Names the limit of the device that the scene is over, or the light that `aov` asks for and that is not there.
     pub fn new(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
+        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov))
+    }
+
+    fn unchecked(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
         let device = &gpu.device;
         let origin_world = origin_near(eye.position_world());
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
@@ -134,21 +139,19 @@ impl Renderer {
         }
         self.move_origin(gpu, options);
         let view = self.view(options, None);
-        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let read_back = ReadBack::new(&gpu.device, options.size_px);
-        let mut frame = Frame::new();
-        let output = pipelines::forward(&mut frame, self, &view)?;
-        read_back.add_to(&mut frame, &output.picture);
-        let compiled = frame.compile()?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let executed = self.execute(compiled, gpu, &mut encoder, timer.as_deref_mut())?;
-        gpu.queue.submit([encoder.finish()]);
-        if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(Error::Gpu(error.to_string()));
-        }
-        let picture = read_back.read(&gpu.device)?;
-        let times = times(gpu, timer.as_deref(), &executed)?;
-        Ok(Drawn { picture, plan: executed.plan().clone(), times, unshadowed: output.unshadowed })
+        gpu.checked(|| {
+            let read_back = ReadBack::new(&gpu.device, options.size_px);
+            let mut frame = Frame::new();
+            let output = pipelines::forward(&mut frame, self, &view)?;
+            read_back.add_to(&mut frame, &output.picture);
+            let compiled = frame.compile()?;
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let executed = self.execute(compiled, gpu, &mut encoder, timer.as_deref_mut())?;
+            gpu.queue.submit([encoder.finish()]);
+            let picture = read_back.read(&gpu.device)?;
+            let times = times(gpu, timer.as_deref(), &executed)?;
+            Ok(Drawn { picture, plan: executed.plan().clone(), times, unshadowed: output.unshadowed })
+        })
     }
 
     /// Records a view into an encoder of the caller's, who submits it. The picture covers `target`, such as a

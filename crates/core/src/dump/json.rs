@@ -1,6 +1,5 @@
 //! The plan as JSON, with its reasons in words beside the data.
 
-use crate::error::Error;
 use crate::plan::Plan;
 use serde::Serialize;
 
@@ -40,8 +39,8 @@ impl Plan {
     /// Returns the plan as indented JSON. Same plan, same bytes; `schema` counts incompatible changes.
     ///
     /// # Errors
-    /// A clear value that is not finite cannot be written as JSON.
-    pub fn to_json(&self) -> Result<String, Error> {
+    /// None that a plan can cause; serde_json's, should it have one.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
         let document = Document {
             schema: SCHEMA,
             summary: Summary {
@@ -57,7 +56,6 @@ impl Plan {
             reasons: self.reasons(),
         };
         serde_json::to_string_pretty(&document)
-            .map_err(|error| Error::Body { pass: "dump".into(), message: error.to_string() })
     }
 
     fn reasons(&self) -> Vec<Reason> {

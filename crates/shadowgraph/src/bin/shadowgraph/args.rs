@@ -61,7 +61,8 @@ pub(crate) struct BenchArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
     /// How many frames are measured on either side
-    #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) frames: u32,
 }
 
