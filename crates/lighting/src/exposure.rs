@@ -8,27 +8,49 @@ use shadowgraph_scene::{Aabb, Light, LightKind};
 pub struct Key {
     /// The directional lights together.
     pub directional_lx: f32,
-    /// The brightest spot or point light, at the distance of a tenth of the scene from it.
+    /// Spot and point lights together, on the middle one of the things that they light, from dim to bright.
     pub local_lx: f32,
 }
 
+/// Of more things than this only some are looked at.
+const MAX_THINGS: usize = 4_096;
+
 impl Key {
-    /// Estimates the key light of a scene within `bounds`.
-    pub fn of(lights: &[Light], bounds: &Aabb) -> Self {
-        let size = if bounds.is_empty() { 1.0 } else { (bounds.max - bounds.min).length() };
-        let (mut directional, mut local) = (0.0, 0.0_f64);
-        for light in lights {
-            let intensity = f64::from(light.intensity) * f64::from(light.color.max_element());
-            match light.kind {
-                LightKind::Directional { .. } => directional += intensity,
-                LightKind::Spot { .. } | LightKind::Point { .. } => {
-                    let distance = typical_distance(light.effective_range(), size);
-                    local = local.max(intensity / (distance * distance));
-                }
-            }
-        }
-        Self { directional_lx: directional as f32, local_lx: local as f32 }
+    /// Estimates the key light of things within these bounds. Shadows are not looked at.
+    pub fn of(lights: &[Light], things: &[Aabb]) -> Self {
+        let strength = |light: &Light| f64::from(light.intensity) * f64::from(light.color.max_element());
+        let is_sun = |light: &&Light| matches!(light.kind, LightKind::Directional { .. });
+        let directional_lx = lights.iter().filter(is_sun).map(strength).sum::<f64>() as f32;
+        let stride = things.len().div_ceil(MAX_THINGS).max(1);
+        let things = things.iter().step_by(stride).filter(|thing| !thing.is_empty());
+        let mut lit: Vec<f64> = things
+            .map(|thing| lights.iter().map(|light| strength(light) * local_share(light, thing)).sum())
+            .filter(|illuminance: &f64| *illuminance > 0.0)
+            .collect();
+        lit.sort_by(f64::total_cmp);
+        let local_lx = lit.get(lit.len() / 2).map_or(0.0, |middle| *middle as f32);
+        Self { directional_lx, local_lx }
     }
+}
+
+/// What a lamp of one candela gives on a thing, lux.
+fn local_share(light: &Light, thing: &Aabb) -> f64 {
+    let (position_world, cone) = match light.kind {
+        LightKind::Directional { .. } => return 0.0,
+        LightKind::Point { position_world, .. } => (position_world, None),
+        LightKind::Spot { position_world, direction, outer_angle, .. } => {
+            (position_world, Some((direction, outer_angle)))
+        }
+    };
+    let way = thing.center() - position_world;
+    // Large things are not lit at their middle.
+    let distance = way.length().max(thing.radius()).max(0.05);
+    let reached = light.effective_range().is_none_or(|range| distance < range);
+    let in_cone = cone.is_none_or(|(direction, outer_angle)| {
+        let inside = thing.contains_point(position_world) || way.length() < thing.radius();
+        inside || way.normalize_or_zero().dot(direction) > outer_angle.cos()
+    });
+    if reached && in_cone { 1.0 / (distance * distance) } else { 0.0 }
 }
 
 /// The light from all around, and how much of all light the picture takes.
@@ -73,14 +95,9 @@ impl Ambience {
 }
 
 /// How much of the light of lamps comes back from all around.
-const LAMPS_AROUND: f32 = 0.1;
+const LAMPS_AROUND: f32 = 0.2;
 /// A scene without light counts as having this much.
 const DARKEST_LX: f32 = 1e-6;
-
-/// How far from a light the things are that it is there for.
-fn typical_distance(range: Option<f64>, scene_size: f64) -> f64 {
-    (scene_size * 0.1).min(range.unwrap_or(f64::INFINITY) * 0.3).max(0.05)
-}
 
 #[cfg(test)]
 mod tests {
@@ -92,18 +109,29 @@ mod tests {
     }
 
     #[test]
-    fn suns_add_up_and_the_brightest_lamp_counts() {
+    fn suns_add_up_and_lamps_count_by_the_middle_one_of_what_they_light() {
         let sun = light(LightKind::Directional { direction: DVec3::NEG_Y }, 5_000.0);
         let lamp =
             |intensity| light(LightKind::Point { position_world: DVec3::ZERO, range: None }, intensity);
-        let bounds = Aabb { min: DVec3::ZERO, max: DVec3::new(10.0, 0.0, 0.0) };
-        let key = Key::of(&[sun.clone(), sun, lamp(10.0), lamp(40.0)], &bounds);
-        assert_eq!(key, Key { directional_lx: 10_000.0, local_lx: 40.0 });
+        let thing = |x: f64| Aabb { min: DVec3::new(x, -0.1, -0.1), max: DVec3::new(x + 0.2, 0.1, 0.1) };
+        let key = Key::of(
+            &[sun.clone(), sun, lamp(40.0)],
+            &[thing(0.0), thing(1.9), thing(9.9), thing(9.9), thing(900.0)],
+        );
+        assert_eq!(key.directional_lx, 10_000.0);
+        assert!((key.local_lx - 10.0).abs() < 0.1, "{key:?}");
+    }
+
+    #[test]
+    fn a_lamp_inside_a_thing_lights_it_from_no_nearer_than_its_size() {
+        let lamp = light(LightKind::Point { position_world: DVec3::ZERO, range: None }, 100.0);
+        let room = Aabb { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
+        assert!(Key::of(&[lamp], &[room]).local_lx < 2.0);
     }
 
     #[test]
     fn a_scene_without_light_has_a_finite_exposure_all_the_same() {
-        let ambience = Ambience::for_key(Key::of(&[], &Aabb::EMPTY));
+        let ambience = Ambience::for_key(Key::of(&[], &[]));
         assert!(ambience.exposure.is_finite() && ambience.background().iter().all(|value| value.is_finite()));
     }
 }

@@ -220,7 +220,7 @@ impl Renderer {
         let gpu_scene = &self.casters.scene;
         let seen = visible(&self.scene, gpu_scene.bounds(), &options.camera.volume(options.aspect()));
         let draws: DrawList = gpu_scene.draw_list(&seen, options.camera.position_world());
-        let key = Key::of(&self.scene.lights, &self.scene.bounds());
+        let key = Key::of(&self.scene.lights, gpu_scene.bounds());
         let tonemap = match (target, &self.target_tonemap) {
             (Some(_), Some((_, tonemap))) => tonemap,
             _ => &self.tonemap,
