@@ -103,6 +103,15 @@ pub fn compare(
     pairs: u32,
 ) -> Result<Comparison, Error> {
     only_color(renderer)?;
+    gpu.checked(|| compare_unchecked(gpu, renderer, options, pairs))
+}
+
+fn compare_unchecked(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    options: &ViewOptions,
+    pairs: u32,
+) -> Result<Comparison, Error> {
     let target = target(&gpu.device, options.size_px)?;
     renderer.prepare_target(&gpu.device, TARGET_FORMAT)?;
     renderer.move_origin(gpu, options);
@@ -165,17 +174,18 @@ pub fn pass_times(
 ) -> Result<Vec<PassTime>, Error> {
     only_color(renderer)?;
     let target = target(&gpu.device, options.size_px)?;
-    let mut measured: Vec<Vec<PassTime>> = Vec::new();
-    // A software driver compiles shaders at the first draw.
-    for warm in [false].into_iter().chain((0..frames.max(1)).map(|_| true)) {
+    let mut frame = || -> Result<Vec<PassTime>, Error> {
         let mut timer = Timer::new();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let executed = renderer.record_timed(gpu, &mut encoder, &target, options, Some(&mut timer))?;
         gpu.queue.submit([encoder.finish()]);
-        let times = timer.read(&gpu.device, &gpu.queue, executed.plan())?;
-        measured.extend(warm.then_some(times));
-    }
-    Ok(medians(&measured))
+        Ok(timer.read(&gpu.device, &gpu.queue, executed.plan())?)
+    };
+    gpu.checked(|| {
+        // A software driver compiles shaders at the first draw.
+        frame()?;
+        Ok(medians(&(0..frames.max(1)).map(|_| frame()).collect::<Result<Vec<_>, _>>()?))
+    })
 }
 
 /// The median of each pass, over frames of the same passes.

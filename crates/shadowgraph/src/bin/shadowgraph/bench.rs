@@ -8,8 +8,8 @@ use crate::commands::{self, Input};
 use crate::console;
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::report;
 use shadowgraph::bench::{Comparison, FrameTime, Spread, compare, pass_times};
+use shadowgraph::core::PassTime;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 /// Frames on a real GPU, of which each is waited for.
@@ -24,16 +24,15 @@ pub(crate) fn bench(args: &BenchArgs) -> Result<(), Failure> {
             "this program was built without full optimisation: measure with `cargo run --release`",
         );
     }
-    console::print(&heading(args, &input))?;
     let noop = Gpu::noop()?;
-    let mut renderer = renderer(&noop, &input)?;
-    let measuring = Progress::if_slow("measuring");
-    let comparison = compare(&noop, &mut renderer, &view, args.frames)?;
     let gpu = match args.draw.names_adapter() {
-        true => Gpu::open(&input.options.adapter).map_err(Failure::no_device)?,
-        false => noop,
+        true => Some(Gpu::open(&input.options.adapter).map_err(Failure::no_device)?),
+        false => None,
     };
-    let passes = passes(&gpu, &input, &view, args.frames.min(GPU_FRAMES))?;
+    console::print(&heading(args, &input))?;
+    let measuring = Progress::if_slow("measuring");
+    let comparison = compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?;
+    let passes = passes(gpu.as_ref().unwrap_or(&noop), &input, &view, args.frames.min(GPU_FRAMES))?;
     drop(measuring);
     console::print(&format!("{}\n{passes}", table(&comparison)))
 }
@@ -44,7 +43,8 @@ fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
 
 fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
     let times = pass_times(gpu, &mut renderer(gpu, input)?, view, frames)?;
-    Ok(format!("medians of {frames} frames: {}", report::times(&times, &gpu.adapter)))
+    let device = &gpu.adapter.name;
+    Ok(format!("time of each pass, medians of {frames} frames on {device}\n{}", pass_table(&times)))
 }
 
 fn heading(args: &BenchArgs, input: &Input) -> String {
@@ -112,6 +112,19 @@ fn ratio(spread: Spread) -> String {
     format!("median {median:.2}, half of them {p25:.2} to {p75:.2}, nine in ten {p5:.2} to {p95:.2}")
 }
 
+/// The passes as a table. Their names hold the nodes they belong to.
+fn pass_table(passes: &[PassTime]) -> String {
+    let mut out = format!("  {:<66}{:>14}{:>14}\n", "pass", "CPU us", "GPU ms");
+    let gpu_ms = passes.iter().filter_map(|pass| pass.gpu_ms).reduce(|a, b| a + b);
+    let cpu_ms = passes.iter().map(|pass| pass.cpu_ms).sum();
+    let rows = passes.iter().map(|pass| (pass.pass.as_str(), pass.cpu_ms, pass.gpu_ms));
+    for (name, cpu_ms, gpu_ms) in rows.chain([("all", cpu_ms, gpu_ms)]) {
+        let gpu = gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}"));
+        let _ = writeln!(out, "  {name:<66}{:>14.1}{gpu:>14}", cpu_ms * 1e3);
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
@@ -135,6 +148,18 @@ mod tests {
         let rows: Vec<_> = text.lines().filter(|line| line.contains("1000000.0")).collect();
         assert_eq!(rows.len(), 5, "{text}");
         assert!(rows.iter().all(|row| row.trim_end().len() == rows[2].len() || row.contains("-")), "{text}");
+    }
+
+    #[test]
+    fn passes_are_told_in_order_with_their_sum() {
+        let pass =
+            |pass: &str, gpu_ms| PassTime { pass: pass.into(), node: String::new(), cpu_ms: 0.5, gpu_ms };
+        let text = pass_table(&[pass("shadows/atlas/atlas", Some(1.5)), pass("picture/tonemap", None)]);
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(rows[1], ["shadows/atlas/atlas", "500.0", "1.500"]);
+        assert_eq!(rows[2], ["picture/tonemap", "500.0", "-"]);
+        assert_eq!(rows[3], ["all", "1000.0", "1.500"]);
+        assert!(text.lines().all(|line| line.len() <= 110), "{text}");
     }
 
     #[test]
