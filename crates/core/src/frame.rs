@@ -218,7 +218,7 @@ impl<'f> Frame<'f> {
         if !self.errors.is_empty() {
             return Err(self.errors.swap_remove(0));
         }
-        let plan = compile::compile(&self.decl)?;
+        let plan = compile::compile(std::mem::take(&mut self.decl))?;
         Ok(Compiled { plan, frame: self })
     }
 

@@ -19,7 +19,8 @@ use crate::plan::Plan;
 /// Compiles a frame's declarations.
 ///
 /// Merging comes before lifetimes and slots: passes that share a render pass cannot share an attachment's slot.
-pub(crate) fn compile(decl: &Declaration) -> Result<Plan, Error> {
+pub(crate) fn compile(declaration: Declaration) -> Result<Plan, Error> {
+    let decl = &declaration;
     validate::validate(decl)?;
     let culled = cull::cull(decl);
     let order = order::order(&culled);
@@ -29,5 +30,8 @@ pub(crate) fn compile(decl: &Declaration) -> Result<Plan, Error> {
     let aliasing = alias::alias(decl, &lifetimes, &usages);
     let ops = ops::ops(decl, &order);
     let dependencies = order::dependencies(decl, &order);
-    Ok(plan::assemble(decl, plan::Parts { culled, steps, lifetimes, usages, aliasing, ops, dependencies }))
+    Ok(plan::assemble(
+        declaration,
+        plan::Parts { culled, steps, lifetimes, usages, aliasing, ops, dependencies },
+    ))
 }

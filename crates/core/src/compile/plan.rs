@@ -19,12 +19,13 @@ pub(super) struct Parts {
     pub(super) dependencies: Vec<Dependency>,
 }
 
-pub(super) fn assemble(decl: &Declaration, parts: Parts) -> Plan {
-    let nodes = decl.nodes.iter().map(|n| NodePlan { name: n.name.clone(), parent: n.parent }).collect();
-    let passes = decl.passes.iter().zip(&parts.culled).zip(&parts.ops);
+/// Takes the declaration apart: its names move into the plan.
+pub(super) fn assemble(decl: Declaration, parts: Parts) -> Plan {
+    let nodes = decl.nodes.into_iter().map(|n| NodePlan { name: n.name, parent: n.parent }).collect();
+    let passes = decl.passes.into_iter().zip(&parts.culled).zip(&parts.ops);
     let passes = passes
         .map(|((pass, &culled), ops)| PassPlan {
-            name: pass.name.clone(),
+            name: pass.name,
             node: pass.node,
             kind: pass.kind,
             accesses: pass
@@ -39,16 +40,16 @@ pub(super) fn assemble(decl: &Declaration, parts: Parts) -> Plan {
                     ops,
                 })
                 .collect(),
-            copies: pass.copies.clone(),
+            copies: pass.copies,
             culled,
         })
         .collect();
     let resources = decl
         .resources
-        .iter()
+        .into_iter()
         .enumerate()
         .map(|(index, resource)| ResourcePlan {
-            name: resource.name.clone(),
+            name: resource.name,
             desc: resource.desc,
             origin: resource.origin,
             exported: resource.exported,

@@ -16,7 +16,8 @@ pub(super) struct Staging {
 
 impl Staging {
     pub(super) fn new(device: &wgpu::Device, plan: &Plan, uploads: &[Cow<'_, [u8]>]) -> Self {
-        let mut bytes = Vec::new();
+        let mut bytes =
+            Vec::with_capacity(uploads.iter().map(|upload| upload.len().next_multiple_of(4)).sum());
         let mut offsets = vec![0; uploads.len()];
         let copies = plan.live_passes().flat_map(|pass| plan.pass(pass).copies.iter());
         for copy in copies {

@@ -1,8 +1,6 @@
 //! `pcf`: cascades for the main light, an atlas for the others, percentage-closer filtering with a 5 x 5 tent.
 
-use shadowgraph_core::{
-    Bind, BodyResult, Buffer, BufferToken, Contents, Format, Frame, RenderContext, Texture, TextureDesc,
-};
+use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_shaders::{ModuleSource, PCF};
 
 use crate::plan;
@@ -14,6 +12,9 @@ use crate::{
 
 /// The format of both maps.
 const MAP_FORMAT: Format = Format::Depth32Float;
+
+/// The bytes of a view: also the step of its dynamic offset.
+const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
 
 /// The default technique; see the module `shadows/pcf.wgsl` for how its maps are read.
 pub struct Pcf {
@@ -77,9 +78,12 @@ impl Pcf {
             let tiles: Vec<_> = plan.tiles.into_iter().map(|tile| (target(&tile), tile)).collect();
             let layout = &self.view_layout;
             pass.body(move |ctx| {
-                tiles
-                    .iter()
-                    .try_for_each(|(target, tile)| draw_tile(ctx, layout, buffer, tile, *target, casters))
+                let group = ctx.bind_group(layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
+                for (target, tile) in tiles.iter().filter(|(_, tile)| !tile.casters.is_empty()) {
+                    ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
+                    draw_tile(&mut ctx.pass, tile, *target, casters);
+                }
+                Ok(())
             });
         });
         map
@@ -87,25 +91,16 @@ impl Pcf {
 }
 
 fn draw_tile(
-    ctx: &mut RenderContext<'_>,
-    layout: &wgpu::BindGroupLayout,
-    views: BufferToken,
+    pass: &mut wgpu::RenderPass<'_>,
     tile: &TilePlan,
     target: CasterTarget,
     casters: &dyn ShadowCasters,
-) -> BodyResult {
-    if tile.casters.is_empty() {
-        return Ok(());
-    }
-    const STRIDE: u64 = size_of::<ShadowView>() as u64;
-    let group = ctx.bind_group(layout, &[Bind::BufferRange(views, 0..STRIDE)])?;
-    ctx.pass.set_bind_group(0, &group, &[tile.view * STRIDE as u32]);
+) {
     let rect = tile.rect;
     let [x, y, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|px| px as f32);
-    ctx.pass.set_viewport(x, y, width, height, 0.0, 1.0);
-    ctx.pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
-    casters.draw(&mut ctx.pass, target, &tile.casters);
-    Ok(())
+    pass.set_viewport(x, y, width, height, 0.0, 1.0);
+    pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
+    casters.draw(pass, target, &tile.casters);
 }
 
 impl ShadowTechnique for Pcf {
