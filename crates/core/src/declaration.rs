@@ -1,8 +1,8 @@
 //! What a frame declares, as plain data: the only input of the compiler.
 
 use crate::access::{Access, Contents};
+use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId};
-use crate::plan::ResourceDesc;
 use serde::Serialize;
 use wgpu_types::{BufferUsages, TextureUsages};
 

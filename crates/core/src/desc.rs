@@ -76,3 +76,22 @@ impl BufferDesc {
         Self { bytes: bytes.next_multiple_of(4).max(4) }
     }
 }
+
+/// The shape of a resource.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum ResourceDesc {
+    /// A texture.
+    Texture(TextureDesc),
+    /// A buffer.
+    Buffer(BufferDesc),
+}
+
+impl ResourceDesc {
+    /// Returns the size in bytes, without the driver's padding.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Self::Texture(desc) => desc.bytes(),
+            Self::Buffer(desc) => desc.bytes,
+        }
+    }
+}

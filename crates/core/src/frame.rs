@@ -3,9 +3,11 @@
 use crate::access::{Access, Contents};
 use crate::builder::{Compute, Copying, Encoding, Pass, Rendering};
 use crate::compile;
+use crate::compiled::Compiled;
 use crate::declaration::{
     AccessDecl, CopyOp, Declaration, NodeDecl, Origin, PassDecl, PassKind, ResourceDecl,
 };
+use crate::desc::ResourceDesc;
 use crate::desc::{BufferDesc, TextureDesc};
 use crate::error::Error;
 #[cfg(feature = "gpu")]
@@ -13,7 +15,6 @@ use crate::execute::{Body, Imported};
 use crate::handle::{
     Buffer, BufferExport, NodeId, PassId, ResourceId, Texture, TextureExport, Token, Version,
 };
-use crate::plan::{Plan, ResourceDesc};
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu_types::{BufferUsages, TextureUsages};
@@ -340,39 +341,4 @@ impl<'f> Frame<'f> {
             latest: resource.version(),
         }
     }
-}
-
-/// A compiled frame: the plan, and the bodies that wait to be recorded.
-pub struct Compiled<'f> {
-    pub(crate) plan: Plan,
-    #[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "bodies and uploads are for the executor"))]
-    pub(crate) frame: Frame<'f>,
-}
-
-impl Compiled<'_> {
-    /// Returns what will be done, and why.
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
-    /// Returns the plan alone and drops the bodies.
-    pub fn into_plan(self) -> Plan {
-        self.plan
-    }
-}
-
-/// Finds the resource behind a token used in `pass`: only a token of that very pass resolves.
-#[cfg(any(feature = "gpu", test))]
-pub(crate) fn resolve(plan: &Plan, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
-    if token.frame != frame {
-        return Err(Error::ForeignHandle { place: format!("pass `{}`", plan.pass_path(pass)) });
-    }
-    if token.pass != pass {
-        return Err(Error::Undeclared {
-            pass: plan.pass_path(pass),
-            resource: plan.resource(token.resource).name.clone(),
-            declared_by: plan.pass_path(token.pass),
-        });
-    }
-    Ok(token.resource)
 }

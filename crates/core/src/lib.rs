@@ -42,6 +42,7 @@
 mod access;
 mod builder;
 mod compile;
+mod compiled;
 mod declaration;
 mod desc;
 mod dump;
@@ -56,21 +57,22 @@ mod pool;
 
 pub use access::{Access, ClearValue, Contents};
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
+pub use compiled::Compiled;
 pub use declaration::{CopyOp, Origin, PassKind};
-pub use desc::{BufferDesc, Extent, Format, TextureDesc};
+pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
     Bind, BodyResult, ComputeContext, EncoderContext, Executed, PassTime, RenderContext, Resources, Timer,
 };
-pub use frame::{Compiled, Frame};
+pub use frame::Frame;
 pub use handle::{
     Buffer, BufferExport, BufferToken, NodeId, PassId, ResourceId, SlotId, Texture, TextureExport,
     TextureToken,
 };
 pub use plan::{
     AccessPlan, AttachmentOps, CullReason, Dependency, DependencyKind, LoadAction, LoadReason, NodePlan,
-    PassPlan, Plan, ResourceDesc, ResourcePlan, SlotPlan, Step, StoreAction, StoreReason,
+    PassPlan, Plan, ResourcePlan, SlotPlan, Step, StoreAction, StoreReason,
 };
 #[cfg(feature = "gpu")]
 pub use pool::Pool;

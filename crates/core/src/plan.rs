@@ -2,7 +2,7 @@
 
 use crate::access::{Access, ClearValue, Contents};
 use crate::declaration::{CopyOp, Origin, PassKind};
-use crate::desc::{BufferDesc, TextureDesc};
+use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
 use petgraph::graph::DiGraph;
 use serde::Serialize;
@@ -136,25 +136,6 @@ pub enum CullReason {
     OnlyCulledReaders(ResourceId, PassId),
     /// The second overwrites the first before anything reads it.
     Overwritten(ResourceId, PassId),
-}
-
-/// The shape of a resource.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum ResourceDesc {
-    /// A texture.
-    Texture(TextureDesc),
-    /// A buffer.
-    Buffer(BufferDesc),
-}
-
-impl ResourceDesc {
-    /// Returns the size in bytes, without the driver's padding.
-    pub fn bytes(&self) -> u64 {
-        match self {
-            Self::Texture(desc) => desc.bytes(),
-            Self::Buffer(desc) => desc.bytes,
-        }
-    }
 }
 
 /// One declared resource.

@@ -2,8 +2,9 @@
 
 use super::lifetime::Lifetime;
 use crate::declaration::{Declaration, Origin};
+use crate::desc::ResourceDesc;
 use crate::handle::{ResourceId, SlotId};
-use crate::plan::{ResourceDesc, SlotPlan};
+use crate::plan::SlotPlan;
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// The slots, and the slot of each resource.

@@ -2,10 +2,10 @@
 
 use crate::access::{Access, ClearValue, Contents};
 use crate::declaration::{AccessDecl, CopyOp, Declaration, Origin, PassDecl, PassKind};
+use crate::desc::ResourceDesc;
 use crate::desc::{Extent, TextureDesc};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
-use crate::plan::ResourceDesc;
 
 /// Checks everything that does not depend on a device.
 pub(super) fn validate(decl: &Declaration) -> Result<(), Error> {

@@ -3,8 +3,9 @@
 use super::words::bytes;
 use crate::access::Contents;
 use crate::declaration::{CopyOp, Origin};
+use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId};
-use crate::plan::{AccessPlan, PassPlan, Plan, ResourceDesc, ResourcePlan};
+use crate::plan::{AccessPlan, PassPlan, Plan, ResourcePlan};
 use std::fmt::Write as _;
 
 /// No line is longer; names that would make one so are cut with an ellipsis.

@@ -1,8 +1,8 @@
 //! What a pass body gets to see: the pass it records, and the resources it declared.
 
 use crate::builder::{Compute, Encoding, Pass, Rendering};
+use crate::compiled::resolve;
 use crate::error::Error;
-use crate::frame::resolve;
 use crate::handle::{BufferToken, PassId, ResourceId, TextureToken, Token};
 use crate::plan::Plan;
 use crate::pool::{Entry, Physical, Pool};

@@ -15,8 +15,8 @@ pub use context::{Bind, BodyResult, ComputeContext, EncoderContext, RenderContex
 pub(crate) use import::Imported;
 pub use timer::{PassTime, Timer};
 
+use crate::compiled::Compiled;
 use crate::error::Error;
-use crate::frame::Compiled;
 use crate::handle::{BufferExport, ResourceId, TextureExport, Version};
 use crate::plan::Plan;
 use crate::pool::{Physical, Pool};

@@ -4,9 +4,9 @@ mod bind_groups;
 
 pub(crate) use bind_groups::{BindGroups, Entry};
 
-use crate::desc::{BufferDesc, TextureDesc};
+use crate::desc::{BufferDesc, ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::plan::{ResourceDesc, SlotPlan};
+use crate::plan::SlotPlan;
 use slotmap::{SlotMap, new_key_type};
 use std::collections::HashMap;
 

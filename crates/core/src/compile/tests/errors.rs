@@ -1,7 +1,7 @@
 //! Mistakes in a frame: each error names the pass, the resource and the way out.
 
 use super::{BLACK, color, filter, plan};
-use crate::frame::resolve;
+use crate::compiled::resolve;
 use crate::{Contents, Error, Format, Frame, TextureDesc, TextureUsages};
 
 fn message(frame: Frame<'_>) -> String {

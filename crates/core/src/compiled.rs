@@ -1,0 +1,44 @@
+//! A frame after compiling, and which tokens resolve in which pass.
+
+use crate::frame::Frame;
+use crate::plan::Plan;
+#[cfg(any(feature = "gpu", test))]
+use crate::{
+    error::Error,
+    handle::{PassId, ResourceId, Token},
+};
+
+/// A compiled frame: the plan, and the bodies that wait to be recorded.
+pub struct Compiled<'f> {
+    pub(crate) plan: Plan,
+    #[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "bodies and uploads are for the executor"))]
+    pub(crate) frame: Frame<'f>,
+}
+
+impl Compiled<'_> {
+    /// Returns what will be done, and why.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Returns the plan alone and drops the bodies.
+    pub fn into_plan(self) -> Plan {
+        self.plan
+    }
+}
+
+/// Finds the resource behind a token used in `pass`: only a token of that very pass resolves.
+#[cfg(any(feature = "gpu", test))]
+pub(crate) fn resolve(plan: &Plan, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
+    if token.frame != frame {
+        return Err(Error::ForeignHandle { place: format!("pass `{}`", plan.pass_path(pass)) });
+    }
+    if token.pass != pass {
+        return Err(Error::Undeclared {
+            pass: plan.pass_path(pass),
+            resource: plan.resource(token.resource).name.clone(),
+            declared_by: plan.pass_path(token.pass),
+        });
+    }
+    Ok(token.resource)
+}
