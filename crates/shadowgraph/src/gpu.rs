@@ -115,6 +115,7 @@ fn choose(adapters: Vec<wgpu::Adapter>, choice: &AdapterChoice) -> Result<wgpu::
         };
         let reason = match names.as_slice() {
             [] => INSTALL.into(),
+            names if matches!(choice, AdapterChoice::Name(_)) => format!("there is: {}", names.join(", ")),
             names => format!("there is: {}; {INSTALL}", names.join(", ")),
         };
         Error::NoAdapter { wanted: wanted.into(), reason }

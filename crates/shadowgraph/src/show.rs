@@ -96,7 +96,7 @@ impl Show {
         size_px: [u32; 2],
     ) -> Texture {
         let places = side_by_side(textures.iter().map(|texture| size_of_texture(frame, texture)), size_px);
-        let mut picture = frame.create_texture("picture", TextureDesc::d2(size_px[0], size_px[1], format));
+        let mut picture = frame.create_texture("shown", TextureDesc::d2(size_px[0], size_px[1], format));
         let layout = if format == PLAIN { &self.depth_layout } else { &self.float_layout };
         let mut pass = frame.render_pass("show");
         let tokens: Vec<_> = textures.iter().map(|texture| pass.sample(texture)).collect();

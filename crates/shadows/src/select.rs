@@ -40,10 +40,10 @@ impl UnshadowedReason {
     pub fn text(self) -> &'static str {
         match self {
             Self::AtlasFull => "the shadow atlas is full (16 tiles) and more important lights have them",
-            Self::NoCasterInReach => "no shadow caster is in its reach",
-            Self::OutOfReach => "it lights nothing in view within the shadow distance",
-            Self::NoLight => "it gives no light",
-            Self::Unusable => "its direction has no length, or a number in it is not usable",
+            Self::NoCasterInReach => "no shadow caster in reach",
+            Self::OutOfReach => "nothing in view within the shadow distance is lit",
+            Self::NoLight => "no light is given",
+            Self::Unusable => "a direction without length, or a number that is not usable",
             Self::PointLight => "point lights cast no shadows yet",
         }
     }

@@ -150,14 +150,19 @@ fn shape(desc: &ResourceDesc) -> String {
     }
 }
 
+/// Usages in short words, in the order of wgpu's flags.
 fn usage(resource: &ResourcePlan) -> String {
-    let flags = match resource.desc {
-        ResourceDesc::Texture(_) => {
-            resource.texture_usage.iter_names().map(|(name, _)| name).collect::<Vec<_>>()
-        }
+    let names: Vec<_> = match resource.desc {
+        ResourceDesc::Texture(_) => resource.texture_usage.iter_names().map(|(name, _)| name).collect(),
         ResourceDesc::Buffer(_) => resource.buffer_usage.iter_names().map(|(name, _)| name).collect(),
     };
-    flags.join(" ").to_lowercase()
+    let short = |name: &str| match name {
+        "TEXTURE_BINDING" => "sampled".into(),
+        "STORAGE_BINDING" => "storage".into(),
+        "RENDER_ATTACHMENT" => "attached".into(),
+        other => other.to_lowercase().replace('_', "-"),
+    };
+    names.into_iter().map(short).collect::<Vec<String>>().join(" ")
 }
 
 /// Cuts `text` to `columns` characters, the last one an ellipsis.

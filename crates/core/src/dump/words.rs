@@ -28,13 +28,15 @@ impl Plan {
             LoadAction::Clear(ClearValue::Color(rgba)) if rgba == [rgba[0]; 4] => {
                 format!("clear {}", rgba[0])
             }
-            LoadAction::Clear(ClearValue::Color([r, g, b, a])) => format!("clear {r},{g},{b},{a}"),
+            LoadAction::Clear(ClearValue::Color([r, g, b, a])) => {
+                format!("clear {r:.3},{g:.3},{b:.3},{a:.3}")
+            }
             LoadAction::Clear(ClearValue::Depth(depth)) => format!("clear {depth}"),
             LoadAction::Load => "load".into(),
         };
         let reason = match ops.load_reason {
             LoadReason::Declared => "the pass clears it".into(),
-            LoadReason::Covered => "the pass covers it".into(),
+            LoadReason::Covered => "the pass covers it, and a clear is the cheapest begin".into(),
             LoadReason::Preserves(pass) => format!("keeps what `{}` wrote", self.pass_path(pass)),
             LoadReason::PreservesImport => "keeps what the import held".into(),
         };

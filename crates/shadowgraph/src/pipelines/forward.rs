@@ -1,6 +1,6 @@
 //! `forward`: shadow maps, a depth prepass, one lit pass, a tonemap.
 
-use shadowgraph_core::{Frame, Texture};
+use shadowgraph_core::{Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{Geometry, ViewRecords};
 use shadowgraph_shadows::{ShadowInputs, ShadowOutputs};
 
@@ -55,6 +55,9 @@ pub fn forward<'f>(
         Aov::Depth => Ok(show.depth(frame, &buffers, &depth, size_px)),
         Aov::Atlas => Ok(show.textures(frame, &buffers, &maps(&shadows), size_px)),
         Aov::Texture(name) => {
+            let mut picture =
+                frame.create_texture("picture", TextureDesc::d2(size_px[0], size_px[1], PICTURE_FORMAT));
+            view.target.tonemap.add_to(frame, &lit, &mut picture);
             let texture = frame.find_texture(name).ok_or_else(|| no_texture(frame, name))?;
             Ok(show.textures(frame, &buffers, &[&texture], size_px))
         }

@@ -7,11 +7,12 @@ use crate::console;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report;
-use shadowgraph::core::Timer;
+use shadowgraph::core::{PassTime, Plan, Timer};
 use shadowgraph::options::{Aov, Options};
 use shadowgraph::output::{Pixels, write_png, write_text};
 use shadowgraph::scene::gltf::Progress as LoadProgress;
 use shadowgraph::scene::{Camera, Scene};
+use shadowgraph::shadows::Unshadowed;
 use shadowgraph::{Drawn, Gpu, Picture, Renderer, ViewOptions};
 
 /// What every drawing command starts from.
@@ -24,11 +25,14 @@ pub(crate) struct Input {
 /// `shadowgraph render`
 pub(crate) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let input = input(&args.draw)?;
+    check_output(&args.output)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let drawn = draw(&gpu, input)?;
     let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
     let [width, height] = drawn.size_px;
     write_png(&args.output, width, height, pixels, &bytes)?;
+    let (file, adapter) = (args.output.display(), &gpu.adapter.name);
+    console::print(&format!("wrote {file}: {width}x{height}, drawn by {adapter}\n"))?;
     if drawn.timings {
         console::print(&report::times(&drawn.view.times, &gpu.adapter))?;
     }
@@ -60,20 +64,55 @@ fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
 /// `shadowgraph dump`
 pub(crate) fn dump(args: &DumpArgs) -> Result<(), Failure> {
     let input = input(&args.draw)?;
-    // A plan needs no GPU.
-    let gpu = Gpu::noop()?;
-    let view = view_options(&input);
-    let renderer = Renderer::new(&gpu, input.scene, &input.camera, input.options.aov.clone())?;
-    let (plan, unshadowed) = renderer.plan(&view)?;
+    let scene = input.scene.clone();
+    let (gpu, drawn) = planned(&args.draw, input)?;
     let text = match args.format {
-        Format::Text => report::text(renderer.scene(), &plan, &unshadowed),
-        Format::Json => report::json(renderer.scene(), &plan, &unshadowed)?,
-        Format::Dot => plan.to_dot(),
+        Format::Text if drawn.times.is_empty() => report::text(&scene, &drawn),
+        Format::Text => report::text(&scene, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
+        Format::Json => report::json(&scene, &drawn)?,
+        Format::Dot => drawn.plan.to_dot(),
     };
     match &args.output {
         Some(file) => Ok(write_text(file, &text)?),
         None => console::print(&text),
     }
+}
+
+/// A plan needs no GPU, but times do, and an adapter that is named is to be there.
+fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
+    if input.options.timings {
+        let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+        let Drawn { plan, times, unshadowed, .. } = draw(&gpu, input)?.view;
+        return Ok((gpu, Planned { plan, times, unshadowed }));
+    }
+    let gpu = if args.names_adapter() {
+        Gpu::open(&input.options.adapter).map_err(Failure::no_device)?
+    } else {
+        Gpu::noop()?
+    };
+    let view = view_options(&input);
+    let renderer = Renderer::new(&gpu, input.scene, &input.camera, input.options.aov)?;
+    let (plan, unshadowed) = renderer.plan(&view)?;
+    Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
+}
+
+/// What `dump` tells.
+pub(crate) struct Planned {
+    pub(crate) plan: Plan,
+    /// Empty unless they were asked for.
+    pub(crate) times: Vec<PassTime>,
+    pub(crate) unshadowed: Vec<Unshadowed>,
+}
+
+/// Finds out before anything is drawn that a picture cannot be written.
+fn check_output(file: &Path) -> Result<(), Failure> {
+    let other = file.extension().filter(|extension| !extension.eq_ignore_ascii_case("png"));
+    let reason = match other {
+        _ if file.is_dir() => "is a folder; give the name of a PNG file in it".into(),
+        Some(extension) => format!("pictures are PNG files, not {}", extension.to_string_lossy()),
+        None => return Ok(()),
+    };
+    Err(Failure { code: Failure::INPUT, message: format!("-o {}: {reason}", file.display()) })
 }
 
 /// Parses the options, loads the scene and applies the options to it.

@@ -14,9 +14,13 @@ mod report;
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
 use failure::Failure;
+#[cfg(unix)]
+use std::process::Command as Process;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    runtime_folder();
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args),
@@ -30,6 +34,22 @@ fn main() -> ExitCode {
             console::error(&failure.message);
             ExitCode::from(failure.code)
         }
+    }
+}
+
+/// Without a runtime folder, as in a container, a library under some Vulkan drivers prints lines that begin with
+/// `error:` though nothing is wrong. Then the program starts once more, with one.
+#[cfg(unix)]
+fn runtime_folder() {
+    use std::os::unix::process::CommandExt as _;
+    const VARIABLE: &str = "XDG_RUNTIME_DIR";
+    if std::env::var_os(VARIABLE).is_some() {
+        return;
+    }
+    if let Ok(program) = std::env::current_exe() {
+        let arguments = std::env::args_os().skip(1);
+        // Returns only where it cannot be done, and then those lines do no harm.
+        let _failed = Process::new(program).args(arguments).env(VARIABLE, std::env::temp_dir()).exec();
     }
 }
 

@@ -2,16 +2,17 @@
 
 use std::fmt::Write as _;
 
+use crate::commands::Planned;
 use crate::failure::Failure;
 use serde_json::{Value, json};
-use shadowgraph::core::{PassTime, Plan};
+use shadowgraph::core::PassTime;
 use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::shadows::Unshadowed;
 use shadowgraph::wgpu::AdapterInfo;
 
 /// The plan as text, with the scene's lights.
-pub(crate) fn text(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> String {
-    let mut out = plan.to_text();
+pub(crate) fn text(scene: &Scene, planned: &Planned) -> String {
+    let mut out = planned.plan.to_text();
     out.push_str("\nlights\n");
     if scene.lights.is_empty() {
         out.push_str("  none\n");
@@ -19,15 +20,15 @@ pub(crate) fn text(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> Str
     for (index, light) in scene.lights.iter().enumerate() {
         let name: String = light.name.as_deref().unwrap_or("-").chars().take(28).collect();
         let strength = format!("{:.1} {}", light.intensity, unit(light));
-        let shadows = shadows(light, index, unshadowed);
+        let shadows = shadows(light, index, &planned.unshadowed);
         let _ = writeln!(out, "  {index:>3}  {:<12} {name:<28} {strength:>14}  {shadows}", kind(light));
     }
     out
 }
 
 /// The plan as JSON, with the scene's lights.
-pub(crate) fn json(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> Result<String, Failure> {
-    let mut document: Value = serde_json::from_str(&plan.to_json()?)?;
+pub(crate) fn json(scene: &Scene, planned: &Planned) -> Result<String, Failure> {
+    let mut document: Value = serde_json::from_str(&planned.plan.to_json()?)?;
     let lights = scene.lights.iter().enumerate().map(|(index, light)| {
         json!({
             "index": index,
@@ -35,10 +36,13 @@ pub(crate) fn json(scene: &Scene, plan: &Plan, unshadowed: &[Unshadowed]) -> Res
             "name": light.name,
             "intensity": light.intensity,
             "unit": unit(light),
-            "shadows": shadows(light, index, unshadowed),
+            "shadows": shadows(light, index, &planned.unshadowed),
         })
     });
     document["lights"] = lights.collect();
+    if !planned.times.is_empty() {
+        document["times"] = serde_json::to_value(&planned.times)?;
+    }
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');
     Ok(text)
