@@ -240,20 +240,35 @@ impl Plan {
 
     /// Returns the pass's name with its nodes before it, such as `post/blur`.
     pub fn pass_path(&self, id: PassId) -> String {
-        let pass = self.pass(id);
-        match pass.node {
-            Some(node) => format!("{}/{}", self.node_path(node), pass.name),
-            None => pass.name.clone(),
-        }
+        let mut path = String::new();
+        self.write_pass_path(id, &mut path);
+        path
     }
 
     /// Returns the node's name with the nodes around it before it.
     pub fn node_path(&self, id: NodeId) -> String {
-        let node = &self.nodes[id.index()];
-        match node.parent {
-            Some(parent) => format!("{}/{}", self.node_path(parent), node.name),
-            None => node.name.clone(),
+        let mut path = String::new();
+        self.write_node_path(id, &mut path);
+        path
+    }
+
+    /// Appends what [`pass_path`](Self::pass_path) returns.
+    pub(crate) fn write_pass_path(&self, id: PassId, path: &mut String) {
+        let pass = self.pass(id);
+        if let Some(node) = pass.node {
+            self.write_node_path(node, path);
+            path.push('/');
         }
+        path.push_str(&pass.name);
+    }
+
+    fn write_node_path(&self, id: NodeId, path: &mut String) {
+        let node = &self.nodes[id.index()];
+        if let Some(parent) = node.parent {
+            self.write_node_path(parent, path);
+            path.push('/');
+        }
+        path.push_str(&node.name);
     }
 
     /// Returns the bytes of all slots together.

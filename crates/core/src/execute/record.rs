@@ -27,11 +27,14 @@ pub(super) fn record(
     if let Some(timer) = timer.as_deref_mut() {
         timer.begin(device, &plan);
     }
+    let mut label = String::new();
     for id in plan.live_passes() {
+        label.clear();
+        plan.write_pass_path(id, &mut label);
         let body = std::mem::replace(&mut frame.bodies[id.index()], Body::None);
         let frozen = Frozen { plan: &plan, frame: frame.id(), physical: &physical, device };
         let mut recorder = Recorder { frozen, pool, encoder, staging: &staging, timer: timer.as_deref_mut() };
-        recorder.pass(id, body).map_err(|error| name_pass(error, &plan, id))?;
+        recorder.pass(id, &label, body).map_err(|error| name_pass(error, &plan, id))?;
     }
     if let Some(timer) = timer {
         timer.end(encoder);
@@ -77,16 +80,14 @@ struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    fn pass(&mut self, id: PassId, body: Body<'_>) -> Result<(), Error> {
-        let plan = self.frozen.plan;
-        let label = plan.pass_path(id);
-        let started = std::time::Instant::now();
-        match plan.pass(id).kind {
-            PassKind::Render => self.render(id, &label, body)?,
-            PassKind::Compute => self.compute(id, &label, body)?,
-            PassKind::Copy | PassKind::Encoder => self.encode(id, &label, body)?,
+    fn pass(&mut self, id: PassId, label: &str, body: Body<'_>) -> Result<(), Error> {
+        let started = self.timer.as_ref().map(|_| std::time::Instant::now());
+        match self.frozen.plan.pass(id).kind {
+            PassKind::Render => self.render(id, label, body)?,
+            PassKind::Compute => self.compute(id, label, body)?,
+            PassKind::Copy | PassKind::Encoder => self.encode(id, label, body)?,
         }
-        if let Some(timer) = self.timer.as_deref_mut() {
+        if let (Some(timer), Some(started)) = (self.timer.as_deref_mut(), started) {
             timer.cpu(id, started.elapsed());
         }
         Ok(())
