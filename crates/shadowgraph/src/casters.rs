@@ -1,17 +1,20 @@
 //! A scene's instances as shadow casters.
 
-use shadowgraph_scene::gpu::{CullFaces, DepthPipelines, DepthTarget, GpuScene};
+use shadowgraph_scene::gpu::{CullFaces, DepthPipelines, DepthTarget, Draw, GpuScene};
 use shadowgraph_scene::{Aabb, ConvexVolume};
 use shadowgraph_shadows::{CasterTarget, ShadowCasters};
 use wgpu::TextureFormat;
 
 use crate::Error;
 
-/// The instances of a scene on the GPU, as casters: numbered as the scene numbers them. What is alpha-cut casts the
-/// shadow of what is left; what is blended, of what is more than half opaque.
+/// The instances of a scene on the GPU, as casters. They are numbered in the order in which they are drawn with few
+/// changes of state, so that culling gives draws that need no sorting. What is alpha-cut casts the shadow of what is
+/// left; what is blended, of what is more than half opaque.
 pub struct SceneCasters {
     /// The scene.
     pub scene: GpuScene,
+    /// By number.
+    draws: Vec<Draw>,
     pipelines: DepthPipelines,
 }
 
@@ -34,14 +37,17 @@ impl SceneCasters {
 
     /// Draws the casters with pipelines of your own, made for `Depth32Float`.
     pub fn with_pipelines(scene: GpuScene, pipelines: DepthPipelines) -> Self {
-        Self { scene, pipelines }
+        let all: Vec<u32> = (0..scene.bounds().len() as u32).collect();
+        let draws = scene.draw_list(&all, scene.origin_world()).iter().copied().collect();
+        Self { scene, draws, pipelines }
     }
 }
 
 impl ShadowCasters for SceneCasters {
     fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
-        let touching = (0u32..).zip(self.scene.bounds()).filter(|(_, bounds)| volume.intersects(bounds));
-        casters.extend(touching.map(|(index, _)| index));
+        let bounds = self.scene.bounds();
+        let touches = |draw: &Draw| volume.intersects(&bounds[draw.instance as usize]);
+        casters.extend((0u32..).zip(&self.draws).filter(|(_, draw)| touches(draw)).map(|(number, _)| number));
     }
 
     fn bounds(&self) -> Aabb {
@@ -49,9 +55,8 @@ impl ShadowCasters for SceneCasters {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, _target: CasterTarget, casters: &[u32]) {
-        let draws = self.scene.draw_list(casters, self.scene.origin_world());
-        for draws in [&draws.solid, &draws.blend] {
-            self.scene.draw(pass, draws, false, &|key| self.pipelines.get(key));
-        }
+        let draws: Vec<Draw> =
+            casters.iter().filter_map(|&number| self.draws.get(number as usize)).copied().collect();
+        self.scene.draw(pass, &draws, false, &|key| self.pipelines.get(key));
     }
 }
