@@ -107,7 +107,8 @@ pub(crate) struct ResourceDecl {
     pub(crate) name: String,
     pub(crate) desc: ResourceDesc,
     pub(crate) origin: Origin,
-    pub(crate) exported: bool,
+    /// The version that is taken out of the frame.
+    pub(crate) exported: Option<u32>,
     /// Usages asked for from outside (exports), or allowed by the caller's object (imports).
     pub(crate) texture_usage: TextureUsages,
     pub(crate) buffer_usage: BufferUsages,

@@ -123,13 +123,15 @@ impl<'f> Frame<'f> {
         Buffer(version)
     }
 
-    /// Keeps the texture's present contents to the end of the frame, to be taken out of the executed frame.
+    /// Keeps the texture's present contents to the end of the frame, to be taken out of the executed frame. A later
+    /// write to it is an error.
     pub fn export_texture(&mut self, texture: &Texture) -> TextureExport {
         self.export(texture.0, TextureUsages::COPY_SRC, BufferUsages::empty());
         TextureExport(texture.0)
     }
 
-    /// Keeps the buffer's present contents to the end of the frame, to be taken out of the executed frame.
+    /// Keeps the buffer's present contents to the end of the frame, to be taken out of the executed frame. A later
+    /// write to it is an error.
     pub fn export_buffer(&mut self, buffer: &Buffer) -> BufferExport {
         self.export(buffer.0, TextureUsages::empty(), BufferUsages::COPY_SRC);
         BufferExport(buffer.0)
@@ -234,7 +236,7 @@ impl<'f> Frame<'f> {
             name,
             desc,
             origin,
-            exported: false,
+            exported: None,
             texture_usage: TextureUsages::empty(),
             buffer_usage: BufferUsages::empty(),
             writers: Vec::new(),
@@ -269,7 +271,7 @@ impl<'f> Frame<'f> {
             self.errors.push(error);
         }
         let resource = &mut self.decl.resources[version.resource.index()];
-        resource.exported = true;
+        resource.exported = Some(version.version);
         // Of an import the usages are what its owner gave it.
         if resource.origin == Origin::Transient {
             resource.texture_usage |= texture;

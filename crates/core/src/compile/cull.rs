@@ -9,8 +9,11 @@ use crate::plan::CullReason;
 /// Walks backwards and keeps, for each resource, whether its contents at this point are needed. Roots are what is
 /// imported or exported, and passes that are kept.
 pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
-    let mut needed: Vec<bool> =
-        decl.resources.iter().map(|r| r.exported || matches!(r.origin, Origin::Imported { .. })).collect();
+    let mut needed: Vec<bool> = decl
+        .resources
+        .iter()
+        .map(|r| r.exported.is_some() || matches!(r.origin, Origin::Imported { .. }))
+        .collect();
     let mut live = vec![false; decl.passes.len()];
     for (index, pass) in decl.passes.iter().enumerate().rev() {
         live[index] = pass.keep || writes(pass).any(|r| needed[r.index()]);

@@ -20,7 +20,7 @@ pub(super) fn lifetimes(decl: &Declaration, steps: &[Step]) -> Vec<Lifetime> {
     }
     let end = steps.len().saturating_sub(1) as u32;
     for (lifetime, resource) in lifetimes.iter_mut().zip(&decl.resources) {
-        if let (true, Some((_, last))) = (resource.exported, lifetime) {
+        if let (true, Some((_, last))) = (resource.exported.is_some(), lifetime) {
             *last = end;
         }
     }

@@ -54,7 +54,7 @@ fn store(
     match next {
         Some((pass, true)) => (StoreAction::Store, StoreReason::NeededBy(pass)),
         Some((pass, false)) => (StoreAction::Discard, StoreReason::OverwrittenBy(pass)),
-        None if resource.exported => (StoreAction::Store, StoreReason::Exported),
+        None if resource.exported.is_some() => (StoreAction::Store, StoreReason::Exported),
         None if matches!(resource.origin, Origin::Imported { .. }) => {
             (StoreAction::Store, StoreReason::Imported)
         }

@@ -52,7 +52,7 @@ pub(super) fn assemble(decl: Declaration, parts: Parts) -> Plan {
             name: resource.name,
             desc: resource.desc,
             origin: resource.origin,
-            exported: resource.exported,
+            exported: resource.exported.is_some(),
             texture_usage: parts.usages[index].0,
             buffer_usage: parts.usages[index].1,
             steps: parts.lifetimes[index],

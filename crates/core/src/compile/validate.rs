@@ -32,13 +32,27 @@ pub(super) fn validate(decl: &Declaration) -> Result<(), Error> {
             defined[access.resource.index()] = true;
         }
     }
-    let exported = decl.resources.iter().zip(&defined).find(|(r, defined)| r.exported && !**defined);
-    match exported {
-        Some((resource, _)) => {
-            Err(Error::UndefinedRead { pass: "export".into(), resource: resource.name.clone() })
+    exports(decl, &defined)
+}
+
+/// What is exported must have been written, and not again after the export.
+fn exports(decl: &Declaration, defined: &[bool]) -> Result<(), Error> {
+    for (resource, defined) in decl.resources.iter().zip(defined) {
+        let Some(version) = resource.exported else { continue };
+        if !defined {
+            return Err(Error::UndefinedRead { pass: "export".into(), resource: resource.name.clone() });
         }
-        None => Ok(()),
+        if let Some(&writer) = resource.writers.get(version as usize) {
+            return Err(Error::StaleRead {
+                pass: "export".into(),
+                resource: resource.name.clone(),
+                version,
+                writer: decl.pass_path(writer),
+                latest: resource.version(),
+            });
+        }
     }
+    Ok(())
 }
 
 /// One pass under examination.

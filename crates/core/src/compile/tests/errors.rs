@@ -64,6 +64,20 @@ fn exporting_undefined_contents_is_refused() {
 }
 
 #[test]
+fn writing_what_was_exported_is_refused() {
+    let mut frame = Frame::new();
+    let mut a = color(&mut frame, "a");
+    frame.render_pass("first").color(&mut a, BLACK);
+    frame.export_texture(&a);
+    frame.render_pass("second").color(&mut a, BLACK);
+    let text = message(frame);
+    assert!(
+        text.contains("`export` reads version 1 of `a`, but `second` has since written version 2"),
+        "{text}"
+    );
+}
+
+#[test]
 fn a_token_of_another_pass_does_not_resolve() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");

@@ -57,10 +57,16 @@ fn simulate(plan: &Plan) -> Result<(), String> {
             slots[slot.index()] = stored.then_some((access.resource.0, access.version + 1));
         }
     }
-    for resource in plan.resources.iter().filter(|r| r.exported) {
+    for (index, resource) in plan.resources.iter().enumerate().filter(|(_, r)| r.exported) {
+        let accesses = plan.passes.iter().flat_map(|pass| &pass.accesses);
+        let writes = accesses.filter(|a| a.resource.index() == index && a.access.writes()).count() as u32;
         let slot = resource.slot.ok_or("an export without a slot")?;
-        if slots[slot.index()].is_none() {
-            return Err(format!("the exported {} was discarded", resource.name));
+        if slots[slot.index()] != Some((index as u32, writes)) {
+            return Err(format!(
+                "the slot of the exported {} holds {:?}",
+                resource.name,
+                slots[slot.index()]
+            ));
         }
     }
     Ok(())

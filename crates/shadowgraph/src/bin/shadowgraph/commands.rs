@@ -24,8 +24,8 @@ pub(crate) struct Input {
 
 /// `shadowgraph render`
 pub(crate) fn render(args: &RenderArgs) -> Result<(), Failure> {
-    let input = input(&args.draw)?;
     check_output(&args.output)?;
+    let input = input(&args.draw)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let drawn = draw(&gpu, input)?;
     let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
@@ -64,12 +64,12 @@ fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
 /// `shadowgraph dump`
 pub(crate) fn dump(args: &DumpArgs) -> Result<(), Failure> {
     let input = input(&args.draw)?;
-    let scene = input.scene.clone();
+    let lights = input.scene.lights.clone();
     let (gpu, drawn) = planned(&args.draw, input)?;
     let text = match args.format {
-        Format::Text if drawn.times.is_empty() => report::text(&scene, &drawn),
-        Format::Text => report::text(&scene, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
-        Format::Json => report::json(&scene, &drawn)?,
+        Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
+        Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
+        Format::Json => report::json(&lights, &drawn)?,
         Format::Dot => drawn.plan.to_dot(),
     };
     match &args.output {

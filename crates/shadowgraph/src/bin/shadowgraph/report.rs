@@ -6,18 +6,18 @@ use crate::commands::Planned;
 use crate::failure::Failure;
 use serde_json::{Value, json};
 use shadowgraph::core::PassTime;
-use shadowgraph::scene::{Light, LightKind, Scene};
+use shadowgraph::scene::{Light, LightKind};
 use shadowgraph::shadows::Unshadowed;
 use shadowgraph::wgpu::AdapterInfo;
 
 /// The plan as text, with the scene's lights.
-pub(crate) fn text(scene: &Scene, planned: &Planned) -> String {
+pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
     let mut out = planned.plan.to_text();
     out.push_str("\nlights\n");
-    if scene.lights.is_empty() {
+    if lights.is_empty() {
         out.push_str("  none\n");
     }
-    for (index, light) in scene.lights.iter().enumerate() {
+    for (index, light) in lights.iter().enumerate() {
         let name: String = light.name.as_deref().unwrap_or("-").chars().take(28).collect();
         let strength = format!("{:.1} {}", light.intensity, unit(light));
         let shadows = shadows(light, index, &planned.unshadowed);
@@ -27,9 +27,9 @@ pub(crate) fn text(scene: &Scene, planned: &Planned) -> String {
 }
 
 /// The plan as JSON, with the scene's lights.
-pub(crate) fn json(scene: &Scene, planned: &Planned) -> Result<String, Failure> {
+pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failure> {
     let mut document: Value = serde_json::from_str(&planned.plan.to_json()?)?;
-    let lights = scene.lights.iter().enumerate().map(|(index, light)| {
+    let lights = lights.iter().enumerate().map(|(index, light)| {
         json!({
             "index": index,
             "kind": kind(light),
