@@ -4,7 +4,7 @@
 //! encoder and one submit. `cargo run -p shadowgraph-examples --example custom` writes out/custom.png.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
-use shadowgraph::core::{Bind, Contents, Format, Frame, Pool, Texture, TextureDesc, wgpu};
+use shadowgraph::core::{Bind, Contents, Format, Frame, Graph, Texture, TextureDesc, wgpu};
 use shadowgraph::output::{Pixels, write_png};
 
 const SIZE: wgpu::Extent3d = wgpu::Extent3d { width: 320, height: 180, depth_or_array_layers: 1 };
@@ -34,19 +34,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let copied = wgpu::BufferDescriptor { label: Some("copied"), size, usage, mapped_at_creation: false };
     let copied = device.create_buffer(&copied);
     let pipelines = Pipelines::new(&device);
-    // Keeps transient textures and bind groups from frame to frame: one for each device.
-    let mut pool = Pool::new();
+    // Keeps plans, transient textures and bind groups from frame to frame: one for each device.
+    let mut graph = Graph::new();
 
     // Work of the application's before the graph.
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     clear(&mut encoder, &canvas);
 
     // The graph's part: declare, compile, record into the encoder that there is. It submits nothing.
-    let mut frame = Frame::new();
+    let mut frame = graph.frame();
     // `true`: the canvas holds something already, so a pass may preserve it.
     let mut target = frame.import_texture("canvas", &canvas, true);
     rings_under_a_lens(&mut frame, &pipelines, &mut target);
-    let executed = frame.compile()?.execute(&mut pool, &device, &mut encoder)?;
+    let executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
     print!("{}", executed.plan().to_text());
 
     // Work of the application's after the graph. 320 pixels of 4 bytes are a row that needs no padding.
@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// Adds two passes to a frame: a node is a function. The second draws over `canvas`.
 fn rings_under_a_lens<'f>(frame: &mut Frame<'f>, pipelines: &'f Pipelines, canvas: &mut Texture) {
-    // A transient: the pool finds a texture for it, and its usage flags follow from the accesses below.
+    // A transient: the graph finds a texture for it, and its usage flags follow from the accesses below.
     let desc = TextureDesc::d2(SIZE.width, SIZE.height, Format::Rgba16Float);
     let mut rings = frame.create_texture("rings", desc);
     let mut pass = frame.render_pass("rings");

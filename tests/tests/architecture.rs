@@ -107,7 +107,7 @@ fn only_one_file_of_core_has_shader_text() {
     };
     let files: Vec<PathBuf> =
         sources("crates/core/src", &["rs", "wgsl"]).into_iter().filter(is_shader).collect();
-    assert!(files.len() <= 1, "{files:?}");
+    assert_eq!(files, [repository().join("crates/core/src/internal/internal.wgsl")]);
 }
 
 #[test]
@@ -134,7 +134,9 @@ fn nothing_is_left_for_later_in_the_source() {
 }
 
 fn refuse_words(folder: &str, refused: &[&str]) {
-    refuse(folder, |line| words(line).into_iter().find(|word| refused.contains(&word.as_str())));
+    // The method of slices is the standard library's word.
+    let said = |line: &str| words(&line.replace(".windows(", "("));
+    refuse(folder, |line| said(line).into_iter().find(|word| refused.contains(&word.as_str())));
 }
 
 /// Fails with every line of a folder's sources in which `find` finds something.

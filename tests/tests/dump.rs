@@ -19,8 +19,9 @@ fn text_has_passes_by_node_reasons_lights_and_at_most_110_columns() {
         "  lighting\n",
         "clear 0: the pass clears it",
         "store: `lighting/forward` needs it",
-        "resources\n",
-        "slots (",
+        "same render pass: it has the same attachments",
+        "resources by slot",
+        "  slot 0 ",
         "lights\n",
         "casts shadows",
     ] {
@@ -31,9 +32,36 @@ fn text_has_passes_by_node_reasons_lights_and_at_most_110_columns() {
 }
 
 #[test]
+fn the_tiles_of_a_shadow_map_are_one_render_pass_with_one_clear() {
+    let text = dump("text");
+    assert!(
+        text.starts_with("plan: 16 passes in 9 steps, 0 culled; 9 resources in 9 slots of 94.1 MiB"),
+        "{text}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&dump("json")).unwrap();
+    let passes = json["plan"]["passes"].as_array().unwrap();
+    let names = |step: &serde_json::Value| -> Vec<String> {
+        let ids = step["passes"].as_array().unwrap().iter().map(|id| id.as_u64().unwrap() as usize);
+        ids.map(|id| passes[id]["name"].as_str().unwrap().to_owned()).collect()
+    };
+    let steps: Vec<_> = json["plan"]["order"].as_array().unwrap().iter().map(names).collect();
+    let cascades = ["clear", "cascade 0", "cascade 1", "cascade 2", "cascade 3"];
+    let atlas = ["clear", "light 1", "light 2", "light 3"];
+    for map in [&cascades[..], &atlas[..]] {
+        assert!(steps.iter().any(|step| step == map), "{steps:?}");
+    }
+    // The load operation clears: nothing is cleared by a draw.
+    let ops =
+        passes.iter().flat_map(|pass| pass["accesses"].as_array().unwrap()).map(|access| &access["ops"]);
+    let attachments: Vec<_> = ops.filter(|ops| !ops.is_null()).collect();
+    assert_eq!(attachments.len(), cascades.len() + atlas.len() + 3);
+    assert!(attachments.iter().all(|ops| ops["clear_drawn"] == false), "{attachments:?}");
+}
+
+#[test]
 fn json_has_the_plan_its_reasons_and_the_lights() {
     let json: serde_json::Value = serde_json::from_str(&dump("json")).unwrap();
-    assert_eq!(json["schema"], 1);
+    assert_eq!(json["schema"], 2);
     assert_eq!(json["lights"].as_array().unwrap().len(), 4);
     assert!(json["plan"]["passes"].as_array().unwrap().len() > 5);
     assert!(json["reasons"].as_array().unwrap().iter().all(|reason| reason["because"].is_string()));

@@ -56,7 +56,9 @@ fn custom_draws_into_the_canvas_of_the_application_and_prints_the_plan() {
     let folder = tempfile::tempdir().unwrap();
     let outcome = run(Command::new(example("custom")).current_dir(folder.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
-    for line in ["plan: 2 passes", "load: keeps what the import held", "320x180 Rgba16Float"] {
+    for line in
+        ["plan: 2 passes", "load: the pass keeps what was there when the frame began", "320x180 Rgba16Float"]
+    {
         assert!(outcome.stdout.contains(line), "`{line}` is missing in:\n{}", outcome.stdout);
     }
     let picture = image::open(folder.path().join("out/custom.png")).unwrap().into_rgba8();

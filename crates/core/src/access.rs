@@ -9,6 +9,8 @@ use wgpu_types::{BufferUsages, TextureUsages};
 pub enum Access {
     /// Colour attachment of this index.
     Color(u32),
+    /// Target that the colour attachment of this index is resolved into at the end of the pass.
+    Resolve(u32),
     /// Depth(-stencil) attachment, tested and written.
     Depth,
     /// Depth(-stencil) attachment, tested only.
@@ -36,18 +38,23 @@ pub enum Access {
 impl Access {
     /// Tells whether the access may change the contents.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Color(_) | Self::Depth | Self::StorageWrite | Self::CopyTarget)
+        matches!(
+            self,
+            Self::Color(_) | Self::Resolve(_) | Self::Depth | Self::StorageWrite | Self::CopyTarget
+        )
     }
 
-    /// Tells whether the access is an attachment of a render pass.
+    /// Tells whether the access is an attachment of a render pass, resolve targets among them.
     pub fn is_attachment(self) -> bool {
-        matches!(self, Self::Color(_) | Self::Depth | Self::DepthRead)
+        matches!(self, Self::Color(_) | Self::Resolve(_) | Self::Depth | Self::DepthRead)
     }
 
     /// Returns the texture usage that the access needs.
     pub fn texture_usage(self) -> TextureUsages {
         match self {
-            Self::Color(_) | Self::Depth | Self::DepthRead => TextureUsages::RENDER_ATTACHMENT,
+            Self::Color(_) | Self::Resolve(_) | Self::Depth | Self::DepthRead => {
+                TextureUsages::RENDER_ATTACHMENT
+            }
             Self::Sampled => TextureUsages::TEXTURE_BINDING,
             Self::StorageRead | Self::StorageWrite => TextureUsages::STORAGE_BINDING,
             Self::CopySource => TextureUsages::COPY_SRC,
@@ -66,7 +73,9 @@ impl Access {
             Self::Indirect => BufferUsages::INDIRECT,
             Self::CopySource => BufferUsages::COPY_SRC,
             Self::CopyTarget => BufferUsages::COPY_DST,
-            Self::Color(_) | Self::Depth | Self::DepthRead | Self::Sampled => BufferUsages::empty(),
+            Self::Color(_) | Self::Resolve(_) | Self::Depth | Self::DepthRead | Self::Sampled => {
+                BufferUsages::empty()
+            }
         }
     }
 
@@ -74,6 +83,7 @@ impl Access {
     pub fn word(self) -> &'static str {
         match self {
             Self::Color(_) => "color",
+            Self::Resolve(_) => "resolve target",
             Self::Depth => "depth",
             Self::DepthRead => "depth test",
             Self::Sampled => "sampled",
@@ -94,8 +104,10 @@ impl Access {
 pub enum ClearValue {
     /// Red, green, blue, alpha, in the format's own range.
     Color([f64; 4]),
-    /// Depth, 0 to 1. With reversed depth the far plane is 0.
+    /// Depth, 0 to 1. With reversed depth the far plane is 0. Stencil, where there is one, becomes 0.
     Depth(f32),
+    /// Depth, 0 to 1, and stencil.
+    DepthStencil(f32, u32),
 }
 
 /// What a write does with the contents that were there before.
@@ -118,6 +130,11 @@ impl Contents {
     /// Clears a depth attachment to `depth` (0 to 1) first.
     pub fn clear_depth(depth: f32) -> Self {
         Self::Clear(ClearValue::Depth(depth))
+    }
+
+    /// Clears a depth-stencil attachment to `depth` (0 to 1) and `stencil` (0 to 255) first.
+    pub fn clear_depth_stencil(depth: f32, stencil: u32) -> Self {
+        Self::Clear(ClearValue::DepthStencil(depth, stencil))
     }
 
     /// Tells whether the write needs the earlier contents.

@@ -4,6 +4,7 @@ use crate::access::{Access, Contents};
 use crate::declaration::CopyOp;
 use crate::frame::Frame;
 use crate::handle::{Buffer, BufferToken, PassId, Texture, TextureToken};
+use crate::part::Part;
 use std::marker::PhantomData;
 
 /// Marks a [`Pass`] that draws.
@@ -21,12 +22,16 @@ pub enum Encoding {}
 pub struct Pass<'p, 'f, K> {
     pub(crate) frame: &'p mut Frame<'f>,
     pub(crate) id: PassId,
+    /// What the next access is narrowed to.
+    part: Option<Part>,
+    /// Colour attachments declared so far.
+    colors: u32,
     kind: PhantomData<K>,
 }
 
 impl<'p, 'f, K> Pass<'p, 'f, K> {
     pub(crate) fn new(frame: &'p mut Frame<'f>, id: PassId) -> Self {
-        Self { frame, id, kind: PhantomData }
+        Self { frame, id, part: None, colors: 0, kind: PhantomData }
     }
 
     /// Returns the pass's id in the plan.
@@ -39,20 +44,57 @@ impl<'p, 'f, K> Pass<'p, 'f, K> {
         self.frame.pass_mut(self.id).keep = true;
     }
 
+    /// Runs this pass after `other`, for effects outside the graph that the two share. It does not keep `other`.
+    ///
+    /// ```
+    /// let mut frame = shadowgraph_core::Frame::new();
+    /// let mut first = frame.encoder_pass("first");
+    /// first.keep();
+    /// let first = first.id();
+    /// let mut second = frame.encoder_pass("second");
+    /// second.keep();
+    /// second.after(first);
+    /// # frame.compile()?;
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    pub fn after(&mut self, other: PassId) {
+        self.frame.declare_after(self.id, other);
+    }
+
+    /// Narrows the next access to a part of its resource.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Frame, Part, TextureDesc};
+    /// let mut frame = Frame::new();
+    /// let mut cube = frame.create_texture("cube", TextureDesc::d2(64, 64, Format::Depth32Float).layers(6));
+    /// for face in 0..6 {
+    ///     let mut pass = frame.render_pass(format_args!("face {face}"));
+    ///     pass.on(Part::WHOLE.layer(face)).depth(&mut cube, Contents::clear_depth(0.0));
+    /// }
+    /// frame.export_texture(&cube);
+    /// let plan = frame.compile()?.into_plan();
+    /// assert!(plan.dependencies().is_empty(), "faces do not order each other");
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    pub fn on(&mut self, part: Part) -> &mut Self {
+        self.part = Some(part);
+        self
+    }
+
     fn read_texture(&mut self, texture: &Texture, access: Access) -> TextureToken {
-        TextureToken(self.frame.declare_read(self.id, texture.0, access))
+        TextureToken(self.frame.declare_read(self.id, texture.0, access, &mut self.part))
     }
 
     fn read_buffer(&mut self, buffer: &Buffer, access: Access) -> BufferToken {
-        BufferToken(self.frame.declare_read(self.id, buffer.0, access))
+        BufferToken(self.frame.declare_read(self.id, buffer.0, access, &mut self.part))
     }
 
     fn write_texture(&mut self, texture: &mut Texture, access: Access, contents: Contents) -> TextureToken {
-        TextureToken(self.frame.declare_write(self.id, &mut texture.0, access, contents))
+        TextureToken(self.frame.declare_write(self.id, &mut texture.0, access, contents, &mut self.part))
     }
 
     fn write_buffer(&mut self, buffer: &mut Buffer, access: Access, contents: Contents) -> BufferToken {
-        BufferToken(self.frame.declare_write(self.id, &mut buffer.0, access, contents))
+        BufferToken(self.frame.declare_write(self.id, &mut buffer.0, access, contents, &mut self.part))
     }
 }
 
@@ -102,9 +144,15 @@ impl<K: ShaderPass> Pass<'_, '_, K> {
 impl Pass<'_, '_, Rendering> {
     /// Draws into a colour attachment. Attachments are numbered in order of declaration.
     pub fn color(&mut self, texture: &mut Texture, contents: Contents) -> TextureToken {
-        let pass = self.frame.pass_mut(self.id);
-        let index = pass.accesses.iter().filter(|a| matches!(a.access, Access::Color(_))).count() as u32;
+        let index = self.colors;
+        self.colors += 1;
         self.write_texture(texture, Access::Color(index), contents)
+    }
+
+    /// Resolves the colour attachment declared last, which is multisampled, into `texture` at the end of the pass.
+    pub fn resolve(&mut self, texture: &mut Texture) -> TextureToken {
+        let index = self.colors.saturating_sub(1);
+        self.write_texture(texture, Access::Resolve(index), Contents::Cover)
     }
 
     /// Tests and writes a depth(-stencil) attachment.
@@ -156,30 +204,57 @@ impl Pass<'_, '_, Encoding> {
 }
 
 impl Pass<'_, '_, Copying> {
-    /// Copies mip 0 of a texture, all layers, to another of the same size and format.
+    /// Copies a texture to another, or mip 0 of each if they have several. For parts of the same size see
+    /// [`texture_parts`](Self::texture_parts).
     pub fn texture(&mut self, source: &Texture, target: &mut Texture) -> &mut Self {
-        self.read_texture(source, Access::CopySource);
-        self.write_texture(target, Access::CopyTarget, Contents::Cover);
+        let (from, to) = (self.first_mip(source), self.first_mip(target));
+        self.texture_parts(source, from, target, to)
+    }
+
+    /// Copies a part of a texture, of one mip, to a part of another that has the same size and format.
+    pub fn texture_parts(
+        &mut self,
+        source: &Texture,
+        from: Part,
+        target: &mut Texture,
+        to: Part,
+    ) -> &mut Self {
+        self.on(from).read_texture(source, Access::CopySource);
+        self.on(to).write_texture(target, Access::CopyTarget, Contents::Cover);
         self.op(CopyOp::TextureToTexture { source: source.id(), target: target.id() })
     }
 
     /// Copies the whole of a buffer to another of the same size.
     pub fn buffer(&mut self, source: &Buffer, target: &mut Buffer) -> &mut Self {
-        self.read_buffer(source, Access::CopySource);
-        self.write_buffer(target, Access::CopyTarget, Contents::Cover);
+        self.buffer_parts(source, Part::WHOLE, target, Part::WHOLE)
+    }
+
+    /// Copies a range of a buffer to a range of another that has as many bytes. Ranges begin and end at multiples
+    /// of 4.
+    pub fn buffer_parts(&mut self, source: &Buffer, from: Part, target: &mut Buffer, to: Part) -> &mut Self {
+        self.on(from).read_buffer(source, Access::CopySource);
+        self.on(to).write_buffer(target, Access::CopyTarget, Contents::Cover);
         self.op(CopyOp::BufferToBuffer { source: source.id(), target: target.id() })
     }
 
     /// Copies mip 0 of a single-layer texture to a buffer, each row padded to a multiple of 256 bytes: the way to
     /// read a picture back (import a mappable buffer).
     pub fn texture_to_buffer(&mut self, source: &Texture, target: &mut Buffer) -> &mut Self {
-        self.read_texture(source, Access::CopySource);
+        let from = self.first_mip(source);
+        self.on(from).read_texture(source, Access::CopySource);
         self.write_buffer(target, Access::CopyTarget, Contents::Cover);
         self.op(CopyOp::TextureToBuffer { source: source.id(), target: target.id() })
     }
 
+    fn first_mip(&self, texture: &Texture) -> Part {
+        match self.frame.texture_desc(texture) {
+            Some(desc) if desc.mip_levels > 1 => Part::WHOLE.mip(0),
+            _ => Part::WHOLE,
+        }
+    }
+
     fn op(&mut self, op: CopyOp) -> &mut Self {
-        self.frame.pass_mut(self.id).copies.push(op);
+        self.frame.add_copy(self.id, op);
         self
     }
 }

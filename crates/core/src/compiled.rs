@@ -7,23 +7,35 @@ use crate::{
     error::Error,
     handle::{PassId, ResourceId, Token},
 };
+use std::sync::Arc;
 
 /// A compiled frame: the plan, and the bodies that wait to be recorded.
 pub struct Compiled<'f> {
-    pub(crate) plan: Plan,
+    pub(crate) plan: Arc<Plan>,
     #[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "bodies and uploads are for the executor"))]
     pub(crate) frame: Frame<'f>,
 }
 
-impl Compiled<'_> {
+impl<'f> Compiled<'f> {
+    pub(crate) fn new(plan: Arc<Plan>, frame: Frame<'f>) -> Self {
+        Self { plan, frame }
+    }
+
     /// Returns what will be done, and why.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
+    /// Returns the plan, which equal frames share.
+    pub fn shared_plan(&self) -> Arc<Plan> {
+        self.plan.clone()
+    }
+
     /// Returns the plan alone and drops the bodies.
     pub fn into_plan(self) -> Plan {
-        self.plan
+        let plan = self.plan.clone();
+        drop(self);
+        Arc::unwrap_or_clone(plan)
     }
 }
 
@@ -36,7 +48,7 @@ pub(crate) fn resolve(plan: &Plan, frame: u64, pass: PassId, token: Token) -> Re
     if token.pass != pass {
         return Err(Error::Undeclared {
             pass: plan.pass_path(pass),
-            resource: plan.resource(token.resource).name.clone(),
+            resource: plan.resource(token.resource).name.into(),
             declared_by: plan.pass_path(token.pass),
         });
     }

@@ -47,10 +47,14 @@ impl TextureDesc {
         self
     }
 
-    /// Returns the memory of the texture in bytes, all mips, layers and samples, without the driver's padding.
+    /// Returns the memory of the texture in bytes, all mips, layers and samples, without the driver's padding;
+    /// `u64::MAX` for what no memory holds.
     pub fn bytes(&self) -> u64 {
+        if self.texels() > 1 << 48 {
+            return u64::MAX;
+        }
         let layers = if self.dimension == TextureDimension::D3 { 1 } else { self.size.depth_or_array_layers };
-        (0..self.mip_levels)
+        (0..self.mip_levels.min(32))
             .map(|mip| {
                 let mut size = self.size.mip_level_size(mip, self.dimension);
                 if self.dimension != TextureDimension::D3 {
@@ -60,6 +64,14 @@ impl TextureDesc {
             })
             .sum::<u64>()
             * u64::from(self.samples)
+    }
+
+    /// Texels of the largest mip, each sample counted.
+    pub(crate) fn texels(&self) -> u128 {
+        let Extent { width, height, depth_or_array_layers } = self.size;
+        [height, depth_or_array_layers, self.samples]
+            .into_iter()
+            .fold(width.into(), |texels: u128, side| texels.saturating_mul(side.into()))
     }
 }
 
@@ -73,7 +85,7 @@ pub struct BufferDesc {
 impl BufferDesc {
     /// Describes a buffer of `bytes` bytes, rounded up to a multiple of 4 as copies need it.
     pub fn new(bytes: u64) -> Self {
-        Self { bytes: bytes.next_multiple_of(4).max(4) }
+        Self { bytes: bytes.checked_next_multiple_of(4).unwrap_or(u64::MAX - 3).max(4) }
     }
 }
 

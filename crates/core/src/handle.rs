@@ -72,6 +72,8 @@ pub(crate) struct Token {
     pub(crate) frame: u64,
     pub(crate) pass: PassId,
     pub(crate) resource: ResourceId,
+    /// Which of the frame's accesses: it tells the part.
+    pub(crate) access: u32,
 }
 
 /// The right to touch a texture inside the body of the pass that declared the access.
@@ -89,3 +91,18 @@ pub struct TextureExport(pub(crate) Version);
 /// The right to take a buffer out of an executed frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BufferExport(pub(crate) Version);
+
+/// A uniform block of a frame, for `Bind::Uniform`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Uniform {
+    pub(crate) frame: u64,
+    pub(crate) start: u32,
+    pub(crate) size: u32,
+}
+
+impl Uniform {
+    /// Returns the size of the block in bytes.
+    pub fn size_bytes(&self) -> u32 {
+        self.size
+    }
+}

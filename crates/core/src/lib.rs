@@ -19,7 +19,7 @@
 //! frame.export_texture(&picture);
 //!
 //! let plan = frame.compile()?.into_plan();
-//! assert_eq!(plan.order.len(), 2);
+//! assert_eq!(plan.order().len(), 2);
 //! println!("{}", plan.to_text());
 //! # Ok::<(), shadowgraph_core::Error>(())
 //! ```
@@ -50,32 +50,48 @@ mod error;
 #[cfg(feature = "gpu")]
 mod execute;
 mod frame;
+mod graph;
 mod handle;
+#[cfg(feature = "gpu")]
+mod internal;
+mod name;
+mod part;
 mod plan;
 #[cfg(feature = "gpu")]
 mod pool;
+#[cfg(feature = "gpu")]
+mod programs;
+#[cfg(all(test, feature = "gpu"))]
+mod test_device;
 
 pub use access::{Access, ClearValue, Contents};
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
 pub use compiled::Compiled;
-pub use declaration::{CopyOp, Origin, PassKind};
+pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Bind, BodyResult, ComputeContext, EncoderContext, Executed, PassTime, RenderContext, Resources, Timer,
+    Bind, BodyResult, ComputeContext, EncoderContext, Executed, PassTime, ReadBack, ReadBackRequest,
+    RenderContext, Resources, Timer,
 };
-pub use frame::Frame;
+pub use frame::{Frame, History, Resize};
+pub use graph::{Graph, PlanCounts};
 pub use handle::{
     Buffer, BufferExport, BufferToken, NodeId, PassId, ResourceId, SlotId, Texture, TextureExport,
-    TextureToken,
+    TextureToken, Uniform,
 };
+pub use name::Name;
+pub use part::{Aspect, Part, Rect};
 pub use plan::{
-    AccessPlan, AttachmentOps, CullReason, Dependency, DependencyKind, LoadAction, LoadReason, NodePlan,
-    PassPlan, Plan, ResourcePlan, SlotPlan, Step, StoreAction, StoreReason,
+    AccessPlan, AttachmentOps, CullReason, Dependency, DependencyKind, LoadAction, LoadReason, MergeReason,
+    NodePlan, PassPlan, PlaceReason, Plan, ResourcePlan, SlotPlan, SlotReason, Step, StoreAction,
+    StoreReason,
 };
 #[cfg(feature = "gpu")]
-pub use pool::Pool;
+pub use pool::PoolLimits;
+#[cfg(feature = "gpu")]
+pub use programs::{Block, Call, ComputeShader, FullscreenShader};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

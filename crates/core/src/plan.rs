@@ -1,54 +1,88 @@
 //! The plan: what will be done and why, as plain data.
+//!
+//! It keeps the declaration it was made from and, beside it, one flat array for each decision. The types with a
+//! lifetime are views into these arrays.
+
+mod graph;
+mod reasons;
+mod serialize;
+
+pub use reasons::{CullReason, LoadReason, MergeReason, PlaceReason, SlotReason, StoreReason};
 
 use crate::access::{Access, ClearValue, Contents};
-use crate::declaration::{CopyOp, Origin, PassKind};
+use crate::declaration::{AccessDecl, CopyOp, Declaration, Options, Origin, PassKind};
 use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
-use petgraph::graph::DiGraph;
+use crate::part::{Area, Part};
 use serde::Serialize;
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// What a frame's declarations come to. The dumps print it; the executor follows it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
-    /// Groups of passes, in order of declaration.
-    pub nodes: Vec<NodePlan>,
-    /// Every declared pass, culled ones too, in order of declaration.
-    pub passes: Vec<PassPlan>,
-    /// Every declared resource, in order of declaration.
-    pub resources: Vec<ResourcePlan>,
-    /// The physical textures and buffers that transient resources take turns in.
-    pub slots: Vec<SlotPlan>,
-    /// What is recorded, in this order.
-    pub order: Vec<Step>,
-    /// Which pass must come before which, and for the sake of what.
-    pub dependencies: Vec<Dependency>,
+    pub(crate) decl: Declaration,
+    /// By pass.
+    pub(crate) culled: Vec<Option<CullReason>>,
+    /// The passes that run, in order.
+    pub(crate) order: Vec<PassId>,
+    /// By place in the order.
+    pub(crate) placed: Vec<PlaceReason>,
+    /// By place in the order.
+    pub(crate) merges: Vec<MergeReason>,
+    /// Runs of the order.
+    pub(crate) steps: Vec<(u32, u32)>,
+    /// By access.
+    pub(crate) ops: Vec<Option<AttachmentOps>>,
+    /// By resource.
+    pub(crate) fates: Vec<Fate>,
+    pub(crate) slots: Vec<Slot>,
+    /// Runs of it belong to slots.
+    pub(crate) tenants: Vec<ResourceId>,
+    pub(crate) dependencies: Vec<Dependency>,
+}
+
+/// What becomes of a resource.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fate {
+    pub(crate) texture_usage: TextureUsages,
+    pub(crate) buffer_usage: BufferUsages,
+    pub(crate) steps: Option<(u32, u32)>,
+    pub(crate) slot: Option<SlotId>,
+    pub(crate) reason: SlotReason,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slot {
+    pub(crate) desc: ResourceDesc,
+    pub(crate) texture_usage: TextureUsages,
+    pub(crate) buffer_usage: BufferUsages,
+    pub(crate) tenants: (u32, u32),
 }
 
 /// A named group of passes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct NodePlan {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct NodePlan<'p> {
     /// The name given to `Frame::node`.
-    pub name: String,
+    pub name: &'p str,
     /// The node around this one.
     pub parent: Option<NodeId>,
 }
 
 /// One declared pass.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PassPlan {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct PassPlan<'p> {
     /// The name it was declared under.
-    pub name: String,
+    pub name: &'p str,
     /// The node it belongs to.
     pub node: Option<NodeId>,
     /// What it is made of.
     pub kind: PassKind,
-    /// Everything it touches.
-    pub accesses: Vec<AccessPlan>,
-    /// The transfers of a copy pass.
-    pub copies: Vec<CopyOp>,
+    /// Whether it stays even if nothing needs what it writes.
+    pub keep: bool,
     /// Why it does not run; `None` if it runs.
     pub culled: Option<CullReason>,
+    /// The transfers of a copy pass.
+    pub copies: &'p [CopyOp],
 }
 
 /// One access of a pass.
@@ -56,14 +90,19 @@ pub struct PassPlan {
 pub struct AccessPlan {
     /// What is touched.
     pub resource: ResourceId,
+    /// Which part of it.
+    pub part: Part,
     /// How.
     pub access: Access,
     /// For writes: what becomes of the earlier contents.
     pub contents: Option<Contents>,
     /// The version read or written over; a write makes `version + 1`.
     pub version: u32,
-    /// For attachments that are written, in passes that run: what happens at the pass's begin and end.
+    /// For attachments, in passes that run: what happens at the pass's begin and end. `None` also for depth that is
+    /// only tested.
     pub ops: Option<AttachmentOps>,
+    #[serde(skip)]
+    pub(crate) area: Area,
 }
 
 /// What happens to an attachment at the begin and the end of a pass.
@@ -73,6 +112,9 @@ pub struct AttachmentOps {
     pub load: LoadAction,
     /// Why so.
     pub load_reason: LoadReason,
+    /// Whether the graph draws the declared clear into the part, since a load operation would clear all of the
+    /// attachment.
+    pub clear_drawn: bool,
     /// At the end.
     pub store: StoreAction,
     /// Why so.
@@ -86,19 +128,8 @@ pub enum LoadAction {
     Clear(ClearValue),
     /// What it held before.
     Load,
-}
-
-/// Why an attachment is cleared or loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum LoadReason {
-    /// The pass declares the clear.
-    Declared,
-    /// The pass covers every texel, and a clear is the cheapest load there is.
-    Covered,
-    /// The pass preserves what this pass wrote.
-    Preserves(PassId),
-    /// The pass preserves what the caller's texture held.
-    PreservesImport,
+    /// What the passes before it drew in the same render pass.
+    Continue,
 }
 
 /// What becomes of an attachment when the pass ends.
@@ -108,41 +139,15 @@ pub enum StoreAction {
     Store,
     /// It may be forgotten.
     Discard,
-}
-
-/// Why an attachment is stored or discarded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum StoreReason {
-    /// This pass needs it.
-    NeededBy(PassId),
-    /// It is exported.
-    Exported,
-    /// It belongs to the caller.
-    Imported,
-    /// This pass overwrites it before anything reads it.
-    OverwrittenBy(PassId),
-    /// Nothing touches it any more.
-    LastUse,
-}
-
-/// Why a pass does not run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum CullReason {
-    /// It writes nothing and is not kept.
-    WritesNothing,
-    /// Nothing reads what it writes.
-    Unread(ResourceId),
-    /// Only passes that are culled themselves, such as this one, read what it writes.
-    OnlyCulledReaders(ResourceId, PassId),
-    /// The second overwrites the first before anything reads it.
-    Overwritten(ResourceId, PassId),
+    /// The next pass draws on in the same render pass.
+    Continue,
 }
 
 /// One declared resource.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ResourcePlan {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ResourcePlan<'p> {
     /// The name it was declared under.
-    pub name: String,
+    pub name: &'p str,
     /// Its shape.
     pub desc: ResourceDesc,
     /// Where it comes from.
@@ -155,28 +160,30 @@ pub struct ResourcePlan {
     pub buffer_usage: BufferUsages,
     /// First and last step that touches it; `None` if nothing that runs does.
     pub steps: Option<(u32, u32)>,
-    /// The slot it lives in; `None` for imports and for what nothing touches.
+    /// The slot it lives in; `None` for what is not transient and for what nothing touches.
     pub slot: Option<SlotId>,
+    /// Why it lives there.
+    pub slot_reason: SlotReason,
 }
 
 /// A physical texture or buffer.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SlotPlan {
-    /// Its shape.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SlotPlan<'p> {
+    /// Its shape. Of a buffer, the size class: at least as large as every tenant.
     pub desc: ResourceDesc,
     /// For textures: the usages of all tenants together.
     pub texture_usage: TextureUsages,
     /// For buffers: the usages of all tenants together.
     pub buffer_usage: BufferUsages,
     /// The resources that take turns in it, first one first.
-    pub tenants: Vec<ResourceId>,
+    pub tenants: &'p [ResourceId],
 }
 
 /// One step of the recording: the passes in it share one pass of the encoder.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Step {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Step<'p> {
     /// In order; at least one.
-    pub passes: Vec<PassId>,
+    pub passes: &'p [PassId],
 }
 
 /// One pass must come before another.
@@ -186,8 +193,8 @@ pub struct Dependency {
     pub before: PassId,
     /// The later pass.
     pub after: PassId,
-    /// For the sake of this resource.
-    pub resource: ResourceId,
+    /// For the sake of this resource; `None` where the order was asked for by name.
+    pub resource: Option<ResourceId>,
     /// Which hazard it is.
     pub kind: DependencyKind,
 }
@@ -201,74 +208,156 @@ pub enum DependencyKind {
     WriteAfterRead,
     /// The later one overwrites what the earlier one wrote.
     WriteAfterWrite,
+    /// The frame says so: [`Pass::after`](crate::Pass::after).
+    Explicit,
 }
 
 impl Plan {
-    /// Returns the dependencies as a graph whose node indices are pass ids, for petgraph's algorithms.
-    ///
-    /// ```
-    /// use petgraph::algo::is_cyclic_directed;
-    /// let plan = shadowgraph_core::Frame::new().compile()?.into_plan();
-    /// assert!(!is_cyclic_directed(&plan.graph()));
-    /// # Ok::<(), shadowgraph_core::Error>(())
-    /// ```
-    pub fn graph(&self) -> DiGraph<PassId, Dependency> {
-        let mut graph = DiGraph::with_capacity(self.passes.len(), self.dependencies.len());
-        for index in 0..self.passes.len() {
-            graph.add_node(PassId(index as u32));
-        }
-        for &dependency in &self.dependencies {
-            graph.add_edge(dependency.before.0.into(), dependency.after.0.into(), dependency);
-        }
-        graph
+    /// Returns how many passes were declared.
+    pub fn pass_count(&self) -> usize {
+        self.decl.passes.len()
     }
 
-    /// Returns the pass.
-    pub fn pass(&self, id: PassId) -> &PassPlan {
-        &self.passes[id.index()]
+    /// Returns how many passes do not run.
+    pub fn culled_count(&self) -> usize {
+        self.decl.passes.len() - self.order.len()
     }
 
-    /// Returns the resource.
-    pub fn resource(&self, id: ResourceId) -> &ResourcePlan {
-        &self.resources[id.index()]
+    /// Returns every declared pass, culled ones too, in order of declaration.
+    pub fn passes(&self) -> impl DoubleEndedIterator<Item = (PassId, PassPlan<'_>)> + ExactSizeIterator {
+        (0..self.decl.passes.len()).map(|index| PassId(index as u32)).map(|id| (id, self.pass(id)))
+    }
+
+    /// Returns every declared resource, in order of declaration.
+    pub fn resources(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = (ResourceId, ResourcePlan<'_>)> + ExactSizeIterator {
+        (0..self.decl.resources.len()).map(|index| ResourceId(index as u32)).map(|id| (id, self.resource(id)))
+    }
+
+    /// Returns the groups of passes, in order of declaration.
+    pub fn nodes(&self) -> impl ExactSizeIterator<Item = NodePlan<'_>> {
+        self.decl
+            .nodes
+            .iter()
+            .map(|node| NodePlan { name: self.decl.names.get(node.name), parent: node.parent })
+    }
+
+    /// Returns the physical textures and buffers that transient resources take turns in.
+    pub fn slots(&self) -> impl ExactSizeIterator<Item = SlotPlan<'_>> {
+        self.slots.iter().map(|slot| SlotPlan {
+            desc: slot.desc,
+            texture_usage: slot.texture_usage,
+            buffer_usage: slot.buffer_usage,
+            tenants: &self.tenants[slot.tenants.0 as usize..slot.tenants.1 as usize],
+        })
+    }
+
+    /// Returns what is recorded, in order.
+    pub fn steps(&self) -> impl DoubleEndedIterator<Item = Step<'_>> + ExactSizeIterator {
+        self.steps.iter().map(|&(start, end)| Step { passes: &self.order[start as usize..end as usize] })
     }
 
     /// Returns the passes that run, in order.
-    pub fn live_passes(&self) -> impl Iterator<Item = PassId> + '_ {
-        self.order.iter().flat_map(|step| step.passes.iter().copied())
+    pub fn order(&self) -> &[PassId] {
+        &self.order
+    }
+
+    /// Returns which pass must come before which, and for the sake of what, among the passes that run.
+    pub fn dependencies(&self) -> &[Dependency] {
+        &self.dependencies
+    }
+
+    /// Returns what the compiler was allowed to do.
+    pub fn options(&self) -> Options {
+        self.decl.options
+    }
+
+    /// Returns the pass.
+    pub fn pass(&self, id: PassId) -> PassPlan<'_> {
+        let pass = self.decl.pass(id);
+        PassPlan {
+            name: self.decl.names.get(pass.name),
+            node: pass.node,
+            kind: pass.kind,
+            keep: pass.keep,
+            culled: self.culled[id.index()],
+            copies: self.decl.copies(id),
+        }
+    }
+
+    /// Returns everything that the pass touches, in order of declaration.
+    pub fn accesses(
+        &self,
+        id: PassId,
+    ) -> impl DoubleEndedIterator<Item = AccessPlan> + ExactSizeIterator + Clone + '_ {
+        self.decl.access_range(id).map(|index| self.access(index))
+    }
+
+    pub(crate) fn access(&self, index: usize) -> AccessPlan {
+        let access: &AccessDecl = &self.decl.accesses[index];
+        AccessPlan {
+            resource: access.resource,
+            part: self.decl.part(access),
+            access: access.access,
+            contents: self.decl.contents(access),
+            version: access.version,
+            ops: self.ops[index],
+            area: self.decl.area(access).copied().unwrap_or(Area::EVERYTHING),
+        }
+    }
+
+    /// Returns the resource.
+    pub fn resource(&self, id: ResourceId) -> ResourcePlan<'_> {
+        let resource = self.decl.resource(id);
+        let fate = &self.fates[id.index()];
+        ResourcePlan {
+            name: self.decl.names.get(resource.name),
+            desc: resource.desc,
+            origin: resource.origin,
+            exported: resource.exported.is_some(),
+            texture_usage: fate.texture_usage,
+            buffer_usage: fate.buffer_usage,
+            steps: fate.steps,
+            slot: fate.slot,
+            slot_reason: fate.reason,
+        }
+    }
+
+    /// Returns why the pass stands where it does in the order; `None` if it is culled.
+    pub fn placement(&self, id: PassId) -> Option<PlaceReason> {
+        self.place(id).map(|place| self.placed[place])
+    }
+
+    /// Returns why the pass was merged into the render pass before it, or why not; `None` if it is culled.
+    pub fn merging(&self, id: PassId) -> Option<MergeReason> {
+        self.place(id).map(|place| self.merges[place])
+    }
+
+    fn place(&self, id: PassId) -> Option<usize> {
+        self.order.iter().position(|&pass| pass == id)
+    }
+
+    /// Returns the pass declared last under `name`, without its nodes.
+    pub fn find_pass(&self, name: &str) -> Option<PassId> {
+        self.passes().rev().find(|(_, pass)| pass.name == name).map(|(id, _)| id)
+    }
+
+    /// Returns the resource declared last under `name`.
+    pub fn find_resource(&self, name: &str) -> Option<ResourceId> {
+        self.resources().rev().find(|(_, resource)| resource.name == name).map(|(id, _)| id)
     }
 
     /// Returns the pass's name with its nodes before it, such as `post/blur`.
     pub fn pass_path(&self, id: PassId) -> String {
-        let mut path = String::new();
-        self.write_pass_path(id, &mut path);
-        path
+        self.decl.pass_path(id)
     }
 
     /// Returns the node's name with the nodes around it before it.
     pub fn node_path(&self, id: NodeId) -> String {
         let mut path = String::new();
-        self.write_node_path(id, &mut path);
+        self.decl.write_node_path(id, &mut path);
         path
-    }
-
-    /// Appends what [`pass_path`](Self::pass_path) returns.
-    pub(crate) fn write_pass_path(&self, id: PassId, path: &mut String) {
-        let pass = self.pass(id);
-        if let Some(node) = pass.node {
-            self.write_node_path(node, path);
-            path.push('/');
-        }
-        path.push_str(&pass.name);
-    }
-
-    fn write_node_path(&self, id: NodeId, path: &mut String) {
-        let node = &self.nodes[id.index()];
-        if let Some(parent) = node.parent {
-            self.write_node_path(parent, path);
-            path.push('/');
-        }
-        path.push_str(&node.name);
     }
 
     /// Returns the bytes of all slots together.
@@ -278,7 +367,8 @@ impl Plan {
 
     /// Returns the bytes that sharing slots saves, against one slot for each resource.
     pub fn saved_bytes(&self) -> u64 {
-        let alone = |slot: &SlotPlan| slot.desc.bytes() * (slot.tenants.len() as u64 - 1);
+        let alone =
+            |slot: &Slot| slot.desc.bytes() * u64::from((slot.tenants.1 - slot.tenants.0).saturating_sub(1));
         self.slots.iter().map(alone).sum()
     }
 }

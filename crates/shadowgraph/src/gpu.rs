@@ -11,6 +11,15 @@ const WANTED: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
     .union(wgpu::Features::TIMESTAMP_QUERY)
     .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
+/// The features that are of use on an adapter. Timestamps inside a render pass tell passes apart that were merged, but
+/// software and GPUs that draw in tiles do most of the work when the render pass ends, behind all of them.
+fn wanted(adapter: &wgpu::AdapterInfo) -> wgpu::Features {
+    match adapter.device_type {
+        wgpu::DeviceType::DiscreteGpu => WANTED | wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES,
+        _ => WANTED,
+    }
+}
+
 /// A device, its queue and the adapter they come from.
 pub struct Gpu {
     /// The device.
@@ -65,7 +74,7 @@ impl Gpu {
         };
         let device = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("shadowgraph"),
-            required_features: adapter.features() & WANTED,
+            required_features: adapter.features() & wanted(&info),
             required_limits: limits,
             ..Default::default()
         }));

@@ -1,5 +1,7 @@
 //! Pictures on their way back from the GPU.
 
+use std::sync::Arc;
+
 use shadowgraph_core::{Frame, PassTime, Plan, Texture};
 use shadowgraph_shadows::Unshadowed;
 
@@ -28,8 +30,8 @@ impl Picture {
 pub struct Drawn {
     /// What was drawn.
     pub picture: Picture,
-    /// How.
-    pub plan: Plan,
+    /// How; equal frames share it.
+    pub plan: Arc<Plan>,
     /// How long each pass took, if it was measured.
     pub times: Vec<PassTime>,
     /// The lights that are to cast shadows but have none, and why.

@@ -1,8 +1,8 @@
 //! Drawing a scene: what stays from frame to frame, and what one view needs.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use shadowgraph_core::{Compiled, Executed, Format, Frame, PassTime, Plan, Pool, Timer};
+use shadowgraph_core::{Executed, Format, Frame, Graph, PassTime, Plan, Timer};
 use shadowgraph_lighting::{Ambience, Forward, Key, Shows, Tonemap};
 use shadowgraph_scene::gpu::{DrawList, GpuScene};
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
@@ -62,8 +62,8 @@ pub struct Renderer {
     target_tonemap: Option<(Format, Tonemap)>,
     scene: Scene,
     aov: Aov,
-    /// A frame borrows the renderer while the pool records it.
-    pool: Mutex<Pool>,
+    /// A frame borrows the renderer while the graph compiles and records it.
+    graph: Mutex<Graph>,
 }
 
 /// The format of finished pictures.
@@ -95,7 +95,7 @@ impl Renderer {
             target_tonemap: None,
             scene,
             aov,
-            pool: Mutex::default(),
+            graph: Mutex::default(),
         })
     }
 
@@ -141,16 +141,15 @@ impl Renderer {
         let view = self.view(options, None);
         gpu.checked(|| {
             let read_back = ReadBack::new(&gpu.device, options.size_px);
-            let mut frame = Frame::new();
+            let mut frame = self.graph().frame();
             let output = pipelines::forward(&mut frame, self, &view)?;
             read_back.add_to(&mut frame, &output.picture);
-            let compiled = frame.compile()?;
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let executed = self.execute(compiled, gpu, &mut encoder, timer.as_deref_mut())?;
+            let executed = self.execute(frame, gpu, &mut encoder, timer.as_deref_mut())?;
             gpu.queue.submit([encoder.finish()]);
             let picture = read_back.read(&gpu.device)?;
             let times = times(gpu, timer.as_deref(), &executed)?;
-            Ok(Drawn { picture, plan: executed.plan().clone(), times, unshadowed: output.unshadowed })
+            Ok(Drawn { picture, plan: executed.shared_plan(), times, unshadowed: output.unshadowed })
         })
     }
 
@@ -190,25 +189,25 @@ impl Renderer {
         self.prepare_target(&gpu.device, target.format())?;
         self.move_origin(gpu, &options);
         let view = self.view(&options, Some(target));
-        let mut frame = Frame::new();
+        let mut frame = self.graph().frame();
         let output = pipelines::forward(&mut frame, self, &view)?;
         if self.aov != Aov::Color {
             let mut target = frame.import_texture("target", target, false);
             frame.copy_pass("copy to target").texture(&output.picture, &mut target);
         }
-        self.execute(frame.compile()?, gpu, encoder, timer)
+        self.execute(frame, gpu, encoder, timer)
     }
 
     /// Compiles the frame of a view without drawing it. Any device will do, [`Gpu::noop`] too.
     ///
     /// # Errors
     /// Settings out of range.
-    pub fn plan(&self, options: &ViewOptions) -> Result<(Plan, Vec<Unshadowed>), Error> {
+    pub fn plan(&self, options: &ViewOptions) -> Result<(Arc<Plan>, Vec<Unshadowed>), Error> {
         let view = self.view(options, None);
-        let mut frame = Frame::new();
+        let mut frame = self.graph().frame();
         let output = pipelines::forward(&mut frame, self, &view)?;
         frame.export_texture(&output.picture);
-        Ok((frame.compile()?.into_plan(), output.unshadowed))
+        Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
     }
 
     /// Culls and sorts what the view sees. `target` is one that was prepared for.
@@ -247,17 +246,24 @@ impl Renderer {
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
     }
 
+    /// What outlives frames; hold it for no longer than one call.
+    fn graph(&self) -> MutexGuard<'_, Graph> {
+        self.graph.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Compiles and records a frame; one that is declared like one before has its plan, textures and bind groups.
     fn execute(
         &self,
-        compiled: Compiled<'_>,
+        frame: Frame<'_>,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         timer: Option<&mut Timer>,
     ) -> Result<Executed, Error> {
-        let mut pool = self.pool.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut graph = self.graph();
+        let compiled = graph.compile(frame)?;
         Ok(match timer {
-            Some(timer) => compiled.execute_timed(&mut pool, &gpu.device, encoder, timer)?,
-            None => compiled.execute(&mut pool, &gpu.device, encoder)?,
+            Some(timer) => compiled.execute_timed(&mut graph, &gpu.device, encoder, timer)?,
+            None => compiled.execute(&mut graph, &gpu.device, encoder)?,
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Where tiles lie in a map.
 
 use glam::{DMat4, DVec2, DVec3, Vec2};
+use shadowgraph_core::Rect;
 
 use crate::filter::BORDER_PX;
 
@@ -74,6 +75,12 @@ fn grid(count: usize, per_row: u32, map_size_px: u32) -> TileLayout {
     let rows = count.div_ceil(per_row).max(1);
     let height = if rows == per_row { map_size_px } else { rows * tile_px };
     TileLayout { size_px: [map_size_px, height], tile_px, tiles: (0..count).map(tile).collect() }
+}
+
+impl From<TileRect> for Rect {
+    fn from(tile: TileRect) -> Self {
+        Self::new(tile.x, tile.y, tile.width, tile.height)
+    }
 }
 
 impl TileRect {

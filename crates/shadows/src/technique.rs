@@ -95,7 +95,7 @@ impl ShadowTokens<'_> {
     /// If used in another pass than it was declared in.
     pub fn bind_group(
         &self,
-        resources: &mut Resources<'_>,
+        resources: &Resources<'_>,
         layout: &wgpu::BindGroupLayout,
     ) -> Result<wgpu::BindGroup, GraphError> {
         let entries: Vec<_> = self.0.iter().map(Token::bind).collect();

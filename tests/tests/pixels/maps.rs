@@ -1,7 +1,7 @@
 //! Reading shadow maps back.
 
 use crate::stage::gpu;
-use shadowgraph::core::{Frame, PassKind, Pool};
+use shadowgraph::core::{Frame, Graph, PassKind};
 use shadowgraph::scene::Camera;
 use shadowgraph::shadows::{Pcf, ShadowInputs, ShadowPlan, ShadowSettings, ShadowTechnique, plan_shadows};
 use shadowgraph::{Gpu, SceneCasters};
@@ -47,7 +47,7 @@ pub(crate) fn draw_map(
     let mut target = frame.import_buffer("read back", &buffer, false);
     frame.copy_pass("read back").texture_to_buffer(map, &mut target);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    frame.compile().unwrap().execute(&mut Pool::new(), &gpu.device, &mut encoder).unwrap();
+    frame.compile().unwrap().execute(&mut Graph::new(), &gpu.device, &mut encoder).unwrap();
     gpu.queue.submit([encoder.finish()]);
     buffer.slice(..).map_async(shadowgraph::wgpu::MapMode::Read, |_| ());
     gpu.device.poll(shadowgraph::wgpu::PollType::wait_indefinitely()).unwrap();
@@ -84,5 +84,5 @@ fn no_caster_in_reach_means_no_pass_and_a_map_of_one_lit_texel() {
         assert_eq!((size.width, size.height), (1, 1), "{name}");
     }
     let plan = frame.compile().unwrap().into_plan();
-    assert!(plan.passes.iter().all(|pass| pass.kind != PassKind::Render), "{}", plan.to_text());
+    assert!(plan.passes().all(|(_, pass)| pass.kind != PassKind::Render), "{}", plan.to_text());
 }

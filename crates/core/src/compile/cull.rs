@@ -1,57 +1,69 @@
 //! Which passes run: those whose writes reach a root.
 
-use crate::declaration::{Declaration, Origin, PassDecl};
-use crate::handle::{PassId, ResourceId};
+use super::coverage::Coverage;
+use super::lists::Lists;
+use crate::declaration::{AccessDecl, Declaration};
+use crate::handle::PassId;
 use crate::plan::CullReason;
 
 /// Returns, for each pass, why it does not run, or `None` if it does.
 ///
-/// Walks backwards and keeps, for each resource, whether its contents at this point are needed. Roots are what is
-/// imported or exported, and passes that are kept.
+/// Walks backwards and keeps, for each resource, how much of its contents at this point is needed. Roots are what
+/// outlives the frame, and passes that are kept.
 pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
-    let mut needed: Vec<bool> = decl
-        .resources
-        .iter()
-        .map(|r| r.exported.is_some() || matches!(r.origin, Origin::Imported { .. }))
-        .collect();
-    let mut live = vec![false; decl.passes.len()];
-    for (index, pass) in decl.passes.iter().enumerate().rev() {
-        live[index] = pass.keep || writes(pass).any(|r| needed[r.index()]);
-        if !live[index] {
+    let roots = decl.resources.iter().map(|r| r.exported.is_some() || r.origin.outlives());
+    let mut needed: Vec<Coverage> = roots.map(Coverage::all_if).collect();
+    let mut live = vec![true; decl.passes.len()];
+    let mut culled = 0;
+    for pass in decl.pass_ids().rev() {
+        let accesses = decl.accesses(pass);
+        let wanted =
+            |a: &&AccessDecl| a.contents.writes() && needed[a.resource.index()].overlaps(decl.area(a));
+        if !decl.pass(pass).keep && !accesses.iter().any(|a| wanted(&a)) {
+            live[pass.index()] = false;
+            culled += 1;
             continue;
         }
-        for access in &pass.accesses {
-            if access.contents.is_some_and(|c| !c.preserves()) {
-                needed[access.resource.index()] = false;
-            }
+        for access in accesses.iter().filter(|a| !a.contents.needs()) {
+            needed[access.resource.index()].subtract(decl.area(access));
         }
-        for access in &pass.accesses {
-            if access.contents.is_none_or(|c| c.preserves()) {
-                needed[access.resource.index()] = true;
-            }
+        for access in accesses.iter().filter(|a| a.contents.needs()) {
+            needed[access.resource.index()].add(decl.area(access));
         }
     }
-    (0..decl.passes.len()).map(|index| (!live[index]).then(|| reason(decl, index, &live))).collect()
+    let mut reasons = vec![None; live.len()];
+    if culled > 0 {
+        let of_pass = |pass| decl.accesses(pass).iter().map(move |access| (access.resource.index(), pass));
+        let users = Lists::new(decl.resources.len(), || decl.pass_ids().flat_map(of_pass));
+        for pass in decl.pass_ids().filter(|pass| !live[pass.index()]) {
+            reasons[pass.index()] = Some(reason(decl, pass, &live, &users));
+        }
+    }
+    reasons
 }
 
-fn writes(pass: &PassDecl) -> impl Iterator<Item = ResourceId> + '_ {
-    pass.accesses.iter().filter(|a| a.access.writes()).map(|a| a.resource)
-}
-
-fn reason(decl: &Declaration, index: usize, live: &[bool]) -> CullReason {
-    let Some(resource) = writes(&decl.passes[index]).next() else {
+/// Follows what the pass writes first until all of it is overwritten or some of it is read.
+fn reason(decl: &Declaration, pass: PassId, live: &[bool], users: &Lists<PassId>) -> CullReason {
+    let Some(write) = decl.accesses(pass).iter().find(|a| a.contents.writes()) else {
         return CullReason::WritesNothing;
     };
-    let later = decl.passes.iter().enumerate().skip(index + 1);
-    let mut accesses =
-        later.flat_map(|(other, pass)| pass.accesses.iter().map(move |access| (other, access)));
-    let Some((next, access)) = accesses.find(|(_, access)| access.resource == resource) else {
-        return CullReason::Unread(resource);
-    };
-    let overwrites = access.contents.is_some_and(|contents| !contents.preserves());
-    match (overwrites, live[next]) {
-        (true, true) => CullReason::Overwritten(resource, PassId(next as u32)),
-        (true, false) => CullReason::Unread(resource),
-        (false, _) => CullReason::OnlyCulledReaders(resource, PassId(next as u32)),
+    let resource = write.resource;
+    let mut left = Coverage::default();
+    left.add(decl.area(write));
+    let users = users.of(resource.index());
+    let later = users.partition_point(|user| *user <= pass);
+    for &next in &users[later..] {
+        let touches = || decl.accesses(next).iter().filter(|a| a.resource == resource);
+        if touches().any(|a| a.contents.needs() && left.overlaps(decl.area(a))) {
+            return CullReason::OnlyCulledReaders(resource, next);
+        }
+        touches().for_each(|a| left.subtract(decl.area(a)));
+        if left.is_empty() && live[next.index()] {
+            return CullReason::Overwritten(resource, next);
+        }
+        if left.is_empty() {
+            break;
+        }
     }
+    CullReason::Unread(resource)
 }

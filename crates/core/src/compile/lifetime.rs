@@ -1,39 +1,57 @@
 //! How long each resource lives, and what it must be usable for.
 
-use crate::declaration::Declaration;
+use crate::access::Access;
+use crate::declaration::{Declaration, PassKind};
+use crate::desc::ResourceDesc;
 use crate::handle::PassId;
-use crate::plan::Step;
+use crate::part::Area;
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// First and last step that touches a resource.
-pub(super) type Lifetime = Option<(u32, u32)>;
+/// How a frame uses a resource.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Use {
+    /// First and last step that touches it. What is exported lives to the last step.
+    pub(super) steps: Option<(u32, u32)>,
+    pub(super) texture_usage: TextureUsages,
+    pub(super) buffer_usage: BufferUsages,
+    /// It is drawn into by render passes and nothing else, both aspects of it where it has two: an aspect left alone
+    /// would be read-only, which transient attachments cannot be.
+    pub(super) only_drawn: bool,
+}
 
-/// Returns each resource's lifetime in steps. An exported resource that is touched lives to the last step.
-pub(super) fn lifetimes(decl: &Declaration, steps: &[Step]) -> Vec<Lifetime> {
-    let mut lifetimes: Vec<Lifetime> = vec![None; decl.resources.len()];
-    for (index, step) in steps.iter().enumerate() {
-        let index = index as u32;
-        for access in step.passes.iter().flat_map(|&pass| &decl.pass(pass).accesses) {
-            let lifetime = &mut lifetimes[access.resource.index()];
-            *lifetime = Some((lifetime.map_or(index, |(first, _)| first), index));
+/// Returns how each resource is used by the passes that run, and from outside.
+pub(super) fn uses(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) -> Vec<Use> {
+    let mut uses: Vec<Use> = decl
+        .resources
+        .iter()
+        .map(|resource| Use {
+            steps: None,
+            texture_usage: resource.texture_usage,
+            buffer_usage: resource.buffer_usage,
+            only_drawn: true,
+        })
+        .collect();
+    for (index, &(start, end)) in steps.iter().enumerate() {
+        for &pass in &order[start as usize..end as usize] {
+            let renders = decl.pass(pass).kind == PassKind::Render;
+            for access in decl.accesses(pass) {
+                let own = &mut uses[access.resource.index()];
+                own.steps = Some((own.steps.map_or(index as u32, |(first, _)| first), index as u32));
+                match decl.resource(access.resource).desc {
+                    ResourceDesc::Texture(_) => own.texture_usage |= access.access.texture_usage(),
+                    ResourceDesc::Buffer(_) => own.buffer_usage |= access.access.buffer_usage(),
+                }
+                let drawn = renders && matches!(access.access, Access::Color(_) | Access::Depth);
+                own.only_drawn &=
+                    drawn && decl.area(access).is_none_or(|area| area.without_rect() == Area::EVERYTHING);
+            }
         }
     }
     let end = steps.len().saturating_sub(1) as u32;
-    for (lifetime, resource) in lifetimes.iter_mut().zip(&decl.resources) {
-        if let (true, Some((_, last))) = (resource.exported.is_some(), lifetime) {
+    for (own, resource) in uses.iter_mut().zip(&decl.resources) {
+        if let (true, Some((_, last))) = (resource.exported.is_some(), &mut own.steps) {
             *last = end;
         }
     }
-    lifetimes
-}
-
-/// Returns each resource's usages: what the passes that run need, and what was asked for from outside.
-pub(super) fn usages(decl: &Declaration, order: &[PassId]) -> Vec<(TextureUsages, BufferUsages)> {
-    let mut usages: Vec<_> = decl.resources.iter().map(|r| (r.texture_usage, r.buffer_usage)).collect();
-    for access in order.iter().flat_map(|&pass| &decl.pass(pass).accesses) {
-        let (texture, buffer) = &mut usages[access.resource.index()];
-        *texture |= access.access.texture_usage();
-        *buffer |= access.access.buffer_usage();
-    }
-    usages
+    uses
 }

@@ -1,9 +1,131 @@
 //! Which passes share one render pass of the encoder.
 
-use crate::handle::PassId;
-use crate::plan::Step;
+use crate::access::Access;
+use crate::declaration::{AccessDecl, Change, Declaration, PassKind};
+use crate::handle::{PassId, ResourceId};
+use crate::part::Area;
+use crate::plan::MergeReason;
 
-/// Returns the steps: for now each pass is a step of its own.
-pub(super) fn merge(order: &[PassId]) -> Vec<Step> {
-    order.iter().map(|&pass| Step { passes: vec![pass] }).collect()
+/// Returns the runs of the order that are recorded as one, and for each place in the order why it joins the run
+/// before it or not.
+pub(super) fn merge(decl: &Declaration, order: &[PassId]) -> (Vec<(u32, u32)>, Vec<MergeReason>) {
+    let mut group = Group::new(decl);
+    let mut steps: Vec<(u32, u32)> = Vec::with_capacity(order.len());
+    let mut reasons = Vec::with_capacity(order.len());
+    for (place, &pass) in order.iter().enumerate() {
+        let reason = group.judge(decl, pass);
+        group.add(decl, pass, reason == MergeReason::Merged);
+        let end = place as u32 + 1;
+        match steps.last_mut() {
+            Some(step) if reason == MergeReason::Merged => step.1 = end,
+            _ => steps.push((place as u32, end)),
+        }
+        reasons.push(reason);
+    }
+    (steps, reasons)
+}
+
+/// The render pass that is open while an order is gone through.
+pub(super) struct Group {
+    passes: Option<(PassId, PassId)>,
+    /// Counts groups; marks of another group do not count.
+    epoch: u32,
+    /// By resource.
+    marks: Vec<Mark>,
+}
+
+#[derive(Clone, Copy)]
+struct Mark {
+    epoch: u32,
+    pass: PassId,
+    written: bool,
+}
+
+impl Group {
+    pub(super) fn new(decl: &Declaration) -> Self {
+        let none = Mark { epoch: 0, pass: PassId(0), written: false };
+        Self { passes: None, epoch: 0, marks: vec![none; decl.resources.len()] }
+    }
+
+    /// The resource of the open pass's first attachment: a pass that goes on must have it too.
+    pub(super) fn attachment(&self, decl: &Declaration) -> Option<ResourceId> {
+        let (first, _) = self.passes?;
+        attachments(decl, first).next().map(|access| access.resource)
+    }
+
+    /// Says whether the pass can go on with the open render pass, or why not.
+    pub(super) fn judge(&self, decl: &Declaration, pass: PassId) -> MergeReason {
+        let Some((first, last)) = self.passes else { return MergeReason::First };
+        if !decl.options.merge {
+            return MergeReason::Off;
+        }
+        let (kind, before) = (decl.pass(pass).kind, decl.pass(first).kind);
+        if kind != PassKind::Render {
+            return MergeReason::Kind(kind);
+        }
+        if before != PassKind::Render {
+            return MergeReason::KindBefore(before);
+        }
+        let mut own = attachments(decl, pass);
+        let same = attachments(decl, first)
+            .all(|other| own.next().is_some_and(|own| same_attachment(decl, own, other)));
+        if !same || own.next().is_some() {
+            return MergeReason::Attachments;
+        }
+        let resolve = decl.accesses(last).iter().find(|a| matches!(a.access, Access::Resolve(_)));
+        if let Some(resolve) = resolve {
+            return MergeReason::Resolves(resolve.resource);
+        }
+        decl.accesses(pass).iter().find_map(|access| self.hazard(decl, access)).unwrap_or(MergeReason::Merged)
+    }
+
+    fn hazard(&self, decl: &Declaration, access: &AccessDecl) -> Option<MergeReason> {
+        let resource = access.resource;
+        if matches!(access.access, Access::Color(_) | Access::Depth | Access::DepthRead) {
+            let clears = matches!(access.contents, Change::Clear(_))
+                && decl.area(access).is_none_or(|area| *area == area.without_rect());
+            return clears.then_some(MergeReason::Clears(resource));
+        }
+        let mark = self.marks[resource.index()];
+        if mark.epoch != self.epoch {
+            return None;
+        }
+        match (access.contents.writes(), mark.written) {
+            (true, _) => Some(MergeReason::Writes(resource, mark.pass)),
+            (false, true) => Some(MergeReason::Reads(resource, mark.pass)),
+            (false, false) => None,
+        }
+    }
+
+    /// Adds a pass to the open group, or opens another with it.
+    pub(super) fn add(&mut self, decl: &Declaration, pass: PassId, joins: bool) {
+        self.passes = match self.passes {
+            Some((first, _)) if joins => Some((first, pass)),
+            _ => {
+                self.epoch += 1;
+                Some((pass, pass))
+            }
+        };
+        if decl.pass(pass).kind != PassKind::Render {
+            return;
+        }
+        for access in decl.accesses(pass) {
+            let mark = &mut self.marks[access.resource.index()];
+            let written = access.contents.writes() || mark.epoch == self.epoch && mark.written;
+            *mark = Mark { epoch: self.epoch, pass, written };
+        }
+    }
+}
+
+/// What a pass draws into and tests against, in order of declaration.
+fn attachments(decl: &Declaration, pass: PassId) -> impl Iterator<Item = &AccessDecl> {
+    let drawn = |a: &&AccessDecl| matches!(a.access, Access::Color(_) | Access::Depth | Access::DepthRead);
+    decl.accesses(pass).iter().filter(drawn)
+}
+
+/// Whether two accesses attach the same mip, layer and aspects of one texture in the same way.
+fn same_attachment(decl: &Declaration, a: &AccessDecl, b: &AccessDecl) -> bool {
+    let whole = |access| decl.area(access).map_or(Area::EVERYTHING, |area| area.without_rect());
+    let both_whole = || decl.area(a).is_none() && decl.area(b).is_none();
+    a.access == b.access && a.resource == b.resource && (both_whole() || whole(a) == whole(b))
 }

@@ -1,37 +1,48 @@
 //! From declarations to a plan, by small pure functions.
 
 mod alias;
+mod coverage;
 mod cull;
+mod hazards;
 mod lifetime;
+mod lists;
 mod merge;
 mod ops;
 mod order;
-mod plan;
 mod validate;
 
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "gpu")]
+pub(crate) use validate::copy_extent;
+
 use crate::declaration::Declaration;
 use crate::error::Error;
-use crate::plan::Plan;
+use crate::plan::{CullReason, Dependency, Plan};
 
 /// Compiles a frame's declarations.
+pub(crate) fn compile(decl: Declaration) -> Result<Plan, Error> {
+    validate::validate(&decl)?;
+    let culled = cull::cull(&decl);
+    let dependencies = hazards::hazards(&decl, &culled);
+    Ok(schedule(decl, culled, dependencies))
+}
+
+/// Compiles declarations that differ from those of a plan in sizes only: the same passes run, for the same reasons.
+pub(crate) fn resize(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
+    validate::validate(&decl)?;
+    Ok(schedule(decl, plan.culled.clone(), plan.dependencies.clone()))
+}
+
+/// Decides what depends on sizes.
 ///
 /// Merging comes before lifetimes and slots: passes that share a render pass cannot share an attachment's slot.
-pub(crate) fn compile(declaration: Declaration) -> Result<Plan, Error> {
-    let decl = &declaration;
-    validate::validate(decl)?;
-    let culled = cull::cull(decl);
-    let order = order::order(&culled);
-    let steps = merge::merge(&order);
-    let lifetimes = lifetime::lifetimes(decl, &steps);
-    let usages = lifetime::usages(decl, &order);
-    let aliasing = alias::alias(decl, &lifetimes, &usages);
-    let ops = ops::ops(decl, &order);
-    let dependencies = order::dependencies(decl, &order);
-    Ok(plan::assemble(
-        declaration,
-        plan::Parts { culled, steps, lifetimes, usages, aliasing, ops, dependencies },
-    ))
+fn schedule(decl: Declaration, culled: Vec<Option<CullReason>>, dependencies: Vec<Dependency>) -> Plan {
+    let (order, placed) = order::order(&decl, &culled, &dependencies);
+    let (steps, merges) = merge::merge(&decl, &order);
+    let uses = lifetime::uses(&decl, &order, &steps);
+    let ops = ops::ops(&decl, &order, &steps);
+    let alias::Aliasing { fates, slots, tenants } = alias::alias(&decl, &uses, steps.len());
+    Plan { decl, culled, order, placed, merges, steps, ops, fates, slots, tenants, dependencies }
 }

@@ -1,63 +1,60 @@
 //! Load and store operations, from what passes declare of contents.
 
-use crate::access::{Access, ClearValue, Contents};
-use crate::declaration::{AccessDecl, Declaration, Origin};
-use crate::handle::PassId;
+mod parts;
+mod whole;
+
+use crate::access::{Access, ClearValue};
+use crate::declaration::{AccessDecl, Change, Declaration, Origin};
+use crate::handle::{PassId, ResourceId};
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
 
-/// Returns, for each pass and access, what happens to an attachment that is written; `None` for all else.
+/// Returns, for each access of the frame, what happens to an attachment that is written; `None` for all else.
 ///
-/// Walks backwards and remembers the next access to each resource: it decides whether contents are still needed.
-pub(super) fn ops(decl: &Declaration, order: &[PassId]) -> Vec<Vec<Option<AttachmentOps>>> {
-    let mut ops: Vec<Vec<Option<AttachmentOps>>> =
-        decl.passes.iter().map(|pass| vec![None; pass.accesses.len()]).collect();
-    let mut next: Vec<Option<(PassId, bool)>> = vec![None; decl.resources.len()];
-    for &pass in order.iter().rev() {
-        let accesses = &decl.pass(pass).accesses;
-        for (index, access) in accesses.iter().enumerate() {
-            if access.access.is_attachment()
-                && let Some(contents) = access.contents
-            {
-                let (load, load_reason) = load(decl, access, contents);
-                let (store, store_reason) = store(decl, access, next[access.resource.index()]);
-                ops[pass.index()][index] = Some(AttachmentOps { load, load_reason, store, store_reason });
-            }
-        }
-        for access in accesses {
-            let needs = access.contents.is_none_or(|contents| contents.preserves());
-            next[access.resource.index()] = Some((pass, needs));
-        }
+/// Passes that share a render pass share its operations: the first of them loads, the last one stores.
+pub(super) fn ops(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) -> Vec<Option<AttachmentOps>> {
+    let mut ops = vec![None; decl.accesses.len()];
+    whole::ops(decl, order, steps, &mut ops);
+    if decl.resources.iter().any(|resource| resource.in_parts) {
+        parts::ops(decl, order, steps, &mut ops);
     }
     ops
 }
 
-fn load(decl: &Declaration, access: &AccessDecl, contents: Contents) -> (LoadAction, LoadReason) {
-    let zero =
-        if access.access == Access::Depth { ClearValue::Depth(0.0) } else { ClearValue::Color([0.0; 4]) };
-    match contents {
-        Contents::Clear(value) => (LoadAction::Clear(value), LoadReason::Declared),
-        Contents::Cover => (LoadAction::Clear(zero), LoadReason::Covered),
-        Contents::Preserve => {
-            let writers = &decl.resource(access.resource).writers;
-            let writer = access.version.checked_sub(1).map(|made| writers[made as usize]);
-            (LoadAction::Load, writer.map_or(LoadReason::PreservesImport, LoadReason::Preserves))
-        }
+/// Whether the access loads and stores an attachment.
+fn drawn(access: &AccessDecl) -> bool {
+    matches!(access.access, Access::Color(_) | Access::Depth)
+}
+
+/// The value that a clear of no interest clears to.
+fn zero(access: Access) -> ClearValue {
+    if access == Access::Depth { ClearValue::Depth(0.0) } else { ClearValue::Color([0.0; 4]) }
+}
+
+fn declared_clear(decl: &Declaration, access: &AccessDecl) -> Option<ClearValue> {
+    match access.contents {
+        Change::Clear(clear) => Some(decl.clears[clear as usize]),
+        Change::Read | Change::Cover | Change::Preserve => None,
     }
 }
 
-fn store(
-    decl: &Declaration,
-    access: &AccessDecl,
-    next: Option<(PassId, bool)>,
-) -> (StoreAction, StoreReason) {
-    let resource = decl.resource(access.resource);
-    match next {
-        Some((pass, true)) => (StoreAction::Store, StoreReason::NeededBy(pass)),
-        Some((pass, false)) => (StoreAction::Discard, StoreReason::OverwrittenBy(pass)),
-        None if resource.exported.is_some() => (StoreAction::Store, StoreReason::Exported),
-        None if matches!(resource.origin, Origin::Imported { .. }) => {
-            (StoreAction::Store, StoreReason::Imported)
-        }
-        None => (StoreAction::Discard, StoreReason::LastUse),
+/// What keeps contents alive that no later pass of the frame touches.
+fn after_the_frame(decl: &Declaration, resource: ResourceId) -> Option<StoreReason> {
+    let resource = decl.resource(resource);
+    match resource.origin {
+        _ if resource.exported.is_some() => Some(StoreReason::Exported),
+        Origin::Imported { .. } => Some(StoreReason::Imported),
+        Origin::Current { .. } => Some(StoreReason::History),
+        Origin::Transient | Origin::Previous { .. } => None,
     }
+}
+
+/// The operations of a pass within its render pass: only the first loads, only the last stores.
+fn within(
+    (first, load): (bool, (LoadAction, LoadReason)),
+    (last, store): (bool, (StoreAction, StoreReason)),
+    clear_drawn: bool,
+) -> AttachmentOps {
+    let (load, load_reason) = if first { load } else { (LoadAction::Continue, LoadReason::Merged) };
+    let (store, store_reason) = if last { store } else { (StoreAction::Continue, StoreReason::Merged) };
+    AttachmentOps { load, load_reason, clear_drawn, store, store_reason }
 }

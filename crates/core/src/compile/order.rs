@@ -1,76 +1,161 @@
-//! In which order passes run, and which hazards the order respects.
+//! In which order passes run.
 
-use crate::declaration::Declaration;
+mod heap;
+mod memory;
+
+use super::lists::Lists;
+use super::merge::{self, Group};
+use crate::declaration::{Declaration, OrderPolicy, PassKind};
 use crate::handle::PassId;
-use crate::plan::{CullReason, Dependency, DependencyKind};
+use crate::plan::{CullReason, Dependency, MergeReason, PlaceReason};
+use heap::Ready;
+use memory::Memory;
 
-/// Returns the passes that run, in order of declaration, which versioned handles make a valid order.
-pub(super) fn order(culled: &[Option<CullReason>]) -> Vec<PassId> {
-    let live = culled.iter().enumerate().filter(|(_, reason)| reason.is_none());
-    live.map(|(index, _)| PassId(index as u32)).collect()
+/// Of the passes that could go on with the open render pass, at most so many are compared.
+const COMPARED: usize = 16;
+
+/// Returns the passes that run, in order, and why each stands where it does.
+///
+/// List scheduling: of the passes whose dependencies are done, the one that goes on with the open render pass, then
+/// the one that frees most memory, then the one declared first. Choosing step by step can end worse than it began:
+/// where the order of declaration, or choosing from the last pass to the first, needs less memory and no more render
+/// passes, that is taken.
+pub(super) fn order(
+    decl: &Declaration,
+    culled: &[Option<CullReason>],
+    dependencies: &[Dependency],
+) -> (Vec<PassId>, Vec<PlaceReason>) {
+    let declared: Vec<PassId> = decl.pass_ids().filter(|pass| culled[pass.index()].is_none()).collect();
+    if decl.options.order == OrderPolicy::Declared {
+        let reasons = vec![PlaceReason::Fixed; declared.len()];
+        return (declared, reasons);
+    }
+    let bytes = memory::bytes(decl);
+    let scheduler = |time| Scheduler::new(decl, &declared, dependencies, &bytes, time);
+    let (order, reasons) = scheduler(Time::Forwards).run();
+    let (peak, pass) = memory::peak(decl, &bytes, &order);
+    let least = |pass| memory::forced(decl, &bytes, &declared, dependencies, pass);
+    let forced = reasons.iter().all(|reason| *reason == PlaceReason::OnlyReady);
+    if forced || pass.is_none_or(|pass| least(pass) == peak) {
+        return (order, reasons);
+    }
+    let backwards = scheduler(Time::Backwards).run().0;
+    let backwards = backwards.into_iter().rev().collect();
+    let steps = |order: &[PassId]| merge::merge(decl, order).0.len();
+    let most_steps = steps(&order);
+    let mut best = (order, None, peak);
+    let others =
+        [(declared, PlaceReason::DeclarationNeedsLess), (backwards, PlaceReason::BackwardsNeedsLess)];
+    for (other, reason) in others {
+        let (peak, _) = memory::peak(decl, &bytes, &other);
+        if peak < best.2 && steps(&other) <= most_steps {
+            best = (other, Some(reason), peak);
+        }
+    }
+    let (order, reason, _) = best;
+    let reasons = reason.map_or(reasons, |reason| vec![reason; order.len()]);
+    (order, reasons)
 }
 
-/// The last writer of a resource and the readers since.
-#[derive(Clone, Default)]
-struct Tail {
-    writer: Option<PassId>,
-    readers: Vec<PassId>,
+/// Which way passes are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Time {
+    /// The first pass first.
+    Forwards,
+    /// The last pass first.
+    Backwards,
 }
 
-/// Returns every hazard between passes that run, each pair and resource once, in order of the later pass.
-pub(super) fn dependencies(decl: &Declaration, order: &[PassId]) -> Vec<Dependency> {
-    let mut tails = vec![Tail::default(); decl.resources.len()];
-    let mut found = Vec::new();
-    for &after in order {
-        for access in &decl.pass(after).accesses {
-            let tail = &mut tails[access.resource.index()];
-            let mut push = |before: PassId, kind| {
-                if before != after {
-                    found.push(Dependency { before, after, resource: access.resource, kind });
-                }
-            };
-            match access.contents {
-                None => {
-                    if let Some(writer) = tail.writer {
-                        push(writer, DependencyKind::ReadAfterWrite);
-                    }
-                    tail.readers.push(after);
-                }
-                Some(contents) => {
-                    if let Some(writer) = tail.writer {
-                        let reads = contents.preserves();
-                        push(
-                            writer,
-                            if reads {
-                                DependencyKind::ReadAfterWrite
-                            } else {
-                                DependencyKind::WriteAfterWrite
-                            },
-                        );
-                    }
-                    for reader in tail.readers.drain(..) {
-                        push(reader, DependencyKind::WriteAfterRead);
-                    }
-                    tail.writer = Some(after);
+struct Scheduler<'d> {
+    decl: &'d Declaration,
+    count: usize,
+    /// By pass.
+    successors: Lists<PassId>,
+    /// By pass: dependencies that are not done.
+    waiting: Vec<u32>,
+    ready: Ready,
+    memory: Memory<'d>,
+    group: Group,
+    time: Time,
+}
+
+impl<'d> Scheduler<'d> {
+    fn new(
+        decl: &'d Declaration,
+        live: &[PassId],
+        dependencies: &[Dependency],
+        bytes: &'d [i64],
+        time: Time,
+    ) -> Self {
+        let passes = decl.passes.len();
+        let ends = |dependency: &Dependency| match time {
+            Time::Forwards => (dependency.before, dependency.after),
+            Time::Backwards => (dependency.after, dependency.before),
+        };
+        let pairs = || dependencies.iter().map(ends);
+        let successors = Lists::new(passes, || pairs().map(|(before, after)| (before.index(), after)));
+        let mut waiting = vec![0; passes];
+        for (_, after) in pairs() {
+            waiting[after.index()] += 1;
+        }
+        let memory = Memory::new(decl, live, bytes, time);
+        let mut ready = Ready::new(passes, decl.resources.len(), time);
+        for &pass in live.iter().filter(|pass| waiting[pass.index()] == 0) {
+            ready.push(decl, pass, memory.score(pass));
+        }
+        let group = Group::new(decl);
+        Self { decl, count: live.len(), successors, waiting, ready, memory, group, time }
+    }
+
+    fn run(mut self) -> (Vec<PassId>, Vec<PlaceReason>) {
+        let mut order = Vec::with_capacity(self.count);
+        let mut reasons = Vec::with_capacity(self.count);
+        while let Some((pass, reason)) = self.choose() {
+            order.push(pass);
+            reasons.push(reason);
+            self.ready.take(pass);
+            if self.time == Time::Forwards {
+                let joins = self.group.judge(self.decl, pass) == MergeReason::Merged;
+                self.group.add(self.decl, pass, joins);
+            }
+            let Self { memory, ready, .. } = &mut self;
+            memory.run(pass, |other, score| ready.rescore(other, score));
+            for &successor in self.successors.of(pass.index()) {
+                self.waiting[successor.index()] -= 1;
+                if self.waiting[successor.index()] == 0 {
+                    self.ready.push(self.decl, successor, self.memory.score(successor));
                 }
             }
         }
+        (order, reasons)
     }
-    dedup(found)
+
+    fn choose(&mut self) -> Option<(PassId, PlaceReason)> {
+        if self.ready.len() == 1 {
+            return self.ready.pop().map(|(pass, _, _)| (pass, PlaceReason::OnlyReady));
+        }
+        if let Some(pass) = self.continuing() {
+            return Some((pass, PlaceReason::ContinuesRenderPass));
+        }
+        let (pass, score, ahead) = self.ready.pop()?;
+        let reason = if ahead { PlaceReason::FreesMemory(score) } else { PlaceReason::DeclaredFirst };
+        Some((pass, reason))
+    }
+
+    /// The best ready pass that goes on with the open render pass.
+    fn continuing(&mut self) -> Option<PassId> {
+        if self.decl.options.order != OrderPolicy::Automatic || !self.decl.options.merge {
+            return None;
+        }
+        let attachment = self.group.attachment(self.decl)?;
+        let candidates = self.ready.drawing_into(attachment).take(COMPARED);
+        let goes_on = |pass: &PassId| self.group.judge(self.decl, *pass) == MergeReason::Merged;
+        let rank = |pass: &PassId| (std::cmp::Reverse(self.memory.score(*pass)), *pass);
+        candidates.filter(goes_on).min_by_key(rank)
+    }
 }
 
-/// A pass that reads a resource twice depends once.
-fn dedup(mut found: Vec<Dependency>) -> Vec<Dependency> {
-    found.dedup();
-    let mut kept: Vec<Dependency> = Vec::with_capacity(found.len());
-    let mut start = 0;
-    for dependency in found {
-        if kept.get(start).is_some_and(|first: &Dependency| first.after != dependency.after) {
-            start = kept.len();
-        }
-        if !kept[start..].contains(&dependency) {
-            kept.push(dependency);
-        }
-    }
-    kept
+/// Whether a pass can be one of several in a render pass.
+fn draws(decl: &Declaration, pass: PassId) -> bool {
+    decl.pass(pass).kind == PassKind::Render
 }

@@ -1,49 +1,144 @@
 //! The plan's attachments as wgpu's.
 
+use super::record::Recording;
 use crate::access::{Access, ClearValue};
-use crate::plan::{AccessPlan, AttachmentOps, LoadAction, StoreAction};
+use crate::desc::{Format, ResourceDesc};
+use crate::error::Error;
+use crate::handle::PassId;
+use crate::internal::Targets;
+use crate::part::Aspect;
+use crate::plan::{AttachmentOps, LoadAction, Plan, StoreAction};
 
-pub(super) fn color_attachment<'v>(
-    access: &AccessPlan,
-    view: &'v wgpu::TextureView,
-) -> Option<Option<wgpu::RenderPassColorAttachment<'v>>> {
-    let (Access::Color(_), Some(ops)) = (access.access, access.ops) else {
-        return None;
-    };
-    let clear = |value| match value {
-        ClearValue::Color([r, g, b, a]) => wgpu::Color { r, g, b, a },
-        ClearValue::Depth(_) => wgpu::Color::TRANSPARENT,
-    };
-    let ops = operations(&ops, clear);
-    Some(Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops }))
+/// As many colour attachments as any device allows.
+const COLORS: usize = 8;
+
+pub(super) struct ColorAttachments<'v> {
+    pub(super) list: [Option<wgpu::RenderPassColorAttachment<'v>>; COLORS],
+    pub(super) count: usize,
 }
 
-pub(super) fn depth_attachment<'v>(
-    access: &AccessPlan,
-    view: &'v wgpu::TextureView,
-) -> Option<wgpu::RenderPassDepthStencilAttachment<'v>> {
-    if !matches!(access.access, Access::Depth | Access::DepthRead) {
-        return None;
+/// The colour attachments of the passes from `first` to `last`, which share a render pass: the first of them loads,
+/// the last one stores and resolves.
+pub(super) fn color_attachments<'a>(
+    recording: &'a Recording<'a>,
+    first: PassId,
+    last: PassId,
+) -> Result<ColorAttachments<'a>, Error> {
+    let decl = &recording.plan.decl;
+    let mut colors = ColorAttachments { list: [const { None }; COLORS], count: 0 };
+    let mut ends = decl.access_range(last);
+    for index in decl.access_range(first) {
+        let access = &decl.accesses[index];
+        let (Access::Color(color), Some(begin)) = (access.access, recording.begin(index)) else { continue };
+        let same = |&index: &usize| decl.accesses[index].access == access.access;
+        let end = ends.find(same).and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
+        let volume = match decl.resource(access.resource).desc {
+            ResourceDesc::Texture(desc) => desc.dimension == wgpu::TextureDimension::D3,
+            ResourceDesc::Buffer(_) => false,
+        };
+        let slice = decl.part(access).layers.map_or(0, |(first, _)| first);
+        if color as usize >= COLORS {
+            let name = decl.resource_name(access.resource);
+            crate::pool::limit(name, "max_color_attachments", u64::from(color) + 1, COLORS as u64)?;
+        }
+        colors.list[color as usize] = Some(wgpu::RenderPassColorAttachment {
+            view: recording.view(index)?,
+            depth_slice: volume.then_some(slice),
+            resolve_target: None,
+            ops: operations(&begin, &end, |value| match value {
+                ClearValue::Color([r, g, b, a]) => wgpu::Color { r, g, b, a },
+                ClearValue::Depth(_) | ClearValue::DepthStencil(..) => wgpu::Color::TRANSPARENT,
+            }),
+        });
+        colors.count = colors.count.max(color as usize + 1);
     }
-    let clear = |value| match value {
-        ClearValue::Depth(depth) => depth,
-        ClearValue::Color(_) => 0.0,
-    };
-    let stencil = view.texture().format().has_stencil_aspect();
-    let depth_ops = access.ops.map(|ops| operations(&ops, clear));
-    let stencil_ops = access.ops.filter(|_| stencil).map(|ops| operations(&ops, |_| 0));
-    Some(wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops })
+    for index in decl.access_range(last) {
+        if let Access::Resolve(color) = decl.accesses[index].access
+            && let Some(Some(attachment)) = colors.list.get_mut(color as usize)
+        {
+            attachment.resolve_target = Some(recording.view(index)?);
+        }
+    }
+    Ok(colors)
 }
 
-fn operations<V>(ops: &AttachmentOps, clear: impl Fn(ClearValue) -> V) -> wgpu::Operations<V> {
+/// The depth attachment of the passes from `first` to `last`.
+pub(super) fn depth_attachment<'a>(
+    recording: &'a Recording<'a>,
+    first: PassId,
+    last: PassId,
+) -> Result<Option<wgpu::RenderPassDepthStencilAttachment<'a>>, Error> {
+    let (plan, decl) = (recording.plan, &recording.plan.decl);
+    let depth = |&index: &usize| matches!(decl.accesses[index].access, Access::Depth | Access::DepthRead);
+    let Some(index) = decl.access_range(first).find(depth) else { return Ok(None) };
+    let access = &decl.accesses[index];
+    let view = recording.view(index)?;
+    let begin = recording.begin(index);
+    let end = decl.access_range(last).find(depth).and_then(|index| plan.ops[index]).or(begin);
+    let (has_depth, has_stencil) = match decl.resource(access.resource).desc {
+        ResourceDesc::Texture(desc) => (desc.format.has_depth_aspect(), desc.format.has_stencil_aspect()),
+        ResourceDesc::Buffer(_) => (false, false),
+    };
+    let aspect = decl.part(access).aspect;
+    let ops = begin.zip(end);
+    let depth_ops = ops.filter(|_| has_depth && aspect != Aspect::Stencil).map(|(begin, end)| {
+        operations(&begin, &end, |value| match value {
+            ClearValue::Depth(depth) | ClearValue::DepthStencil(depth, _) => depth,
+            ClearValue::Color(_) => 0.0,
+        })
+    });
+    let stencil_ops = ops.filter(|_| has_stencil && aspect != Aspect::Depth).map(|(begin, end)| {
+        operations(&begin, &end, |value| match value {
+            ClearValue::DepthStencil(_, stencil) => stencil,
+            ClearValue::Depth(_) | ClearValue::Color(_) => 0,
+        })
+    });
+    Ok(Some(wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops }))
+}
+
+fn operations<V>(
+    begin: &AttachmentOps,
+    end: &AttachmentOps,
+    clear: impl Fn(ClearValue) -> V,
+) -> wgpu::Operations<V> {
     wgpu::Operations {
-        load: match ops.load {
+        load: match begin.load {
             LoadAction::Clear(value) => wgpu::LoadOp::Clear(clear(value)),
-            LoadAction::Load => wgpu::LoadOp::Load,
+            LoadAction::Load | LoadAction::Continue => wgpu::LoadOp::Load,
         },
-        store: match ops.store {
-            StoreAction::Store => wgpu::StoreOp::Store,
+        store: match end.store {
+            StoreAction::Store | StoreAction::Continue => wgpu::StoreOp::Store,
             StoreAction::Discard => wgpu::StoreOp::Discard,
         },
+    }
+}
+
+/// Formats and samples of what a pass draws into.
+pub(super) fn targets(plan: &Plan, pass: PassId) -> Targets {
+    let mut targets = Targets { colors: Vec::new(), depth_stencil: None, samples: 1 };
+    for access in plan.accesses(pass) {
+        let ResourceDesc::Texture(desc) = plan.resource(access.resource).desc else { continue };
+        match access.access {
+            Access::Color(index) => {
+                let format: Option<Format> = Some(desc.format);
+                targets.colors.resize(targets.colors.len().max(index as usize + 1), None);
+                targets.colors[index as usize] = format;
+                targets.samples = desc.samples;
+            }
+            Access::Depth | Access::DepthRead => {
+                targets.depth_stencil = Some(desc.format);
+                targets.samples = desc.samples;
+            }
+            _ => {}
+        }
+    }
+    targets
+}
+
+impl<'a> Recording<'a> {
+    /// The view of an attachment.
+    fn view(&'a self, access: usize) -> Result<&'a wgpu::TextureView, Error> {
+        let resource = self.plan.decl.accesses[access].resource;
+        self.realised.views[access].as_ref().ok_or_else(|| self.absent(resource))
     }
 }

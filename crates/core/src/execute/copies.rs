@@ -1,79 +1,156 @@
 //! What the graph copies itself: uploads and copy passes.
 
-use super::context::Frozen;
-use crate::declaration::CopyOp;
+use super::record::Recording;
+use crate::compile::copy_extent;
+use crate::compiled::Compiled;
+use crate::declaration::{AccessDecl, CopyOp};
+use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::plan::Plan;
-use std::borrow::Cow;
-use wgpu::util::DeviceExt as _;
+use crate::handle::PassId;
+use crate::part::Aspect;
+use crate::pool::{Pool, place};
 
-/// All uploads of the frame in one buffer, copied from there in the order of the plan. Going through the encoder
-/// rather than the queue keeps several recorded frames apart before any is submitted.
-pub(super) struct Staging {
+/// Where the uploads of a frame wait: all in one buffer, copied from there in the order of the plan. Going through
+/// the encoder rather than the queue keeps several recorded frames apart before any is submitted.
+#[derive(Default)]
+pub(super) struct Uploads {
     buffer: Option<wgpu::Buffer>,
+    /// By upload.
     offsets: Vec<u64>,
 }
 
-impl Staging {
-    pub(super) fn new(device: &wgpu::Device, plan: &Plan, uploads: &[Cow<'_, [u8]>]) -> Self {
-        let mut bytes =
-            Vec::with_capacity(uploads.iter().map(|upload| upload.len().next_multiple_of(4)).sum());
-        let mut offsets = vec![0; uploads.len()];
-        let copies = plan.live_passes().flat_map(|pass| plan.pass(pass).copies.iter());
-        for copy in copies {
-            if let CopyOp::Upload { target, upload } = *copy {
-                let upload = upload as usize;
-                offsets[upload] = bytes.len() as u64;
-                bytes.extend_from_slice(&uploads[upload]);
-                let end = offsets[upload] + plan.resource(target).desc.bytes();
-                bytes.resize(end as usize, 0);
-            }
-        }
-        let buffer = (!bytes.is_empty()).then(|| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("frame uploads"),
-                contents: &bytes,
-                usage: wgpu::BufferUsages::COPY_SRC,
-            })
-        });
-        Self { buffer, offsets }
+/// Writes uniform blocks and uploads of passes that run into one staging chunk, and copies the uniforms from it. The
+/// chunk comes back when `last` is done, or where that is the only encoder, `encoder`.
+pub(super) fn stage(
+    compiled: &Compiled<'_>,
+    pool: &mut Pool,
+    device: &wgpu::Device,
+    encoder: &mut wgpu::CommandEncoder,
+    last: Option<&wgpu::CommandEncoder>,
+) -> Result<(Option<wgpu::Buffer>, Uploads), Error> {
+    let (plan, work) = (&compiled.plan, &compiled.frame.work);
+    let live = |target: crate::ResourceId| plan.fates[target.index()].steps.is_some();
+    let waiting = plan.decl.copies.iter().filter_map(|copy| match *copy {
+        CopyOp::Upload { target, upload } if live(target) => Some(upload as usize),
+        _ => None,
+    });
+    let uniforms = place(0, work.uniforms.len() as u64, 4).end;
+    // An upload of nothing still makes a buffer, the smallest there is.
+    let upload_bytes =
+        |upload: usize| if work.uploads[upload].is_empty() { &[0; 4][..] } else { &work.uploads[upload] };
+    let bytes =
+        waiting.clone().fold(uniforms, |end, upload| place(end, upload_bytes(upload).len() as u64, 4).end);
+    if bytes == 0 {
+        return Ok((None, Uploads::default()));
     }
+    let mut chunk = pool.staging.begin(device, bytes)?;
+    let blocks = match work.uniforms.is_empty() {
+        true => None,
+        false => Some(pool.uniforms.upload(device, encoder, &mut chunk, &work.uniforms)?),
+    };
+    let mut offsets = vec![0; work.uploads.len()];
+    for upload in waiting {
+        offsets[upload] = chunk.write(upload_bytes(upload), 4);
+    }
+    let buffer = Some(chunk.finish(last.unwrap_or(encoder)));
+    Ok((blocks, Uploads { buffer, offsets }))
 }
 
-/// Records one transfer.
-pub(super) fn copy(
-    frozen: Frozen<'_>,
-    staging: &Staging,
+/// Records the transfers of a copy pass.
+pub(super) fn copies(
+    recording: &Recording<'_>,
+    pass: PassId,
     encoder: &mut wgpu::CommandEncoder,
-    copy: &CopyOp,
 ) -> Result<(), Error> {
-    match *copy {
-        CopyOp::Upload { target, upload } => {
-            let (Some(source), target) = (&staging.buffer, frozen.buffer(target)?) else {
-                return Ok(());
-            };
-            let offset = staging.offsets[upload as usize];
-            encoder.copy_buffer_to_buffer(source, offset, target, 0, target.size());
+    let decl = &recording.plan.decl;
+    // Uploads declare one access, other copies two: source and target.
+    let mut accesses = decl.accesses(pass).iter();
+    for copy in decl.copies(pass) {
+        let Some(first) = accesses.next() else { break };
+        if let CopyOp::Upload { target, upload } = *copy {
+            let Some(source) = &recording.uploads.buffer else { continue };
+            let (offset, bytes) =
+                (recording.uploads.offsets[upload as usize], decl.resource(target).desc.bytes());
+            encoder.copy_buffer_to_buffer(source, offset, recording.buffer(target)?, 0, bytes);
+            continue;
         }
+        let Some(second) = accesses.next() else { break };
+        transfer(recording, *copy, (first, second), encoder)?;
+    }
+    Ok(())
+}
+
+fn transfer(
+    recording: &Recording<'_>,
+    copy: CopyOp,
+    (from, to): (&AccessDecl, &AccessDecl),
+    encoder: &mut wgpu::CommandEncoder,
+) -> Result<(), Error> {
+    let decl = &recording.plan.decl;
+    match copy {
+        CopyOp::Upload { .. } => {}
         CopyOp::BufferToBuffer { source, target } => {
-            let (source, target) = (frozen.buffer(source)?, frozen.buffer(target)?);
-            encoder.copy_buffer_to_buffer(source, 0, target, 0, source.size());
+            let all = decl.resource(source).desc.bytes();
+            let (start, end) = decl.part(from).bytes.unwrap_or((0, all));
+            let (to, _) = decl.part(to).bytes.unwrap_or((0, all));
+            let (source, target) = (recording.buffer(source)?, recording.buffer(target)?);
+            encoder.copy_buffer_to_buffer(source, start, target, to, end - start);
         }
         CopyOp::TextureToTexture { source, target } => {
-            let (source, target) = (frozen.texture(source)?, frozen.texture(target)?);
-            encoder.copy_texture_to_texture(source.as_image_copy(), target.as_image_copy(), source.size());
+            let (Some(size), Some(_)) = (extent(recording, from), extent(recording, to)) else {
+                return Ok(());
+            };
+            let (source, target) = (recording.texture(source)?, recording.texture(target)?);
+            encoder.copy_texture_to_texture(
+                place_of(recording, from, source),
+                place_of(recording, to, target),
+                size,
+            );
         }
         CopyOp::TextureToBuffer { source, target } => {
-            let (source, buffer) = (frozen.texture(source)?, frozen.buffer(target)?);
+            let Some(size) = extent(recording, from) else { return Ok(()) };
+            let (source, buffer) = (recording.texture(source)?, recording.buffer(target)?);
             let texel = source.format().block_copy_size(None).unwrap_or(4);
             let layout = wgpu::TexelCopyBufferLayout {
                 offset: 0,
-                bytes_per_row: Some((source.width() * texel).next_multiple_of(256)),
+                bytes_per_row: Some(
+                    (size.width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT),
+                ),
                 rows_per_image: None,
             };
             let target = wgpu::TexelCopyBufferInfo { buffer, layout };
-            encoder.copy_texture_to_buffer(source.as_image_copy(), target, source.size());
+            encoder.copy_texture_to_buffer(place_of(recording, from, source), target, size);
         }
     }
     Ok(())
+}
+
+fn extent(recording: &Recording<'_>, access: &AccessDecl) -> Option<wgpu::Extent3d> {
+    let desc: TextureDesc = match recording.plan.decl.resource(access.resource).desc {
+        ResourceDesc::Texture(desc) => desc,
+        ResourceDesc::Buffer(_) => return None,
+    };
+    copy_extent(&recording.plan.decl.part(access), &desc)
+}
+
+fn place_of<'t>(
+    recording: &Recording<'_>,
+    access: &AccessDecl,
+    texture: &'t wgpu::Texture,
+) -> wgpu::TexelCopyTextureInfo<'t> {
+    let part = recording.plan.decl.part(access);
+    wgpu::TexelCopyTextureInfo {
+        texture,
+        mip_level: part.mips.map_or(0, |(first, _)| first),
+        origin: wgpu::Origin3d {
+            x: part.rect.map_or(0, |rect| rect.x),
+            y: part.rect.map_or(0, |rect| rect.y),
+            z: part.layers.map_or(0, |(first, _)| first),
+        },
+        aspect: match part.aspect {
+            Aspect::All => wgpu::TextureAspect::All,
+            Aspect::Depth => wgpu::TextureAspect::DepthOnly,
+            Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
+        },
+    }
 }

@@ -1,31 +1,46 @@
-//! Recording a plan into an encoder of the caller's.
+//! Recording a plan into encoders of the caller's.
 
 mod attachments;
+mod bind;
 mod context;
 mod copies;
 mod import;
+mod poison;
+mod read_back;
+mod realise;
 mod record;
+mod render;
+mod threads;
 mod timer;
 
 #[cfg(test)]
 mod tests;
 
+pub use bind::Bind;
 pub(crate) use context::Body;
-pub use context::{Bind, BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
+pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
 pub(crate) use import::Imported;
+pub(crate) use poison::Pattern;
+pub(crate) use read_back::Requested;
+pub use read_back::{ReadBack, ReadBackRequest};
+pub(crate) use realise::Realised;
 pub use timer::{PassTime, Timer};
 
 use crate::compiled::Compiled;
 use crate::error::Error;
+use crate::graph::Graph;
 use crate::handle::{BufferExport, ResourceId, TextureExport, Version};
 use crate::plan::Plan;
-use crate::pool::{Physical, Pool};
+use crate::pool::Physical;
+use std::sync::Arc;
 
 /// An executed frame: its plan, and what was exported.
 pub struct Executed {
-    plan: Plan,
+    plan: Arc<Plan>,
     frame: u64,
     exports: Vec<(ResourceId, Physical)>,
+    /// By request; `None` once taken.
+    read_backs: Vec<Option<ReadBack>>,
 }
 
 impl Executed {
@@ -34,7 +49,12 @@ impl Executed {
         &self.plan
     }
 
-    /// Returns an exported texture. It keeps its contents until the pool's next frame is recorded.
+    /// Returns the plan, which equal frames share.
+    pub fn shared_plan(&self) -> Arc<Plan> {
+        self.plan.clone()
+    }
+
+    /// Returns an exported texture. It keeps its contents until the graph's next frame is recorded.
     pub fn texture(&self, export: TextureExport) -> Option<&wgpu::Texture> {
         match self.export(export.0)? {
             Physical::Texture(texture) => Some(texture),
@@ -42,12 +62,19 @@ impl Executed {
         }
     }
 
-    /// Returns an exported buffer. It keeps its contents until the pool's next frame is recorded.
+    /// Returns an exported buffer. It keeps its contents until the graph's next frame is recorded.
     pub fn buffer(&self, export: BufferExport) -> Option<&wgpu::Buffer> {
         match self.export(export.0)? {
             Physical::Buffer(buffer) => Some(buffer),
             Physical::Texture(_) => None,
         }
+    }
+
+    /// Takes out what was asked to be read back; `None` where it has been taken already, or for the request of
+    /// another frame. The bytes come once the encoder has been submitted.
+    pub fn read_back(&mut self, request: ReadBackRequest) -> Option<ReadBack> {
+        let own = request.frame == self.frame;
+        self.read_backs.get_mut(request.index as usize).filter(|_| own)?.take()
     }
 
     fn export(&self, version: Version) -> Option<&Physical> {
@@ -57,17 +84,17 @@ impl Executed {
 }
 
 impl Compiled<'_> {
-    /// Records the frame into `encoder`, with textures and buffers of `pool`. Nothing is submitted.
+    /// Records the frame into `encoder`, with textures and buffers of `graph`. Nothing is submitted.
     ///
     /// # Errors
     /// A limit of the device, or the failure of a pass body; the encoder is then to be dropped.
     pub fn execute(
         self,
-        pool: &mut Pool,
+        graph: &mut Graph,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<Executed, Error> {
-        record::record(self, pool, device, encoder, None)
+        record::record(self, &mut graph.device, device, encoder, None)
     }
 
     /// Records the frame like [`execute`](Self::execute) and measures every pass; see [`Timer`].
@@ -76,11 +103,31 @@ impl Compiled<'_> {
     /// As `execute`.
     pub fn execute_timed(
         self,
-        pool: &mut Pool,
+        graph: &mut Graph,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut Timer,
     ) -> Result<Executed, Error> {
-        record::record(self, pool, device, encoder, Some(timer))
+        record::record(self, &mut graph.device, device, encoder, Some(timer))
+    }
+
+    /// Records the frame on `threads` threads, each into an encoder of its own, and returns the command buffers in
+    /// the order in which they must be submitted, best all at once; nothing of another frame of this graph may come in
+    /// between.
+    ///
+    /// Worth it only for frames of very many draws: see `docs/performance.md` for what was measured.
+    ///
+    /// wgpu's error scopes are each one thread's: what it objects to in a body that another thread records goes to
+    /// `Device::on_uncaptured_error`.
+    ///
+    /// # Errors
+    /// As [`execute`](Self::execute).
+    pub fn execute_on_threads(
+        self,
+        graph: &mut Graph,
+        device: &wgpu::Device,
+        threads: usize,
+    ) -> Result<(Executed, Vec<wgpu::CommandBuffer>), Error> {
+        threads::record(self, &mut graph.device, device, threads)
     }
 }

@@ -1,169 +1,224 @@
 //! Following a plan.
 
-use super::Executed;
-use super::attachments::{color_attachment, depth_attachment};
-use super::context::{Body, ComputeContext, EncoderContext, Frozen, RenderContext, Resources};
-use super::copies::{self, Staging};
+use super::context::{Body, ComputeContext, EncoderContext, Resources};
+use super::copies::{self, Uploads};
+use super::realise::Realised;
 use super::timer::Timer;
+use super::{Executed, ReadBack};
 use crate::compiled::Compiled;
 use crate::declaration::PassKind;
 use crate::error::Error;
-use crate::frame::Frame;
-use crate::handle::{PassId, ResourceId, SlotId};
-use crate::plan::{AccessPlan, PassPlan, Plan};
+use crate::handle::{PassId, ResourceId};
+use crate::plan::Plan;
 use crate::pool::{Physical, Pool};
+use crate::programs::{self, Calls};
+use std::ops::Range;
+use std::time::Instant;
+
+/// What stays the same for all passes of a frame.
+pub(crate) struct Recording<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) frame: u64,
+    pub(super) realised: &'a Realised,
+    pub(super) pool: &'a Pool,
+    pub(super) device: &'a wgpu::Device,
+    pub(super) uniforms: Option<&'a wgpu::Buffer>,
+    pub(super) uploads: &'a Uploads,
+    pub(super) timer: Option<&'a Timer>,
+    pub(super) calls: &'a Calls,
+    /// Bind group slots that the device has.
+    pub(super) groups: u32,
+}
+
+/// A frame whose objects are there and whose bytes are on their way.
+pub(super) struct Prepared {
+    pub(super) realised: Realised,
+    pub(super) uniforms: Option<wgpu::Buffer>,
+    pub(super) uploads: Uploads,
+}
 
 pub(super) fn record(
-    compiled: Compiled<'_>,
+    mut compiled: Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,
     encoder: &mut wgpu::CommandEncoder,
     mut timer: Option<&mut Timer>,
 ) -> Result<Executed, Error> {
-    let Compiled { plan, mut frame } = compiled;
-    pool.begin_frame();
-    let physical = materialise(&plan, &frame, pool, device)?;
-    let staging = Staging::new(device, &plan, &frame.uploads);
+    let prepared = prepare(&compiled, pool, device, encoder, None)?;
     if let Some(timer) = timer.as_deref_mut() {
-        timer.begin(device, &plan);
+        timer.begin(device, &compiled.plan);
     }
-    let mut label = String::new();
-    for id in plan.live_passes() {
-        label.clear();
-        plan.write_pass_path(id, &mut label);
-        let body = std::mem::replace(&mut frame.bodies[id.index()], Body::None);
-        let frozen = Frozen { plan: &plan, frame: frame.id(), physical: &physical, device };
-        let mut recorder = Recorder { frozen, pool, encoder, staging: &staging, timer: timer.as_deref_mut() };
-        recorder.pass(id, &label, body).map_err(|error| name_pass(error, &plan, id))?;
-    }
+    let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
+    let recording = prepared.recording(&compiled, pool, device, timer.as_deref());
+    let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
+    recording.steps(0..compiled.plan.steps.len(), encoder, take)?;
+    let read_backs = recording.read_backs(&compiled.frame.work.read_backs, encoder)?;
+    compiled.frame.work.bodies = bodies;
     if let Some(timer) = timer {
         timer.end(encoder);
     }
-    let exported = plan.resources.iter().zip(&physical).enumerate().filter(|(_, (r, _))| r.exported);
-    let exports = exported.filter_map(|(i, (_, p))| Some((ResourceId(i as u32), p.clone()?))).collect();
-    Ok(Executed { frame: frame.id(), exports, plan })
+    Ok(prepared.finish(compiled, pool, read_backs))
 }
 
-/// Gives a body's own error the name of its pass.
-fn name_pass(error: Error, plan: &Plan, id: PassId) -> Error {
-    match error {
-        Error::Body { pass, message } if pass.is_empty() => Error::Body { pass: plan.pass_path(id), message },
-        error => error,
-    }
-}
-
-/// Finds what stands behind each resource.
-fn materialise(
-    plan: &Plan,
-    frame: &Frame<'_>,
+/// Finds what stands behind the plan's resources, and records the uploads' way to the GPU. `last` is the last encoder
+/// of the frame, where that is not the first.
+pub(super) fn prepare(
+    compiled: &Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,
-) -> Result<Vec<Option<Physical>>, Error> {
-    let slots = plan
-        .slots
-        .iter()
-        .map(|slot| pool.acquire(device, slot, &plan.resource(slot.tenants[0]).name))
-        .collect::<Result<Vec<_>, _>>()?;
-    let behind = |(index, slot): (usize, Option<SlotId>)| match slot {
-        Some(slot) => Some(slots[slot.index()].clone()),
-        None => frame.imports[index].clone(),
-    };
-    Ok(plan.resources.iter().map(|r| r.slot).enumerate().map(behind).collect())
+    encoder: &mut wgpu::CommandEncoder,
+    last: Option<&wgpu::CommandEncoder>,
+) -> Result<Prepared, Error> {
+    let frame = pool.begin_frame();
+    let mut realised = Realised::take(&compiled.plan, pool, device, frame)?;
+    pool.keep_budget();
+    pool.histories.arrive(compiled, &mut realised.objects, device, encoder)?;
+    realised.arrive(&compiled.frame.work, pool);
+    let (uniforms, uploads) = copies::stage(compiled, pool, device, encoder, last)?;
+    Ok(Prepared { realised, uniforms, uploads })
 }
 
-struct Recorder<'a> {
-    frozen: Frozen<'a>,
-    pool: &'a mut Pool,
-    encoder: &'a mut wgpu::CommandEncoder,
-    staging: &'a Staging,
-    timer: Option<&'a mut Timer>,
-}
-
-impl Recorder<'_> {
-    fn pass(&mut self, id: PassId, label: &str, body: Body<'_>) -> Result<(), Error> {
-        let started = self.timer.as_ref().map(|_| std::time::Instant::now());
-        match self.frozen.plan.pass(id).kind {
-            PassKind::Render => self.render(id, label, body)?,
-            PassKind::Compute => self.compute(id, label, body)?,
-            PassKind::Copy | PassKind::Encoder => self.encode(id, label, body)?,
+impl Prepared {
+    pub(super) fn recording<'a>(
+        &'a self,
+        compiled: &'a Compiled<'_>,
+        pool: &'a Pool,
+        device: &'a wgpu::Device,
+        timer: Option<&'a Timer>,
+    ) -> Recording<'a> {
+        Recording {
+            plan: &compiled.plan,
+            frame: compiled.frame.id(),
+            realised: &self.realised,
+            pool,
+            device,
+            uniforms: self.uniforms.as_ref(),
+            uploads: &self.uploads,
+            timer,
+            calls: &compiled.frame.work.calls,
+            groups: device.limits().max_bind_groups,
         }
-        if let (Some(timer), Some(started)) = (self.timer.as_deref_mut(), started) {
+    }
+
+    pub(super) fn finish(
+        self,
+        compiled: Compiled<'_>,
+        pool: &mut Pool,
+        read_backs: Vec<Option<ReadBack>>,
+    ) -> Executed {
+        let resources = compiled.plan.decl.resources.iter().zip(&self.realised.objects).enumerate();
+        let exported = resources.filter(|(_, (resource, _))| resource.exported.is_some());
+        let exports =
+            exported.filter_map(|(index, (_, own))| Some((ResourceId(index as u32), own.clone()?))).collect();
+        self.realised.leave(pool);
+        pool.end_frame(&compiled);
+        Executed { frame: compiled.frame.id(), exports, read_backs, plan: compiled.plan.clone() }
+    }
+}
+
+impl<'a> Recording<'a> {
+    pub(super) fn texture(&self, id: ResourceId) -> Result<&'a wgpu::Texture, Error> {
+        match &self.realised.objects[id.index()] {
+            Some(Physical::Texture(texture)) => Ok(texture),
+            _ => Err(self.absent(id)),
+        }
+    }
+
+    pub(super) fn buffer(&self, id: ResourceId) -> Result<&'a wgpu::Buffer, Error> {
+        match &self.realised.objects[id.index()] {
+            Some(Physical::Buffer(buffer)) => Ok(buffer),
+            _ => Err(self.absent(id)),
+        }
+    }
+
+    /// Only an import that was declared without an object has nothing behind it.
+    pub(super) fn absent(&self, id: ResourceId) -> Error {
+        Error::NoImport { resource: self.plan.decl.resource_name(id).into() }
+    }
+
+    /// Records some of the steps; `take` gives the body of each pass, asked for in order.
+    pub(super) fn steps<'f>(
+        &'a self,
+        steps: Range<usize>,
+        encoder: &mut wgpu::CommandEncoder,
+        mut take: impl FnMut(PassId) -> Body<'f>,
+    ) -> Result<(), Error> {
+        for step in steps {
+            let (start, end) = self.plan.steps[step];
+            let passes = &self.plan.order[start as usize..end as usize];
+            if self.pool.poison {
+                self.poison_arrivals(step, encoder);
+            }
+            match self.plan.decl.pass(passes[0]).kind {
+                PassKind::Render => self.render(passes, encoder, &mut take)?,
+                PassKind::Compute => self.compute(passes[0], encoder, take(passes[0]))?,
+                PassKind::Copy | PassKind::Encoder => self.encode(passes[0], encoder, take(passes[0]))?,
+            }
+            if self.pool.poison {
+                self.poison_discards(passes, encoder);
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs a body, gives its own error the name of its pass, and notes how long it took.
+    pub(super) fn timed(&self, id: PassId, body: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
+        let started = self.timer.map(|timer| (timer, Instant::now()));
+        let result = body();
+        if let Some((timer, started)) = started {
             timer.cpu(id, started.elapsed());
         }
-        Ok(())
+        result.map_err(|error| match error {
+            Error::Body { pass, message } if pass.is_empty() => {
+                Error::Body { pass: self.plan.pass_path(id), message }
+            }
+            error => error,
+        })
     }
 
-    fn render(&mut self, id: PassId, label: &str, body: Body<'_>) -> Result<(), Error> {
-        let pass = self.frozen.plan.pass(id);
-        let views = self.attachment_views(pass)?;
-        let colors: Vec<_> =
-            views.iter().filter_map(|(access, view)| color_attachment(access, view)).collect();
-        let depth = views.iter().find_map(|(access, view)| depth_attachment(access, view));
-        let timestamps = self.timer.as_deref().and_then(|timer| timer.queries(id));
-        let timestamp_writes = timestamps.map(|(query_set, begin)| wgpu::RenderPassTimestampWrites {
+    fn compute(
+        &'a self,
+        id: PassId,
+        encoder: &mut wgpu::CommandEncoder,
+        body: Body<'_>,
+    ) -> Result<(), Error> {
+        let timestamps = self.timer.and_then(|timer| timer.step_queries(id, id));
+        let timestamp_writes = timestamps.map(|(query_set, begin, end)| wgpu::ComputePassTimestampWrites {
             query_set,
             beginning_of_pass_write_index: Some(begin),
-            end_of_pass_write_index: Some(begin + 1),
+            end_of_pass_write_index: Some(end),
         });
-        let pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(label),
-            color_attachments: &colors,
-            depth_stencil_attachment: depth,
-            timestamp_writes,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        if let Body::Render(body) = body {
-            let resources = Resources { frozen: self.frozen, pool: self.pool, pass: id };
-            body(&mut RenderContext { pass, resources })?;
-        }
-        Ok(())
-    }
-
-    fn compute(&mut self, id: PassId, label: &str, body: Body<'_>) -> Result<(), Error> {
-        let timestamps = self.timer.as_deref().and_then(|timer| timer.queries(id));
-        let timestamp_writes = timestamps.map(|(query_set, begin)| wgpu::ComputePassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(begin),
-            end_of_pass_write_index: Some(begin + 1),
-        });
-        let pass = self
-            .encoder
-            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
-        if let Body::Compute(body) = body {
-            let resources = Resources { frozen: self.frozen, pool: self.pool, pass: id };
-            body(&mut ComputeContext { pass, resources })?;
+        let label = Some(self.realised.label(id));
+        let pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
+        let resources = Resources { recording: self, pass: id };
+        let mut context = ComputeContext { pass: pass.forget_lifetime(), resources };
+        match body {
+            Body::Compute(body) => self.timed(id, || body(&mut context))?,
+            Body::Call(call) => self.timed(id, || programs::dispatch(&mut context, call))?,
+            Body::None | Body::Render(_) | Body::Encoder(_) => {}
         }
         Ok(())
     }
 
     /// Copies and raw encoding, between two timestamps where the device can write them there.
-    fn encode(&mut self, id: PassId, label: &str, body: Body<'_>) -> Result<(), Error> {
-        if let Some((queries, begin)) = self.timer.as_deref().and_then(|timer| timer.encoder_queries(id)) {
-            self.encoder.write_timestamp(queries, begin);
+    fn encode(&'a self, id: PassId, encoder: &mut wgpu::CommandEncoder, body: Body<'_>) -> Result<(), Error> {
+        let queries = self.timer.and_then(|timer| timer.encoder_queries(id));
+        if let Some((queries, begin)) = queries {
+            encoder.write_timestamp(queries, begin);
         }
-        self.encoder.push_debug_group(label);
-        for copy in &self.frozen.plan.pass(id).copies {
-            copies::copy(self.frozen, self.staging, self.encoder, copy)?;
-        }
-        if let Body::Encoder(body) = body {
-            let resources = Resources { frozen: self.frozen, pool: self.pool, pass: id };
-            body(&mut EncoderContext { encoder: self.encoder, resources })?;
-        }
-        self.encoder.pop_debug_group();
-        if let Some((queries, begin)) = self.timer.as_deref().and_then(|timer| timer.encoder_queries(id)) {
-            self.encoder.write_timestamp(queries, begin + 1);
+        encoder.push_debug_group(self.realised.label(id));
+        self.timed(id, || {
+            copies::copies(self, id, encoder)?;
+            if let Body::Encoder(body) = body {
+                let resources = Resources { recording: self, pass: id };
+                body(&mut EncoderContext { encoder, resources })?;
+            }
+            Ok(())
+        })?;
+        encoder.pop_debug_group();
+        if let Some((queries, begin)) = queries {
+            encoder.write_timestamp(queries, begin + 1);
         }
         Ok(())
-    }
-
-    fn attachment_views(&mut self, pass: &PassPlan) -> Result<Vec<(AccessPlan, wgpu::TextureView)>, Error> {
-        let attachments = pass.accesses.iter().filter(|a| a.access.is_attachment());
-        let mut views = Vec::with_capacity(4);
-        for access in attachments {
-            let texture = self.frozen.texture(access.resource)?;
-            views.push((*access, self.pool.view(texture, wgpu::TextureAspect::All)));
-        }
-        Ok(views)
     }
 }

@@ -4,15 +4,22 @@ use crate::error::Error;
 use crate::handle::PassId;
 use crate::plan::Plan;
 use serde::Serialize;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// Measures every pass of one frame: CPU time of recording, and GPU time where the device has timestamps.
 ///
 /// Pass it to [`Compiled::execute_timed`](crate::Compiled::execute_timed), submit, then [`read`](Self::read).
+///
+/// Passes that were merged into one render pass are told apart where the device can write timestamps inside passes;
+/// elsewhere they share one time, and [`PassTime::shared_by`] says how many.
 #[derive(Default)]
 pub struct Timer {
     passes: Vec<PassId>,
-    cpu: Vec<Duration>,
+    /// By pass: its place in `passes`, and how many passes share its render pass.
+    places: Vec<(u32, u32)>,
+    /// By place: nanoseconds.
+    cpu: Vec<AtomicU64>,
     gpu: Option<Queries>,
 }
 
@@ -22,6 +29,8 @@ struct Queries {
     readable: wgpu::Buffer,
     /// Copies and raw encoding can be measured.
     inside_encoders: bool,
+    /// Passes that were merged can be told apart.
+    inside_passes: bool,
 }
 
 /// The time of one pass.
@@ -35,6 +44,9 @@ pub struct PassTime {
     pub cpu_ms: f64,
     /// Milliseconds on the GPU; `None` where the device cannot tell.
     pub gpu_ms: Option<f64>,
+    /// How many passes `gpu_ms` is the time of: 1, or more where passes were merged and the device cannot tell them
+    /// apart. Each of them then shows the same time.
+    pub shared_by: u32,
 }
 
 impl Timer {
@@ -44,9 +56,17 @@ impl Timer {
     }
 
     pub(super) fn begin(&mut self, device: &wgpu::Device, plan: &Plan) {
-        self.passes = plan.live_passes().collect();
-        self.cpu = vec![Duration::ZERO; self.passes.len()];
-        let count = self.passes.len() as u32 * 2;
+        self.passes = plan.order().to_vec();
+        self.places = vec![(0, 1); plan.pass_count()];
+        let mut place = 0;
+        for step in plan.steps() {
+            for &pass in step.passes {
+                self.places[pass.index()] = (place, step.passes.len() as u32);
+                place += 1;
+            }
+        }
+        self.cpu = self.passes.iter().map(|_| AtomicU64::new(0)).collect();
+        let count = place * 2;
         let able = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         self.gpu =
             (able && count > 0 && count <= wgpu::QUERY_SET_MAX_QUERIES).then(|| Queries::new(device, count));
@@ -60,25 +80,40 @@ impl Timer {
         }
     }
 
-    pub(super) fn cpu(&mut self, pass: PassId, time: Duration) {
-        if let Some(index) = self.index(pass) {
-            self.cpu[index] = time;
-        }
+    pub(super) fn cpu(&self, pass: PassId, time: Duration) {
+        let (place, _) = self.places[pass.index()];
+        self.cpu[place as usize].store(time.as_nanos() as u64, Ordering::Relaxed);
     }
 
-    /// The query set, and the first of the pass's two queries.
-    pub(super) fn queries(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
-        let gpu = self.gpu.as_ref()?;
-        Some((&gpu.set, self.index(pass)? as u32 * 2))
+    /// The query set, and the queries around the render or compute pass that passes from `first` to `last` share;
+    /// `None` where each of them has its own inside.
+    pub(super) fn step_queries(&self, first: PassId, last: PassId) -> Option<(&wgpu::QuerySet, u32, u32)> {
+        let gpu = self.gpu.as_ref().filter(|gpu| first == last || !gpu.inside_passes)?;
+        let place = |pass: PassId| self.places[pass.index()].0;
+        Some((&gpu.set, place(first) * 2, place(last) * 2 + 1))
+    }
+
+    /// The query set, and the first of the two queries of a pass that shares a render pass with others.
+    pub(super) fn inside_queries(&self, pass: PassId, several: bool) -> Option<(&wgpu::QuerySet, u32)> {
+        let gpu = self.gpu.as_ref().filter(|gpu| several && gpu.inside_passes)?;
+        Some((&gpu.set, self.places[pass.index()].0 * 2))
     }
 
     pub(super) fn encoder_queries(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
-        self.gpu.as_ref().filter(|gpu| gpu.inside_encoders)?;
-        self.queries(pass)
+        let gpu = self.gpu.as_ref().filter(|gpu| gpu.inside_encoders)?;
+        Some((&gpu.set, self.places[pass.index()].0 * 2))
     }
 
-    fn index(&self, pass: PassId) -> Option<usize> {
-        self.passes.iter().position(|&p| p == pass)
+    /// The queries that hold a pass's time, and how many passes it is the time of.
+    fn measured(&self, place: usize, plan: &Plan) -> (usize, usize, u32) {
+        let own = (place * 2, place * 2 + 1, 1);
+        let (_, together) = self.places[self.passes[place].index()];
+        if together == 1 || self.gpu.as_ref().is_none_or(|gpu| gpu.inside_passes) {
+            return own;
+        }
+        let within = |&&(start, end): &&(u32, u32)| (start as usize..end as usize).contains(&place);
+        let step = plan.steps.iter().find(within);
+        step.map_or(own, |&(start, end)| (start as usize * 2, end as usize * 2 - 1, together))
     }
 
     /// Waits for the submitted frame and returns the times, in order of recording.
@@ -93,16 +128,20 @@ impl Timer {
     ) -> Result<Vec<PassTime>, Error> {
         let ticks = self.gpu.as_ref().map(|gpu| gpu.read(device)).transpose()?;
         let period = f64::from(queue.get_timestamp_period());
-        let gpu_ms = |index: usize| {
+        let gpu_ms = |begin: usize, end: usize| {
             let ticks = ticks.as_ref()?;
-            let (begin, end) = (*ticks.get(index * 2)?, *ticks.get(index * 2 + 1)?);
+            let (begin, end) = (*ticks.get(begin)?, *ticks.get(end)?);
             (end >= begin && begin != 0).then(|| (end - begin) as f64 * period * 1e-6)
         };
-        let times = self.passes.iter().zip(&self.cpu).enumerate().map(|(index, (&pass, cpu))| PassTime {
-            pass: plan.pass_path(pass),
-            node: plan.pass(pass).node.map(|node| plan.node_path(node)).unwrap_or_default(),
-            cpu_ms: cpu.as_secs_f64() * 1e3,
-            gpu_ms: gpu_ms(index),
+        let times = self.passes.iter().zip(&self.cpu).enumerate().map(|(place, (&pass, cpu))| {
+            let (begin, end, shared_by) = self.measured(place, plan);
+            PassTime {
+                pass: plan.pass_path(pass),
+                node: plan.pass(pass).node.map(|node| plan.node_path(node)).unwrap_or_default(),
+                cpu_ms: cpu.load(Ordering::Relaxed) as f64 * 1e-6,
+                gpu_ms: gpu_ms(begin, end),
+                shared_by,
+            }
         });
         Ok(times.collect())
     }
@@ -129,6 +168,7 @@ impl Queries {
             resolved: buffer("pass times, resolved", Usage::QUERY_RESOLVE | Usage::COPY_SRC),
             readable: buffer("pass times, readable", Usage::MAP_READ | Usage::COPY_DST),
             inside_encoders: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS),
+            inside_passes: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
         }
     }
 

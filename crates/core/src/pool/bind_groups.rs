@@ -1,75 +1,103 @@
 //! Bind groups by what they bind: the same views and buffers get the same group.
 
-use std::collections::HashMap;
+use crate::error::Error;
+use crate::part::Part;
+use rustc_hash::{FxHashMap, FxHasher};
+use std::hash::{Hash, Hasher};
 use std::num::NonZeroU64;
 
-/// One bound object. Equality is identity of the wgpu object, so a group never outlives a change of slots.
-#[derive(Clone, PartialEq, Eq, Hash)]
-pub(crate) enum Entry {
+/// One bound object. Equality is identity of the wgpu object, which is never that of another, so a group is found
+/// again exactly as long as what it binds is the same.
+#[derive(PartialEq, Eq, Hash)]
+pub(crate) enum Bound<'a> {
+    /// A part of a texture of the graph; its view is looked up only to create a group.
+    Texture(&'a wgpu::Texture, Part),
+    View(&'a wgpu::TextureView),
+    Sampler(&'a wgpu::Sampler),
+    Buffer(&'a wgpu::Buffer, u64, Option<NonZeroU64>),
+}
+
+/// What a group was created from.
+enum Kept {
+    Texture(wgpu::Texture, Part),
     View(wgpu::TextureView),
     Sampler(wgpu::Sampler),
-    Buffer { buffer: wgpu::Buffer, offset: u64, size: Option<NonZeroU64> },
+    Buffer(wgpu::Buffer, u64, Option<NonZeroU64>),
+}
+
+impl Kept {
+    fn of(bound: &Bound<'_>) -> Self {
+        match *bound {
+            Bound::Texture(texture, part) => Self::Texture(texture.clone(), part),
+            Bound::View(view) => Self::View(view.clone()),
+            Bound::Sampler(sampler) => Self::Sampler(sampler.clone()),
+            Bound::Buffer(buffer, offset, size) => Self::Buffer(buffer.clone(), offset, size),
+        }
+    }
+
+    fn is(&self, bound: &Bound<'_>) -> bool {
+        let own = match self {
+            Self::Texture(texture, part) => Bound::Texture(texture, *part),
+            Self::View(view) => Bound::View(view),
+            Self::Sampler(sampler) => Bound::Sampler(sampler),
+            Self::Buffer(buffer, offset, size) => Bound::Buffer(buffer, *offset, *size),
+        };
+        own == *bound
+    }
 }
 
 struct Cached {
+    layout: wgpu::BindGroupLayout,
+    entries: Vec<Kept>,
     group: wgpu::BindGroup,
     used: u64,
 }
 
+/// Bind groups by a hash of layout and entries; those that share one by chance lie in one list.
 #[derive(Default)]
 pub(crate) struct BindGroups {
     frame: u64,
-    groups: HashMap<(wgpu::BindGroupLayout, Vec<Entry>), Cached>,
+    groups: FxHashMap<u64, Vec<Cached>>,
 }
 
 impl BindGroups {
     /// Starts a frame and drops what was last used before frame `oldest`.
     pub(super) fn begin_frame(&mut self, frame: u64, oldest: u64) {
         self.frame = frame;
-        self.groups.retain(|_, cached| cached.used >= oldest);
+        self.groups.retain(|_, list| {
+            list.retain(|cached| cached.used >= oldest);
+            !list.is_empty()
+        });
     }
 
-    /// Returns the group that binds `entries` to bindings 0, 1, 2 and so on.
+    /// Returns the group that binds `entries` to bindings 0, 1, 2 and so on; `create` is asked where there is none.
     pub(crate) fn get(
         &mut self,
-        device: &wgpu::Device,
         layout: &wgpu::BindGroupLayout,
-        entries: Vec<Entry>,
-    ) -> wgpu::BindGroup {
-        let key = (layout.clone(), entries);
-        if let Some(cached) = self.groups.get_mut(&key) {
+        entries: &[Bound<'_>],
+        create: impl FnOnce() -> Result<wgpu::BindGroup, Error>,
+    ) -> Result<wgpu::BindGroup, Error> {
+        let mut hasher = FxHasher::default();
+        layout.hash(&mut hasher);
+        entries.hash(&mut hasher);
+        let list = self.groups.entry(hasher.finish()).or_default();
+        let same = |cached: &&mut Cached| {
+            cached.layout == *layout
+                && cached.entries.len() == entries.len()
+                && cached.entries.iter().zip(entries).all(|(kept, bound)| kept.is(bound))
+        };
+        if let Some(cached) = list.iter_mut().find(same) {
             cached.used = self.frame;
-            return cached.group.clone();
+            return Ok(cached.group.clone());
         }
-        let group = create(device, layout, &key.1);
-        self.groups.insert(key, Cached { group: group.clone(), used: self.frame });
-        group
+        let group = create()?;
+        let entries = entries.iter().map(Kept::of).collect();
+        list.push(Cached { layout: layout.clone(), entries, group: group.clone(), used: self.frame });
+        Ok(group)
     }
 
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
-        self.groups.len()
+        self.groups.values().map(Vec::len).sum()
     }
-}
-
-fn create(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, entries: &[Entry]) -> wgpu::BindGroup {
-    let entries: Vec<_> = entries
-        .iter()
-        .enumerate()
-        .map(|(binding, entry)| wgpu::BindGroupEntry {
-            binding: binding as u32,
-            resource: match entry {
-                Entry::View(view) => wgpu::BindingResource::TextureView(view),
-                Entry::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-                Entry::Buffer { buffer, offset, size } => {
-                    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                        buffer,
-                        offset: *offset,
-                        size: *size,
-                    })
-                }
-            },
-        })
-        .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }

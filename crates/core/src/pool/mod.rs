@@ -1,193 +1,147 @@
-//! The physical textures and buffers of slots, kept from frame to frame.
+//! What a graph keeps on one device from frame to frame.
 
 mod bind_groups;
+mod histories;
+mod slots;
+mod staging;
+mod uniforms;
+mod views;
 
-pub(crate) use bind_groups::{BindGroups, Entry};
+#[cfg(test)]
+mod tests;
 
-use crate::desc::{BufferDesc, ResourceDesc, TextureDesc};
+pub(crate) use bind_groups::{BindGroups, Bound};
+pub(crate) use histories::Histories;
+pub(crate) use slots::{Physical, SlotKey, Slots};
+pub(crate) use staging::{Staging, place};
+pub(crate) use uniforms::UniformBuffer;
+pub(crate) use views::{Purpose, Views, view};
+
+use crate::compiled::Compiled;
 use crate::error::Error;
-use crate::plan::SlotPlan;
-use slotmap::{SlotMap, new_key_type};
-use std::collections::HashMap;
+use crate::execute::{Pattern, Realised};
+use crate::internal::RegionClears;
+use crate::programs::Pipelines;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Frames that something may lie idle before it is dropped.
-const IDLE_FRAMES: u64 = 8;
-
-new_key_type! {
-    struct TextureKey;
-    struct BufferKey;
+/// How long and how much a graph keeps beyond what a frame needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PoolLimits {
+    /// Frames that a texture, buffer, view, bind group or history may lie idle before it is dropped.
+    pub idle_frames: u32,
+    /// Bytes of textures and buffers above which those that the frame does not need are dropped, the longest idle
+    /// first; `None` for no such limit. Histories count, but are not dropped for it.
+    pub budget_bytes: Option<u64>,
 }
 
-struct PooledTexture {
-    desc: TextureDesc,
-    texture: wgpu::Texture,
-    used: u64,
+impl Default for PoolLimits {
+    fn default() -> Self {
+        Self { idle_frames: 8, budget_bytes: None }
+    }
 }
 
-struct PooledBuffer {
-    desc: BufferDesc,
-    buffer: wgpu::Buffer,
-    used: u64,
-}
-
-struct CachedView {
-    view: wgpu::TextureView,
-    used: u64,
-}
-
-/// Physical textures and buffers, their views and bind groups, reused from frame to frame.
-///
-/// One pool serves one device. What is not used for eight frames is dropped.
+/// Physical textures and buffers, views, bind groups and staging memory of one device.
 #[derive(Default)]
-pub struct Pool {
+pub(crate) struct Pool {
+    pub(crate) limits: PoolLimits,
+    pub(crate) poison: bool,
     frame: u64,
-    textures: SlotMap<TextureKey, PooledTexture>,
-    buffers: SlotMap<BufferKey, PooledBuffer>,
-    views: HashMap<(wgpu::Texture, wgpu::TextureAspect), CachedView>,
-    pub(crate) bind_groups: BindGroups,
+    pub(crate) slots: Slots,
+    pub(crate) histories: Histories,
+    pub(crate) staging: Staging,
+    pub(crate) uniforms: UniformBuffer,
+    /// What the last few plans stand on, the most recent first.
+    pub(crate) realised: Vec<Realised>,
+    caches: Mutex<Caches>,
 }
 
-/// What a slot or an import is made of.
-#[derive(Clone)]
-pub(crate) enum Physical {
-    Texture(wgpu::Texture),
-    Buffer(wgpu::Buffer),
+/// What passes look up while they are recorded, on several threads if need be.
+#[derive(Default)]
+pub(crate) struct Caches {
+    pub(crate) views: Views,
+    pub(crate) bind_groups: BindGroups,
+    pub(crate) clears: RegionClears,
+    pub(crate) pattern: Pattern,
+    pub(crate) pipelines: Pipelines,
 }
 
 impl Pool {
-    /// Creates an empty pool.
-    pub fn new() -> Self {
-        Self::default()
+    /// Switches the filling with loud values, for which objects need more usages.
+    pub(crate) fn set_poison(&mut self, on: bool) {
+        if self.poison != on {
+            self.poison = on;
+            self.realised.clear();
+        }
     }
 
-    /// Returns the bytes of all textures and buffers it holds, without the driver's padding.
-    pub fn bytes(&self) -> u64 {
-        let textures = self.textures.values().map(|t| t.desc.bytes()).sum::<u64>();
-        textures + self.buffers.values().map(|b| b.desc.bytes).sum::<u64>()
+    /// Returns the bytes of all textures and buffers, without the driver's padding.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.slots.bytes() + self.histories.bytes()
     }
 
     /// Starts a frame: everything is free again, and what has been idle for long goes.
-    pub(crate) fn begin_frame(&mut self) {
+    pub(crate) fn begin_frame(&mut self) -> u64 {
         self.frame += 1;
-        let oldest = self.frame.saturating_sub(IDLE_FRAMES);
-        self.textures.retain(|_, texture| texture.used >= oldest);
-        self.buffers.retain(|_, buffer| buffer.used >= oldest);
-        self.views.retain(|_, view| view.used >= oldest);
-        self.bind_groups.begin_frame(self.frame, oldest);
+        let oldest = self.oldest();
+        if self.slots.drop_idle(oldest) {
+            self.realised.clear();
+        }
+        self.staging.end_frame(self.limits.idle_frames);
+        let mut caches = self.caches();
+        caches.views.begin_frame(self.frame, oldest);
+        caches.bind_groups.begin_frame(self.frame, oldest);
+        caches.clears.begin_frame(self.frame, oldest);
+        caches.pipelines.begin_frame(self.frame, oldest);
+        drop(caches);
+        self.frame
     }
 
-    /// Returns something of the slot's shape that no other slot of this frame has.
-    ///
-    /// Slots ask in the same order every frame, so the same declaration gets the same textures.
-    pub(crate) fn acquire(
-        &mut self,
-        device: &wgpu::Device,
-        slot: &SlotPlan,
-        label: &str,
-    ) -> Result<Physical, Error> {
-        match slot.desc {
-            ResourceDesc::Texture(desc) => {
-                let frame = self.frame;
-                let fits = |t: &PooledTexture| {
-                    t.used < frame && t.desc == desc && t.texture.usage().contains(slot.texture_usage)
-                };
-                if let Some(pooled) = self.textures.values_mut().find(|t| fits(t)) {
-                    pooled.used = frame;
-                    return Ok(Physical::Texture(pooled.texture.clone()));
-                }
-                check_texture(device, label, &desc)?;
-                let texture = create_texture(device, slot, &desc, label);
-                self.textures.insert(PooledTexture { desc, texture: texture.clone(), used: frame });
-                Ok(Physical::Texture(texture))
-            }
-            ResourceDesc::Buffer(desc) => {
-                let frame = self.frame;
-                let fits = |b: &PooledBuffer| {
-                    b.used < frame && b.desc == desc && b.buffer.usage().contains(slot.buffer_usage)
-                };
-                if let Some(pooled) = self.buffers.values_mut().find(|b| fits(b)) {
-                    pooled.used = frame;
-                    return Ok(Physical::Buffer(pooled.buffer.clone()));
-                }
-                check_buffer(device, label, &desc, slot.buffer_usage)?;
-                let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(label),
-                    size: desc.bytes,
-                    usage: slot.buffer_usage,
-                    mapped_at_creation: false,
-                });
-                self.buffers.insert(PooledBuffer { desc, buffer: buffer.clone(), used: frame });
-                Ok(Physical::Buffer(buffer))
-            }
+    /// What was last used before this frame goes.
+    fn oldest(&self) -> u64 {
+        self.frame.saturating_sub(self.limits.idle_frames.into())
+    }
+
+    /// Notes that a frame was recorded, for the histories that it used.
+    pub(crate) fn end_frame(&mut self, compiled: &Compiled<'_>) {
+        let oldest = self.oldest();
+        self.histories.leave(compiled, self.frame, oldest);
+    }
+
+    /// Returns an empty pool that has the pipelines of this one, for a frame that shall leave nothing but pipelines
+    /// behind; [`take_pipelines`](Self::take_pipelines) brings them back.
+    pub(crate) fn lend_pipelines(&mut self) -> Self {
+        let scratch = Self { limits: self.limits, frame: self.frame, ..Self::default() };
+        self.swap_pipelines(&scratch);
+        scratch
+    }
+
+    pub(crate) fn take_pipelines(&mut self, scratch: Self) {
+        self.swap_pipelines(&scratch);
+    }
+
+    fn swap_pipelines(&self, other: &Self) {
+        let (mut own, mut others) = (self.caches(), other.caches());
+        std::mem::swap(&mut own.clears, &mut others.clears);
+        std::mem::swap(&mut own.pipelines, &mut others.pipelines);
+    }
+
+    /// Drops what the frame does not use until the budget is kept.
+    pub(crate) fn keep_budget(&mut self) {
+        if let Some(budget) = self.limits.budget_bytes
+            && self.slots.drop_above(budget.saturating_sub(self.histories.bytes()), self.frame)
+        {
+            self.realised.retain(|realised| realised.frame == self.frame);
         }
     }
 
-    /// Returns the whole-texture view of one aspect.
-    pub(crate) fn view(&mut self, texture: &wgpu::Texture, aspect: wgpu::TextureAspect) -> wgpu::TextureView {
-        let frame = self.frame;
-        let cached = self.views.entry((texture.clone(), aspect)).or_insert_with(|| CachedView {
-            view: texture.create_view(&wgpu::TextureViewDescriptor { aspect, ..Default::default() }),
-            used: frame,
-        });
-        cached.used = frame;
-        cached.view.clone()
+    /// The caches; they are whole between any two statements, so a body that panicked did not spoil them.
+    pub(crate) fn caches(&self) -> MutexGuard<'_, Caches> {
+        self.caches.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-fn create_texture(device: &wgpu::Device, slot: &SlotPlan, desc: &TextureDesc, label: &str) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: desc.size,
-        mip_level_count: desc.mip_levels,
-        sample_count: desc.samples,
-        dimension: desc.dimension,
-        format: desc.format,
-        usage: slot.texture_usage,
-        view_formats: &[],
-    })
-}
-
-fn check_texture(device: &wgpu::Device, name: &str, desc: &TextureDesc) -> Result<(), Error> {
-    let limits = device.limits();
-    let side = u64::from(desc.size.width.max(desc.size.height));
-    let layers = u64::from(desc.size.depth_or_array_layers);
-    let (side_limit, side_name, layer_limit, layer_name) = match desc.dimension {
-        wgpu::TextureDimension::D1 => {
-            (limits.max_texture_dimension_1d, "max_texture_dimension_1d", 1, "layers of a 1D texture")
-        }
-        wgpu::TextureDimension::D2 => (
-            limits.max_texture_dimension_2d,
-            "max_texture_dimension_2d",
-            limits.max_texture_array_layers,
-            "max_texture_array_layers",
-        ),
-        wgpu::TextureDimension::D3 => (
-            limits.max_texture_dimension_3d,
-            "max_texture_dimension_3d",
-            limits.max_texture_dimension_3d,
-            "max_texture_dimension_3d",
-        ),
-    };
-    limit(name, side_name, side, side_limit.into())?;
-    limit(name, layer_name, layers, layer_limit.into())
-}
-
-fn check_buffer(
-    device: &wgpu::Device,
-    name: &str,
-    desc: &BufferDesc,
-    usage: wgpu::BufferUsages,
-) -> Result<(), Error> {
-    let limits = device.limits();
-    limit(name, "max_buffer_size", desc.bytes, limits.max_buffer_size)?;
-    if usage.contains(wgpu::BufferUsages::STORAGE) {
-        let allowed = limits.max_storage_buffer_binding_size;
-        limit(name, "max_storage_buffer_binding_size", desc.bytes, allowed)?;
-    }
-    Ok(())
-}
-
-fn limit(name: &str, limit: &'static str, needed: u64, allowed: u64) -> Result<(), Error> {
+/// An error if a resource needs more of something than the device allows.
+pub(crate) fn limit(name: &str, limit: &'static str, needed: u64, allowed: u64) -> Result<(), Error> {
     if needed <= allowed {
         return Ok(());
     }

@@ -16,7 +16,7 @@ pub use spread::Spread;
 
 use std::time::{Duration, Instant};
 
-use shadowgraph_core::{Format, Frame, PassTime, Pool, Timer};
+use shadowgraph_core::{Format, Graph, PassTime, Timer};
 
 use self::by_hand::ByHand;
 use crate::options::Aov;
@@ -34,7 +34,8 @@ pub struct FrameTime {
     pub plan: Duration,
     /// Declaring passes and resources, shadow planning included. The graph only.
     pub declare: Duration,
-    /// Making the plan. The graph only.
+    /// Making the plan, or finding it again: the frames of a comparison are equal, so only the first, which is not
+    /// measured, makes one. The graph only.
     pub compile: Duration,
     /// Recording all passes; by hand, writing the buffers too.
     pub record: Duration,
@@ -54,7 +55,7 @@ impl FrameTime {
 /// What a frame consists of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Render passes.
+    /// Render passes of the encoder: passes of a frame that are merged count as one.
     pub passes: usize,
     /// Buffers written from the CPU.
     pub uploads: usize,
@@ -118,18 +119,18 @@ fn compare_unchecked(
     let renderer = &*renderer;
     let view = renderer.view(options, Some(&target));
     let by_hand = ByHand::new(gpu, renderer, &view, &target)?;
-    let mut pool = Pool::new();
+    let mut graph = Graph::new();
     let mut comparison = Comparison { counts: by_hand.counts(), graph: Vec::new(), by_hand: Vec::new() };
     for pair in 0..pairs / 10 + 1 + pairs {
-        let (graph, hand) = if pair % 2 == 0 {
-            let graph = through_graph(gpu, renderer, &view, &mut pool)?;
-            (graph, by_hand.frame(gpu)?)
+        let (through, hand) = if pair % 2 == 0 {
+            let through = through_graph(gpu, renderer, &view, &mut graph)?;
+            (through, by_hand.frame(gpu)?)
         } else {
             let hand = by_hand.frame(gpu)?;
-            (through_graph(gpu, renderer, &view, &mut pool)?, hand)
+            (through_graph(gpu, renderer, &view, &mut graph)?, hand)
         };
         if pair > pairs / 10 {
-            comparison.graph.push(graph);
+            comparison.graph.push(through);
             comparison.by_hand.push(hand);
         }
         idle(gpu)?;
@@ -142,16 +143,16 @@ fn through_graph(
     gpu: &Gpu,
     renderer: &Renderer,
     view: &View<'_>,
-    pool: &mut Pool,
+    graph: &mut Graph,
 ) -> Result<FrameTime, Error> {
     let mut clock = Clock::start();
-    let mut frame = Frame::new();
+    let mut frame = graph.frame();
     pipelines::forward(&mut frame, renderer, view)?;
     let declare = clock.lap();
-    let compiled = frame.compile()?;
+    let compiled = graph.compile(frame)?;
     let compile = clock.lap();
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let executed = compiled.execute(pool, &gpu.device, &mut encoder)?;
+    let executed = compiled.execute(graph, &gpu.device, &mut encoder)?;
     let record = clock.lap();
     let commands = encoder.finish();
     let finish = clock.lap();

@@ -36,11 +36,11 @@ fn colours_are_drawn_straight_into_the_target_and_are_as_large_as_it() {
     let target = target(&gpu, [64, 36], Format::Bgra8UnormSrgb, TextureUsages::RENDER_ATTACHMENT);
     let executed = record(&gpu, Aov::Color, &target).unwrap();
     let plan = executed.plan();
-    let last = plan.live_passes().last().map(|id| plan.pass(id)).unwrap();
-    assert_eq!(last.name, "tonemap");
-    let reasons: Vec<_> = last.accesses.iter().filter_map(|access| access.ops).collect();
+    let last = *plan.order().last().unwrap();
+    assert_eq!(plan.pass(last).name, "tonemap");
+    let reasons: Vec<_> = plan.accesses(last).filter_map(|access| access.ops).collect();
     assert_eq!(reasons[0].store_reason, StoreReason::Imported);
-    let lit = plan.resources.iter().find(|resource| resource.name == "lit").unwrap();
+    let lit = plan.resource(plan.find_resource("lit").unwrap());
     assert_eq!(lit.desc.bytes(), 64 * 36 * 8);
 }
 
@@ -57,8 +57,35 @@ fn data_is_copied_into_a_target_that_fits_and_into_no_other() {
     let gpu = Gpu::noop().unwrap();
     let fits = target(&gpu, [64, 36], Format::Rgba8Unorm, TextureUsages::COPY_DST);
     let executed = record(&gpu, Aov::Normal, &fits).unwrap();
-    let last = executed.plan().live_passes().last().map(|id| &executed.plan().pass(id).name);
-    assert_eq!(last.map(String::as_str), Some("copy to target"));
+    let last = executed.plan().order().last().map(|&id| executed.plan().pass(id).name);
+    assert_eq!(last, Some("copy to target"));
     let other = target(&gpu, [64, 36], Format::Bgra8UnormSrgb, TextureUsages::COPY_DST);
     assert!(record(&gpu, Aov::Normal, &other).is_err());
+}
+
+#[test]
+fn equal_views_share_a_plan_and_other_sizes_do_not_analyse_the_frame_again() {
+    let gpu = Gpu::noop().unwrap();
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();
+    let options = ViewOptions { camera, size_px: [64, 36], shadows: ShadowSettings::default() };
+    let mut record = |size_px| {
+        let target = target(&gpu, size_px, Format::Bgra8UnormSrgb, TextureUsages::RENDER_ATTACHMENT);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let executed = renderer.record(&gpu, &mut encoder, &target, &options).unwrap();
+        gpu.queue.submit([encoder.finish()]);
+        (executed.shared_plan(), renderer.graph().plan_counts())
+    };
+    let (first, _) = record([64, 36]);
+    // The target is another texture in each frame, as a surface's is.
+    let (second, counts) = record([64, 36]);
+    assert!(Arc::ptr_eq(&first, &second));
+    assert_eq!((counts.compiled, counts.resized, counts.reused), (1, 0, 1));
+    let (other, counts) = record([32, 18]);
+    assert_eq!(other.order(), first.order());
+    assert_eq!((counts.compiled, counts.resized, counts.reused), (1, 1, 1));
+    let (back, counts) = record([64, 36]);
+    assert!(Arc::ptr_eq(&first, &back));
+    assert_eq!((counts.compiled, counts.resized, counts.reused), (1, 1, 2));
 }

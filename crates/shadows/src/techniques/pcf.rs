@@ -1,6 +1,6 @@
 //! `pcf`: cascades for the main light, an atlas for the others, percentage-closer filtering with a 5 x 5 tent.
 
-use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc};
 use shadowgraph_shaders::{ModuleSource, PCF};
 
 use crate::plan;
@@ -53,7 +53,7 @@ impl Pcf {
         }
     }
 
-    /// Adds the pass that draws a map, or imports the texel that means lit.
+    /// Adds the passes that draw a map, or imports the texel that means lit.
     fn map<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -63,44 +63,46 @@ impl Pcf {
         casters: &'f dyn ShadowCasters,
     ) -> Texture {
         let Some(plan) = plan else {
-            return frame.import_texture(format!("no {name}"), &self.lit, true);
+            return frame.import_texture(format_args!("no {name}"), &self.lit, true);
         };
         let [width, height] = plan.size_px;
         let mut map = frame.create_texture(name, TextureDesc::d2(width, height, MAP_FORMAT));
         frame.node(name, |frame| {
-            let mut pass = frame.render_pass(name);
-            let buffer = pass.storage_buffer(views.0);
-            pass.depth(&mut map, Contents::clear_depth(0.0));
-            let target = |tile: &TilePlan| CasterTarget {
-                format: MAP_FORMAT,
-                perspective: views.1[tile.view as usize].light.w != 0.0,
-            };
-            let tiles: Vec<_> = plan.tiles.into_iter().map(|tile| (target(&tile), tile)).collect();
-            let layout = &self.view_layout;
-            pass.body(move |ctx| {
-                let group = ctx.bind_group(layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
-                for (target, tile) in tiles.iter().filter(|(_, tile)| !tile.casters.is_empty()) {
-                    ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
-                    draw_tile(&mut ctx.pass, tile, *target, casters);
-                }
-                Ok(())
-            });
+            // All of the map, as shaders sample it whole and its tiles need not cover it. Tiles do not overlap, so
+            // nothing orders them among each other, and all become one render pass that begins with this clear.
+            frame.render_pass("clear").depth(&mut map, Contents::clear_depth(0.0));
+            for tile in plan.tiles.into_iter().filter(|tile| !tile.casters.is_empty()) {
+                self.tile(frame, &mut map, tile, views, casters);
+            }
         });
         map
     }
-}
 
-fn draw_tile(
-    pass: &mut wgpu::RenderPass<'_>,
-    tile: &TilePlan,
-    target: CasterTarget,
-    casters: &dyn ShadowCasters,
-) {
-    let rect = tile.rect;
-    let [x, y, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|px| px as f32);
-    pass.set_viewport(x, y, width, height, 0.0, 1.0);
-    pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
-    casters.draw(pass, target, &tile.casters);
+    /// Adds the pass that draws casters into a tile.
+    fn tile<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        map: &mut Texture,
+        tile: TilePlan,
+        (buffer, views): (&Buffer, &[ShadowView]),
+        casters: &'f dyn ShadowCasters,
+    ) {
+        let mut pass = match tile.cascade {
+            Some(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
+            None => frame.render_pass(format_args!("light {}", tile.light)),
+        };
+        let buffer = pass.storage_buffer(buffer);
+        // The graph keeps viewport and scissor to the tile.
+        pass.on(Part::WHOLE.rect(tile.rect.into())).depth(map, Contents::Preserve);
+        let perspective = views[tile.view as usize].light.w != 0.0;
+        let target = CasterTarget { format: MAP_FORMAT, perspective };
+        pass.body(move |ctx| {
+            let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
+            ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
+            casters.draw(&mut ctx.pass, target, &tile.casters);
+            Ok(())
+        });
+    }
 }
 
 impl ShadowTechnique for Pcf {

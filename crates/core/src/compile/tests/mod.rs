@@ -1,31 +1,37 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod compose;
 mod contents;
+mod counts;
 mod errors;
+mod faults;
+mod frames;
+mod graph;
+mod helpers;
+mod memory;
+mod merging;
+mod oracle;
+mod order;
+mod plans;
 mod random;
+mod regions;
 mod sharing;
+mod shuffle;
 
-use crate::{Contents, Format, Frame, PassId, Plan, Texture, TextureDesc};
-
-const BLACK: Contents = Contents::Clear(crate::ClearValue::Color([0.0; 4]));
-
-fn color(frame: &mut Frame<'_>, name: &str) -> Texture {
-    frame.create_texture(name, TextureDesc::d2(64, 64, Format::Rgba8Unorm))
+/// Bytes that look random, always the same ones for a seed.
+fn random_bytes(seed: u64, count: usize) -> Vec<u8> {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 32) as u8
+    };
+    (0..count + 16).map(|_| next()).skip(16).collect()
 }
 
-fn plan(frame: Frame<'_>) -> Plan {
-    frame.compile().unwrap().into_plan()
-}
-
-fn pass(plan: &Plan, name: &str) -> PassId {
-    PassId(plan.passes.iter().position(|p| p.name == name).unwrap() as u32)
-}
-
-/// Reads `from` and covers a new texture.
-fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Texture {
-    let mut to = color(frame, name);
-    let mut pass = frame.render_pass(name);
-    pass.sample(from);
-    pass.color(&mut to, Contents::Cover);
-    to
+/// Prints a line past the capture of the test harness: what was tried is part of the proof.
+fn print(line: &str) {
+    use std::io::Write as _;
+    let _closed = writeln!(std::io::stderr(), "{line}");
 }

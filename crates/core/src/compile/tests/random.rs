@@ -1,107 +1,129 @@
-//! Random frames against a simulation of their contents, pass by pass.
+//! Random frames, judged by the oracle.
 
-use crate::{Contents, Format, Frame, Plan, StoreAction, Texture, TextureDesc};
+use super::counts::Counts;
+use super::frames::{MISTAKES, Source, Spec, chaos_from_bytes, frame_from_bytes, small_frame_from_bytes};
+use super::oracle::{Model, Truth, judge};
+use super::print;
+use super::shuffle::shuffled;
+use crate::{Error, Frame, Graph, Plan};
 use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};
+use std::cell::Cell;
 
-/// One pass: which textures it reads, which it writes and how (clear, cover, preserve).
-type Step = (Vec<usize>, usize, u8);
-
-const TEXTURES: usize = 5;
-
-fn frame(steps: &[Step], exports: &[usize]) -> Option<Plan> {
-    let mut frame = Frame::new();
-    let mut textures: Vec<Texture> = (0..TEXTURES)
-        .map(|i| {
-            // Two shapes, so that some can share and some cannot.
-            frame.create_texture(format!("t{i}"), TextureDesc::d2(8 + (i as u32 % 2), 8, Format::Rgba8Unorm))
-        })
-        .collect();
-    let mut defined = [false; TEXTURES];
-    for (index, (reads, write, how)) in steps.iter().enumerate() {
-        let mut pass = frame.render_pass(format!("p{index}"));
-        for &read in reads.iter().filter(|&&read| read != *write && defined[read]) {
-            pass.sample(&textures[read]);
-        }
-        let contents = match how {
-            0 => Contents::clear_color([0.0; 4]),
-            1 => Contents::Cover,
-            _ if defined[*write] => Contents::Preserve,
-            _ => Contents::Cover,
-        };
-        pass.color(&mut textures[*write], contents);
-        defined[*write] = true;
+/// Runs as many cases on up to `length` bytes, always the same ones unless `PROPTEST_CASES` and `PROPTEST_RNG_SEED` say
+/// otherwise.
+fn run(cases: u32, length: usize, test: impl Fn(&[u8]) -> Result<(), TestCaseError>) {
+    let default = Config::default();
+    let rng_seed = match default.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(1),
+        fixed => fixed,
+    };
+    let config = Config { cases: cases.max(default.cases), rng_seed, failure_persistence: None, ..default };
+    let bytes = proptest::collection::vec(any::<u8>(), 32..length);
+    match TestRunner::new(config).run(&bytes, |bytes| test(&bytes)) {
+        Ok(()) => {}
+        Err(TestError::Fail(reason, bytes)) => panic!("{reason}\nfrom the bytes {bytes:?}"),
+        Err(TestError::Abort(reason)) => panic!("{reason}"),
     }
-    for &export in exports.iter().filter(|&&e| defined[e]) {
-        frame.export_texture(&textures[export]);
-    }
-    Some(frame.compile().ok()?.into_plan())
 }
 
-/// Runs the plan on slots that hold "who wrote this": every read must find the version it named.
-fn simulate(plan: &Plan) -> Result<(), String> {
-    let mut slots: Vec<Option<(u32, u32)>> = vec![None; plan.slots.len()];
-    for id in plan.live_passes() {
-        let pass = plan.pass(id);
-        for access in &pass.accesses {
-            let resource = plan.resource(access.resource);
-            let slot = &mut slots[resource.slot.ok_or("a live resource without a slot")?.index()];
-            let reads = access.contents.is_none_or(|contents| contents.preserves());
-            let expected = (access.resource.0, access.version);
-            if reads && *slot != Some(expected) {
-                return Err(format!("{} reads {expected:?} but finds {slot:?}", pass.name));
+fn compile(frame: Frame<'_>) -> Result<Plan, Error> {
+    frame.compile().map(|compiled| compiled.into_plan())
+}
+
+fn check(spec: &Spec, counts: &Counts) -> Result<(), TestCaseError> {
+    let (frame, names) = spec.build();
+    match (compile(frame), Truth::new(&Model::new(spec)).invalid) {
+        (Ok(plan), None) => {
+            counts.frame(spec, &plan);
+            let breaches = judge(spec, &names, &plan);
+            prop_assert!(breaches.is_empty(), "{breaches:#?}\n{}\n{spec}", plan.to_text());
+            let again = compile(spec.build().0).unwrap();
+            prop_assert!(plan == again, "compiled twice it differs\n{spec}");
+            // The text is long, and follows from the plan.
+            if counts.of("frames").is_multiple_of(16) {
+                prop_assert_eq!(plan.to_json().unwrap(), again.to_json().unwrap());
             }
         }
-        for access in pass.accesses.iter().filter(|a| a.access.writes()) {
-            let slot = plan.resource(access.resource).slot.ok_or("no slot")?;
-            let stored = access.ops.ok_or("an attachment without ops")?.store == StoreAction::Store;
-            slots[slot.index()] = stored.then_some((access.resource.0, access.version + 1));
+        (Err(error), Some(invalid)) => {
+            counts.add("refused frames", 1);
+            prop_assert_eq!(error.code(), invalid.code(), "{}", spec);
         }
-    }
-    for (index, resource) in plan.resources.iter().enumerate().filter(|(_, r)| r.exported) {
-        let accesses = plan.passes.iter().flat_map(|pass| &pass.accesses);
-        let writes = accesses.filter(|a| a.resource.index() == index && a.access.writes()).count() as u32;
-        let slot = resource.slot.ok_or("an export without a slot")?;
-        if slots[slot.index()] != Some((index as u32, writes)) {
-            return Err(format!(
-                "the slot of the exported {} holds {:?}",
-                resource.name,
-                slots[slot.index()]
-            ));
-        }
+        (Ok(_), Some(invalid)) => prop_assert!(false, "not refused: {invalid:?}\n{spec}"),
+        (Err(error), None) => prop_assert!(false, "refused: {error}\n{spec}"),
     }
     Ok(())
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2_000) })]
-
-    #[test]
-    fn every_read_finds_the_version_it_named(
-        steps in prop::collection::vec((prop::collection::vec(0..TEXTURES, 0..3), 0..TEXTURES, 0u8..4), 1..14),
-        exports in prop::collection::vec(0..TEXTURES, 1..3),
-    ) {
-        let plan = frame(&steps, &exports).expect("random frames are valid");
-        prop_assert!(simulate(&plan).is_ok(), "{:?}\n{}", simulate(&plan), plan.to_text());
-        let before_after = |d: &crate::Dependency| d.before < d.after;
-        prop_assert!(plan.dependencies.iter().all(before_after));
-        prop_assert_eq!(&plan, &frame(&steps, &exports).expect("again"));
-    }
+#[test]
+fn every_rule_holds_on_20_000_random_frames_in_any_order_of_declaration() {
+    let counts = Counts::default();
+    run(21_000, 900, |bytes| {
+        let spec = frame_from_bytes(bytes);
+        check(&spec, &counts)?;
+        let shuffled = shuffled(&spec, &mut Source::new(bytes));
+        if shuffled != spec {
+            let (frame, names) = shuffled.build();
+            let Ok(plan) = compile(frame) else { return Ok(()) };
+            counts.add("frames declared in another order", 1);
+            let breaches = judge(&shuffled, &names, &plan);
+            prop_assert!(breaches.is_empty(), "{breaches:#?}\n{}\n{shuffled}", plan.to_text());
+        }
+        Ok(())
+    });
+    counts.print("random frames");
+    counts.assert_rich();
 }
 
 #[test]
-fn the_simulation_catches_a_store_that_was_lost() {
-    let steps = [(vec![], 0, 0), (vec![0], 1, 1)];
-    let mut plan = frame(&steps, &[1]).expect("valid");
-    assert!(simulate(&plan).is_ok());
-    plan.passes[0].accesses[0].ops.as_mut().expect("ops").store = StoreAction::Discard;
-    assert!(simulate(&plan).is_err());
+fn a_mistake_in_a_random_frame_gives_its_error() {
+    let made = Cell::new(0);
+    run(2_000, 600, |bytes| {
+        let spec = small_frame_from_bytes(&bytes[1..], 12);
+        let (code, mistake) = MISTAKES[usize::from(bytes[0]) % MISTAKES.len()];
+        let (mut frame, _) = spec.build();
+        mistake(&mut frame);
+        made.set(made.get() + 1);
+        let error = compile(frame).err();
+        prop_assert_eq!(error.as_ref().map(Error::code), Some(code), "{:?}\n{}", error, spec);
+        Ok(())
+    });
+    print(&format!("frames with a mistake: {} of {} kinds", made.get(), MISTAKES.len()));
 }
 
 #[test]
-fn the_simulation_catches_a_slot_shared_too_early() {
-    let steps = [(vec![], 0, 0), (vec![], 2, 0), (vec![0, 2], 1, 1)];
-    let mut plan = frame(&steps, &[1]).expect("valid");
-    assert!(simulate(&plan).is_ok());
-    plan.resources[2].slot = plan.resources[0].slot;
-    assert!(simulate(&plan).is_err());
+fn no_call_with_any_argument_panics() {
+    let (valid, invalid) = (Cell::new(0), Cell::new(0));
+    run(8_000, 160, |bytes| {
+        let mut frame = chaos_from_bytes(bytes);
+        // Also what is checked after the first mistake must not panic.
+        let decl = frame.decl.clone();
+        let _ignored = crate::compile::compile(decl);
+        let count =
+            if frame.check().and_then(|()| compile(frame).map(drop)).is_ok() { &valid } else { &invalid };
+        count.set(count.get() + 1);
+        Ok(())
+    });
+    print(&format!("frames of random calls: {} valid, {} refused", valid.get(), invalid.get()));
+}
+
+#[test]
+fn a_frame_of_another_size_gets_the_plan_that_a_full_compile_would_make() {
+    let (resized, reused) = (Cell::new(0), Cell::new(0));
+    run(4_000, 600, |bytes| {
+        let spec = small_frame_from_bytes(bytes, 14);
+        let larger = spec.scaled(2);
+        let mut graph = Graph::new();
+        for spec in [&spec, &larger, &spec, &larger] {
+            let mut frame = graph.frame();
+            spec.build_in(&mut frame);
+            let planned = graph.compile(frame).map(|compiled| compiled.into_plan());
+            prop_assert!(planned == compile(spec.build().0), "another plan\n{}", spec);
+        }
+        resized.set(resized.get() + graph.plan_counts().resized);
+        reused.set(reused.get() + graph.plan_counts().reused);
+        Ok(())
+    });
+    print(&format!("plans: {} resized, {} reused", resized.get(), reused.get()));
+    assert!(resized.get() > 400 && reused.get() > 4_000);
 }

@@ -8,6 +8,7 @@ use crate::commands::{self, Input};
 use crate::console;
 use crate::failure::Failure;
 use crate::progress::Progress;
+use crate::report;
 use shadowgraph::bench::{Comparison, FrameTime, Spread, compare, pass_times};
 use shadowgraph::core::PassTime;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
@@ -115,13 +116,14 @@ fn ratio(spread: Spread) -> String {
 /// The passes as a table. Their names hold the nodes they belong to.
 fn pass_table(passes: &[PassTime]) -> String {
     let mut out = format!("  {:<66}{:>14}{:>14}\n", "pass", "CPU us", "GPU ms");
-    let gpu_ms = passes.iter().filter_map(|pass| pass.gpu_ms).reduce(|a, b| a + b);
-    let cpu_ms = passes.iter().map(|pass| pass.cpu_ms).sum();
-    let rows = passes.iter().map(|pass| (pass.pass.as_str(), pass.cpu_ms, pass.gpu_ms));
-    for (name, cpu_ms, gpu_ms) in rows.chain([("all", cpu_ms, gpu_ms)]) {
+    let mut row = |name: &str, cpu_ms: f64, gpu_ms: Option<f64>, note: &str| {
         let gpu = gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}"));
-        let _ = writeln!(out, "  {name:<66}{:>14.1}{gpu:>14}", cpu_ms * 1e3);
+        let _ = writeln!(out, "  {name:<66}{:>14.1}{gpu:>14}{note}", cpu_ms * 1e3);
+    };
+    for pass in passes {
+        row(&pass.pass, pass.cpu_ms, pass.gpu_ms, &report::sharing(pass));
     }
+    row("all", passes.iter().map(|pass| pass.cpu_ms).sum(), report::gpu_sum_ms(passes), "");
     out
 }
 
@@ -152,13 +154,23 @@ mod tests {
 
     #[test]
     fn passes_are_told_in_order_with_their_sum() {
-        let pass =
-            |pass: &str, gpu_ms| PassTime { pass: pass.into(), node: String::new(), cpu_ms: 0.5, gpu_ms };
-        let text = pass_table(&[pass("shadows/atlas/atlas", Some(1.5)), pass("picture/tonemap", None)]);
+        let pass = |pass: &str, gpu_ms, shared_by| PassTime {
+            pass: pass.into(),
+            node: String::new(),
+            cpu_ms: 0.5,
+            gpu_ms,
+            shared_by,
+        };
+        let text = pass_table(&[
+            pass("shadows/atlas/clear", Some(1.5), 2),
+            pass("shadows/atlas/lamp", Some(1.5), 2),
+            pass("picture/tonemap", None, 1),
+        ]);
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
-        assert_eq!(rows[1], ["shadows/atlas/atlas", "500.0", "1.500"]);
-        assert_eq!(rows[2], ["picture/tonemap", "500.0", "-"]);
-        assert_eq!(rows[3], ["all", "1000.0", "1.500"]);
+        assert_eq!(rows[1], ["shadows/atlas/clear", "500.0", "1.500", "all", "2", "merged"]);
+        assert_eq!(rows[2], ["shadows/atlas/lamp", "500.0", "1.500", "all", "2", "merged"]);
+        assert_eq!(rows[3], ["picture/tonemap", "500.0", "-"]);
+        assert_eq!(rows[4], ["all", "1500.0", "1.500"]);
         assert!(text.lines().all(|line| line.len() <= 110), "{text}");
     }
 

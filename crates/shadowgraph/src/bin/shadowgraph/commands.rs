@@ -1,6 +1,7 @@
 //! The commands, one call per step.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::args::{DrawArgs, DumpArgs, Format, RenderArgs};
 use crate::console;
@@ -98,7 +99,7 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
 
 /// What `dump` tells.
 pub(crate) struct Planned {
-    pub(crate) plan: Plan,
+    pub(crate) plan: Arc<Plan>,
     /// Empty unless they were asked for.
     pub(crate) times: Vec<PassTime>,
     pub(crate) unshadowed: Vec<Unshadowed>,

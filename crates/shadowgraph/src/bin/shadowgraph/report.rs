@@ -79,13 +79,26 @@ pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
         let _ = writeln!(out, "  {}", if node.is_empty() { "(no node)" } else { node });
         for time in of_node() {
             let name = time.pass.rsplit('/').next().unwrap_or_default();
-            let _ = writeln!(out, "    {name:<58} {}", columns(time.cpu_ms, time.gpu_ms));
+            let _ = writeln!(out, "    {name:<58} {}{}", columns(time.cpu_ms, time.gpu_ms), sharing(time));
         }
     }
-    let gpu_ms = times.iter().filter_map(|time| time.gpu_ms).reduce(|a, b| a + b);
     let cpu_ms = times.iter().map(|time| time.cpu_ms).sum();
-    let _ = writeln!(out, "  {:<60} {}", "sum", columns(cpu_ms, gpu_ms));
+    let _ = writeln!(out, "  {:<60} {}", "sum", columns(cpu_ms, gpu_sum_ms(times)));
     out
+}
+
+/// What is to be known of a pass's GPU time: passes that were merged may have one time together.
+pub(crate) fn sharing(time: &PassTime) -> String {
+    if time.gpu_ms.is_none() || time.shared_by <= 1 {
+        return String::new();
+    }
+    format!("  all {} merged", time.shared_by)
+}
+
+/// The GPU time of all passes. A time that several share counts once.
+pub(crate) fn gpu_sum_ms(times: &[PassTime]) -> Option<f64> {
+    let share = |time: &PassTime| Some(time.gpu_ms? / f64::from(time.shared_by.max(1)));
+    times.iter().filter_map(share).reduce(|a, b| a + b)
 }
 
 fn columns(cpu_ms: f64, gpu_ms: Option<f64>) -> String {
@@ -125,6 +138,7 @@ mod tests {
             node: node.into(),
             cpu_ms: 1.0,
             gpu_ms,
+            shared_by: 1,
         };
         let list = [time("a/x", "a", Some(2.0)), time("y", "", None), time("a/z", "a", Some(0.5))];
         let table = columns(3.0, Some(2.5));
@@ -133,5 +147,23 @@ mod tests {
         assert!(text.contains(&table), "{text}");
         let (a, z, none) = (text.find("  a\n"), text.find("    z"), text.find("(no node)"));
         assert!(a < z && z < none, "{text}");
+    }
+
+    #[test]
+    fn a_time_that_merged_passes_share_is_said_to_be_so_and_counts_once() {
+        let time = |pass: &str, gpu_ms, shared_by| PassTime {
+            pass: format!("map/{pass}"),
+            node: "map".into(),
+            cpu_ms: 1.0,
+            gpu_ms,
+            shared_by,
+        };
+        let merged = ["clear", "first", "second"].map(|pass| time(pass, Some(6.0), 3));
+        let list = [merged.as_slice(), &[time("alone", Some(0.5), 1), time("unknown", None, 3)]].concat();
+        let text = times(&list, &shadowgraph::Gpu::noop().unwrap().adapter);
+        assert_eq!(text.matches("6.000  all 3 merged").count(), 3, "{text}");
+        assert_eq!(text.matches("merged").count(), 3, "{text}");
+        assert!(text.ends_with(&format!("{}\n", columns(5.0, Some(6.5)))), "{text}");
+        assert!(text.lines().all(|line| line.len() <= 110), "{text}");
     }
 }

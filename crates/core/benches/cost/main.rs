@@ -1,0 +1,98 @@
+//! What a frame costs on the CPU: `cargo bench -p shadowgraph-core --bench cost`.
+//!
+//! Criterion keeps the statistics of single figures; the table at the end holds them against their targets, and
+//! whole frames against the same passes written by hand, both sides taking turns in this one run. With
+//! `-- table` only the table is made. Without the feature `gpu` only declaring and compiling are measured.
+#![allow(clippy::expect_used, clippy::print_stdout, reason = "a benchmark")]
+
+mod frames;
+mod graph;
+mod measure;
+mod table;
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use frames::Change;
+use frames::chain::Chain;
+use graph::{Declared, Source};
+use measure::{Subject, measure, timed};
+use table::{Table, Target};
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    single_figures(&mut criterion);
+    criterion.final_summary();
+    // Listing, profiling, and the one run that `cargo test --benches` asks for measure nothing.
+    let measures_nothing = ["--test", "--list", "--profile-time"];
+    if !std::env::args().any(|argument| measures_nothing.contains(&argument.as_str())) {
+        let mut table = Table::default();
+        declaring(&mut table);
+        growth(&mut table);
+        real_frame(&mut table);
+        table.print();
+    }
+}
+
+fn single_figures(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("declare and compile");
+    for length in [100, 3_000] {
+        let chain = Chain::new(length);
+        group.throughput(Throughput::Elements(length as u64));
+        for change in Change::ALL {
+            let mut declared = Declared::new(Source::Chain(&chain), change);
+            let id = BenchmarkId::new(change.word(), length);
+            group.bench_function(id, |bencher| bencher.iter(|| declared.frame()));
+        }
+    }
+    group.throughput(Throughput::Elements(frames::real::PASSES as u64));
+    for change in Change::ALL {
+        let mut declared = Declared::new(Source::Real, change);
+        let id = BenchmarkId::new(change.word(), "real");
+        group.bench_function(id, |bencher| bencher.iter(|| declared.frame()));
+    }
+    group.finish();
+}
+
+/// A subject that declares and compiles.
+fn declares<'c>(source: Source<'c>, change: Change) -> Subject<'c> {
+    let mut declared = Declared::new(source, change);
+    timed(move || {
+        declared.frame();
+    })
+}
+
+/// A subject that declares and compiles, of which compiling counts.
+fn compiles<'c>(source: Source<'c>, change: Change) -> Subject<'c> {
+    let mut declared = Declared::new(source, change);
+    Box::new(move || declared.frame())
+}
+
+fn declaring(table: &mut Table) {
+    table.heading("declare and compile, each pass");
+    for length in [100, 3_000] {
+        let chain = Chain::new(length);
+        let measured = measure(Change::ALL.map(|change| declares(Source::Chain(&chain), change)));
+        let targets = [Target::Micros(0.15), Target::Micros(1.0), Target::None];
+        for ((change, measured), target) in Change::ALL.into_iter().zip(measured).zip(targets) {
+            let figure = format!("{length} passes, {}", change.word());
+            table.row(&figure, measured.seconds / length as f64, None, target);
+        }
+    }
+}
+
+fn growth(table: &mut Table) {
+    table.heading("compile");
+    let chains = [1_000, 10_000].map(Chain::new);
+    let subjects = chains.each_ref().map(|chain| compiles(Source::Chain(chain), Change::Always));
+    let [short, long] = measure(subjects);
+    table.row("1,000 passes", short.seconds, None, Target::None);
+    table.row("10,000 passes, against 1,000", long.seconds, Some(long.ratio), Target::Times(12.0));
+}
+
+fn real_frame(table: &mut Table) {
+    table.heading("declare and compile, 65 passes with 350 accesses");
+    let measured = measure(Change::ALL.map(|change| declares(Source::Real, change)));
+    let targets = [Target::Micros(10.0), Target::Micros(60.0), Target::None];
+    for ((change, measured), target) in Change::ALL.into_iter().zip(measured).zip(targets) {
+        table.row(change.word(), measured.seconds, None, target);
+    }
+}

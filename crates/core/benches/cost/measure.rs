@@ -1,0 +1,71 @@
+//! Medians of several subjects that take turns, so that whatever else the machine does falls on all of them alike.
+
+use std::time::{Duration, Instant};
+
+/// Times one frame: runs it and returns the time that counts.
+pub(crate) type Subject<'s> = Box<dyn FnMut() -> Duration + 's>;
+
+/// How many times each subject has its turn.
+const ROUNDS: usize = 151;
+/// A turn lasts about so long, in as many frames as that takes.
+const TURN: Duration = Duration::from_millis(2);
+
+/// What was measured of one subject.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Measured {
+    /// Median time of a frame in seconds.
+    pub(crate) seconds: f64,
+    /// Median, over the rounds, of the time against that of the first subject in the same round.
+    pub(crate) ratio: f64,
+}
+
+/// A subject that counts all of its time.
+pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Subject<'s> {
+    Box::new(move || {
+        let start = Instant::now();
+        frame();
+        start.elapsed()
+    })
+}
+
+/// Lets the subjects take turns.
+pub(crate) fn measure<const N: usize>(mut subjects: [Subject<'_>; N]) -> [Measured; N] {
+    let frames = subjects.each_mut().map(|subject| frames(subject));
+    let mut rounds: Vec<[f64; N]> = Vec::with_capacity(ROUNDS);
+    for round in 0..ROUNDS {
+        let mut seconds = [0.0; N];
+        for turn in 0..N {
+            // Every other round goes backwards, so that each follows each.
+            let at = if round % 2 == 0 { turn } else { N - 1 - turn };
+            seconds[at] = turn_of(&mut subjects[at], frames[at]);
+        }
+        rounds.push(seconds);
+    }
+    std::array::from_fn(|at| Measured {
+        seconds: median(rounds.iter().map(|seconds| seconds[at])),
+        ratio: median(rounds.iter().map(|seconds| seconds[at] / seconds[0])),
+    })
+}
+
+/// Warms a subject up, and returns the frames of its turn.
+fn frames(subject: &mut Subject<'_>) -> u32 {
+    let start = Instant::now();
+    let mut count = 0;
+    while start.elapsed() < TURN * 10 {
+        subject();
+        count += 1;
+    }
+    (count / 10).max(1)
+}
+
+/// The seconds of a frame.
+fn turn_of(subject: &mut Subject<'_>, frames: u32) -> f64 {
+    let time: Duration = (0..frames).map(|_| subject()).sum();
+    time.as_secs_f64() / f64::from(frames)
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

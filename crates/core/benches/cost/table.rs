@@ -1,0 +1,45 @@
+//! The table of what frames may cost and what they do.
+
+use std::fmt::Write as _;
+
+/// Rows under headings.
+#[derive(Default)]
+pub(crate) struct Table {
+    text: String,
+    missed: u32,
+}
+
+/// What a figure must not exceed.
+#[derive(Clone, Copy)]
+pub(crate) enum Target {
+    /// Microseconds.
+    Micros(f64),
+    /// Times the reference.
+    Times(f64),
+    /// It is told for comparison only.
+    None,
+}
+
+impl Table {
+    pub(crate) fn heading(&mut self, heading: &str) {
+        _ = writeln!(self.text, "\n{heading:<58}{:>13}{:>10}{:>12}", "measured", "ratio", "target");
+    }
+
+    /// Adds a figure in seconds, and where there is a reference its ratio to that.
+    pub(crate) fn row(&mut self, figure: &str, seconds: f64, ratio: Option<f64>, target: Target) {
+        let micros = seconds * 1e6;
+        let (target, missed) = match target {
+            Target::Micros(most) => (format!("{most} us"), micros > most),
+            Target::Times(most) => (format!("{most} x"), ratio.is_some_and(|ratio| ratio > most)),
+            Target::None => (String::new(), false),
+        };
+        let ratio = ratio.map(|ratio| format!("{ratio:.2} x")).unwrap_or_default();
+        let mark = if missed { "  MISSED" } else { "" };
+        self.missed += u32::from(missed);
+        _ = writeln!(self.text, "  {figure:<56}{micros:>10.3} us{ratio:>10}{target:>12}{mark}");
+    }
+
+    pub(crate) fn print(&self) {
+        println!("{}\n{} targets missed", self.text, self.missed);
+    }
+}

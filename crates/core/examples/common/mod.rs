@@ -1,0 +1,21 @@
+//! What the examples share: a device, and a PNG file.
+
+use shadowgraph_core::wgpu;
+use std::error::Error;
+use std::path::Path;
+
+/// Opens the first adapter that there is.
+pub(crate) fn open() -> Result<(wgpu::Device, wgpu::Queue), Box<dyn Error>> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
+    Ok(pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?)
+}
+
+/// Writes `out/NAME.png` from rows of red, green, blue, alpha, a byte each.
+pub(crate) fn save(name: &str, width: u32, height: u32, rgba: &[u8]) -> Result<(), Box<dyn Error>> {
+    std::fs::create_dir_all("out")?;
+    let path = Path::new("out").join(name).with_extension("png");
+    image::save_buffer(&path, rgba, width, height, image::ColorType::Rgba8)?;
+    println!("wrote {}", path.display());
+    Ok(())
+}

@@ -1,0 +1,165 @@
+//! Operations of resources that are touched in parts. An attachment loads and stores whole mips and layers, so what
+//! other parts of them hold must be known.
+
+use super::{after_the_frame, declared_clear, drawn, within, zero};
+use crate::compile::coverage::Coverage;
+use crate::declaration::{AccessDecl, Change, Declaration};
+use crate::desc::ResourceDesc;
+use crate::handle::{PassId, ResourceId};
+use crate::part::{Area, AreaSet};
+use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
+use wgpu_types::TextureDimension;
+
+/// One access to a resource, in the final order.
+struct Touch<'d> {
+    pass: PassId,
+    step: u32,
+    index: usize,
+    access: &'d AccessDecl,
+    area: Area,
+}
+
+pub(super) fn ops(
+    decl: &Declaration,
+    order: &[PassId],
+    steps: &[(u32, u32)],
+    ops: &mut [Option<AttachmentOps>],
+) {
+    let mut touches: Vec<Vec<Touch<'_>>> = (0..decl.resources.len()).map(|_| Vec::new()).collect();
+    for (step, &(start, end)) in steps.iter().enumerate() {
+        for &pass in &order[start as usize..end as usize] {
+            for (access, index) in decl.accesses(pass).iter().zip(decl.access_range(pass)) {
+                if decl.resource(access.resource).in_parts {
+                    let area = decl.area(access).copied().unwrap_or(Area::EVERYTHING);
+                    let touch = Touch { pass, step: step as u32, index, access, area };
+                    touches[access.resource.index()].push(touch);
+                }
+            }
+        }
+    }
+    for (index, touches) in touches.iter().enumerate().filter(|(_, touches)| !touches.is_empty()) {
+        Walk { decl, resource: ResourceId(index as u32), touches }.ops(ops);
+    }
+}
+
+/// Who needs contents that are there.
+enum Need {
+    Pass(PassId),
+    After(StoreReason),
+    None(StoreReason),
+}
+
+/// All touches of one resource.
+struct Walk<'d> {
+    decl: &'d Declaration,
+    resource: ResourceId,
+    touches: &'d [Touch<'d>],
+}
+
+impl Walk<'_> {
+    fn ops(&self, ops: &mut [Option<AttachmentOps>]) {
+        let mut defined = Coverage::all_if(self.decl.resource(self.resource).origin.defined());
+        let mut start = 0;
+        while start < self.touches.len() {
+            let step = self.touches[start].step;
+            let end = start + self.touches[start..].iter().take_while(|touch| touch.step == step).count();
+            let before = defined.clone();
+            for touch in self.touches[start..end].iter().filter(|touch| touch.access.contents.writes()) {
+                defined.add(self.decl.area(touch.access));
+            }
+            for at in (start..end).filter(|&at| drawn(self.touches[at].access)) {
+                ops[self.touches[at].index] = Some(self.attachment((start, end), at, &before, &defined));
+            }
+            start = end;
+        }
+    }
+
+    /// The operations of one of the accesses `start..end` that share a step.
+    fn attachment(
+        &self,
+        (start, end): (usize, usize),
+        at: usize,
+        before: &Coverage,
+        after: &Coverage,
+    ) -> AttachmentOps {
+        let touch = &self.touches[at];
+        let whole = touch.area.without_rect();
+        let of_attachment =
+            |at: &usize| drawn(self.touches[*at].access) && self.touches[*at].area.without_rect() == whole;
+        let first = (start..end).find(of_attachment).unwrap_or(at);
+        let last = (start..end).rev().find(of_attachment).unwrap_or(at);
+        let load = self.load(first, before);
+        let clear_drawn = declared_clear(self.decl, touch.access).is_some_and(|value| {
+            let drawn_over = self.touches[first..at].iter().any(|other| other.area.overlaps(&touch.area));
+            load.0 != LoadAction::Clear(value) || drawn_over
+        });
+        // wgpu knows no slices of a volume: one that is discarded counts as all of its mip.
+        let kept_together = if self.is_volume() { whole.all_layers() } else { whole };
+        let store = match self.need(after.within(&kept_together), end) {
+            Need::Pass(pass) => (StoreAction::Store, StoreReason::NeededBy(pass)),
+            Need::After(reason) => (StoreAction::Store, reason),
+            Need::None(reason) => (StoreAction::Discard, reason),
+        };
+        within((at == first, load), (at == last, store), clear_drawn)
+    }
+
+    fn is_volume(&self) -> bool {
+        match self.decl.resource(self.resource).desc {
+            ResourceDesc::Texture(desc) => desc.dimension == TextureDimension::D3,
+            ResourceDesc::Buffer(_) => false,
+        }
+    }
+
+    /// What the attachment of the touch at `first` holds when its render pass begins.
+    fn load(&self, first: usize, before: &Coverage) -> (LoadAction, LoadReason) {
+        let touch = &self.touches[first];
+        let whole = touch.area.without_rect();
+        let clear = declared_clear(self.decl, touch.access);
+        let value = clear.unwrap_or(zero(touch.access.access));
+        if let (Some(value), true) = (clear, touch.area == whole) {
+            return (LoadAction::Clear(value), LoadReason::Declared);
+        }
+        match self.need(before.within(&whole), first) {
+            Need::Pass(pass) if pass == touch.pass && touch.access.contents == Change::Preserve => {
+                let writes =
+                    |other: &&Touch<'_>| other.access.contents.writes() && other.area.overlaps(&touch.area);
+                let writer = self.touches[..first].iter().rev().find(writes).map(|other| other.pass);
+                (LoadAction::Load, writer.map_or(LoadReason::PreservesImport, LoadReason::Preserves))
+            }
+            Need::Pass(pass) => (LoadAction::Load, LoadReason::RestNeededBy(pass)),
+            Need::After(_) => (LoadAction::Load, LoadReason::RestOutlives),
+            Need::None(_) => {
+                let reason = match touch.access.contents {
+                    Change::Clear(_) => LoadReason::Declared,
+                    _ if touch.area == whole => LoadReason::Covered,
+                    _ => LoadReason::RestUnneeded,
+                };
+                (LoadAction::Clear(value), reason)
+            }
+        }
+    }
+
+    /// Who needs any of `contents`, which are there before the touch at `from`.
+    fn need(&self, mut contents: AreaSet, from: usize) -> Need {
+        let mut overwriter = None;
+        for touch in &self.touches[from..] {
+            if contents.is_empty() {
+                break;
+            }
+            if !contents.overlaps(&touch.area) {
+                continue;
+            }
+            if touch.access.contents.needs() {
+                return Need::Pass(touch.pass);
+            }
+            contents.subtract(&touch.area);
+            overwriter = Some(touch.pass);
+        }
+        let left = if contents.is_empty() { None } else { after_the_frame(self.decl, self.resource) };
+        match (left, overwriter) {
+            (Some(reason), _) => Need::After(reason),
+            (None, Some(pass)) if contents.is_empty() => Need::None(StoreReason::OverwrittenBy(pass)),
+            (None, _) => Need::None(StoreReason::LastUse),
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! The oracle is tested itself: faults planted in one stage of the compiler, each of which it must report.
+
+mod contents;
+mod order;
+mod reasons;
+mod stages;
+mod storage;
+
+use super::frames::{Spec, small_frame_from_bytes};
+use super::oracle::{Rule, judge};
+use super::random_bytes;
+use stages::{Stage, Work, compile};
+
+/// How often a fault could be planted in random frames, and how often one of `rules` was found broken.
+struct Found {
+    planted: usize,
+    caught: usize,
+    missed: Option<String>,
+}
+
+const FRAMES: u64 = 800;
+
+/// Plants a fault in random frames wherever it can be: `plant` says whether it could. It may be asked after several
+/// stages.
+fn search(rules: &[Rule], plant: impl Fn(Stage, &mut Work) -> Option<bool>) -> Found {
+    let mut found = Found { planted: 0, caught: 0, missed: None };
+    for seed in 0..FRAMES {
+        let spec = small_frame_from_bytes(&random_bytes(seed, 700), 16);
+        let (mut frame, names) = spec.build();
+        let decl = std::mem::take(&mut frame.decl);
+        let mut planted = false;
+        let plan = compile(decl.clone(), |stage, work| {
+            if let Some(done) = plant(stage, work) {
+                planted |= done;
+            }
+        });
+        if !planted || plan == compile(decl, |_, _| {}) {
+            continue;
+        }
+        found.planted += 1;
+        let breaches = judge(&spec, &names, &plan);
+        if breaches.iter().any(|breach| rules.contains(&breach.rule)) {
+            found.caught += 1;
+        } else if found.missed.is_none() {
+            found.missed = Some(format!("{breaches:?}\n{}\n{spec}", plan.to_text()));
+        }
+    }
+    found
+}
+
+impl Found {
+    /// For faults that can do no harm in a frame: most are caught, or at least many.
+    fn caught(self, least: usize) {
+        let Self { planted, caught, missed } = self;
+        assert!(caught >= least, "caught {caught} of {planted}: {}", missed.unwrap_or_default());
+    }
+
+    /// For faults that always do harm.
+    fn always_caught(self) {
+        let Self { planted, caught, missed } = self;
+        assert!(planted >= 20, "planted {planted} times only");
+        assert!(caught == planted, "caught {caught} of {planted}: {}", missed.unwrap_or_default());
+    }
+}
+
+#[test]
+fn without_a_fault_nothing_is_reported() {
+    for seed in 0..FRAMES {
+        let spec: Spec = small_frame_from_bytes(&random_bytes(seed, 700), 16);
+        let (mut frame, names) = spec.build();
+        let plan = compile(std::mem::take(&mut frame.decl), |_, _| {});
+        assert_eq!(judge(&spec, &names, &plan), []);
+    }
+}

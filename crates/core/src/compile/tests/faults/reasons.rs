@@ -1,0 +1,107 @@
+//! Faults in what is said of decisions that are right.
+
+use super::{Stage, Work, search};
+use crate::compile::tests::oracle::Rule;
+use crate::handle::ResourceId;
+use crate::plan::{CullReason, LoadReason, MergeReason, PlaceReason, SlotReason, StoreReason};
+
+const REASONS: [Rule; 1] = [Rule::Reasons];
+
+#[test]
+fn a_false_reason_for_culling() {
+    let lie = |stage, work: &mut Work| {
+        let writes =
+            |reason: &&mut Option<CullReason>| reason.is_some_and(|r| r != CullReason::WritesNothing);
+        let culled = (stage == Stage::Cull).then(|| work.plan.culled.iter_mut().find(writes))?;
+        culled.map(|reason| *reason = Some(CullReason::WritesNothing)).is_some().into()
+    };
+    search(&REASONS, lie).always_caught();
+}
+
+#[test]
+fn a_false_reason_for_a_place() {
+    let lie = |stage, work: &mut Work| {
+        for reason in (stage == Stage::Order).then_some(&mut work.plan.placed)? {
+            *reason = match *reason {
+                PlaceReason::OnlyReady => PlaceReason::FreesMemory(7),
+                PlaceReason::FreesMemory(bytes) => PlaceReason::FreesMemory(bytes + 4),
+                PlaceReason::DeclaredFirst => PlaceReason::OnlyReady,
+                _ => PlaceReason::OnlyReady,
+            };
+        }
+        Some(!work.plan.placed.is_empty())
+    };
+    search(&REASONS, lie).caught(600);
+}
+
+#[test]
+fn a_false_reason_against_a_merge() {
+    let lie = |stage, work: &mut Work| {
+        for reason in (stage == Stage::Merge).then_some(&mut work.plan.merges)? {
+            *reason = match *reason {
+                MergeReason::Kind(_) | MergeReason::KindBefore(_) => MergeReason::Attachments,
+                MergeReason::Attachments => MergeReason::Off,
+                MergeReason::Clears(resource) => MergeReason::Resolves(resource),
+                MergeReason::Reads(resource, pass) => MergeReason::Writes(resource, pass),
+                other => other,
+            };
+        }
+        Some(true)
+    };
+    search(&REASONS, lie).always_caught();
+}
+
+#[test]
+fn a_false_reason_for_a_load() {
+    let lie = |stage, work: &mut Work| {
+        for ops in (stage == Stage::Ops).then_some(&mut work.plan.ops)?.iter_mut().flatten() {
+            ops.load_reason = match ops.load_reason {
+                LoadReason::Declared => LoadReason::Covered,
+                LoadReason::Covered | LoadReason::RestUnneeded => LoadReason::Declared,
+                LoadReason::Preserves(_) => LoadReason::PreservesImport,
+                LoadReason::RestOutlives | LoadReason::RestNeededBy(_) => LoadReason::RestUnneeded,
+                LoadReason::PreservesImport => LoadReason::RestUnneeded,
+                LoadReason::Merged => LoadReason::Declared,
+            };
+        }
+        Some(true)
+    };
+    search(&REASONS, lie).always_caught();
+}
+
+#[test]
+fn a_false_reason_for_a_store() {
+    let lie = |stage, work: &mut Work| {
+        let first = *(stage == Stage::Ops).then(|| work.plan.order.first())??;
+        for ops in work.plan.ops.iter_mut().flatten() {
+            ops.store_reason = match ops.store_reason {
+                // What runs first needs nothing of the frame.
+                StoreReason::NeededBy(_) => StoreReason::NeededBy(first),
+                StoreReason::OverwrittenBy(_) | StoreReason::LastUse => StoreReason::Imported,
+                StoreReason::Exported | StoreReason::Imported | StoreReason::History => StoreReason::LastUse,
+                StoreReason::Merged => StoreReason::LastUse,
+            };
+        }
+        Some(true)
+    };
+    search(&REASONS, lie).always_caught();
+}
+
+#[test]
+fn a_false_reason_for_a_slot() {
+    let lie = |stage, work: &mut Work| {
+        let fates = (stage == Stage::Alias).then_some(&mut work.plan.fates)?;
+        for (index, fate) in fates.iter_mut().enumerate() {
+            fate.reason = match fate.reason {
+                SlotReason::After(_) => SlotReason::FirstOfClass,
+                SlotReason::FirstOfClass => SlotReason::AllBusy(ResourceId(index as u32)),
+                SlotReason::AllBusy(other) => SlotReason::After(other),
+                SlotReason::Unused => SlotReason::Imported,
+                SlotReason::Imported => SlotReason::History,
+                SlotReason::History => SlotReason::Unused,
+            };
+        }
+        Some(!work.plan.fates.is_empty())
+    };
+    search(&REASONS, lie).always_caught();
+}

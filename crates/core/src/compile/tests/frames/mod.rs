@@ -1,0 +1,175 @@
+//! Frames as plain data: made from bytes, told to the builder, and believed by the oracle.
+//!
+//! This folder and `oracle` use the crate's public names only, so that a fuzz target can include both.
+
+mod build;
+mod cells;
+mod chains;
+mod chaos;
+mod generate;
+mod mistakes;
+mod passes;
+mod resources;
+mod source;
+mod transfers;
+mod words;
+
+pub(super) use build::Names;
+pub(super) use cells::{Cell, Cells, cells_of};
+pub(super) use chains::chain_from_bytes;
+pub(super) use chaos::chaos_from_bytes;
+pub(super) use generate::{frame_from_bytes, small_frame_from_bytes};
+pub(super) use mistakes::MISTAKES;
+pub(super) use source::Source;
+
+use crate::{Access, Aspect, Contents, Options, Origin, Part, PassKind, Rect, ResourceDesc, TextureDesc};
+use wgpu_types::TextureDimension;
+
+/// All that a frame declares.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Spec {
+    pub(super) options: Options,
+    /// `Previous` and `Current` of a history follow each other.
+    pub(super) resources: Vec<ResourceSpec>,
+    pub(super) passes: Vec<PassSpec>,
+    /// By resource.
+    pub(super) exports: Vec<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ResourceSpec {
+    pub(super) desc: ResourceDesc,
+    pub(super) origin: Origin,
+    /// Made and filled by an upload.
+    pub(super) uploaded: bool,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PassSpec {
+    pub(super) kind: PassKind,
+    pub(super) keep: bool,
+    /// How many nodes are around it.
+    pub(super) nodes: usize,
+    /// Orders asked for by name, as places in the list of passes.
+    pub(super) after: Vec<usize>,
+    pub(super) accesses: Vec<AccessSpec>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct AccessSpec {
+    pub(super) resource: usize,
+    pub(super) access: Access,
+    /// `None` reads.
+    pub(super) contents: Option<Contents>,
+    pub(super) part: PartSpec,
+}
+
+/// What [`Part`] says; `None` is all there is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct PartSpec {
+    pub(super) mips: Option<(u32, u32)>,
+    pub(super) layers: Option<(u32, u32)>,
+    pub(super) aspect: Aspect,
+    pub(super) rect: Option<Rect>,
+    pub(super) bytes: Option<(u64, u64)>,
+}
+
+impl AccessSpec {
+    /// Whether it needs what was there before.
+    pub(super) fn needs(&self) -> bool {
+        matches!(self.contents, None | Some(Contents::Preserve))
+    }
+
+    pub(super) fn writes(&self) -> bool {
+        self.contents.is_some()
+    }
+
+    /// Whether it is an attachment with operations of its own.
+    pub(super) fn drawn(&self) -> bool {
+        matches!(self.access, Access::Color(_) | Access::Depth)
+    }
+
+    /// Whether it is what a render pass draws into or tests against.
+    pub(super) fn attached(&self) -> bool {
+        self.drawn() || self.access == Access::DepthRead
+    }
+}
+
+impl PassSpec {
+    pub(super) fn new(kind: PassKind) -> Self {
+        Self { kind, keep: false, nodes: 0, after: Vec::new(), accesses: Vec::new() }
+    }
+
+    /// Whether it is the pass of an upload, which the builder adds itself.
+    pub(super) fn uploads(&self) -> bool {
+        self.kind == PassKind::Copy && self.accesses.len() == 1
+    }
+}
+
+impl PartSpec {
+    pub(super) fn to_part(self) -> Part {
+        let mut part = Part::WHOLE.aspect(self.aspect);
+        if let Some((start, end)) = self.mips {
+            part = part.mips(start..end);
+        }
+        if let Some((start, end)) = self.layers {
+            part = part.layers(start..end);
+        }
+        if let Some(rect) = self.rect {
+            part = part.rect(rect);
+        }
+        if let Some((start, end)) = self.bytes {
+            part = part.bytes(start..end);
+        }
+        part
+    }
+
+    /// All of the mips and layers that it touches, of the same aspects.
+    pub(super) fn without_rect(self) -> Self {
+        Self { rect: None, ..self }
+    }
+
+    /// What wgpu cannot tell from it within one pass: all of its mips and layers, and every slice of a volume.
+    pub(super) fn tracked(self, desc: &TextureDesc) -> Self {
+        Self { rect: None, aspect: Aspect::All, ..self.with_all_slices(desc) }
+    }
+
+    /// What a discarded attachment takes with it: of a volume every slice of the mip.
+    pub(super) fn with_all_slices(self, desc: &TextureDesc) -> Self {
+        let volume = desc.dimension == TextureDimension::D3;
+        if volume { Self { layers: None, ..self } } else { self }
+    }
+
+    /// All of the mips and layers that it touches.
+    pub(super) fn subresources(self) -> Self {
+        Self { rect: None, aspect: Aspect::All, ..self }
+    }
+}
+
+impl Spec {
+    pub(super) fn desc(&self, resource: usize) -> &ResourceDesc {
+        &self.resources[resource].desc
+    }
+
+    /// The same frame with textures as many times as wide and high, and the same parts.
+    pub(super) fn scaled(&self, factor: u32) -> Self {
+        let mut scaled = self.clone();
+        for resource in &mut scaled.resources {
+            if let ResourceDesc::Texture(desc) = &mut resource.desc {
+                desc.size.width *= factor;
+                desc.size.height *= factor;
+            }
+        }
+        scaled
+    }
+
+    pub(super) fn is_exported(&self, resource: usize) -> bool {
+        self.exports.contains(&resource)
+    }
+
+    /// Whether the contents are needed after the frame.
+    pub(super) fn outlives(&self, resource: usize) -> bool {
+        let origin = self.resources[resource].origin;
+        self.is_exported(resource) || matches!(origin, Origin::Imported { .. } | Origin::Current { .. })
+    }
+}

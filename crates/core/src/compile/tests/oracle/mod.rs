@@ -1,0 +1,190 @@
+//! A naive judge of plans: it knows the rules of the graph and nothing of the compiler.
+//!
+//! It believes the spec, not the declaration, looks at every texel and byte, and compares everything with everything.
+//! Like `frames` it uses the crate's public names only.
+
+mod culling;
+mod declared;
+mod live;
+mod memory;
+mod merging;
+mod ordering;
+mod reasons;
+mod replay;
+mod slots;
+mod truth;
+mod usages;
+
+pub(super) use live::Live;
+pub(super) use memory::{lower_bounds, peak_of};
+pub(super) use truth::Truth;
+
+use super::frames::{AccessSpec, Cell, Cells, Names, Spec, cells_of};
+use crate::{PassId, Plan, ResourceDesc};
+
+/// Which rule a plan breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rule {
+    /// The plan says what was declared.
+    Declared,
+    /// The order is a permutation of the passes that run.
+    Permutation,
+    /// Conflicting accesses keep their order, and so do passes ordered by name.
+    Hazard,
+    /// The listed dependencies are true, and imply every hazard.
+    Dependencies,
+    /// Passes run if and only if a root needs them.
+    Culling,
+    /// Passes share a render pass only where no hazard forbids it.
+    Merging,
+    /// Every access finds the contents that it was promised.
+    Contents,
+    /// What outlives the frame holds what was written to it.
+    Survival,
+    /// Nothing is loaded or stored for nothing.
+    Waste,
+    /// Resources in a slot do not live at once, and the slot fits them.
+    Slots,
+    /// Usages are those that accesses need.
+    Usages,
+    /// Memory of a render pass's own is legal, and used where it is.
+    TransientAttachment,
+    /// Reasons are true.
+    Reasons,
+}
+
+/// How a plan breaks a rule.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Breach {
+    pub(super) rule: Rule,
+    pub(super) words: String,
+}
+
+/// Checks a plan against the spec of its frame, which must be valid.
+pub(super) fn judge(spec: &Spec, names: &Names, plan: &Plan) -> Vec<Breach> {
+    let mut judge = Judge { model: Model::new(spec), breaches: Vec::new() };
+    judge.declared(names, plan);
+    if !judge.breaches.is_empty() {
+        return judge.breaches;
+    }
+    let truth = Truth::new(&judge.model);
+    judge.culling(&truth, plan);
+    // What follows reads the order, so it must be one.
+    if !judge.permutation(plan) {
+        return judge.breaches;
+    }
+    let live = Live::new(&judge.model, plan);
+    judge.ordering(names, plan, &live);
+    judge.merging(plan, &live);
+    judge.slots(names, plan, &live);
+    judge.usages(names, plan, &live);
+    if judge.breaches.iter().all(|breach| breach.rule != Rule::Slots) {
+        judge.replay(&truth, plan, names, &live);
+    }
+    judge.reasons(names, plan, &live);
+    judge.breaches
+}
+
+/// A spec with the cells of everything.
+pub(super) struct Model<'s> {
+    pub(super) spec: &'s Spec,
+    /// By resource.
+    pub(super) cells: Vec<Vec<Cell>>,
+    /// By pass and access.
+    parts: Vec<Vec<Cells>>,
+    /// By pass: every pass before it that it must run after.
+    before: Vec<Vec<bool>>,
+}
+
+impl<'s> Model<'s> {
+    pub(super) fn new(spec: &'s Spec) -> Self {
+        let cells: Vec<Vec<Cell>> = spec.resources.iter().map(|resource| cells_of(&resource.desc)).collect();
+        let parts = spec.passes.iter().map(|pass| {
+            pass.accesses.iter().map(|access| access.part.cells(&cells[access.resource])).collect()
+        });
+        let parts = parts.collect();
+        let mut model = Self { spec, cells, parts, before: Vec::new() };
+        model.before = (0..spec.passes.len())
+            .map(|later| (0..later).map(|earlier| model.must_follow(earlier, later)).collect())
+            .collect();
+        model
+    }
+
+    fn whole(&self, resource: usize) -> Cells {
+        Cells::first(self.cells[resource].len())
+    }
+
+    fn accesses(&self, pass: usize) -> impl DoubleEndedIterator<Item = (usize, &'s AccessSpec, Cells)> + '_ {
+        let accesses = self.spec.passes[pass].accesses.iter().enumerate();
+        accesses.map(move |(index, access)| (index, access, self.parts[pass][index]))
+    }
+
+    /// What an attachment loads and stores: all of its mip and layer, of the aspects that it has.
+    fn attachment(&self, access: &AccessSpec) -> Cells {
+        access.part.without_rect().cells(&self.cells[access.resource])
+    }
+
+    /// What is lost with an attachment that is discarded: of a volume every slice.
+    fn discarded(&self, access: &AccessSpec) -> Cells {
+        let whole = access.part.without_rect();
+        let whole = match self.spec.desc(access.resource) {
+            ResourceDesc::Texture(desc) => whole.with_all_slices(desc),
+            ResourceDesc::Buffer(_) => whole,
+        };
+        whole.cells(&self.cells[access.resource])
+    }
+
+    /// What wgpu cannot tell from an access of a shader within one pass.
+    fn subresources(&self, access: &AccessSpec) -> Cells {
+        match self.spec.desc(access.resource) {
+            ResourceDesc::Texture(desc) => access.part.tracked(desc).cells(&self.cells[access.resource]),
+            ResourceDesc::Buffer(_) => self.whole(access.resource),
+        }
+    }
+
+    /// Whether the later of two passes must run after the earlier.
+    pub(super) fn ordered(&self, earlier: usize, later: usize) -> bool {
+        self.before[later][earlier]
+    }
+
+    /// Whether two passes touch the same cells and one of them writes, or are ordered by name.
+    fn must_follow(&self, earlier: usize, later: usize) -> bool {
+        let conflict = self.accesses(earlier).any(|(_, first, own)| {
+            let clash = |(_, second, other): (usize, &AccessSpec, Cells)| {
+                first.resource == second.resource
+                    && (first.writes() || second.writes())
+                    && own.overlaps(&other)
+            };
+            self.accesses(later).any(clash)
+        });
+        conflict || self.spec.passes[later].after.contains(&earlier)
+    }
+}
+
+struct Judge<'s> {
+    model: Model<'s>,
+    breaches: Vec<Breach>,
+}
+
+impl Judge<'_> {
+    fn report(&mut self, rule: Rule, words: impl Into<String>) {
+        self.breaches.push(Breach { rule, words: words.into() });
+    }
+
+    fn expect(&mut self, holds: bool, rule: Rule, words: impl FnOnce() -> String) {
+        if !holds {
+            self.report(rule, words());
+        }
+    }
+}
+
+/// The plan's ids as places in the spec.
+pub(super) fn spec_pass(id: PassId) -> usize {
+    id.index()
+}
+
+/// Whether an access is to all of its resource.
+pub(super) fn part_is_whole(spec: &Spec, access: &AccessSpec) -> bool {
+    let cells = cells_of(spec.desc(access.resource));
+    access.part.cells(&cells) == Cells::first(cells.len())
+}

@@ -1,0 +1,95 @@
+//! Why attachments load and store.
+
+use super::super::super::frames::{AccessSpec, Cells};
+use super::super::{Judge, spec_pass};
+use super::Facts;
+use crate::{AttachmentOps, Contents, LoadAction, LoadReason, Origin, PassId, StoreAction, StoreReason};
+
+impl Judge<'_> {
+    pub(super) fn contents_reasons(&mut self, facts: &Facts<'_>, place: usize) {
+        let (id, pass) = (facts.plan.order()[place], facts.live.order[place]);
+        for (planned, access) in facts.plan.accesses(id).zip(&self.model.spec.passes[pass].accesses) {
+            if let Some(ops) = planned.ops {
+                let load = self.load_reason(facts, place, access, &ops);
+                self.truth(load, id, (ops.load, ops.load_reason));
+                let store = self.store_reason(facts, place, access, &ops);
+                self.truth(store, id, (ops.store, ops.store_reason));
+            }
+        }
+    }
+
+    /// Whether a pass that runs touches some of these cells in such a way, and where it stands.
+    fn at(
+        &self,
+        facts: &Facts<'_>,
+        other: PassId,
+        (resource, cells): (usize, &Cells),
+        how: impl Fn(&AccessSpec) -> bool,
+    ) -> Option<usize> {
+        let place = facts.place(other)?;
+        let touches = |(_, access, own): (usize, &AccessSpec, Cells)| {
+            access.resource == resource && own.overlaps(cells) && how(access)
+        };
+        self.model.accesses(spec_pass(other)).any(touches).then_some(place)
+    }
+
+    fn load_reason(&self, facts: &Facts<'_>, place: usize, access: &AccessSpec, ops: &AttachmentOps) -> bool {
+        let attachment = self.model.attachment(access);
+        let part = access.part.cells(&self.model.cells[access.resource]);
+        let own = (access.resource, &part);
+        let origin = self.model.spec.resources[access.resource].origin;
+        let clears = matches!(ops.load, LoadAction::Clear(_));
+        let declared = matches!(access.contents, Some(Contents::Clear(_)));
+        match ops.load_reason {
+            LoadReason::Declared => clears && declared,
+            LoadReason::Covered => clears && access.contents == Some(Contents::Cover) && part == attachment,
+            LoadReason::RestUnneeded => clears && part != attachment,
+            LoadReason::Preserves(writer) => {
+                let written = self.at(facts, writer, own, |a| a.writes()).is_some_and(|at| at < place);
+                ops.load == LoadAction::Load && access.contents == Some(Contents::Preserve) && written
+            }
+            LoadReason::PreservesImport => {
+                let there = matches!(origin, Origin::Imported { defined: true });
+                ops.load == LoadAction::Load && access.contents == Some(Contents::Preserve) && there
+            }
+            LoadReason::RestNeededBy(pass) => {
+                let needs = self.at(facts, pass, (access.resource, &attachment), |a| a.needs());
+                ops.load == LoadAction::Load && needs.is_some_and(|at| at >= place)
+            }
+            LoadReason::RestOutlives => {
+                ops.load == LoadAction::Load
+                    && part != attachment
+                    && self.model.spec.outlives(access.resource)
+            }
+            LoadReason::Merged => ops.load == LoadAction::Continue,
+        }
+    }
+
+    fn store_reason(
+        &self,
+        facts: &Facts<'_>,
+        place: usize,
+        access: &AccessSpec,
+        ops: &AttachmentOps,
+    ) -> bool {
+        let together = self.model.discarded(access);
+        let own = (access.resource, &together);
+        let spec = self.model.spec;
+        let (resource, exported) = (spec.resources[access.resource], spec.is_exported(access.resource));
+        let (stores, discards) = (ops.store == StoreAction::Store, ops.store == StoreAction::Discard);
+        match ops.store_reason {
+            StoreReason::NeededBy(pass) => {
+                stores && self.at(facts, pass, own, |a| a.needs()).is_some_and(|at| at > place)
+            }
+            StoreReason::Exported => stores && exported,
+            StoreReason::Imported => stores && matches!(resource.origin, Origin::Imported { .. }),
+            StoreReason::History => stores && matches!(resource.origin, Origin::Current { .. }),
+            StoreReason::OverwrittenBy(pass) => {
+                let overwrites = |a: &AccessSpec| a.writes() && !a.needs();
+                discards && self.at(facts, pass, own, overwrites).is_some_and(|at| at > place)
+            }
+            StoreReason::LastUse => discards && !exported,
+            StoreReason::Merged => ops.store == StoreAction::Continue,
+        }
+    }
+}

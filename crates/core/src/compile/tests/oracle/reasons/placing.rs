@@ -1,0 +1,59 @@
+//! Why passes stand where they do.
+
+use super::super::Judge;
+use super::Facts;
+use crate::{MergeReason, OrderPolicy, Origin, PlaceReason};
+
+impl Judge<'_> {
+    pub(super) fn place_reasons(&mut self, facts: &Facts<'_>) {
+        let order = &facts.live.order;
+        for (place, &pass) in order.iter().enumerate() {
+            let id = facts.plan.order()[place];
+            let Some(reason) = facts.plan.placement(id) else {
+                return self.truth(false, id, "no place reason");
+            };
+            let ready: Vec<usize> =
+                order[place..].iter().copied().filter(|&p| self.ready(order, place, p)).collect();
+            let own = self.freed(order, place, pass);
+            let others = || ready.iter().filter(|&&other| other != pass);
+            let holds = match reason {
+                PlaceReason::Fixed => facts.plan.options().order == OrderPolicy::Declared,
+                PlaceReason::OnlyReady => ready == [pass],
+                PlaceReason::ContinuesRenderPass => facts.plan.merging(id) == Some(MergeReason::Merged),
+                PlaceReason::FreesMemory(bytes) => {
+                    bytes == own && others().all(|&other| self.freed(order, place, other) < own)
+                }
+                PlaceReason::DeclaredFirst => others().all(|&other| {
+                    let freed = self.freed(order, place, other);
+                    freed < own || freed == own && other > pass
+                }),
+                PlaceReason::DeclarationNeedsLess => order.is_sorted(),
+                PlaceReason::BackwardsNeedsLess => {
+                    let last = order.len() - 1;
+                    !order.is_sorted() && facts.plan.placement(facts.plan.order()[last]) == Some(reason)
+                }
+            };
+            self.truth(holds, id, reason);
+        }
+    }
+
+    /// Whether everything that must run before the pass has run.
+    fn ready(&self, order: &[usize], place: usize, pass: usize) -> bool {
+        order[place..].iter().all(|&other| other >= pass || !self.model.ordered(other, pass))
+    }
+
+    /// Bytes that are no longer in use after the pass, less those that it begins to use.
+    fn freed(&self, order: &[usize], place: usize, pass: usize) -> i64 {
+        let spec = self.model.spec;
+        let touches = |pass: usize, resource: usize| self.does(pass, resource, |_| true);
+        let change = |resource: usize| {
+            let bytes = spec.desc(resource).bytes() as i64;
+            let new = !order[..place].iter().any(|&other| touches(other, resource));
+            let rest = order[place..].iter().any(|&other| other != pass && touches(other, resource));
+            let ends = !rest && !spec.is_exported(resource);
+            i64::from(ends) * bytes - i64::from(new) * bytes
+        };
+        let transient = |r: &usize| spec.resources[*r].origin == Origin::Transient && touches(pass, *r);
+        (0..spec.resources.len()).filter(transient).map(change).sum()
+    }
+}

@@ -1,0 +1,70 @@
+//! Plans found again.
+
+use super::helpers::{BLACK, filter};
+use crate::{ClearValue, Contents, Format, Frame, Graph, PlanCounts, TextureDesc};
+
+/// Draws, then filters, at a size.
+fn declare(frame: &mut Frame<'_>, name: &str, side: u32, contents: Contents) {
+    let mut a = frame.create_texture(name, TextureDesc::d2(side, side, Format::Rgba8Unorm));
+    frame.render_pass("draw").color(&mut a, contents);
+    let b = filter(frame, "filter", &a);
+    frame.export_texture(&b);
+}
+
+fn compile(graph: &mut Graph, name: &str, side: u32, contents: Contents) -> std::sync::Arc<crate::Plan> {
+    let mut frame = graph.frame();
+    declare(&mut frame, name, side, contents);
+    graph.compile(frame).unwrap().shared_plan()
+}
+
+#[test]
+fn equal_frames_share_a_plan() {
+    let mut graph = Graph::new();
+    let first = compile(&mut graph, "a", 64, BLACK);
+    let second = compile(&mut graph, "a", 64, BLACK);
+    assert!(std::sync::Arc::ptr_eq(&first, &second));
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, resized: 0, reused: 1 });
+}
+
+#[test]
+fn a_changed_size_alone_is_no_full_compile() {
+    let mut graph = Graph::new();
+    compile(&mut graph, "a", 64, BLACK);
+    let resized = compile(&mut graph, "a", 128, BLACK);
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, resized: 1, reused: 0 });
+    let mut frame = Frame::new();
+    declare(&mut frame, "a", 128, BLACK);
+    assert_eq!(*resized, frame.compile().unwrap().into_plan(), "the plan of a full compile");
+}
+
+#[test]
+fn anything_else_that_changes_is_a_full_compile() {
+    let mut graph = Graph::new();
+    compile(&mut graph, "a", 64, BLACK);
+    compile(&mut graph, "b", 64, BLACK);
+    compile(&mut graph, "b", 64, Contents::Clear(ClearValue::Color([1.0; 4])));
+    compile(&mut graph, "b", 64, Contents::Cover);
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, resized: 0, reused: 0 });
+}
+
+#[test]
+fn frames_that_alternate_keep_their_plans() {
+    let mut graph = Graph::new();
+    for _ in 0..3 {
+        for name in ["a", "b", "c", "d"] {
+            compile(&mut graph, name, 64, BLACK);
+        }
+    }
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, resized: 0, reused: 8 });
+}
+
+#[test]
+fn a_frame_with_a_mistake_leaves_the_plans_as_they_are() {
+    let mut graph = Graph::new();
+    compile(&mut graph, "a", 64, BLACK);
+    let mut frame = graph.frame();
+    frame.render_pass("bad");
+    assert!(graph.compile(frame).is_err());
+    compile(&mut graph, "a", 64, BLACK);
+    assert_eq!(graph.plan_counts().reused, 1);
+}

@@ -1,0 +1,223 @@
+//! Contents of parts: mips, layers, aspects, ranges of bytes, rectangles.
+
+use super::helpers::{BLACK, FAR, accesses, depends, draw, look, ops, order, pass, plan, quarter};
+use crate::{
+    Aspect, BufferDesc, ClearValue, Contents, Error, Format, Frame, LoadAction, LoadReason, Part, Rect,
+    StoreAction, StoreReason, TextureDesc, TextureUsages,
+};
+use wgpu_types::TextureDimension;
+
+fn layered() -> TextureDesc {
+    TextureDesc { mip_levels: 3, ..TextureDesc::d2(64, 64, Format::Rgba8Unorm).layers(2) }
+}
+
+#[test]
+fn mips_and_layers_have_contents_of_their_own() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", layered());
+    frame.render_pass("draw").on(Part::WHOLE.mip(1).layer(0)).color(&mut a, BLACK);
+    let mut fine = frame.compute_pass("fine");
+    fine.on(Part::WHOLE.mip(1).layer(0)).sample(&a);
+    fine.keep();
+    frame.compute_pass("bad").on(Part::WHOLE.mip(1)).sample(&a);
+    let error = frame.compile().err().unwrap();
+    assert!(matches!(&error, Error::UndefinedRead { part, .. } if part == "mip 1"), "{error}");
+}
+
+#[test]
+fn all_mips_and_layers_together_are_the_whole() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", layered());
+    for (mip, layer) in (0..3).flat_map(|mip| [(mip, 0), (mip, 1)]) {
+        let mut pass = frame.render_pass(format_args!("{mip} {layer}"));
+        pass.on(Part::WHOLE.mip(mip).layer(layer)).color(&mut a, BLACK);
+    }
+    frame.export_texture(&a);
+    let plan = plan(frame);
+    assert_eq!(plan.order().len(), 6);
+    assert!(plan.dependencies().is_empty(), "they do not order each other");
+}
+
+#[test]
+fn aspects_of_a_depth_stencil_texture_have_contents_of_their_own() {
+    let mut frame = Frame::new();
+    let desc = TextureDesc::d2(64, 64, Format::Depth24PlusStencil8);
+    let mut texture = frame.create_texture("depth", desc);
+    frame.render_pass("depth").on(Part::WHOLE.aspect(Aspect::Depth)).depth(&mut texture, FAR);
+    frame.render_pass("stencil").on(Part::WHOLE.aspect(Aspect::Stencil)).depth(&mut texture, FAR);
+    let mut read = frame.compute_pass("read");
+    read.on(Part::WHOLE.aspect(Aspect::Stencil)).sample(&texture);
+    read.keep();
+    let plan = plan(frame);
+    assert_eq!(order(&plan), ["stencil", "read"], "nothing needs the depth");
+    assert!(!plan.resource(texture.id()).texture_usage.contains(TextureUsages::TRANSIENT_ATTACHMENT));
+}
+
+#[test]
+fn an_aspect_alone_is_no_transient_attachment() {
+    // The other aspect would be read-only, which wgpu forbids for transient attachments.
+    let mut frame = Frame::new();
+    let mut texture = frame.create_texture("depth", TextureDesc::d2(64, 64, Format::Depth24PlusStencil8));
+    let mut out = frame.create_texture("out", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    let mut draw = frame.render_pass("draw");
+    draw.on(Part::WHOLE.aspect(Aspect::Depth)).depth(&mut texture, FAR);
+    draw.color(&mut out, BLACK);
+    frame.export_texture(&out);
+    let plan = plan(frame);
+    assert_eq!(plan.resource(texture.id()).texture_usage, TextureUsages::RENDER_ATTACHMENT);
+}
+
+#[test]
+fn ranges_of_a_buffer_have_contents_of_their_own() {
+    let mut frame = Frame::new();
+    let mut buffer = frame.create_buffer("buffer", BufferDesc::new(64));
+    let halves = [0..32, 32..64].map(|bytes| Part::WHOLE.bytes(bytes));
+    frame.compute_pass("low").on(halves[0]).storage_buffer_mut(&mut buffer, Contents::Cover);
+    frame.compute_pass("high").on(halves[1]).storage_buffer_mut(&mut buffer, Contents::Cover);
+    let mut read = frame.compute_pass("read");
+    read.on(halves[1]).storage_buffer(&buffer);
+    read.keep();
+    let plan = plan(frame);
+    assert_eq!(order(&plan), ["high", "read"], "nothing needs the lower half");
+}
+
+#[test]
+fn slices_of_a_volume_get_fewer_from_mip_to_mip() {
+    let volume = TextureDesc {
+        mip_levels: 2,
+        dimension: TextureDimension::D3,
+        ..TextureDesc::d2(8, 8, Format::Rgba8Unorm).layers(4)
+    };
+    let mut frame = Frame::new();
+    let mut texture = frame.create_texture("volume", volume);
+    for (mip, slice) in [(0, 0), (0, 1), (0, 2), (0, 3), (1, 0), (1, 1)] {
+        let part = Part::WHOLE.mip(mip).layer(slice);
+        frame.render_pass("slice").on(part).color(&mut texture, BLACK);
+    }
+    frame.export_texture(&texture);
+    assert_eq!(plan(frame).order().len(), 6, "these are all slices there are");
+
+    let mut frame = Frame::new();
+    let mut texture = frame.create_texture("volume", volume);
+    frame.render_pass("bad").on(Part::WHOLE.mip(1).layer(2)).color(&mut texture, BLACK);
+    assert_eq!(frame.compile().err().unwrap().code(), "SG0402");
+}
+
+#[test]
+fn tiles_do_not_order_each_other_and_a_reader_waits_for_its_own_alone() {
+    let mut frame = Frame::new();
+    let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
+    for index in 0..4 {
+        frame.render_pass(format_args!("tile {index}")).on(quarter(index)).depth(&mut atlas, FAR);
+    }
+    let mut read = frame.compute_pass("read");
+    read.on(quarter(2)).sample(&atlas);
+    read.keep();
+    let plan = plan(frame);
+    assert_eq!(order(&plan), ["tile 2", "read"], "the other tiles are not needed");
+    assert!(depends(&plan, "read", "tile 2"));
+}
+
+#[test]
+fn a_tile_that_is_alone_is_cleared_by_the_load_operation() {
+    let mut frame = Frame::new();
+    let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
+    frame.render_pass("tile").on(quarter(0)).depth(&mut atlas, FAR);
+    let mut read = frame.compute_pass("read");
+    read.on(quarter(0)).sample(&atlas);
+    read.keep();
+    let plan = plan(frame);
+    let ops = ops(&plan, "tile", 0);
+    assert_eq!((ops.load, ops.clear_drawn), (LoadAction::Clear(ClearValue::Depth(0.0)), false));
+}
+
+#[test]
+fn a_tile_beside_live_ones_is_cleared_by_a_draw() {
+    let mut frame = Frame::new();
+    let desc = TextureDesc::d2(64, 64, Format::Depth32Float);
+    let mut atlas = frame.declare_import_texture("atlas", desc, TextureUsages::all(), true);
+    frame.render_pass("tile").on(quarter(1)).depth(&mut atlas, FAR);
+    let plan = plan(frame);
+    let ops = ops(&plan, "tile", 0);
+    assert_eq!((ops.load, ops.load_reason), (LoadAction::Load, LoadReason::RestOutlives));
+    assert!(ops.clear_drawn);
+}
+
+#[test]
+fn the_rest_is_loaded_for_the_pass_that_needs_it() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    draw(&mut frame, "all", &mut a, BLACK);
+    look(&mut frame, "between", &a);
+    frame.render_pass("tile").on(quarter(3)).color(&mut a, Contents::Cover);
+    let reader = look(&mut frame, "reader", &a);
+    let plan = plan(frame);
+    let ops = ops(&plan, "tile", 0);
+    assert_eq!((ops.load, ops.load_reason), (LoadAction::Load, LoadReason::RestNeededBy(reader)));
+    assert_eq!((ops.store, ops.store_reason), (StoreAction::Store, StoreReason::NeededBy(reader)));
+}
+
+#[test]
+fn the_rest_is_not_loaded_where_nothing_needs_it() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    draw(&mut frame, "all", &mut a, BLACK);
+    look(&mut frame, "between", &a);
+    frame.render_pass("tile").on(quarter(3)).color(&mut a, Contents::Cover);
+    let mut read = frame.compute_pass("read");
+    read.on(quarter(3)).sample(&a);
+    read.keep();
+    let plan = plan(frame);
+    let ops = ops(&plan, "tile", 0);
+    assert_eq!(ops.load_reason, LoadReason::RestUnneeded);
+    assert!(matches!(ops.load, LoadAction::Clear(_)));
+}
+
+#[test]
+fn a_part_that_is_all_of_it_is_no_part() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    let all = Part::WHOLE.mips(0..1).layers(0..1).rect(Rect::new(0, 0, 64, 64));
+    frame.render_pass("draw").on(all).color(&mut a, BLACK);
+    frame.export_texture(&a);
+    let plan = plan(frame);
+    assert_eq!(accesses(&plan, "draw")[0].part, Part::WHOLE);
+}
+
+#[test]
+fn a_tile_may_not_be_sampled_while_another_is_drawn_in_one_pass() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    draw(&mut frame, "all", &mut a, BLACK);
+    let mut bad = frame.render_pass("bad");
+    bad.on(quarter(0)).sample(&a);
+    bad.on(quarter(1)).color(&mut a, Contents::Cover);
+    assert_eq!(frame.compile().err().unwrap().code(), "SG0203", "wgpu tracks mips and layers, not tiles");
+}
+
+#[test]
+fn a_mip_may_be_sampled_while_another_is_drawn_in_one_pass() {
+    let mut frame = Frame::new();
+    let mut a = frame
+        .create_texture("a", TextureDesc { mip_levels: 2, ..TextureDesc::d2(64, 64, Format::Rgba8Unorm) });
+    frame.render_pass("mip 0").on(Part::WHOLE.mip(0)).color(&mut a, BLACK);
+    let mut down = frame.render_pass("mip 1");
+    down.on(Part::WHOLE.mip(0)).sample(&a);
+    down.on(Part::WHOLE.mip(1)).color(&mut a, Contents::Cover);
+    frame.export_texture(&a);
+    let plan = plan(frame);
+    assert_eq!(order(&plan), ["mip 0", "mip 1"]);
+    assert_eq!(plan.dependencies()[0].before, pass(&plan, "mip 0"));
+}
+
+#[test]
+fn a_resolve_target_cannot_be_a_rectangle() {
+    let mut frame = Frame::new();
+    let desc = TextureDesc::d2(64, 64, Format::Rgba8Unorm);
+    let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..desc });
+    let mut target = frame.create_texture("target", desc);
+    let mut bad = frame.render_pass("bad");
+    bad.color(&mut samples, BLACK);
+    bad.on(quarter(0)).resolve(&mut target);
+    assert_eq!(frame.compile().err().unwrap().code(), "SG0306", "wgpu resolves all of a mip");
+}

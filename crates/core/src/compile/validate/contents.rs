@@ -1,0 +1,74 @@
+//! Every read finds contents that something has defined.
+
+use crate::compile::coverage::Coverage;
+use crate::declaration::{AccessDecl, Change, Declaration, Origin};
+use crate::error::Error;
+use crate::handle::{PassId, ResourceId};
+
+/// How much of each resource is defined so far.
+pub(super) struct Contents(Vec<Coverage>);
+
+impl Contents {
+    pub(super) fn new(decl: &Declaration) -> Self {
+        Self(decl.resources.iter().map(|r| Coverage::all_if(r.origin.defined())).collect())
+    }
+
+    /// Checks a pass, then notes what it writes.
+    pub(super) fn pass(&mut self, decl: &Declaration, pass: PassId) -> Result<(), Error> {
+        for access in decl.accesses(pass).iter().filter(|access| access.contents.needs()) {
+            if !self.0[access.resource.index()].contains(decl.area(access)) {
+                return Err(undefined(decl, pass, access));
+            }
+        }
+        for access in decl.accesses(pass).iter().filter(|access| access.contents.writes()) {
+            if matches!(decl.resource(access.resource).origin, Origin::Previous { .. }) {
+                let (pass, resource) = (decl.pass_path(pass), decl.resource_name(access.resource).into());
+                return Err(Error::PreviousWritten { pass, resource });
+            }
+            self.0[access.resource.index()].add(decl.area(access));
+        }
+        Ok(())
+    }
+
+    /// What is exported or left to the next frame must have been written, and not again after the export.
+    pub(super) fn exports(&self, decl: &Declaration) -> Result<(), Error> {
+        for (index, resource) in decl.resources.iter().enumerate() {
+            let place = match (resource.exported, resource.origin) {
+                (Some(_), _) => "the export",
+                (None, Origin::Current { .. }) => "the next frame",
+                _ => continue,
+            };
+            let name = || decl.names.get(resource.name).to_owned();
+            if !self.0[index].contains(None) {
+                return Err(Error::UndefinedRead {
+                    place: place.into(),
+                    resource: name(),
+                    part: "all".into(),
+                });
+            }
+            if let Some(version) = resource.exported
+                && version != resource.version
+            {
+                let writer = decl.writer(ResourceId(index as u32), version + 1);
+                return Err(Error::StaleRead {
+                    place: place.into(),
+                    resource: name(),
+                    version,
+                    writer: writer.map(|pass| decl.pass_path(pass)).unwrap_or_default(),
+                    latest: resource.version,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn undefined(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Error {
+    let (pass, resource) = (decl.pass_path(pass), decl.resource_name(access.resource).into());
+    let part = decl.part(access).words();
+    if access.contents == Change::Preserve {
+        Error::UndefinedPreserve { pass, resource, part }
+    } else {
+        Error::UndefinedRead { place: format!("pass `{pass}`"), resource, part }
+    }
+}

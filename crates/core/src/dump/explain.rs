@@ -1,0 +1,22 @@
+//! One thing asked for, in sentences: a pass, a resource, an order.
+
+mod order;
+mod pass;
+mod resource;
+
+use std::fmt::Write as _;
+
+/// Sentences below a heading, one a line.
+struct Page(String);
+
+impl Page {
+    fn new(heading: &str) -> Self {
+        Self(format!("{heading}\n"))
+    }
+
+    fn line(&mut self, depth: usize, text: &str) {
+        if !text.is_empty() {
+            let _ = writeln!(self.0, "{:width$}{text}", "", width = 2 * depth);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Why a pass is as it is.
+
+use super::Page;
+use crate::dump::places::{Place, Places};
+use crate::dump::words::verb;
+use crate::handle::PassId;
+use crate::plan::{AccessPlan, DependencyKind, Plan};
+
+impl Plan {
+    /// Says in a few lines why the pass runs or not, why at this place and in this render pass, and for each access
+    /// where the contents come from and what becomes of them.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
+    /// let mut frame = Frame::new();
+    /// let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
+    /// let mut draw = frame.render_pass("draw");
+    /// draw.color(&mut scene, Contents::clear_color([0.0; 4]));
+    /// let draw = draw.id();
+    /// let why = frame.compile()?.plan().explain_pass(draw);
+    /// assert!(why.contains("does not run: nothing reads `scene`"));
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    pub fn explain_pass(&self, id: PassId) -> String {
+        let pass = self.pass(id);
+        let mut page = Page::new(&format!("{} pass `{}`", pass.kind.word(), self.pass_path(id)));
+        match (pass.culled, Places::of(self).get(id)) {
+            (Some(reason), _) => page.line(1, &format!("does not run: {}", self.cull_words(reason))),
+            (None, Some(place)) => self.explain_place(&mut page, id, place),
+            (None, None) => {}
+        }
+        for access in self.accesses(id) {
+            self.explain_access(&mut page, id, &access);
+        }
+        page.0
+    }
+
+    fn explain_place(&self, page: &mut Page, id: PassId, place: Place) {
+        page.line(1, &format!("runs: {}", self.alive_sentence(id)));
+        let last = self.steps().len().saturating_sub(1);
+        let reason = self.place_words(self.placed[place.order]);
+        page.line(1, &format!("step {} (0 to {last}): {reason}", place.step));
+        let what = if place.within > 0 { "merged with the pass before it" } else { "not merged" };
+        page.line(1, &format!("{what}: {}", self.merge_sentence(place.order)));
+        if place.passes > 1 {
+            let number = place.within + 1;
+            page.line(1, &format!("pass {number} of {} in this render pass", place.passes));
+        }
+        // Who wrote what is read stands with the accesses.
+        for dependency in self.waits_for(id) {
+            if dependency.kind != DependencyKind::ReadAfterWrite {
+                page.line(1, &format!("waits: {}", self.dependency_sentence(dependency)));
+            }
+        }
+    }
+
+    fn explain_access(&self, page: &mut Page, pass: PassId, access: &AccessPlan) {
+        let name = self.resource(access.resource).name;
+        let part =
+            if access.part == crate::Part::WHOLE { String::new() } else { access.part.words() + " of " };
+        let (verb, role) = verb(access.access);
+        let mut line = format!("{verb} {part}`{name}`{role}");
+        if self.pass(pass).culled.is_none() {
+            let note = self.access_note(pass, access, 70);
+            line += if note.is_empty() { "" } else { ": " };
+            line += &note;
+        }
+        page.line(1, &line);
+        let Some(ops) = &access.ops else { return };
+        let (action, reason) = self.load_sentence(access, ops);
+        page.line(2, &format!("{action}: {reason}"));
+        if let Some((action, reason)) = self.clear_drawn_sentence(access, ops) {
+            page.line(2, &format!("{action}: {reason}"));
+        }
+        let (action, reason) = self.store_sentence(pass, access, ops);
+        page.line(2, &format!("{action}: {reason}"));
+    }
+}

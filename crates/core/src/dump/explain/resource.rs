@@ -1,0 +1,127 @@
+//! Why a resource is as it is.
+
+use super::Page;
+use crate::declaration::Origin;
+use crate::desc::ResourceDesc;
+use crate::dump::words::{bytes, list, quoted, shape, steps, verb};
+use crate::handle::{PassId, ResourceId};
+use crate::plan::{AccessPlan, Plan};
+use wgpu_types::{BufferUsages, TextureUsages};
+
+impl Plan {
+    /// Says in a few lines where the resource comes from, who writes and who reads each version of it, what each of
+    /// its usages is for, and why it lives where it does.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
+    /// let mut frame = Frame::new();
+    /// let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
+    /// frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
+    /// frame.export_texture(&scene);
+    /// let why = frame.compile()?.plan().explain_resource(scene.id());
+    /// assert!(why.contains("RENDER_ATTACHMENT: `draw` draws into it"));
+    /// assert!(why.contains("COPY_SRC: it is exported"));
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    pub fn explain_resource(&self, id: ResourceId) -> String {
+        let resource = self.resource(id);
+        let size = bytes(resource.desc.bytes());
+        let mut page = Page::new(&format!("`{}`: {}, {size}", resource.name, shape(&resource.desc)));
+        page.line(1, self.origin_words(id));
+        self.explain_versions(&mut page, id);
+        for usage in self.usages(id) {
+            page.line(1, &usage);
+        }
+        self.explain_slot(&mut page, id);
+        page.0
+    }
+
+    fn origin_words(&self, id: ResourceId) -> &'static str {
+        let resource = self.resource(id);
+        match resource.origin {
+            Origin::Transient if resource.exported => {
+                "lives from its first write to the end of the frame: it is exported"
+            }
+            Origin::Transient => "lives within the frame",
+            Origin::Imported { defined: true } => {
+                "belongs to the caller, and holds something when the frame begins"
+            }
+            Origin::Imported { defined: false } => {
+                "belongs to the caller, and holds nothing when the frame begins"
+            }
+            Origin::Previous { .. } => "is what the frame before left",
+            Origin::Current { .. } => "is kept for the next frame",
+        }
+    }
+
+    /// Writers and readers, in order of declaration. What makes version 1 is the first write.
+    fn explain_versions(&self, page: &mut Page, id: ResourceId) {
+        for (pass, _) in self.passes() {
+            for access in self.accesses(pass).filter(|access| access.resource == id) {
+                let (verb, role) = verb(access.access);
+                let part = access.part.words();
+                let part =
+                    if access.part == crate::Part::WHOLE { String::new() } else { format!(", {part}") };
+                let at = if access.access.writes() {
+                    format!("version {}", access.version + 1)
+                } else {
+                    format!("version {}", access.version)
+                };
+                let culled = if self.pass(pass).culled.is_some() { " (culled)" } else { "" };
+                let path = self.pass_path(pass);
+                page.line(1, &format!("{at}{part}: `{path}` {verb} it{role}{culled}"));
+            }
+        }
+    }
+
+    /// What each usage flag is for.
+    fn usages(&self, id: ResourceId) -> Vec<String> {
+        let resource = self.resource(id);
+        if let Origin::Imported { .. } = resource.origin {
+            return vec!["usages: those that the caller created it with".into()];
+        }
+        let outside = if resource.exported { "it is exported" } else { "the graph needs it" };
+        let line =
+            |name: &str, user: Option<String>| format!("{name}: {}", user.unwrap_or_else(|| outside.into()));
+        match resource.desc {
+            ResourceDesc::Texture(_) => {
+                let flags = resource.texture_usage.iter_names();
+                let user = |flag| match flag {
+                    TextureUsages::TRANSIENT_ATTACHMENT => Some("it never leaves its render pass".into()),
+                    _ => self.user(id, |access| access.access.texture_usage().contains(flag)),
+                };
+                flags.map(|(name, flag)| line(name, user(flag))).collect()
+            }
+            ResourceDesc::Buffer(_) => {
+                let flags = resource.buffer_usage.iter_names();
+                let user =
+                    |flag: BufferUsages| self.user(id, |access| access.access.buffer_usage().contains(flag));
+                flags.map(|(name, flag)| line(name, user(flag))).collect()
+            }
+        }
+    }
+
+    /// The first pass that runs and has such an access, and what it does.
+    fn user(&self, id: ResourceId, uses: impl Fn(&AccessPlan) -> bool) -> Option<String> {
+        let mut accesses = self.order().iter().flat_map(|&pass| self.accesses(pass).map(move |a| (pass, a)));
+        let (pass, access): (PassId, AccessPlan) = accesses.find(|(_, a)| a.resource == id && uses(a))?;
+        let (verb, role) = verb(access.access);
+        Some(format!("`{}` {verb} it{role}", self.pass_path(pass)))
+    }
+
+    fn explain_slot(&self, page: &mut Page, id: ResourceId) {
+        let resource = self.resource(id);
+        let steps = steps(&resource);
+        let Some(slot) = resource.slot else {
+            page.line(1, &format!("no slot: {}", self.slot_sentence(id)));
+            return;
+        };
+        page.line(1, &format!("slot {}, {steps}: {}", slot.index(), self.slot_sentence(id)));
+        let Some(plan) = self.slots().nth(slot.index()) else { return };
+        let others: Vec<String> =
+            plan.tenants.iter().filter(|&&r| r != id).map(|&r| quoted(self.resource(r).name)).collect();
+        if !others.is_empty() {
+            page.line(1, &format!("shares the slot with {}", list(&others, 70)));
+        }
+    }
+}

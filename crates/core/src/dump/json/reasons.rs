@@ -1,0 +1,89 @@
+//! Each decision as a sentence.
+
+use crate::declaration::Origin;
+use crate::dump::places::{Place, Places};
+use crate::handle::{PassId, ResourceId};
+use crate::plan::{AccessPlan, Plan};
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub(super) struct Reason {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pass: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    resource: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<String>,
+    /// Which decision.
+    decision: &'static str,
+    /// What was decided.
+    action: String,
+    because: String,
+}
+
+impl Plan {
+    /// Those of passes in order of declaration, then those of resources.
+    pub(super) fn reasons(&self) -> Vec<Reason> {
+        let places = Places::of(self);
+        let mut reasons = Vec::new();
+        for (id, pass) in self.passes() {
+            if let Some(culled) = pass.culled {
+                let because = self.cull_words(culled);
+                reasons.push(self.of_pass(id, "culled", "does not run".into(), because));
+            }
+            if let Some(place) = places.get(id) {
+                self.push_place(&mut reasons, id, place);
+            }
+            for access in self.accesses(id) {
+                self.push_ops(&mut reasons, id, &access);
+            }
+        }
+        reasons.extend(self.resources().map(|(id, _)| self.slot_reason(id)));
+        reasons
+    }
+
+    fn of_pass(&self, pass: PassId, decision: &'static str, action: String, because: String) -> Reason {
+        Reason { pass: Some(self.pass_path(pass)), resource: None, part: None, decision, action, because }
+    }
+
+    fn push_place(&self, reasons: &mut Vec<Reason>, id: PassId, place: Place) {
+        let because = self.place_words(self.placed[place.order]);
+        reasons.push(self.of_pass(id, "placed", format!("step {}", place.step), because));
+        let action = if place.within > 0 { "same render pass" } else { "not merged" };
+        reasons.push(self.of_pass(id, "merged", action.into(), self.merge_sentence(place.order)));
+    }
+
+    fn push_ops(&self, reasons: &mut Vec<Reason>, pass: PassId, access: &AccessPlan) {
+        let Some(ops) = &access.ops else { return };
+        let of_access = |decision, (action, because)| Reason {
+            pass: Some(self.pass_path(pass)),
+            resource: Some(self.resource(access.resource).name.to_owned()),
+            part: (access.part != crate::Part::WHOLE).then(|| access.part.words()),
+            decision,
+            action,
+            because,
+        };
+        reasons.push(of_access("load", self.load_sentence(access, ops)));
+        reasons.extend(self.clear_drawn_sentence(access, ops).map(|words| of_access("clear drawn", words)));
+        let (action, because) = self.store_sentence(pass, access, ops);
+        reasons.push(of_access("store", (action.to_owned(), because)));
+    }
+
+    fn slot_reason(&self, id: ResourceId) -> Reason {
+        let resource = self.resource(id);
+        let action = match (resource.origin, resource.slot) {
+            (Origin::Imported { .. }, _) => "import".into(),
+            (Origin::Previous { history } | Origin::Current { history }, _) => format!("history {history}"),
+            (Origin::Transient, Some(slot)) => format!("slot {}", slot.index()),
+            (Origin::Transient, None) => "no slot".into(),
+        };
+        Reason {
+            pass: None,
+            resource: Some(resource.name.to_owned()),
+            part: None,
+            decision: "slot",
+            action,
+            because: self.slot_sentence(id),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Resources by where they live: slots, the caller, histories, nowhere.
+
+use crate::declaration::Origin;
+use crate::desc::ResourceDesc;
+use crate::dump::words::{bytes, clip, shape, steps, usage};
+use crate::handle::ResourceId;
+use crate::plan::{Plan, ResourcePlan, SlotReason};
+use std::fmt::Write as _;
+
+impl Plan {
+    pub(super) fn write_resources(&self, out: &mut String) {
+        if self.resources().len() == 0 {
+            return;
+        }
+        out.push_str("\nresources by slot, which those in it take turns in\n");
+        for (index, slot) in self.slots().enumerate() {
+            let why = slot.tenants.first().map(|&first| self.slot_sentence(first)).unwrap_or_default();
+            write_home(out, &format!("slot {index}"), &slot.desc, &bytes(slot.desc.bytes()), &why);
+            for &tenant in slot.tenants {
+                self.write_tenant(out, tenant);
+            }
+        }
+        let is = |kind: fn(Origin) -> bool| self.resources().filter(move |(_, r)| kind(r.origin));
+        for (id, resource) in is(|origin| matches!(origin, Origin::Imported { .. })) {
+            let size = bytes(resource.desc.bytes());
+            write_home(out, "import", &resource.desc, &size, "it belongs to the caller");
+            self.write_tenant(out, id);
+        }
+        for (id, resource) in is(|origin| matches!(origin, Origin::Previous { .. } | Origin::Current { .. }))
+        {
+            if let Origin::Previous { history } = resource.origin {
+                let size = format!("2 x {}", bytes(resource.desc.bytes()));
+                let why = "the graph keeps two and swaps them each frame";
+                write_home(out, &format!("history {history}"), &resource.desc, &size, why);
+            }
+            self.write_tenant(out, id);
+        }
+        self.write_unused(out);
+    }
+
+    fn write_tenant(&self, out: &mut String, id: ResourceId) {
+        let resource = self.resource(id);
+        let _ = writeln!(
+            out,
+            "    {:<24} {:<14} {:<25}  {}",
+            clip(resource.name, 24),
+            steps(&resource),
+            usage(&resource),
+            self.tenant_notes(id, &resource).join("; "),
+        );
+    }
+
+    fn tenant_notes(&self, id: ResourceId, resource: &ResourcePlan<'_>) -> Vec<String> {
+        let mut notes = Vec::new();
+        if resource.exported {
+            notes.push("exported".into());
+        }
+        if let SlotReason::After(_) = resource.slot_reason {
+            notes.push(self.slot_sentence(id));
+        }
+        if let (ResourceDesc::Buffer(own), Some(slot)) = (resource.desc, resource.slot)
+            && own.bytes != self.slots[slot.index()].desc.bytes()
+        {
+            notes.push(format!("needs {}", bytes(own.bytes)));
+        }
+        notes
+    }
+
+    fn write_unused(&self, out: &mut String) {
+        let of_frame = |origin: Origin| origin == Origin::Transient;
+        let unused = |r: &ResourcePlan<'_>| of_frame(r.origin) && r.slot.is_none();
+        let mut unused = self.resources().filter(|(_, r)| unused(r)).peekable();
+        if let Some((id, _)) = unused.peek() {
+            let _ = writeln!(out, "  no slot: {}", self.slot_sentence(*id));
+        }
+        for (_, resource) in unused {
+            let _ = writeln!(out, "    {:<24} {}", clip(resource.name, 24), shape(&resource.desc));
+        }
+    }
+}
+
+/// What follows the name of a place: its shape and size, and why it is there.
+fn write_home(out: &mut String, place: &str, desc: &ResourceDesc, size: &str, why: &str) {
+    let _ = writeln!(out, "  {place:<9} {:<46} {why}", format!("{}, {size}", shape(desc)));
+}

@@ -1,0 +1,177 @@
+//! Results on their way back to the CPU.
+
+mod arrival;
+mod request;
+mod source;
+
+#[cfg(test)]
+mod tests;
+
+pub use request::ReadBackRequest;
+pub(crate) use request::Requested;
+pub(crate) use source::TexturePart;
+
+use crate::desc::TextureDesc;
+use crate::error::Error;
+use arrival::{Arrival, Outcome};
+use std::ops::Range;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+/// For how long [`ReadBack::wait`] gives another thread that is just submitting or polling, in steps.
+const PATIENCE: (u32, Duration) = (100, Duration::from_millis(10));
+
+/// Bytes of a texture or buffer on their way to the CPU: a future, or block with [`wait`](Self::wait).
+///
+/// The copy is part of the encoder that it was recorded into. After that encoder is submitted nothing has to be
+/// called for it but what a program calls anyway: a later `Queue::submit` or `Device::poll`, from any thread, finds
+/// that the copy is done and wakes the future. The future itself polls no device.
+///
+/// Texels are packed tightly, row after row and layer after layer, without the padding of a copy; rows of blocks in
+/// compressed formats.
+///
+/// # Errors
+/// When the encoder is dropped without having been submitted, or the bytes cannot be mapped (a lost device). A
+/// submission that wgpu refused for a mistake elsewhere in it yields zeros: wgpu reports the mistake, but
+/// not here.
+#[must_use = "the bytes come only to whoever awaits this, or calls `wait`"]
+pub struct ReadBack {
+    name: String,
+    buffer: wgpu::Buffer,
+    rows: Rows,
+    arrival: Arc<Arrival>,
+}
+
+/// Where the wanted bytes lie in the mapped buffer, in bytes.
+#[derive(Clone, Copy)]
+struct Rows {
+    offset: usize,
+    bytes: usize,
+    stride: usize,
+    count: usize,
+}
+
+impl ReadBack {
+    /// Records the copy of a part of a texture. `name` is for errors.
+    ///
+    /// # Errors
+    /// When the texture, its format or its usage does not allow the copy, or the part is not within it.
+    pub(crate) fn texture(
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        name: &str,
+        texture: &wgpu::Texture,
+        part: &TexturePart,
+    ) -> Result<Self, Error> {
+        if !texture.usage().contains(wgpu::TextureUsages::COPY_SRC) {
+            return Err(Error::ReadBack { resource: name.to_owned(), problem: source::no_usage() });
+        }
+        let copy = source::texture(name, &TextureDesc::of(texture), part)?;
+        let buffer = target(device, name, copy.bytes())?;
+        copy.record(encoder, texture, &buffer);
+        Ok(Self::of(encoder, name, buffer, copy.rows()))
+    }
+
+    /// Records the copy of a range of a buffer, in bytes. `name` is for errors.
+    ///
+    /// # Errors
+    /// When the buffer's usage does not allow the copy, or the range is empty or not within it.
+    pub(crate) fn buffer(
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        name: &str,
+        buffer: &wgpu::Buffer,
+        range: Range<u64>,
+    ) -> Result<Self, Error> {
+        let copied = source::buffer(name, buffer, &range)?;
+        let copied_bytes = copied.end - copied.start;
+        let target = target(device, name, copied_bytes)?;
+        encoder.copy_buffer_to_buffer(buffer, copied.start, &target, 0, copied_bytes);
+        let bytes = (range.end - range.start) as usize;
+        let rows = Rows { offset: (range.start - copied.start) as usize, bytes, stride: bytes, count: 1 };
+        Ok(Self::of(encoder, name, target, rows))
+    }
+
+    fn of(encoder: &wgpu::CommandEncoder, name: &str, buffer: wgpu::Buffer, rows: Rows) -> Self {
+        let (arrival, messenger) = Arrival::new();
+        encoder
+            .map_buffer_on_submit(&buffer, wgpu::MapMode::Read, .., move |mapped| messenger.report(mapped));
+        Self { name: name.to_owned(), buffer, rows, arrival }
+    }
+
+    /// Returns whether awaiting and waiting return at once, with the bytes or with an error.
+    pub fn is_ready(&self) -> bool {
+        self.arrival.outcome().is_some()
+    }
+
+    /// Blocks until the bytes are here, and returns them. Submit the encoder before, or from another thread.
+    ///
+    /// # Errors
+    /// As the future, and when no submission comes within a second after the GPU has run out of work.
+    pub fn wait(self, device: &wgpu::Device) -> Result<Vec<u8>, Error> {
+        let (steps, step) = PATIENCE;
+        for _ in 0..steps {
+            let polled = device.poll(wgpu::PollType::wait_indefinitely());
+            polled.map_err(|error| self.problem(format!("the device cannot be waited for: {error}")))?;
+            // Not there means not submitted, or that another thread has taken the callback and not run it yet,
+            // or that it has submitted and not asked for the mapping yet. The last two take no time worth naming.
+            if let Some(outcome) = self.arrival.outcome_within(step) {
+                return self.bytes(outcome);
+            }
+        }
+        Err(self.problem("the encoder that copies it was not submitted: submit it before waiting".into()))
+    }
+
+    fn bytes(&self, outcome: Outcome) -> Result<Vec<u8>, Error> {
+        match outcome {
+            Outcome::Mapped => {}
+            Outcome::Failed => {
+                return Err(self.problem("its bytes could not be mapped; the device may be lost".into()));
+            }
+            Outcome::NeverSubmitted => {
+                let problem = "the encoder that copies it was dropped: finish it and submit it";
+                return Err(self.problem(problem.into()));
+            }
+        }
+        let mapped =
+            self.buffer.get_mapped_range(..).map_err(|error| self.problem(format!("not mapped: {error}")))?;
+        Ok(self.rows.pack(&mapped))
+    }
+
+    fn problem(&self, problem: String) -> Error {
+        Error::ReadBack { resource: self.name.clone(), problem }
+    }
+}
+
+impl Future for ReadBack {
+    type Output = Result<Vec<u8>, Error>;
+
+    fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
+        match self.arrival.outcome_or_wake(context.waker()) {
+            Some(outcome) => Poll::Ready(self.bytes(outcome)),
+            None => Poll::Pending,
+        }
+    }
+}
+
+impl Rows {
+    fn pack(self, mapped: &[u8]) -> Vec<u8> {
+        let mut packed = Vec::with_capacity(self.bytes * self.count);
+        for row in mapped[self.offset..].chunks(self.stride).take(self.count) {
+            packed.extend_from_slice(&row[..self.bytes]);
+        }
+        packed
+    }
+}
+
+fn target(device: &wgpu::Device, name: &str, size: u64) -> Result<wgpu::Buffer, Error> {
+    crate::pool::limit(name, "max_buffer_size", size, device.limits().max_buffer_size)?;
+    Ok(device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(name),
+        size,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    }))
+}

@@ -1,0 +1,153 @@
+//! Recording a render step: one render pass for one pass of the frame, or for several that were merged.
+
+use super::attachments::{ColorAttachments, color_attachments, depth_attachment, targets};
+use super::context::{Body, RenderContext, Resources};
+use super::record::Recording;
+use crate::access::ClearValue;
+use crate::declaration::WHOLE;
+use crate::error::Error;
+use crate::handle::PassId;
+use crate::internal::{RegionClear, Targets};
+use crate::part::{Aspect, Rect};
+use crate::plan::{AccessPlan, AttachmentOps, LoadAction};
+use crate::programs;
+use crate::{Access, Contents, Extent};
+
+impl<'a> Recording<'a> {
+    pub(super) fn render<'f>(
+        &'a self,
+        passes: &[PassId],
+        encoder: &mut wgpu::CommandEncoder,
+        take: &mut impl FnMut(PassId) -> Body<'f>,
+    ) -> Result<(), Error> {
+        let (first, last) = (passes[0], passes[passes.len() - 1]);
+        let ColorAttachments { list, count } = color_attachments(self, first, last)?;
+        let depth_stencil_attachment = depth_attachment(self, first, last)?;
+        let timestamps = self.timer.and_then(|timer| timer.step_queries(first, last));
+        let timestamp_writes = timestamps.map(|(query_set, begin, end)| wgpu::RenderPassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: Some(begin),
+            end_of_pass_write_index: Some(end),
+        });
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(self.realised.label(first)),
+            color_attachments: &list[..count],
+            depth_stencil_attachment,
+            timestamp_writes,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        let resources = Resources { recording: self, pass: first };
+        let mut context = RenderContext { pass: pass.forget_lifetime(), resources };
+        for &id in passes {
+            context.resources.pass = id;
+            self.merged(id, passes, &mut context, take(id))?;
+        }
+        Ok(())
+    }
+
+    /// Records one of the passes that share a render pass.
+    fn merged(
+        &self,
+        id: PassId,
+        passes: &[PassId],
+        context: &mut RenderContext<'_>,
+        body: Body<'_>,
+    ) -> Result<(), Error> {
+        let several = passes.len() > 1;
+        if several {
+            context.pass.push_debug_group(self.realised.label(id));
+        }
+        let inside = self.timer.and_then(|timer| timer.inside_queries(id, several));
+        if let Some((queries, begin)) = inside {
+            context.pass.write_timestamp(queries, begin);
+        }
+        let drawn = self.clear_regions(id, context);
+        self.clean_state(id, context, several && id != passes[0] || drawn);
+        match body {
+            Body::Render(body) => self.timed(id, || body(context))?,
+            Body::Call(call) => self.timed(id, || programs::draw(context, call))?,
+            Body::None | Body::Compute(_) | Body::Encoder(_) => {}
+        }
+        if let Some((queries, begin)) = inside {
+            context.pass.write_timestamp(queries, begin + 1);
+        }
+        if several {
+            context.pass.pop_debug_group();
+        }
+        Ok(())
+    }
+
+    /// Draws the clears that no load operation does, and tells whether there were any.
+    fn clear_regions(&self, id: PassId, context: &mut RenderContext<'_>) -> bool {
+        // Where a loud value stands for what the pass before loads, no clear may count on that.
+        let again = |load| self.pool.poison && load == LoadAction::Continue;
+        let drawn = |ops: &Option<AttachmentOps>| ops.is_some_and(|ops| ops.clear_drawn || again(ops.load));
+        if !self.plan.ops[self.plan.decl.access_range(id)].iter().any(drawn) {
+            return false;
+        }
+        let cleared = |access: &AccessPlan| drawn(&access.ops);
+        let targets: Targets = targets(self.plan, id);
+        let mut caches = self.pool.caches();
+        // Parts may differ from attachment to attachment, so each is cleared on its own.
+        for access in self.plan.accesses(id).filter(cleared) {
+            let Some(Contents::Clear(value)) = access.contents else { continue };
+            let mut colors = vec![None; targets.colors.len()];
+            let (depth, stencil) = match (access.access, value) {
+                (Access::Color(index), ClearValue::Color(rgba)) => {
+                    colors[index as usize] = Some(rgba);
+                    (None, None)
+                }
+                (_, ClearValue::Depth(depth)) => (Some(depth), Some(0)),
+                (_, ClearValue::DepthStencil(depth, stencil)) => (Some(depth), Some(stencil)),
+                _ => (None, None),
+            };
+            let aspect = access.part.aspect;
+            let (depth, stencil) =
+                (depth.filter(|_| aspect != Aspect::Stencil), stencil.filter(|_| aspect != Aspect::Depth));
+            let rect = access.part.rect.unwrap_or_else(|| whole(self.attachment_size(&access)));
+            let clear = RegionClear { colors: &colors, depth, stencil, rect };
+            caches.clears.record(self.device, &mut context.pass, &targets, &clear);
+        }
+        true
+    }
+
+    /// Puts the pass into the state that a body may count on; `touched` tells whether it may be in another.
+    fn clean_state(&self, id: PassId, context: &mut RenderContext<'_>, touched: bool) {
+        let in_parts = self.plan.decl.accesses(id).iter().any(|access| access.part != WHOLE);
+        if !touched && !in_parts {
+            return;
+        }
+        let pass = &mut context.pass;
+        let mut attachments = self.plan.accesses(id).filter(|a| a.access.is_attachment());
+        let tile = attachments.clone().find_map(|access| access.part.rect);
+        if !touched && tile.is_none() {
+            return;
+        }
+        let Some(first) = attachments.next() else { return };
+        let rect = tile.unwrap_or_else(|| whole(self.attachment_size(&first)));
+        pass.set_viewport(rect.x as f32, rect.y as f32, rect.width as f32, rect.height as f32, 0.0, 1.0);
+        pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
+        if touched {
+            pass.set_stencil_reference(0);
+            pass.set_blend_constant(wgpu::Color::TRANSPARENT);
+            for group in 0..self.groups {
+                pass.set_bind_group(group, None, &[]);
+            }
+        }
+    }
+
+    fn attachment_size(&self, access: &AccessPlan) -> Extent {
+        match self.texture(access.resource) {
+            Ok(texture) => {
+                let mip = access.part.mips.map_or(0, |(first, _)| first);
+                texture.size().mip_level_size(mip, texture.dimension())
+            }
+            Err(_) => Extent { width: 1, height: 1, depth_or_array_layers: 1 },
+        }
+    }
+}
+
+fn whole(size: Extent) -> Rect {
+    Rect::new(0, 0, size.width, size.height)
+}

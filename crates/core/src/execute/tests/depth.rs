@@ -1,0 +1,142 @@
+//! Depth and stencil: tested while sampled, read by aspect, and never stored where nobody needs it.
+
+use super::gpu::{Gpu, NUMBERS, aspect, depth_test, square};
+use crate::{Aspect, Bind, Contents, Format, Graph, Rect, Texture, TextureDesc};
+
+fn depth(frame: &mut crate::Frame<'_>, format: Format) -> Texture {
+    frame.create_texture("depth", TextureDesc::d2(8, 8, format))
+}
+
+#[test]
+fn depth_is_tested_and_sampled_in_one_pass() {
+    for gpu in Gpu::all() {
+        let format = Format::Depth32Float;
+        let fill = depth_test(format, wgpu::CompareFunction::Always, true);
+        let fill = gpu.draw_with("seven", NUMBERS.into(), Some(fill), 1);
+        let read = depth_test(format, wgpu::CompareFunction::Equal, false);
+        let read = gpu.draw_with("hundredths", NUMBERS.into(), Some(read), 1);
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let (mut depth, mut unread) = (depth(&mut frame, format), frame.create_texture("unread", square(8)));
+        let mut pass = frame.render_pass("fill");
+        pass.color(&mut unread, Contents::Cover);
+        pass.depth(&mut depth, Contents::clear_depth(0.25));
+        pass.body(|ctx| {
+            ctx.pass.set_scissor_rect(0, 0, 4, 8);
+            fill.record_as_it_is(ctx);
+            Ok(())
+        });
+        let mut color = frame.create_texture("color", square(8));
+        let mut pass = frame.render_pass("read");
+        pass.depth_read(&depth);
+        let token = pass.sample(&depth);
+        pass.color(&mut color, Contents::clear_color([1.0, 0.0, 0.0, 0.0]));
+        pass.body(|ctx| read.record(ctx, &[Bind::Texture(token)]));
+        let color = frame.export_texture(&color);
+        let executed = gpu.run(&mut graph, frame);
+        if gpu.draws {
+            let texels = gpu.texels(executed.texture(color).unwrap(), 0, 0);
+            assert_eq!(texels[..8], [50, 50, 50, 50, 1, 1, 1, 1]);
+        }
+    }
+}
+
+#[test]
+fn depth_and_stencil_are_bound_as_aspects() {
+    for gpu in Gpu::all() {
+        let read = gpu.draw("aspects", NUMBERS);
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
+        frame.render_pass("fill").depth(&mut depth, Contents::clear_depth_stencil(0.75, 3));
+        let mut color = frame.create_texture("color", square(8));
+        let mut pass = frame.render_pass("read");
+        let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
+        pass.color(&mut color, Contents::Cover);
+        pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
+        let color = frame.export_texture(&color);
+        let executed = gpu.run(&mut graph, frame);
+        gpu.assert_filled(executed.texture(color).unwrap(), 3075);
+    }
+}
+
+#[test]
+fn each_aspect_is_cleared_by_a_pass_of_its_own() {
+    for gpu in Gpu::all() {
+        let read = gpu.draw("aspects", NUMBERS);
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
+        let contents = Contents::clear_depth_stencil(0.5, 9);
+        frame.render_pass("depth").on(aspect(Aspect::Depth)).depth(&mut depth, contents);
+        frame.render_pass("stencil").on(aspect(Aspect::Stencil)).depth(&mut depth, contents);
+        let mut color = frame.create_texture("color", square(8));
+        let mut pass = frame.render_pass("read");
+        let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
+        pass.color(&mut color, Contents::Cover);
+        pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
+        let color = frame.export_texture(&color);
+        let executed = gpu.run(&mut graph, frame);
+        gpu.assert_filled(executed.texture(color).unwrap(), 9050);
+    }
+}
+
+#[test]
+fn depth_that_one_pass_needs_is_a_transient_attachment() {
+    for gpu in Gpu::all() {
+        for (format, which) in [
+            (Format::Depth32Float, Aspect::All),
+            (Format::Depth24PlusStencil8, Aspect::All),
+            (Format::Depth24PlusStencil8, Aspect::Depth),
+            (Format::Stencil8, Aspect::All),
+        ] {
+            for transient_attachments in [true, false] {
+                let mut graph = Graph::new();
+                let mut frame = graph.frame();
+                frame.set_options(crate::Options { transient_attachments, ..Default::default() });
+                let mut color = frame.create_texture("color", square(8));
+                let mut depth = depth(&mut frame, format);
+                let mut pass = frame.render_pass("draw");
+                pass.color(&mut color, Contents::clear_color([2.0, 0.0, 0.0, 0.0]));
+                pass.on(aspect(which)).depth(&mut depth, Contents::clear_depth(0.0));
+                let color = frame.export_texture(&color);
+                let executed = gpu.run(&mut graph, frame);
+                gpu.assert_filled(executed.texture(color).unwrap(), 2);
+                let usage = executed.plan().resource(depth.id()).texture_usage;
+                let transient = usage.contains(wgpu::TextureUsages::TRANSIENT_ATTACHMENT);
+                assert_eq!(transient, transient_attachments && which == Aspect::All, "{format:?}, {which:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tile_of_one_aspect_is_cleared_and_the_other_aspect_stays() {
+    for gpu in Gpu::all() {
+        let read = gpu.draw("aspects", NUMBERS);
+        for which in [Aspect::Depth, Aspect::Stencil, Aspect::All] {
+            let mut graph = Graph::new();
+            let mut frame = graph.frame();
+            let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
+            frame.render_pass("all").depth(&mut depth, Contents::clear_depth_stencil(0.5, 9));
+            let tile = aspect(which).rect(Rect::new(0, 0, 4, 8));
+            frame.render_pass("tile").on(tile).depth(&mut depth, Contents::clear_depth_stencil(0.25, 3));
+            let mut color = frame.create_texture("color", square(8));
+            let mut pass = frame.render_pass("read");
+            let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
+            pass.color(&mut color, Contents::Cover);
+            pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
+            let color = frame.export_texture(&color);
+            let executed = gpu.run(&mut graph, frame);
+            if gpu.draws {
+                let inside = match which {
+                    Aspect::Depth => 9025,
+                    Aspect::Stencil => 3050,
+                    Aspect::All => 3025,
+                };
+                let texels = gpu.texels(executed.texture(color).unwrap(), 0, 0);
+                assert_eq!(texels[..8], [[inside; 4], [9050; 4]].concat(), "{which:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Bodies that fail, and what is left of a frame that did.
+
+use super::gpu::{Gpu, NUMBERS, square};
+use crate::{Contents, Error, Frame, Graph, TextureExport};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+#[test]
+fn an_undeclared_access_in_a_body_fails_the_frame_by_name() {
+    let gpu = Gpu::noop();
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    let mut a = frame.create_texture("a", square(8));
+    let token = frame.render_pass("first").color(&mut a, Contents::clear_color([0.0; 4]));
+    let mut second = frame.encoder_pass("second");
+    second.keep();
+    second.body(move |ctx| ctx.view(token).map(|_| ()));
+    frame.export_texture(&a);
+    let error = gpu.try_run(&mut graph, frame).err().unwrap();
+    assert!(
+        matches!(&error, Error::Undeclared { pass, resource, .. } if pass == "second" && resource == "a"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_token_or_block_of_another_frame_fails_the_frame() {
+    let gpu = Gpu::noop();
+    let mut graph = Graph::new();
+    let mut other = graph.frame();
+    let mut a = other.create_texture("a", square(8));
+    let token = other.render_pass("other").color(&mut a, Contents::Cover);
+    let block = other.uniform(&[0; 16]);
+    let layout =
+        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &[] });
+    for uniform in [false, true] {
+        let mut frame = graph.frame();
+        let mut pass = frame.encoder_pass("pass");
+        pass.keep();
+        let layout = &layout;
+        pass.body(move |ctx| match uniform {
+            true => ctx.bind_group(layout, &[crate::Bind::Uniform(block)]).map(|_| ()),
+            false => ctx.texture(token).map(|_| ()),
+        });
+        let error = gpu.try_run(&mut graph, frame).err().unwrap();
+        assert!(matches!(&error, Error::ForeignHandle { place } if place == "pass `pass`"), "{error}");
+    }
+}
+
+#[test]
+fn an_import_without_an_object_fails_the_frame_by_name() {
+    let gpu = Gpu::noop();
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    let mut screen = frame.declare_import_texture("screen", square(8), usage, false);
+    frame.render_pass("draw").color(&mut screen, Contents::clear_color([0.0; 4]));
+    let error = gpu.try_run(&mut graph, frame).err().unwrap();
+    assert_eq!(error, Error::NoImport { resource: "screen".into() });
+}
+
+#[test]
+fn a_body_of_any_kind_fails_with_the_name_of_its_pass_and_node() {
+    let gpu = Gpu::noop();
+    let fail = || Err(Error::body("no more paint"));
+    for kind in 0..3 {
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let mut a = frame.create_texture("a", square(8));
+        frame.node("effects", |frame| match kind {
+            0 => {
+                let mut pass = frame.render_pass("glow");
+                pass.color(&mut a, Contents::clear_color([0.0; 4]));
+                pass.keep();
+                pass.body(move |_| fail());
+            }
+            1 => {
+                let mut pass = frame.compute_pass("glow");
+                pass.keep();
+                pass.body(move |_| fail());
+            }
+            _ => {
+                let mut pass = frame.encoder_pass("glow");
+                pass.keep();
+                pass.body(move |_| fail());
+            }
+        });
+        let error = gpu.try_run(&mut graph, frame).err().unwrap();
+        assert_eq!(error.to_string(), "SG0602: pass `effects/glow`: no more paint");
+    }
+}
+
+/// How the second of two merged passes goes wrong.
+#[derive(Clone, Copy, Debug)]
+enum Mishap {
+    None,
+    Error,
+    Panic,
+}
+
+/// Two passes that share a render pass, of which the second writes 7 unless it goes wrong.
+fn frame<'f>(graph: &Graph, draw: &'f super::Draw, mishap: Mishap) -> (Frame<'f>, TextureExport) {
+    let mut frame = graph.frame();
+    let mut a = frame.create_texture("a", square(8));
+    frame.render_pass("clear").color(&mut a, Contents::clear_color([3.0, 0.0, 0.0, 0.0]));
+    let mut pass = frame.render_pass("draw");
+    pass.color(&mut a, Contents::Preserve);
+    pass.body(move |ctx| {
+        draw.record_as_it_is(ctx);
+        match mishap {
+            Mishap::None => Ok(()),
+            Mishap::Error => Err(Error::body("spilt")),
+            Mishap::Panic => panic!("the panic of a body, which this test is about"),
+        }
+    });
+    let a = frame.export_texture(&a);
+    (frame, a)
+}
+
+#[test]
+fn after_a_body_failed_or_panicked_the_next_frame_is_as_before() {
+    for gpu in Gpu::all() {
+        let draw = gpu.draw("seven", NUMBERS);
+        for threads in [None, Some(2)] {
+            let mut graph = Graph::new();
+            let (before, a) = frame(&graph, &draw, Mishap::None);
+            let before = gpu.run(&mut graph, before).texture(a).unwrap().clone();
+            for mishap in [Mishap::Error, Mishap::Panic] {
+                let (failing, _) = frame(&graph, &draw, mishap);
+                let record = AssertUnwindSafe(|| {
+                    let compiled = graph.compile(failing).unwrap();
+                    match threads {
+                        None => compiled.execute(&mut graph, &gpu.device, &mut gpu.encoder()).err(),
+                        Some(n) => compiled.execute_on_threads(&mut graph, &gpu.device, n).err(),
+                    }
+                });
+                let outcome = catch_unwind(record).map(|error| error.unwrap().to_string());
+                match mishap {
+                    Mishap::Panic => assert!(outcome.is_err(), "a panic goes on"),
+                    _ => assert_eq!(outcome.unwrap(), "SG0602: pass `draw`: spilt"),
+                }
+                let (after, a) = frame(&graph, &draw, Mishap::None);
+                let after = gpu.run(&mut graph, after);
+                assert_eq!(after.plan().steps().len(), 1);
+                assert_eq!(*after.texture(a).unwrap(), before, "{mishap:?}, {threads:?}");
+                gpu.assert_filled(&before, 7);
+            }
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Recording frames: on wgpu's noop device, which validates everything and draws nothing, and where there is a driver
+//! also on one that draws.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+mod copies;
+mod depth;
+mod errors;
+mod frames;
+mod gpu;
+mod history;
+mod imports;
+mod merged;
+mod parts;
+mod poison;
+mod resolve;
+mod reuse;
+mod threads;
+mod times;
+mod truth;
+
+use gpu::{Compute, Draw};

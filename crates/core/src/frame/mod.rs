@@ -1,0 +1,296 @@
+//! A frame being declared.
+
+mod compose;
+mod history;
+mod resources;
+mod storage;
+
+pub(crate) use history::HistoryUse;
+pub use history::{History, Resize};
+pub(crate) use storage::{Storage, Work};
+
+use crate::access::{Access, Contents};
+use crate::builder::{Compute, Copying, Encoding, Pass, Rendering};
+use crate::compile;
+use crate::compiled::Compiled;
+use crate::declaration::{AccessDecl, Change, Declaration, Options, PartDecl, PassDecl, PassKind, WHOLE};
+use crate::error::Error;
+use crate::graph::Known;
+use crate::handle::{NodeId, PassId, Token, Version};
+use crate::name::Name;
+use crate::part::Part;
+use std::any::{Any, TypeId};
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A frame: the passes and resources declared so far.
+///
+/// [`Graph::frame`](crate::Graph::frame) gives one out that reuses the memory of frames before it; `Frame::new` is
+/// for a frame on its own. `'f` is the lifetime of what pass bodies and uploads borrow.
+pub struct Frame<'f> {
+    id: u64,
+    pub(crate) decl: Declaration,
+    pub(crate) work: Work<'f>,
+    errors: Vec<Error>,
+    node: Option<NodeId>,
+    /// The innermost view around what is being declared.
+    view: Option<NodeId>,
+    published: HashMap<TypeId, Box<dyn Any + Send>>,
+    known: Known,
+}
+
+impl Default for Frame<'_> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'f> Frame<'f> {
+    /// Starts an empty frame.
+    pub fn new() -> Self {
+        Self::with(Known::default())
+    }
+
+    pub(crate) fn with(mut known: Known) -> Self {
+        // Tells handles of different frames apart; it never reaches a plan.
+        static FRAMES: AtomicU64 = AtomicU64::new(0);
+        let Storage { decl, work, errors } = known.take_storage();
+        Self {
+            id: FRAMES.fetch_add(1, Ordering::Relaxed),
+            decl,
+            work: work.relive(),
+            errors,
+            node: None,
+            view: None,
+            published: HashMap::new(),
+            known,
+        }
+    }
+
+    /// Sets what the compiler may do with this frame.
+    pub fn set_options(&mut self, options: Options) {
+        self.decl.options = options;
+    }
+
+    /// Fixes the order of declaration as the order of execution.
+    pub fn fix_order(&mut self) {
+        self.decl.options.order = crate::declaration::OrderPolicy::Declared;
+    }
+
+    /// Declares a pass that draws.
+    pub fn render_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Rendering> {
+        let id = self.add_pass(name, PassKind::Render);
+        Pass::new(self, id)
+    }
+
+    /// Declares a pass that dispatches compute work.
+    pub fn compute_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Compute> {
+        let id = self.add_pass(name, PassKind::Compute);
+        Pass::new(self, id)
+    }
+
+    /// Declares a pass that copies; the graph records the copies itself.
+    pub fn copy_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Copying> {
+        let id = self.add_pass(name, PassKind::Copy);
+        Pass::new(self, id)
+    }
+
+    /// Declares a pass that records into the raw encoder: the escape hatch for what the graph does not know.
+    pub fn encoder_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Encoding> {
+        let id = self.add_pass(name, PassKind::Encoder);
+        Pass::new(self, id)
+    }
+
+    /// Compiles the declarations into a plan. [`Graph::compile`](crate::Graph::compile) does the same and finds the
+    /// plan of an equal frame again.
+    ///
+    /// # Errors
+    /// The first mistake made while declaring, in order of declaration.
+    pub fn compile(mut self) -> Result<Compiled<'f>, Error> {
+        self.check()?;
+        let plan = compile::compile(std::mem::take(&mut self.decl))?;
+        Ok(Compiled::new(Arc::new(plan), self))
+    }
+
+    /// The first mistake made while declaring.
+    pub(crate) fn check(&mut self) -> Result<(), Error> {
+        if self.errors.is_empty() { Ok(()) } else { Err(self.errors.swap_remove(0)) }
+    }
+
+    /// Notes a mistake made while declaring.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn mistake(&mut self, error: Error) {
+        self.errors.push(error);
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(crate) fn id(&self) -> u64 {
+        self.id
+    }
+
+    fn add_pass(&mut self, name: impl Name, kind: PassKind) -> PassId {
+        let id = PassId(self.decl.passes.len() as u32);
+        let name = self.decl.names.push(name);
+        let (accesses, copies) = (self.decl.accesses.len() as u32, self.decl.copies.len() as u32);
+        self.decl.passes.push(PassDecl {
+            name,
+            node: self.node,
+            kind,
+            keep: false,
+            accesses: (accesses, accesses),
+            copies: (copies, copies),
+        });
+        #[cfg(feature = "gpu")]
+        self.work.bodies.push(crate::execute::Body::None);
+        id
+    }
+
+    /// Declares a read of the part that is taken out of `part`.
+    pub(crate) fn declare_read(
+        &mut self,
+        pass: PassId,
+        version: Version,
+        access: Access,
+        part: &mut Option<Part>,
+    ) -> Token {
+        if version.frame != self.id {
+            *part = None;
+            return self.foreign(pass, version);
+        }
+        if self.is_stale(version) {
+            let place = format!("pass `{}`", self.decl.pass_path(pass));
+            let error = self.stale_read(place, version);
+            self.errors.push(error);
+        }
+        self.add_access(pass, version, access, Change::Read, part)
+    }
+
+    /// Declares a write to the part that is taken out of `part`.
+    pub(crate) fn declare_write(
+        &mut self,
+        pass: PassId,
+        version: &mut Version,
+        access: Access,
+        contents: Contents,
+        part: &mut Option<Part>,
+    ) -> Token {
+        if version.frame != self.id {
+            *part = None;
+            return self.foreign(pass, *version);
+        }
+        if self.is_stale(*version) {
+            let error = Error::TwoWriters {
+                pass: self.decl.pass_path(pass),
+                resource: self.decl.resource_name(version.resource).into(),
+                version: version.version,
+                writer: self.writer_after(*version),
+            };
+            self.errors.push(error);
+        }
+        let change = self.change(contents);
+        let token = self.add_access(pass, *version, access, change, part);
+        let resource = &mut self.decl.resources[version.resource.index()];
+        resource.version += 1;
+        version.version = resource.version;
+        token
+    }
+
+    fn change(&mut self, contents: Contents) -> Change {
+        match contents {
+            Contents::Cover => Change::Cover,
+            Contents::Preserve => Change::Preserve,
+            Contents::Clear(value) => {
+                let clears = &mut self.decl.clears;
+                // Frames clear to few values, most of them the one before.
+                let known = clears.iter().rev().take(4).position(|&v| v == value);
+                let index = known.map_or(clears.len(), |back| clears.len() - 1 - back);
+                if known.is_none() {
+                    clears.push(value);
+                }
+                Change::Clear(index as u32)
+            }
+        }
+    }
+
+    /// What an access with a handle of another frame returns. It resolves nowhere.
+    fn foreign(&mut self, pass: PassId, version: Version) -> Token {
+        let place = format!("pass `{}`", self.decl.pass_path(pass));
+        self.errors.push(Error::ForeignHandle { place });
+        Token { frame: version.frame, pass, resource: version.resource, access: u32::MAX }
+    }
+
+    pub(crate) fn pass_mut(&mut self, pass: PassId) -> &mut PassDecl {
+        &mut self.decl.passes[pass.index()]
+    }
+
+    /// Orders two passes by name; see [`Pass::after`].
+    pub(crate) fn declare_after(&mut self, pass: PassId, other: PassId) {
+        if other < pass {
+            self.decl.after.push((other, pass));
+        } else {
+            self.errors.push(Error::Order { pass: self.decl.pass_path(pass), other: other.0 });
+        }
+    }
+
+    fn add_access(
+        &mut self,
+        pass: PassId,
+        version: Version,
+        access: Access,
+        contents: Change,
+        part: &mut Option<Part>,
+    ) -> Token {
+        let part = match *part {
+            None => WHOLE,
+            Some(own) => {
+                *part = None;
+                self.add_part(pass, version, own)
+            }
+        };
+        let Version { resource, version, .. } = version;
+        self.decl.accesses.push(AccessDecl { resource, access, contents, version, part });
+        let end = self.decl.accesses.len() as u32;
+        self.pass_mut(pass).accesses.1 = end;
+        Token { frame: self.id, pass, resource, access: end - 1 }
+    }
+
+    /// Notes a part, unless it is all of the resource.
+    fn add_part(&mut self, pass: PassId, version: Version, part: Part) -> u32 {
+        let resource = &mut self.decl.resources[version.resource.index()];
+        if let Some(problem) = part.problem(&resource.desc) {
+            let error = Error::Part {
+                pass: self.decl.pass_path(pass),
+                resource: self.decl.resource_name(version.resource).into(),
+                part: part.words(),
+                problem,
+            };
+            self.errors.push(error);
+            return WHOLE;
+        }
+        let Some(area) = part.area(&resource.desc) else { return WHOLE };
+        resource.in_parts = true;
+        self.decl.parts.push(PartDecl { part, area });
+        self.decl.parts.len() as u32 - 1
+    }
+
+    fn is_stale(&self, version: Version) -> bool {
+        version.version != self.decl.resource(version.resource).version
+    }
+
+    fn stale_read(&self, place: String, version: Version) -> Error {
+        Error::StaleRead {
+            place,
+            resource: self.decl.resource_name(version.resource).into(),
+            version: version.version,
+            writer: self.writer_after(version),
+            latest: self.decl.resource(version.resource).version,
+        }
+    }
+
+    /// Who made the version after this one.
+    fn writer_after(&self, version: Version) -> String {
+        let writer = self.decl.writer(version.resource, version.version + 1);
+        writer.map(|pass| self.decl.pass_path(pass)).unwrap_or_default()
+    }
+}

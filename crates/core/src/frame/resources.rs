@@ -1,0 +1,212 @@
+//! Resources of a frame: created, uploaded, imported, exported, found again.
+
+use super::Frame;
+use crate::access::{Access, ClearValue, Contents};
+use crate::declaration::{CopyOp, Origin, PassKind, ResourceDecl};
+use crate::desc::{BufferDesc, Format, ResourceDesc, TextureDesc};
+use crate::error::Error;
+use crate::handle::{Buffer, BufferExport, ResourceId, Texture, TextureExport, Uniform, Version};
+use crate::name::Name;
+use std::borrow::Cow;
+use wgpu_types::{BufferUsages, TextureUsages};
+
+/// Uniform blocks start at multiples of this: the strictest `min_uniform_buffer_offset_alignment` there is.
+const UNIFORM_ALIGNMENT: usize = 256;
+
+impl<'f> Frame<'f> {
+    /// Creates a texture that lives within this frame. Its contents are undefined until a pass writes them.
+    pub fn create_texture(&mut self, name: impl Name, desc: TextureDesc) -> Texture {
+        Texture(self.add_resource(name, ResourceDesc::Texture(desc), Origin::Transient))
+    }
+
+    /// Creates a buffer that lives within this frame. Its contents are undefined until a pass writes them.
+    pub fn create_buffer(&mut self, name: impl Name, desc: BufferDesc) -> Buffer {
+        Buffer(self.add_resource(name, ResourceDesc::Buffer(desc), Origin::Transient))
+    }
+
+    /// Creates a buffer that holds `bytes` when the first pass reads it; a copy pass uploads them.
+    ///
+    /// ```
+    /// let mut frame = shadowgraph_core::Frame::new();
+    /// let numbers = [1u8, 2, 3, 4];
+    /// let buffer = frame.upload_buffer("numbers", &numbers[..]);
+    /// let mut pass = frame.compute_pass("sum");
+    /// pass.storage_buffer(&buffer);
+    /// pass.keep();
+    /// assert_eq!(frame.compile()?.plan().order().len(), 2);
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    pub fn upload_buffer(&mut self, name: impl Name, bytes: impl Into<Cow<'f, [u8]>>) -> Buffer {
+        let bytes = bytes.into();
+        let mut buffer = self.create_buffer(&name, BufferDesc::new(bytes.len() as u64));
+        let upload = self.work.uploads.len() as u32;
+        self.work.uploads.push(bytes);
+        let pass = self.add_pass(name, PassKind::Copy);
+        self.declare_write(pass, &mut buffer.0, Access::CopyTarget, Contents::Cover, &mut None);
+        self.add_copy(pass, CopyOp::Upload { target: buffer.id(), upload });
+        buffer
+    }
+
+    /// Puts a uniform block (or a small read-only storage block) into the frame's one uniform buffer, for
+    /// `Bind::Uniform`. All blocks of a frame are uploaded by one copy.
+    ///
+    /// ```
+    /// let mut frame = shadowgraph_core::Frame::new();
+    /// let time = frame.uniform(&1.5f32.to_le_bytes());
+    /// assert_eq!(time.size_bytes(), 4);
+    /// ```
+    pub fn uniform(&mut self, bytes: &[u8]) -> Uniform {
+        let uniforms = &mut self.work.uniforms;
+        let start = uniforms.len().next_multiple_of(UNIFORM_ALIGNMENT);
+        uniforms.resize(start, 0);
+        uniforms.extend_from_slice(bytes);
+        Uniform { frame: self.id, start: start as u32, size: bytes.len() as u32 }
+    }
+
+    /// Declares a texture that belongs to the caller, created with `usage`; `defined` tells whether it holds
+    /// something when the frame begins. Writing an import is an effect outside the frame, so such passes stay.
+    ///
+    /// This is the declaration alone; with a device use `Frame::import_texture`.
+    pub fn declare_import_texture(
+        &mut self,
+        name: impl Name,
+        desc: TextureDesc,
+        usage: TextureUsages,
+        defined: bool,
+    ) -> Texture {
+        let version = self.add_resource(name, ResourceDesc::Texture(desc), Origin::Imported { defined });
+        self.decl.resources[version.resource.index()].texture_usage = usage;
+        Texture(version)
+    }
+
+    /// Declares a buffer that belongs to the caller, created with `usage`. See
+    /// [`declare_import_texture`](Self::declare_import_texture).
+    pub fn declare_import_buffer(
+        &mut self,
+        name: impl Name,
+        desc: BufferDesc,
+        usage: BufferUsages,
+        defined: bool,
+    ) -> Buffer {
+        let version = self.add_resource(name, ResourceDesc::Buffer(desc), Origin::Imported { defined });
+        self.decl.resources[version.resource.index()].buffer_usage = usage;
+        Buffer(version)
+    }
+
+    /// Keeps the texture's present contents to the end of the frame, to be taken out of the executed frame. A later
+    /// write to it is an error.
+    pub fn export_texture(&mut self, texture: &Texture) -> TextureExport {
+        self.export(texture.0, TextureUsages::COPY_SRC, BufferUsages::empty());
+        TextureExport(texture.0)
+    }
+
+    /// Keeps the buffer's present contents to the end of the frame, to be taken out of the executed frame. A later
+    /// write to it is an error.
+    pub fn export_buffer(&mut self, buffer: &Buffer) -> BufferExport {
+        self.export(buffer.0, TextureUsages::empty(), BufferUsages::COPY_SRC);
+        BufferExport(buffer.0)
+    }
+
+    /// Returns `texture`, or where there is none a texture of one texel cleared to `value`, so that a node with an
+    /// optional input can always bind one. Nothing is cleared where nothing reads it.
+    ///
+    /// ```
+    /// use shadowgraph_core::{ClearValue, Format, Frame};
+    /// let mut frame = Frame::new();
+    /// let white = ClearValue::Color([1.0; 4]);
+    /// let occlusion = frame.or_stand_in(None, Format::R8Unorm, white);
+    /// assert_eq!(frame.texture_desc(&occlusion).map(|desc| desc.size.width), Some(1));
+    /// ```
+    pub fn or_stand_in(&mut self, texture: Option<&Texture>, format: Format, value: ClearValue) -> Texture {
+        if let Some(texture) = texture {
+            return texture.clone();
+        }
+        let mut stand_in =
+            self.create_texture(format_args!("stand-in {format:?}"), TextureDesc::d2(1, 1, format));
+        let mut pass = self.render_pass(format_args!("stand-in {format:?}"));
+        match value {
+            ClearValue::Color(_) => pass.color(&mut stand_in, Contents::Clear(value)),
+            ClearValue::Depth(_) | ClearValue::DepthStencil(..) => {
+                pass.depth(&mut stand_in, Contents::Clear(value))
+            }
+        };
+        stand_in
+    }
+
+    /// Returns the newest version of the texture declared last under `name`, if there is one.
+    pub fn find_texture(&self, name: &str) -> Option<Texture> {
+        let index = self.decl.resources.iter().rposition(|r| {
+            matches!(r.desc, ResourceDesc::Texture(_)) && self.decl.names.get(r.name) == name
+        })?;
+        let version = self.decl.resources[index].version;
+        Some(Texture(Version { frame: self.id, resource: ResourceId(index as u32), version }))
+    }
+
+    /// Returns the names of all textures declared so far.
+    pub fn texture_names(&self) -> impl Iterator<Item = &str> {
+        let textures = self.decl.resources.iter().filter(|r| matches!(r.desc, ResourceDesc::Texture(_)));
+        textures.map(|r| self.decl.names.get(r.name))
+    }
+
+    /// Returns the description of a texture of this frame; `None` for a handle of another frame.
+    pub fn texture_desc(&self, texture: &Texture) -> Option<TextureDesc> {
+        match self.desc(texture.0)? {
+            ResourceDesc::Texture(desc) => Some(desc),
+            ResourceDesc::Buffer(_) => None,
+        }
+    }
+
+    /// Returns the description of a buffer of this frame; `None` for a handle of another frame.
+    pub fn buffer_desc(&self, buffer: &Buffer) -> Option<BufferDesc> {
+        match self.desc(buffer.0)? {
+            ResourceDesc::Buffer(desc) => Some(desc),
+            ResourceDesc::Texture(_) => None,
+        }
+    }
+
+    fn desc(&self, version: Version) -> Option<ResourceDesc> {
+        (version.frame == self.id).then(|| self.decl.resource(version.resource).desc)
+    }
+
+    pub(super) fn add_resource(&mut self, name: impl Name, desc: ResourceDesc, origin: Origin) -> Version {
+        let resource = ResourceId(self.decl.resources.len() as u32);
+        let name = self.decl.names.push(name);
+        self.decl.resources.push(ResourceDecl {
+            name,
+            desc,
+            origin,
+            version: 0,
+            exported: None,
+            in_parts: false,
+            texture_usage: TextureUsages::empty(),
+            buffer_usage: BufferUsages::empty(),
+        });
+        #[cfg(feature = "gpu")]
+        self.work.imports.push(None);
+        Version { frame: self.id, resource, version: 0 }
+    }
+
+    pub(crate) fn add_copy(&mut self, pass: crate::PassId, op: CopyOp) {
+        self.decl.copies.push(op);
+        self.decl.passes[pass.index()].copies.1 = self.decl.copies.len() as u32;
+    }
+
+    pub(crate) fn export(&mut self, version: Version, texture: TextureUsages, buffer: BufferUsages) {
+        if version.frame != self.id {
+            self.errors.push(Error::ForeignHandle { place: "an export".into() });
+            return;
+        }
+        if self.is_stale(version) {
+            let error = self.stale_read("the export".into(), version);
+            self.errors.push(error);
+            return;
+        }
+        let resource = &mut self.decl.resources[version.resource.index()];
+        resource.exported = Some(version.version);
+        // Of an import the usages are what its owner gave it.
+        if resource.origin == Origin::Transient {
+            resource.texture_usage |= texture;
+            resource.buffer_usage |= buffer;
+        }
+    }
+}

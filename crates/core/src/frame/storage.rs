@@ -1,0 +1,88 @@
+//! What a frame fills, kept from frame to frame so that declaring allocates nothing.
+
+use super::Frame;
+use crate::declaration::Declaration;
+use crate::error::Error;
+use std::borrow::Cow;
+
+/// The memory of a frame that is done.
+#[derive(Default)]
+pub(crate) struct Storage {
+    pub(crate) decl: Declaration,
+    pub(crate) work: Work<'static>,
+    pub(crate) errors: Vec<Error>,
+}
+
+/// What the executor needs beside the plan: bodies and bytes, which borrow, and the caller's objects.
+#[derive(Default)]
+pub(crate) struct Work<'f> {
+    pub(crate) uploads: Vec<Cow<'f, [u8]>>,
+    /// All uniform blocks, each at a multiple of 256 bytes.
+    pub(crate) uniforms: Vec<u8>,
+    /// By pass.
+    #[cfg(feature = "gpu")]
+    pub(crate) bodies: Vec<crate::execute::Body<'f>>,
+    /// By resource.
+    #[cfg(feature = "gpu")]
+    pub(crate) imports: Vec<Option<crate::execute::Imported>>,
+    pub(crate) histories: Vec<super::HistoryUse>,
+    #[cfg(feature = "gpu")]
+    pub(crate) read_backs: Vec<crate::execute::Requested>,
+    #[cfg(feature = "gpu")]
+    pub(crate) calls: crate::programs::Calls,
+}
+
+impl Work<'_> {
+    /// Empties everything and gives it another lifetime.
+    pub(crate) fn relive<'g>(self) -> Work<'g> {
+        let Self { uploads, mut uniforms, .. } = self;
+        uniforms.clear();
+        Work {
+            uploads: emptied(uploads),
+            uniforms,
+            #[cfg(feature = "gpu")]
+            bodies: emptied(self.bodies),
+            #[cfg(feature = "gpu")]
+            imports: emptied(self.imports),
+            histories: emptied(self.histories),
+            #[cfg(feature = "gpu")]
+            read_backs: emptied(self.read_backs),
+            #[cfg(feature = "gpu")]
+            calls: self.calls.emptied(),
+        }
+    }
+}
+
+impl Drop for Frame<'_> {
+    /// The memory goes back to the graph.
+    fn drop(&mut self) {
+        let (mut decl, mut errors) = (std::mem::take(&mut self.decl), std::mem::take(&mut self.errors));
+        decl.clear();
+        errors.clear();
+        let work = std::mem::take(&mut self.work).relive();
+        self.known.give_back(Storage { decl, work, errors });
+    }
+}
+
+/// Empties a vector and gives its memory to another of the same layout: collecting in place keeps the allocation,
+/// and a type that differs only in lifetimes has the same layout.
+fn emptied<A, B>(mut vector: Vec<A>) -> Vec<B> {
+    vector.clear();
+    vector.into_iter().filter_map(|_| None).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_outlives_the_lifetime_it_was_filled_with() {
+        let bytes = [1u8, 2, 3];
+        let mut work = Work::default();
+        work.uploads.extend((0..40).map(|_| Cow::Borrowed(&bytes[..])));
+        let (capacity, address) = (work.uploads.capacity(), work.uploads.as_ptr().addr());
+        let next: Work<'static> = work.relive();
+        assert!(next.uploads.is_empty());
+        assert_eq!((next.uploads.capacity(), next.uploads.as_ptr().addr()), (capacity, address));
+    }
+}

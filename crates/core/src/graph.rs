@@ -1,0 +1,200 @@
+//! What outlives a frame.
+
+mod plans;
+
+pub use plans::PlanCounts;
+
+use crate::compiled::Compiled;
+use crate::declaration::Declaration;
+use crate::desc::{ResourceDesc, TextureDesc};
+use crate::error::Error;
+use crate::frame::{Frame, Resize, Storage};
+use crate::handle::{NodeId, ResourceId};
+use plans::Plans;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What outlives a frame: plans, the memory that frames are declared in, and for one device the physical textures
+/// and buffers, their views and bind groups, and histories.
+///
+/// ```
+/// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
+/// let mut graph = Graph::new();
+/// for _ in 0..3 {
+///     let mut frame = graph.frame();
+///     let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+///     frame.render_pass("draw").color(&mut color, Contents::clear_color([0.0; 4]));
+///     frame.export_texture(&color);
+///     let compiled = graph.compile(frame)?;
+///     assert_eq!(compiled.plan().order().len(), 1);
+/// }
+/// assert_eq!(graph.plan_counts().compiled, 1, "equal frames share a plan");
+/// # Ok::<(), shadowgraph_core::Error>(())
+/// ```
+#[derive(Default)]
+pub struct Graph {
+    spare: Spare,
+    plans: Plans,
+    #[cfg(feature = "gpu")]
+    pub(crate) device: crate::pool::Pool,
+}
+
+type Spare = Arc<Mutex<Vec<Storage>>>;
+
+impl Graph {
+    /// Creates an empty graph.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Starts a frame in the memory of frames before it.
+    pub fn frame<'f>(&self) -> Frame<'f> {
+        Frame::with(Known {
+            spare: Some(self.spare.clone()),
+            #[cfg(feature = "gpu")]
+            histories: self.device.histories.known(),
+            #[cfg(not(feature = "gpu"))]
+            histories: Arc::default(),
+        })
+    }
+
+    /// Compiles a frame, or finds the plan of an equal one among the last few. Equal means equal in all that was
+    /// declared: names, shapes, accesses, parts, clear values. Where only sizes differ, the order of the passes is
+    /// chosen anew but their dependencies are not looked for again.
+    ///
+    /// # Errors
+    /// The first mistake made while declaring, in order of declaration.
+    pub fn compile<'f>(&mut self, mut frame: Frame<'f>) -> Result<Compiled<'f>, Error> {
+        frame.check()?;
+        let plan = self.plans.plan(&mut frame.decl)?;
+        Ok(Compiled::new(plan, frame))
+    }
+
+    /// Sets how long and how much the graph keeps beyond what a frame needs.
+    #[cfg(feature = "gpu")]
+    pub fn set_limits(&mut self, limits: crate::pool::PoolLimits) {
+        self.device.limits = limits;
+    }
+
+    /// Switches a debug mode on or off; off at first. While it is on, a transient texture or buffer is filled with a
+    /// loud value before the first pass that touches it, and so is an attachment of which a pass covers all or of
+    /// which nothing needs the rest. A read of what no pass has written, such as after a false [`Contents::Cover`],
+    /// then shows at once, while a frame that is right draws the same as without.
+    ///
+    /// The values: not a number for floats, the largest for unsigned and -1 for signed integers, magenta (0.93, 0.07,
+    /// 0.93, 0.53) for other colours, 0.53 for depth, 0xcd for stencil, and 0x7fcdcdcd in each word of a buffer.
+    /// Imports and histories are left alone. It costs a pass or copy for every resource and needs more usages, so
+    /// textures and buffers are made anew when it changes.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
+    /// # let (device, queue) = wgpu::Device::noop(&Default::default());
+    /// let mut graph = Graph::new();
+    /// graph.set_poison(cfg!(debug_assertions));
+    /// let mut frame = graph.frame();
+    /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    /// frame.render_pass("draws too little").color(&mut color, Contents::Cover);
+    /// frame.export_texture(&color); // magenta, not black
+    /// let mut encoder = device.create_command_encoder(&Default::default());
+    /// graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
+    /// # queue.submit([encoder.finish()]);
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    ///
+    /// [`Contents::Cover`]: crate::Contents::Cover
+    #[cfg(feature = "gpu")]
+    pub fn set_poison(&mut self, on: bool) {
+        self.device.set_poison(on);
+    }
+
+    /// Returns the bytes of all transient textures and buffers and all histories that the graph holds, without the
+    /// driver's padding.
+    #[cfg(feature = "gpu")]
+    pub fn bytes(&self) -> u64 {
+        self.device.bytes()
+    }
+
+    /// Returns how plans were come by since the graph was created.
+    pub fn plan_counts(&self) -> PlanCounts {
+        self.plans.counts
+    }
+}
+
+/// What a frame knows of the graph that gave it out.
+#[derive(Clone, Default)]
+pub(crate) struct Known {
+    spare: Option<Spare>,
+    histories: Arc<Vec<KnownHistory>>,
+}
+
+/// A history that holds contents.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct KnownHistory {
+    /// The path of the view; empty for none.
+    pub(crate) view: String,
+    pub(crate) name: String,
+    pub(crate) desc: TextureDesc,
+    /// Whether its contents can be drawn into a texture of another size.
+    pub(crate) resamples: bool,
+}
+
+impl KnownHistory {
+    /// Whether this is the history of that name and view.
+    pub(crate) fn is(&self, decl: &Declaration, view: Option<NodeId>, resource: ResourceId) -> bool {
+        self.name == decl.resource_name(resource) && is_path(decl, view, &self.view)
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(crate) fn is_same_history(&self, other: &Self) -> bool {
+        (&self.view, &self.name) == (&other.view, &other.name)
+    }
+
+    /// Whether contents of this shape are of use for a texture of that one. A frame asks when it declares the
+    /// history, and the executor when it finds the textures: both must come to the same answer.
+    pub(crate) fn fits(&self, desc: &TextureDesc, resize: Resize) -> bool {
+        self.desc == *desc || resize == Resize::Resample && self.resamples && self.differs_in_size_only(desc)
+    }
+
+    /// Whether all but width, height and the mips that follow from them is the same.
+    pub(crate) fn differs_in_size_only(&self, desc: &TextureDesc) -> bool {
+        let crate::Extent { width, height, .. } = desc.size;
+        let size = crate::Extent { width, height, ..self.desc.size };
+        TextureDesc { size, mip_levels: desc.mip_levels, ..self.desc } == *desc
+    }
+}
+
+/// Compares a node's path with a text, without writing it.
+fn is_path(decl: &Declaration, node: Option<NodeId>, path: &str) -> bool {
+    let Some(node) = node else { return path.is_empty() };
+    let node = &decl.nodes[node.index()];
+    let Some(rest) = path.strip_suffix(decl.names.get(node.name)) else { return false };
+    match node.parent {
+        None => rest.is_empty(),
+        Some(_) => rest.strip_suffix('/').is_some_and(|rest| is_path(decl, node.parent, rest)),
+    }
+}
+
+impl Known {
+    pub(crate) fn take_storage(&mut self) -> Storage {
+        let spare = self.spare.as_ref();
+        let taken = spare.and_then(|spare| spare.lock().unwrap_or_else(PoisonError::into_inner).pop());
+        taken.unwrap_or_default()
+    }
+
+    /// Gives the memory of a frame back to its graph.
+    pub(crate) fn give_back(&self, storage: Storage) {
+        if let Some(spare) = &self.spare {
+            spare.lock().unwrap_or_else(PoisonError::into_inner).push(storage);
+        }
+    }
+
+    pub(crate) fn history_valid(
+        &self,
+        decl: &Declaration,
+        view: Option<NodeId>,
+        current: ResourceId,
+        resize: Resize,
+    ) -> bool {
+        let ResourceDesc::Texture(desc) = decl.resource(current).desc else { return false };
+        self.histories.iter().any(|known| known.is(decl, view, current) && known.fits(&desc, resize))
+    }
+}

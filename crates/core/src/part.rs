@@ -1,0 +1,368 @@
+//! Parts of a texture or buffer, and the arithmetic of sets of them.
+
+#[cfg(test)]
+mod tests;
+
+use crate::desc::{Extent, ResourceDesc, TextureDesc};
+use serde::Serialize;
+use std::ops::Range;
+use wgpu_types::TextureDimension;
+
+/// A rectangle of texels, for tiles of an atlas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct Rect {
+    /// Left edge in texels.
+    pub x: u32,
+    /// Upper edge in texels.
+    pub y: u32,
+    /// Width in texels, at least 1.
+    pub width: u32,
+    /// Height in texels, at least 1.
+    pub height: u32,
+}
+
+impl Rect {
+    /// Makes a rectangle from its corner and its size, in texels.
+    pub const fn new(x: u32, y: u32, width: u32, height: u32) -> Self {
+        Self { x, y, width, height }
+    }
+}
+
+/// Which aspect of a depth-stencil texture is meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+pub enum Aspect {
+    /// All that the format has.
+    #[default]
+    All,
+    /// Depth only.
+    Depth,
+    /// Stencil only.
+    Stencil,
+}
+
+/// A part of a texture or buffer: mips, layers, an aspect, a rectangle of one mip, or a range of bytes.
+///
+/// Parts narrow an access, by [`Pass::on`](crate::Pass::on). Accesses to parts that do not overlap neither order
+/// each other nor define each other's contents.
+///
+/// ```
+/// use shadowgraph_core::{Part, Rect};
+/// let face = Part::WHOLE.layer(3);
+/// let second_mip_of_face = face.mip(1);
+/// let tile = Part::WHOLE.rect(Rect::new(512, 0, 512, 512));
+/// let header = Part::WHOLE.bytes(0..64);
+/// # let _ = (second_mip_of_face, tile, header);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+pub struct Part {
+    pub(crate) mips: Option<(u32, u32)>,
+    pub(crate) layers: Option<(u32, u32)>,
+    pub(crate) aspect: Aspect,
+    pub(crate) rect: Option<Rect>,
+    pub(crate) bytes: Option<(u64, u64)>,
+}
+
+impl Part {
+    /// All of it.
+    pub const WHOLE: Self = Self { mips: None, layers: None, aspect: Aspect::All, rect: None, bytes: None };
+
+    /// Narrows to one mip level.
+    pub fn mip(self, mip: u32) -> Self {
+        self.mips(mip..mip.saturating_add(1))
+    }
+
+    /// Narrows to these mip levels.
+    pub fn mips(self, mips: Range<u32>) -> Self {
+        Self { mips: Some((mips.start, mips.end)), ..self }
+    }
+
+    /// Narrows to one array layer, or one slice of a 3D texture.
+    pub fn layer(self, layer: u32) -> Self {
+        self.layers(layer..layer.saturating_add(1))
+    }
+
+    /// Narrows to these array layers, or slices of a 3D texture.
+    pub fn layers(self, layers: Range<u32>) -> Self {
+        Self { layers: Some((layers.start, layers.end)), ..self }
+    }
+
+    /// Narrows to one aspect of a depth-stencil texture.
+    pub fn aspect(self, aspect: Aspect) -> Self {
+        Self { aspect, ..self }
+    }
+
+    /// Narrows to a rectangle of one mip level, such as a tile of an atlas.
+    pub fn rect(self, rect: Rect) -> Self {
+        Self { rect: Some(rect), ..self }
+    }
+
+    /// Narrows to a range of a buffer, in bytes.
+    pub fn bytes(self, bytes: Range<u64>) -> Self {
+        Self { bytes: Some((bytes.start, bytes.end)), ..self }
+    }
+
+    /// Returns the part in words, such as `mip 1, layer 3` or `all`.
+    pub fn words(&self) -> String {
+        let range = |name: &str, (start, end): (u64, u64)| match end.saturating_sub(start) {
+            1 => format!("{name} {start}"),
+            _ => format!("{name}s {start}..{end}"),
+        };
+        let wide = |(start, end): (u32, u32)| (u64::from(start), u64::from(end));
+        let mut words: Vec<String> = Vec::new();
+        words.extend(self.mips.map(|mips| range("mip", wide(mips))));
+        words.extend(self.layers.map(|layers| range("layer", wide(layers))));
+        words.extend(match self.aspect {
+            Aspect::All => None,
+            Aspect::Depth => Some("depth".into()),
+            Aspect::Stencil => Some("stencil".into()),
+        });
+        words.extend(self.rect.map(|r| format!("{}x{} at {},{}", r.width, r.height, r.x, r.y)));
+        words.extend(self.bytes.map(|bytes| range("byte", bytes)));
+        if words.is_empty() { "all".into() } else { words.join(", ") }
+    }
+
+    /// Says what is wrong with the part for a resource of this shape; `None` if nothing is.
+    pub(crate) fn problem(&self, desc: &ResourceDesc) -> Option<&'static str> {
+        match desc {
+            ResourceDesc::Buffer(desc) => {
+                if self.mips.is_some()
+                    || self.layers.is_some()
+                    || self.rect.is_some()
+                    || self.aspect != Aspect::All
+                {
+                    return Some("a buffer has neither mips, layers, aspects nor rectangles: use `bytes`");
+                }
+                let (start, end) = self.bytes.unwrap_or((0, desc.bytes));
+                (start >= end || end > desc.bytes)
+                    .then_some("the bytes are empty or end past the buffer: narrow to bytes that it has")
+            }
+            ResourceDesc::Texture(desc) => self.texture_problem(desc),
+        }
+    }
+
+    fn texture_problem(&self, desc: &TextureDesc) -> Option<&'static str> {
+        let outside =
+            |range: Option<(u32, u32)>, count| range.is_some_and(|(start, end)| start >= end || end > count);
+        if self.bytes.is_some() {
+            return Some("a texture has no byte ranges: use mips, layers or a rectangle");
+        }
+        if outside(self.mips, desc.mip_levels) {
+            return Some("the mips are empty or past the last one: narrow to mips that it has");
+        }
+        if outside(self.layers, self.layer_count(desc)) {
+            return Some("the layers are empty or past the last one: narrow to layers that it has");
+        }
+        let missing = match self.aspect {
+            Aspect::All => false,
+            Aspect::Depth => !desc.format.has_depth_aspect(),
+            Aspect::Stencil => !desc.format.has_stencil_aspect(),
+        };
+        if missing {
+            return Some("its format lacks that aspect: name one that it has, or all");
+        }
+        let rect = self.rect?;
+        let (first, end) = self.mips.unwrap_or((0, desc.mip_levels));
+        if end - first != 1 {
+            return Some("a rectangle belongs to one mip: narrow to that mip too");
+        }
+        let size = mip_size(desc, first);
+        let inside = |start: u32, length: u32, side: u32| {
+            length > 0 && start.checked_add(length).is_some_and(|end| end <= side)
+        };
+        let fits = inside(rect.x, rect.width, size.width) && inside(rect.y, rect.height, size.height);
+        (!fits).then_some("the rectangle is empty or reaches past the edge: keep it inside the mip")
+    }
+
+    /// The part as a box, or `None` where it is all of the resource. The part must fit the resource.
+    pub(crate) fn area(&self, desc: &ResourceDesc) -> Option<Area> {
+        let mut area = Area::EVERYTHING;
+        match desc {
+            ResourceDesc::Buffer(desc) => {
+                if let Some(bytes) = self.bytes {
+                    area.narrow(Axis::X, bytes, desc.bytes);
+                }
+            }
+            ResourceDesc::Texture(desc) => {
+                self.narrow_subresources(&mut area, desc);
+                if let Some(rect) = self.rect {
+                    let mip = self.mips.map_or(0, |(first, _)| first);
+                    let size = mip_size(desc, mip);
+                    let span = |start: u32, length: u32| (start.into(), u64::from(start) + u64::from(length));
+                    area.narrow(Axis::X, span(rect.x, rect.width), size.width.into());
+                    area.narrow(Axis::Y, span(rect.y, rect.height), size.height.into());
+                }
+            }
+        }
+        (area != Area::EVERYTHING).then_some(area)
+    }
+
+    /// Layers, or slices of the largest of the mips: of a 3D texture they get fewer from mip to mip.
+    fn layer_count(&self, desc: &TextureDesc) -> u32 {
+        let (mip, _) = self.mips.unwrap_or((0, desc.mip_levels));
+        match desc.dimension {
+            TextureDimension::D3 => mip_size(desc, mip).depth_or_array_layers,
+            TextureDimension::D1 | TextureDimension::D2 => desc.size.depth_or_array_layers,
+        }
+    }
+
+    fn narrow_subresources(&self, area: &mut Area, desc: &TextureDesc) {
+        let wide = |(start, end): (u32, u32)| (start.into(), end.into());
+        if let Some(mips) = self.mips {
+            area.narrow(Axis::Mip, wide(mips), desc.mip_levels.into());
+        }
+        if let Some(layers) = self.layers {
+            area.narrow(Axis::Layer, wide(layers), self.layer_count(desc).into());
+        }
+        if desc.format.is_combined_depth_stencil_format() {
+            match self.aspect {
+                Aspect::All => {}
+                Aspect::Depth => area.narrow(Axis::Aspect, (0, 1), 2),
+                Aspect::Stencil => area.narrow(Axis::Aspect, (1, 2), 2),
+            }
+        }
+    }
+}
+
+/// The size of a mip. Parts are looked at before shapes are, so the texture may have more mips than there can be.
+fn mip_size(desc: &TextureDesc, mip: u32) -> Extent {
+    desc.size.mip_level_size(mip.min(31), desc.dimension)
+}
+
+#[derive(Clone, Copy)]
+enum Axis {
+    Aspect,
+    Mip,
+    Layer,
+    X,
+    Y,
+}
+
+const AXES: usize = 5;
+/// The open end of an axis: as far as the resource reaches.
+const END: u64 = u64::MAX;
+
+/// A box over aspect, mip, layer, x and y (texels of its mip, or bytes). What reaches the edge of the resource ends
+/// at infinity, so that boxes of resources of different sizes can be the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Area {
+    start: [u64; AXES],
+    end: [u64; AXES],
+}
+
+impl Area {
+    pub(crate) const EVERYTHING: Self = Self { start: [0; AXES], end: [END; AXES] };
+
+    fn narrow(&mut self, axis: Axis, (start, end): (u64, u64), length: u64) {
+        self.start[axis as usize] = start;
+        self.end[axis as usize] = if end >= length { END } else { end };
+    }
+
+    /// The box widened to whole texels of its mips, layers and aspects: what an attachment of it loads and stores.
+    pub(crate) fn without_rect(mut self) -> Self {
+        for axis in [Axis::X, Axis::Y] {
+            self.start[axis as usize] = 0;
+            self.end[axis as usize] = END;
+        }
+        self
+    }
+
+    /// The box widened to all layers: all that wgpu knows of the slices of a volume.
+    pub(crate) fn all_layers(mut self) -> Self {
+        self.start[Axis::Layer as usize] = 0;
+        self.end[Axis::Layer as usize] = END;
+        self
+    }
+
+    /// The box widened to both aspects: what wgpu tracks hazards by within one pass.
+    pub(crate) fn subresources(self) -> Self {
+        let mut area = self.without_rect();
+        area.start[Axis::Aspect as usize] = 0;
+        area.end[Axis::Aspect as usize] = END;
+        area
+    }
+
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        (0..AXES).all(|axis| self.start[axis] < other.end[axis] && other.start[axis] < self.end[axis])
+    }
+
+    pub(crate) fn contains(&self, other: &Self) -> bool {
+        (0..AXES).all(|axis| self.start[axis] <= other.start[axis] && other.end[axis] <= self.end[axis])
+    }
+}
+
+/// A set of texels or bytes, as boxes that do not overlap.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct AreaSet {
+    boxes: Vec<Area>,
+}
+
+impl AreaSet {
+    pub(crate) fn from_area(area: Area) -> Self {
+        Self { boxes: vec![area] }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.boxes.is_empty()
+    }
+
+    pub(crate) fn overlaps(&self, area: &Area) -> bool {
+        self.boxes.iter().any(|own| own.overlaps(area))
+    }
+
+    pub(crate) fn add(&mut self, area: Area) {
+        self.subtract(&area);
+        self.boxes.push(area);
+    }
+
+    /// Takes `area` out: each box that it overlaps falls into the slabs around it, at most two for each axis.
+    pub(crate) fn subtract(&mut self, area: &Area) {
+        if !self.overlaps(area) {
+            return;
+        }
+        let mut kept = Vec::with_capacity(self.boxes.len() + 2);
+        for mut rest in self.boxes.drain(..) {
+            if !rest.overlaps(area) {
+                kept.push(rest);
+                continue;
+            }
+            for axis in 0..AXES {
+                if rest.start[axis] < area.start[axis] {
+                    let mut slab = rest;
+                    slab.end[axis] = area.start[axis];
+                    rest.start[axis] = area.start[axis];
+                    kept.push(slab);
+                }
+                if rest.end[axis] > area.end[axis] {
+                    let mut slab = rest;
+                    slab.start[axis] = area.end[axis];
+                    rest.end[axis] = area.end[axis];
+                    kept.push(slab);
+                }
+            }
+        }
+        self.boxes = kept;
+    }
+
+    /// Keeps only what lies inside `area`.
+    pub(crate) fn clip(&mut self, area: &Area) {
+        self.boxes.retain_mut(|own| {
+            for axis in 0..AXES {
+                own.start[axis] = own.start[axis].max(area.start[axis]);
+                own.end[axis] = own.end[axis].min(area.end[axis]);
+            }
+            (0..AXES).all(|axis| own.start[axis] < own.end[axis])
+        });
+    }
+
+    /// Tells whether the set holds all of `area`.
+    pub(crate) fn contains(&self, area: &Area) -> bool {
+        if self.boxes.iter().any(|own| own.contains(area)) {
+            return true;
+        }
+        let mut rest = Self::from_area(*area);
+        for own in &self.boxes {
+            rest.subtract(own);
+        }
+        rest.is_empty()
+    }
+}

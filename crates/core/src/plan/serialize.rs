@@ -1,0 +1,40 @@
+//! The plan as a tree of named fields, for JSON.
+
+use super::{AccessPlan, MergeReason, PassPlan, PlaceReason, Plan};
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+#[derive(serde::Serialize)]
+struct PassDocument<'p> {
+    #[serde(flatten)]
+    pass: PassPlan<'p>,
+    accesses: Vec<AccessPlan>,
+    placed: Option<PlaceReason>,
+    merge: Option<MergeReason>,
+}
+
+impl Serialize for Plan {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut place = vec![None; self.pass_count()];
+        for (index, pass) in self.order.iter().enumerate() {
+            place[pass.index()] = Some(index);
+        }
+        let passes: Vec<_> = self
+            .passes()
+            .map(|(id, pass)| PassDocument {
+                pass,
+                accesses: self.accesses(id).collect(),
+                placed: place[id.index()].map(|place| self.placed[place]),
+                merge: place[id.index()].map(|place| self.merges[place]),
+            })
+            .collect();
+        let mut plan = serializer.serialize_struct("Plan", 7)?;
+        plan.serialize_field("options", &self.options())?;
+        plan.serialize_field("nodes", &self.nodes().collect::<Vec<_>>())?;
+        plan.serialize_field("passes", &passes)?;
+        plan.serialize_field("resources", &self.resources().map(|(_, r)| r).collect::<Vec<_>>())?;
+        plan.serialize_field("slots", &self.slots().collect::<Vec<_>>())?;
+        plan.serialize_field("order", &self.steps().collect::<Vec<_>>())?;
+        plan.serialize_field("dependencies", &self.dependencies)?;
+        plan.end()
+    }
+}

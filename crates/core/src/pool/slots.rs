@@ -1,0 +1,203 @@
+//! The physical textures and buffers behind slots.
+
+use super::limit;
+use crate::desc::{BufferDesc, ResourceDesc, TextureDesc};
+use crate::error::Error;
+use crate::plan::Slot;
+use rustc_hash::FxHashMap;
+use slotmap::{SlotMap, new_key_type};
+use wgpu::{BufferUsages, TextureUsages};
+
+new_key_type! {
+    /// A physical texture or buffer of the pool.
+    pub(crate) struct SlotKey;
+}
+
+/// What stands behind a slot or an import.
+#[derive(Clone, PartialEq, Eq)]
+pub(crate) enum Physical {
+    Texture(wgpu::Texture),
+    Buffer(wgpu::Buffer),
+}
+
+struct Pooled {
+    desc: ResourceDesc,
+    physical: Physical,
+    used: u64,
+}
+
+/// Physical textures and buffers by shape.
+#[derive(Default)]
+pub(crate) struct Slots {
+    all: SlotMap<SlotKey, Pooled>,
+    by_shape: FxHashMap<ResourceDesc, Vec<SlotKey>>,
+}
+
+impl Slots {
+    /// Returns the bytes of all textures and buffers, without the driver's padding.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.all.values().map(|pooled| pooled.desc.bytes()).sum()
+    }
+
+    /// Takes something of the slot's shape that no other slot of this frame has, or makes it.
+    ///
+    /// Slots ask in the same order every frame, so the same declaration gets the same textures.
+    pub(crate) fn acquire(
+        &mut self,
+        device: &wgpu::Device,
+        slot: &Slot,
+        label: &str,
+        frame: u64,
+    ) -> Result<(SlotKey, Physical), Error> {
+        let keys = self.by_shape.entry(slot.desc).or_default();
+        let all = &mut self.all;
+        let free =
+            |key: &&SlotKey| all.get(**key).is_some_and(|p| p.used < frame && serves(&p.physical, slot));
+        if let Some(&key) = keys.iter().find(free)
+            && let Some(pooled) = all.get_mut(key)
+        {
+            pooled.used = frame;
+            return Ok((key, pooled.physical.clone()));
+        }
+        let physical = create(device, slot, label)?;
+        let key = all.insert(Pooled { desc: slot.desc, physical: physical.clone(), used: frame });
+        keys.push(key);
+        Ok((key, physical))
+    }
+
+    /// Notes that this frame uses them again.
+    pub(crate) fn touch(&mut self, keys: &[SlotKey], frame: u64) {
+        for &key in keys {
+            if let Some(pooled) = self.all.get_mut(key) {
+                pooled.used = frame;
+            }
+        }
+    }
+
+    /// Drops what was last used before frame `oldest`, and tells whether there was any.
+    pub(crate) fn drop_idle(&mut self, oldest: u64) -> bool {
+        let before = self.all.len();
+        self.all.retain(|_, pooled| pooled.used >= oldest);
+        self.forget_dropped(before)
+    }
+
+    /// Drops what frame `frame` does not use, the longest idle first, until no more than `budget` bytes are held.
+    pub(crate) fn drop_above(&mut self, budget: u64, frame: u64) -> bool {
+        let before = self.all.len();
+        let mut held = self.bytes();
+        let mut idle: Vec<_> = self.all.iter().filter(|(_, p)| p.used < frame).collect();
+        idle.sort_by_key(|(key, pooled)| (pooled.used, *key));
+        let idle: Vec<_> = idle.into_iter().map(|(key, pooled)| (key, pooled.desc.bytes())).collect();
+        for (key, bytes) in idle {
+            if held <= budget {
+                break;
+            }
+            self.all.remove(key);
+            held -= bytes;
+        }
+        self.forget_dropped(before)
+    }
+
+    fn forget_dropped(&mut self, before: usize) -> bool {
+        let dropped = self.all.len() < before;
+        if dropped {
+            let all = &self.all;
+            self.by_shape.retain(|_, keys| {
+                keys.retain(|&key| all.contains_key(key));
+                !keys.is_empty()
+            });
+        }
+        dropped
+    }
+}
+
+/// Whether the object has the usages that the slot needs. Memory for transient attachments is of its own kind.
+fn serves(physical: &Physical, slot: &Slot) -> bool {
+    match physical {
+        Physical::Texture(texture) => {
+            let (has, needs) = (texture.usage(), slot.texture_usage);
+            let transient = TextureUsages::TRANSIENT_ATTACHMENT;
+            has.contains(needs) && has.contains(transient) == needs.contains(transient)
+        }
+        Physical::Buffer(buffer) => buffer.usage().contains(slot.buffer_usage),
+    }
+}
+
+fn create(device: &wgpu::Device, slot: &Slot, label: &str) -> Result<Physical, Error> {
+    match slot.desc {
+        ResourceDesc::Texture(desc) => {
+            Ok(Physical::Texture(create_texture(device, &desc, slot.texture_usage, label)?))
+        }
+        ResourceDesc::Buffer(desc) => {
+            check_buffer(device, label, &desc, slot.buffer_usage)?;
+            Ok(Physical::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: desc.bytes,
+                usage: slot.buffer_usage,
+                mapped_at_creation: false,
+            })))
+        }
+    }
+}
+
+/// Creates a texture, unless the device's limits forbid it.
+pub(crate) fn create_texture(
+    device: &wgpu::Device,
+    desc: &TextureDesc,
+    usage: TextureUsages,
+    label: &str,
+) -> Result<wgpu::Texture, Error> {
+    check_texture(device, label, desc)?;
+    // wgpu wants every texture with several samples to be an attachment, also one that is only copied.
+    let usage = if desc.samples > 1 { usage | TextureUsages::RENDER_ATTACHMENT } else { usage };
+    Ok(device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: desc.size,
+        mip_level_count: desc.mip_levels,
+        sample_count: desc.samples,
+        dimension: desc.dimension,
+        format: desc.format,
+        usage,
+        view_formats: &[],
+    }))
+}
+
+fn check_texture(device: &wgpu::Device, name: &str, desc: &TextureDesc) -> Result<(), Error> {
+    let limits = device.limits();
+    let side = u64::from(desc.size.width.max(desc.size.height));
+    let layers = u64::from(desc.size.depth_or_array_layers);
+    let (side_limit, side_name, layer_limit, layer_name) = match desc.dimension {
+        wgpu::TextureDimension::D1 => {
+            (limits.max_texture_dimension_1d, "max_texture_dimension_1d", 1, "layers of a 1D texture")
+        }
+        wgpu::TextureDimension::D2 => (
+            limits.max_texture_dimension_2d,
+            "max_texture_dimension_2d",
+            limits.max_texture_array_layers,
+            "max_texture_array_layers",
+        ),
+        wgpu::TextureDimension::D3 => (
+            limits.max_texture_dimension_3d,
+            "max_texture_dimension_3d",
+            limits.max_texture_dimension_3d,
+            "max_texture_dimension_3d",
+        ),
+    };
+    limit(name, side_name, side, side_limit.into())?;
+    limit(name, layer_name, layers, layer_limit.into())
+}
+
+fn check_buffer(
+    device: &wgpu::Device,
+    name: &str,
+    desc: &BufferDesc,
+    usage: BufferUsages,
+) -> Result<(), Error> {
+    let limits = device.limits();
+    limit(name, "max_buffer_size", desc.bytes, limits.max_buffer_size)?;
+    if usage.contains(BufferUsages::STORAGE) {
+        let allowed = limits.max_storage_buffer_binding_size;
+        limit(name, "max_storage_buffer_binding_size", desc.bytes, allowed)?;
+    }
+    Ok(())
+}

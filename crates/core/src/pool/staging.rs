@@ -1,0 +1,147 @@
+//! Mapped memory through which a frame's bytes reach the GPU.
+
+use crate::error::Error;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The smallest chunk in bytes.
+const MIN_BYTES: u64 = 64 * 1024;
+
+/// Mapped buffers that frames write their uploads into; each comes back by itself when the submission that read
+/// it is done.
+///
+/// Nothing here knows of queues: the encoder carries the request to map the chunk again, wgpu acts on it when that
+/// encoder is submitted, and calls back from a later `Queue::submit` or `Device::poll`. So any number of frames may
+/// be recorded before any is submitted. An encoder that is dropped drops its request, and the chunk goes with it.
+#[derive(Default)]
+pub(crate) struct Staging {
+    free: FreeList,
+}
+
+/// Chunks that are mapped and that no GPU work reads; shared with the callbacks that bring them back.
+type FreeList = Arc<Mutex<Vec<Free>>>;
+
+struct Free {
+    buffer: wgpu::Buffer,
+    idle_frames: u32,
+}
+
+/// One frame's share: a mapped buffer that is being filled.
+pub(crate) struct Chunk {
+    buffer: wgpu::Buffer,
+    /// Absent where wgpu could not map the buffer, which it has reported by then.
+    view: Option<wgpu::BufferViewMut>,
+    end: u64,
+    free: FreeList,
+}
+
+/// Returns where `bytes` bytes go that follow `end` at a multiple of `align`, a power of two. The end is a multiple
+/// of 4, as copies need it. Whoever begins a chunk adds up its size with this.
+pub(crate) fn place(end: u64, bytes: u64, align: u64) -> Range<u64> {
+    let start = end.next_multiple_of(align.max(wgpu::COPY_BUFFER_ALIGNMENT));
+    start..start + bytes.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT)
+}
+
+impl Staging {
+    /// Returns a mapped chunk of at least `bytes`: a free one of the same power of two, or else a new one.
+    ///
+    /// # Errors
+    /// When the device allows no buffer of that size.
+    pub(crate) fn begin(&mut self, device: &wgpu::Device, bytes: u64) -> Result<Chunk, Error> {
+        let class = bytes.checked_next_power_of_two().unwrap_or(u64::MAX).max(MIN_BYTES);
+        let buffer = match self.take(bytes..=class) {
+            Some(buffer) => buffer,
+            None => create(device, bytes, class)?,
+        };
+        let view = buffer.get_mapped_range_mut(..).ok();
+        Ok(Chunk { buffer, view, end: 0, free: self.free.clone() })
+    }
+
+    /// Drops the chunks that have been free for more than `frames` calls of this; to be called once per frame.
+    pub(crate) fn end_frame(&mut self, frames: u32) {
+        lock(&self.free).retain_mut(|free| {
+            free.idle_frames += 1;
+            free.idle_frames <= frames
+        });
+    }
+
+    /// The number of free chunks.
+    #[cfg(test)]
+    pub(super) fn free(&self) -> usize {
+        lock(&self.free).len()
+    }
+
+    /// The number of those that hold the list: this and the callbacks to come.
+    #[cfg(test)]
+    pub(super) fn holders(&self) -> usize {
+        Arc::strong_count(&self.free)
+    }
+
+    /// Takes the chunk that came back last, so that those there are too many of lie idle and go.
+    ///
+    /// One larger than its class is left alone: small frames would keep it alive for ever after one large one.
+    fn take(&self, sizes: std::ops::RangeInclusive<u64>) -> Option<wgpu::Buffer> {
+        let mut free = lock(&self.free);
+        let index = free.iter().rposition(|free| sizes.contains(&free.buffer.size()))?;
+        Some(free.remove(index).buffer)
+    }
+}
+
+impl Chunk {
+    /// Writes bytes where [`place`] puts them, zeros up to a multiple of 4, and returns the offset.
+    pub(crate) fn write(&mut self, bytes: &[u8], align: u64) -> u64 {
+        let place = place(self.end, bytes.len() as u64, align);
+        debug_assert!(place.end <= self.buffer.size(), "the chunk was begun too small");
+        if let Some(view) = self.view.as_mut().filter(|_| place.end <= self.buffer.size()) {
+            let start = place.start as usize;
+            let end = start + bytes.len();
+            view.slice(start..end).copy_from_slice(bytes);
+            view.slice(end..place.end as usize).fill(0);
+        }
+        self.end = place.end;
+        place.start
+    }
+
+    /// Returns the buffer to copy from, in the encoder that the chunk is finished with.
+    pub(crate) fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+
+    /// Unmaps the chunk, so that `encoder` may be submitted, and has it come back after that submission.
+    ///
+    /// Copies from it may be recorded before and after, in this encoder and in any that is submitted before it: wgpu
+    /// maps it again when the submission of this encoder is done.
+    pub(crate) fn finish(self, encoder: &wgpu::CommandEncoder) -> wgpu::Buffer {
+        let Self { buffer, view, free, .. } = self;
+        if view.is_none() {
+            return buffer;
+        }
+        // wgpu refuses to unmap what a view looks into.
+        drop(view);
+        buffer.unmap();
+        let back = buffer.clone();
+        encoder.map_buffer_on_submit(&buffer, wgpu::MapMode::Write, .., move |mapped| {
+            if mapped.is_ok() {
+                lock(&free).push(Free { buffer: back, idle_frames: 0 });
+            }
+        });
+        buffer
+    }
+}
+
+/// The list is whole between any two statements that hold the lock, so a panic elsewhere does not spoil it.
+fn lock(free: &FreeList) -> MutexGuard<'_, Vec<Free>> {
+    free.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn create(device: &wgpu::Device, bytes: u64, class: u64) -> Result<wgpu::Buffer, Error> {
+    // The limit need be no multiple of 4, which the size of a mapped buffer has to be.
+    let largest = device.limits().max_buffer_size & !(wgpu::COPY_BUFFER_ALIGNMENT - 1);
+    super::limit("frame uploads", "max_buffer_size", bytes, largest)?;
+    Ok(device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("frame uploads"),
+        size: class.min(largest),
+        usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: true,
+    }))
+}

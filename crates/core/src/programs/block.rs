@@ -1,0 +1,36 @@
+//! Values of uniform bindings.
+
+use crate::handle::Uniform;
+
+/// What a uniform binding is filled with: bytes, or a block that several passes share.
+#[derive(Clone, Copy, Debug)]
+pub enum Block<'a> {
+    /// Bytes of this pass alone, laid out as the shader has them.
+    Bytes(&'a [u8]),
+    /// A block from [`Frame::uniform`](crate::Frame::uniform).
+    Shared(Uniform),
+}
+
+impl<'a> From<&'a [u8]> for Block<'a> {
+    fn from(bytes: &'a [u8]) -> Self {
+        Self::Bytes(bytes)
+    }
+}
+
+impl<'a, const N: usize> From<&'a [u8; N]> for Block<'a> {
+    fn from(bytes: &'a [u8; N]) -> Self {
+        Self::Bytes(bytes)
+    }
+}
+
+impl<'a> From<&'a Vec<u8>> for Block<'a> {
+    fn from(bytes: &'a Vec<u8>) -> Self {
+        Self::Bytes(bytes)
+    }
+}
+
+impl From<Uniform> for Block<'_> {
+    fn from(uniform: Uniform) -> Self {
+        Self::Shared(uniform)
+    }
+}

@@ -1,0 +1,94 @@
+//! One-line passes: what they draw on a device that draws, and what is made and refused on wgpu's noop device.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+mod caches;
+mod compute;
+mod pixels;
+mod refusals;
+mod warm;
+
+use crate::test_device::valid;
+use crate::{
+    ComputeShader, Contents, Executed, Format, Frame, FullscreenShader, Graph, Part, ReadBackRequest,
+};
+use crate::{Texture, TextureDesc};
+
+const TEXT: &str = include_str!("../../../tests/programs.wgsl");
+
+fn fragment(entry: &'static str) -> FullscreenShader {
+    FullscreenShader::wgsl(entry, TEXT).entry(entry)
+}
+
+fn kernel(entry: &'static str) -> ComputeShader {
+    ComputeShader::wgsl(entry, TEXT).entry(entry)
+}
+
+struct Gpu {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    graph: Graph,
+}
+
+impl Gpu {
+    fn new((device, queue): (wgpu::Device, wgpu::Queue)) -> Self {
+        Self { device, queue, graph: Graph::new() }
+    }
+
+    fn noop() -> Self {
+        Self::new(crate::test_device::noop())
+    }
+
+    fn drawing() -> Option<Self> {
+        crate::test_device::drawing().map(Self::new)
+    }
+
+    /// Compiles and records.
+    fn record(&mut self, frame: Frame<'_>) -> Result<(Executed, wgpu::CommandEncoder), crate::Error> {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let compiled = self.graph.compile(frame)?;
+        let executed = compiled.execute(&mut self.graph, &self.device, &mut encoder)?;
+        Ok((executed, encoder))
+    }
+
+    /// Compiles, records and submits, and fails with whatever wgpu objects to.
+    fn run(&mut self, frame: Frame<'_>) -> Result<Executed, crate::Error> {
+        let device = self.device.clone();
+        valid(&device, || {
+            let (executed, encoder) = self.record(frame)?;
+            self.queue.submit([encoder.finish()]);
+            Ok(executed)
+        })
+    }
+
+    /// Runs the frame and returns what it reads back.
+    fn bytes<const N: usize>(&mut self, frame: Frame<'_>, requests: [ReadBackRequest; N]) -> [Vec<u8>; N] {
+        let mut executed = self.run(frame).unwrap();
+        requests.map(|request| executed.read_back(request).unwrap().wait(&self.device).unwrap())
+    }
+
+    /// Counts of what is cached: pipelines that draw and that compute, bind groups.
+    fn cached(&self) -> (usize, usize, usize) {
+        let caches = self.graph.device.caches();
+        let (render, compute) = caches.pipelines.len();
+        (render, compute, caches.bind_groups.len())
+    }
+}
+
+fn texture(frame: &mut Frame<'_>, name: &str, side: u32, format: Format) -> Texture {
+    frame.create_texture(name, TextureDesc::d2(side, side, format))
+}
+
+/// A picture cleared to grey of this level.
+fn cleared(frame: &mut Frame<'_>, name: &str, side: u32, level: f64) -> Texture {
+    let mut picture = texture(frame, name, side, Format::Rgba8Unorm);
+    frame.render_pass(name).color(&mut picture, Contents::clear_color([level; 4]));
+    picture
+}
+
+fn whole(frame: &mut Frame<'_>, texture: &Texture) -> ReadBackRequest {
+    frame.read_back_texture(texture, Part::WHOLE)
+}
+
+fn words(bytes: &[u8]) -> Vec<u32> {
+    bytes.chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect()
+}

@@ -1,0 +1,193 @@
+//! Shaders that do not compile or do not fit are errors of the frame, and never wgpu's panic.
+
+use super::{Gpu, cleared, fragment, kernel, texture};
+use crate::{ComputeShader, Contents, Error, Format, Frame, FullscreenShader};
+
+/// The error of a frame that `declare` puts together around a picture.
+fn refusal(declare: impl FnOnce(&mut Gpu, &mut Frame<'_>)) -> Error {
+    let mut gpu = Gpu::noop();
+    let mut frame = gpu.graph.frame();
+    declare(&mut gpu, &mut frame);
+    gpu.run(frame).err().unwrap()
+}
+
+fn draw(frame: &mut Frame<'_>, shader: &FullscreenShader, format: Format) {
+    let mut picture = texture(frame, "picture", 4, format);
+    frame.fullscreen("draw", shader).draw(&mut picture);
+    frame.export_texture(&picture);
+}
+
+fn says(error: &Error, shader: &str, words: &[&str]) {
+    let Error::Shader { shader: named, message } = error else { panic!("{error:?}") };
+    assert_eq!((&**named, error.code()), (shader, "SG0604"), "{error}");
+    for word in words {
+        assert!(message.contains(word), "`{word}` is not in: {message}");
+    }
+}
+
+#[test]
+fn a_text_that_is_no_wgsl_is_an_error_that_shows_the_place() {
+    let error = refusal(|_, frame| {
+        let shader = FullscreenShader::wgsl("broken", "fn half( -> f32 { return 0.5; }");
+        draw(frame, &shader, Format::Rgba8Unorm);
+    });
+    says(&error, "broken", &["fn half( -> f32", "expected identifier"]);
+    assert!(!error.to_string().contains("Device::"), "{error}");
+}
+
+#[test]
+fn a_missing_entry_point_is_an_error() {
+    let error = refusal(|_, frame| draw(frame, &fragment("nowhere"), Format::Rgba8Unorm));
+    says(&error, "nowhere", &["nowhere"]);
+    let error = refusal(|_, frame| {
+        let several = FullscreenShader::wgsl("several", super::TEXT);
+        draw(frame, &several, Format::Rgba8Unorm);
+    });
+    says(&error, "several", &["entry point"]);
+}
+
+#[test]
+fn an_output_that_does_not_fit_the_target_is_an_error() {
+    let error = refusal(|_, frame| draw(frame, &fragment("wrong_type"), Format::Rgba8Unorm));
+    says(&error, "wrong_type", &["Color state [0] is invalid: Output format Float32x4"]);
+}
+
+#[test]
+fn binding_too_much_or_too_little_is_an_error_that_names_the_pass() {
+    for count in [0, 1, 3] {
+        let error = refusal(|_, frame| {
+            let source = cleared(frame, "source", 4, 0.0);
+            let mut picture = texture(frame, "picture", 4, Format::Rgba8Unorm);
+            let mut halve =
+                frame.fullscreen("halve it", &fragment(if count == 1 { "scaled" } else { "halve" }));
+            for _ in 0..count {
+                halve = halve.sample(&source);
+            }
+            halve.draw(&mut picture);
+            frame.export_texture(&picture);
+        });
+        let shader = if count == 1 { "scaled" } else { "halve" };
+        says(
+            &error,
+            shader,
+            &["what pass `halve it` binds", "exactly what the shader uses", "in order: Number of bindings"],
+        );
+    }
+}
+
+#[test]
+fn a_block_that_is_too_small_is_an_error() {
+    let error = refusal(|_, frame| {
+        let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
+        let multiply = kernel("multiply");
+        let call = frame.compute("multiply", &multiply).storage_mut(&mut numbers, Contents::Preserve);
+        call.uniform(&[1, 2]).dispatch([1; 3]);
+        frame.export_buffer(&numbers);
+    });
+    says(&error, "multiply", &["what pass `multiply` binds"]);
+}
+
+#[test]
+fn an_empty_block_is_an_error() {
+    let error = refusal(|_, frame| {
+        let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
+        let multiply = kernel("multiply");
+        let call = frame.compute("multiply", &multiply).storage_mut(&mut numbers, Contents::Preserve);
+        call.uniform(&[]).dispatch([1; 3]);
+    });
+    assert!(matches!(&error, Error::Shape { resource, .. } if resource.contains("`multiply`")), "{error}");
+}
+
+#[test]
+fn a_binding_in_another_group_is_an_error_that_says_what_to_do() {
+    let error = refusal(|_, frame| draw(frame, &fragment("other_group"), Format::Rgba8Unorm));
+    says(&error, "other_group", &["something in group 1", "render_pass"]);
+}
+
+#[test]
+fn a_text_without_the_stage_is_an_error() {
+    let error = refusal(|_, frame| {
+        let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
+        let shader = ComputeShader::wgsl("empty", "");
+        frame.compute("empty", &shader).storage_mut(&mut numbers, Contents::Preserve).dispatch([1; 3]);
+        frame.export_buffer(&numbers);
+    });
+    says(&error, "empty", &["entry point"]);
+}
+
+#[test]
+fn more_workgroups_than_the_device_allows_are_an_error() {
+    let error = refusal(|_, frame| {
+        let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
+        let call = frame.compute("double", &kernel("double")).storage_mut(&mut numbers, Contents::Preserve);
+        call.dispatch([1, 70_000, 1]);
+        frame.export_buffer(&numbers);
+    });
+    assert!(matches!(error, Error::Limit { needed: 70_000, .. }), "{error}");
+}
+
+#[test]
+fn arguments_outside_the_buffer_or_off_the_grid_are_errors() {
+    for offset in [4, 2, u64::MAX] {
+        let error = refusal(|_, frame| {
+            let arguments = frame.upload_buffer("arguments", vec![0; 12]);
+            let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
+            let call =
+                frame.compute("double", &kernel("double")).storage_mut(&mut numbers, Contents::Preserve);
+            call.dispatch_indirect(&arguments, offset);
+            frame.export_buffer(&numbers);
+        });
+        assert!(matches!(&error, Error::Part { resource, .. } if resource == "arguments"), "{error}");
+    }
+}
+
+#[test]
+fn handles_of_another_frame_are_errors() {
+    let mut other = Frame::new();
+    let (mut foreign, buffer) =
+        (texture(&mut other, "t", 4, Format::Rgba8Unorm), other.upload_buffer("b", vec![0; 64]));
+    for case in 0..5 {
+        let error = refusal(|_, frame| {
+            let mut picture = texture(frame, "picture", 4, Format::Rgba8Unorm);
+            let mut bytes = frame.create_buffer("bytes", crate::BufferDesc::new(64));
+            match case {
+                0 => drop(frame.fullscreen("draw", &fragment("level")).draw(&mut foreign)),
+                1 => drop(frame.fullscreen("draw", &fragment("halve")).sample(&foreign).draw(&mut picture)),
+                2 => drop(frame.fullscreen("draw", &fragment("depth_of_uv")).draw_depth(&mut foreign)),
+                3 => {
+                    let call = frame.compute("double", &kernel("double"));
+                    call.storage_mut(&mut bytes, Contents::Cover).dispatch_indirect(&buffer, 2);
+                }
+                _ => drop(frame.compute("double", &kernel("double")).storage(&buffer).dispatch([1; 3])),
+            }
+        });
+        assert!(matches!(error, Error::ForeignHandle { .. }), "{case}: {error}");
+    }
+}
+
+#[test]
+fn more_targets_than_any_device_has_are_an_error() {
+    let error = refusal(|_, frame| {
+        let mut targets: Vec<_> = (0..9).map(|_| texture(frame, "t", 4, Format::Rgba8Unorm)).collect();
+        let mut last = targets.pop().unwrap();
+        let shader = fragment("level");
+        let mut call = frame.fullscreen("draw", &shader);
+        for target in &mut targets {
+            call = call.target(target);
+        }
+        call.draw(&mut last);
+        frame.export_texture(&last);
+    });
+    assert!(matches!(error, Error::Limit { limit: "max_color_attachments", .. }), "{error}");
+}
+
+#[test]
+fn a_frame_after_a_refused_one_draws() {
+    let mut gpu = Gpu::noop();
+    for shader in [fragment("wrong_type"), fragment("level")] {
+        let mut frame = gpu.graph.frame();
+        draw(&mut frame, &shader, Format::Rgba8Unorm);
+        assert_eq!(gpu.run(frame).is_ok(), shader.0.name == "level");
+    }
+    assert_eq!(gpu.cached().0, 1);
+}

@@ -1,0 +1,74 @@
+//! Every error can be had through the public API, says who, what and the way out, and has its section in
+//! `docs/errors.md`. The examples there are doctests.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "tests")]
+
+#[path = "errors/declared.rs"]
+mod declared;
+#[cfg(feature = "gpu")]
+#[path = "errors/executed.rs"]
+mod executed;
+#[path = "errors/page.rs"]
+mod page;
+
+use shadowgraph_core::{Error, Format, TextureDesc};
+use std::collections::BTreeSet;
+
+/// A mistake: what came of it, and what its message has to say.
+struct Mistake {
+    code: &'static str,
+    error: Error,
+    words: &'static [&'static str],
+}
+
+fn square() -> TextureDesc {
+    TextureDesc::d2(64, 64, Format::Rgba8Unorm)
+}
+
+/// The codes that stand in the source, in the order of the variants.
+fn codes() -> Vec<&'static str> {
+    let source = include_str!("../src/error.rs");
+    let arm = |line: &'static str| line.trim().strip_prefix("Self::")?.split_once("=> \"")?.1.get(..6);
+    source.lines().filter_map(arm).collect()
+}
+
+fn check(mistakes: Vec<Mistake>) -> BTreeSet<&'static str> {
+    for Mistake { code, error, words } in &mistakes {
+        let message = error.to_string();
+        assert_eq!(error.code(), *code, "{message}");
+        assert!(message.starts_with(&format!("{code}: ")), "{message}");
+        for word in *words {
+            assert!(message.contains(word), "{word:?} is missing in: {message}");
+        }
+        // Of a shader it has wgpu's words, which point into the text.
+        let one_line = !message.contains('\n') && !message.contains("  ");
+        assert!(one_line || *code == "SG0604", "{message}");
+    }
+    mistakes.iter().map(|mistake| mistake.code).collect()
+}
+
+#[test]
+fn codes_are_unique_and_each_begins_one_message() {
+    let codes = codes();
+    assert!(codes.len() >= 26, "{codes:?}");
+    let unique: BTreeSet<_> = codes.iter().collect();
+    assert_eq!(unique.len(), codes.len(), "{codes:?}");
+    let source = include_str!("../src/error.rs");
+    for code in codes {
+        assert_eq!(source.matches(&format!("\"{code}: ")).count(), 1, "{code} begins one message");
+    }
+}
+
+#[test]
+fn every_error_can_be_had_and_names_who_what_and_the_way_out() {
+    let found_by_compile = check(declared::mistakes());
+    #[cfg(feature = "gpu")]
+    let found_by_devices = check(executed::mistakes());
+    #[cfg(not(feature = "gpu"))]
+    let found_by_devices = BTreeSet::new();
+    let had: BTreeSet<_> = found_by_compile.union(&found_by_devices).copied().collect();
+    let of_devices = ["SG0104", "SG0404", "SG0601", "SG0602", "SG0603", "SG0604"];
+    let expected: BTreeSet<_> =
+        codes().into_iter().filter(|code| cfg!(feature = "gpu") || !of_devices.contains(code)).collect();
+    assert_eq!(had, expected);
+}

@@ -1,0 +1,66 @@
+//! Mistakes that need a device to be found.
+
+use super::{Mistake, square};
+use shadowgraph_core::{Contents, Error, Format, Frame, FullscreenShader, Graph, Part, TextureDesc, wgpu};
+
+/// Declares, compiles and executes on a device that draws nothing.
+fn mistake(
+    code: &'static str,
+    words: &'static [&'static str],
+    declare: impl FnOnce(&mut Frame<'_>),
+) -> Mistake {
+    let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    declare(&mut frame);
+    let compiled = graph.compile(frame);
+    let error = match compiled {
+        Ok(compiled) => compiled.execute(&mut graph, &device, &mut encoder).err(),
+        Err(error) => Some(error),
+    };
+    Mistake { code, error: error.expect("a mistake"), words }
+}
+
+pub(crate) fn mistakes() -> Vec<Mistake> {
+    vec![
+        mistake(
+            "SG0104",
+            &["pass `b` touches `a` without", "belongs to `first`", "declare the access on `b`"],
+            |frame| {
+                let mut a = frame.create_texture("a", square());
+                let token = frame.render_pass("first").color(&mut a, Contents::clear_color([0.0; 4]));
+                frame.export_texture(&a);
+                let mut pass = frame.compute_pass("b");
+                pass.keep();
+                pass.body(move |ctx| ctx.view(token).map(drop));
+            },
+        ),
+        mistake("SG0404", &["`window` was declared as an import", "use `import_texture`"], |frame| {
+            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+            let mut window = frame.declare_import_texture("window", square(), usage, false);
+            frame.render_pass("draw").color(&mut window, Contents::Cover);
+        }),
+        mistake("SG0601", &["`wide` needs 100000", "max_texture_dimension_2d", "make it smaller"], |frame| {
+            let mut wide = frame.create_texture("wide", TextureDesc::d2(100_000, 4, Format::Rgba8Unorm));
+            frame.render_pass("draw").color(&mut wide, Contents::Cover);
+            frame.export_texture(&wide);
+        }),
+        mistake("SG0602", &["pass `draw`: no paint"], |frame| {
+            let mut pass = frame.encoder_pass("draw");
+            pass.keep();
+            pass.body(|_| Err(Error::body("no paint")));
+        }),
+        mistake("SG0603", &["`samples` cannot be read back", "resolve"], |frame| {
+            let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..square() });
+            frame.render_pass("draw").color(&mut samples, Contents::Cover);
+            frame.read_back_texture(&samples, Part::WHOLE);
+        }),
+        mistake("SG0604", &["shader `red`", "mend the one or the other"], |frame| {
+            let red = FullscreenShader::wgsl("red", "@fragment fn red() -> @location(0) vec4f { return 1; }");
+            let mut picture = frame.create_texture("picture", square());
+            frame.fullscreen("red", &red).draw(&mut picture);
+            frame.export_texture(&picture);
+        }),
+    ]
+}

@@ -1,0 +1,106 @@
+//! Which resources take turns in one physical texture.
+
+use super::{BLACK, check, depth, draw, filter, hdr, plan};
+use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
+
+/// Resources of one shape share a texture where one is done before the next begins.
+#[test]
+fn reuse() {
+    let mut frame = Frame::new();
+    let scene = draw(&mut frame, "scene");
+    let picture = frame.node("post", |frame| {
+        let across = filter(frame, "blur across", &scene);
+        let down = filter(frame, "blur down", &across);
+        filter(frame, "tonemap", &down)
+    });
+    frame.export_texture(&picture);
+    check("reuse", &plan(frame).to_text());
+}
+
+/// A resource that is read at the end is in the way of all in between.
+#[test]
+fn no_reuse_because_busy() {
+    let mut frame = Frame::new();
+    let scene = draw(&mut frame, "scene");
+    let across = filter(&mut frame, "blur across", &scene);
+    let glow = filter(&mut frame, "blur down", &across);
+    let mut picture = hdr(&mut frame, "picture");
+    let mut add = frame.render_pass("add glow");
+    add.sample(&scene);
+    add.sample(&glow);
+    add.color(&mut picture, Contents::Cover);
+    frame.export_texture(&picture);
+    let plan = plan(frame);
+    let why = plan.explain_resource(glow.id());
+    check("no_reuse_because_busy", &format!("{}\n{why}", plan.to_text()));
+}
+
+/// A storage texture shares with none that is only drawn into: storage can switch off an attachment's compression.
+#[test]
+fn storage_apart() {
+    let mut frame = Frame::new();
+    let scene = draw(&mut frame, "scene");
+    let smooth = filter(&mut frame, "smooth", &scene);
+    let mut sharp = hdr(&mut frame, "sharp");
+    let mut pass = frame.compute_pass("sharpen");
+    pass.sample(&smooth);
+    pass.storage_texture_mut(&mut sharp, Contents::Cover);
+    frame.export_texture(&sharp);
+    check("storage_apart", &plan(frame).to_text());
+}
+
+/// Of passes that are ready, the one that frees memory comes first: one branch is finished before the other begins.
+#[test]
+fn order_chosen_for_memory() {
+    let mut frame = Frame::new();
+    let large = TextureDesc::d2(2560, 1440, Format::Rgba16Float);
+    let mut branches =
+        ["left", "right"].map(|side| frame.create_texture(format_args!("{side} large"), large));
+    for (side, large) in ["left", "right"].into_iter().zip(&mut branches) {
+        frame.render_pass(format_args!("draw {side}")).color(large, BLACK);
+    }
+    let small = [(0, "left"), (1, "right")].map(|(index, side)| filter(&mut frame, side, &branches[index]));
+    let mut picture = hdr(&mut frame, "picture");
+    let mut join = frame.render_pass("join");
+    for side in &small {
+        join.sample(side);
+    }
+    join.color(&mut picture, Contents::Cover);
+    frame.export_texture(&picture);
+    check("order_chosen_for_memory", &plan(frame).to_text());
+}
+
+/// Samples that are resolved in the pass that draws them never leave it: such attachments need no memory on GPUs
+/// that draw in tiles.
+#[test]
+fn multisampling() {
+    let mut frame = Frame::new();
+    let four = |format| TextureDesc { samples: 4, ..TextureDesc::d2(1280, 720, format) };
+    let mut samples = frame.create_texture("samples", four(Format::Rgba8UnormSrgb));
+    let mut depth = frame.create_texture("depth", four(Format::Depth32Float));
+    let mut picture = frame.create_texture("picture", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
+    let mut pass = frame.render_pass("draw");
+    pass.color(&mut samples, BLACK);
+    pass.resolve(&mut picture);
+    pass.depth(&mut depth, super::FAR);
+    let pass = pass.id();
+    frame.export_texture(&picture);
+    let plan = plan(frame);
+    check("multisampling", &format!("{}\n{}", plan.to_text(), plan.explain_pass(pass)));
+}
+
+/// A depth buffer that two merged passes share is transient too: they are one render pass.
+#[test]
+fn transient_across_merged_passes() {
+    let mut frame = Frame::new();
+    let mut picture = hdr(&mut frame, "picture");
+    let mut depth = depth(&mut frame, "depth");
+    let mut opaque = frame.render_pass("opaque");
+    opaque.color(&mut picture, BLACK);
+    opaque.depth(&mut depth, super::FAR);
+    let mut glass = frame.render_pass("glass");
+    glass.color(&mut picture, Contents::Preserve);
+    glass.depth(&mut depth, Contents::Preserve);
+    frame.export_texture(&picture);
+    check("transient_across_merged_passes", &plan(frame).to_text());
+}
