@@ -31,11 +31,15 @@ pub(super) fn color_attachments<'a>(
         let access = &decl.accesses[index];
         let (Access::Color(color), Some(begin)) = (access.access, recording.begin(index)) else { continue };
         let same = |&index: &usize| decl.accesses[index].access == access.access;
-        let end = ends.find(same).and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
+        let mut end = ends.find(same).and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
         let volume = match decl.resource(access.resource).desc {
             ResourceDesc::Texture(desc) => desc.dimension == wgpu::TextureDimension::D3,
             ResourceDesc::Buffer(_) => false,
         };
+        // wgpu takes all slices for discarded when one is.
+        if volume {
+            end.store = StoreAction::Store;
+        }
         let slice = decl.part(access).layers.map_or(0, |(first, _)| first);
         if color as usize >= COLORS {
             let name = decl.resource_name(access.resource);

@@ -288,7 +288,7 @@ fn textures_that_cannot_be_copied_are_refused() {
     let plain = description([4, 4, 2], TextureFormat::Rgba8Unorm);
     let many = wgpu::TextureDescriptor {
         sample_count: 4,
-        usage: TextureUsages::RENDER_ATTACHMENT,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
         ..description([4, 4, 1], TextureFormat::Rgba8Unorm)
     };
     assert!(
