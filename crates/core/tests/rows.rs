@@ -5,8 +5,8 @@
 
 use shadowgraph_core::wgpu::{self, TextureUsages};
 use shadowgraph_core::{
-    BufferDesc, ClearValue, Compiled, Contents, CullReason, Error, Executed, Format, Frame, Graph,
-    LoadAction, MergeReason, Options, OrderPolicy, Part, Plan, Rect, Resize, SlotReason, StoreAction,
+    BufferDesc, ClearValue, Compiled, Contents, CullReason, Error, Executed, Format, Frame, FullscreenShader,
+    Graph, LoadAction, MergeReason, Options, OrderPolicy, Part, Plan, Rect, Resize, SlotReason, StoreAction,
     Texture, TextureDesc,
 };
 
@@ -310,4 +310,58 @@ fn options() {
     frame.export_texture(&scene);
     frame.set_options(Options { merge: false, order: OrderPolicy::Memory, ..Options::default() });
     assert_eq!(plan(frame).steps().len(), 2);
+}
+
+#[test]
+fn bind_groups() {
+    let (gpu, mut graph) = (noop(), Graph::new());
+    let invert = FullscreenShader::wgsl(
+        "invert",
+        "@group(0) @binding(0) var scene: texture_2d<f32>;
+        @group(0) @binding(1) var<uniform> strength: vec4f;
+        @fragment fn invert(@builtin(position) at: vec4f) -> @location(0) vec4f {
+            return strength * (1.0 - textureLoad(scene, vec2u(at.xy), 0));
+        }",
+    );
+    for strength in [0.5f32, 1.0] {
+        let mut frame = graph.frame();
+        let (mut scene, mut picture) = (color(&mut frame, "scene"), color(&mut frame, "picture"));
+        frame.render_pass("draw").color(&mut scene, BLACK);
+        let strength = [strength; 4].map(f32::to_le_bytes).concat();
+        frame.fullscreen("invert", &invert).sample(&scene).uniform(&strength[..]).draw(&mut picture);
+        frame.export_texture(&picture);
+        let compiled = graph.compile(frame).unwrap();
+        run(&mut graph, compiled, &gpu);
+    }
+    assert_eq!(graph.plan_counts().reused, 1, "a uniform's value is no part of what is declared");
+}
+
+#[test]
+fn outside() {
+    let (gpu, mut graph) = (noop(), Graph::new());
+    let mut frame = graph.frame();
+    let numbers = frame.upload_buffer("numbers", &[1u8, 2, 3, 4][..]);
+    let request = frame.read_back_buffer(&numbers, Part::WHOLE);
+    let compiled = graph.compile(frame).unwrap();
+    let mut executed = run(&mut graph, compiled, &gpu);
+    // A future; `wait` is for those who would rather block.
+    let bytes = executed.read_back(request).unwrap().wait(&gpu.0).unwrap();
+    assert_eq!(bytes, [1, 2, 3, 4]);
+}
+
+#[test]
+fn poison() {
+    for on in [false, true] {
+        let (gpu, mut graph) = (noop(), Graph::new());
+        graph.set_poison(on);
+        let mut frame = graph.frame();
+        let mut bytes = frame.create_buffer("bytes", BufferDesc::new(16));
+        // It says that it covers the buffer, and writes nothing.
+        frame.encoder_pass("liar").copy_target_buffer(&mut bytes, Contents::Cover);
+        let request = frame.read_back_buffer(&bytes, Part::WHOLE);
+        let compiled = graph.compile(frame).unwrap();
+        let mut executed = run(&mut graph, compiled, &gpu);
+        let bytes = executed.read_back(request).unwrap().wait(&gpu.0).unwrap();
+        assert_eq!(bytes.iter().any(|&byte| byte != 0), on, "{bytes:?}");
+    }
 }

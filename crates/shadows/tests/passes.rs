@@ -107,7 +107,7 @@ fn tiles_wait_for_the_clear_of_their_map_and_not_for_each_other() {
     for tile in tiles {
         let waits: Vec<_> = plan.dependencies().iter().filter(|wait| wait.after == tile).collect();
         let names: Vec<_> = waits.iter().map(|wait| plan.pass(wait.before).name).collect();
-        assert_eq!(names, ["shadow views", "clear"], "{}", plan.pass_path(tile));
+        assert_eq!(names, ["upload shadow views", "clear"], "{}", plan.pass_path(tile));
         assert!(waits.iter().all(|wait| wait.kind == DependencyKind::ReadAfterWrite));
     }
 }

@@ -41,7 +41,7 @@ impl<'f> Frame<'f> {
         let mut buffer = self.create_buffer(&name, BufferDesc::new(bytes.len() as u64));
         let upload = self.work.uploads.len() as u32;
         self.work.uploads.push(bytes);
-        let pass = self.add_pass(name, PassKind::Copy);
+        let pass = self.add_pass(UploadOf(&name), PassKind::Copy);
         self.declare_write(pass, &mut buffer.0, Access::CopyTarget, Contents::Cover, &mut None);
         self.add_copy(pass, CopyOp::Upload { target: buffer.id(), upload });
         buffer
@@ -208,5 +208,15 @@ impl<'f> Frame<'f> {
             resource.texture_usage |= texture;
             resource.buffer_usage |= buffer;
         }
+    }
+}
+
+/// The name of the pass that uploads a buffer.
+struct UploadOf<N>(N);
+
+impl<N: Name> Name for UploadOf<N> {
+    fn write_to(&self, text: &mut String) {
+        text.push_str("upload ");
+        self.0.write_to(text);
     }
 }

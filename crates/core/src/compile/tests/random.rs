@@ -95,7 +95,9 @@ fn a_mistake_in_a_random_frame_gives_its_error() {
 fn no_call_with_any_argument_panics() {
     let (valid, invalid) = (Cell::new(0), Cell::new(0));
     run(8_000, 160, |bytes| {
-        let mut frame = chaos_from_bytes(bytes);
+        // Short ones come through now and then.
+        let length = 8 + usize::from(bytes[0]) % 100;
+        let mut frame = chaos_from_bytes(&bytes[1..length.min(bytes.len())]);
         // Also what is checked after the first mistake must not panic.
         let decl = frame.decl.clone();
         let _ignored = crate::compile::compile(decl);
