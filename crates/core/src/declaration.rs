@@ -148,6 +148,8 @@ pub(crate) struct PassDecl {
     pub(crate) keep: bool,
     pub(crate) accesses: (u32, u32),
     pub(crate) copies: (u32, u32),
+    /// The resource that it attaches first.
+    pub(crate) attachment: Option<ResourceId>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,10 @@
 //! The graph's side.
 
+use crate::drawing::Drawing;
 use crate::frames::Change;
-use crate::frames::chain::Chain;
+use crate::frames::chain::{Chain, SOURCE};
 use crate::frames::real;
-use shadowgraph_core::{Graph, Texture};
+use shadowgraph_core::{Bind, Frame, Graph, Texture};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -47,5 +48,47 @@ impl<'c> Declared<'c> {
         let time = start.elapsed();
         drop(compiled);
         time
+    }
+}
+
+/// The chain's frame from its declaration to its submission.
+pub(crate) struct Whole<'d> {
+    graph: Graph,
+    drawing: &'d Drawing,
+    chain: &'d Chain,
+    change: Change,
+    number: u32,
+    handles: Vec<Texture>,
+}
+
+impl<'d> Whole<'d> {
+    pub(crate) fn new(drawing: &'d Drawing, chain: &'d Chain, change: Change) -> Self {
+        Self { graph: Graph::new(), drawing, chain, change, number: 0, handles: Vec::new() }
+    }
+
+    /// Declares, compiles, records and submits a frame.
+    pub(crate) fn frame(&mut self) {
+        self.number += 1;
+        let (drawing, chain, red) = (self.drawing, self.chain, self.change.red(self.number));
+        let mut frame = self.graph.frame();
+        let import = |frame: &mut Frame<'d>, index: usize| {
+            frame.import_texture(&chain.textures[index], &drawing.ends[index], index == SOURCE)
+        };
+        chain.declare(&mut frame, &mut self.handles, red, import, |pass, index, tokens| {
+            let count = chain.passes[index].samples.len();
+            let program = drawing.program(count);
+            pass.body(move |context| {
+                let group = context.bind_group(&program.layout, &tokens.map(Bind::Texture)[..count])?;
+                context.pass.set_pipeline(&program.pipeline);
+                context.pass.set_bind_group(0, &group, &[]);
+                context.pass.draw(0..3, 0..1);
+                Ok(())
+            });
+        });
+        let mut encoder = drawing.device.create_command_encoder(&Default::default());
+        let compiled = self.graph.compile(frame).expect("the frame has no mistake");
+        let executed = compiled.execute(&mut self.graph, &drawing.device, &mut encoder);
+        executed.expect("the device has what the frame needs");
+        drawing.queue.submit([encoder.finish()]);
     }
 }

@@ -2,18 +2,22 @@
 //!
 //! Criterion keeps the statistics of single figures; the table at the end holds them against their targets, and
 //! whole frames against the same passes written by hand, both sides taking turns in this one run. With
-//! `-- table` only the table is made. Without the feature `gpu` only declaring and compiling are measured.
+//! `-- table` only the table is made.
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a benchmark")]
 
+mod drawing;
 mod frames;
 mod graph;
+mod hand;
 mod measure;
 mod table;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use drawing::Drawing;
 use frames::Change;
 use frames::chain::Chain;
-use graph::{Declared, Source};
+use graph::{Declared, Source, Whole};
+use hand::Hand;
 use measure::{Subject, measure, timed};
 use table::{Table, Target};
 
@@ -28,6 +32,7 @@ fn main() {
         declaring(&mut table);
         growth(&mut table);
         real_frame(&mut table);
+        by_hand(&mut table);
         table.print();
     }
 }
@@ -94,5 +99,22 @@ fn real_frame(table: &mut Table) {
     let targets = [Target::Micros(10.0), Target::Micros(60.0), Target::None];
     for ((change, measured), target) in Change::ALL.into_iter().zip(measured).zip(targets) {
         table.row(change.word(), measured.seconds, None, target);
+    }
+}
+
+fn by_hand(table: &mut Table) {
+    let drawing = Drawing::new();
+    for length in [10, 100, 1_000] {
+        table.heading(&format!("whole frame of {length} passes with one draw each"));
+        let chain = Chain::new(length);
+        let hand = Hand::new(&drawing, &chain);
+        let [unchanged, changed] = [Change::Never, Change::Always].map(|change| {
+            let mut whole = Whole::new(&drawing, &chain, change);
+            timed(move || whole.frame())
+        });
+        let [hand, unchanged, changed] = measure([timed(move || hand.frame()), unchanged, changed]);
+        table.row("by hand", hand.seconds, None, Target::None);
+        table.row("unchanged", unchanged.seconds, Some(unchanged.ratio), Target::Times(1.1));
+        table.row("changed", changed.seconds, Some(changed.ratio), Target::Times(1.5));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::lifetime::Use;
 use super::lists::Lists;
-use crate::declaration::{Declaration, Origin};
+use crate::declaration::{Declaration, Origin, ResourceDecl};
 use crate::desc::{BufferDesc, ResourceDesc};
 use crate::handle::{ResourceId, SlotId};
 use crate::plan::{Fate, Slot, SlotReason};
@@ -56,18 +56,34 @@ struct Colouring<'d> {
     uses: &'d [Use],
     fates: Vec<Fate>,
     slots: Vec<Slot>,
-    /// By slot: its class, and who was in it last.
-    states: Vec<(u32, ResourceId)>,
     /// By slot.
-    counts: Vec<u32>,
-    classes: FxHashMap<Class, u32>,
-    /// By class: free slots, and the slot taken last.
-    free: Vec<(Vec<u32>, u32)>,
+    states: Vec<State>,
+    keys: FxHashMap<Class, u32>,
+    /// By key of a class.
+    classes: Vec<Stock>,
+    /// Which slot houses which resource, in order of their begin.
+    housed: Vec<(usize, ResourceId)>,
+}
+
+const NONE: u32 = u32::MAX;
+
+struct State {
+    class: u32,
+    /// Who is in the slot, or was last.
+    tenant: ResourceId,
+    /// The slot that is free after this one is taken.
+    next_free: u32,
+}
+
+/// The slots of a class.
+struct Stock {
+    free: u32,
+    taken_last: u32,
 }
 
 impl<'d> Colouring<'d> {
     fn new(decl: &'d Declaration, uses: &'d [Use]) -> Self {
-        let fate = |(own, resource): (&Use, &crate::declaration::ResourceDecl)| Fate {
+        let fate = |(own, resource): (&Use, &ResourceDecl)| Fate {
             texture_usage: own.texture_usage,
             buffer_usage: own.buffer_usage,
             steps: own.steps,
@@ -78,10 +94,10 @@ impl<'d> Colouring<'d> {
                 Origin::Transient => SlotReason::Unused,
             },
         };
-        let fates = uses.iter().zip(&decl.resources).map(fate).collect();
-        let (slots, states, counts) = (Vec::new(), Vec::new(), Vec::new());
-        let (classes, free) = (FxHashMap::default(), Vec::new());
-        Self { decl, uses, fates, slots, states, counts, classes, free }
+        let fates: Vec<Fate> = uses.iter().zip(&decl.resources).map(fate).collect();
+        let (slots, states, classes) = (Vec::new(), Vec::new(), Vec::new());
+        let (keys, housed) = (FxHashMap::default(), Vec::with_capacity(fates.len()));
+        Self { decl, uses, fates, slots, states, keys, classes, housed }
     }
 
     fn begin(&mut self, resource: ResourceId) {
@@ -89,64 +105,57 @@ impl<'d> Colouring<'d> {
             return;
         }
         let class = class(self.decl, self.uses, resource);
-        let next = self.free.len() as u32;
-        let key = *self.classes.entry(class).or_insert(next);
+        let next = self.classes.len() as u32;
+        let key = *self.keys.entry(class).or_insert(next);
         if key == next {
-            self.free.push((Vec::new(), u32::MAX));
+            self.classes.push(Stock { free: NONE, taken_last: NONE });
         }
-        let (free, taken) = &mut self.free[key as usize];
-        let reason = match (free.last(), *taken) {
-            (Some(&slot), _) => SlotReason::After(self.states[slot as usize].1),
-            (None, u32::MAX) => SlotReason::FirstOfClass,
-            (None, busy) => SlotReason::AllBusy(self.states[busy as usize].1),
-        };
-        let slot = free.pop().unwrap_or_else(|| {
-            let (texture_usage, buffer_usage) = (TextureUsages::empty(), BufferUsages::empty());
-            self.slots.push(Slot { desc: class.desc, texture_usage, buffer_usage, tenants: (0, 0) });
-            self.states.push((key, resource));
-            self.counts.push(0);
-            self.slots.len() as u32 - 1
-        });
-        *taken = slot;
-        self.states[slot as usize].1 = resource;
-        self.counts[slot as usize] += 1;
+        let (slot, reason) = self.take(key, resource, class.desc);
+        self.states[slot].tenant = resource;
+        self.housed.push((slot, resource));
         let fate = &mut self.fates[resource.index()];
         if class.kind == Kind::Transient {
             fate.texture_usage |= TextureUsages::TRANSIENT_ATTACHMENT;
         }
-        (fate.slot, fate.reason) = (Some(SlotId(slot)), reason);
-        self.slots[slot as usize].texture_usage |= fate.texture_usage;
-        self.slots[slot as usize].buffer_usage |= fate.buffer_usage;
+        (fate.slot, fate.reason) = (Some(SlotId(slot as u32)), reason);
+        self.slots[slot].texture_usage |= fate.texture_usage;
+        self.slots[slot].buffer_usage |= fate.buffer_usage;
+    }
+
+    /// Takes the slot of a class that became free last, or a new one.
+    fn take(&mut self, class: u32, tenant: ResourceId, desc: ResourceDesc) -> (usize, SlotReason) {
+        let stock = &mut self.classes[class as usize];
+        let busy = std::mem::replace(&mut stock.taken_last, stock.free);
+        if stock.free != NONE {
+            let slot = stock.free as usize;
+            stock.free = self.states[slot].next_free;
+            return (slot, SlotReason::After(self.states[slot].tenant));
+        }
+        let slot = self.slots.len();
+        stock.taken_last = slot as u32;
+        let (texture_usage, buffer_usage) = (TextureUsages::empty(), BufferUsages::empty());
+        self.slots.push(Slot { desc, texture_usage, buffer_usage, tenants: (0, 0) });
+        self.states.push(State { class, tenant, next_free: NONE });
+        let reason = match busy {
+            NONE => SlotReason::FirstOfClass,
+            busy => SlotReason::AllBusy(self.states[busy as usize].tenant),
+        };
+        (slot, reason)
     }
 
     fn end(&mut self, resource: ResourceId) {
-        if let Some(slot) = self.fates[resource.index()].slot {
-            let (class, _) = self.states[slot.index()];
-            self.free[class as usize].0.push(slot.0);
+        if let Some(SlotId(slot)) = self.fates[resource.index()].slot {
+            let state = &mut self.states[slot as usize];
+            state.next_free = std::mem::replace(&mut self.classes[state.class as usize].free, slot);
         }
     }
 
-    /// Lists the tenants of each slot, in order of their first use.
     fn finish(mut self) -> Aliasing {
-        let mut start = 0;
-        for (slot, count) in self.slots.iter_mut().zip(&self.counts) {
-            slot.tenants = (start, start);
-            start += count;
+        let tenants = Lists::new(self.slots.len(), || self.housed.iter().copied());
+        for (index, slot) in self.slots.iter_mut().enumerate() {
+            slot.tenants = tenants.range(index);
         }
-        let mut tenants = vec![ResourceId(0); start as usize];
-        let mut housed: Vec<ResourceId> = Vec::with_capacity(tenants.len());
-        housed.extend(
-            (0..self.fates.len() as u32).map(ResourceId).filter(|r| self.fates[r.index()].slot.is_some()),
-        );
-        housed.sort_by_key(|resource| self.fates[resource.index()].steps);
-        for resource in housed {
-            if let Some(slot) = self.fates[resource.index()].slot {
-                let end = &mut self.slots[slot.index()].tenants.1;
-                tenants[*end as usize] = resource;
-                *end += 1;
-            }
-        }
-        Aliasing { fates: self.fates, slots: self.slots, tenants }
+        Aliasing { fates: self.fates, slots: self.slots, tenants: tenants.into_items() }
     }
 }
 

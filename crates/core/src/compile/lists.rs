@@ -31,9 +31,37 @@ impl<T: Copy> Lists<T> {
         Self { starts, items: sorted }
     }
 
+    /// No lists yet, and room for these.
+    pub(super) fn with_capacity(keys: usize, items: usize) -> Self {
+        let mut starts = Vec::with_capacity(keys + 1);
+        starts.push(0);
+        Self { starts, items: Vec::with_capacity(items) }
+    }
+
+    /// Ends the list that is being filled, and leaves those up to `key`, which comes next, empty.
+    pub(super) fn skip_to(&mut self, key: usize) {
+        self.starts.resize(key + 1, self.items.len() as u32);
+    }
+
+    /// Adds to the list that is being filled.
+    pub(super) fn push(&mut self, item: T) {
+        self.items.push(item);
+    }
+
+    /// Where the items of a key begin and end among all items.
+    pub(super) fn range(&self, key: usize) -> (u32, u32) {
+        (self.starts[key], self.starts[key + 1])
+    }
+
+    /// All items, list after list.
+    pub(super) fn into_items(self) -> Vec<T> {
+        self.items
+    }
+
     /// The items of a key, in the order in which they came.
     pub(super) fn of(&self, key: usize) -> &[T] {
-        &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
+        let (start, end) = self.range(key);
+        &self.items[start as usize..end as usize]
     }
 }
 
@@ -47,6 +75,18 @@ mod tests {
         let lists = Lists::new(5, || items.into_iter());
         let found: Vec<String> = (0..5).map(|key| lists.of(key).iter().collect()).collect();
         assert_eq!(found, ["be", "", "ac", "d", ""]);
+    }
+
+    #[test]
+    fn lists_are_filled_one_after_the_other() {
+        let mut lists = Lists::with_capacity(4, 3);
+        for (key, items) in [(1, "ab"), (3, "c")] {
+            lists.skip_to(key);
+            items.chars().for_each(|item| lists.push(item));
+        }
+        lists.skip_to(5);
+        let found: Vec<String> = (0..5).map(|key| lists.of(key).iter().collect()).collect();
+        assert_eq!(found, ["", "ab", "", "c", ""]);
     }
 
     #[test]

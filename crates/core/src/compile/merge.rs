@@ -50,7 +50,7 @@ impl Group {
     /// The resource of the open pass's first attachment: a pass that goes on must have it too.
     pub(super) fn attachment(&self, decl: &Declaration) -> Option<ResourceId> {
         let (first, _) = self.passes?;
-        attachments(decl, first).next().map(|access| access.resource)
+        decl.pass(first).attachment
     }
 
     /// Says whether the pass can go on with the open render pass, or why not.
@@ -65,6 +65,9 @@ impl Group {
         }
         if before != PassKind::Render {
             return MergeReason::KindBefore(before);
+        }
+        if decl.pass(pass).attachment != decl.pass(first).attachment {
+            return MergeReason::Attachments;
         }
         let mut own = attachments(decl, pass);
         let same = attachments(decl, first)

@@ -2,6 +2,7 @@
 
 mod heap;
 mod memory;
+mod traffic;
 
 use super::lists::Lists;
 use super::merge::{self, Group};
@@ -10,6 +11,7 @@ use crate::handle::PassId;
 use crate::plan::{CullReason, Dependency, MergeReason, PlaceReason};
 use heap::Ready;
 use memory::Memory;
+use traffic::Traffic;
 
 /// Of the passes that could go on with the open render pass, at most so many are compared.
 const COMPARED: usize = 16;
@@ -30,11 +32,11 @@ pub(super) fn order(
         let reasons = vec![PlaceReason::Fixed; declared.len()];
         return (declared, reasons);
     }
-    let bytes = memory::bytes(decl);
-    let scheduler = |time| Scheduler::new(decl, &declared, dependencies, &bytes, time);
+    let traffic = Traffic::new(decl, &declared);
+    let scheduler = |time| Scheduler::new(decl, &declared, dependencies, &traffic, time);
     let (order, reasons) = scheduler(Time::Forwards).run();
-    let (peak, pass) = memory::peak(decl, &bytes, &order);
-    let least = |pass| memory::forced(decl, &bytes, &declared, dependencies, pass);
+    let (peak, pass) = memory::peak(&traffic, &order);
+    let least = |pass| memory::forced(&traffic, decl.passes.len(), dependencies, pass);
     let forced = reasons.iter().all(|reason| *reason == PlaceReason::OnlyReady);
     if forced || pass.is_none_or(|pass| least(pass) == peak) {
         return (order, reasons);
@@ -42,13 +44,13 @@ pub(super) fn order(
     let backwards = scheduler(Time::Backwards).run().0;
     let backwards = backwards.into_iter().rev().collect();
     let steps = |order: &[PassId]| merge::merge(decl, order).0.len();
-    let most_steps = steps(&order);
+    let mut most_steps = None;
     let mut best = (order, None, peak);
     let others =
         [(declared, PlaceReason::DeclarationNeedsLess), (backwards, PlaceReason::BackwardsNeedsLess)];
     for (other, reason) in others {
-        let (peak, _) = memory::peak(decl, &bytes, &other);
-        if peak < best.2 && steps(&other) <= most_steps {
+        let (peak, _) = memory::peak(&traffic, &other);
+        if peak < best.2 && steps(&other) <= *most_steps.get_or_insert_with(|| steps(&best.0)) {
             best = (other, Some(reason), peak);
         }
     }
@@ -84,7 +86,7 @@ impl<'d> Scheduler<'d> {
         decl: &'d Declaration,
         live: &[PassId],
         dependencies: &[Dependency],
-        bytes: &'d [i64],
+        traffic: &'d Traffic,
         time: Time,
     ) -> Self {
         let passes = decl.passes.len();
@@ -98,7 +100,7 @@ impl<'d> Scheduler<'d> {
         for (_, after) in pairs() {
             waiting[after.index()] += 1;
         }
-        let memory = Memory::new(decl, live, bytes, time);
+        let memory = Memory::new(traffic, passes, time);
         let mut ready = Ready::new(passes, decl.resources.len(), time);
         for &pass in live.iter().filter(|pass| waiting[pass.index()] == 0) {
             ready.push(decl, pass, memory.score(pass));

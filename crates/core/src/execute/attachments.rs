@@ -8,44 +8,41 @@ use crate::handle::PassId;
 use crate::internal::Targets;
 use crate::part::Aspect;
 use crate::plan::{AttachmentOps, LoadAction, Plan, StoreAction};
+use arrayvec::ArrayVec;
 
 /// As many colour attachments as any device allows.
 const COLORS: usize = 8;
 
-pub(super) struct ColorAttachments<'v> {
-    pub(super) list: [Option<wgpu::RenderPassColorAttachment<'v>>; COLORS],
-    pub(super) count: usize,
-}
+pub(super) type ColorAttachments<'v> = ArrayVec<Option<wgpu::RenderPassColorAttachment<'v>>, COLORS>;
 
-/// The colour attachments of the passes from `first` to `last`, which share a render pass: the first of them loads,
-/// the last one stores and resolves.
+/// Finds the colour attachments of the passes from `first` to `last`, which share a render pass: the first of them
+/// loads, the last one stores and resolves.
 pub(super) fn color_attachments<'a>(
     recording: &'a Recording<'a>,
     first: PassId,
     last: PassId,
-) -> Result<ColorAttachments<'a>, Error> {
+    colors: &mut ColorAttachments<'a>,
+) -> Result<(), Error> {
     let decl = &recording.plan.decl;
-    let mut colors = ColorAttachments { list: [const { None }; COLORS], count: 0 };
     let mut ends = decl.access_range(last);
     for index in decl.access_range(first) {
         let access = &decl.accesses[index];
         let (Access::Color(color), Some(begin)) = (access.access, recording.begin(index)) else { continue };
         let same = |&index: &usize| decl.accesses[index].access == access.access;
-        let mut end = ends.find(same).and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
+        let end = ends.find(same).and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
         let volume = match decl.resource(access.resource).desc {
             ResourceDesc::Texture(desc) => desc.dimension == wgpu::TextureDimension::D3,
             ResourceDesc::Buffer(_) => false,
         };
-        // wgpu takes all slices for discarded when one is.
-        if volume {
-            end.store = StoreAction::Store;
-        }
         let slice = decl.part(access).layers.map_or(0, |(first, _)| first);
         if color as usize >= COLORS {
             let name = decl.resource_name(access.resource);
             crate::pool::limit(name, "max_color_attachments", u64::from(color) + 1, COLORS as u64)?;
         }
-        colors.list[color as usize] = Some(wgpu::RenderPassColorAttachment {
+        while colors.len() <= color as usize {
+            colors.push(None);
+        }
+        colors[color as usize] = Some(wgpu::RenderPassColorAttachment {
             view: recording.view(index)?,
             depth_slice: volume.then_some(slice),
             resolve_target: None,
@@ -54,16 +51,15 @@ pub(super) fn color_attachments<'a>(
                 ClearValue::Depth(_) | ClearValue::DepthStencil(..) => wgpu::Color::TRANSPARENT,
             }),
         });
-        colors.count = colors.count.max(color as usize + 1);
     }
     for index in decl.access_range(last) {
         if let Access::Resolve(color) = decl.accesses[index].access
-            && let Some(Some(attachment)) = colors.list.get_mut(color as usize)
+            && let Some(Some(attachment)) = colors.get_mut(color as usize)
         {
             attachment.resolve_target = Some(recording.view(index)?);
         }
     }
-    Ok(colors)
+    Ok(())
 }
 
 /// The depth attachment of the passes from `first` to `last`.

@@ -3,7 +3,7 @@
 use super::context::Resources;
 use crate::error::Error;
 use crate::handle::{BufferToken, TextureToken, Uniform};
-use crate::pool::{Bound, Caches, Purpose};
+use crate::pool::{Bound, Caches, GroupKey, Purpose};
 use crate::programs::Program;
 use arrayvec::ArrayVec;
 use std::borrow::Borrow;
@@ -51,7 +51,7 @@ impl Resources<'_> {
     pub(crate) fn checked_group<'e>(
         &'e self,
         layout: &wgpu::BindGroupLayout,
-        entries: impl ExactSizeIterator<Item = Bind<'e>>,
+        entries: impl ExactSizeIterator<Item = Bind<'e>> + Clone,
         program: &Program,
     ) -> Result<wgpu::BindGroup, Error> {
         self.group(layout, entries, Some(program))
@@ -60,18 +60,29 @@ impl Resources<'_> {
     fn group<'e>(
         &'e self,
         layout: &wgpu::BindGroupLayout,
-        entries: impl ExactSizeIterator<Item: Borrow<Bind<'e>>>,
+        entries: impl ExactSizeIterator<Item: Borrow<Bind<'e>>> + Clone,
         program: Option<&Program>,
     ) -> Result<wgpu::BindGroup, Error> {
-        if entries.len() > INLINE {
-            let bound = entries.map(|entry| self.bound(entry.borrow())).collect::<Result<Vec<_>, _>>()?;
-            return self.find_group(layout, &bound, program);
+        let last = self.recording.realised.last_groups.as_ref();
+        if let Some(key) = last.and_then(|last| last.get(self, layout, entries.clone()))
+            && let Some(group) = self.caches().bind_groups.again(key)
+        {
+            return Ok(group);
         }
-        let mut bound = ArrayVec::<Bound<'_>, INLINE>::new();
-        for entry in entries {
-            bound.push(self.bound(entry.borrow())?);
+        let (key, group) = if entries.len() > INLINE {
+            let bound = entries.clone().map(|entry| self.bound(entry.borrow()));
+            self.find_group(layout, &bound.collect::<Result<Vec<_>, _>>()?, program)?
+        } else {
+            let mut bound = ArrayVec::<Bound<'_>, INLINE>::new();
+            for entry in entries.clone() {
+                bound.push(self.bound(entry.borrow())?);
+            }
+            self.find_group(layout, &bound, program)?
+        };
+        if let Some(last) = last {
+            last.keep(self, layout, entries, key);
         }
-        self.find_group(layout, &bound, program)
+        Ok(group)
     }
 
     fn find_group(
@@ -79,7 +90,7 @@ impl Resources<'_> {
         layout: &wgpu::BindGroupLayout,
         bound: &[Bound<'_>],
         program: Option<&Program>,
-    ) -> Result<wgpu::BindGroup, Error> {
+    ) -> Result<(GroupKey, wgpu::BindGroup), Error> {
         let mut caches = self.caches();
         let Caches { views, bind_groups, .. } = &mut *caches;
         bind_groups.get(layout, bound, || {

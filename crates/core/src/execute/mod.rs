@@ -5,6 +5,7 @@ mod bind;
 mod context;
 mod copies;
 mod import;
+mod last_groups;
 mod poison;
 mod read_back;
 mod realise;

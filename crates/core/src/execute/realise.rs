@@ -1,12 +1,13 @@
 //! What stands behind a plan on a device.
 
+use super::last_groups::LastGroups;
 use super::poison;
 use crate::declaration::Origin;
 use crate::error::Error;
 use crate::frame::Work;
 use crate::handle::PassId;
 use crate::plan::Plan;
-use crate::pool::{Physical, Pool, Purpose, SlotKey, view};
+use crate::pool::{Physical, Pool, Purpose, SlotKey, Views, view};
 use std::sync::Arc;
 
 /// Plans whose objects are kept.
@@ -25,6 +26,8 @@ pub(crate) struct Realised {
     /// Attachments whose objects are others in each frame.
     moving: Vec<u32>,
     labels: Labels,
+    /// From the second frame on.
+    pub(super) last_groups: Option<LastGroups>,
 }
 
 impl Realised {
@@ -37,6 +40,10 @@ impl Realised {
     ) -> Result<Self, Error> {
         if let Some(index) = pool.realised.iter().position(|own| Arc::ptr_eq(&own.plan, plan)) {
             let mut own = pool.realised.remove(index);
+            if frame - own.frame > pool.limits.idle_frames.into() {
+                own.last_groups = None;
+            }
+            own.last_groups.get_or_insert_with(|| LastGroups::new(plan.pass_count()));
             own.frame = frame;
             pool.slots.touch(&own.slots, frame);
             return Ok(own);
@@ -52,14 +59,15 @@ impl Realised {
         }
         let objects = plan.fates.iter().map(|fate| Some(behind[fate.slot?.index()].clone())).collect();
         let (labels, plan) = (Labels::new(plan), plan.clone());
-        let mut own = Self { plan, frame, slots, objects, views: Vec::new(), moving: Vec::new(), labels };
-        own.find_attachments();
+        let views = vec![None; plan.decl.accesses.len()];
+        let mut own =
+            Self { plan, frame, slots, objects, views, moving: Vec::new(), labels, last_groups: None };
+        own.find_attachments(&mut pool.caches().views);
         Ok(own)
     }
 
-    fn find_attachments(&mut self) {
-        let plan = self.plan.clone();
-        self.views = vec![None; plan.decl.accesses.len()];
+    fn find_attachments(&mut self, views: &mut Views) {
+        let plan = &self.plan;
         for &pass in &plan.order {
             for index in plan.decl.access_range(pass) {
                 let access = &plan.decl.accesses[index];
@@ -67,7 +75,7 @@ impl Realised {
                     match &self.objects[access.resource.index()] {
                         Some(Physical::Texture(texture)) => {
                             let part = plan.decl.part(access);
-                            self.views[index] = Some(view(texture, part, Purpose::Attachment));
+                            self.views[index] = Some(views.get(texture, part, Purpose::Attachment));
                         }
                         _ => self.moving.push(index as u32),
                     }

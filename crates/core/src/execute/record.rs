@@ -191,7 +191,7 @@ impl<'a> Recording<'a> {
         let label = Some(self.realised.label(id));
         let pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
         let resources = Resources { recording: self, pass: id };
-        let mut context = ComputeContext { pass: pass.forget_lifetime(), resources };
+        let mut context = ComputeContext { pass, resources };
         match body {
             Body::Compute(body) => self.timed(id, || body(&mut context))?,
             Body::Call(call) => self.timed(id, || programs::dispatch(&mut context, call))?,

@@ -21,7 +21,8 @@ impl<'a> Recording<'a> {
         take: &mut impl FnMut(PassId) -> Body<'f>,
     ) -> Result<(), Error> {
         let (first, last) = (passes[0], passes[passes.len() - 1]);
-        let ColorAttachments { list, count } = color_attachments(self, first, last)?;
+        let mut colors = ColorAttachments::new();
+        color_attachments(self, first, last, &mut colors)?;
         let depth_stencil_attachment = depth_attachment(self, first, last)?;
         let timestamps = self.timer.and_then(|timer| timer.step_queries(first, last));
         let timestamp_writes = timestamps.map(|(query_set, begin, end)| wgpu::RenderPassTimestampWrites {
@@ -31,14 +32,14 @@ impl<'a> Recording<'a> {
         });
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(self.realised.label(first)),
-            color_attachments: &list[..count],
+            color_attachments: &colors,
             depth_stencil_attachment,
             timestamp_writes,
             occlusion_query_set: None,
             multiview_mask: None,
         });
         let resources = Resources { recording: self, pass: first };
-        let mut context = RenderContext { pass: pass.forget_lifetime(), resources };
+        let mut context = RenderContext { pass, resources };
         for &id in passes {
             context.resources.pass = id;
             self.merged(id, passes, &mut context, take(id))?;

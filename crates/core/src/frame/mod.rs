@@ -140,6 +140,7 @@ impl<'f> Frame<'f> {
             keep: false,
             accesses: (accesses, accesses),
             copies: (copies, copies),
+            attachment: None,
         });
         #[cfg(feature = "gpu")]
         self.work.bodies.push(crate::execute::Body::None);
@@ -251,7 +252,11 @@ impl<'f> Frame<'f> {
         let Version { resource, version, .. } = version;
         self.decl.accesses.push(AccessDecl { resource, access, contents, version, part });
         let end = self.decl.accesses.len() as u32;
-        self.pass_mut(pass).accesses.1 = end;
+        let declared = self.pass_mut(pass);
+        declared.accesses.1 = end;
+        if declared.attachment.is_none() && access.is_attachment() {
+            declared.attachment = Some(resource);
+        }
         Token { frame: self.id, pass, resource, access: end - 1 }
     }
 

@@ -6,8 +6,9 @@ use crate::error::Error;
 use crate::plan::Plan;
 use std::sync::Arc;
 
-/// How many plans are kept: enough for a few kinds of frames that alternate.
-const KEPT: usize = 4;
+/// How many plans are kept: enough for a few kinds of frames that alternate, and one more than there are plans whose
+/// objects are kept, so that the memory of the oldest is free for the next frame.
+const KEPT: usize = 5;
 
 /// How plans were come by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

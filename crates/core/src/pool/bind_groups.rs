@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::part::Part;
 use rustc_hash::{FxHashMap, FxHasher};
+use slotmap::{SlotMap, new_key_type};
 use std::hash::{Hash, Hasher};
 use std::num::NonZeroU64;
 
@@ -53,21 +54,39 @@ struct Cached {
     used: u64,
 }
 
-/// Bind groups by a hash of layout and entries; those that share one by chance lie in one list.
+new_key_type! {
+    /// A bind group among those of a graph.
+    pub(crate) struct GroupKey;
+}
+
+/// Bind groups, by a hash of layout and entries; those that share one by chance lie in one list.
 #[derive(Default)]
 pub(crate) struct BindGroups {
     frame: u64,
-    groups: FxHashMap<u64, Vec<Cached>>,
+    groups: SlotMap<GroupKey, Cached>,
+    by_hash: FxHashMap<u64, Vec<GroupKey>>,
 }
 
 impl BindGroups {
     /// Starts a frame and drops what was last used before frame `oldest`.
     pub(super) fn begin_frame(&mut self, frame: u64, oldest: u64) {
         self.frame = frame;
-        self.groups.retain(|_, list| {
-            list.retain(|cached| cached.used >= oldest);
-            !list.is_empty()
-        });
+        let before = self.groups.len();
+        self.groups.retain(|_, cached| cached.used >= oldest);
+        if self.groups.len() < before {
+            let groups = &self.groups;
+            self.by_hash.retain(|_, list| {
+                list.retain(|&key| groups.contains_key(key));
+                !list.is_empty()
+            });
+        }
+    }
+
+    /// Returns a group that was found before, if it is still there.
+    pub(crate) fn again(&mut self, key: GroupKey) -> Option<wgpu::BindGroup> {
+        let cached = self.groups.get_mut(key)?;
+        cached.used = self.frame;
+        Some(cached.group.clone())
     }
 
     /// Returns the group that binds `entries` to bindings 0, 1, 2 and so on; `create` is asked where there is none.
@@ -76,28 +95,36 @@ impl BindGroups {
         layout: &wgpu::BindGroupLayout,
         entries: &[Bound<'_>],
         create: impl FnOnce() -> Result<wgpu::BindGroup, Error>,
-    ) -> Result<wgpu::BindGroup, Error> {
+    ) -> Result<(GroupKey, wgpu::BindGroup), Error> {
         let mut hasher = FxHasher::default();
         layout.hash(&mut hasher);
         entries.hash(&mut hasher);
-        let list = self.groups.entry(hasher.finish()).or_default();
-        let same = |cached: &&mut Cached| {
-            cached.layout == *layout
-                && cached.entries.len() == entries.len()
-                && cached.entries.iter().zip(entries).all(|(kept, bound)| kept.is(bound))
+        let list = self.by_hash.entry(hasher.finish()).or_default();
+        let groups = &mut self.groups;
+        let same = |key: &GroupKey| {
+            groups.get(*key).is_some_and(|cached| {
+                cached.layout == *layout
+                    && cached.entries.len() == entries.len()
+                    && cached.entries.iter().zip(entries).all(|(kept, bound)| kept.is(bound))
+            })
         };
-        if let Some(cached) = list.iter_mut().find(same) {
+        let found = list.iter().copied().find(same);
+        if let Some(key) = found
+            && let Some(cached) = groups.get_mut(key)
+        {
             cached.used = self.frame;
-            return Ok(cached.group.clone());
+            return Ok((key, cached.group.clone()));
         }
         let group = create()?;
         let entries = entries.iter().map(Kept::of).collect();
-        list.push(Cached { layout: layout.clone(), entries, group: group.clone(), used: self.frame });
-        Ok(group)
+        let cached = Cached { layout: layout.clone(), entries, group: group.clone(), used: self.frame };
+        let key = groups.insert(cached);
+        list.push(key);
+        Ok((key, group))
     }
 
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
-        self.groups.values().map(Vec::len).sum()
+        self.groups.len()
     }
 }

@@ -10,7 +10,7 @@ mod views;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bind_groups::{BindGroups, Bound};
+pub(crate) use bind_groups::{BindGroups, Bound, GroupKey};
 pub(crate) use histories::Histories;
 pub(crate) use slots::{Physical, SlotKey, Slots};
 pub(crate) use staging::{Staging, place};

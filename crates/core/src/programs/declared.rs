@@ -98,7 +98,7 @@ impl Calls {
         self.all.get(call as usize)
     }
 
-    pub(super) fn entries(&self, call: &Declared) -> impl ExactSizeIterator<Item = Bind<'_>> {
+    pub(super) fn entries(&self, call: &Declared) -> impl ExactSizeIterator<Item = Bind<'_>> + Clone {
         let (start, end) = call.entries;
         self.entries[start as usize..end as usize].iter().map(Entry::bind)
     }

@@ -77,7 +77,7 @@ impl Chain {
         handles: &mut Vec<Texture>,
         red: f64,
         import: impl Fn(&mut Frame<'f>, usize) -> Texture,
-        mut draw: impl FnMut(&mut Pass<'_, 'f, Rendering>, usize, Tokens),
+        mut draw: impl FnMut(Pass<'_, 'f, Rendering>, usize, Tokens),
     ) {
         let clear = Contents::clear_color([red, 0.0, 0.0, 1.0]);
         handles.clear();
@@ -87,15 +87,17 @@ impl Chain {
                 handles.push(frame.create_texture(&self.textures[declared.target], desc()));
             }
             let mut pass = frame.render_pass(&declared.name);
-            let mut tokens = Tokens::default();
-            for (token, &texture) in tokens.0.iter_mut().zip(&declared.samples) {
-                *token = Some(pass.sample(&handles[texture]));
-            }
+            let mut first = None;
+            let tokens = std::array::from_fn(|at| {
+                let token = declared.samples.get(at).map(|&texture| pass.sample(&handles[texture])).or(first);
+                first = first.or(token);
+                token.expect("a pass samples at least one texture")
+            });
             pass.color(
                 &mut handles[declared.target],
                 if declared.clears { clear } else { Contents::Preserve },
             );
-            draw(&mut pass, index, tokens);
+            draw(pass, index, tokens);
         }
     }
 
@@ -106,9 +108,8 @@ impl Chain {
     }
 }
 
-/// What a pass samples.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Tokens(pub(crate) [Option<TextureToken>; FAN_IN]);
+/// What a pass samples; the first stands for those that are missing.
+pub(crate) type Tokens = [TextureToken; FAN_IN];
 
 /// The texture drawn last, and up to two others.
 fn pick(recent: &[usize], random: &mut Random) -> Vec<usize> {

@@ -88,7 +88,7 @@ impl Walk<'_> {
             |at: &usize| drawn(self.touches[*at].access) && self.touches[*at].area.without_rect() == whole;
         let first = (start..end).find(of_attachment).unwrap_or(at);
         let last = (start..end).rev().find(of_attachment).unwrap_or(at);
-        let load = self.load(first, before);
+        let load = self.load(start, first, before);
         let clear_drawn = declared_clear(self.decl, touch.access).is_some_and(|value| {
             let drawn_over = self.touches[first..at].iter().any(|other| other.area.overlaps(&touch.area));
             load.0 != LoadAction::Clear(value) || drawn_over
@@ -110,8 +110,9 @@ impl Walk<'_> {
         }
     }
 
-    /// What the attachment of the touch at `first` holds when its render pass begins.
-    fn load(&self, first: usize, before: &Coverage) -> (LoadAction, LoadReason) {
+    /// What the attachment of the touch at `first` holds when its render pass begins. Its step begins at `start`: an
+    /// encoder pass may read beside what it draws, in whatever order.
+    fn load(&self, start: usize, first: usize, before: &Coverage) -> (LoadAction, LoadReason) {
         let touch = &self.touches[first];
         let whole = touch.area.without_rect();
         let clear = declared_clear(self.decl, touch.access);
@@ -119,7 +120,7 @@ impl Walk<'_> {
         if let (Some(value), true) = (clear, touch.area == whole) {
             return (LoadAction::Clear(value), LoadReason::Declared);
         }
-        match self.need(before.within(&whole), first) {
+        match self.need(before.within(&whole), start) {
             Need::Pass(pass) if pass == touch.pass && touch.access.contents == Change::Preserve => {
                 let writes =
                     |other: &&Touch<'_>| other.access.contents.writes() && other.area.overlaps(&touch.area);

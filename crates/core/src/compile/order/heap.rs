@@ -72,15 +72,15 @@ impl Ready {
         self.scores[pass.index()] = Some(score);
         self.enter(pass, score);
         self.count += 1;
-        let first = decl.accesses(pass).iter().find(|a| a.access.is_attachment());
-        if let (true, Some(first)) = (draws(decl, pass), first) {
-            let ends = &mut self.drawing[first.resource.index()];
+        let attachment = decl.pass(pass).attachment;
+        if let (true, Some(resource)) = (draws(decl, pass), attachment) {
+            let ends = &mut self.drawing[resource.index()];
             let previous = std::mem::replace(&mut ends.last, pass.0);
             match previous {
                 NONE => ends.first = pass.0,
                 previous => self.links[previous as usize].next = pass.0,
             }
-            self.links[pass.index()] = Link { previous, next: NONE, resource: first.resource.0 };
+            self.links[pass.index()] = Link { previous, next: NONE, resource: resource.0 };
         }
     }
 

@@ -84,9 +84,8 @@ fn nodes_look_up_what_others_published() {
 fn what_nothing_published_is_an_error_that_names_the_node_and_the_type() {
     let mut frame = Frame::new();
     let error = frame.node("post", |frame| frame.published::<Scene>().map(drop).unwrap_err());
-    assert!(
-        matches!(&error, Error::NotPublished { place, value } if place.contains("`post`") && value.ends_with("Scene"))
-    );
+    let Error::NotPublished { place, value } = &error else { panic!("{error}") };
+    assert!(place.contains("`post`") && value.ends_with("Scene"), "{error}");
 }
 
 #[test]

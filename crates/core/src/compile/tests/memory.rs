@@ -52,8 +52,8 @@ impl Ratios {
         let (mean, declared) = (self.mean(), self.declared / f64::from(self.frames));
         let Self { frames, greatest, .. } = self;
         print(&format!(
-            "{title}: {frames} frames, peak against the best order {mean:.4} in the mean and {greatest:.3} at most; \
-             as declared {declared:.4}"
+            "{title}: {frames} frames, peak against the best order {mean:.4} in the mean and {greatest:.3} \
+             at most; as declared {declared:.4}"
         ));
     }
 }

@@ -120,8 +120,8 @@ fn an_order_by_name_comes_before_memory() {
     assert_eq!(order(&passes(true)), ["fill", "look", "other"]);
 }
 
-/// Three passes: `first` makes what `second` makes more of, and `other` has nothing to do with them. What `second` and
-/// `other` make is exported.
+/// Three passes: `first` makes what `second` makes more of, and `other` has nothing to do with them. What
+/// `second` and `other` make is exported.
 fn three(declared: [&str; 3], sides: [u32; 3]) -> Plan {
     let mut frame = Frame::new();
     let [mut first, mut second, mut other] = sides.map(|side| sized(&mut frame, "texture", side));

@@ -221,3 +221,16 @@ fn a_resolve_target_cannot_be_a_rectangle() {
     bad.on(quarter(0)).resolve(&mut target);
     assert_eq!(frame.compile().err().unwrap().code(), "SG0306", "wgpu resolves all of a mip");
 }
+
+#[test]
+fn what_an_encoder_pass_reads_of_a_texture_is_there_while_it_draws_beside_it() {
+    let mut frame = Frame::new();
+    let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    draw(&mut frame, "all", &mut a, BLACK);
+    let mut encoder = frame.encoder_pass("encoder");
+    encoder.on(quarter(0)).copy_source(&a);
+    encoder.on(quarter(1)).attachment(&mut a, Contents::Cover);
+    encoder.keep();
+    let plan = plan(frame);
+    assert_eq!(accesses(&plan, "encoder")[1].ops.unwrap().load, LoadAction::Load);
+}

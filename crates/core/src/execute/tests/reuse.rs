@@ -64,6 +64,35 @@ fn equal_frames_get_the_same_textures_and_bind_groups() {
 }
 
 #[test]
+fn one_plan_whose_body_binds_another_texture_each_time_gets_the_right_group() {
+    const TEXTURES: u32 = 7;
+    for gpu in Gpu::all() {
+        let (draw, mut graph) = (gpu.draw("loaded", NUMBERS), Graph::new());
+        let draw = &draw;
+        for number in (0..4 * TEXTURES).map(|round| round * 3 % TEXTURES) {
+            let mut frame = graph.frame();
+            let sources = [(); TEXTURES as usize].map(|()| frame.create_texture("source", square(8)));
+            let sources = std::array::from_fn::<_, { TEXTURES as usize }, _>(|value| {
+                let mut source = sources[value].clone();
+                let clear = Contents::clear_color([value as f64, 0.0, 0.0, 0.0]);
+                frame.render_pass("fill").color(&mut source, clear);
+                source
+            });
+            let mut target = frame.create_texture("target", square(8));
+            let mut pass = frame.render_pass("add one");
+            let tokens = sources.each_ref().map(|source| pass.sample(source));
+            pass.color(&mut target, Contents::Cover);
+            pass.body(move |ctx| draw.record(ctx, &[Bind::Texture(tokens[number as usize])]));
+            let export = frame.export_texture(&target);
+            let executed = gpu.run(&mut graph, frame);
+            gpu.assert_filled(executed.texture(export).unwrap(), number + 1);
+        }
+        assert_eq!(graph.plan_counts().compiled, 1);
+        assert_eq!(groups(&graph), TEXTURES as usize, "one group for each texture");
+    }
+}
+
+#[test]
 fn plans_that_alternate_keep_their_textures() {
     for gpu in Gpu::all() {
         let mut chains = Chains::new(&gpu);

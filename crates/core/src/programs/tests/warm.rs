@@ -120,11 +120,11 @@ fn warming_draws_into_nothing_of_the_callers_and_moves_no_history() {
 
 /// A shader that no driver has seen and kept on disk.
 fn unseen(name: &'static str, entry: &'static str, salt: u128) -> FullscreenShader {
-    let text = TEXT.replace("vec4f(uv, 0.0, 1.0)", &format!("vec4f(uv, 0.0, 1.0 - 1e-30 * {salt}.0)"));
+    let text = TEXT.replace("vec4f(uv, 0.0, 1.0)", &format!("vec4f(uv, uv.x * {salt}e-20, 1.0)"));
     FullscreenShader::wgsl(name, text).entry(entry)
 }
 
-/// A chain of ten passes of different shaders; returns the time from declaring to the GPU's being done.
+/// A chain of passes of different shaders; returns the time from declaring to the GPU's being done.
 fn timed(gpu: &mut Gpu, shaders: &[FullscreenShader]) -> Duration {
     let start = Instant::now();
     let mut frame = gpu.graph.frame();
@@ -139,14 +139,14 @@ fn timed(gpu: &mut Gpu, shaders: &[FullscreenShader]) -> Duration {
 }
 
 fn shaders(salt: u128) -> Vec<FullscreenShader> {
-    (0..10).map(|i| unseen("gradient", "gradient", salt + i)).collect()
+    (0..4).map(|i| unseen("gradient", "gradient", salt + i)).collect()
 }
 
 /// Prints times for whoever runs it with `--nocapture`; that machines differ, it asserts little.
 #[test]
 fn the_first_frame_after_warming_is_no_longer_the_slow_one() {
     let Some(mut gpu) = Gpu::drawing() else { return };
-    let salt = std::time::UNIX_EPOCH.elapsed().unwrap().as_nanos() % 1_000_000_000;
+    let salt = std::time::UNIX_EPOCH.elapsed().unwrap().as_nanos() % 8_000_000;
     let median = |mut times: Vec<Duration>| {
         times.sort();
         times[times.len() / 2]

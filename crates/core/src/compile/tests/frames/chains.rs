@@ -3,8 +3,8 @@
 use super::{AccessSpec, PartSpec, PassSpec, ResourceSpec, Source, Spec};
 use crate::{Access, Contents, Format, Origin, PassKind, ResourceDesc, TextureDesc};
 
-/// Makes a frame of as many compute passes. Each fills a texture of its own, of very different sizes, from a few of
-/// those before it. What nothing reads is exported.
+/// Makes a frame of as many compute passes. Each fills a texture of its own, of very different sizes, from a
+/// few of those before it. What nothing reads is exported.
 pub(in super::super) fn chain_from_bytes(bytes: &[u8], passes: usize) -> Spec {
     let mut source = Source::new(bytes);
     let mut spec = Spec::default();

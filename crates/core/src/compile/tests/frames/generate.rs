@@ -1,7 +1,7 @@
 //! Random frames from bytes, as a fuzzer gives them.
 //!
-//! Frames are valid by construction, but for a few accesses to contents that may be undefined: what is defined is
-//! tracked cell by cell.
+//! Frames are valid by construction, but for a few accesses to contents that may be undefined: what is
+//! defined is tracked cell by cell.
 
 use super::cells::{Cell, Cells, cells_of};
 use super::resources::{COLORS, DEPTHS};
@@ -126,8 +126,8 @@ impl<'b> Generator<'b> {
         }
     }
 
-    /// What of a resource a pass of this kind cannot touch in two ways: wgpu knows no tiles and no bytes within one
-    /// pass, and slices of a volume only as attachments.
+    /// What of a resource a pass of this kind cannot touch in two ways: wgpu knows no tiles and no bytes
+    /// within one pass, and slices of a volume only as attachments.
     fn extents(&self, resource: usize, part: PartSpec) -> [Cells; 2] {
         let [beside_attachments, beside_others] = match (self.pass.kind, self.spec.desc(resource)) {
             (PassKind::Copy | PassKind::Encoder, _) => [part; 2],

@@ -129,7 +129,7 @@ impl PartSpec {
         Self { rect: None, ..self }
     }
 
-    /// What wgpu cannot tell from it within one pass: all of its mips and layers, and every slice of a volume.
+    /// What wgpu cannot tell from it within one pass: all of its mips and layers, every slice of a volume.
     pub(super) fn tracked(self, desc: &TextureDesc) -> Self {
         Self { rect: None, aspect: Aspect::All, ..self.with_all_slices(desc) }
     }

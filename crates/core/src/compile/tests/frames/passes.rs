@@ -1,9 +1,9 @@
 //! Random render, compute and encoder passes.
 
-use super::PartSpec;
 use super::cells::{layers, mip_size};
 use super::generate::Generator;
 use super::resources::is_depth;
+use super::{AccessSpec, PartSpec};
 use crate::{Access, ClearValue, Contents, Origin, PassKind, ResourceDesc, TextureDesc};
 
 /// One mip of one layer, to draw into.
@@ -264,13 +264,27 @@ impl Generator<'_> {
         self.touch(resource, access, Some(contents), part);
     }
 
+    /// The mip and layer that the pass has touched last.
+    fn target_beside(&self, last: AccessSpec) -> Option<Target> {
+        let desc = self.texture_desc(last.resource)?;
+        let previous = matches!(self.spec.resources[last.resource].origin, Origin::Previous { .. });
+        let first = |range: Option<(u32, u32)>| range.map_or(0, |(start, _)| start);
+        let (mip, layer) = (first(last.part.mips), first(last.part.layers));
+        let drawable = !previous && !is_depth(desc.format) && desc.samples == 1;
+        drawable.then_some(Target { resource: last.resource, mip, layer })
+    }
+
     /// An attachment of a render pass that the encoder pass begins itself.
     fn attach(&mut self) {
         let size = self.size();
-        let target = self.target(size, 1, false);
+        let target = match self.pass.accesses.last().copied() {
+            Some(last) if self.source.chance(96) => self.target_beside(last),
+            _ => Some(self.target(size, 1, false)),
+        };
+        let Some(target) = target else { return };
         let Some(desc) = self.texture_desc(target.resource) else { return };
         let mut part = self.target_part(&target, &desc);
-        part.rect = self.rect(size);
+        part.rect = self.rect(mip_size(&desc, target.mip));
         if self.is_free(target.resource, part, true, true) {
             let contents = self.contents(target.resource, Access::Color(0), part, 96);
             self.touch(target.resource, Access::Color(0), Some(contents), part);

@@ -54,8 +54,8 @@ impl Judge<'_> {
         attachments(a).eq(attachments(b))
     }
 
-    /// Whether wgpu's tracking within one render pass would refuse the two together, or the second could not see what
-    /// the first did: one writes what the other touches, and not both draw into it.
+    /// Whether wgpu's tracking within one render pass would refuse the two together, or the second could not
+    /// see what the first did: one writes what the other touches, and not both draw into it.
     fn hazard(&self, a: usize, b: usize) -> bool {
         let clash = |first: &AccessSpec, second: &AccessSpec| {
             let both_attached = first.attached() && second.attached();

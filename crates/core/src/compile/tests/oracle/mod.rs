@@ -1,7 +1,7 @@
 //! A naive judge of plans: it knows the rules of the graph and nothing of the compiler.
 //!
-//! It believes the spec, not the declaration, looks at every texel and byte, and compares everything with everything.
-//! Like `frames` it uses the crate's public names only.
+//! It believes the spec, not the declaration, looks at every texel and byte, and compares everything with
+//! everything. Like `frames` it uses the crate's public names only.
 
 mod culling;
 mod declared;

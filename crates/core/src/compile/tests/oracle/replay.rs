@@ -16,7 +16,7 @@ enum Content {
     Cleared([u64; 4]),
 }
 
-/// An attachment whose render pass is open: the resource, the cells, and the place in the order that opened it.
+/// An attachment whose render pass is open: the resource and the cells.
 type Open = (usize, Cells);
 
 struct Replay<'p> {

@@ -1,11 +1,12 @@
 //! Reasons are true: what each says of its pass and resource is so.
 
 mod contents;
+mod merging;
 mod placing;
 
 use super::super::frames::Names;
 use super::{Judge, Live, Rule, spec_pass};
-use crate::{Access, Contents, CullReason, MergeReason, PassId, PassKind, Plan, ResourceId, SlotReason};
+use crate::{CullReason, PassId, Plan, ResourceId, SlotReason};
 
 /// What the reasons are checked against.
 struct Facts<'p> {
@@ -72,54 +73,6 @@ impl Judge<'_> {
             };
             self.truth(holds, id, reason);
         }
-    }
-
-    fn merge_reason(&mut self, facts: &Facts<'_>, place: usize) {
-        let id = facts.plan.order()[place];
-        let Some(reason) = facts.plan.merging(id) else { return self.truth(false, id, "no merge reason") };
-        let step = facts.live.steps[place];
-        let merged = place > 0 && facts.live.steps[place - 1] == step;
-        self.truth(merged == (reason == MergeReason::Merged), id, reason);
-        self.truth((place == 0) == (reason == MergeReason::First), id, reason);
-        if place == 0 || merged {
-            return;
-        }
-        let before: Vec<usize> =
-            (0..place).filter(|&p| facts.live.steps[p] + 1 == step).map(|p| facts.live.order[p]).collect();
-        let passes = &self.model.spec.passes;
-        let own = facts.live.order[place];
-        let among = |other: PassId| before.contains(&spec_pass(other));
-        let render = [own, before[0]].iter().all(|&pass| passes[pass].kind == PassKind::Render);
-        let last = before.last().copied().unwrap_or_default();
-        let holds = match reason {
-            MergeReason::First | MergeReason::Merged => true,
-            MergeReason::Off => !facts.plan.options().merge,
-            MergeReason::Kind(kind) => passes[own].kind == kind && kind != PassKind::Render,
-            MergeReason::KindBefore(kind) => passes[before[0]].kind == kind && kind != PassKind::Render,
-            MergeReason::Attachments => render && !self.same_attachments(before[0], own),
-            MergeReason::Reads(r, other) => {
-                let r = facts.resource(r);
-                among(other)
-                    && self.does(spec_pass(other), r, |a| a.writes())
-                    && self.does(own, r, |a| !a.writes())
-            }
-            MergeReason::Writes(r, other) => {
-                let r = facts.resource(r);
-                among(other) && self.does(spec_pass(other), r, |_| true) && self.does(own, r, |a| a.writes())
-            }
-            MergeReason::Clears(r) => {
-                let whole = |a: &super::AccessSpec| {
-                    a.part.cells(&self.model.cells[a.resource]) == self.model.attachment(a)
-                };
-                self.does(own, facts.resource(r), |a| {
-                    matches!(a.contents, Some(Contents::Clear(_))) && whole(a)
-                })
-            }
-            MergeReason::Resolves(r) => {
-                self.does(last, facts.resource(r), |a| matches!(a.access, Access::Resolve(_)))
-            }
-        };
-        self.truth(holds, id, reason);
     }
 
     fn slot_reasons(&mut self, facts: &Facts<'_>) {
