@@ -57,19 +57,28 @@ pub(crate) struct Whole<'d> {
     drawing: &'d Drawing,
     chain: &'d Chain,
     change: Change,
+    draws: u32,
+    threads: usize,
     number: u32,
     handles: Vec<Texture>,
 }
 
 impl<'d> Whole<'d> {
     pub(crate) fn new(drawing: &'d Drawing, chain: &'d Chain, change: Change) -> Self {
-        Self { graph: Graph::new(), drawing, chain, change, number: 0, handles: Vec::new() }
+        let (graph, handles) = (Graph::new(), Vec::new());
+        Self { graph, drawing, chain, change, draws: 1, threads: 1, number: 0, handles }
+    }
+
+    /// Draws so often in each pass, recorded on so many threads.
+    pub(crate) fn with(self, draws: u32, threads: usize) -> Self {
+        Self { draws, threads, ..self }
     }
 
     /// Declares, compiles, records and submits a frame.
     pub(crate) fn frame(&mut self) {
         self.number += 1;
-        let (drawing, chain, red) = (self.drawing, self.chain, self.change.red(self.number));
+        let (drawing, chain, draws, red) =
+            (self.drawing, self.chain, self.draws, self.change.red(self.number));
         let mut frame = self.graph.frame();
         let import = |frame: &mut Frame<'d>, index: usize| {
             frame.import_texture(&chain.textures[index], &drawing.ends[index], index == SOURCE)
@@ -81,14 +90,20 @@ impl<'d> Whole<'d> {
                 let group = context.bind_group(&program.layout, &tokens.map(Bind::Texture)[..count])?;
                 context.pass.set_pipeline(&program.pipeline);
                 context.pass.set_bind_group(0, &group, &[]);
-                context.pass.draw(0..3, 0..1);
+                (0..draws).for_each(|_| context.pass.draw(0..3, 0..1));
                 Ok(())
             });
         });
-        let mut encoder = drawing.device.create_command_encoder(&Default::default());
         let compiled = self.graph.compile(frame).expect("the frame has no mistake");
-        let executed = compiled.execute(&mut self.graph, &drawing.device, &mut encoder);
-        executed.expect("the device has what the frame needs");
-        drawing.queue.submit([encoder.finish()]);
+        if self.threads > 1 {
+            let executed = compiled.execute_on_threads(&mut self.graph, &drawing.device, self.threads);
+            let (_, buffers) = executed.expect("the device has what the frame needs");
+            drawing.queue.submit(buffers);
+        } else {
+            let mut encoder = drawing.device.create_command_encoder(&Default::default());
+            let executed = compiled.execute(&mut self.graph, &drawing.device, &mut encoder);
+            executed.expect("the device has what the frame needs");
+            drawing.queue.submit([encoder.finish()]);
+        }
     }
 }

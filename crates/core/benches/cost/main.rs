@@ -33,6 +33,7 @@ fn main() {
         growth(&mut table);
         real_frame(&mut table);
         by_hand(&mut table);
+        on_threads(&mut table);
         table.print();
     }
 }
@@ -94,11 +95,18 @@ fn growth(table: &mut Table) {
 }
 
 fn real_frame(table: &mut Table) {
-    table.heading("declare and compile, 65 passes with 350 accesses");
-    let measured = measure(Change::ALL.map(|change| declares(Source::Real, change)));
-    let targets = [Target::Micros(10.0), Target::Micros(60.0), Target::None];
-    for ((change, measured), target) in Change::ALL.into_iter().zip(measured).zip(targets) {
+    let kinds = [Change::Never, Change::Always];
+    table.heading("compile, 65 passes with 350 accesses");
+    let measured = measure(kinds.map(|change| compiles(Source::Real, change)));
+    let targets = [Target::Micros(10.0), Target::Micros(60.0)];
+    for ((change, measured), target) in kinds.into_iter().zip(measured).zip(targets) {
         table.row(change.word(), measured.seconds, None, target);
+    }
+    table.heading("declare and compile, 65 passes with 350 accesses");
+    for (change, measured) in
+        kinds.into_iter().zip(measure(kinds.map(|change| declares(Source::Real, change))))
+    {
+        table.row(change.word(), measured.seconds, None, Target::None);
     }
 }
 
@@ -116,5 +124,20 @@ fn by_hand(table: &mut Table) {
         table.row("by hand", hand.seconds, None, Target::None);
         table.row("unchanged", unchanged.seconds, Some(unchanged.ratio), Target::Times(1.1));
         table.row("changed", changed.seconds, Some(changed.ratio), Target::Times(1.5));
+    }
+}
+
+fn on_threads(table: &mut Table) {
+    let drawing = Drawing::new();
+    let chain = Chain::new(32);
+    for draws in [1, 10, 100, 1_000] {
+        table.heading(&format!("whole frame of 32 passes with {draws} draws each"));
+        let subjects = [1, 2, 4].map(|threads| {
+            let mut whole = Whole::new(&drawing, &chain, Change::Never).with(draws, threads);
+            timed(move || whole.frame())
+        });
+        for (threads, measured) in [1, 2, 4].into_iter().zip(measure(subjects)) {
+            table.row(&format!("threads: {threads}"), measured.seconds, Some(measured.ratio), Target::None);
+        }
     }
 }

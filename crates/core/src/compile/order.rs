@@ -16,12 +16,15 @@ use traffic::Traffic;
 /// Of the passes that could go on with the open render pass, at most so many are compared.
 const COMPARED: usize = 16;
 
+/// Less than this part of the peak is not worth the search for another order.
+const CLOSE: i64 = 16;
+
 /// Returns the passes that run, in order, and why each stands where it does.
 ///
 /// List scheduling: of the passes whose dependencies are done, the one that goes on with the open render pass, then
 /// the one that frees most memory, then the one declared first. Choosing step by step can end worse than it began:
 /// where the order of declaration, or choosing from the last pass to the first, needs less memory and no more render
-/// passes, that is taken.
+/// passes, that is taken. They are not tried where no order at all could save more than a part in [`CLOSE`].
 pub(super) fn order(
     decl: &Declaration,
     culled: &[Option<CullReason>],
@@ -38,7 +41,7 @@ pub(super) fn order(
     let (peak, pass) = memory::peak(&traffic, &order);
     let least = |pass| memory::forced(&traffic, decl.passes.len(), dependencies, pass);
     let forced = reasons.iter().all(|reason| *reason == PlaceReason::OnlyReady);
-    if forced || pass.is_none_or(|pass| least(pass) == peak) {
+    if forced || pass.is_none_or(|pass| peak - least(pass) <= peak / CLOSE) {
         return (order, reasons);
     }
     let backwards = scheduler(Time::Backwards).run().0;

@@ -29,7 +29,8 @@ pub(super) fn color_attachments<'a>(
         let access = &decl.accesses[index];
         let (Access::Color(color), Some(begin)) = (access.access, recording.begin(index)) else { continue };
         let same = |&index: &usize| decl.accesses[index].access == access.access;
-        let end = ends.find(same).and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
+        let end = if first == last { None } else { ends.find(same) };
+        let end = end.and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
         let volume = match decl.resource(access.resource).desc {
             ResourceDesc::Texture(desc) => desc.dimension == wgpu::TextureDimension::D3,
             ResourceDesc::Buffer(_) => false,

@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 /// So many groups are kept for a pass. One that binds more of them searches for those.
-const KEPT: usize = 4;
+const KEPT: usize = 2;
 
 /// By pass of a plan, the first groups that it bound. Only groups of what stays the same as long as the plan's objects
 /// do, such as transient textures: that the tokens are the same is then all there is to compare.

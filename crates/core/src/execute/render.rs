@@ -38,8 +38,7 @@ impl<'a> Recording<'a> {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        let resources = Resources { recording: self, pass: first };
-        let mut context = RenderContext { pass, resources };
+        let mut context = RenderContext { pass, resources: Resources { recording: self, pass: first } };
         for &id in passes {
             context.resources.pass = id;
             self.merged(id, passes, &mut context, take(id))?;
@@ -81,6 +80,9 @@ impl<'a> Recording<'a> {
 
     /// Draws the clears that no load operation does, and tells whether there were any.
     fn clear_regions(&self, id: PassId, context: &mut RenderContext<'_>) -> bool {
+        if self.plan.decl.parts.is_empty() && !self.pool.poison {
+            return false;
+        }
         // Where a loud value stands for what the pass before loads, no clear may count on that.
         let again = |load| self.pool.poison && load == LoadAction::Continue;
         let drawn = |ops: &Option<AttachmentOps>| ops.is_some_and(|ops| ops.clear_drawn || again(ops.load));
@@ -115,7 +117,8 @@ impl<'a> Recording<'a> {
 
     /// Puts the pass into the state that a body may count on; `touched` tells whether it may be in another.
     fn clean_state(&self, id: PassId, context: &mut RenderContext<'_>, touched: bool) {
-        let in_parts = self.plan.decl.accesses(id).iter().any(|access| access.part != WHOLE);
+        let decl = &self.plan.decl;
+        let in_parts = !decl.parts.is_empty() && decl.accesses(id).iter().any(|access| access.part != WHOLE);
         if !touched && !in_parts {
             return;
         }

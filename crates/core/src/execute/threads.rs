@@ -1,4 +1,4 @@
-//! Recording on several threads.
+//! Recording on several threads, of which the caller's is one.
 
 use super::Executed;
 use super::context::Body;
@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::handle::PassId;
 use crate::pool::Pool;
 use std::ops::Range;
+use std::thread::ScopedJoinHandle;
 
 /// Bodies of some steps, in order.
 struct Share<'f> {
@@ -29,21 +30,18 @@ pub(super) fn record(
     let (mut first, others) = (encoder(), (1..shares.len()).map(|_| encoder()).collect::<Vec<_>>());
     let prepared = prepare(&compiled, pool, device, &mut first, others.last())?;
     let recording = prepared.recording(&compiled, pool, device, None);
-    let encoders = std::iter::once(first).chain(others);
     let results: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = shares
-            .into_iter()
-            .zip(encoders)
-            .map(|(share, encoder)| {
-                let recording = &recording;
-                scope.spawn(move || one(recording, share, encoder))
-            })
-            .collect();
+        let mut shares = shares.into_iter();
+        let own = shares.next();
+        let recording = &recording;
+        let spawn = |(share, encoder)| scope.spawn(move || one(recording, share, encoder));
+        let workers: Vec<_> = shares.zip(others).map(spawn).collect();
+        let own = own.map(|share| one(recording, share, first));
         // A body's panic goes on in the thread that asked for the frame.
-        workers
-            .into_iter()
-            .map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
+        let join = |worker: ScopedJoinHandle<'_, _>| {
+            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        own.into_iter().chain(workers.into_iter().map(join)).collect()
     });
     let mut buffers = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut read_backs = Vec::new();

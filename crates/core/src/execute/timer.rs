@@ -12,7 +12,9 @@ use std::time::Duration;
 /// Pass it to [`Compiled::execute_timed`](crate::Compiled::execute_timed), submit, then [`read`](Self::read).
 ///
 /// Passes that were merged into one render pass are told apart where the device can write timestamps inside passes;
-/// elsewhere they share one time, and [`PassTime::shared_by`] says how many.
+/// elsewhere they share one time, and [`PassTime::shared_by`] says how many. A GPU that draws in tiles, or a driver in
+/// software, runs a render pass as a whole whatever the timestamps inside it say: ask for
+/// `TIMESTAMP_QUERY_INSIDE_PASSES` on discrete GPUs only.
 #[derive(Default)]
 pub struct Timer {
     passes: Vec<PassId>,
@@ -40,7 +42,7 @@ pub struct PassTime {
     pub pass: String,
     /// The node it belongs to; empty for none.
     pub node: String,
-    /// Milliseconds of recording on the CPU.
+    /// Milliseconds that the pass's body took on the CPU; 0 for a pass without one.
     pub cpu_ms: f64,
     /// Milliseconds on the GPU; `None` where the device cannot tell.
     pub gpu_ms: Option<f64>,

@@ -17,6 +17,7 @@ mod random;
 mod regions;
 mod sharing;
 mod shuffle;
+mod trial;
 
 /// Bytes that look random, always the same ones for a seed.
 fn random_bytes(seed: u64, count: usize) -> Vec<u8> {

@@ -1,0 +1,16 @@
+//! Any call of the builder with any argument: the frame compiles or is refused, and nothing panics.
+#![no_main]
+#![allow(dead_code, unused_imports, reason = "the tests use more of what they share")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test")]
+
+#[path = "../../src/compile/tests/frames/mod.rs"]
+mod frames;
+
+use shadowgraph_core::*;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let Ok(compiled) = frames::chaos_from_bytes(bytes).compile() else { return };
+    // Whatever was decided can be told.
+    let plan = compiled.into_plan();
+    let _texts = (plan.to_text(), plan.to_dot(), plan.to_json().unwrap());
+});

@@ -1,0 +1,25 @@
+//! Frames that make sense, declared through the builder and compiled, in two orders of declaration: the oracle of the
+//! crate's own tests judges the plans.
+#![no_main]
+#![allow(dead_code, unused_imports, reason = "the tests use more of what they share")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test")]
+
+#[path = "../../src/compile/tests/frames/mod.rs"]
+mod frames;
+#[path = "../../src/compile/tests/oracle/mod.rs"]
+mod oracle;
+#[path = "../../src/compile/tests/shuffle.rs"]
+mod shuffle;
+#[path = "../../src/compile/tests/trial.rs"]
+mod trial;
+
+use shadowgraph_core::*;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let spec = frames::frame_from_bytes(bytes);
+    for spec in [shuffle::shuffled(&spec, &mut frames::Source::new(bytes)), spec] {
+        if let Err(breach) = trial::trial(&spec) {
+            panic!("{breach}\nfrom the bytes {bytes:?}");
+        }
+    }
+});
