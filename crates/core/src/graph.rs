@@ -51,9 +51,9 @@ impl Graph {
         Frame::with(Known {
             spare: Some(self.spare.clone()),
             #[cfg(feature = "gpu")]
-            histories: self.device.histories.known(),
+            histories: Some(self.device.histories.known()),
             #[cfg(not(feature = "gpu"))]
-            histories: Arc::default(),
+            histories: None,
         })
     }
 
@@ -123,7 +123,7 @@ impl Graph {
 #[derive(Clone, Default)]
 pub(crate) struct Known {
     spare: Option<Spare>,
-    histories: Arc<Vec<KnownHistory>>,
+    histories: Option<Arc<Vec<KnownHistory>>>,
 }
 
 /// A history that holds contents.
@@ -195,6 +195,9 @@ impl Known {
         resize: Resize,
     ) -> bool {
         let ResourceDesc::Texture(desc) = decl.resource(current).desc else { return false };
-        self.histories.iter().any(|known| known.is(decl, view, current) && known.fits(&desc, resize))
+        self.histories
+            .iter()
+            .flat_map(|all| all.iter())
+            .any(|known| known.is(decl, view, current) && known.fits(&desc, resize))
     }
 }
