@@ -12,13 +12,14 @@
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
 
 // What is written: 0 light, 1 the visibility of light AOV_LIGHT, 2 the technique's debug colours for that light,
-// 3 the shading normal.
+// 3 the shading normal, 4 the surface itself.
 override AOV: u32 = 0u;
 override AOV_LIGHT: u32 = 0u;
 
 const AOV_VISIBILITY: u32 = 1u;
 const AOV_CASCADE: u32 = 2u;
 const AOV_NORMAL: u32 = 3u;
+const AOV_SURFACE: u32 = 4u;
 
 // Half floats end at 65504.
 const BRIGHTEST: f32 = 60000.0;
@@ -126,6 +127,19 @@ fn cascade_aov(receiver: Receiver, to_camera: vec3f) -> vec4f {
     return vec4f(shadow_debug_color(AOV_LIGHT, receiver) * shade, 1.0);
 }
 
+// The unit octahedron, unfolded to the square from -1 to 1 (Cigolle et al. 2014).
+fn octahedral(normal: vec3f) -> vec2f {
+    let flat = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    let folded = (1.0 - abs(flat.yx)) * select(vec2f(-1.0), vec2f(1.0), flat >= vec2f(0.0));
+    return select(folded, flat, normal.z >= 0.0);
+}
+
+// Where the surface is, and the geometric normal, 12 bits an axis, as a whole number from 1 that a float holds exactly.
+fn surface_aov(receiver: Receiver) -> vec4f {
+    let packed = vec2u(round((octahedral(receiver.geometric_normal) * 0.5 + 0.5) * 4095.0));
+    return vec4f(receiver.position, f32(1u + packed.x * 4096u + packed.y));
+}
+
 @fragment
 fn fs_forward(in: ForwardVertex, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     // Everything that needs the neighbouring pixels comes before the first branch that they may not share.
@@ -162,6 +176,9 @@ fn fs_forward(in: ForwardVertex, @builtin(front_facing) front_facing: bool) -> @
     }
     if AOV == AOV_NORMAL {
         return vec4f(normal * 0.5 + 0.5, 1.0);
+    }
+    if AOV == AOV_SURFACE {
+        return surface_aov(receiver);
     }
 
     // Unlit colours and glow are what the picture shows: exposure, which follows the lights, does not change them.

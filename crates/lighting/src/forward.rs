@@ -38,6 +38,9 @@ pub enum Shows {
     Cascades(u32),
     /// The shading normal, each axis from -1..1 to 0..1.
     Normal,
+    /// Positions relative to the frame's origin, metres, and in `w` the geometric normal: 1 + 4096 x + y of the unfolded
+    /// octahedron, each axis 0 to 4095. 0 where nothing is drawn. Wants `Rgba32Float`.
+    Surface,
 }
 
 /// Pipelines and nodes of forward lighting with one shadow technique.
@@ -191,9 +194,11 @@ fn pipeline(
         Shows::Visibility(light) => (1, light),
         Shows::Cascades(light) => (2, light),
         Shows::Normal => (3, 0),
+        Shows::Surface => (4, 0),
     };
     let constants = [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))];
-    let blended = key.alpha == AlphaKey::Blend;
+    // Only light is drawn for what is blended.
+    let blended = key.alpha == AlphaKey::Blend && shows == Shows::Light;
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("forward"),
         layout: Some(layout),

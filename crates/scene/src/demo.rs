@@ -7,8 +7,6 @@ mod hall;
 mod pattern;
 mod pictures;
 mod props;
-mod round;
-mod shape;
 mod stage;
 
 use glam::{DVec3, Vec3};

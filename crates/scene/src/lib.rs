@@ -22,6 +22,8 @@ mod material;
 mod mesh;
 mod origin;
 mod scene;
+mod solids;
+pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, Projection};

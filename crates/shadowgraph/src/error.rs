@@ -55,6 +55,14 @@ pub enum Error {
         /// The names there are.
         known: String,
     },
+    /// Cases to measure cannot be read.
+    #[error("{place}: {reason}")]
+    Cases {
+        /// The file.
+        place: String,
+        /// What is wrong, where, and what is allowed.
+        reason: String,
+    },
     /// The GPU refused something that was recorded, or was lost.
     #[error("the GPU failed: {0}")]
     Gpu(String),

@@ -22,6 +22,7 @@ pub mod bench;
 mod casters;
 mod error;
 mod gpu;
+pub mod measure;
 pub mod options;
 pub mod output;
 mod picture;

@@ -35,7 +35,7 @@ impl ViewOptions {
         self
     }
 
-    fn aspect(&self) -> f64 {
+    pub(crate) fn aspect(&self) -> f64 {
         f64::from(self.size_px[0]) / f64::from(self.size_px[1])
     }
 
@@ -247,7 +247,7 @@ impl Renderer {
     }
 
     /// What outlives frames; hold it for no longer than one call.
-    fn graph(&self) -> MutexGuard<'_, Graph> {
+    pub(crate) fn graph(&self) -> MutexGuard<'_, Graph> {
         self.graph.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

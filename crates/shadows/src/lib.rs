@@ -40,5 +40,5 @@ pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{AtlasSettings, BiasSettings, CascadeSettings, ShadowSettings, SplitScheme};
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
-pub use techniques::Pcf;
+pub use techniques::{NoShadows, Pcf};
 pub use views::{MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowLight, ShadowView};

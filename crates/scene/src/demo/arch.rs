@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::round::{bulge, lathe};
-use super::shape::{Point, Shape, cuboid, standing_box};
+use crate::solids::round::{bulge, lathe};
+use crate::solids::shape::{Point, Shape, cuboid, standing_box};
 
 /// A wall with a round opening: its spring line is y = 0, it runs along X and is centred in Z. Metres.
 #[derive(Clone, Copy)]

@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DAffine3, DVec3};
 
 use super::arch::{ArchBay, column};
-use super::shape::{Shape, cuboid, standing_box};
 use super::stage::Stage;
+use crate::solids::shape::{Point, Shape, cuboid, standing_box};
 
 /// Height of the hall's floor over the court, metres.
 pub(super) const FLOOR: f64 = 0.9;
@@ -40,7 +40,7 @@ fn ground(stage: &mut Stage) {
     let mut plain = Shape::default();
     plain.grid(24, 24, |u, v| {
         let position = DVec3::new((u * 2.0 - 1.0) * HALF, -0.15, (v * 2.0 - 1.0) * HALF);
-        super::shape::Point { position, normal: DVec3::Y, uv: glam::DVec2::new(position.x, position.z) }
+        Point { position, normal: DVec3::Y, uv: glam::DVec2::new(position.x, position.z) }
     });
     stage.add("plain", plain, stage.paint.earth);
     let court = cuboid(DVec3::new(-15.0, -0.6, -16.4), DVec3::new(15.0, 0.0, 18.0));

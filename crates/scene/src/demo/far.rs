@@ -3,8 +3,8 @@
 use glam::{DAffine3, DVec3};
 
 use super::arch::ArchBay;
-use super::shape::{Shape, standing_box, tapered_shaft};
 use super::stage::Stage;
+use crate::solids::shape::{Shape, standing_box, tapered_shaft};
 
 /// Adds all of it.
 pub(super) fn build(stage: &mut Stage) {

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3};
 
 use super::court::{BACK_Z, FLOOR, FRONT_Z, HALL_BAY};
-use super::round::{bulge, lathe, ring, sphere};
-use super::shape::{Shape, standing_box, tapered_shaft};
 use super::stage::Stage;
+use crate::solids::round::{bulge, lathe, ring, sphere};
+use crate::solids::shape::{Shape, standing_box, tapered_shaft};
 use crate::{Light, LightKind};
 
 const PEDESTAL: f64 = 0.95;

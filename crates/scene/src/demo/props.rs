@@ -6,9 +6,9 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::court::{FLOOR, FRONT_Z, HALL_BAY};
 use super::pictures::FENCE_PANEL;
-use super::round::{bulge, lathe, rope, sphere, tube};
-use super::shape::{Shape, standing_box};
 use super::stage::Stage;
+use crate::solids::round::{bulge, lathe, rope, sphere, tube};
+use crate::solids::shape::{Shape, standing_box};
 
 /// Where the ball touches the ground, and its radius, metres.
 pub(super) const BALL: (DVec3, f64) = (DVec3::new(2.9, 0.0, 2.6), 0.9);

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 use super::pictures;
-use super::shape::Shape;
+use crate::solids::shape::Shape;
 use crate::{AlphaMode, Image, Instance, Material, Scene, TextureRef};
 
 /// A scene to which parts are added, and its materials by name.

@@ -8,7 +8,7 @@ use super::shape::{Point, Shape};
 
 /// Turns a profile about the Y axis. Each run is a line of (radius, height) points from bottom to top, smooth
 /// in itself; runs meet in a hard edge. The outside is on the right of the way up, so a lid runs inwards.
-pub(super) fn lathe(runs: &[Vec<DVec2>], segments: u32) -> Shape {
+pub(crate) fn lathe(runs: &[Vec<DVec2>], segments: u32) -> Shape {
     let mut shape = Shape::default();
     for run in runs {
         let normals = run_normals(run);
@@ -55,14 +55,14 @@ fn run_lengths(run: &[DVec2]) -> Vec<f64> {
 }
 
 /// A half-round moulding: a profile run that bulges out by `radius` between two heights.
-pub(super) fn bulge(inner: f64, bottom: f64, radius: f64, steps: u32) -> Vec<DVec2> {
+pub(crate) fn bulge(inner: f64, bottom: f64, radius: f64, steps: u32) -> Vec<DVec2> {
     let angle = |i: u32| -FRAC_PI_2 + PI * f64::from(i) / f64::from(steps);
     let point = |i| DVec2::new(inner + radius * angle(i).cos(), bottom + radius + radius * angle(i).sin());
     (0..=steps).map(point).collect()
 }
 
 /// A ball about the origin.
-pub(super) fn sphere(radius: f64, segments: u32) -> Shape {
+pub(crate) fn sphere(radius: f64, segments: u32) -> Shape {
     let mut shape = Shape::default();
     shape.grid(segments * 2, segments, |u, v| {
         let (sin_u, cos_u) = (u * TAU).sin_cos();
@@ -75,7 +75,7 @@ pub(super) fn sphere(radius: f64, segments: u32) -> Shape {
 }
 
 /// A ring about the Z axis.
-pub(super) fn ring(radius: f64, thickness: f64, segments: u32, sides: u32) -> Shape {
+pub(crate) fn ring(radius: f64, thickness: f64, segments: u32, sides: u32) -> Shape {
     let mut shape = Shape::default();
     shape.grid(segments, sides, |u, v| {
         let (sin_u, cos_u) = (u * TAU).sin_cos();
@@ -89,7 +89,7 @@ pub(super) fn ring(radius: f64, thickness: f64, segments: u32, sides: u32) -> Sh
 }
 
 /// A tube along a path of at least two points, open at its ends.
-pub(super) fn tube(path: &[DVec3], radius: f64, sides: u32) -> Shape {
+pub(crate) fn tube(path: &[DVec3], radius: f64, sides: u32) -> Shape {
     let along =
         |i: usize| (path[(i + 1).min(path.len() - 1)] - path[i.saturating_sub(1)]).normalize_or(DVec3::Y);
     // One reference for the whole path: the paths here bend in a plane, which keeps the tube free of twist.
@@ -107,7 +107,7 @@ pub(super) fn tube(path: &[DVec3], radius: f64, sides: u32) -> Shape {
 }
 
 /// A rope that hangs between two points, `sag` metres below the straight line in its middle.
-pub(super) fn rope(from: DVec3, to: DVec3, sag: f64, radius: f64) -> Shape {
+pub(crate) fn rope(from: DVec3, to: DVec3, sag: f64, radius: f64) -> Shape {
     let point = |i: u32| {
         let t = f64::from(i) / 16.0;
         from.lerp(to, t) - DVec3::Y * (sag * 4.0 * t * (1.0 - t))

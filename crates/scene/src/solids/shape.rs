@@ -11,22 +11,22 @@ const DERIVATIVE_STEP: f64 = 1e-4;
 
 /// A point of a surface: where it is, which way it faces, and its texture coordinate.
 #[derive(Clone, Copy)]
-pub(super) struct Point {
-    pub(super) position: DVec3,
-    pub(super) normal: DVec3,
-    pub(super) uv: DVec2,
+pub(crate) struct Point {
+    pub(crate) position: DVec3,
+    pub(crate) normal: DVec3,
+    pub(crate) uv: DVec2,
 }
 
 /// Points and triangles, in f64 until [`Shape::finish`].
 #[derive(Clone, Default)]
-pub(super) struct Shape {
+pub(crate) struct Shape {
     points: Vec<Point>,
     indices: Vec<u32>,
 }
 
 impl Shape {
     /// Adds a patch of `columns` x `rows` cells; `point` is asked at (u, v), both 0 to 1.
-    pub(super) fn grid(&mut self, columns: u32, rows: u32, point: impl Fn(f64, f64) -> Point) {
+    pub(crate) fn grid(&mut self, columns: u32, rows: u32, point: impl Fn(f64, f64) -> Point) {
         let first = self.points.len() as u32;
         for row in 0..=rows {
             for column in 0..=columns {
@@ -47,7 +47,7 @@ impl Shape {
     }
 
     /// Adds a patch whose normals come from the surface's own slopes. The normal is d/du x d/dv.
-    pub(super) fn surface(&mut self, columns: u32, rows: u32, position: impl Fn(f64, f64) -> DVec3) {
+    pub(crate) fn surface(&mut self, columns: u32, rows: u32, position: impl Fn(f64, f64) -> DVec3) {
         let h = DERIVATIVE_STEP;
         self.grid(columns, rows, |u, v| {
             let along_u = position(u + h, v) - position(u - h, v);
@@ -62,7 +62,7 @@ impl Shape {
 
     /// Adds a flat parallelogram at `corner` spanned by two edges, its uv in metres. It faces
     /// `edge_u x edge_v`.
-    pub(super) fn parallelogram(&mut self, corner: DVec3, edge_u: DVec3, edge_v: DVec3) {
+    pub(crate) fn parallelogram(&mut self, corner: DVec3, edge_u: DVec3, edge_v: DVec3) {
         let normal = edge_u.cross(edge_v).normalize_or(DVec3::Y);
         let (length_u, length_v) = (edge_u.length(), edge_v.length());
         self.grid(1, 1, |u, v| Point {
@@ -73,7 +73,7 @@ impl Shape {
     }
 
     /// Adds another shape, placed by a rigid or scaling transform.
-    pub(super) fn append(&mut self, other: &Shape, local_from_other: DAffine3) {
+    pub(crate) fn append(&mut self, other: &Shape, local_from_other: DAffine3) {
         let first = self.points.len() as u32;
         let normals: DMat3 = local_from_other.matrix3.inverse().transpose();
         self.points.extend(other.points.iter().map(|point| Point {
@@ -85,7 +85,7 @@ impl Shape {
     }
 
     /// Adds another shape, moved by `offset`.
-    pub(super) fn append_at(&mut self, other: &Shape, offset: DVec3) {
+    pub(crate) fn append_at(&mut self, other: &Shape, offset: DVec3) {
         self.append(other, DAffine3::from_translation(offset));
     }
 
@@ -101,7 +101,7 @@ impl Shape {
     }
 
     /// Rounds to f32 and adds tangents.
-    pub(super) fn finish(self, name: &str) -> Mesh {
+    pub(crate) fn finish(self, name: &str) -> Mesh {
         let tangents = self.tangents();
         let vertices = self.points.iter().zip(tangents).map(|(point, tangent)| Vertex {
             position: point.position.as_vec3().to_array(),
@@ -144,7 +144,7 @@ impl Shape {
 }
 
 /// A box between two corners, its uv in metres.
-pub(super) fn cuboid(min: DVec3, max: DVec3) -> Shape {
+pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Shape {
     let size = max - min;
     let (x, y, z) = (DVec3::X * size.x, DVec3::Y * size.y, DVec3::Z * size.z);
     let mut shape = Shape::default();
@@ -158,12 +158,12 @@ pub(super) fn cuboid(min: DVec3, max: DVec3) -> Shape {
 }
 
 /// A box of this size standing on the ground, centred over the origin.
-pub(super) fn standing_box(width: f64, height: f64, depth: f64) -> Shape {
+pub(crate) fn standing_box(width: f64, height: f64, depth: f64) -> Shape {
     cuboid(DVec3::new(-width * 0.5, 0.0, -depth * 0.5), DVec3::new(width * 0.5, height, depth * 0.5))
 }
 
 /// A square shaft from `y` with half sides that taper from bottom to top, closed by a lid.
-pub(super) fn tapered_shaft(y: RangeInclusive<f64>, half_bottom: f64, half_top: f64) -> Shape {
+pub(crate) fn tapered_shaft(y: RangeInclusive<f64>, half_bottom: f64, half_top: f64) -> Shape {
     let (bottom, top) = (*y.start(), *y.end());
     let mut side = Shape::default();
     let normal = DVec3::new(0.0, half_bottom - half_top, top - bottom).normalize_or(DVec3::Z);

@@ -1,0 +1,83 @@
+//! `none`: everything is lit. The floor of what shadows cost, and for passes that want surfaces alone.
+
+use shadowgraph_core::Frame;
+use shadowgraph_shaders::{ModuleSource, NONE};
+
+use crate::technique::{ShadowOutputs, ShadowTechnique};
+use crate::{Error, Needs, ShadowInputs};
+
+/// The technique without shadows.
+pub struct NoShadows {
+    layout: wgpu::BindGroupLayout,
+}
+
+impl NoShadows {
+    /// Creates what stays the same for all frames.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let label = Some("no shadows");
+        let desc = wgpu::BindGroupLayoutDescriptor { label, entries: &[] };
+        Self { layout: device.create_bind_group_layout(&desc) }
+    }
+}
+
+impl ShadowTechnique for NoShadows {
+    fn name(&self) -> &str {
+        "none"
+    }
+
+    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Needs {
+        Needs { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 }
+    }
+
+    fn module(&self) -> ModuleSource {
+        NONE
+    }
+
+    fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
+    fn add_to<'f>(
+        &'f self,
+        _frame: &mut Frame<'f>,
+        _inputs: &ShadowInputs<'f>,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        Ok(ShadowOutputs { bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::{CasterTarget, ShadowCasters, ShadowSettings};
+    use glam::DVec3;
+    use shadowgraph_scene::{Aabb, Camera, ConvexVolume};
+
+    struct Nothing;
+    impl ShadowCasters for Nothing {
+        fn cull(&self, _: &ConvexVolume, _: &mut Vec<u32>) {}
+        fn bounds(&self) -> Aabb {
+            Aabb::EMPTY
+        }
+        fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
+    }
+
+    #[test]
+    fn no_shadows_add_no_pass_and_bind_nothing() {
+        let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+        let technique = NoShadows::new(&device);
+        let inputs = ShadowInputs {
+            camera: &Camera::framing(&Aabb::EMPTY, 1.0),
+            aspect: 1.0,
+            lights: &[],
+            casters: &Nothing,
+            origin_world: DVec3::ZERO,
+            settings: &ShadowSettings::default(),
+        };
+        let mut frame = Frame::new();
+        let outputs = technique.add_to(&mut frame, &inputs).unwrap();
+        assert!(outputs.bindings.is_empty() && outputs.debug.is_empty());
+        assert_eq!(frame.compile().unwrap().plan().pass_count(), 0);
+    }
+}
