@@ -237,8 +237,8 @@ impl Pass<'_, '_, Copying> {
         self.op(CopyOp::BufferToBuffer { source: source.id(), target: target.id() })
     }
 
-    /// Copies mip 0 of a single-layer texture to a buffer, each row padded to a multiple of 256 bytes: the way to
-    /// read a picture back (import a mappable buffer).
+    /// Copies mip 0 of a single-layer texture to a buffer, each row padded to a multiple of 256 bytes. To bring a
+    /// picture to the CPU there is `Frame::read_back_texture`.
     pub fn texture_to_buffer(&mut self, source: &Texture, target: &mut Buffer) -> &mut Self {
         let from = self.first_mip(source);
         self.on(from).read_texture(source, Access::CopySource);

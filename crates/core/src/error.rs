@@ -11,7 +11,7 @@ pub enum Error {
     /// A handle that a write left behind was read.
     #[error(
         "SG0101: {place} reads version {version} of `{resource}`, but `{writer}` has since written version \
-         {latest}: read before that write, or use the handle that was passed to it by `&mut`"
+         {latest}: read before that write, or use the handle that was passed to it by `&mut` (export last)"
     )]
     StaleRead { place: String, resource: String, version: u32, writer: String, latest: u32 },
     /// Two passes write the same version.
@@ -22,8 +22,8 @@ pub enum Error {
     TwoWriters { pass: String, resource: String, version: u32, writer: String },
     /// A handle or token of another frame.
     #[error(
-        "SG0103: {place} uses a handle of another frame: handles live for one frame, import the resource \
-         instead"
+        "SG0103: {place} uses a handle of another frame: handles live for one frame, so keep \
+         contents by a history, or import what is yours"
     )]
     ForeignHandle { place: String },
     /// A token was used in a pass that did not declare the access.
@@ -145,6 +145,9 @@ pub enum Error {
         "SG0604: shader `{shader}` does not compile, or does not fit its pass; mend the one or the other: {message}"
     )]
     Shader { shader: String, message: String },
+    /// A texture is used in a way that the device does not allow for its format.
+    #[error("SG0605: `{resource}` has the format {format:?}, which this device {problem}")]
+    FormatSupport { resource: String, format: crate::Format, problem: String },
 }
 
 impl Error {
@@ -182,6 +185,7 @@ impl Error {
             Self::Body { .. } => "SG0602",
             Self::ReadBack { .. } => "SG0603",
             Self::Shader { .. } => "SG0604",
+            Self::FormatSupport { .. } => "SG0605",
         }
     }
 }

@@ -274,6 +274,9 @@ impl Plan {
     }
 
     /// Returns the pass.
+    ///
+    /// # Panics
+    /// With an id that is not of this plan, as an index past the end of a list would.
     pub fn pass(&self, id: PassId) -> PassPlan<'_> {
         let pass = self.decl.pass(id);
         PassPlan {
@@ -287,6 +290,9 @@ impl Plan {
     }
 
     /// Returns everything that the pass touches, in order of declaration.
+    ///
+    /// # Panics
+    /// With an id that is not of this plan, as an index past the end of a list would.
     pub fn accesses(
         &self,
         id: PassId,
@@ -308,6 +314,9 @@ impl Plan {
     }
 
     /// Returns the resource.
+    ///
+    /// # Panics
+    /// With an id that is not of this plan, as an index past the end of a list would.
     pub fn resource(&self, id: ResourceId) -> ResourcePlan<'_> {
         let resource = self.decl.resource(id);
         let fate = &self.fates[id.index()];

@@ -5,9 +5,9 @@
 
 use shadowgraph_core::wgpu::{self, TextureUsages};
 use shadowgraph_core::{
-    BufferDesc, ClearValue, Compiled, Contents, CullReason, Error, Executed, Format, Frame, FullscreenShader,
-    Graph, LoadAction, MergeReason, Options, OrderPolicy, Part, Plan, Rect, Resize, SlotReason, StoreAction,
-    Texture, TextureDesc,
+    Bind, BufferDesc, ClearValue, Compiled, ComputeShader, Contents, CullReason, DependencyKind, Error,
+    Executed, Format, Frame, FullscreenShader, Graph, LoadAction, MergeReason, Options, OrderPolicy, Part,
+    Plan, Rect, Resize, SlotReason, StoreAction, Texture, TextureDesc,
 };
 
 const BLACK: Contents = Contents::Clear(ClearValue::Color([0.0; 4]));
@@ -133,7 +133,11 @@ fn order() {
     let mut last = frame.encoder_pass("last");
     last.keep();
     last.after(late);
-    assert_eq!(names(&plan(frame)), ["late", "last"]);
+    let last = last.id();
+    let plan = plan(frame);
+    assert_eq!(names(&plan), ["late", "last"]);
+    let why = plan.why_before(late, last).unwrap();
+    assert_eq!(why[0].kind, DependencyKind::Explicit, "nothing else orders them");
 }
 
 #[test]
@@ -209,6 +213,8 @@ fn conditions() {
                 glow
             })
         });
+        let nothing = frame.node("declares nothing", |_frame| 1);
+        assert_eq!(nothing, 1);
         let glow = frame.or_stand_in(glow.as_ref(), Format::Rgba8Unorm, ClearValue::Color([0.0; 4]));
         let picture = filter(&mut frame, "combine", &glow);
         frame.export_texture(&picture);
@@ -334,6 +340,47 @@ fn bind_groups() {
         run(&mut graph, compiled, &gpu);
     }
     assert_eq!(graph.plan_counts().reused, 1, "a uniform's value is no part of what is declared");
+
+    // A compute pass in one line, and a bind group of one's own from tokens.
+    let double = ComputeShader::wgsl(
+        "double",
+        "@group(0) @binding(0) var<storage, read_write> numbers: array<u32>;
+        @compute @workgroup_size(64) fn double(@builtin(global_invocation_id) at: vec3u) {
+            numbers[at.x] *= 2;
+        }",
+    );
+    let (device, _queue) = &gpu;
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    });
+    let mut groups = Vec::new();
+    for _ in 0..2 {
+        let mut frame = graph.frame();
+        let mut numbers = frame.upload_buffer("numbers", vec![1u8; 256]);
+        frame.compute("double", &double).storage_mut(&mut numbers, Contents::Preserve).dispatch([1, 1, 1]);
+        let mut pass = frame.compute_pass("yours");
+        let token = pass.storage_buffer(&numbers);
+        pass.keep();
+        let (layout, bound) = (&layout, &mut groups);
+        pass.body(move |ctx| {
+            bound.push(ctx.bind_group(layout, &[Bind::Buffer(token)])?);
+            ctx.pass.set_bind_group(0, bound.last(), &[]);
+            Ok(())
+        });
+        let compiled = graph.compile(frame).unwrap();
+        run(&mut graph, compiled, &gpu);
+    }
+    assert_eq!(groups[0], groups[1], "the same buffer, the same group");
 }
 
 #[test]

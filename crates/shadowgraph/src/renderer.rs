@@ -148,7 +148,7 @@ impl Renderer {
             let executed = self.execute(frame, gpu, &mut encoder, timer.as_deref_mut())?;
             gpu.queue.submit([encoder.finish()]);
             let picture = read_back.read(&gpu.device)?;
-            let times = times(gpu, timer.as_deref(), &executed)?;
+            let times = times(gpu, timer.as_deref())?;
             Ok(Drawn { picture, plan: executed.shared_plan(), times, unshadowed: output.unshadowed })
         })
     }
@@ -268,9 +268,9 @@ impl Renderer {
     }
 }
 
-fn times(gpu: &Gpu, timer: Option<&Timer>, executed: &Executed) -> Result<Vec<PassTime>, Error> {
+fn times(gpu: &Gpu, timer: Option<&Timer>) -> Result<Vec<PassTime>, Error> {
     match timer {
-        Some(timer) => Ok(timer.read(&gpu.device, &gpu.queue, executed.plan())?),
+        Some(timer) => Ok(timer.read(&gpu.device, &gpu.queue)?),
         None => Ok(Vec::new()),
     }
 }

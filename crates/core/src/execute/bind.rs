@@ -37,6 +37,28 @@ impl Resources<'_> {
     /// Groups are cached by the physical objects that they bind: asking every frame costs a look-up, and a new one
     /// is made exactly when an object behind it is another.
     ///
+    /// ```
+    /// use shadowgraph_core::{Bind, Contents, Frame, Texture, wgpu};
+    /// /// `layout` has a texture at binding 0 and a sampler at binding 1.
+    /// fn blur<'f>(
+    ///     frame: &mut Frame<'f>,
+    ///     (pipeline, layout, sampler): (&'f wgpu::RenderPipeline, &'f wgpu::BindGroupLayout, &'f wgpu::Sampler),
+    ///     scene: &Texture,
+    ///     target: &mut Texture,
+    /// ) {
+    ///     let mut pass = frame.render_pass("blur");
+    ///     let scene = pass.sample(scene); // a token: it goes into the body, the handle does not
+    ///     pass.color(target, Contents::Cover);
+    ///     pass.body(move |ctx| {
+    ///         let group = ctx.bind_group(layout, &[Bind::Texture(scene), Bind::Sampler(sampler)])?;
+    ///         ctx.pass.set_pipeline(pipeline);
+    ///         ctx.pass.set_bind_group(0, &group, &[]);
+    ///         ctx.pass.draw(0..3, 0..1);
+    ///         Ok(())
+    ///     });
+    /// }
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Undeclared`] if a token belongs to another pass.
     pub fn bind_group(

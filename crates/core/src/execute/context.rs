@@ -95,6 +95,10 @@ impl<'a> Resources<'a> {
         })
     }
 
+    pub(crate) fn pass_path(&self) -> String {
+        self.recording.plan.pass_path(self.pass)
+    }
+
     pub(crate) fn caches(&self) -> MutexGuard<'a, Caches> {
         self.recording.pool.caches()
     }
@@ -128,7 +132,8 @@ macro_rules! context {
         }
 
         impl<'f> Pass<'_, 'f, $kind> {
-            /// Sets what the pass records. It runs when the frame is executed, if the pass is not culled.
+            /// Sets what the pass records. It runs when the frame is executed, if the pass is not culled. It takes
+            /// tokens and what it borrows by `move`; [`Resources::bind_group`] has an example.
             pub fn body(self, body: impl for<'a> FnOnce(&mut $name<'a>) -> BodyResult + Send + 'f) {
                 self.frame.work.bodies[self.id.index()] = Body::$body(Box::new(body));
             }

@@ -25,6 +25,25 @@ impl Frame<'_> {
     /// Imports a texture that belongs to the caller, such as a surface's; `defined` tells whether it holds something
     /// when the frame begins. Its shape and usages are taken from the texture itself. Writing an import is an effect
     /// outside the frame, so passes that do are never culled.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Graph, wgpu};
+    /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    /// # let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    /// # let yours = device.create_texture(&wgpu::TextureDescriptor {
+    /// #     label: None, size: wgpu::Extent3d { width: 64, height: 64, depth_or_array_layers: 1 },
+    /// #     mip_level_count: 1, sample_count: 1, dimension: wgpu::TextureDimension::D2,
+    /// #     format: wgpu::TextureFormat::Rgba8Unorm, usage, view_formats: &[],
+    /// # });
+    /// let mut graph = Graph::new();
+    /// let mut frame = graph.frame();
+    /// let mut screen = frame.import_texture("screen", &yours, false);
+    /// frame.render_pass("draw").color(&mut screen, Contents::clear_color([0.0; 4]));
+    /// let mut encoder = device.create_command_encoder(&Default::default());
+    /// graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
+    /// queue.submit([encoder.finish()]);
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
     pub fn import_texture(&mut self, name: impl Name, texture: &wgpu::Texture, defined: bool) -> Texture {
         let handle = self.declare_import_texture(name, TextureDesc::of(texture), texture.usage(), defined);
         self.work.imports[handle.id().index()] = Some(Physical::Texture(texture.clone()));

@@ -2,12 +2,14 @@
 
 use super::last_groups::LastGroups;
 use super::poison;
+use crate::access::Access;
 use crate::declaration::Origin;
+use crate::desc::ResourceDesc;
 use crate::error::Error;
 use crate::frame::Work;
 use crate::handle::PassId;
 use crate::plan::Plan;
-use crate::pool::{Physical, Pool, Purpose, SlotKey, Views, view};
+use crate::pool::{Physical, Pool, Purpose, SlotKey, Views, limit, view};
 use std::sync::Arc;
 
 /// Plans whose objects are kept.
@@ -48,6 +50,7 @@ impl Realised {
             pool.slots.touch(&own.slots, frame);
             return Ok(own);
         }
+        check_colors(plan, &device.limits())?;
         let mut slots = Vec::with_capacity(plan.slots.len());
         let mut behind = Vec::with_capacity(plan.slots.len());
         for (slot, described) in plan.slots.iter().zip(plan.slots()) {
@@ -122,6 +125,29 @@ impl Realised {
     pub(super) fn label(&self, pass: PassId) -> &str {
         self.labels.get(pass)
     }
+}
+
+/// An error if a pass draws into more than the device can hold of one texel.
+fn check_colors(plan: &Plan, limits: &wgpu::Limits) -> Result<(), Error> {
+    for &pass in &plan.order {
+        let colors = || plan.decl.accesses(pass).iter().filter(|a| matches!(a.access, Access::Color(_)));
+        if let Some(last) = colors().next_back() {
+            let name = plan.decl.resource_name(last.resource);
+            let count = colors().count() as u64;
+            limit(name, "max_color_attachments", count, limits.max_color_attachments.into())?;
+        }
+        let mut bytes = 0u32;
+        for access in colors() {
+            let ResourceDesc::Texture(desc) = plan.decl.resource(access.resource).desc else { continue };
+            // As WebGPU adds them up: each begins at a multiple of its own alignment.
+            bytes = bytes.next_multiple_of(desc.format.target_component_alignment().unwrap_or(1));
+            bytes += desc.format.target_pixel_byte_cost().unwrap_or(0);
+            let allowed = limits.max_color_attachment_bytes_per_sample;
+            let name = plan.decl.resource_name(access.resource);
+            limit(name, "max_color_attachment_bytes_per_sample", bytes.into(), allowed.into())?;
+        }
+    }
+    Ok(())
 }
 
 /// The paths of all passes in one string.

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::handle::PassId;
 use crate::plan::Plan;
 use serde::Serialize;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -11,12 +12,34 @@ use std::time::Duration;
 ///
 /// Pass it to [`Compiled::execute_timed`](crate::Compiled::execute_timed), submit, then [`read`](Self::read).
 ///
+/// GPU times want a device with `TIMESTAMP_QUERY` (for copies and encoder passes also
+/// `TIMESTAMP_QUERY_INSIDE_ENCODERS`), a frame of at most 2,048 passes, and that its encoder was submitted.
+///
 /// Passes that were merged into one render pass are told apart where the device can write timestamps inside passes;
 /// elsewhere they share one time, and [`PassTime::shared_by`] says how many. A GPU that draws in tiles, or a driver in
 /// software, runs a render pass as a whole whatever the timestamps inside it say: ask for
 /// `TIMESTAMP_QUERY_INSIDE_PASSES` on discrete GPUs only.
+///
+/// ```
+/// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, Timer};
+/// # use shadowgraph_core::wgpu;
+/// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+/// let (mut graph, mut timer) = (Graph::new(), Timer::new());
+/// let mut frame = graph.frame();
+/// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+/// frame.render_pass("draw").color(&mut color, Contents::clear_color([0.0; 4]));
+/// frame.export_texture(&color);
+/// let mut encoder = device.create_command_encoder(&Default::default());
+/// graph.compile(frame)?.execute_timed(&mut graph, &device, &mut encoder, &mut timer)?;
+/// queue.submit([encoder.finish()]);
+/// for time in timer.read(&device, &queue)? {
+///     println!("{} {:.3} ms, {:?} ms on the GPU", time.pass, time.cpu_ms, time.gpu_ms);
+/// }
+/// # Ok::<(), shadowgraph_core::Error>(())
+/// ```
 #[derive(Default)]
 pub struct Timer {
+    plan: Option<Arc<Plan>>,
     passes: Vec<PassId>,
     /// By pass: its place in `passes`, and how many passes share its render pass.
     places: Vec<(u32, u32)>,
@@ -44,7 +67,7 @@ pub struct PassTime {
     pub node: String,
     /// Milliseconds that the pass's body took on the CPU; 0 for a pass without one.
     pub cpu_ms: f64,
-    /// Milliseconds on the GPU; `None` where the device cannot tell.
+    /// Milliseconds on the GPU; `None` where the device cannot tell, see [`Timer`].
     pub gpu_ms: Option<f64>,
     /// How many passes `gpu_ms` is the time of: 1, or more where passes were merged and the device cannot tell them
     /// apart. Each of them then shows the same time.
@@ -57,7 +80,8 @@ impl Timer {
         Self::default()
     }
 
-    pub(super) fn begin(&mut self, device: &wgpu::Device, plan: &Plan) {
+    pub(super) fn begin(&mut self, device: &wgpu::Device, plan: &Arc<Plan>) {
+        self.plan = Some(plan.clone());
         self.passes = plan.order().to_vec();
         self.places = vec![(0, 1); plan.pass_count()];
         let mut place = 0;
@@ -118,16 +142,13 @@ impl Timer {
         step.map_or(own, |&(start, end)| (start as usize * 2, end as usize * 2 - 1, together))
     }
 
-    /// Waits for the submitted frame and returns the times, in order of recording.
+    /// Waits for the submitted frame and returns the times, in order of recording. Of a timer that no frame was
+    /// recorded with there are none.
     ///
     /// # Errors
     /// When the device is lost or the times cannot be mapped.
-    pub fn read(
-        &self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        plan: &Plan,
-    ) -> Result<Vec<PassTime>, Error> {
+    pub fn read(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<PassTime>, Error> {
+        let Some(plan) = &self.plan else { return Ok(Vec::new()) };
         let ticks = self.gpu.as_ref().map(|gpu| gpu.read(device)).transpose()?;
         let period = f64::from(queue.get_timestamp_period());
         let gpu_ms = |begin: usize, end: usize| {

@@ -147,9 +147,10 @@ pub(crate) fn create_texture(
     usage: TextureUsages,
     label: &str,
 ) -> Result<wgpu::Texture, Error> {
-    check_texture(device, label, desc)?;
     // wgpu wants every texture with several samples to be an attachment, also one that is only copied.
     let usage = if desc.samples > 1 { usage | TextureUsages::RENDER_ATTACHMENT } else { usage };
+    check_texture(device, label, desc)?;
+    check_format(device, label, desc, usage)?;
     Ok(device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: desc.size,
@@ -185,6 +186,49 @@ fn check_texture(device: &wgpu::Device, name: &str, desc: &TextureDesc) -> Resul
     };
     limit(name, side_name, side, side_limit.into())?;
     limit(name, layer_name, layers, layer_limit.into())
+}
+
+/// An error if the device does not allow the format to be used so. What it allows beyond the promises of WebGPU, where
+/// that was asked for, only the adapter knows.
+fn check_format(
+    device: &wgpu::Device,
+    name: &str,
+    desc: &TextureDesc,
+    usage: TextureUsages,
+) -> Result<(), Error> {
+    let features = device.features();
+    let wrong =
+        |problem: String| Err(Error::FormatSupport { resource: name.into(), format: desc.format, problem });
+    let missing = desc.format.required_features() - features;
+    if !missing.is_empty() {
+        return wrong(format!("has only with the feature {missing:?}: request that, or use another format"));
+    }
+    let specific = features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+    if specific || desc.format.is_multi_planar_format() {
+        return Ok(());
+    }
+    let able = desc.format.guaranteed_format_features(features);
+    let not_able = usage - able.allowed_usages - TextureUsages::TRANSIENT_ATTACHMENT;
+    if !not_able.is_empty() {
+        return wrong(format!(
+            "does not allow to be used as {not_able:?}: use a format that is, such as {}",
+            instead(usage)
+        ));
+    }
+    if !able.flags.sample_count_supported(desc.samples) {
+        let counts = able.flags.supported_sample_counts();
+        return wrong(format!("does not draw with {} samples: use one of {counts:?}", desc.samples));
+    }
+    Ok(())
+}
+
+/// A format that can be used so on every device.
+fn instead(usage: TextureUsages) -> &'static str {
+    if usage.contains(TextureUsages::STORAGE_BINDING) {
+        "Rgba8Unorm or R32Float"
+    } else {
+        "Rgba8Unorm or Rgba16Float"
+    }
 }
 
 fn check_buffer(

@@ -10,7 +10,8 @@ pub(crate) fn draw(context: &mut RenderContext<'_>, call: u32) -> BodyResult {
     let resources = &context.resources;
     let Some(call) = resources.calls().get(call) else { return Ok(()) };
     let Work::Draw(attachments) = &call.work else { return Ok(()) };
-    let made = resources.caches().pipelines.render(resources.device(), &call.program, attachments)?;
+    let made = resources.caches().pipelines.render(resources.device(), &call.program, attachments);
+    let made = made.map_err(|error| in_pass(resources, error))?;
     let group = group(resources, &made.layout, call)?;
     context.pass.set_pipeline(&made.pipeline);
     if let Some(group) = &group {
@@ -24,7 +25,8 @@ pub(crate) fn draw(context: &mut RenderContext<'_>, call: u32) -> BodyResult {
 pub(crate) fn dispatch(context: &mut ComputeContext<'_>, call: u32) -> BodyResult {
     let resources = &context.resources;
     let Some(call) = resources.calls().get(call) else { return Ok(()) };
-    let made = resources.caches().pipelines.compute(resources.device(), &call.program)?;
+    let made = resources.caches().pipelines.compute(resources.device(), &call.program);
+    let made = made.map_err(|error| in_pass(resources, error))?;
     let group = group(resources, &made.layout, call)?;
     context.pass.set_pipeline(&made.pipeline);
     if let Some(group) = &group {
@@ -56,6 +58,16 @@ fn group(
     // Made even of nothing, so that a shader that needs something says so.
     let group = resources.checked_group(layout, entries, &call.program)?;
     Ok((!none).then_some(group))
+}
+
+/// Gives a shader's error the name of the pass.
+fn in_pass(resources: &Resources<'_>, error: Error) -> Error {
+    match error {
+        Error::Shader { shader, message } => {
+            Error::Shader { shader, message: format!("pass `{}`: {message}", resources.pass_path()) }
+        }
+        error => error,
+    }
 }
 
 fn check_groups(resources: &Resources<'_>, name: &str, groups: [u32; 3]) -> Result<(), Error> {

@@ -56,6 +56,16 @@ pub(crate) fn mistakes() -> Vec<Mistake> {
             frame.render_pass("draw").color(&mut samples, Contents::Cover);
             frame.read_back_texture(&samples, Part::WHOLE);
         }),
+        mistake(
+            "SG0605",
+            &["`picture` has the format Rgba8UnormSrgb", "STORAGE_BINDING", "such as Rgba8Unorm"],
+            |frame| {
+                let desc = TextureDesc { format: Format::Rgba8UnormSrgb, ..square() };
+                let mut picture = frame.create_texture("picture", desc);
+                frame.compute_pass("draw").storage_texture_mut(&mut picture, Contents::Cover);
+                frame.export_texture(&picture);
+            },
+        ),
         mistake("SG0604", &["shader `red`", "mend the one or the other"], |frame| {
             let red = FullscreenShader::wgsl("red", "@fragment fn red() -> @location(0) vec4f { return 1; }");
             let mut picture = frame.create_texture("picture", square());

@@ -178,9 +178,9 @@ pub fn pass_times(
     let mut frame = || -> Result<Vec<PassTime>, Error> {
         let mut timer = Timer::new();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let executed = renderer.record_timed(gpu, &mut encoder, &target, options, Some(&mut timer))?;
+        renderer.record_timed(gpu, &mut encoder, &target, options, Some(&mut timer))?;
         gpu.queue.submit([encoder.finish()]);
-        Ok(timer.read(&gpu.device, &gpu.queue, executed.plan())?)
+        Ok(timer.read(&gpu.device, &gpu.queue)?)
     };
     gpu.checked(|| {
         // A software driver compiles shaders at the first draw.

@@ -27,7 +27,24 @@ const PATIENCE: (u32, Duration) = (100, Duration::from_millis(10));
 ///
 /// The copy is part of the encoder that it was recorded into. After that encoder is submitted nothing has to be
 /// called for it but what a program calls anyway: a later `Queue::submit` or `Device::poll`, from any thread, finds
-/// that the copy is done and wakes the future. The future itself polls no device.
+/// that the copy is done and wakes the future. The future itself polls no device: a program that only awaits it and
+/// does neither waits for ever.
+///
+/// ```no_run
+/// # use shadowgraph_core::{Error, ReadBack, wgpu};
+/// # fn spawn(_: impl Future<Output = ()>) {}
+/// # async fn show(bytes: Vec<u8>) {}
+/// # fn frame(device: wgpu::Device, texels: ReadBack) -> Result<(), Error> {
+/// spawn(async move {
+///     if let Ok(bytes) = texels.await {
+///         show(bytes).await;
+///     }
+/// });
+/// // In each turn of the program's loop, drawing or not:
+/// let _done = device.poll(wgpu::PollType::Poll);
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// Texels are packed tightly, row after row and layer after layer, without the padding of a copy; rows of blocks in
 /// compressed formats.

@@ -147,3 +147,60 @@ fn after_a_body_failed_or_panicked_the_next_frame_is_as_before() {
         }
     }
 }
+
+#[test]
+fn formats_that_the_device_does_not_allow_are_errors_of_ours() {
+    use crate::Format;
+    let storage = [
+        Format::Rgba8UnormSrgb,
+        Format::R8Unorm,
+        Format::Bgra8Unorm,
+        Format::Rg11b10Ufloat,
+        Format::R16Unorm,
+        Format::Bc1RgbaUnorm,
+    ];
+    let drawn = [
+        (Format::Rgb9e5Ufloat, 1),
+        (Format::R16Unorm, 1),
+        (Format::Rgba8Unorm, 2),
+        (Format::Rgba8Unorm, 8),
+        (Format::Rgba32Float, 4),
+    ];
+    for gpu in Gpu::all() {
+        let refused = |format: Format, samples: u32, storage: bool| {
+            let mut graph = Graph::new();
+            let mut frame = graph.frame();
+            let desc = crate::TextureDesc { format, samples, ..square(8) };
+            let mut picture = frame.create_texture("picture", desc);
+            if storage {
+                frame.compute_pass("store").storage_texture_mut(&mut picture, Contents::Cover);
+            } else {
+                frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
+            }
+            frame.export_texture(&picture);
+            let error = gpu.try_run(&mut graph, frame).err();
+            assert_eq!(error.as_ref().map(Error::code), Some("SG0605"), "{format:?} x {samples}: {error:?}");
+        };
+        // The driver's own formats are in no way promised, so the device of the tests does not ask for them.
+        for format in storage {
+            refused(format, 1, true);
+        }
+        for (format, samples) in drawn {
+            refused(format, samples, false);
+        }
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let desc = crate::TextureDesc { format: Format::Rgba16Float, ..square(8) };
+        let mut targets = [(); 5].map(|()| frame.create_texture("target", desc));
+        let mut pass = frame.render_pass("draw");
+        for target in &mut targets {
+            pass.color(target, Contents::clear_color([0.0; 4]));
+        }
+        frame.export_texture(&targets[0]);
+        let error = gpu.try_run(&mut graph, frame).err().unwrap().to_string();
+        assert!(
+            error.starts_with("SG0601") && error.contains("max_color_attachment_bytes_per_sample"),
+            "{error}"
+        );
+    }
+}
