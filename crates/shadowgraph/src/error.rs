@@ -63,6 +63,9 @@ pub enum Error {
         /// What is wrong, where, and what is allowed.
         reason: String,
     },
+    /// Pictures that are compared do not fit together.
+    #[error(transparent)]
+    Metrics(#[from] crate::measure::metrics::MetricsError),
     /// The GPU refused something that was recorded, or was lost.
     #[error("the GPU failed: {0}")]
     Gpu(String),

@@ -20,4 +20,7 @@ pub enum Error {
     /// The camera's position, direction or planes are not finite numbers.
     #[error("the camera's {0} is not a finite number")]
     Camera(&'static str),
+    /// The triangles cannot be traced.
+    #[error(transparent)]
+    Rays(#[from] crate::rays::Error),
 }

@@ -19,6 +19,7 @@ mod filter;
 mod ortho;
 mod plan;
 mod planner;
+pub mod rays;
 mod select;
 mod settings;
 mod spot;

@@ -5,6 +5,7 @@ mod analytic;
 mod aovs;
 mod casters;
 mod maps;
+mod measure;
 mod scenes;
 mod snapping;
 mod stage;

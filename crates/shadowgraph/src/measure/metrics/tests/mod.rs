@@ -1,0 +1,10 @@
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+mod bands;
+mod detached;
+mod edges;
+mod faults;
+mod masks;
+mod picture;
+mod points;
+mod refused;

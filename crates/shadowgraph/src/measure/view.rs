@@ -1,0 +1,181 @@
+//! One light in one view: what a technique says, the truth, and how they differ.
+
+use glam::{DVec3, Vec3};
+use serde::Serialize;
+use shadowgraph_scene::{Camera, Projection};
+use shadowgraph_shadows::rays::RayScene;
+use shadowgraph_shadows::{ShadowInputs, plan_shadows};
+
+use super::metrics::{
+    Band, Detachment, Images, LostContacts, MeanError, Misclassified, Seen, TowardsLight, band, detachment,
+    lost_contacts, mean_error, misclassified,
+};
+use super::truth::RayLight;
+use super::{SurfaceDrawer, Surfaces, Texels, Truth, ray_scene};
+use crate::{Error, Gpu, Renderer, ViewOptions};
+
+/// How a technique's shadows of one light differ from the truth in one view.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ViewErrors {
+    /// Pixels on the wrong side of one half.
+    pub misclassified: Misclassified,
+    /// How far visibility is off on average.
+    pub mean_error: MeanError,
+    /// Shadow that is missing where things touch.
+    pub lost_contacts: LostContacts,
+    /// How far shadows begin from what casts them.
+    pub detachment: Detachment,
+}
+
+/// All that was looked at to find the errors, row by row from the top.
+#[derive(Clone, Debug)]
+pub struct ViewPictures {
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// What the technique says, 0 to 1.
+    pub visibility: Vec<f32>,
+    /// What is true, 0 or 1.
+    pub truth: Vec<f32>,
+    /// Whether the pixel counts.
+    pub receivers: Vec<bool>,
+    /// Pixels so near to edges that they are counted apart.
+    pub band: Band,
+}
+
+/// Measures views of one scene.
+pub struct Instrument<'g> {
+    gpu: &'g Gpu,
+    drawer: SurfaceDrawer,
+    light: usize,
+    /// The triangles, relative to this origin.
+    rays: Option<(DVec3, RayScene)>,
+}
+
+impl<'g> Instrument<'g> {
+    /// Prepares to measure `light` in views of a renderer whose pictures show that light's visibility.
+    ///
+    /// # Errors
+    /// A failure of the GPU.
+    pub fn new(gpu: &'g Gpu, renderer: &Renderer, light: usize) -> Result<Self, Error> {
+        Ok(Self { gpu, drawer: SurfaceDrawer::new(gpu, renderer)?, light, rays: None })
+    }
+
+    /// Measures a view.
+    ///
+    /// # Errors
+    /// Settings out of range, a picture over the adapter's limits, or a failure of the GPU.
+    pub fn measure(
+        &mut self,
+        renderer: &mut Renderer,
+        options: &ViewOptions,
+    ) -> Result<(ViewErrors, ViewPictures), Error> {
+        let drawn = renderer.draw(self.gpu, options)?;
+        let surfaces = self.drawer.draw(self.gpu, renderer, options)?;
+        let origin_world = renderer.casters().scene.origin_world();
+        let eye = (options.camera.position_world() - origin_world).as_vec3();
+        let light = RayLight::new(&renderer.scene().lights[self.light], 0.0, origin_world);
+        let mut truth = Truth::trace(self.rays(renderer, origin_world)?, &surfaces, &light, eye);
+        let visibility = visibility(&drawn.picture.rgba8, &mut truth);
+        let texels = texels(renderer, options, &surfaces, self.light, origin_world)?;
+        let seen = Seen::new(Images {
+            size_px: options.size_px,
+            pixel_m_at_1m: pixel_m_at_1m(&options.camera, options.size_px[1]),
+            positions: &surfaces.positions,
+            geometric_normals: &surfaces.normals,
+            view_depths_m: &surfaces.view_depths_m,
+            n_dot_l: &truth.n_dot_l,
+            visibility: &visibility,
+            truth: &truth.hard,
+            soft_truth: None,
+            blocker_distances_m: &truth.blocker_distances_m,
+            texel_px: &texels.reach_px,
+            texel_m: &texels.side_m,
+            towards_light: TowardsLight::PerPixel(&truth.towards_light),
+        })?;
+        let band = band(&seen);
+        let errors = ViewErrors {
+            misclassified: misclassified(&seen, &band),
+            mean_error: mean_error(&seen, &band),
+            lost_contacts: lost_contacts(&seen),
+            detachment: detachment(&seen),
+        };
+        let receivers = (0..seen.len()).map(|pixel| seen.is_receiver(pixel)).collect();
+        let pictures =
+            ViewPictures { size_px: options.size_px, receivers, band, visibility, truth: truth.hard };
+        Ok((errors, pictures))
+    }
+
+    /// The triangles relative to an origin.
+    fn rays(&mut self, renderer: &Renderer, origin_world: DVec3) -> Result<&RayScene, Error> {
+        let kept = self.rays.take().filter(|(origin, _)| *origin == origin_world);
+        let rays = match kept {
+            Some((_, rays)) => rays,
+            None => ray_scene(renderer.scene(), origin_world)?,
+        };
+        Ok(&self.rays.insert((origin_world, rays)).1)
+    }
+}
+
+/// The grey of a picture of visibilities. Where a surface faces away by its shading normal it is not drawn, and does
+/// not count.
+fn visibility(rgba8: &[u8], truth: &mut Truth) -> Vec<f32> {
+    let texels = rgba8.chunks_exact(4).zip(&mut truth.n_dot_l);
+    texels
+        .map(|(texel, n_dot_l)| {
+            if texel[3] == 0 {
+                *n_dot_l = n_dot_l.min(0.0);
+            }
+            f32::from(texel[0]) / 255.0
+        })
+        .collect()
+}
+
+fn texels(
+    renderer: &Renderer,
+    options: &ViewOptions,
+    surfaces: &Surfaces,
+    light: usize,
+    origin_world: DVec3,
+) -> Result<Texels, Error> {
+    let plan = plan_shadows(&ShadowInputs {
+        camera: &options.camera,
+        aspect: options.aspect(),
+        lights: &renderer.scene().lights,
+        casters: renderer.casters(),
+        origin_world,
+        settings: &options.shadows,
+    })?;
+    Ok(Texels::new(surfaces, &plan, light, options, origin_world))
+}
+
+/// The side of a pixel at a view depth of 1 m; of an orthographic camera, at every depth.
+fn pixel_m_at_1m(camera: &Camera, height_px: u32) -> f32 {
+    let height_m = match camera.projection {
+        Projection::Perspective { fov_y, .. } => 2.0 * (fov_y * 0.5).tan(),
+        Projection::Orthographic { half_height, .. } => 2.0 * half_height,
+    };
+    (height_m / f64::from(height_px)) as f32
+}
+
+/// Colours for people: what is wrong in a view.
+impl ViewPictures {
+    /// Returns a picture of the errors, four bytes a pixel: grey is the visibility, red is dark but truly lit, blue lit
+    /// but truly dark, both paler in the band; what does not count is dim.
+    #[must_use]
+    pub fn errors_rgba8(&self) -> Vec<u8> {
+        (0..self.visibility.len()).flat_map(|pixel| self.color(pixel)).collect()
+    }
+
+    fn color(&self, pixel: usize) -> [u8; 4] {
+        let grey = Vec3::splat(0.15 + 0.6 * self.visibility[pixel]);
+        if !self.receivers[pixel] {
+            let [grey, ..] = (grey * 80.0).to_array();
+            return [grey as u8, grey as u8, grey as u8 + 15, 255];
+        }
+        let off = self.visibility[pixel] - self.truth[pixel];
+        let color = if off < 0.0 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.1, 0.2, 1.0) };
+        let weight = off.abs() * if self.band.contains(pixel) { 0.45 } else { 1.0 };
+        let [red, green, blue] = (grey.lerp(color, weight) * 255.0).to_array();
+        [red as u8, green as u8, blue as u8, 255]
+    }
+}

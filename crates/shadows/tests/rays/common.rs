@@ -1,0 +1,67 @@
+//! Meshes and rays.
+
+use glam::{Vec2, Vec3};
+use shadowgraph_shadows::rays::{AlphaTexture, Cut, Filter, Occluder, Ray, RayScene, ReceiverPoint, Wrap};
+
+/// Two triangles, from `corner` along `u` and `v`.
+pub(crate) fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Vec<Occluder> {
+    let across = corner + u + v;
+    [[corner, corner + u, across], [corner, across, corner + v]].map(Occluder::solid).to_vec()
+}
+
+/// A level square around (0, `height`, 0).
+pub(crate) fn level_square(height: f32, half: f32) -> Vec<Occluder> {
+    quad(Vec3::new(-half, height, -half), Vec3::X * 2.0 * half, Vec3::Z * 2.0 * half)
+}
+
+/// The same with this cut, the texture stretched once over it: u along x, v along z.
+pub(crate) fn cut_square(height: f32, half: f32, texture: Option<u32>, alpha: f32) -> Vec<Occluder> {
+    let uv = |p: Vec3| Vec2::new(p.x + half, p.z + half) / (2.0 * half);
+    let cut = |o: Occluder| {
+        let cut = Cut { texture, uv: o.corners.map(uv), alpha: [alpha; 3], cutoff: 0.5 };
+        Occluder { cut: Some(cut), ..o }
+    };
+    level_square(height, half).into_iter().map(cut).collect()
+}
+
+pub(crate) fn texture(size_px: [u32; 2], texels: &[u8], wrap: Wrap, filter: Filter) -> AlphaTexture {
+    AlphaTexture::new(size_px, texels.to_vec(), [wrap; 2], filter).unwrap()
+}
+
+pub(crate) fn scene(occluders: &[Occluder]) -> RayScene {
+    RayScene::new(occluders, Vec::new()).unwrap()
+}
+
+pub(crate) fn ray(origin: Vec3, to: Vec3) -> Ray {
+    Ray::new(origin, (to - origin).normalize(), 0.0, f32::INFINITY)
+}
+
+/// On a level floor, seen from above.
+pub(crate) fn on_floor(position: Vec3) -> ReceiverPoint {
+    ReceiverPoint { position, geometric_normal: Vec3::Y, view_distance_m: 10.0 }
+}
+
+/// The triangles of a ball of radius 1: an icosahedron, each triangle cut in four `times` times.
+pub(crate) fn ball(times: u32) -> Vec<[Vec3; 3]> {
+    let g = (1.0 + 5f32.sqrt()) / 2.0;
+    let corners: Vec<Vec3> = [(1.0, g), (-1.0, g), (1.0, -g), (-1.0, -g)]
+        .into_iter()
+        .flat_map(|(a, b)| [Vec3::new(a, b, 0.0), Vec3::new(0.0, a, b), Vec3::new(b, 0.0, a)])
+        .collect();
+    let near = |a: Vec3, b: Vec3| a != b && a.distance(b) < 2.1;
+    let mut triangles = Vec::new();
+    for (i, &a) in corners.iter().enumerate() {
+        for (j, &b) in corners.iter().enumerate().skip(i) {
+            let third = |&&c: &&Vec3| near(a, b) && near(b, c) && near(a, c);
+            triangles.extend(corners.iter().skip(j).filter(third).map(|&c| [a, b, c].map(Vec3::normalize)));
+        }
+    }
+    for _ in 0..times {
+        let four = |[a, b, c]: [Vec3; 3]| {
+            let [d, e, f] = [(a + b).normalize(), (b + c).normalize(), (c + a).normalize()];
+            [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
+        };
+        triangles = triangles.into_iter().flat_map(four).collect();
+    }
+    triangles
+}

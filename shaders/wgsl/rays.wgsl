@@ -1,0 +1,268 @@
+#define_import_path shadowgraph::rays
+// Shadow rays through a tree of triangles: the same arithmetic as the CPU's.
+
+// A box of the tree, 32 bytes. With a count of 0, `first` is the first of its two boxes, else of its triangles.
+struct RayNode {
+    lowest: vec3f,
+    first: u32,
+    highest: vec3f,
+    count: u32,
+}
+
+// 48 bytes, metres relative to the frame's origin.
+struct RayTriangle {
+    a: vec3f,
+    // RAY_NONE: no holes.
+    cut: u32,
+    b: vec3f,
+    unused_b: u32,
+    c: vec3f,
+    unused_c: u32,
+}
+
+// Where a triangle has holes, 48 bytes.
+struct RayCut {
+    uv_a: vec2f,
+    uv_b: vec2f,
+    uv_c: vec2f,
+    // RAY_NONE: alpha is the factor alone.
+    texture: u32,
+    // Alpha below this is a hole.
+    cutoff: f32,
+    // The factor of each corner.
+    alpha: vec3f,
+    unused: u32,
+}
+
+// 16 bytes.
+struct RayAlphaTexture {
+    first_texel: u32,
+    width: u32,
+    height: u32,
+    // Bits 0 and 1: RAY_WRAP_* along u; 2 and 3: along v; 4: bilinear.
+    sampling: u32,
+}
+
+@group(1) @binding(0) var<storage, read> ray_nodes: array<RayNode>;
+@group(1) @binding(1) var<storage, read> ray_triangles: array<RayTriangle>;
+@group(1) @binding(2) var<storage, read> ray_cuts: array<RayCut>;
+@group(1) @binding(3) var<storage, read> ray_alpha_textures: array<RayAlphaTexture>;
+// Four to a word, the first in its lowest byte.
+@group(1) @binding(4) var<storage, read> ray_alpha_texels: array<u32>;
+
+const RAY_NONE: u32 = 0xffffffffu;
+const RAY_WRAP_REPEAT: u32 = 0u;
+const RAY_WRAP_MIRROR: u32 = 1u;
+const RAY_BILINEAR: u32 = 16u;
+// The most levels of the tree.
+const RAY_STACK: u32 = 64u;
+// The end of a ray that has none.
+const RAY_FAR: f32 = 3.0e38;
+const RAY_MISS: f32 = 3.4e38;
+// The part of the way to a point light that its rays go.
+const RAY_WAY_TO_LIGHT: f32 = 1.0 - 1.0 / 4096.0;
+
+struct ShadowRay {
+    origin: vec3f,
+    min_t: f32,
+    // 1 / direction, finite.
+    inverse: vec3f,
+    max_t: f32,
+    // What takes the direction to (0, 0, 1), after its longest axis (0 to 2) was turned to z.
+    shear: vec3f,
+    axis: u32,
+}
+
+// Where a receiver's rays start. `reach` is the largest coordinate of the scene; both distances in metres.
+fn ray_origin(position: vec3f, geometric_normal: vec3f, view_distance: f32, reach: f32) -> vec3f {
+    let size = abs(position);
+    let coordinates = 2.0 * max(size.x, max(size.y, size.z)) + reach;
+    return position + geometric_normal * (coordinates / 1048576.0 + view_distance / 131072.0);
+}
+
+fn ray_turned(p: vec3f, axis: u32) -> vec3f {
+    return select(select(p, p.zxy, axis == 1u), p.yzx, axis == 0u);
+}
+
+fn ray_new(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> ShadowRay {
+    let size = abs(direction);
+    let axis = select(select(2u, 1u, size.y >= size.z), 0u, size.x >= size.y && size.x >= size.z);
+    let turned = ray_turned(direction, axis);
+    let shear = vec3f(turned.x / turned.z, turned.y / turned.z, 1.0 / turned.z);
+    let inverse = 1.0 / select(direction, vec3f(1e-20), size < vec3f(1e-20));
+    return ShadowRay(origin, min_t, inverse, max_t, shear, axis);
+}
+
+// How far along the ray the box begins, below 0 if the origin is inside; RAY_MISS if the ray misses it.
+fn ray_enters(ray: ShadowRay, node: RayNode) -> f32 {
+    let to_lowest = (node.lowest - ray.origin) * ray.inverse;
+    let to_highest = (node.highest - ray.origin) * ray.inverse;
+    let near = min(to_lowest, to_highest);
+    let far = max(to_lowest, to_highest);
+    let enters = max(near.x, max(near.y, near.z));
+    let leaves = min(far.x, min(far.y, far.z));
+    return select(RAY_MISS, enters, leaves >= enters && leaves >= 0.0);
+}
+
+// The point as the ray sees it: x and y across, z along the ray, metres.
+fn ray_sheared(ray: ShadowRay, point: vec3f) -> vec3f {
+    let p = ray_turned(point - ray.origin, ray.axis);
+    return vec3f(p.x - ray.shear.x * p.z, p.y - ray.shear.y * p.z, ray.shear.z * p.z);
+}
+
+// p.x * q.y - p.y * q.x, the numbers split into halves of 12 bits whose products f32 holds exactly: wrong by
+// 2^-36 of |p| |q|, with and without fused products.
+fn ray_side(p: vec2f, q: vec2f) -> f32 {
+    let p_high = bitcast<vec2f>(bitcast<vec2u>(p) & vec2u(0xfffff000u));
+    let q_high = bitcast<vec2f>(bitcast<vec2u>(q) & vec2u(0xfffff000u));
+    let p_low = p - p_high;
+    let q_low = q - q_high;
+    let mixed = (p_high.x * q_low.y - p_high.y * q_low.x) + (p_low.x * q_high.y - p_low.y * q_high.x);
+    let low = p_low.x * q_low.y - p_low.y * q_low.x;
+    return (p_high.x * q_high.y - p_high.y * q_high.x) + (mixed + low);
+}
+
+fn ray_folded(at: f32, wrap: u32) -> f32 {
+    if wrap == RAY_WRAP_REPEAT {
+        return at - floor(at);
+    }
+    if wrap == RAY_WRAP_MIRROR {
+        let period = at - 2.0 * floor(at * 0.5);
+        return min(period, 2.0 - period);
+    }
+    return clamp(at, 0.0, 1.0);
+}
+
+// The texel that stands for one up to one step outside.
+fn ray_inside(index: i32, size: i32, wrap: u32) -> u32 {
+    if wrap == RAY_WRAP_REPEAT {
+        return u32(select(select(index, index - size, index >= size), index + size, index < 0));
+    }
+    return u32(clamp(index, 0, size - 1));
+}
+
+fn ray_texel(image: RayAlphaTexture, x: i32, y: i32) -> f32 {
+    let column = ray_inside(x, i32(image.width), image.sampling & 3u);
+    let row = ray_inside(y, i32(image.height), (image.sampling >> 2u) & 3u);
+    let index = image.first_texel + row * image.width + column;
+    let word = ray_alpha_texels[index >> 2u];
+    return f32((word >> (8u * (index & 3u))) & 255u) * (1.0 / 255.0);
+}
+
+fn ray_alpha(image: RayAlphaTexture, uv: vec2f) -> f32 {
+    let folded = vec2f(
+        ray_folded(uv.x, image.sampling & 3u), ray_folded(uv.y, (image.sampling >> 2u) & 3u));
+    let at = folded * vec2f(f32(image.width), f32(image.height));
+    if (image.sampling & RAY_BILINEAR) == 0u {
+        return ray_texel(image, i32(at.x), i32(at.y));
+    }
+    let base = floor(at - 0.5);
+    let part = at - 0.5 - base;
+    let x = i32(base.x);
+    let y = i32(base.y);
+    let top_left = ray_texel(image, x, y);
+    let bottom_left = ray_texel(image, x, y + 1);
+    let top = top_left + (ray_texel(image, x + 1, y) - top_left) * part.x;
+    let bottom = bottom_left + (ray_texel(image, x + 1, y + 1) - bottom_left) * part.x;
+    return top + (bottom - top) * part.y;
+}
+
+fn ray_is_hole(index: u32, weights: vec3f) -> bool {
+    if index == RAY_NONE {
+        return false;
+    }
+    let cut = ray_cuts[index];
+    var alpha = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
+    if cut.texture != RAY_NONE {
+        let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
+        alpha *= ray_alpha(ray_alpha_textures[cut.texture], uv);
+    }
+    return alpha < cut.cutoff;
+}
+
+// The test of Woop, Benthin and Wald (Watertight Ray/Triangle Intersection, JCGT 2013), from both sides.
+fn ray_meets(ray: ShadowRay, triangle: RayTriangle) -> bool {
+    let a = ray_sheared(ray, triangle.a);
+    let b = ray_sheared(ray, triangle.b);
+    let c = ray_sheared(ray, triangle.c);
+    let areas = vec3f(ray_side(c.xy, b.xy), ray_side(a.xy, c.xy), ray_side(b.xy, a.xy));
+    if any(areas < vec3f(0.0)) && any(areas > vec3f(0.0)) {
+        return false;
+    }
+    let area = areas.x + areas.y + areas.z;
+    if area == 0.0 {
+        return false;
+    }
+    let weights = areas / area;
+    let t = weights.x * a.z + weights.y * b.z + weights.z * c.z;
+    return t >= ray.min_t && t < ray.max_t && !ray_is_hole(triangle.cut, weights);
+}
+
+fn ray_meets_any(ray: ShadowRay, node: RayNode) -> bool {
+    for (var i = 0u; i < node.count; i++) {
+        if ray_meets(ray, ray_triangles[node.first + i]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// True if anything but holes lies on the ray from `min_t` up to `max_t`, metres, at most RAY_FAR. `direction` has
+// unit length.
+fn ray_blocked(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> bool {
+    let ray = ray_new(origin, direction, min_t, max_t);
+    let root = ray_nodes[0];
+    if ray_enters(ray, root) >= max_t {
+        return false;
+    }
+    if root.count > 0u {
+        return ray_meets_any(ray, root);
+    }
+    var stack: array<u32, RAY_STACK>;
+    var height = 0u;
+    var pair = root.first;
+    loop {
+        var node = ray_nodes[pair];
+        var other = ray_nodes[pair + 1u];
+        var enters = ray_enters(ray, node);
+        var enters_other = ray_enters(ray, other);
+        if enters > enters_other {
+            let node_before = node;
+            let enters_before = enters;
+            node = other;
+            enters = enters_other;
+            other = node_before;
+            enters_other = enters_before;
+        }
+        // The root is in no pair: 0 stands for none.
+        var next = 0u;
+        if enters < max_t {
+            if node.count == 0u {
+                next = node.first;
+            } else if ray_meets_any(ray, node) {
+                return true;
+            }
+        }
+        if enters_other < max_t {
+            if other.count > 0u {
+                if ray_meets_any(ray, other) {
+                    return true;
+                }
+            } else if next == 0u {
+                next = other.first;
+            } else {
+                stack[height] = other.first;
+                height++;
+            }
+        }
+        if next == 0u {
+            if height == 0u {
+                break;
+            }
+            height--;
+            next = stack[height];
+        }
+        pair = next;
+    }
+    return false;
+}
