@@ -41,5 +41,9 @@ impl Table {
 
     pub(crate) fn print(&self) {
         println!("{}\n{} targets missed", self.text, self.missed);
+        println!(
+            "What is counted and not timed, tests hold to its targets: allocations in tests/allocations.rs, slots"
+        );
+        println!("and the peak of the chosen order in src/compile/tests/memory.rs.");
     }
 }
