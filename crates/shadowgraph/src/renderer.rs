@@ -2,14 +2,14 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use shadowgraph_core::{Executed, Format, Frame, Graph, PassTime, Plan, Timer};
+use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Timer};
 use shadowgraph_lighting::{Ambience, Forward, Key, Shows, Tonemap};
 use shadowgraph_scene::gpu::{DrawList, GpuScene};
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
 use shadowgraph_shadows::{Pcf, ShadowSettings, ShadowTechnique, Unshadowed};
 
 use crate::options::{Aov, ShadowDistance};
-use crate::picture::{Drawn, ReadBack};
+use crate::picture::{Drawn, Picture};
 use crate::pipelines::{self, Target, View};
 use crate::{Error, Gpu, SceneCasters, Show};
 
@@ -140,14 +140,14 @@ impl Renderer {
         self.move_origin(gpu, options);
         let view = self.view(options, None);
         gpu.checked(|| {
-            let read_back = ReadBack::new(&gpu.device, options.size_px);
             let mut frame = self.graph().frame();
             let output = pipelines::forward(&mut frame, self, &view)?;
-            read_back.add_to(&mut frame, &output.picture);
+            let request = frame.read_back_texture(&output.picture, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let executed = self.execute(frame, gpu, &mut encoder, timer.as_deref_mut())?;
+            let mut executed = self.execute(frame, gpu, &mut encoder, timer.as_deref_mut())?;
+            let texels = executed.read_back(request).ok_or_else(nothing_read)?;
             gpu.queue.submit([encoder.finish()]);
-            let picture = read_back.read(&gpu.device)?;
+            let picture = Picture { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let times = times(gpu, timer.as_deref())?;
             Ok(Drawn { picture, plan: executed.shared_plan(), times, unshadowed: output.unshadowed })
         })
@@ -266,6 +266,11 @@ impl Renderer {
             None => compiled.execute(&mut graph, &gpu.device, encoder)?,
         })
     }
+}
+
+/// A read-back is taken out once, by the frame that asked for it.
+pub(crate) fn nothing_read() -> Error {
+    Error::Gpu("nothing was read back".into())
 }
 
 fn times(gpu: &Gpu, timer: Option<&Timer>) -> Result<Vec<PassTime>, Error> {

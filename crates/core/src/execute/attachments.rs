@@ -11,7 +11,7 @@ use crate::plan::{AttachmentOps, LoadAction, Plan, StoreAction};
 use arrayvec::ArrayVec;
 
 /// As many colour attachments as any device allows.
-const COLORS: usize = 8;
+pub(super) const COLORS: usize = 8;
 
 pub(super) type ColorAttachments<'v> = ArrayVec<Option<wgpu::RenderPassColorAttachment<'v>>, COLORS>;
 
@@ -36,10 +36,6 @@ pub(super) fn color_attachments<'a>(
             ResourceDesc::Buffer(_) => false,
         };
         let slice = decl.part(access).layers.map_or(0, |(first, _)| first);
-        if color as usize >= COLORS {
-            let name = decl.resource_name(access.resource);
-            crate::pool::limit(name, "max_color_attachments", u64::from(color) + 1, COLORS as u64)?;
-        }
         while colors.len() <= color as usize {
             colors.push(None);
         }

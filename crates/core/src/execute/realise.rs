@@ -1,5 +1,6 @@
 //! What stands behind a plan on a device.
 
+use super::attachments::COLORS;
 use super::last_groups::LastGroups;
 use super::poison;
 use crate::access::Access;
@@ -134,7 +135,8 @@ fn check_colors(plan: &Plan, limits: &wgpu::Limits) -> Result<(), Error> {
         if let Some(last) = colors().next_back() {
             let name = plan.decl.resource_name(last.resource);
             let count = colors().count() as u64;
-            limit(name, "max_color_attachments", count, limits.max_color_attachments.into())?;
+            let allowed = u64::from(limits.max_color_attachments).min(COLORS as u64);
+            limit(name, "max_color_attachments", count, allowed)?;
         }
         let mut bytes = 0u32;
         for access in colors() {

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::options::{AdapterChoice, ShadowDistance};
-use crate::picture::{Picture, ReadBack};
-use shadowgraph_core::{Frame, PassKind, Plan};
+use crate::picture::Picture;
+use shadowgraph_core::{Frame, Part, PassKind, Plan};
 use shadowgraph_scene::{Camera, Scene, demo::demo_scene};
 use shadowgraph_shadows::ShadowSettings;
 use std::io::Write as _;
@@ -105,14 +105,15 @@ fn pass_times_are_those_of_every_pass_in_order() {
 }
 
 fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Picture {
-    let read_back = ReadBack::new(&gpu.device, [texture.width(), texture.height()]);
+    let size_px = [texture.width(), texture.height()];
     let mut frame = Frame::new();
     let texture = frame.import_texture("target", texture, true);
-    read_back.add_to(&mut frame, &texture);
+    let request = frame.read_back_texture(&texture, Part::WHOLE);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    frame.compile().unwrap().execute(&mut Graph::new(), &gpu.device, &mut encoder).unwrap();
+    let mut executed =
+        frame.compile().unwrap().execute(&mut Graph::new(), &gpu.device, &mut encoder).unwrap();
     gpu.queue.submit([encoder.finish()]);
-    read_back.read(&gpu.device).unwrap()
+    Picture { size_px, rgba8: executed.read_back(request).unwrap().wait(&gpu.device).unwrap() }
 }
 
 /// The draws of both sides are the same: what is drawn is the same, to the bit.

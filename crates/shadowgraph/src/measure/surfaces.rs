@@ -5,6 +5,7 @@ use shadowgraph_core::{Format, Part};
 use shadowgraph_lighting::{Forward, Geometry, Shows, ViewRecords};
 use shadowgraph_shadows::{NoShadows, ShadowInputs, ShadowTechnique};
 
+use crate::renderer::nothing_read;
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// The surfaces of a view, row by row from the top.
@@ -72,8 +73,7 @@ impl SurfaceDrawer {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
             gpu.queue.submit([encoder.finish()]);
-            let texels =
-                executed.read_back(request).ok_or_else(|| Error::Gpu("nothing was read back".into()))?;
+            let texels = executed.read_back(request).ok_or_else(nothing_read)?;
             Ok(texels.wait(&gpu.device)?)
         })?;
         Ok(Surfaces::decode(&bytes, options, renderer))

@@ -1,10 +1,26 @@
 //! Depth and stencil: tested while sampled, read by aspect, and never stored where nobody needs it.
 
 use super::gpu::{Gpu, NUMBERS, aspect, depth_test, square};
-use crate::{Aspect, Bind, Contents, Format, Graph, Rect, Texture, TextureDesc};
+use crate::{Aspect, Bind, Contents, Format, Frame, Graph, Rect, Texture, TextureDesc};
 
-fn depth(frame: &mut crate::Frame<'_>, format: Format) -> Texture {
+fn depth(frame: &mut Frame<'_>, format: Format) -> Texture {
     frame.create_texture("depth", TextureDesc::d2(8, 8, format))
+}
+
+/// What a pass reads of both aspects of what `fill` draws: 1000 times the stencil and 100 times the depth.
+fn aspects(gpu: &Gpu, fill: impl FnOnce(&mut Frame<'_>, &mut Texture)) -> wgpu::Texture {
+    let read = gpu.draw("aspects", NUMBERS);
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
+    fill(&mut frame, &mut depth);
+    let mut color = frame.create_texture("color", square(8));
+    let mut pass = frame.render_pass("read");
+    let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
+    pass.color(&mut color, Contents::Cover);
+    pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
+    let color = frame.export_texture(&color);
+    gpu.run(&mut graph, frame).texture(color).unwrap().clone()
 }
 
 #[test]
@@ -44,40 +60,22 @@ fn depth_is_tested_and_sampled_in_one_pass() {
 #[test]
 fn depth_and_stencil_are_bound_as_aspects() {
     for gpu in Gpu::all() {
-        let read = gpu.draw("aspects", NUMBERS);
-        let mut graph = Graph::new();
-        let mut frame = graph.frame();
-        let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
-        frame.render_pass("fill").depth(&mut depth, Contents::clear_depth_stencil(0.75, 3));
-        let mut color = frame.create_texture("color", square(8));
-        let mut pass = frame.render_pass("read");
-        let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
-        pass.color(&mut color, Contents::Cover);
-        pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
-        let color = frame.export_texture(&color);
-        let executed = gpu.run(&mut graph, frame);
-        gpu.assert_filled(executed.texture(color).unwrap(), 3075);
+        let read = aspects(&gpu, |frame, depth| {
+            frame.render_pass("fill").depth(depth, Contents::clear_depth_stencil(0.75, 3));
+        });
+        gpu.assert_filled(&read, 3075);
     }
 }
 
 #[test]
 fn each_aspect_is_cleared_by_a_pass_of_its_own() {
     for gpu in Gpu::all() {
-        let read = gpu.draw("aspects", NUMBERS);
-        let mut graph = Graph::new();
-        let mut frame = graph.frame();
-        let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
-        let contents = Contents::clear_depth_stencil(0.5, 9);
-        frame.render_pass("depth").on(aspect(Aspect::Depth)).depth(&mut depth, contents);
-        frame.render_pass("stencil").on(aspect(Aspect::Stencil)).depth(&mut depth, contents);
-        let mut color = frame.create_texture("color", square(8));
-        let mut pass = frame.render_pass("read");
-        let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
-        pass.color(&mut color, Contents::Cover);
-        pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
-        let color = frame.export_texture(&color);
-        let executed = gpu.run(&mut graph, frame);
-        gpu.assert_filled(executed.texture(color).unwrap(), 9050);
+        let read = aspects(&gpu, |frame, depth| {
+            let contents = Contents::clear_depth_stencil(0.5, 9);
+            frame.render_pass("depth").on(aspect(Aspect::Depth)).depth(depth, contents);
+            frame.render_pass("stencil").on(aspect(Aspect::Stencil)).depth(depth, contents);
+        });
+        gpu.assert_filled(&read, 9050);
     }
 }
 
@@ -113,28 +111,19 @@ fn depth_that_one_pass_needs_is_a_transient_attachment() {
 #[test]
 fn a_tile_of_one_aspect_is_cleared_and_the_other_aspect_stays() {
     for gpu in Gpu::all() {
-        let read = gpu.draw("aspects", NUMBERS);
         for which in [Aspect::Depth, Aspect::Stencil, Aspect::All] {
-            let mut graph = Graph::new();
-            let mut frame = graph.frame();
-            let mut depth = depth(&mut frame, Format::Depth24PlusStencil8);
-            frame.render_pass("all").depth(&mut depth, Contents::clear_depth_stencil(0.5, 9));
-            let tile = aspect(which).rect(Rect::new(0, 0, 4, 8));
-            frame.render_pass("tile").on(tile).depth(&mut depth, Contents::clear_depth_stencil(0.25, 3));
-            let mut color = frame.create_texture("color", square(8));
-            let mut pass = frame.render_pass("read");
-            let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
-            pass.color(&mut color, Contents::Cover);
-            pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
-            let color = frame.export_texture(&color);
-            let executed = gpu.run(&mut graph, frame);
+            let read = aspects(&gpu, |frame, depth| {
+                frame.render_pass("all").depth(depth, Contents::clear_depth_stencil(0.5, 9));
+                let tile = aspect(which).rect(Rect::new(0, 0, 4, 8));
+                frame.render_pass("tile").on(tile).depth(depth, Contents::clear_depth_stencil(0.25, 3));
+            });
             if gpu.draws {
                 let inside = match which {
                     Aspect::Depth => 9025,
                     Aspect::Stencil => 3050,
                     Aspect::All => 3025,
                 };
-                let texels = gpu.texels(executed.texture(color).unwrap(), 0, 0);
+                let texels = gpu.texels(&read, 0, 0);
                 assert_eq!(texels[..8], [[inside; 4], [9050; 4]].concat(), "{which:?}");
             }
         }
