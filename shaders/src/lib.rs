@@ -6,7 +6,7 @@
 //! for a file of the caller's own. What comes out is a validated [`naga::Module`] (for wgpu,
 //! `ShaderSource::Naga`).
 //!
-//! The module `shadowgraph::technique` is the caller's to pass: [`PCF`], [`NONE`] or that of another technique.
+//! The module `shadowgraph::technique` is the caller's to pass: [`PCF`], [`RAYTRACED`], [`NONE`] or that of another technique.
 //! It defines `shadow_visibility` and `shadow_debug_color`; `shadows/none.wgsl` shows their signatures.
 //!
 //! ```
@@ -29,4 +29,4 @@ mod source;
 
 pub use compose::{compose, compose_source};
 pub use error::Error;
-pub use source::{ModuleSource, NONE, PCF, builtin, builtin_files};
+pub use source::{ModuleSource, NONE, PCF, RAYTRACED, builtin, builtin_files};

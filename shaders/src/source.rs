@@ -34,23 +34,34 @@ pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 /// The technique `pcf`: cascades and an atlas, filtered with a 5 x 5 tent.
 pub const PCF: ModuleSource = file!("shadows/pcf.wgsl");
 
+/// The technique `raytraced`: hard shadows by rays through the scene's triangles.
+pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
+
 /// The modules that any file can import.
 pub(crate) const MODULES: &[ModuleSource] = &[
     file!("draw.wgsl"),
     file!("fullscreen.wgsl"),
     file!("lighting.wgsl"),
     file!("material.wgsl"),
+    file!("rays.wgsl"),
     file!("receiver.wgsl"),
+    file!("shadows/traced.wgsl"),
     file!("shadows/types.wgsl"),
+    file!("surface.wgsl"),
     file!("view.wgsl"),
 ];
 
 /// The modules of which the caller passes one, as all have the import path [`TECHNIQUE`].
-pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF];
+pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED];
 
 /// The files with entry points.
-pub(crate) const ENTRIES: &[ModuleSource] =
-    &[file!("depth.wgsl"), file!("forward.wgsl"), file!("show.wgsl"), file!("tonemap.wgsl")];
+pub(crate) const ENTRIES: &[ModuleSource] = &[
+    file!("depth.wgsl"),
+    file!("forward.wgsl"),
+    file!("raytrace.wgsl"),
+    file!("show.wgsl"),
+    file!("tonemap.wgsl"),
+];
 
 /// The import path of every shadow technique's module.
 pub(crate) const TECHNIQUE: &str = "shadowgraph::technique";

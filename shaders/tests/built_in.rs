@@ -5,9 +5,9 @@ use naga::{
     BuiltIn, ShaderStage,
     valid::{Capabilities, ValidationFlags, Validator},
 };
-use shadowgraph_shaders::{ModuleSource, NONE, PCF, builtin, builtin_files, compose, layout};
+use shadowgraph_shaders::{ModuleSource, NONE, PCF, RAYTRACED, builtin, builtin_files, compose, layout};
 
-const ENTRIES: [&str; 4] = ["depth.wgsl", "forward.wgsl", "show.wgsl", "tonemap.wgsl"];
+const ENTRIES: [&str; 5] = ["depth.wgsl", "forward.wgsl", "raytrace.wgsl", "show.wgsl", "tonemap.wgsl"];
 
 /// The files whose module is `shadowgraph::technique`.
 fn techniques() -> Vec<ModuleSource> {
@@ -35,7 +35,7 @@ fn bindings(module: &naga::Module) -> Vec<String> {
 
 #[test]
 fn every_entry_is_valid_with_every_technique() {
-    assert_eq!(techniques(), [NONE, PCF]);
+    assert_eq!(techniques(), [NONE, PCF, RAYTRACED]);
     for entry in ENTRIES {
         for technique in techniques() {
             let name = format!("{entry} with {}", technique.file);

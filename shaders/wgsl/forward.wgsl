@@ -7,6 +7,7 @@
     MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_NORMAL_MAP, TextureCoordinates, material_has,
     base_color, metallic_roughness, normal_in_tangent_space, occlusion, emissive, is_hole,
 }
+#import shadowgraph::surface::pack_normal
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_BACK_FACE}
 #import shadowgraph::lighting::{Surface, surface_of, arriving_light, reflected, ambient}
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
@@ -127,19 +128,6 @@ fn cascade_aov(receiver: Receiver, to_camera: vec3f) -> vec4f {
     return vec4f(shadow_debug_color(AOV_LIGHT, receiver) * shade, 1.0);
 }
 
-// The unit octahedron, unfolded to the square from -1 to 1 (Cigolle et al. 2014).
-fn octahedral(normal: vec3f) -> vec2f {
-    let flat = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
-    let folded = (1.0 - abs(flat.yx)) * select(vec2f(-1.0), vec2f(1.0), flat >= vec2f(0.0));
-    return select(folded, flat, normal.z >= 0.0);
-}
-
-// Where the surface is, and the geometric normal, 12 bits an axis, as a whole number from 1 that a float holds exactly.
-fn surface_aov(receiver: Receiver) -> vec4f {
-    let packed = vec2u(round((octahedral(receiver.geometric_normal) * 0.5 + 0.5) * 4095.0));
-    return vec4f(receiver.position, f32(1u + packed.x * 4096u + packed.y));
-}
-
 @fragment
 fn fs_forward(in: ForwardVertex, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     // Everything that needs the neighbouring pixels comes before the first branch that they may not share.
@@ -178,7 +166,7 @@ fn fs_forward(in: ForwardVertex, @builtin(front_facing) front_facing: bool) -> @
         return vec4f(normal * 0.5 + 0.5, 1.0);
     }
     if AOV == AOV_SURFACE {
-        return surface_aov(receiver);
+        return vec4f(receiver.position, pack_normal(receiver.geometric_normal));
     }
 
     // Unlit colours and glow are what the picture shows: exposure, which follows the lights, does not change them.

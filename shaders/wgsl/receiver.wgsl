@@ -5,6 +5,10 @@
 const RECEIVER_TRANSPARENT: u32 = 1u;
 // The surface was seen from behind and its normals were turned to the viewer.
 const RECEIVER_BACK_FACE: u32 = 2u;
+// The picture does not show the point at `pixel`: what was worked out for the picture does not hold for it.
+const RECEIVER_OFF_SCREEN: u32 = 4u;
+// Ask for what the next coarser of the maps that cover the point says, where there is one. For measuring.
+const RECEIVER_COARSER: u32 = 8u;
 
 struct Receiver {
     // Metres relative to the frame's origin.

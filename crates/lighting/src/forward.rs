@@ -143,8 +143,12 @@ impl Forward {
         background: [f64; 4],
     ) -> Texture {
         let [width, height] = geometry.size_px;
-        let mut color = frame.create_texture("lit", TextureDesc::d2(width, height, self.format));
-        let mut pass = frame.render_pass("forward");
+        let (texture, pass) = match self.shows {
+            Shows::Surface => ("surfaces", "surfaces"),
+            _ => ("lit", "forward"),
+        };
+        let mut color = frame.create_texture(texture, TextureDesc::d2(width, height, self.format));
+        let mut pass = frame.render_pass(pass);
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
         pass.depth_read(depth);

@@ -29,6 +29,8 @@ mod picture;
 pub mod pipelines;
 mod renderer;
 mod show;
+mod surfaces;
+mod techniques;
 
 pub use casters::SceneCasters;
 pub use error::Error;

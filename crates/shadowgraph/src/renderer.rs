@@ -6,12 +6,13 @@ use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Tim
 use shadowgraph_lighting::{Ambience, Forward, Key, Shows, Tonemap};
 use shadowgraph_scene::gpu::{DrawList, GpuScene};
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
-use shadowgraph_shadows::{Pcf, ShadowSettings, ShadowTechnique, Unshadowed};
+use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Unshadowed};
 
-use crate::options::{Aov, ShadowDistance};
+use crate::options::{Aov, ShadowDistance, Technique};
 use crate::picture::{Drawn, Picture};
 use crate::pipelines::{self, Target, View};
-use crate::{Error, Gpu, SceneCasters, Show};
+use crate::surfaces::SurfaceDrawer;
+use crate::{Error, Gpu, SceneCasters, Show, techniques};
 
 /// What a view shows, and how.
 #[derive(Clone, Debug)]
@@ -55,7 +56,10 @@ impl ViewOptions {
 pub struct Renderer {
     pub(crate) casters: SceneCasters,
     pub(crate) technique: Box<dyn ShadowTechnique>,
+    technique_name: Technique,
     pub(crate) forward: Forward,
+    /// Where the technique reads them.
+    pub(crate) surfaces: Option<SurfaceDrawer>,
     pub(crate) show: Show,
     tonemap: Tonemap,
     /// For the caller's targets of this format.
@@ -76,20 +80,44 @@ impl Renderer {
     /// # Errors
     /// Names the limit of the device that the scene is over, or the light that `aov` asks for and that is not there.
     pub fn new(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
-        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov))
+        Self::with_technique(gpu, scene, eye, aov, Technique::default())
     }
 
-    fn unchecked(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
+    /// Is like [`new`](Self::new), with another shadow technique than the default one.
+    ///
+    /// # Errors
+    /// As `new`; for `raytraced` also a scene whose triangles or alpha textures do not fit the device's buffers.
+    pub fn with_technique(
+        gpu: &Gpu,
+        scene: Scene,
+        eye: &Camera,
+        aov: Aov,
+        technique: Technique,
+    ) -> Result<Self, Error> {
+        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov, technique))
+    }
+
+    fn unchecked(
+        gpu: &Gpu,
+        scene: Scene,
+        eye: &Camera,
+        aov: Aov,
+        technique_name: Technique,
+    ) -> Result<Self, Error> {
         let device = &gpu.device;
         let origin_world = origin_near(eye.position_world());
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique: Box<dyn ShadowTechnique> = Box::new(Pcf::new(device));
+        let technique = techniques::make(technique_name, gpu, &scene, origin_world)?;
         let (shows, format) = shows(&aov, &scene.lights)?;
         let forward = Forward::new(device, uploaded.layouts(), technique.as_ref(), format, shows)?;
+        let reads_surfaces = technique.reads_surfaces();
+        let surfaces = reads_surfaces.then(|| SurfaceDrawer::new(device, uploaded.layouts())).transpose()?;
         Ok(Self {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
+            technique_name,
             forward,
+            surfaces,
             show: Show::new(device)?,
             tonemap: Tonemap::new(device, PICTURE_FORMAT)?,
             target_tonemap: None,
@@ -102,6 +130,16 @@ impl Renderer {
     /// Returns the scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Puts other lights in the place of the scene's, for instance to move the sun.
+    ///
+    /// # Errors
+    /// If pictures show the visibility of a light that is not among them.
+    pub fn set_lights(&mut self, lights: Vec<Light>) -> Result<(), Error> {
+        shows(&self.aov, &lights)?;
+        self.scene.lights = lights;
+        Ok(())
     }
 
     /// Returns the scene on the GPU, as shadow casters.
@@ -137,7 +175,7 @@ impl Renderer {
         if width.max(height) > limit {
             return Err(Error::PictureSize { width, height, limit });
         }
-        self.move_origin(gpu, options);
+        self.move_origin(gpu, options)?;
         let view = self.view(options, None);
         gpu.checked(|| {
             let mut frame = self.graph().frame();
@@ -187,7 +225,7 @@ impl Renderer {
     ) -> Result<Executed, Error> {
         let options = ViewOptions { size_px: [target.width(), target.height()], ..options.clone() };
         self.prepare_target(&gpu.device, target.format())?;
-        self.move_origin(gpu, &options);
+        self.move_origin(gpu, &options)?;
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
         let output = pipelines::forward(&mut frame, self, &view)?;
@@ -241,9 +279,15 @@ impl Renderer {
         Ok(())
     }
 
-    pub(crate) fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) {
+    pub(crate) fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         let origin_world = origin_near(options.camera.position_world());
+        if origin_world == self.casters.scene.origin_world() {
+            return Ok(());
+        }
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
+        // It may hold positions.
+        self.technique = techniques::make(self.technique_name, gpu, &self.scene, origin_world)?;
+        Ok(())
     }
 
     /// What outlives frames; hold it for no longer than one call.

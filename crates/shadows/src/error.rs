@@ -20,6 +20,17 @@ pub enum Error {
     /// The camera's position, direction or planes are not finite numbers.
     #[error("the camera's {0} is not a finite number")]
     Camera(&'static str),
+    /// A technique that reads the picture's surfaces was not given them.
+    #[error(
+        "the technique `{technique}` reads the surfaces of the picture: draw them first and pass them to its `add_to`"
+    )]
+    NoSurfaces {
+        /// The technique's name.
+        technique: &'static str,
+    },
+    /// A shader does not compose.
+    #[error(transparent)]
+    Shader(#[from] shadowgraph_shaders::Error),
     /// The triangles cannot be traced.
     #[error(transparent)]
     Rays(#[from] crate::rays::Error),

@@ -40,6 +40,6 @@ pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePlan, plan_shadows};
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{AtlasSettings, BiasSettings, CascadeSettings, ShadowSettings, SplitScheme};
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
-pub use technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
-pub use techniques::{NoShadows, Pcf};
+pub use technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
+pub use techniques::{MAX_MASK_LAYERS, NoShadows, Pcf, Raytraced};
 pub use views::{MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowLight, ShadowView};

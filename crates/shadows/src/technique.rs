@@ -20,6 +20,11 @@ pub trait ShadowTechnique: Sync {
     /// Returns what it needs of shared services, with the settings in use.
     fn needs(&self, inputs: &ShadowInputs<'_>) -> Needs;
 
+    /// Whether it reads the surfaces that the picture shows ([`Screen`]).
+    fn reads_surfaces(&self) -> bool {
+        false
+    }
+
     /// Returns its WGSL module.
     fn module(&self) -> ModuleSource;
 
@@ -27,14 +32,30 @@ pub trait ShadowTechnique: Sync {
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout;
 
     /// Adds its passes to the frame. What is not needed (no shadowed light, no caster in reach) adds no pass.
+    /// `screen` is there if [`reads_surfaces`](Self::reads_surfaces) says so.
     ///
     /// # Errors
-    /// For settings, a camera or an aspect ratio that are out of range.
+    /// For settings, a camera or an aspect ratio that are out of range; [`Error::NoSurfaces`].
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
+        screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error>;
+}
+
+/// What the picture shows, for techniques that ask for it.
+#[derive(Clone, Debug)]
+pub struct Screen {
+    /// Width and height of the picture, pixels.
+    pub size_px: [u32; 2],
+    /// The camera: the storage buffer `view` of `shadowgraph::view`.
+    pub view: Buffer,
+    /// The lights: the storage buffer `lights` of `shadowgraph::view`.
+    pub lights: Buffer,
+    /// Where surfaces are and which way they face, those of all that is not blended: `Rgba32Float`, as
+    /// `shadowgraph::surface` says.
+    pub surfaces: Texture,
 }
 
 /// What a technique gives to the passes that light.
@@ -53,6 +74,10 @@ pub enum ShadowBinding<'f> {
     Buffer(Buffer),
     /// A sampled texture.
     Texture(Texture),
+    /// A sampled texture, as a 2D array.
+    TextureArray(Texture),
+    /// A storage buffer of the technique's own, read.
+    OwnBuffer(&'f wgpu::Buffer),
     /// A sampler of the technique's.
     Sampler(&'f wgpu::Sampler),
 }
@@ -63,6 +88,8 @@ pub struct ShadowTokens<'f>(Vec<Token<'f>>);
 enum Token<'f> {
     Buffer(BufferToken),
     Texture(TextureToken),
+    TextureArray(TextureToken),
+    OwnBuffer(&'f wgpu::Buffer),
     Sampler(&'f wgpu::Sampler),
 }
 
@@ -71,6 +98,8 @@ impl Token<'_> {
         match self {
             Token::Buffer(buffer) => Bind::Buffer(*buffer),
             Token::Texture(texture) => Bind::Texture(*texture),
+            Token::TextureArray(texture) => Bind::TextureArray(*texture),
+            Token::OwnBuffer(buffer) => Bind::OwnBuffer(buffer),
             Token::Sampler(sampler) => Bind::Sampler(sampler),
         }
     }
@@ -82,6 +111,8 @@ impl<'f> ShadowOutputs<'f> {
         let declare = |binding: &ShadowBinding<'f>| match binding {
             ShadowBinding::Buffer(buffer) => Token::Buffer(pass.storage_buffer(buffer)),
             ShadowBinding::Texture(texture) => Token::Texture(pass.sample(texture)),
+            ShadowBinding::TextureArray(texture) => Token::TextureArray(pass.sample(texture)),
+            ShadowBinding::OwnBuffer(buffer) => Token::OwnBuffer(buffer),
             ShadowBinding::Sampler(sampler) => Token::Sampler(sampler),
         };
         ShadowTokens(self.bindings.iter().map(declare).collect())

@@ -57,7 +57,7 @@ fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
     let inputs =
         ShadowInputs { camera: &camera, aspect: 1.5, lights, casters: &casters, origin_world, settings };
     let mut frame = Frame::new();
-    let shadows = technique.add_to(&mut frame, &inputs).unwrap();
+    let shadows = technique.add_to(&mut frame, &inputs, None).unwrap();
     let mut lit = frame.create_texture("lit", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     let mut pass = frame.render_pass("lit");
     shadows.read_in(&mut pass);

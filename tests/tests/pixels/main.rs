@@ -6,6 +6,7 @@ mod aovs;
 mod casters;
 mod maps;
 mod measure;
+mod raytraced;
 mod scenes;
 mod snapping;
 mod stage;

@@ -33,7 +33,7 @@ pub(crate) fn draw_map(
     let inputs = ShadowInputs { camera, aspect: 16.0 / 9.0, lights, casters, origin_world, settings };
     let plan = plan_shadows(&inputs).unwrap();
     let mut frame = Frame::new();
-    let outputs = technique.add_to(&mut frame, &inputs).unwrap();
+    let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
     let (_, map) = outputs.debug.iter().find(|(debug, _)| *debug == name).unwrap();
     let size = frame.texture_desc(map).unwrap().size;
     let size_px = [size.width, size.height];
@@ -78,7 +78,7 @@ fn no_caster_in_reach_means_no_pass_and_a_map_of_one_lit_texel() {
         settings: &settings,
     };
     let mut frame = Frame::new();
-    let outputs = technique.add_to(&mut frame, &inputs).unwrap();
+    let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
     for (name, map) in &outputs.debug {
         let size = frame.texture_desc(map).unwrap().size;
         assert_eq!((size.width, size.height), (1, 1), "{name}");

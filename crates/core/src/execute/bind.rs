@@ -14,6 +14,8 @@ use std::ops::Range;
 pub enum Bind<'a> {
     /// The part of a texture that the access declares: one layer as 2D, several as a 2D array.
     Texture(TextureToken),
+    /// The same as a 2D array, one layer too: for shaders that take any number of layers.
+    TextureArray(TextureToken),
     /// The part of a buffer that the access declares.
     Buffer(BufferToken),
     /// This range of the buffer, in bytes; with a dynamic offset, the range at offset 0.
@@ -119,7 +121,7 @@ impl Resources<'_> {
             let views: Vec<_> = bound
                 .iter()
                 .map(|bound| match *bound {
-                    Bound::Texture(texture, part) => Some(views.get(texture, part, Purpose::Binding)),
+                    Bound::Texture(texture, part, purpose) => Some(views.get(texture, part, purpose)),
                     _ => None,
                 })
                 .collect();
@@ -135,10 +137,8 @@ impl Resources<'_> {
 
     fn bound<'e>(&'e self, entry: &Bind<'e>) -> Result<Bound<'e>, Error> {
         Ok(match entry {
-            Bind::Texture(token) => {
-                let part = crate::Part { rect: None, ..self.part(token.0) };
-                Bound::Texture(self.texture(*token)?, part)
-            }
+            Bind::Texture(token) => self.bound_texture(*token, Purpose::Binding)?,
+            Bind::TextureArray(token) => self.bound_texture(*token, Purpose::ArrayBinding)?,
             Bind::Buffer(token) => {
                 let buffer = self.buffer(*token)?;
                 // The physical buffer may be larger than what was declared.
@@ -157,6 +157,11 @@ impl Resources<'_> {
             Bind::View(view) => Bound::View(view),
             Bind::OwnBuffer(buffer) => Bound::Buffer(buffer, 0, None),
         })
+    }
+
+    fn bound_texture(&self, token: TextureToken, purpose: Purpose) -> Result<Bound<'_>, Error> {
+        let part = crate::Part { rect: None, ..self.part(token.0) };
+        Ok(Bound::Texture(self.texture(token)?, part, purpose))
     }
 }
 

@@ -79,7 +79,7 @@ impl Kept {
             (resource.origin == Origin::Transient).then_some(token.access)
         };
         match entry {
-            Bind::Texture(token) => transient(token.0).map(Self::Token),
+            Bind::Texture(token) | Bind::TextureArray(token) => transient(token.0).map(Self::Token),
             Bind::Buffer(token) => transient(token.0).map(Self::Token),
             Bind::BufferRange(token, range) => Some(Self::Range(transient(token.0)?, range.clone())),
             Bind::Uniform(uniform) => {
@@ -96,7 +96,10 @@ impl Kept {
         let recording = resources.recording;
         let same = |token: &Token, access: u32| token.frame == recording.frame && token.access == access;
         match (self, entry) {
-            (&Self::Token(access), Bind::Texture(token)) => same(&token.0, access),
+            // Which of the two it is follows from the layout.
+            (&Self::Token(access), Bind::Texture(token) | Bind::TextureArray(token)) => {
+                same(&token.0, access)
+            }
             (&Self::Token(access), Bind::Buffer(token)) => same(&token.0, access),
             (Self::Range(access, own), Bind::BufferRange(token, range)) => {
                 same(&token.0, *access) && own == range

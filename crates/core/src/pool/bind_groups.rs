@@ -1,5 +1,6 @@
 //! Bind groups by what they bind: the same views and buffers get the same group.
 
+use super::views::Purpose;
 use crate::error::Error;
 use crate::part::Part;
 use rustc_hash::{FxHashMap, FxHasher};
@@ -12,7 +13,7 @@ use std::num::NonZeroU64;
 #[derive(PartialEq, Eq, Hash)]
 pub(crate) enum Bound<'a> {
     /// A part of a texture of the graph; its view is looked up only to create a group.
-    Texture(&'a wgpu::Texture, Part),
+    Texture(&'a wgpu::Texture, Part, Purpose),
     View(&'a wgpu::TextureView),
     Sampler(&'a wgpu::Sampler),
     Buffer(&'a wgpu::Buffer, u64, Option<NonZeroU64>),
@@ -20,7 +21,7 @@ pub(crate) enum Bound<'a> {
 
 /// What a group was created from.
 enum Kept {
-    Texture(wgpu::Texture, Part),
+    Texture(wgpu::Texture, Part, Purpose),
     View(wgpu::TextureView),
     Sampler(wgpu::Sampler),
     Buffer(wgpu::Buffer, u64, Option<NonZeroU64>),
@@ -29,7 +30,7 @@ enum Kept {
 impl Kept {
     fn of(bound: &Bound<'_>) -> Self {
         match *bound {
-            Bound::Texture(texture, part) => Self::Texture(texture.clone(), part),
+            Bound::Texture(texture, part, purpose) => Self::Texture(texture.clone(), part, purpose),
             Bound::View(view) => Self::View(view.clone()),
             Bound::Sampler(sampler) => Self::Sampler(sampler.clone()),
             Bound::Buffer(buffer, offset, size) => Self::Buffer(buffer.clone(), offset, size),
@@ -38,7 +39,7 @@ impl Kept {
 
     fn is(&self, bound: &Bound<'_>) -> bool {
         let own = match self {
-            Self::Texture(texture, part) => Bound::Texture(texture, *part),
+            Self::Texture(texture, part, purpose) => Bound::Texture(texture, *part, *purpose),
             Self::View(view) => Bound::View(view),
             Self::Sampler(sampler) => Bound::Sampler(sampler),
             Self::Buffer(buffer, offset, size) => Bound::Buffer(buffer, *offset, *size),

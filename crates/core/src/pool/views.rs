@@ -9,6 +9,8 @@ use wgpu::{TextureAspect, TextureViewDescriptor, TextureViewDimension};
 pub(crate) enum Purpose {
     /// Bound to shaders: of a depth-stencil format one aspect, of an array all chosen layers.
     Binding,
+    /// The same as an array, of one layer too.
+    ArrayBinding,
     /// Drawn into: one layer of one mip, all aspects.
     Attachment,
 }
@@ -47,17 +49,24 @@ pub(crate) fn view(texture: &wgpu::Texture, part: Part, purpose: Purpose) -> wgp
     let format = texture.format();
     let aspect = match (purpose, part.aspect) {
         (Purpose::Attachment, _) => TextureAspect::All,
-        (Purpose::Binding, Aspect::Stencil) => TextureAspect::StencilOnly,
-        (Purpose::Binding, _) if format.is_combined_depth_stencil_format() => TextureAspect::DepthOnly,
-        (Purpose::Binding, _) => TextureAspect::All,
+        (_, Aspect::Stencil) => TextureAspect::StencilOnly,
+        _ if format.is_combined_depth_stencil_format() => TextureAspect::DepthOnly,
+        _ => TextureAspect::All,
     };
     let volume = texture.dimension() == wgpu::TextureDimension::D3;
     let layers = part.layers.filter(|_| !volume);
-    // One layer is flat even if the texture has several; so is an attachment.
-    let flat = purpose == Purpose::Attachment || layers.is_some_and(|(first, end)| end - first == 1);
+    let dimension = match purpose {
+        _ if volume => None,
+        Purpose::ArrayBinding => Some(TextureViewDimension::D2Array),
+        Purpose::Attachment => Some(TextureViewDimension::D2),
+        // One layer is flat even if the texture has several.
+        Purpose::Binding => {
+            layers.is_some_and(|(first, end)| end - first == 1).then_some(TextureViewDimension::D2)
+        }
+    };
     texture.create_view(&TextureViewDescriptor {
         aspect,
-        dimension: (flat && !volume).then_some(TextureViewDimension::D2),
+        dimension,
         base_mip_level: part.mips.map_or(0, |(first, _)| first),
         mip_level_count: part.mips.map(|(first, end)| end - first),
         base_array_layer: layers.map_or(0, |(first, _)| first),

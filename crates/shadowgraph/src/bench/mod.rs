@@ -115,7 +115,7 @@ fn compare_unchecked(
 ) -> Result<Comparison, Error> {
     let target = target(&gpu.device, options.size_px)?;
     renderer.prepare_target(&gpu.device, TARGET_FORMAT)?;
-    renderer.move_origin(gpu, options);
+    renderer.move_origin(gpu, options)?;
     let renderer = &*renderer;
     let view = renderer.view(options, Some(&target));
     let by_hand = ByHand::new(gpu, renderer, &view, &target)?;

@@ -1,11 +1,11 @@
 //! What a view sees: where the surface is in each pixel, and which way it faces.
 
 use glam::{Vec2, Vec3};
-use shadowgraph_core::{Format, Part};
-use shadowgraph_lighting::{Forward, Geometry, Shows, ViewRecords};
-use shadowgraph_shadows::{NoShadows, ShadowInputs, ShadowTechnique};
+use shadowgraph_core::Part;
+use shadowgraph_lighting::{Geometry, ViewRecords};
 
 use crate::renderer::nothing_read;
+use crate::surfaces::SurfaceDrawer;
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// The surfaces of a view, row by row from the top.
@@ -21,33 +21,27 @@ pub struct Surfaces {
     pub view_depths_m: Vec<f32>,
 }
 
-/// Draws surfaces of a scene.
-pub struct SurfaceDrawer {
-    forward: Forward,
-    technique: NoShadows,
+/// Reads back the surfaces of views.
+pub struct SurfaceReader {
+    drawer: SurfaceDrawer,
 }
 
-impl SurfaceDrawer {
+impl SurfaceReader {
     /// Makes the pipelines for a renderer's scene.
     ///
     /// # Errors
     /// A failure of the GPU.
     pub fn new(gpu: &Gpu, renderer: &Renderer) -> Result<Self, Error> {
-        gpu.checked(|| {
-            let technique = NoShadows::new(&gpu.device);
-            let layouts = renderer.casters.scene.layouts();
-            let forward =
-                Forward::new(&gpu.device, layouts, &technique, Format::Rgba32Float, Shows::Surface)?;
-            Ok(Self { forward, technique })
-        })
+        let layouts = renderer.casters.scene.layouts();
+        gpu.checked(|| Ok(Self { drawer: SurfaceDrawer::new(&gpu.device, layouts)? }))
     }
 
-    /// Draws the surfaces of a view: those of all that is not blended.
+    /// Draws the surfaces of a view, those of all that is not blended, and reads them back.
     ///
     /// # Errors
     /// A picture over the adapter's limits, or a failure of the GPU.
-    pub fn draw(&self, gpu: &Gpu, renderer: &mut Renderer, options: &ViewOptions) -> Result<Surfaces, Error> {
-        renderer.move_origin(gpu, options);
+    pub fn read(&self, gpu: &Gpu, renderer: &mut Renderer, options: &ViewOptions) -> Result<Surfaces, Error> {
+        renderer.move_origin(gpu, options)?;
         let view = renderer.view(options, None);
         let bytes = gpu.checked(|| {
             let scene = &renderer.casters.scene;
@@ -57,18 +51,9 @@ impl SurfaceDrawer {
             let records =
                 ViewRecords::new(&options.camera, options.size_px, lights, origin_world, &view.ambience);
             let buffers = records.upload(&mut frame);
-            let inputs = ShadowInputs {
-                camera: &options.camera,
-                aspect: options.aspect(),
-                lights,
-                casters: &renderer.casters,
-                origin_world,
-                settings: &options.shadows,
-            };
-            let shadows = self.technique.add_to(&mut frame, &inputs)?;
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-            let depth = self.forward.prepass(&mut frame, &buffers, geometry);
-            let surfaces = self.forward.lit(&mut frame, &buffers, &shadows, &depth, geometry, [0.0; 4]);
+            let depth = renderer.forward.prepass(&mut frame, &buffers, geometry);
+            let surfaces = self.drawer.add_to(&mut frame, &buffers, &depth, geometry);
             let request = frame.read_back_texture(&surfaces, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;

@@ -1,7 +1,7 @@
 //! One light in one view: what a technique says, the truth, and how they differ.
 
 use glam::{DVec3, Vec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use shadowgraph_scene::{Camera, Projection};
 use shadowgraph_shadows::rays::RayScene;
 use shadowgraph_shadows::{ShadowInputs, plan_shadows};
@@ -11,11 +11,11 @@ use super::metrics::{
     lost_contacts, mean_error, misclassified,
 };
 use super::truth::RayLight;
-use super::{SurfaceDrawer, Surfaces, Texels, Truth, ray_scene};
+use super::{SurfaceReader, Surfaces, Texels, Truth, ray_scene};
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// How a technique's shadows of one light differ from the truth in one view.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewErrors {
     /// Pixels on the wrong side of one half.
     pub misclassified: Misclassified,
@@ -45,7 +45,7 @@ pub struct ViewPictures {
 /// Measures views of one scene.
 pub struct Instrument<'g> {
     gpu: &'g Gpu,
-    drawer: SurfaceDrawer,
+    reader: SurfaceReader,
     light: usize,
     /// The triangles, relative to this origin.
     rays: Option<(DVec3, RayScene)>,
@@ -57,7 +57,7 @@ impl<'g> Instrument<'g> {
     /// # Errors
     /// A failure of the GPU.
     pub fn new(gpu: &'g Gpu, renderer: &Renderer, light: usize) -> Result<Self, Error> {
-        Ok(Self { gpu, drawer: SurfaceDrawer::new(gpu, renderer)?, light, rays: None })
+        Ok(Self { gpu, reader: SurfaceReader::new(gpu, renderer)?, light, rays: None })
     }
 
     /// Measures a view.
@@ -70,7 +70,7 @@ impl<'g> Instrument<'g> {
         options: &ViewOptions,
     ) -> Result<(ViewErrors, ViewPictures), Error> {
         let drawn = renderer.draw(self.gpu, options)?;
-        let surfaces = self.drawer.draw(self.gpu, renderer, options)?;
+        let surfaces = self.reader.read(self.gpu, renderer, options)?;
         let origin_world = renderer.casters().scene.origin_world();
         let eye = (options.camera.position_world() - origin_world).as_vec3();
         let light = RayLight::new(&renderer.scene().lights[self.light], 0.0, origin_world);

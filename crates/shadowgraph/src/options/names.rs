@@ -4,14 +4,22 @@ use super::OptionError;
 use std::str::FromStr;
 
 /// The names of the sun's shadow techniques, the default first.
-pub const TECHNIQUES: &[&str] = &["pcf"];
+pub const TECHNIQUES: &[&str] = &["pcf", "raytraced", "none"];
 
 /// The names of the built-in pipelines, the default first.
 pub const PIPELINES: &[&str] = &["forward"];
 
 /// A shadow technique that exists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Technique(&'static str);
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Technique {
+    /// `pcf`: shadow maps, [`Pcf`](shadowgraph_shadows::Pcf).
+    #[default]
+    Pcf,
+    /// `raytraced`: a ray a pixel, [`Raytraced`](shadowgraph_shadows::Raytraced).
+    Raytraced,
+    /// `none`: everything is lit, [`NoShadows`](shadowgraph_shadows::NoShadows).
+    None,
+}
 
 /// A built-in pipeline that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +29,11 @@ impl Technique {
     /// Returns its name, one of [`TECHNIQUES`].
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.0
+        match self {
+            Self::Pcf => "pcf",
+            Self::Raytraced => "raytraced",
+            Self::None => "none",
+        }
     }
 }
 
@@ -30,12 +42,6 @@ impl Pipeline {
     #[must_use]
     pub fn name(self) -> &'static str {
         self.0
-    }
-}
-
-impl Default for Technique {
-    fn default() -> Self {
-        Self("pcf")
     }
 }
 
@@ -52,10 +58,12 @@ impl FromStr for Technique {
     /// use shadowgraph::options::Technique;
     /// assert_eq!("pcf".parse(), Ok(Technique::default()));
     /// let error = "soft".parse::<Technique>().unwrap_err();
-    /// assert_eq!(error.to_string(), "--technique: there is no technique `soft`; there is: pcf");
+    /// assert_eq!(error.to_string(), "--technique: there is no technique `soft`; there is: pcf, raytraced, none");
     /// ```
     fn from_str(text: &str) -> Result<Self, OptionError> {
-        known("--technique", "technique", text, TECHNIQUES).map(Self)
+        let all = [Self::Pcf, Self::Raytraced, Self::None];
+        let name = known("--technique", "technique", text, TECHNIQUES)?;
+        Ok(all.into_iter().find(|technique| technique.name() == name).unwrap_or_default())
     }
 }
 
@@ -86,6 +94,9 @@ mod tests {
     #[test]
     fn the_defaults_are_the_first_of_their_lists() {
         assert_eq!(Technique::default().name(), TECHNIQUES[0]);
+        for name in TECHNIQUES {
+            assert_eq!(name.parse::<Technique>().unwrap().name(), *name);
+        }
         assert_eq!(Pipeline::default().name(), PIPELINES[0]);
     }
 

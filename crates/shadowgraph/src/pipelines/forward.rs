@@ -1,4 +1,4 @@
-//! `forward`: shadow maps, a depth prepass, one lit pass, a tonemap.
+//! `forward`: a depth prepass, shadows, one lit pass, a tonemap.
 
 use shadowgraph_core::{Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{Geometry, ViewRecords};
@@ -18,7 +18,7 @@ pub fn forward<'f>(
     renderer: &'f Renderer,
     view: &'f View<'f>,
 ) -> Result<Output, Error> {
-    let Renderer { casters, technique, forward, show, .. } = renderer;
+    let Renderer { casters, technique, forward, surfaces, show, .. } = renderer;
     let options = view.options;
     let size_px = options.size_px;
     let lights = &renderer.scene().lights;
@@ -28,21 +28,25 @@ pub fn forward<'f>(
     let records = ViewRecords::new(&options.camera, size_px, lights, origin_world, &view.ambience);
     let buffers = records.upload(frame);
 
-    // Shadow maps, by whatever technique.
+    // What is seen: its depth, and where a technique asks for it, its surfaces.
+    let geometry = Geometry { scene: &casters.scene, draws: &view.draws, size_px };
+    let (depth, screen) = frame.node("geometry", |frame| {
+        let depth = forward.prepass(frame, &buffers, geometry);
+        let screen = surfaces.as_ref().map(|drawer| drawer.screen(frame, &buffers, &depth, geometry));
+        (depth, screen)
+    });
+
+    // Shadows, by whatever technique.
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
     let (camera, settings) = (&options.camera, &options.shadows);
     let inputs = ShadowInputs { camera, aspect, lights, casters, origin_world, settings };
-    let shadows = technique.add_to(frame, &inputs)?;
+    let shadows = technique.add_to(frame, &inputs, screen.as_ref())?;
 
-    // The scene, depth first. Only pictures have a sky: in the others nothing is where nothing is drawn.
+    // The lit scene. Only pictures have a sky: in the others nothing is where nothing is drawn.
     let is_data = matches!(renderer.aov(), Aov::Visibility(_) | Aov::Cascade | Aov::Normal);
     let background = if is_data { [0.0; 4] } else { view.ambience.background() };
-    let geometry = Geometry { scene: &casters.scene, draws: &view.draws, size_px };
-    let (depth, lit) = frame.node("lighting", |frame| {
-        let depth = forward.prepass(frame, &buffers, geometry);
-        let lit = forward.lit(frame, &buffers, &shadows, &depth, geometry, background);
-        (depth, lit)
-    });
+    let lit =
+        frame.node("lighting", |frame| forward.lit(frame, &buffers, &shadows, &depth, geometry, background));
 
     // The picture. What an output does not need is culled.
     let picture = frame.node("picture", |frame| match renderer.aov() {

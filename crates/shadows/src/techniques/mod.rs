@@ -2,6 +2,8 @@
 
 mod none;
 mod pcf;
+mod raytraced;
 
 pub use none::NoShadows;
 pub use pcf::Pcf;
+pub use raytraced::{MAX_MASK_LAYERS, Raytraced};

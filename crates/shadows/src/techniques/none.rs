@@ -3,7 +3,7 @@
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{ModuleSource, NONE};
 
-use crate::technique::{ShadowOutputs, ShadowTechnique};
+use crate::technique::{Screen, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs};
 
 /// The technique without shadows.
@@ -41,6 +41,7 @@ impl ShadowTechnique for NoShadows {
         &'f self,
         _frame: &mut Frame<'f>,
         _inputs: &ShadowInputs<'f>,
+        _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         Ok(ShadowOutputs { bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() })
     }
@@ -76,7 +77,7 @@ mod tests {
             settings: &ShadowSettings::default(),
         };
         let mut frame = Frame::new();
-        let outputs = technique.add_to(&mut frame, &inputs).unwrap();
+        let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
         assert!(outputs.bindings.is_empty() && outputs.debug.is_empty());
         assert_eq!(frame.compile().unwrap().plan().pass_count(), 0);
     }

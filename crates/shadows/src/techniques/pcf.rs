@@ -4,7 +4,7 @@ use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, Tex
 use shadowgraph_shaders::{ModuleSource, PCF};
 
 use crate::plan;
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique};
+use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
     CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowView, TilePlan,
     caster_view_layout, plan_shadows,
@@ -126,6 +126,7 @@ impl ShadowTechnique for Pcf {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
+        _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let plan = plan_shadows(inputs)?;
         let outputs = frame.node("shadows", |frame| {

@@ -85,7 +85,7 @@ pub(crate) struct DrawArgs {
     /// The pipeline: forward
     #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
     pipeline: String,
-    /// The sun's shadow technique: pcf
+    /// The shadow technique: pcf, raytraced or none
     #[arg(long, value_name = "NAME", default_value = "pcf")]
     technique: String,
     /// Shadow settings in RON
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn a_wrong_value_is_one_line_with_the_option() {
         for (line, start) in [
-            ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf"),
+            ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf, raytraced, none"),
             ("--pipeline;my.ron", "--pipeline: there is no pipeline `my.ron`; there is: forward"),
             ("--size;0x4", "--size: the width 0"),
             ("--sun;dir=0,0,0", "--sun: dir has no length"),

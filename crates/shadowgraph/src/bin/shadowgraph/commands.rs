@@ -51,7 +51,8 @@ fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
     let _drawing = Progress::if_slow("drawing");
     let Options { aov, timings, .. } = input.options.clone();
     let view = view_options(&input);
-    let mut renderer = Renderer::new(gpu, input.scene, &input.camera, aov.clone())?;
+    let technique = input.options.technique;
+    let mut renderer = Renderer::with_technique(gpu, input.scene, &input.camera, aov.clone(), technique)?;
     let mut timer = timings.then(Timer::new);
     if timings {
         // A software driver compiles shaders at the first draw.
@@ -92,7 +93,8 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
         Gpu::noop()?
     };
     let view = view_options(&input);
-    let renderer = Renderer::new(&gpu, input.scene, &input.camera, input.options.aov)?;
+    let Options { aov, technique, .. } = input.options;
+    let renderer = Renderer::with_technique(&gpu, input.scene, &input.camera, aov, technique)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
 }

@@ -1,0 +1,45 @@
+//! Drawing the surfaces that a view sees.
+
+use shadowgraph_core::{Format, Frame, Texture};
+use shadowgraph_lighting::{Forward, Geometry, Shows, ViewBuffers};
+use shadowgraph_scene::gpu::MaterialLayouts;
+use shadowgraph_shadows::{NoShadows, Screen, ShadowOutputs};
+
+use crate::Error;
+
+/// The pass that draws positions and geometric normals.
+pub(crate) struct SurfaceDrawer {
+    forward: Forward,
+}
+
+impl SurfaceDrawer {
+    pub(crate) fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
+        let technique = NoShadows::new(device);
+        let forward = Forward::new(device, layouts, &technique, Format::Rgba32Float, Shows::Surface)?;
+        Ok(Self { forward })
+    }
+
+    /// Adds the pass, behind a prepass that drew `depth`.
+    pub(crate) fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        depth: &Texture,
+        geometry: Geometry<'f>,
+    ) -> Texture {
+        let none = ShadowOutputs { bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() };
+        self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])
+    }
+
+    /// Adds the pass for a technique that reads surfaces.
+    pub(crate) fn screen<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        depth: &Texture,
+        geometry: Geometry<'f>,
+    ) -> Screen {
+        let surfaces = self.add_to(frame, view, depth, geometry);
+        Screen { size_px: geometry.size_px, view: view.view.clone(), lights: view.lights.clone(), surfaces }
+    }
+}

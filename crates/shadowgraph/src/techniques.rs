@@ -1,0 +1,29 @@
+//! The shadow techniques by name.
+
+use glam::DVec3;
+use shadowgraph_scene::Scene;
+use shadowgraph_shadows::rays::GpuRayScene;
+use shadowgraph_shadows::{NoShadows, Pcf, Raytraced, ShadowTechnique};
+
+use crate::measure::ray_scene;
+use crate::options::Technique;
+use crate::{Error, Gpu};
+
+/// Makes a technique for a scene whose GPU positions are relative to `origin_world`.
+pub(crate) fn make(
+    technique: Technique,
+    gpu: &Gpu,
+    scene: &Scene,
+    origin_world: DVec3,
+) -> Result<Box<dyn ShadowTechnique>, Error> {
+    let device = &gpu.device;
+    Ok(match technique {
+        Technique::Pcf => Box::new(Pcf::new(device)),
+        Technique::None => Box::new(NoShadows::new(device)),
+        Technique::Raytraced => {
+            let limit = device.limits().max_storage_buffer_binding_size;
+            let rays = GpuRayScene::new(&ray_scene(scene, origin_world)?, limit);
+            Box::new(Raytraced::new(device, &rays.map_err(shadowgraph_shadows::Error::from)?)?)
+        }
+    })
+}

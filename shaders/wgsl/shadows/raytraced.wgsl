@@ -1,0 +1,24 @@
+// The technique `raytraced`: hard shadows by a ray through the scene's triangles. What the picture shows is looked up
+// in a screen mask that raytrace.wgsl has written, everything else is traced in place.
+#define_import_path shadowgraph::technique
+#import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN}
+#import shadowgraph::shadows::traced::{traced, traced_visibility, TRACED_LIT, TRACED_UNMASKED}
+
+// A layer a light.
+@group(1) @binding(6) var shadow_mask: texture_2d_array<f32>;
+
+fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
+    if light >= arrayLength(&traced.layers) || traced.layers[light] == TRACED_LIT {
+        return vec3f(1.0);
+    }
+    let layer = traced.layers[light];
+    let on_mask = (receiver.flags & (RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN)) == 0u;
+    if on_mask && layer != TRACED_UNMASKED {
+        return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;
+    }
+    return vec3f(traced_visibility(light, receiver.position, receiver.geometric_normal));
+}
+
+fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
+    return vec3f(1.0);
+}

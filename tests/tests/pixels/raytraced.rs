@@ -1,0 +1,163 @@
+//! The technique `raytraced` on what a GPU draws: the same as the CPU's rays, and as all triangles one by one.
+
+use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
+use glam::{DVec3, Vec4};
+use shadowgraph::measure::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases, ray_scene};
+use shadowgraph::options::{Aov, SunChoice, Technique};
+use shadowgraph::scene::trials::trial;
+use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene, TextureRef};
+use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+/// A light's visibility in a view, as the technique has it, 1 or 0, `None` where there is nothing to be lit.
+struct Traced {
+    visibility: Vec<Option<f32>>,
+    surfaces: Surfaces,
+    light: RayLight,
+    rays: RayScene,
+    eye: glam::Vec3,
+}
+
+fn traced(gpu: &Gpu, scene: &Scene, camera: &Camera, light: usize) -> Traced {
+    let options = ViewOptions { camera: camera.clone(), size_px: SIZE_PX, shadows: Default::default() };
+    let aov = Aov::Visibility(light as u32);
+    let mut renderer =
+        Renderer::with_technique(gpu, scene.clone(), camera, aov, Technique::Raytraced).unwrap();
+    let picture = renderer.draw(gpu, &options).unwrap().picture;
+    let surfaces = SurfaceReader::new(gpu, &renderer).unwrap().read(gpu, &mut renderer, &options).unwrap();
+    let origin_world = renderer.casters().scene.origin_world();
+    let drawn = picture.rgba8.chunks_exact(4);
+    Traced {
+        visibility: drawn.map(|texel| (texel[3] > 0).then_some(f32::from(texel[0]) / 255.0)).collect(),
+        surfaces,
+        light: RayLight::new(&scene.lights[light], 0.0, origin_world),
+        rays: ray_scene(scene, origin_world).unwrap(),
+        eye: (camera.position_world() - origin_world).as_vec3(),
+    }
+}
+
+impl Traced {
+    /// How many pixels are not as in `truth`, and how many there are.
+    fn unlike(&self, truth: &[f32], reached: &[f32]) -> (usize, usize) {
+        // Outside of a spot light's cone the CPU does not ask.
+        let pairs = self.visibility.iter().zip(truth).zip(reached).filter(|(_, n_dot_l)| **n_dot_l > 0.0);
+        let known = pairs.filter_map(|((seen, truth), _)| Some((*seen)? == *truth));
+        known.fold((0, 0), |(unlike, all), same| (unlike + usize::from(!same), all + 1))
+    }
+
+    fn unlike_the_cpu(&self) -> (usize, usize) {
+        let truth = Truth::trace(&self.rays, &self.surfaces, &self.light, self.eye);
+        self.unlike(&truth.hard, &truth.n_dot_l)
+    }
+
+    /// Asks every triangle.
+    fn unlike_brute_force(&self) -> (usize, usize) {
+        let n_dot_l = Truth::trace(&self.rays, &self.surfaces, &self.light, self.eye).n_dot_l;
+        let truth = (0..n_dot_l.len()).map(|pixel| {
+            let position = self.surfaces.positions[pixel];
+            let receiver = ReceiverPoint {
+                position,
+                geometric_normal: self.surfaces.normals[pixel],
+                view_distance_m: position.distance(self.eye),
+            };
+            let ray = self.light.shape.ray(&self.rays, &receiver, glam::Vec2::ZERO);
+            ray.is_some_and(|ray| !self.rays.blocked_by_any_of_all(&ray))
+        });
+        let truth: Vec<f32> = truth.map(|lit| f32::from(u8::from(lit))).collect();
+        self.unlike(&truth, &n_dot_l)
+    }
+}
+
+/// 0.01 % of the picture's pixels.
+fn assert_agree(name: &str, (unlike, asked): (usize, usize)) {
+    println!("{name}: {unlike} of {asked} pixels differ");
+    let most = (SIZE_PX[0] * SIZE_PX[1]) as usize / 10_000;
+    assert!(unlike <= most, "{name}: {unlike} of {asked} pixels differ; allowed are {most}");
+}
+
+#[test]
+fn on_every_trial_the_gpu_sees_what_the_cpu_and_all_triangles_one_by_one_see() {
+    let Some(gpu) = gpu() else { return };
+    for case in built_in_cases().unwrap().cases {
+        let mut scene = trial(&case.name()).unwrap();
+        scene.add_light(case.sun(30.0));
+        let traced = traced(gpu, &scene, &case.views[0].camera(), 0);
+        let (unlike, asked) = traced.unlike_the_cpu();
+        assert!(asked > 5_000, "{}: {asked} pixels", case.name());
+        assert_agree(&case.name(), (unlike, asked));
+        if scene.triangle_count() < 1_000 {
+            assert_agree(&format!("{}, by brute force", case.name()), traced.unlike_brute_force());
+        }
+    }
+}
+
+#[test]
+fn spot_and_point_lights_and_holes_are_the_same_on_both_sides() {
+    let Some(gpu) = gpu() else { return };
+    let scene = leaf_scene();
+    let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
+    let camera = Camera::look_at(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.5, 0.0), DVec3::Y, projection);
+    for light in 0..scene.lights.len() {
+        let traced = traced(gpu, &scene, &camera, light);
+        let dark = traced.visibility.iter().filter(|seen| **seen == Some(0.0)).count();
+        assert!(dark > 500, "light {light} casts a shadow of {dark} pixels");
+        assert_agree(&format!("light {light}"), traced.unlike_the_cpu());
+        assert_agree(&format!("light {light}, by brute force"), traced.unlike_brute_force());
+        let shape = traced.light.shape;
+        assert_eq!(matches!(shape, LightShape::Directional { .. }), light == 0);
+    }
+}
+
+/// A plate with a checkered alpha texture over a floor, under a sun, a spot and a point light.
+fn leaf_scene() -> Scene {
+    let texel =
+        |index: u32| [255, 255, 255, if (index % 8 + index / 8).is_multiple_of(2) { 255 } else { 30 }];
+    let rgba8 = (0..64).flat_map(texel).collect();
+    let checkered = Image { name: String::new(), width: 8, height: 8, rgba8 };
+    let holes = shadowgraph::scene::Material {
+        base_color: Vec4::ONE,
+        base_color_texture: Some(TextureRef::new(0)),
+        alpha: AlphaMode::Mask { cutoff: 0.5 },
+        double_sided: true,
+        ..material()
+    };
+    let mut scene = Scene {
+        meshes: vec![floor_mesh(6.0), box_mesh(DVec3::new(-1.0, 1.0, -1.0), DVec3::new(1.0, 1.02, 1.0))],
+        materials: vec![material(), holes],
+        images: vec![checkered],
+        ..Scene::default()
+    };
+    add_instance(&mut scene, 0, 0, DVec3::ZERO);
+    add_instance(&mut scene, 1, 1, DVec3::ZERO);
+    let position_world = DVec3::new(0.7, 3.0, 0.4);
+    let direction = -position_world.normalize();
+    let spot = LightKind::Spot { position_world, direction, range: None, inner_angle: 0.4, outer_angle: 0.6 };
+    let sun = LightKind::Directional { direction: DVec3::new(0.3, -1.0, -0.2).normalize() };
+    let point = LightKind::Point { position_world: DVec3::new(-0.5, 2.4, 0.3), range: None };
+    for kind in [sun, spot, point] {
+        scene.add_light(light(kind, 100.0));
+    }
+    scene
+}
+
+#[test]
+fn on_every_real_scene_the_gpu_sees_what_the_cpu_sees() {
+    let Some(gpu) = gpu() else { return };
+    let Some(folder) = shadowgraph_tests::shared("scenes") else {
+        return shadowgraph_tests::skip(
+            "raytraced scenes",
+            "the collection of real scenes is not at hand (SHADOWGRAPH_SHARED)",
+        );
+    };
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "glb"));
+    files.sort();
+    for file in files {
+        let name = file.file_stem().unwrap().to_string_lossy().into_owned();
+        let mut scene = shadowgraph::scene::gltf::load(&file).unwrap();
+        SunChoice::default().apply(&mut scene);
+        let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
+        let Some(casts) = scene.lights.iter().position(|light| light.casts_shadow) else { continue };
+        assert_agree(&name, traced(gpu, &scene, &camera, casts).unlike_the_cpu());
+    }
+}
