@@ -58,6 +58,7 @@ pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED];
 pub(crate) const ENTRIES: &[ModuleSource] = &[
     file!("depth.wgsl"),
     file!("forward.wgsl"),
+    file!("probe.wgsl"),
     file!("raytrace.wgsl"),
     file!("show.wgsl"),
     file!("tonemap.wgsl"),

@@ -7,7 +7,8 @@ use naga::{
 };
 use shadowgraph_shaders::{ModuleSource, NONE, PCF, RAYTRACED, builtin, builtin_files, compose, layout};
 
-const ENTRIES: [&str; 5] = ["depth.wgsl", "forward.wgsl", "raytrace.wgsl", "show.wgsl", "tonemap.wgsl"];
+const ENTRIES: [&str; 6] =
+    ["depth.wgsl", "forward.wgsl", "probe.wgsl", "raytrace.wgsl", "show.wgsl", "tonemap.wgsl"];
 
 /// The files whose module is `shadowgraph::technique`.
 fn techniques() -> Vec<ModuleSource> {

@@ -41,6 +41,12 @@ impl SceneCasters {
         let draws = scene.draw_list(&all, scene.origin_world()).iter().copied().collect();
         Self { scene, draws, pipelines }
     }
+
+    /// Returns how many triangles some casters have.
+    pub fn triangle_count(&self, casters: &[u32]) -> u64 {
+        let draws = casters.iter().filter_map(|&number| self.draws.get(number as usize));
+        draws.map(|draw| u64::from(self.scene.triangle_count(draw))).sum()
+    }
 }
 
 impl ShadowCasters for SceneCasters {

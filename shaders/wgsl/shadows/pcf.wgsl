@@ -1,6 +1,6 @@
 // The technique `pcf`: cascades for the main light, an atlas for the others, read with a 5 x 5 tent filter.
 #define_import_path shadowgraph::technique
-#import shadowgraph::receiver::Receiver
+#import shadowgraph::receiver::{Receiver, RECEIVER_COARSER}
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
 @group(1) @binding(0) var<storage, read> shadow_views: array<ShadowView>;
@@ -111,19 +111,28 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
         return vec3f(1.0);
     }
     // The first that covers the point has the finest texels.
+    var skips = (receiver.flags & RECEIVER_COARSER) != 0u;
+    var lookup: Lookup;
     for (var i = 0u; i < shadow.view_count; i++) {
-        let lookup = look_up(shadow_views[shadow.first_view + i], shadow, receiver);
-        if lookup.covered {
-            var lit = 1.0;
-            if shadow.map == MAP_CASCADES {
-                lit = tent(cascade_map, lookup);
-            } else {
-                lit = tent(atlas_map, lookup);
+        let found = look_up(shadow_views[shadow.first_view + i], shadow, receiver);
+        if found.covered {
+            lookup = found;
+            if !skips {
+                break;
             }
-            return vec3f(mix(1.0, lit, strength));
+            skips = false;
         }
     }
-    return vec3f(1.0);
+    if !lookup.covered {
+        return vec3f(1.0);
+    }
+    var lit = 1.0;
+    if shadow.map == MAP_CASCADES {
+        lit = tent(cascade_map, lookup);
+    } else {
+        lit = tent(atlas_map, lookup);
+    }
+    return vec3f(mix(1.0, lit, strength));
 }
 
 fn cascade_tint(cascade: u32) -> vec3f {

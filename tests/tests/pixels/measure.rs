@@ -18,9 +18,9 @@ fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
     let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
     let mut instrument = Instrument::new(gpu, &renderer, 0).unwrap();
-    let (errors, pictures) = instrument.measure(&mut renderer, &options).unwrap();
-    assert_eq!(pictures.errors_rgba8().len(), (SIZE_PX[0] * SIZE_PX[1] * 4) as usize);
-    Some(errors)
+    let compared = instrument.measure(&mut renderer, &options).unwrap();
+    assert_eq!(compared.pictures.errors_rgba8().len(), (SIZE_PX[0] * SIZE_PX[1] * 4) as usize);
+    Some(compared.errors)
 }
 
 fn with_bias(bias: BiasSettings) -> ShadowSettings {

@@ -72,6 +72,12 @@ impl GpuScene {
         self.origin_world
     }
 
+    /// Returns how many triangles a draw has.
+    #[must_use]
+    pub fn triangle_count(&self, draw: &Draw) -> u32 {
+        self.geometry.ranges.get(draw.mesh as usize).map_or(0, |range| range.index_count / 3)
+    }
+
     /// Returns the bounds of each instance in the world.
     #[must_use]
     pub fn bounds(&self) -> &[Aabb] {

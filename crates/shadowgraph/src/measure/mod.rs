@@ -1,18 +1,33 @@
 //! Measuring shadows against ray-traced truth.
 
 mod cases;
+mod counting;
+mod flicker;
 pub mod metrics;
+mod motion;
 mod occluders;
 mod parallel;
+mod probe;
 pub mod report;
+mod run;
+mod seam;
+mod subject;
 mod surfaces;
 mod texels;
 mod truth;
 mod view;
+mod views;
 
 pub use cases::{Case, CaseSet, CaseView, SceneSource, built_in_cases};
+pub use flicker::{FLICKER_SIZE_PX, measure_flicker};
+pub use motion::{FAR_OUT_M, STEP_PX, camera_at};
 pub use occluders::ray_scene;
+pub use probe::{Answers, Points, Probe, Question};
+pub use run::{CasePictures, Measured, Task, measure};
+pub use seam::measure_seam;
+pub use subject::{DEFAULT_VIEWS, MAX_LIGHTS, Subject, SubjectLight};
 pub use surfaces::{SurfaceReader, Surfaces};
-pub use texels::Texels;
-pub use truth::{RayLight, Truth};
-pub use view::{Instrument, ViewErrors, ViewPictures};
+pub use texels::{NO_VIEW, Texels};
+pub use truth::{RayLight, SCOUTS, Truth};
+pub use view::{Compared, Ground, Instrument, LAMP_RADIUS_M, SUN_ANGULAR_RADIUS, ViewErrors, ViewPictures};
+pub use views::automatic_views;

@@ -19,6 +19,8 @@ pub struct Surfaces {
     pub normals: Vec<Vec3>,
     /// Metres in front of the camera; 0 where nothing is drawn.
     pub view_depths_m: Vec<f32>,
+    /// As `shadowgraph::surface` of the shaders says.
+    texels: Vec<u8>,
 }
 
 /// Reads back the surfaces of views.
@@ -61,12 +63,12 @@ impl SurfaceReader {
             let texels = executed.read_back(request).ok_or_else(nothing_read)?;
             Ok(texels.wait(&gpu.device)?)
         })?;
-        Ok(Surfaces::decode(&bytes, options, renderer))
+        Ok(Surfaces::decode(bytes, options, renderer))
     }
 }
 
 impl Surfaces {
-    fn decode(bytes: &[u8], options: &ViewOptions, renderer: &Renderer) -> Self {
+    fn decode(bytes: Vec<u8>, options: &ViewOptions, renderer: &Renderer) -> Self {
         let origin_world = renderer.casters.scene.origin_world();
         let view_from_world = options.camera.view_from_world();
         let texels = bytes.chunks_exact(16).map(|texel| {
@@ -79,6 +81,7 @@ impl Surfaces {
             positions: Vec::with_capacity(count),
             normals: Vec::with_capacity(count),
             view_depths_m: Vec::with_capacity(count),
+            texels: Vec::new(),
         };
         for (position, packed) in texels {
             let normal = normal(packed);
@@ -87,7 +90,13 @@ impl Surfaces {
             surfaces.normals.push(normal.unwrap_or(Vec3::ZERO));
             surfaces.view_depths_m.push(if normal.is_some() { -view.z as f32 } else { 0.0 });
         }
+        surfaces.texels = bytes;
         surfaces
+    }
+
+    /// The picture as it was read back.
+    pub(super) fn texels(&self) -> &[u8] {
+        &self.texels
     }
 
     /// Whether anything is drawn in a pixel.

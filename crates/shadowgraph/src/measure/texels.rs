@@ -13,7 +13,12 @@ pub struct Texels {
     pub side_m: Vec<f32>,
     /// How many pixels a texel reaches over at most, where its light falls onto the surface; 0 likewise.
     pub reach_px: Vec<f32>,
+    /// Which of the light's views it is, from 0, the finest; [`NO_VIEW`] likewise.
+    pub views: Vec<u32>,
 }
+
+/// In [`Texels::views`]: no map covers the surface.
+pub const NO_VIEW: u32 = u32::MAX;
 
 impl Texels {
     /// Finds the texels of one light's maps. `origin_world` is what the plan's and the surfaces' positions are relative
@@ -36,15 +41,20 @@ impl Texels {
             camera.clip_from_view(options.aspect()) * camera.view_from_world() * from_origin;
         let screen = Screen { clip_from_position, size_px: DVec2::from(options.size_px.map(f64::from)) };
         let pixels = surfaces.positions.iter().zip(&surfaces.normals);
-        let (side_m, reach_px) = pixels
-            .map(|(position, normal)| match views.iter().find_map(|view| side_m(view, *position)) {
-                Some((side_m, to_light)) if *normal != Vec3::ZERO => {
-                    (side_m, screen.reach_px(*position, *normal, to_light, side_m))
+        let mut texels = Self { side_m: Vec::new(), reach_px: Vec::new(), views: Vec::new() };
+        for (position, normal) in pixels {
+            let found = (0..).zip(views).find_map(|(index, view)| Some((index, side_m(view, *position)?)));
+            let (view, side_m, reach_px) = match found {
+                Some((view, (side_m, to_light))) if *normal != Vec3::ZERO => {
+                    (view, side_m, screen.reach_px(*position, *normal, to_light, side_m))
                 }
-                _ => (0.0, 0.0),
-            })
-            .unzip();
-        Self { side_m, reach_px }
+                _ => (NO_VIEW, 0.0, 0.0),
+            };
+            texels.views.push(view);
+            texels.side_m.push(side_m);
+            texels.reach_px.push(reach_px);
+        }
+        texels
     }
 }
 

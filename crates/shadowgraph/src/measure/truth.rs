@@ -21,6 +21,9 @@ pub struct Truth {
     pub towards_light: Vec<Vec3>,
 }
 
+/// So many rays tell whether a pixel may be in a penumbra.
+pub const SCOUTS: u32 = 8;
+
 /// The light of a view, for rays.
 #[derive(Clone, Copy, Debug)]
 pub struct RayLight {
@@ -99,19 +102,26 @@ impl Truth {
         }
     }
 
-    /// Finds how much of the light each pixel sees, by `rays` rays over its disc.
+    /// Finds how much of the light each pixel sees, by `rays` rays over its disc. Where [`SCOUTS`] rays all say the
+    /// same as hard truth, so does soft truth.
     #[must_use]
     pub fn trace_soft(
         scene: &RayScene,
         surfaces: &Surfaces,
         light: &RayLight,
         eye: Vec3,
+        hard: &[f32],
         rays: u32,
     ) -> Vec<f32> {
         rows(surfaces.size_px, |pixel| {
             let reached =
                 surfaces.is_drawn(pixel) && light.direction_from(surfaces.positions[pixel]).is_some();
-            if reached { soft(scene, &light.shape, &receiver(surfaces, pixel, eye), rays) } else { 0.0 }
+            if !reached {
+                return 0.0;
+            }
+            let receiver = receiver(surfaces, pixel, eye);
+            let scouted = soft(scene, &light.shape, &receiver, SCOUTS);
+            if scouted == hard[pixel] { scouted } else { soft(scene, &light.shape, &receiver, rays) }
         })
     }
 }

@@ -30,6 +30,8 @@ pub(crate) enum Command {
     Dump(DumpArgs),
     /// Measure a frame: the graph beside the same passes encoded by hand, and the time of each pass
     Bench(BenchArgs),
+    /// Measure shadows against ray-traced truth: a table, and with -o a page with pictures
+    Measure(MeasureArgs),
 }
 
 /// `shadowgraph render`
@@ -64,6 +66,54 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) frames: u32,
+}
+
+/// `shadowgraph measure`
+#[derive(Debug, Args)]
+pub(crate) struct MeasureArgs {
+    /// A glTF or GLB file; without it the built-in cases
+    #[arg(conflicts_with = "cases")]
+    pub(crate) scene: Option<PathBuf>,
+    /// The shadow techniques, with commas between: pcf, raytraced, none
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',', default_value = "pcf")]
+    pub(crate) techniques: Vec<String>,
+    /// Scenes, suns and views in RON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) cases: Option<PathBuf>,
+    /// How many views are chosen for the SCENE
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "scene", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) views: u32,
+    /// A view of the SCENE, as for render; can be given several times. Default: --views
+    #[arg(long, value_name = "CAMERA", requires = "scene")]
+    pub(crate) camera: Vec<String>,
+    /// The SCENE's sun, as for render
+    #[arg(long, value_name = "SUN", requires = "scene")]
+    pub(crate) sun: Option<String>,
+    /// Shadow settings in RON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) settings: Option<PathBuf>,
+    /// How far shadows reach, metres. Default: what --settings says, else 150
+    #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
+    pub(crate) shadow_distance: Option<String>,
+    /// Size of the pictures, pixels. Default: 1280x720, with --quick 640x360
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<String>,
+    /// Which GPU; cpu insists on a software driver. Default: auto
+    #[arg(long, value_name = "auto|NAME|cpu")]
+    pub(crate) adapter: Option<String>,
+    /// One light and one view of each scene
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Flicker over 64 frames in every case, twice as many rays: half an hour without a GPU
+    #[arg(long, conflicts_with = "quick")]
+    pub(crate) full: bool,
+    /// The folder for report.html, report.json and the pictures; a missing one is created
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Bounds in RON: what is beyond them is named, and the exit code is 1
+    #[arg(long, value_name = "FILE")]
+    pub(crate) check: Option<PathBuf>,
 }
 
 /// The form of a dump.

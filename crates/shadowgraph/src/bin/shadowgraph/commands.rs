@@ -130,7 +130,8 @@ pub(crate) fn input(args: &DrawArgs) -> Result<Input, Failure> {
     Ok(Input { options, scene, camera })
 }
 
-fn load(file: Option<&Path>) -> Result<Scene, Failure> {
+/// Loads a scene, the built-in one without a file.
+pub(crate) fn load(file: Option<&Path>) -> Result<Scene, Failure> {
     match file {
         Some(file) => {
             let loading = Progress::now(&format!("loading {}", file.display()));

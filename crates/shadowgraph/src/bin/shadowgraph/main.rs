@@ -8,6 +8,7 @@ mod bench;
 mod commands;
 mod console;
 mod failure;
+mod measure;
 mod progress;
 mod report;
 
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args),
         Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args),
+        Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args),
         Err(usage) => return tell_usage(&usage),
     };
     match done {

@@ -1,7 +1,17 @@
 //! What a measurement found: data, a table, a page, and bounds that it is checked against.
 
+mod bounds;
 mod data;
+#[cfg(test)]
+mod fixture;
 mod metric;
+mod page;
+mod summary;
+mod table;
 
+pub use bounds::{Bound, Bounds};
 pub use data::{CaseReport, Cost, Flicker, Motion, PictureFiles, Report};
 pub use metric::{METRICS, Metric, metric};
+pub use page::page;
+pub use summary::{mean, measured, off, techniques, worst};
+pub use table::table;

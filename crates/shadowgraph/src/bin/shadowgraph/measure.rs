@@ -1,0 +1,278 @@
+//! `shadowgraph measure`: how far shadows are from ray-traced truth.
+
+use std::path::{Path, PathBuf};
+
+use crate::args::MeasureArgs;
+use crate::commands;
+use crate::console;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use shadowgraph::measure::report::{Bounds, CaseReport, PictureFiles, Report, page, table};
+use shadowgraph::measure::{
+    Case, CasePictures, CaseSet, Measured, Subject, Task, automatic_views, built_in_cases, measure,
+};
+use shadowgraph::options::{
+    AdapterChoice, CameraChoice, OptionError, ShadowDistance, Size, SunChoice, Technique,
+};
+use shadowgraph::output::{Pixels, write_png, write_text};
+use shadowgraph::scene::Camera;
+use shadowgraph::{Error, Gpu};
+
+/// The folder of the pictures, in the output's folder.
+const PICTURES: &str = "pictures";
+
+/// What the command line says.
+struct Plan {
+    task: Task,
+    adapter: AdapterChoice,
+    work: Work,
+    bounds: Option<(PathBuf, Bounds)>,
+}
+
+/// What is measured.
+enum Work {
+    Cases { cases: Vec<Case>, folder: PathBuf },
+    Scene(Box<Subject>),
+}
+
+/// Measures, prints the table, writes the files, and checks the bounds.
+pub(crate) fn measure_command(args: &MeasureArgs) -> Result<(), Failure> {
+    let plan = plan(args)?;
+    let gpu = Gpu::open(&plan.adapter).map_err(Failure::no_device)?;
+    let output = args.output.as_deref().map(Output::new).transpose()?;
+    let progress = Progress::if_slow("measuring");
+    let mut report = Report {
+        version: Report::VERSION,
+        adapter: gpu.adapter.name.clone(),
+        size_px: plan.task.size_px,
+        settings: plan.task.settings.clone(),
+        cases: Vec::new(),
+    };
+    plan.work.each(args.quick, &mut |part, subject| {
+        progress.set(&subject.name, part);
+        measure(&gpu, subject, &plan.task, &mut |measured: Measured| {
+            let Measured { report: mut case, pictures } = measured;
+            if let (Some(output), Some(pictures)) = (&output, pictures) {
+                case.pictures = Some(output.pictures(report.cases.len(), &case, &pictures)?);
+            }
+            report.cases.push(case);
+            Ok(())
+        })
+    })?;
+    drop(progress);
+    console::print(&table(&report))?;
+    if let Some(output) = output {
+        let page = output.finish(&report)?;
+        console::print(&format!("\nwrote {}\n", page.display()))?;
+    }
+    check(&report, plan.bounds.as_ref())
+}
+
+fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
+    let (settings, distance) = args.settings()?;
+    let size: Size = match &args.size {
+        Some(size) => size.parse()?,
+        None if args.quick => "640x360".parse()?,
+        None => Size::default(),
+    };
+    let (soft_rays, flicker_frames) = match (args.quick, args.full) {
+        (true, _) => (16, 4),
+        (_, true) => (64, 64),
+        _ => (32, 16),
+    };
+    let techniques: Vec<Technique> =
+        args.techniques.iter().map(|name| name.parse()).collect::<Result<_, _>>()?;
+    let task = Task {
+        techniques,
+        size_px: [size.width_px, size.height_px],
+        settings,
+        distance,
+        soft_rays,
+        flicker_frames,
+        flicker_everywhere: args.full,
+        pictures: args.output.is_some(),
+    };
+    task.settings.validate().map_err(|error| Failure::from(Error::from(error)))?;
+    let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
+    Ok(Plan { task, adapter, work: work(args, size)?, bounds: bounds(args.check.as_deref())? })
+}
+
+fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
+    if let Some(file) = &args.cases {
+        let set = CaseSet::parse(&read(file)?, file)?;
+        let folder = file.parent().unwrap_or(Path::new("")).to_owned();
+        return Ok(Work::Cases { cases: set.cases, folder });
+    }
+    let Some(file) = &args.scene else {
+        return Ok(Work::Cases { cases: built_in_cases()?.cases, folder: PathBuf::new() });
+    };
+    let mut scene = commands::load(Some(file))?;
+    scene.notes.iter().for_each(|note| console::warning(note));
+    let sun: SunChoice = args.sun.as_deref().map_or(Ok(SunChoice::default()), str::parse)?;
+    if let Some(note) = sun.apply(&mut scene) {
+        console::warning(&note);
+    }
+    let view = |choice: &String| -> Result<(String, Camera), OptionError> {
+        let camera = choice.parse::<CameraChoice>()?.of(&scene, size.aspect())?;
+        Ok((camera.name.clone().unwrap_or_else(|| choice.clone()), camera))
+    };
+    let mut views = args.camera.iter().map(view).collect::<Result<Vec<_>, _>>()?;
+    if views.is_empty() {
+        views = automatic_views(&scene, args.views as usize)?;
+    }
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    let subject = Subject::new(name, scene, views)?;
+    if subject.lights.is_empty() {
+        let message = format!("{}: no light of the scene casts shadows; see --sun", file.display());
+        return Err(Failure { code: Failure::INPUT, message });
+    }
+    Ok(Work::Scene(Box::new(subject)))
+}
+
+impl Work {
+    /// Does something for each scene, with the part of all that is done before it. Quick work looks at one light and
+    /// one view of each.
+    fn each(
+        self,
+        quick: bool,
+        work: &mut dyn FnMut(f32, &Subject) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let mut one = |part: f32, mut subject: Subject| {
+            if quick {
+                let second = subject.lights.len().min(2).saturating_sub(1);
+                subject.lights = subject.lights.split_off(second);
+                subject.lights.truncate(1);
+                subject.views.truncate(1);
+            }
+            work(part, &subject)
+        };
+        match self {
+            Self::Scene(subject) => one(0.0, *subject),
+            Self::Cases { cases, folder } => {
+                let count = cases.len() as f32;
+                let mut numbered = cases.iter().enumerate();
+                numbered
+                    .try_for_each(|(index, case)| one(index as f32 / count, Subject::of_case(case, &folder)?))
+            }
+        }
+    }
+}
+
+fn bounds(file: Option<&Path>) -> Result<Option<(PathBuf, Bounds)>, Failure> {
+    let Some(file) = file else { return Ok(None) };
+    Ok(Some((file.to_owned(), Bounds::parse(&read(file)?, file)?)))
+}
+
+fn read(file: &Path) -> Result<String, Failure> {
+    let failed = |error| Failure {
+        code: Failure::INPUT,
+        message: format!("{}: cannot be read: {error}", file.display()),
+    };
+    std::fs::read_to_string(file).map_err(failed)
+}
+
+fn check(report: &Report, bounds: Option<&(PathBuf, Bounds)>) -> Result<(), Failure> {
+    let Some((file, bounds)) = bounds else { return Ok(()) };
+    let broken = bounds.broken_by(report);
+    if broken.is_empty() {
+        let count = bounds.bounds.len();
+        return console::print(&format!("\nwithin all {count} bounds of {}\n", file.display()));
+    }
+    let message = format!("worse than {} allows: {}", file.display(), broken.join("; "));
+    Err(Failure { code: Failure::INPUT, message })
+}
+
+/// The folder that is written. Pictures wait in a folder beside it until all is measured.
+struct Output {
+    folder: PathBuf,
+    waiting: tempfile::TempDir,
+}
+
+impl Output {
+    fn new(folder: &Path) -> Result<Self, Failure> {
+        let failed = |reason: String| Failure {
+            code: Failure::INPUT,
+            message: format!("-o {}: {reason}", folder.display()),
+        };
+        if folder.exists() && !folder.is_dir() {
+            return Err(failed("is a file; give the name of a folder".into()));
+        }
+        let prepared = std::fs::create_dir_all(folder)
+            .and_then(|()| tempfile::Builder::new().prefix(".shadowgraph-").tempdir_in(folder));
+        let waiting = prepared.map_err(|error| failed(format!("cannot be written: {error}")))?;
+        Ok(Self { folder: folder.to_owned(), waiting })
+    }
+
+    /// Writes the pictures of a case, and returns where they will be.
+    fn pictures(
+        &self,
+        index: usize,
+        case: &CaseReport,
+        pictures: &CasePictures,
+    ) -> Result<PictureFiles, Failure> {
+        let name =
+            [&case.scene, &case.light, &case.view, &case.technique].map(|name| file_name(name)).join("-");
+        let [width, height] = pictures.compared.size_px;
+        let write = |kind: &str, pixels: Pixels, bytes: &[u8]| {
+            let file = format!("{index:03}-{name}-{kind}.png");
+            write_png(&self.waiting.path().join(&file), width, height, pixels, bytes)?;
+            Ok::<_, Failure>(format!("{PICTURES}/{file}"))
+        };
+        let grey =
+            |values: &[f32]| values.iter().map(|value| (value * 255.0).round() as u8).collect::<Vec<_>>();
+        Ok(PictureFiles {
+            picture: write("picture", Pixels::Rgba, &pictures.color.rgba8)?,
+            truth: write("truth", Pixels::Grey, &grey(&pictures.compared.truth))?,
+            visibility: write("visibility", Pixels::Grey, &grey(&pictures.compared.visibility))?,
+            difference: write("difference", Pixels::Rgba, &pictures.compared.errors_rgba8())?,
+        })
+    }
+
+    /// Puts everything in its place, and returns the page.
+    fn finish(self, report: &Report) -> Result<PathBuf, Failure> {
+        let failed = |error: std::io::Error| Failure {
+            code: Failure::INPUT,
+            message: format!("-o {}: cannot be written: {error}", self.folder.display()),
+        };
+        let pictures = self.folder.join(PICTURES);
+        std::fs::create_dir_all(&pictures).map_err(failed)?;
+        for entry in std::fs::read_dir(self.waiting.path()).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            std::fs::rename(entry.path(), pictures.join(entry.file_name())).map_err(failed)?;
+        }
+        let json = serde_json::to_string_pretty(report)?;
+        write_text(&self.folder.join("report.json"), &json)?;
+        let file = self.folder.join("report.html");
+        write_text(&file, &page(report))?;
+        Ok(file)
+    }
+}
+
+/// What of a name can be part of a file's name anywhere.
+fn file_name(name: &str) -> String {
+    let kept = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    kept.take(40).collect::<String>().trim_matches('_').to_owned()
+}
+
+impl MeasureArgs {
+    /// The shadow settings, and how far shadows reach.
+    fn settings(&self) -> Result<(shadowgraph::shadows::ShadowSettings, ShadowDistance), Failure> {
+        let file = self.settings.as_deref().map(shadowgraph::options::SettingsFile::load).transpose()?;
+        let settings = file.unwrap_or_default().settings;
+        let own = ShadowDistance::Metres(settings.distance_m.into());
+        let distance = self.shadow_distance.as_deref().map_or(Ok(own), str::parse)?;
+        Ok((settings, distance))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_scenes_become_names_of_files() {
+        assert_eq!(file_name("sun 30°"), "sun_30");
+        assert_eq!(file_name("../a/b"), "a_b");
+        assert_eq!(file_name(&"x".repeat(90)).len(), 40);
+    }
+}

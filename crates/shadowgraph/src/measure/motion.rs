@@ -1,0 +1,113 @@
+//! Cameras that move by less than a pixel from frame to frame.
+
+use glam::{DAffine3, DVec3};
+use shadowgraph_scene::{Camera, LightKind, Projection, Scene};
+
+use super::report::Motion;
+use super::view::pixel_m_at_1m;
+
+/// How far what is seen moves over the picture from one frame to the next, pixels.
+pub const STEP_PX: f64 = 0.37;
+
+/// Ten kilometres, where f32 has steps of a millimetre.
+pub const FAR_OUT_M: DVec3 = DVec3::new(8_000.0, 0.0, 6_000.0);
+
+/// Returns the camera at a frame of a motion. `height_px` is the picture's height, `distance_m` how far away is what
+/// moves by [`STEP_PX`] when the camera translates.
+#[must_use]
+pub fn camera_at(camera: &Camera, motion: Motion, frame: u32, height_px: u32, distance_m: f64) -> Camera {
+    let pixels = STEP_PX * f64::from(frame);
+    let pixel = f64::from(pixel_m_at_1m(camera, height_px));
+    let (step, projection) = match motion {
+        Motion::Translate => {
+            let way_m = match camera.projection {
+                Projection::Perspective { .. } => pixels * pixel * distance_m,
+                Projection::Orthographic { .. } => pixels * pixel,
+            };
+            (DAffine3::from_translation(DVec3::new(0.8, 0.0, -0.6) * way_m), camera.projection)
+        }
+        Motion::Rotate => {
+            let turn = DAffine3::from_rotation_y(pixels * pixel * 0.9);
+            (turn * DAffine3::from_rotation_x(pixels * pixel * 0.4), camera.projection)
+        }
+        // What is at the picture's upper edge moves by the step.
+        Motion::Zoom => {
+            let factor = (1.0 - STEP_PX / (0.5 * f64::from(height_px))).powi(frame as i32);
+            (DAffine3::IDENTITY, zoomed(camera.projection, factor))
+        }
+    };
+    Camera { name: camera.name.clone(), world_from_view: camera.world_from_view * step, projection }
+}
+
+fn zoomed(projection: Projection, factor: f64) -> Projection {
+    match projection {
+        Projection::Perspective { fov_y, near, far } => {
+            Projection::Perspective { fov_y: 2.0 * ((fov_y * 0.5).tan() * factor).atan(), near, far }
+        }
+        Projection::Orthographic { half_width, half_height, near, far } => Projection::Orthographic {
+            half_width: half_width * factor,
+            half_height: half_height * factor,
+            near,
+            far,
+        },
+    }
+}
+
+/// Returns a scene with all its instances and lights moved by `offset`; its cameras stay.
+#[must_use]
+pub(super) fn moved(scene: &Scene, offset: DVec3) -> Scene {
+    let mut scene = scene.clone();
+    for instance in &mut scene.instances {
+        instance.world_from_local.translation += offset;
+    }
+    for light in &mut scene.lights {
+        match &mut light.kind {
+            LightKind::Spot { position_world, .. } | LightKind::Point { position_world, .. } => {
+                *position_world += offset;
+            }
+            LightKind::Directional { .. } => {}
+        }
+    }
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEIGHT_PX: u32 = 180;
+
+    fn camera() -> Camera {
+        let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
+        Camera::look_at(DVec3::new(1.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, projection)
+    }
+
+    /// Where a point is in a picture of 320x180, pixels.
+    fn pixel(camera: &Camera, point: DVec3) -> DVec3 {
+        let clip = camera.clip_from_view(320.0 / 180.0) * camera.view_from_world() * point.extend(1.0);
+        clip.truncate() / clip.w * DVec3::new(160.0, 90.0, 0.0)
+    }
+
+    #[test]
+    fn every_motion_moves_what_is_seen_by_less_than_a_pixel_a_frame_but_moves_it() {
+        let camera = camera();
+        let target = camera.position_world() + camera.forward_world() * 5.4;
+        // Off the middle, which zooming leaves where it is.
+        let point = target + DVec3::Y * 1.8;
+        for motion in [Motion::Translate, Motion::Rotate, Motion::Zoom] {
+            let at = |frame| pixel(&camera_at(&camera, motion, frame, HEIGHT_PX, 5.4), point);
+            for frame in 0..64 {
+                let step = at(frame).distance(at(frame + 1));
+                assert!((0.05..0.8).contains(&step), "{motion:?}, frame {frame}: {step} pixels");
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_frame_is_the_camera_itself() {
+        for motion in [Motion::Translate, Motion::Rotate, Motion::Zoom] {
+            let first = camera_at(&camera(), motion, 0, HEIGHT_PX, 5.0);
+            assert!(first.world_from_view.abs_diff_eq(camera().world_from_view, 1e-12), "{motion:?}");
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! A report as one page: numbers to sort and filter, and pictures to flip through.
+
+mod case;
+mod cases;
+mod html;
+mod summary;
+#[cfg(test)]
+mod tests;
+
+use html::escaped;
+
+use super::data::Report;
+use super::summary::{measured, techniques};
+
+/// Returns a report as an HTML page, which needs nothing else but the pictures that the report names, relative to
+/// the page's folder and with `/` between folders. The same report gives the same page.
+#[must_use]
+pub fn page(report: &Report) -> String {
+    let metrics = measured(report);
+    let techniques = techniques(report);
+    let [width_px, height_px] = report.size_px;
+    let settings = serde_json::to_string_pretty(&report.settings).unwrap_or_else(|error| error.to_string());
+    format!(
+        include_str!("page.html"),
+        style = include_str!("page.css"),
+        cases = counted(report.cases.len(), "case"),
+        techniques = counted(techniques.len(), "technique"),
+        width_px = width_px,
+        height_px = height_px,
+        adapter = escaped(&report.adapter),
+        settings = escaped(&settings),
+        summary_groups = "<colgroup span=\"2\"></colgroup>".repeat(techniques.len()),
+        summary_names = summary::names(&techniques),
+        summary_columns = summary::COLUMNS.repeat(techniques.len()),
+        summary_rows = summary::rows(report, &techniques, &metrics),
+        case_headings = cases::headings(&metrics),
+        case_rows = cases::rows(report, &metrics),
+        sections = case::sections(report, &metrics),
+        script = include_str!("page.js"),
+    )
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
