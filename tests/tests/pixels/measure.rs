@@ -2,10 +2,14 @@
 //! seen by the measure that is for it.
 
 use crate::stage::{SIZE_PX, gpu};
-use shadowgraph::measure::{Instrument, ViewErrors, built_in_cases};
-use shadowgraph::options::Aov;
+use glam::DVec3;
+use shadowgraph::measure::report::Motion;
+use shadowgraph::measure::{
+    Instrument, Points, Probe, Question, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
+};
+use shadowgraph::options::{Aov, Technique};
 use shadowgraph::scene::trials::trial;
-use shadowgraph::shadows::{BiasSettings, ShadowSettings};
+use shadowgraph::shadows::{BiasSettings, ShadowSettings, SplitScheme};
 use shadowgraph::{Renderer, ViewOptions};
 
 /// Measures a trial under the sun of 30 degrees, from near.
@@ -65,4 +69,77 @@ fn a_large_bias_is_seen_as_detachment_and_lost_contacts() {
         errors.lost_contacts.lost_percent > 2.0 * good.lost_contacts.lost_percent.max(5.0),
         "{errors:?} {good:?}"
     );
+}
+
+/// Asks the technique at what a view of the slats shows, with the scene and the camera moved together: the same picture,
+/// over texels that lie elsewhere.
+fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<f32>) {
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
+    let mut scene = trial("slats").unwrap();
+    scene.add_light(case.sun(30.0));
+    for instance in &mut scene.instances {
+        instance.world_from_local.translation += offset;
+    }
+    let mut camera = case.views[0].camera();
+    camera.world_from_view.translation += offset;
+    let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
+    let mut instrument = Instrument::new(gpu, &renderer, 0).unwrap();
+    let ground = instrument.ground(&mut renderer, &options, 0).unwrap();
+    let (probe, points) = (Probe::new(gpu, &renderer).unwrap(), Points::new(gpu, &ground.surfaces));
+    let question = Question { light: 0, coarser: false };
+    let answers = probe.ask(gpu, &renderer, &options, &points, question).unwrap();
+    (answers.visibility, ground.truth.hard)
+}
+
+#[test]
+fn texels_that_slide_under_a_scene_are_seen_as_flicker_and_fixed_ones_are_not() {
+    let Some(gpu) = gpu() else { return };
+    // Texels lie fixed in the world. Moving the scene over them is what a camera does whose cascades follow it without
+    // snapping to whole texels.
+    let frames =
+        (0..4).map(|frame| asked_with_scene_at(gpu, DVec3::new(0.0017, 0.0, 0.0009) * f64::from(frame)));
+    let (sliding, truths): (Vec<_>, Vec<_>) = frames.unzip();
+    let sliding = metrics::flicker(&sliding, &truths).unwrap();
+    assert!(sliding.p99 > 10.0 / 255.0, "{sliding:?}");
+
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
+    let mut scene = trial("slats").unwrap();
+    scene.add_light(case.sun(30.0));
+    let camera = case.views[0].camera();
+    let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
+    let found = measure_flicker(gpu, &mut renderer, Technique::Pcf, &options, 0, 4).unwrap();
+    assert_eq!(found.len(), 6);
+    for flicker in found.iter().filter(|flicker| flicker.motion != Motion::Zoom) {
+        assert!(flicker.change.count > 50_000 && flicker.change.p99 <= 1.0 / 255.0, "{flicker:?}");
+    }
+}
+
+#[test]
+fn cascades_that_differ_are_seen_at_their_seam() {
+    let Some(gpu) = gpu() else { return };
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
+    let mut scene = trial("slats").unwrap();
+    scene.add_light(case.sun(30.0));
+    let seam = |shadows: ShadowSettings| {
+        let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
+        let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Visibility(0)).unwrap();
+        let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, &options, 0).unwrap();
+        let probe = Probe::new(gpu, &renderer).unwrap();
+        let (seam, cost) = measure_seam(gpu, &renderer, &probe, &options, &ground, 0).unwrap();
+        assert!(cost.draws > 0 && cost.triangles > 500 && cost.texture_bytes >= 4096 * 2048 * 4, "{cost:?}");
+        seam.unwrap()
+    };
+    let fine = seam(ShadowSettings::default());
+    // Two metres in fine texels, then 150 in coarse ones.
+    let mut two = ShadowSettings::default();
+    two.cascades.count = 2;
+    two.cascades.split = SplitScheme::Ratios(vec![0.016]);
+    let coarse = seam(two);
+    assert!(fine.count > 100 && coarse.count > 100, "{fine:?} {coarse:?}");
+    assert!(coarse.mean > 2.0 * fine.mean && coarse.p99 > 0.5, "{fine:?} {coarse:?}");
 }

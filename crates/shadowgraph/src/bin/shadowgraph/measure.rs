@@ -80,8 +80,7 @@ fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
         (_, true) => (64, 64),
         _ => (32, 16),
     };
-    let techniques: Vec<Technique> =
-        args.techniques.iter().map(|name| name.parse()).collect::<Result<_, _>>()?;
+    let techniques = args.techniques.iter().map(|name| technique(name)).collect::<Result<_, _>>()?;
     let task = Task {
         techniques,
         size_px: [size.width_px, size.height_px],
@@ -95,6 +94,14 @@ fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
     task.settings.validate().map_err(|error| Failure::from(Error::from(error)))?;
     let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
     Ok(Plan { task, adapter, work: work(args, size)?, bounds: bounds(args.check.as_deref())? })
+}
+
+fn technique(name: &str) -> Result<Technique, Failure> {
+    let failed = |error: OptionError| Failure {
+        code: Failure::INPUT,
+        message: error.to_string().replacen("--technique", "--techniques", 1),
+    };
+    name.parse().map_err(failed)
 }
 
 fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {

@@ -112,7 +112,7 @@ mod tests {
             broken,
             [
                 "pcf wrong_percent: mean 2.000 is beyond the bound 1.9",
-                "pcf wrong_percent: worst 3.000 (tower, sun 15, view 1) is beyond the bound 2.9999",
+                "pcf wrong_percent: worst 3 (tower, sun 15, view 1) is beyond the bound 2.9999",
             ]
         );
     }

@@ -1,0 +1,117 @@
+//! The program's `measure`: that shadows are within the stored bounds, and what it says if they are not.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use shadowgraph::options::AdapterChoice;
+use shadowgraph::{Gpu, measure::report::Report};
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs `measure`, or records a skip where there is nothing to draw with.
+fn measure(arguments: &[&str]) -> Option<Output> {
+    if let Err(reason) = Gpu::open(&AdapterChoice::Auto) {
+        shadowgraph_tests::skip("measure", &reason.to_string());
+        return None;
+    }
+    Some(run(arguments))
+}
+
+fn run(arguments: &[&str]) -> Output {
+    let program = shadowgraph_tests::program().unwrap();
+    Command::new(program).arg("measure").args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// One small case, for what does not depend on numbers.
+const SMALL: &str = r#"(cases: [(
+    scene: Trial("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
+    views: [(name: "a <view>", eye: (3, 2, 5), target: (0, 0.5, 0))],
+)])"#;
+
+fn small_case(folder: &Path) -> String {
+    let file = folder.join("cases.ron");
+    std::fs::write(&file, SMALL).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn the_quick_set_is_within_the_stored_bounds() {
+    let bounds = shadowgraph_tests::repository().join("tests/bounds/quick.ron");
+    let Some(output) = measure(&["--quick", "--check", bounds.to_str().unwrap()]) else { return };
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert!(output.status.success(), "{err}\n{out}");
+    assert!(out.contains("within all"), "{out}");
+}
+
+#[test]
+fn a_folder_gets_a_page_with_pictures_and_a_report_that_reads_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let (cases, out) = (small_case(folder.path()), folder.path().join("new/out"));
+    let arguments = ["--quick", "--size", "160x90", "--techniques", "pcf,none", "--cases", &cases, "-o"];
+    let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report: Report =
+        serde_json::from_str(&std::fs::read_to_string(out.join("report.json")).unwrap()).unwrap();
+    assert_eq!((report.version, report.size_px), (Report::VERSION, [160, 90]));
+    let names: Vec<_> = report.cases.iter().map(|case| case.technique.as_str()).collect();
+    assert_eq!(names, ["pcf", "none"]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("a &lt;view&gt;") && !page.contains("a <view>"));
+    for case in &report.cases {
+        let files = case.pictures.as_ref().unwrap();
+        for file in [&files.picture, &files.truth, &files.visibility, &files.difference] {
+            assert_eq!(image::image_dimensions(out.join(file)).unwrap(), (160, 90), "{file}");
+            assert!(page.contains(file.as_str()), "{file}");
+        }
+    }
+    let left: Vec<_> = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 3, "{left:?}");
+    // `none` lights everything: all that is truly dark is wrong.
+    assert!(report.cases[1].errors.lost_contacts.lost_percent > 99.0);
+}
+
+#[test]
+fn what_is_worse_than_its_bound_is_named_and_ends_with_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let (cases, bounds) = (small_case(folder.path()), folder.path().join("bounds.ron"));
+    let lines =
+        r#"(technique: "pcf", metric: "texture_mib", worst: 1), (technique: "pcf", metric: "seam", mean: 1)"#;
+    std::fs::write(&bounds, format!("(bounds: [{lines}])")).unwrap();
+    let bounds = bounds.to_str().unwrap();
+    let arguments = ["--quick", "--size", "160x90", "--cases", &cases, "--check", bounds];
+    let Some(output) = measure(&arguments) else { return };
+    assert_eq!(output.status.code(), Some(1));
+    let error = text(&output.stderr);
+    let expected = "allows: pcf texture_mib: worst 64 (cube, sun 40°, a <view>) is beyond the bound 1";
+    assert!(error.trim_end().ends_with(expected) && error.trim_end().lines().count() == 1, "{error}");
+}
+
+#[test]
+fn wrong_input_is_told_in_one_line_before_anything_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).unwrap();
+        file.to_str().unwrap().to_owned()
+    };
+    let bounds = file("bounds.ron", r#"(bounds: [(technique: "pcf", metric: "blur")])"#);
+    let cases = file("cases.ron", r#"(cases: [(scene: Trial("castle"))])"#);
+    for (arguments, code, expected) in [
+        (vec!["--techniques", "pcf,soft"], 1, "--techniques: there is no technique `soft`"),
+        (vec!["--check", &bounds], 1, "there is no metric `blur`"),
+        (vec!["--cases", &cases], 1, "there is no trial `castle`"),
+        (vec!["--cases", "no/such.ron"], 1, "no/such.ron: cannot be read"),
+        (vec!["no/such.glb"], 1, "no/such.glb"),
+        (vec!["-o", &cases], 1, "is a file; give the name of a folder"),
+        (vec!["--views", "0", "x.glb"], 2, "--views"),
+        (vec!["--quick", "--full"], 2, "--full"),
+    ] {
+        let output = run(&arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
+        assert!(error.contains(expected), "{arguments:?}: {error}");
+        assert!(code == 2 || error.trim_end().lines().count() == 1, "{error}");
+    }
+}
