@@ -5,9 +5,8 @@ use shadowgraph_scene::Scene;
 use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{NoShadows, Pcf, Raytraced, ShadowTechnique};
 
-use crate::measure::ray_scene;
 use crate::options::Technique;
-use crate::{Error, Gpu};
+use crate::{Error, Gpu, ray_scene};
 
 /// Makes a technique for a scene whose GPU positions are relative to `origin_world`.
 pub(crate) fn make(

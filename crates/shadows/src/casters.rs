@@ -14,6 +14,12 @@ pub trait ShadowCasters: Sync {
     /// Returns the bounds of all casters, [`Aabb::EMPTY`] where there are none.
     fn bounds(&self) -> Aabb;
 
+    /// Returns the bounds of everything that shadows can fall on: cascades end there, if that is before the shadow
+    /// distance. By default the bounds of all casters; with surfaces that receive shadows and cast none, theirs too.
+    fn receivers(&self) -> Aabb {
+        self.bounds()
+    }
+
     /// Draws the depth of the casters into the pass. Viewport, scissor and group 0
     /// ([`caster_view_layout`]) are already set: its matrix `clip_from_world` takes positions relative to the
     /// frame's origin. Leave all of these as they are.

@@ -1,6 +1,7 @@
 //! How a [`ShadowPlan`] is made.
 
 use glam::{DMat3, DVec3};
+use shadowgraph_scene::{Aabb, Camera};
 
 use crate::select::{Candidate, Reach, Shape, candidate, main_light};
 use crate::{
@@ -34,7 +35,10 @@ impl<'a> Planner<'a> {
         if !corners.iter().all(|corner| corner.is_finite()) {
             return Err(Error::Camera("projection"));
         }
-        let reach = Reach { camera, aspect, near_m: camera.near(), distance_m };
+        let near_m = camera.near();
+        // Not before the near plane, however small the scene.
+        let fit_m = farthest_m(&inputs.casters.receivers(), camera).max(near_m * 1.01 + 1e-3).min(distance_m);
+        let reach = Reach { camera, aspect, near_m, distance_m, fit_m };
         let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
         Ok(Self { inputs: *inputs, reach, plan })
     }
@@ -97,9 +101,9 @@ impl<'a> Planner<'a> {
     }
 
     fn fit_cascades(&self, light_from_world: DMat3, tile_px: u32) -> Vec<CascadeFit> {
-        let Reach { camera, aspect, near_m, distance_m } = self.reach;
+        let Reach { camera, aspect, near_m, fit_m, .. } = self.reach;
         let settings = &self.inputs.settings.cascades;
-        let ends = split_distances(&settings.split, settings.count, near_m, distance_m);
+        let ends = split_distances(&settings.split, settings.count, near_m, fit_m);
         fit_cascades(camera, aspect, &ends, light_from_world, tile_px, self.plan.needs.margin_px())
     }
 
@@ -148,8 +152,8 @@ impl<'a> Planner<'a> {
                 TileFit::Spot(SpotFit::new(cone, light_from_world, near_m, tile_px, margin_px))
             }
             Shape::Directional { light_from_world } => {
-                let Reach { camera, aspect, near_m, distance_m } = self.reach;
-                let sphere = slice_sphere(&Slice { camera, aspect, near_m, far_m: distance_m });
+                let Reach { camera, aspect, near_m, fit_m, .. } = self.reach;
+                let sphere = slice_sphere(&Slice { camera, aspect, near_m, far_m: fit_m });
                 TileFit::Directional(OrthoFit::new(light_from_world, sphere, tile_px, margin_px))
             }
         }
@@ -170,6 +174,17 @@ impl<'a> Planner<'a> {
         self.plan.lights[light as usize] =
             ShadowLight { map, first_view, view_count, ..ShadowLight::new(settings, self.reach.distance_m) };
     }
+}
+
+/// How far it is from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per factor
+/// of two: it does not change as the camera turns, and rarely as it moves. Infinite for bounds of nothing.
+fn farthest_m(bounds: &Aabb, camera: &Camera) -> f64 {
+    if bounds.is_empty() {
+        return f64::INFINITY;
+    }
+    let eye = camera.position_world();
+    let farthest = bounds.corners().map(|corner| corner.distance(eye)).into_iter().fold(0.0, f64::max);
+    ((farthest.log2() * 4.0).ceil() / 4.0).exp2()
 }
 
 /// What a tile covers.

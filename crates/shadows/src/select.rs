@@ -55,6 +55,8 @@ pub(crate) struct Reach<'a> {
     pub(crate) aspect: f64,
     pub(crate) near_m: f64,
     pub(crate) distance_m: f64,
+    /// Where cascades end, metres of view depth: at the distance, or before, where nothing is left to be shadowed.
+    pub(crate) fit_m: f64,
 }
 
 impl Reach<'_> {

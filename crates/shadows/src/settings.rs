@@ -103,7 +103,7 @@ impl Default for ShadowSettings {
 
 impl Default for CascadeSettings {
     fn default() -> Self {
-        Self { count: 4, map_size_px: 4096, split: SplitScheme::Practical { lambda: 0.9 } }
+        Self { count: 4, map_size_px: 4096, split: SplitScheme::Practical { lambda: 0.85 } }
     }
 }
 
@@ -115,7 +115,7 @@ impl Default for AtlasSettings {
 
 impl Default for BiasSettings {
     fn default() -> Self {
-        Self { normal_texels: 0.25, slope: 1.0, min_slope: 1.0, max_slope: 10.0, depth_texels: 0.5 }
+        Self { normal_texels: 0.25, slope: 1.0, min_slope: 0.5, max_slope: 10.0, depth_texels: 0.25 }
     }
 }
 

@@ -21,6 +21,11 @@ impl ShadowCasters for Boxes {
         self.0.iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
     }
 
+    fn receivers(&self) -> Aabb {
+        // A wide ground that casts no shadow: cascades reach as far as the settings say.
+        Aabb { min: DVec3::splat(-500.0), max: DVec3::splat(500.0) }
+    }
+
     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
 }
 

@@ -59,7 +59,7 @@ fn a_large_bias_is_seen_as_detachment_and_lost_contacts() {
     let bias = BiasSettings { depth_texels: 16.0, normal_texels: 4.0, ..BiasSettings::default() };
     let coarse = |bias| {
         let mut settings = with_bias(bias);
-        settings.cascades.map_size_px = 512;
+        settings.cascades.map_size_px = 256;
         measured("cube", settings)
     };
     let Some(errors) = coarse(bias) else { return };

@@ -2,12 +2,12 @@
 
 use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
 use glam::{DVec3, Vec4};
-use shadowgraph::measure::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases, ray_scene};
+use shadowgraph::measure::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases};
 use shadowgraph::options::{Aov, SunChoice, Technique};
 use shadowgraph::scene::trials::trial;
 use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene, TextureRef};
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 
 /// A light's visibility in a view, as the technique has it, 1 or 0, `None` where there is nothing to be lit.
 struct Traced {

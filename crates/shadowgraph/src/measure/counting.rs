@@ -34,6 +34,10 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.bounds()
     }
 
+    fn receivers(&self) -> Aabb {
+        self.casters.receivers()
+    }
+
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]) {
         self.draws.fetch_add(casters.len() as u64, Ordering::Relaxed);
         self.triangles.fetch_add(self.casters.triangle_count(casters), Ordering::Relaxed);

@@ -2,10 +2,10 @@
 
 mod cases;
 mod counting;
+mod fine;
 mod flicker;
 pub mod metrics;
 mod motion;
-mod occluders;
 mod parallel;
 mod probe;
 pub mod report;
@@ -19,9 +19,9 @@ mod view;
 mod views;
 
 pub use cases::{Case, CaseSet, CaseView, SceneSource, built_in_cases};
+pub use fine::{FINE_POINTS, FINE_REACH_PX};
 pub use flicker::{FLICKER_SIZE_PX, measure_flicker};
 pub use motion::{FAR_OUT_M, STEP_PX, camera_at};
-pub use occluders::ray_scene;
 pub use probe::{Answers, Points, Probe, Question};
 pub use run::{CasePictures, Measured, Task, measure};
 pub use seam::measure_seam;

@@ -25,7 +25,7 @@ pub struct Truth {
 pub const SCOUTS: u32 = 8;
 
 /// The light of a view, for rays.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayLight {
     /// Its shape.
     pub shape: LightShape,

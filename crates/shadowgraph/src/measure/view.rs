@@ -6,19 +6,23 @@ use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 use shadowgraph_shadows::rays::RayScene;
 use shadowgraph_shadows::{ShadowInputs, plan_shadows};
 
+use super::fine::Fine;
 use super::metrics::{
-    Band, Detachment, EdgeError, Images, LostContacts, MeanError, Misclassified, Seen, TowardsLight, band,
-    detachment, edge_error, lost_contacts, mean_error, misclassified,
+    Band, Detachment, EdgeError, Images, LostContacts, MeanError, Misclassified, RECEIVER_N_DOT_L, Seen,
+    TowardsLight, band, detachment, edge_error, lost_contacts, mean_error, misclassified,
 };
 use super::truth::RayLight;
-use super::{SurfaceReader, Surfaces, Texels, Truth, ray_scene};
-use crate::{Error, Gpu, Renderer, ViewOptions};
+use super::{SurfaceReader, Surfaces, Texels, Truth};
+use crate::{Error, Gpu, Renderer, ViewOptions, ray_scene};
 
 /// Half of the angle that the sun takes up in the sky, radians.
 pub const SUN_ANGULAR_RADIUS: f32 = 0.004_65;
 
 /// The radius of spot and point lights, metres: files say nothing of it.
 pub const LAMP_RADIUS_M: f32 = 0.05;
+
+/// What a visibility of 8 bits can be off by.
+const NUMERIC_NOISE: f32 = 1.0 / 255.0;
 
 /// How a technique's shadows of one light differ from the truth in one view.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,6 +57,8 @@ pub struct ViewPictures {
 pub struct Ground {
     /// What the view sees.
     pub surfaces: Surfaces,
+    /// The light.
+    pub light: RayLight,
     /// Whether the light's centre is seen.
     pub truth: Truth,
     /// How much of the light is seen, 0 to 1, if that was asked for.
@@ -120,7 +126,7 @@ impl<'g> Instrument<'g> {
         let soft =
             (soft_rays > 0).then(|| Truth::trace_soft(rays, &surfaces, &light, eye, &truth.hard, soft_rays));
         let texels = texels(renderer, options, &surfaces, self.light, origin_world)?;
-        Ok(Ground { surfaces, truth, soft, texels })
+        Ok(Ground { surfaces, light, truth, soft, texels })
     }
 
     /// Draws what a renderer's technique says of a view, and compares it with the truth.
@@ -134,7 +140,7 @@ impl<'g> Instrument<'g> {
         ground: &Ground,
     ) -> Result<Compared, Error> {
         let drawn = renderer.draw(self.gpu, options)?;
-        let Ground { surfaces, truth, soft, texels } = ground;
+        let Ground { surfaces, truth, soft, texels, .. } = ground;
         let mut n_dot_l = truth.n_dot_l.clone();
         let visibility = visibility(&drawn.picture.rgba8, &mut n_dot_l);
         let seen = Seen::new(Images {
@@ -152,7 +158,8 @@ impl<'g> Instrument<'g> {
             texel_m: &texels.side_m,
             towards_light: TowardsLight::PerPixel(&truth.towards_light),
         })?;
-        let band = band(&seen);
+        let mut band = band(&seen);
+        self.widen(&mut band, &visibility, options, ground, &n_dot_l);
         let errors = ViewErrors {
             misclassified: misclassified(&seen, &band),
             mean_error: mean_error(&seen, &band),
@@ -164,6 +171,27 @@ impl<'g> Instrument<'g> {
         let truth = truth.hard.clone();
         let pictures = ViewPictures { size_px: options.size_px, receivers, band, visibility, truth };
         Ok(Compared { errors, edges, pictures })
+    }
+
+    /// Adds pixels that differ from the truth to the band if an edge runs past their centres, in a shadow that is
+    /// narrower than pixels are apart.
+    fn widen(
+        &self,
+        band: &mut Band,
+        visibility: &[f32],
+        options: &ViewOptions,
+        ground: &Ground,
+        n_dot_l: &[f32],
+    ) {
+        let Some((origin_world, rays)) = &self.rays else { return };
+        let fine = Fine::new(rays, &ground.light, &ground.surfaces, options, *origin_world);
+        for pixel in 0..visibility.len() {
+            let differs = (visibility[pixel] - ground.truth.hard[pixel]).abs() > NUMERIC_NOISE;
+            let counts = ground.surfaces.is_drawn(pixel) && n_dot_l[pixel] > RECEIVER_N_DOT_L;
+            if differs && counts && !band.contains(pixel) && fine.changes_around(pixel) {
+                band.insert(pixel);
+            }
+        }
     }
 
     /// The triangles relative to an origin.

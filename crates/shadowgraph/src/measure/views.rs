@@ -6,8 +6,7 @@ use glam::{DVec3, Vec3};
 use shadowgraph_scene::{Aabb, Camera, Projection, Scene, origin_near};
 use shadowgraph_shadows::rays::{Ray, RayScene};
 
-use super::ray_scene;
-use crate::Error;
+use crate::{Error, ray_scene};
 
 /// The height of a person's eyes, metres.
 const EYE_M: f64 = 1.7;
@@ -72,41 +71,53 @@ impl Finder {
         let height_m = EYE_M.min(size.y * EYE_PART);
         let tried = (seed + 1..=seed + TRIES).filter_map(|index| {
             let place = self.bounds.min + size * halton(index);
-            let floor = place - DVec3::Y * self.free_m(place, DVec3::NEG_Y)?;
+            let down = self.look(place, DVec3::NEG_Y)?;
+            let floor = place - DVec3::Y * down.free_m;
             let eye = floor + DVec3::Y * height_m;
-            let overhead_m = self.free_m(floor + DVec3::Y * height_m * 0.01, DVec3::Y);
-            let (way, room_m) = self.widest(eye)?;
-            // Not under the floor of something else, and not in front of a wall.
-            let fits = overhead_m.is_none_or(|free| free > 1.5 * height_m) && room_m > 4.0 * height_m;
-            fits.then_some((eye, way, room_m))
+            let above = self.look(floor + DVec3::Y * height_m * 0.01, DVec3::Y);
+            let (way, room_m) = self.widest(eye, height_m)?;
+            // Not inside of things or under their floor, and not in front of a wall.
+            let stands = !down.from_behind && above.is_none_or(|above| above.free_m > 1.5 * height_m);
+            (stands && room_m > 4.0 * height_m).then_some((eye, way, room_m))
         });
         let (eye, way, _) = tried.max_by(|a, b| a.2.total_cmp(&b.2))?;
         let projection = Projection::Perspective { fov_y: FOV_Y, near: (height_m * 0.1).min(0.1), far: None };
         Some(Camera::look_at(eye, eye + way - DVec3::Y * 0.15, DVec3::Y, projection))
     }
 
-    /// The level way with the most room, and how much room there is, at most the scene's width; `None` if it is tight
-    /// on any side.
-    fn widest(&self, eye: DVec3) -> Option<(DVec3, f64)> {
-        let size = self.bounds.max - self.bounds.min;
-        let most_m = size.x.max(size.z) * 0.5;
+    /// The level way with the most room to something that is seen from its front, and how much room there is; `None` if
+    /// it is tight on any side, or if many things are seen from behind: then the eye is inside of them.
+    fn widest(&self, eye: DVec3, height_m: f64) -> Option<(DVec3, f64)> {
         let ways = (0..WAYS).map(|way| {
             let (sin, cos) = (TAU * f64::from(way) / f64::from(WAYS)).sin_cos();
             DVec3::new(cos, 0.0, sin)
         });
-        let room: Vec<_> =
-            ways.map(|way| (way, self.free_m(eye, way).unwrap_or(0.5 * most_m).min(most_m))).collect();
-        let tightest = room.iter().map(|(_, free)| *free).fold(f64::INFINITY, f64::min);
-        let widest = room.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        (tightest > 0.3 * EYE_M.min(size.y * EYE_PART)).then_some(widest)
+        let seen: Vec<_> = ways.filter_map(|way| Some((way, self.look(eye, way)?))).collect();
+        let behind = seen.iter().filter(|(_, seen)| seen.from_behind).count();
+        let tight = seen.iter().any(|(_, seen)| seen.free_m < 0.3 * height_m);
+        if tight || behind * 4 > seen.len() {
+            return None;
+        }
+        let fronts = seen.into_iter().filter(|(_, seen)| !seen.from_behind);
+        fronts.map(|(way, seen)| (way, seen.free_m)).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// How far it is to the next surface, metres; `None`: there is none.
-    fn free_m(&self, from: DVec3, way: DVec3) -> Option<f64> {
+    /// The next surface; `None`: there is none.
+    fn look(&self, from: DVec3, way: DVec3) -> Option<Look> {
         let origin: Vec3 = (from - self.origin_world).as_vec3();
         let ray = Ray::new(origin, way.as_vec3(), 0.0, f32::INFINITY);
-        self.rays.nearest(&ray).map(f64::from)
+        let (free_m, triangle) = self.rays.nearest_triangle(&ray)?;
+        let [a, b, c] = self.rays.triangles().get(triangle)?.corners();
+        let from_behind = (b - a).cross(c - a).dot(way.as_vec3()) > 0.0;
+        Some(Look { free_m: f64::from(free_m), from_behind })
     }
+}
+
+/// What is seen along a way.
+struct Look {
+    /// How far away it is, metres.
+    free_m: f64,
+    from_behind: bool,
 }
 
 /// A sequence of points that fills the unit cube evenly (Halton 1960), bases 2, 3 and 5.

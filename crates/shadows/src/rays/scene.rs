@@ -64,10 +64,16 @@ impl RayScene {
     /// The distance along the ray to the first thing it meets that is not a hole, metres.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<f32> {
+        self.nearest_triangle(ray).map(|(distance_m, _)| distance_m)
+    }
+
+    /// The same as [`nearest`](Self::nearest), and which of the [`triangles`](Self::triangles) it is.
+    #[must_use]
+    pub fn nearest_triangle(&self, ray: &Ray) -> Option<(f32, usize)> {
         let distance = |_: &obvhs::ray::Ray, index| self.distance(ray, index).unwrap_or(f32::INFINITY);
         let mut hit = RayHit::none();
         self.bvh.ray_traverse(ray.for_boxes(), &mut hit, distance);
-        (hit.primitive_id != INVALID_ID).then_some(hit.t)
+        (hit.primitive_id != INVALID_ID).then_some((hit.t, hit.primitive_id as usize))
     }
 
     /// The same as [`nearest`](Self::nearest) by a test of every triangle: slow, for tests of the tree.

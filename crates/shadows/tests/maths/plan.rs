@@ -57,7 +57,8 @@ fn nothing_to_shadow_costs_nothing() {
 fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
     let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 90.0), sun(-DVec3::ONE, 20.0), lamp(2.0)]);
     let cascades = plan.cascades.as_ref().unwrap();
-    assert!(cascades.tiles.iter().all(|tile| tile.light == 1 && tile.casters == [0]));
+    assert!(cascades.tiles.iter().all(|tile| tile.light == 1));
+    assert_eq!(cascades.tiles[3].casters, [0]);
     assert_eq!(cascades.tiles.iter().map(|tile| tile.cascade).collect::<Vec<_>>(), [0, 1, 2, 3].map(Some));
     let atlas = plan.atlas.as_ref().unwrap();
     assert_eq!(
@@ -243,4 +244,30 @@ fn needs_name_filter_and_bias() {
     let needs = ShadowPlan::all_lit(0, &settings).needs;
     assert_eq!((needs.kernel_radius_texels, needs.bias_texels, needs.blocker_reach_m), (3.0, 2.0, 0.0));
     assert_eq!(needs.margin_px(), 6.0);
+}
+
+/// The radius of the last cascade of a plan with a cube of this side.
+fn last_radius_m(camera: &Camera, side: f64) -> f32 {
+    let boxes = Boxes(vec![cube(DVec3::ZERO, side)]);
+    let plan = try_plan(camera, &[sun(DOWN, 1.0)], &boxes, &ShadowSettings::default()).unwrap();
+    plan.views.last().unwrap().radius
+}
+
+#[test]
+fn cascades_end_where_nothing_is_left_to_be_shadowed_but_not_beyond_the_shadow_distance() {
+    let (small, large, huge) =
+        (last_radius_m(&look(), 10.0), last_radius_m(&look(), 40.0), last_radius_m(&look(), 4000.0));
+    assert!(small * 2.0 < large && large * 2.0 < huge, "{small} {large} {huge}");
+    assert_eq!(huge, last_radius_m(&look(), 8000.0));
+}
+
+#[test]
+fn cascades_stay_as_large_when_the_camera_turns() {
+    let eye = DVec3::new(3.0, 2.0, 8.0);
+    let radii = (0..32).map(|turn| {
+        let (sin, cos) = (f64::from(turn) * 0.2).sin_cos();
+        last_radius_m(&camera(eye, eye + DVec3::new(cos, -0.3, sin)), 40.0)
+    });
+    let radii: std::collections::BTreeSet<u32> = radii.map(f32::to_bits).collect();
+    assert_eq!(radii.len(), 1, "{radii:?}");
 }

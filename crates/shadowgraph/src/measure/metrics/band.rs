@@ -23,6 +23,13 @@ impl Band {
         self.inside.get(pixel).copied().unwrap_or(false)
     }
 
+    /// Adds a pixel of the picture.
+    pub fn insert(&mut self, pixel: usize) {
+        if let Some(inside) = self.inside.get_mut(pixel) {
+            *inside = true;
+        }
+    }
+
     /// How many pixels are in it, receivers or not.
     #[must_use]
     pub fn count(&self) -> usize {

@@ -77,7 +77,7 @@ impl Bound {
 
 /// Says so if a value is beyond its bound; a value that is no number is.
 fn beyond(metric: &Metric, what: &str, value: f64, bound: Option<f64>, place: &str) -> Option<String> {
-    let bound = bound.filter(|&bound| !(off(metric, value) <= off(metric, bound)))?;
+    let bound = bound.filter(|&bound| off(metric, value).total_cmp(&off(metric, bound)).is_gt())?;
     // As many digits as tell the two apart.
     let shown_value = match shown(metric, Some(value)) {
         text if text == shown(metric, Some(bound)) => value.to_string(),
