@@ -3,8 +3,8 @@
 use glam::{DAffine3, DVec3};
 use shadowgraph_scene::{Camera, LightKind, Projection, Scene};
 
+use super::instrument::pixel_m_at_1m;
 use super::report::Motion;
-use super::view::pixel_m_at_1m;
 
 /// How far what is seen moves over the picture from one frame to the next, pixels.
 pub const STEP_PX: f64 = 0.37;

@@ -8,8 +8,8 @@ use shadowgraph_shadows::ShadowInputs;
 
 use super::Surfaces;
 use super::counting::CountingCasters;
+use super::instrument::pixel_m_at_1m;
 use super::report::Cost;
-use super::view::pixel_m_at_1m;
 use crate::pipelines::View;
 use crate::renderer::nothing_read;
 use crate::{Error, Gpu, Renderer, ViewOptions};

@@ -1,6 +1,6 @@
 //! One light in one view: what a technique says, the truth, and how they differ.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 use shadowgraph_shadows::rays::RayScene;
@@ -12,7 +12,7 @@ use super::metrics::{
     TowardsLight, band, detachment, edge_error, lost_contacts, mean_error, misclassified,
 };
 use super::truth::RayLight;
-use super::{SurfaceReader, Surfaces, Texels, Truth};
+use super::{SurfaceReader, Surfaces, Texels, Truth, ViewPictures};
 use crate::{Error, Gpu, Renderer, ViewOptions, ray_scene};
 
 /// Half of the angle that the sun takes up in the sky, radians.
@@ -35,21 +35,6 @@ pub struct ViewErrors {
     pub lost_contacts: LostContacts,
     /// How far shadows begin from what casts them.
     pub detachment: Detachment,
-}
-
-/// All that was looked at to find the errors, row by row from the top.
-#[derive(Clone, Debug)]
-pub struct ViewPictures {
-    /// Width and height, pixels.
-    pub size_px: [u32; 2],
-    /// What the technique says, 0 to 1.
-    pub visibility: Vec<f32>,
-    /// What is true, 0 or 1.
-    pub truth: Vec<f32>,
-    /// Whether the pixel counts.
-    pub receivers: Vec<bool>,
-    /// Pixels so near to edges that they are counted apart.
-    pub band: Band,
 }
 
 /// What is known of a light in a view before any technique is asked.
@@ -252,27 +237,4 @@ pub(super) fn pixel_m_at_1m(camera: &Camera, height_px: u32) -> f32 {
         Projection::Orthographic { half_height, .. } => 2.0 * half_height,
     };
     (height_m / f64::from(height_px)) as f32
-}
-
-/// Colours for people: what is wrong in a view.
-impl ViewPictures {
-    /// Returns a picture of the errors, four bytes a pixel: grey is the visibility, red is dark but truly lit, blue lit
-    /// but truly dark, both paler in the band; what does not count is dim.
-    #[must_use]
-    pub fn errors_rgba8(&self) -> Vec<u8> {
-        (0..self.visibility.len()).flat_map(|pixel| self.color(pixel)).collect()
-    }
-
-    fn color(&self, pixel: usize) -> [u8; 4] {
-        let grey = Vec3::splat(0.15 + 0.6 * self.visibility[pixel]);
-        if !self.receivers[pixel] {
-            let [grey, ..] = (grey * 80.0).to_array();
-            return [grey as u8, grey as u8, grey as u8 + 15, 255];
-        }
-        let off = self.visibility[pixel] - self.truth[pixel];
-        let color = if off < 0.0 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.1, 0.2, 1.0) };
-        let weight = off.abs() * if self.band.contains(pixel) { 0.45 } else { 1.0 };
-        let [red, green, blue] = (grey.lerp(color, weight) * 255.0).to_array();
-        [red as u8, green as u8, blue as u8, 255]
-    }
 }
