@@ -84,7 +84,7 @@ fn what_is_worse_than_its_bound_is_named_and_ends_with_1() {
     let Some(output) = measure(&arguments) else { return };
     assert_eq!(output.status.code(), Some(1));
     let error = text(&output.stderr);
-    let expected = "allows: pcf texture_mib: worst 64 (cube, sun 40°, a <view>) is beyond the bound 1";
+    let expected = "allows: pcf texture_mib: worst 64.0 (cube, sun 40°, a <view>) is beyond the bound 1";
     assert!(error.trim_end().ends_with(expected) && error.trim_end().lines().count() == 1, "{error}");
 }
 
@@ -97,11 +97,14 @@ fn wrong_input_is_told_in_one_line_before_anything_is_drawn() {
         file.to_str().unwrap().to_owned()
     };
     let bounds = file("bounds.ron", r#"(bounds: [(technique: "pcf", metric: "blur")])"#);
+    let other = file("other.ron", r#"(bounds: [(technique: "evsm", metric: "seam", mean: 1)])"#);
     let cases = file("cases.ron", r#"(cases: [(scene: Trial("castle"))])"#);
     for (arguments, code, expected) in [
         (vec!["--techniques", "pcf,soft"], 1, "--techniques: there is no technique `soft`"),
         (vec!["--check", &bounds], 1, "there is no metric `blur`"),
+        (vec!["--check", &other], 1, "`evsm` is not among --techniques: pcf"),
         (vec!["--cases", &cases], 1, "there is no trial `castle`"),
+        (vec!["--cases", &cases, "--sun", "none"], 2, "--sun"),
         (vec!["--cases", "no/such.ron"], 1, "no/such.ron: cannot be read"),
         (vec!["no/such.glb"], 1, "no/such.glb"),
         (vec!["-o", &cases], 1, "is a file; give the name of a folder"),

@@ -105,10 +105,16 @@ impl CaseSet {
         let place = place.display().to_string();
         let failed = |reason: String| Error::Cases { place: place.clone(), reason };
         let set: Self = ron::from_str(text).map_err(|error| failed(error.to_string()))?;
+        if set.cases.is_empty() {
+            return Err(failed("there is no case; give at least one".into()));
+        }
         set.cases.iter().try_for_each(|case| case.check().map_err(failed))?;
         Ok(set)
     }
 }
+
+/// The largest coordinate of a view, metres.
+const FARTHEST_M: f64 = 1e9;
 
 impl Case {
     fn check(&self) -> Result<(), String> {
@@ -130,8 +136,14 @@ impl Case {
             ));
         }
         for view in &self.views {
-            let finite = view.eye.iter().chain(&view.target).all(|value| value.is_finite());
-            if !finite || view.eye == view.target {
+            let numbers = || view.eye.iter().chain(&view.target);
+            if let Some(wrong) = numbers().find(|value| !(-FARTHEST_M..=FARTHEST_M).contains(*value)) {
+                return Err(format!(
+                    "{name}, view {}: eye and target have {wrong}; give coordinates from -1e9 to 1e9 m",
+                    view.name
+                ));
+            }
+            if view.eye == view.target {
                 return Err(format!(
                     "{name}, view {}: eye and target must be two different points",
                     view.name
@@ -174,6 +186,10 @@ mod tests {
         assert!(problem(text).contains("cube: sun_elevations_deg is 95; give heights above 0 and up to 90"));
         let text = r#"(cases: [(scene: Trial("cube"), suns: [])])"#;
         assert!(problem(text).contains("my.ron: 1:") && problem(text).contains("suns"), "{}", problem(text));
+        assert!(problem("(cases: [])").contains("my.ron: there is no case"));
+        let view = r#"(name: "a", eye: (NaN, 1, 2), target: (0, 1, 2))"#;
+        let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
+        assert!(problem(&text).contains("cube, view a: eye and target have NaN; give coordinates"));
         let view = r#"(name: "a", eye: (0, 1, 2), target: (0, 1, 2))"#;
         let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
         assert!(problem(&text).contains("cube, view a: eye and target"));

@@ -82,13 +82,14 @@ pub(crate) struct MeasureArgs {
     pub(crate) cases: Option<PathBuf>,
     /// How many views are chosen for the SCENE
     #[arg(long, value_name = "N", default_value_t = 4, requires = "scene", allow_negative_numbers = true)]
+    #[arg(conflicts_with = "cases")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) views: u32,
     /// A view of the SCENE, as for render; can be given several times. Default: --views
-    #[arg(long, value_name = "CAMERA", requires = "scene")]
+    #[arg(long, value_name = "CAMERA", requires = "scene", conflicts_with = "cases")]
     pub(crate) camera: Vec<String>,
     /// The SCENE's sun, as for render
-    #[arg(long, value_name = "SUN", requires = "scene")]
+    #[arg(long, value_name = "SUN", requires = "scene", conflicts_with = "cases")]
     pub(crate) sun: Option<String>,
     /// Shadow settings in RON
     #[arg(long, value_name = "FILE")]
@@ -102,7 +103,7 @@ pub(crate) struct MeasureArgs {
     /// Which GPU; cpu insists on a software driver. Default: auto
     #[arg(long, value_name = "auto|NAME|cpu")]
     pub(crate) adapter: Option<String>,
-    /// One light and one view of each scene
+    /// One light of each scene, and one view unless --camera names them
     #[arg(long)]
     pub(crate) quick: bool,
     /// Flicker over 64 frames in every case, twice as many rays: half an hour without a GPU

@@ -7,7 +7,7 @@ use crate::commands;
 use crate::console;
 use crate::failure::Failure;
 use crate::progress::Progress;
-use shadowgraph::measure::report::{Bounds, CaseReport, PictureFiles, Report, page, table};
+use shadowgraph::measure::report::{Bound, Bounds, CaseReport, PictureFiles, Report, page, table};
 use shadowgraph::measure::{
     Case, CasePictures, CaseSet, Measured, Subject, Task, automatic_views, built_in_cases, measure,
 };
@@ -32,7 +32,7 @@ struct Plan {
 /// What is measured.
 enum Work {
     Cases { cases: Vec<Case>, folder: PathBuf },
-    Scene(Box<Subject>),
+    Scene { subject: Box<Subject>, views_named: bool },
 }
 
 /// Measures, prints the table, writes the files, and checks the bounds.
@@ -93,7 +93,8 @@ fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
     };
     task.settings.validate().map_err(|error| Failure::from(Error::from(error)))?;
     let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
-    Ok(Plan { task, adapter, work: work(args, size)?, bounds: bounds(args.check.as_deref())? })
+    let bounds = bounds(args.check.as_deref(), &args.techniques)?;
+    Ok(Plan { task, adapter, work: work(args, size)?, bounds })
 }
 
 fn technique(name: &str) -> Result<Technique, Failure> {
@@ -133,28 +134,31 @@ fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
         let message = format!("{}: no light of the scene casts shadows; see --sun", file.display());
         return Err(Failure { code: Failure::INPUT, message });
     }
-    Ok(Work::Scene(Box::new(subject)))
+    Ok(Work::Scene { subject: Box::new(subject), views_named: !args.camera.is_empty() })
 }
 
 impl Work {
-    /// Does something for each scene, with the part of all that is done before it. Quick work looks at one light and
-    /// one view of each.
+    /// Does something for each scene, with the part of all that is done before it. Quick work looks at one light of
+    /// each, and at one view unless the user named them.
     fn each(
         self,
         quick: bool,
         work: &mut dyn FnMut(f32, &Subject) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
+        let views_named = matches!(self, Self::Scene { views_named: true, .. });
         let mut one = |part: f32, mut subject: Subject| {
             if quick {
                 let second = subject.lights.len().min(2).saturating_sub(1);
                 subject.lights = subject.lights.split_off(second);
                 subject.lights.truncate(1);
-                subject.views.truncate(1);
+                if !views_named {
+                    subject.views.truncate(1);
+                }
             }
             work(part, &subject)
         };
         match self {
-            Self::Scene(subject) => one(0.0, *subject),
+            Self::Scene { subject, .. } => one(0.0, *subject),
             Self::Cases { cases, folder } => {
                 let count = cases.len() as f32;
                 let mut numbered = cases.iter().enumerate();
@@ -165,9 +169,17 @@ impl Work {
     }
 }
 
-fn bounds(file: Option<&Path>) -> Result<Option<(PathBuf, Bounds)>, Failure> {
+fn bounds(file: Option<&Path>, techniques: &[String]) -> Result<Option<(PathBuf, Bounds)>, Failure> {
     let Some(file) = file else { return Ok(None) };
-    Ok(Some((file.to_owned(), Bounds::parse(&read(file)?, file)?)))
+    let bounds = Bounds::parse(&read(file)?, file)?;
+    match bounds.bounds.iter().find(|bound| !techniques.contains(&bound.technique)) {
+        None => Ok(Some((file.to_owned(), bounds))),
+        Some(Bound { technique, .. }) => {
+            let measured = techniques.join(", ");
+            let message = format!("{}: `{technique}` is not among --techniques: {measured}", file.display());
+            Err(Failure { code: Failure::INPUT, message })
+        }
+    }
 }
 
 fn read(file: &Path) -> Result<String, Failure> {
@@ -203,6 +215,10 @@ impl Output {
         };
         if folder.exists() && !folder.is_dir() {
             return Err(failed("is a file; give the name of a folder".into()));
+        }
+        let pictures = folder.join(PICTURES);
+        if pictures.exists() && !pictures.is_dir() {
+            return Err(failed(format!("{PICTURES} in it is a file, not a folder")));
         }
         let prepared = std::fs::create_dir_all(folder)
             .and_then(|()| tempfile::Builder::new().prefix(".shadowgraph-").tempdir_in(folder));

@@ -34,7 +34,7 @@ pub struct Wrong {
     pub acne_percent: f64,
     /// `leak` in percent of `receivers`; 0 if there are none.
     pub leak_percent: f64,
-    /// The acne by how the surface is turned to the light.
+    /// The acne by how the surface is turned to the light: bins, each up to where the next one begins.
     pub acne_by_n_dot_l: [AcneBin; N_DOT_L_BINS.len()],
 }
 

@@ -43,14 +43,8 @@ impl Bounds {
         let options =
             ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
         let bounds: Self = options.from_str(text).map_err(|error| failed(error.to_string()))?;
-        match bounds.bounds.iter().find(|bound| metric(&bound.metric).is_none()) {
-            None => Ok(bounds),
-            Some(bound) => {
-                let known: Vec<_> = METRICS.iter().map(|metric| metric.name).collect();
-                let known = known.join(", ");
-                Err(failed(format!("there is no metric `{}`; there is: {known}", bound.metric)))
-            }
-        }
+        bounds.bounds.iter().try_for_each(Bound::check).map_err(failed)?;
+        Ok(bounds)
     }
 
     /// Returns a sentence for each number of a report that is beyond its bound, or that is missing.
@@ -61,6 +55,28 @@ impl Bounds {
 }
 
 impl Bound {
+    fn check(&self) -> Result<(), String> {
+        if metric(&self.metric).is_none() {
+            let known: Vec<_> = METRICS.iter().map(|metric| metric.name).collect();
+            return Err(format!("there is no metric `{}`; there is: {}", self.metric, known.join(", ")));
+        }
+        let given = [("mean", self.mean), ("worst", self.worst)];
+        let wrong = given
+            .into_iter()
+            .find(|(_, bound)| bound.is_some_and(|bound| !(0.0..=f64::MAX).contains(&bound)));
+        match wrong {
+            Some((what, bound)) => {
+                let bound = bound.unwrap_or_default();
+                let name = format!("{} {}", self.technique, self.metric);
+                Err(format!("{name}: {what} is {bound}; give a number of 0 or above"))
+            }
+            None if self.mean.is_none() && self.worst.is_none() => {
+                Err(format!("{} {}: give mean, worst or both", self.technique, self.metric))
+            }
+            None => Ok(()),
+        }
+    }
+
     fn broken_by(&self, report: &Report) -> Vec<String> {
         let Some(metric) = metric(&self.metric) else { return Vec::new() };
         let name = format!("{} {}", self.technique, self.metric);
@@ -135,6 +151,15 @@ mod tests {
     fn wrong_bounds_are_refused_in_one_line() {
         let error = bounds(r#"(bounds: [(technique: "pcf", metric: "blur", worst: 1)])"#).unwrap_err();
         assert!(error.starts_with("my.ron: there is no metric `blur`; there is: wrong_percent, "), "{error}");
+        for (given, expected) in [
+            ("worst: NaN", "pcf seam: worst is NaN; give a number of 0 or above"),
+            ("mean: -1", "pcf seam: mean is -1; give"),
+            ("", "pcf seam: give mean, worst or both"),
+        ] {
+            let text = format!(r#"(bounds: [(technique: "pcf", metric: "seam", {given})])"#);
+            let error = bounds(&text).unwrap_err();
+            assert!(error.contains(expected), "{error}");
+        }
         let error = bounds("(bounds: [(technique: 3)])").unwrap_err();
         assert!(error.starts_with("my.ron: 1:") && error.lines().count() == 1, "{error}");
     }

@@ -77,7 +77,7 @@ pub const METRICS: &[Metric] = &[
         name: "detachment_cm",
         heading: ["detach", "cm"],
         about: "Mean way from contacts to the first shadowed pixel, centimetres.",
-        decimals: 1,
+        decimals: 2,
         of: |case| {
             let cm = &case.errors.detachment.cm;
             (cm.count > 0).then_some(cm.mean)
@@ -130,7 +130,7 @@ pub const METRICS: &[Metric] = &[
         name: "texture_mib",
         heading: ["maps", "MiB"],
         about: "All textures that the technique's passes write, MiB.",
-        decimals: 0,
+        decimals: 1,
         of: |case| case.cost.map(|cost| cost.texture_bytes as f64 / f64::from(1 << 20)),
     },
     Metric {

@@ -178,10 +178,10 @@ mod tests {
         let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         let rows: Vec<_> = text.lines().filter(|line| line.contains(" pcf ")).map(words).collect();
         assert!(!text.contains("rmse"), "{text}");
-        assert_eq!(rows[0][rows[0].len() - 2..], ["1.25", "64"], "{text}");
+        assert_eq!(rows[0][rows[0].len() - 2..], ["1.25", "64.0"], "{text}");
         assert_eq!(rows[1][rows[1].len() - 2..], ["-", "-"], "{text}");
         assert_eq!(rows[2][..3], ["mean", "pcf", "1.500"], "{text}");
-        assert_eq!(rows[2][rows[2].len() - 2..], ["1.25", "64"], "{text}");
+        assert_eq!(rows[2][rows[2].len() - 2..], ["1.25", "64.0"], "{text}");
     }
 
     #[test]

@@ -81,7 +81,7 @@ fn cells_are_tinted_by_how_near_they_are_to_the_worst_of_their_column() {
         assert!(page.contains(cell), "{cell}\n{page}");
     }
     // Maps are as large in all cases.
-    assert!(page.contains("<td class=\"n\">64</td>"), "{page}");
+    assert!(page.contains("<td class=\"n\">64.0</td>"), "{page}");
 }
 
 #[test]
