@@ -145,7 +145,7 @@ fn on_every_real_scene_the_gpu_sees_what_the_cpu_sees() {
     let Some(gpu) = gpu() else { return };
     let Some(folder) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(
-            "raytraced scenes",
+            "raytraced_scenes",
             "the collection of real scenes is not at hand (SHADOWGRAPH_SHARED)",
         );
     };
