@@ -4,7 +4,7 @@ use shadowgraph_shadows::ShadowSettings;
 
 use super::report::{CaseReport, Flicker};
 use super::{
-    Compared, Ground, Instrument, Probe, Subject, SubjectLight, ViewPictures, measure_flicker, measure_seam,
+    Compared, Instrument, Probe, Subject, SubjectLight, ViewPictures, measure_flicker, measure_seam,
 };
 use crate::options::{Aov, ShadowDistance, Technique};
 use crate::{Error, Gpu, Picture, Renderer, ViewOptions};
@@ -137,14 +137,24 @@ impl<'a> Run<'a> {
         let ground = instrument.ground(&mut first.visibility, &options, *soft_rays)?;
         let mut found = Vec::with_capacity(self.benches.len());
         for bench in &mut self.benches {
-            let compared = instrument.compare(&mut bench.visibility, &options, &ground)?;
-            let flicker = bench.flicker(self.gpu, &options, light.index, frames)?;
-            let mut measured = bench.finish(self.gpu, &options, &ground, light.index, compared)?;
-            measured.report.flicker = flicker;
-            measured.report.scene.clone_from(&self.subject.name);
-            measured.report.light.clone_from(&light.name);
-            measured.report.view.clone_from(name);
-            found.push(measured);
+            let Compared { errors, edges, pictures } =
+                instrument.compare(&mut bench.visibility, &options, &ground)?;
+            let (seam, cost) =
+                measure_seam(self.gpu, &bench.visibility, &bench.probe, &options, &ground, light.index)?;
+            let report = CaseReport {
+                scene: self.subject.name.clone(),
+                light: light.name.clone(),
+                view: name.clone(),
+                technique: bench.technique.name().to_owned(),
+                errors,
+                edges,
+                seam,
+                flicker: bench.flicker(self.gpu, &options, light.index, frames)?,
+                cost: Some(cost),
+                pictures: None,
+            };
+            let pictures = bench.pictures(self.gpu, &options, pictures)?;
+            found.push(Measured { report, pictures });
         }
         Ok(found)
     }
@@ -164,35 +174,14 @@ impl Bench {
         }
     }
 
-    /// Measures what is left, and leaves the names of scene, light and view empty.
-    fn finish(
+    /// Adds a colour picture to what was compared, if pictures are wanted.
+    fn pictures(
         &mut self,
         gpu: &Gpu,
         options: &ViewOptions,
-        ground: &Ground,
-        light: usize,
-        compared: Compared,
-    ) -> Result<Measured, Error> {
-        let (seam, cost) = measure_seam(gpu, &self.visibility, &self.probe, options, ground, light)?;
-        let report = CaseReport {
-            scene: String::new(),
-            light: String::new(),
-            view: String::new(),
-            technique: self.technique.name().to_owned(),
-            errors: compared.errors,
-            edges: compared.edges,
-            seam,
-            flicker: Vec::new(),
-            cost: Some(cost),
-            pictures: None,
-        };
-        let pictures = match &mut self.color {
-            None => None,
-            Some(renderer) => {
-                let color = renderer.draw(gpu, options)?.picture;
-                Some(CasePictures { color, compared: compared.pictures })
-            }
-        };
-        Ok(Measured { report, pictures })
+        compared: ViewPictures,
+    ) -> Result<Option<CasePictures>, Error> {
+        let Some(renderer) = &mut self.color else { return Ok(None) };
+        Ok(Some(CasePictures { color: renderer.draw(gpu, options)?.picture, compared }))
     }
 }

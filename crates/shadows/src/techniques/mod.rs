@@ -1,5 +1,6 @@
 //! The techniques that come with Shadowgraph, a room each.
 
+mod layout;
 mod none;
 mod pcf;
 mod raytraced;

@@ -3,6 +3,7 @@
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{ModuleSource, NONE};
 
+use super::layout::layout;
 use crate::technique::{Screen, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs};
 
@@ -14,9 +15,7 @@ pub struct NoShadows {
 impl NoShadows {
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {
-        let label = Some("no shadows");
-        let desc = wgpu::BindGroupLayoutDescriptor { label, entries: &[] };
-        Self { layout: device.create_bind_group_layout(&desc) }
+        Self { layout: layout(device, "no shadows", &[]) }
     }
 }
 

@@ -3,6 +3,7 @@
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc};
 use shadowgraph_shaders::{ModuleSource, PCF};
 
+use super::layout::{STORAGE, layout};
 use crate::plan;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
@@ -154,26 +155,11 @@ impl ShadowTechnique for Pcf {
 }
 
 fn group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let storage = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Storage { read_only: true },
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
     let map = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Depth,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    let entries: Vec<_> = (0..)
-        .zip([storage, storage, map, map, sampler])
-        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty,
-            count: None,
-        })
-        .collect();
-    let label = Some("pcf shadows");
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
+    layout(device, "pcf shadows", &[STORAGE, STORAGE, map, map, sampler])
 }

@@ -7,6 +7,7 @@ use shadowgraph_scene::Light;
 use shadowgraph_shaders::{ModuleSource, RAYTRACED};
 use wgpu::util::DeviceExt as _;
 
+use super::layout::{STORAGE, layout};
 use crate::rays::GpuRayScene;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs};
@@ -199,12 +200,6 @@ impl Trace {
     }
 }
 
-const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Storage { read_only: true },
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
-
 const MASK: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Float { filterable: false },
     view_dimension: wgpu::TextureViewDimension::D2Array,
@@ -222,22 +217,6 @@ const TARGET: wgpu::BindingType = wgpu::BindingType::StorageTexture {
     format: MASK_FORMAT,
     view_dimension: wgpu::TextureViewDimension::D2Array,
 };
-
-fn layout(device: &wgpu::Device, label: &str, types: &[wgpu::BindingType]) -> wgpu::BindGroupLayout {
-    let is_written = |ty: &wgpu::BindingType| matches!(ty, wgpu::BindingType::StorageTexture { .. });
-    let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: match is_written(&ty) {
-            true => wgpu::ShaderStages::COMPUTE,
-            false => wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        },
-        ty,
-        count: None,
-    };
-    let entries: Vec<_> = (0..).zip(types).map(entry).collect();
-    device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
-}
 
 #[cfg(test)]
 mod tests {

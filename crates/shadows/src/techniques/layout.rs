@@ -1,0 +1,28 @@
+//! Bind group layouts of techniques.
+
+/// A storage buffer that is read.
+pub(super) const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: true },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+/// Makes a layout with these bindings, from 0, for those who light and who compute. What is written is only computed.
+pub(super) fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    types: &[wgpu::BindingType],
+) -> wgpu::BindGroupLayout {
+    let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: match ty {
+            wgpu::BindingType::StorageTexture { .. } => wgpu::ShaderStages::COMPUTE,
+            _ => wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        },
+        ty,
+        count: None,
+    };
+    let entries: Vec<_> = (0..).zip(types).map(entry).collect();
+    device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+}
