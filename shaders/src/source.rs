@@ -31,7 +31,7 @@ macro_rules! file {
 /// The technique `none`: no shadows, no bindings.
 pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 
-/// The technique `pcf`: cascades and an atlas, filtered with a 5 x 5 tent.
+/// The technique `pcf`: cascades and an atlas, filtered with a tent.
 pub const PCF: ModuleSource = file!("shadows/pcf.wgsl");
 
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
@@ -45,8 +45,11 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("material.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
+    file!("shadows/lookup.wgsl"),
+    file!("shadows/tent.wgsl"),
     file!("shadows/traced.wgsl"),
     file!("shadows/types.wgsl"),
+    file!("shadows/variant.wgsl"),
     file!("surface.wgsl"),
     file!("view.wgsl"),
 ];

@@ -1,6 +1,8 @@
 //! Forward lighting: a depth prepass, and one pass for all lights and materials.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{
@@ -8,6 +10,8 @@ use shadowgraph_scene::gpu::{
     vertex_layout,
 };
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
+
+use shadowgraph_shaders::ModuleSource;
 
 use crate::{Error, GpuView, ViewBuffers};
 
@@ -45,13 +49,37 @@ pub enum Shows {
 
 /// Pipelines and nodes of forward lighting with one shadow technique.
 pub struct Forward {
-    shows: Shows,
-    format: Format,
     view_layout: wgpu::BindGroupLayout,
     shadow_layout: wgpu::BindGroupLayout,
-    /// By [`MaterialKey::index`].
-    pipelines: Vec<wgpu::RenderPipeline>,
     prepass: DepthPipelines,
+    recipe: Arc<Recipe>,
+    /// The technique's modules in each of its variants.
+    modules: Vec<Vec<ModuleSource>>,
+    /// Those variants that frames have asked for.
+    lit: Mutex<BTreeMap<u32, Arc<LitPipelines>>>,
+}
+
+/// The pipelines that light with one variant of a technique: each is made when it is first asked for.
+pub struct LitPipelines {
+    recipe: Arc<Recipe>,
+    shader: wgpu::ShaderModule,
+    /// By [`MaterialKey::index`].
+    made: Vec<OnceLock<wgpu::RenderPipeline>>,
+}
+
+impl LitPipelines {
+    /// Returns the pipeline of a key.
+    pub fn get(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
+        self.made[key.index()].get_or_init(|| self.recipe.pipeline(&self.shader, key))
+    }
+}
+
+/// What all pipelines of a pass share.
+struct Recipe {
+    device: wgpu::Device,
+    layout: wgpu::PipelineLayout,
+    format: Format,
+    shows: Shows,
 }
 
 impl Forward {
@@ -66,11 +94,6 @@ impl Forward {
         format: Format,
         shows: Shows,
     ) -> Result<Self, Error> {
-        let module = shadowgraph_shaders::compose("forward.wgsl", &[technique.module()])?;
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("forward.wgsl"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
         let view_layout = view_layout(device);
         let shadow_layout = technique.bind_group_layout().clone();
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -83,25 +106,48 @@ impl Forward {
             ],
             immediate_size: 0,
         });
-        let pipeline = |key| pipeline(device, &layout, &shader, key, format, shows);
-        Ok(Self {
-            shows,
-            format,
-            pipelines: MaterialKey::all().map(pipeline).collect(),
+        let forward = Self {
             prepass: DepthPipelines::new(device, layouts, &DepthTarget::default())?,
             view_layout,
             shadow_layout,
-        })
+            recipe: Arc::new(Recipe { device: device.clone(), layout, format, shows }),
+            modules: (0..technique.variant_count()).map(|variant| technique.modules(variant)).collect(),
+            lit: Mutex::default(),
+        };
+        // What does not compose is told now, not in some frame.
+        shadowgraph_shaders::compose("forward.wgsl", forward.modules_of(0))?;
+        Ok(forward)
+    }
+
+    fn modules_of(&self, variant: u32) -> &[ModuleSource] {
+        self.modules.get(variant as usize).or(self.modules.first()).map_or(&[], Vec::as_slice)
+    }
+
+    /// Returns the pipelines that light with a variant of the technique ([`ShadowOutputs::variant`]), and composes them if it
+    /// is the first time.
+    ///
+    /// # Errors
+    /// If the variant's WGSL does not compose.
+    pub fn pipelines(&self, variant: u32) -> Result<Arc<LitPipelines>, Error> {
+        let mut known = self.lit.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipelines) = known.get(&variant) {
+            return Ok(pipelines.clone());
+        }
+        let module = shadowgraph_shaders::compose("forward.wgsl", self.modules_of(variant))?;
+        let shader = self.recipe.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("forward.wgsl"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
+        let recipe = self.recipe.clone();
+        let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
+        let pipelines = Arc::new(LitPipelines { recipe, shader, made });
+        known.insert(variant, pipelines.clone());
+        Ok(pipelines)
     }
 
     /// Returns the pipelines of the prepass, for one that is recorded without the graph.
     pub fn depth_pipelines(&self) -> &DepthPipelines {
         &self.prepass
-    }
-
-    /// Returns the pipeline of a key, for a lit pass that is recorded without the graph.
-    pub fn pipeline(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
-        &self.pipelines[key.index()]
     }
 
     /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.
@@ -133,6 +179,9 @@ impl Forward {
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where
     /// nothing is drawn it holds `background`, in the texture's own terms.
+    ///
+    /// # Errors
+    /// If the technique's WGSL does not compose in the variant that the frame asks for.
     pub fn lit<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -141,13 +190,14 @@ impl Forward {
         depth: &Texture,
         geometry: Geometry<'f>,
         background: [f64; 4],
-    ) -> Texture {
+    ) -> Result<Texture, Error> {
+        let pipelines = self.pipelines(shadows.variant)?;
         let [width, height] = geometry.size_px;
-        let (texture, pass) = match self.shows {
+        let (texture, pass) = match self.recipe.shows {
             Shows::Surface => ("surfaces", "surfaces"),
             _ => ("lit", "forward"),
         };
-        let mut color = frame.create_texture(texture, TextureDesc::d2(width, height, self.format));
+        let mut color = frame.create_texture(texture, TextureDesc::d2(width, height, self.recipe.format));
         let mut pass = frame.render_pass(pass);
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
@@ -158,13 +208,63 @@ impl Forward {
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
-            let blend: &[Draw] = if self.shows == Shows::Light { &geometry.draws.blend } else { &[] };
+            let blend: &[Draw] = if self.recipe.shows == Shows::Light { &geometry.draws.blend } else { &[] };
             for draws in [&geometry.draws.solid, blend] {
-                geometry.scene.draw(&mut ctx.pass, draws, true, &|key| &self.pipelines[key.index()]);
+                geometry.scene.draw(&mut ctx.pass, draws, true, &|key| pipelines.get(key));
             }
             Ok(())
         });
-        color
+        Ok(color)
+    }
+}
+
+impl Recipe {
+    fn pipeline(&self, shader: &wgpu::ShaderModule, key: MaterialKey) -> wgpu::RenderPipeline {
+        let (aov, light) = match self.shows {
+            Shows::Light => (0, 0),
+            Shows::Visibility(light) => (1, light),
+            Shows::Cascades(light) => (2, light),
+            Shows::Normal => (3, 0),
+            Shows::Surface => (4, 0),
+        };
+        let constants = [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))];
+        // Only light is drawn for what is blended.
+        let blended = key.alpha == AlphaKey::Blend && self.shows == Shows::Light;
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("forward"),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: shader,
+                entry_point: Some("vs_forward"),
+                compilation_options: Default::default(),
+                buffers: &[Some(vertex_layout())],
+            },
+            primitive: key.primitive_state(),
+            // The prepass has drawn the depth of all that is solid.
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: shader,
+                entry_point: Some("fs_forward"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: self.format,
+                    blend: blended.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     }
 }
 
@@ -183,59 +283,4 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let label = Some("view");
     device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[entry(0), entry(1)] })
-}
-
-fn pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::PipelineLayout,
-    shader: &wgpu::ShaderModule,
-    key: MaterialKey,
-    format: Format,
-    shows: Shows,
-) -> wgpu::RenderPipeline {
-    let (aov, light) = match shows {
-        Shows::Light => (0, 0),
-        Shows::Visibility(light) => (1, light),
-        Shows::Cascades(light) => (2, light),
-        Shows::Normal => (3, 0),
-        Shows::Surface => (4, 0),
-    };
-    let constants = [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))];
-    // Only light is drawn for what is blended.
-    let blended = key.alpha == AlphaKey::Blend && shows == Shows::Light;
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("forward"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module: shader,
-            entry_point: Some("vs_forward"),
-            compilation_options: Default::default(),
-            buffers: &[Some(vertex_layout())],
-        },
-        primitive: key.primitive_state(),
-        // The prepass has drawn the depth of all that is solid.
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: shader,
-            entry_point: Some("fs_forward"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            targets: &[Some(wgpu::ColorTargetState {
-                format,
-                blend: blended.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -2,8 +2,7 @@
 
 use shadowgraph_scene::gpu::{CullFaces, DepthPipelines, DepthTarget, Draw, GpuScene};
 use shadowgraph_scene::{Aabb, ConvexVolume};
-use shadowgraph_shadows::{CasterTarget, ShadowCasters};
-use wgpu::TextureFormat;
+use shadowgraph_shadows::{CasterTarget, DepthFormat, ShadowCasters};
 
 use crate::Error;
 
@@ -15,7 +14,8 @@ pub struct SceneCasters {
     pub scene: GpuScene,
     /// By number.
     draws: Vec<Draw>,
-    pipelines: DepthPipelines,
+    /// For each format of a map.
+    pipelines: Vec<(wgpu::TextureFormat, DepthPipelines)>,
 }
 
 impl SceneCasters {
@@ -24,22 +24,25 @@ impl SceneCasters {
     /// # Errors
     /// If a shader does not compose.
     pub fn new(device: &wgpu::Device, scene: GpuScene) -> Result<Self, Error> {
-        // Both faces: a wall without a back casts a shadow to either side.
-        let target = DepthTarget {
-            format: TextureFormat::Depth32Float,
-            clamp_near: true,
-            faces: CullFaces::None,
-            ..DepthTarget::default()
-        };
-        let pipelines = DepthPipelines::new(device, scene.layouts(), &target)?;
-        Ok(Self::with_pipelines(scene, pipelines))
+        let target = DepthTarget { clamp_near: true, ..DepthTarget::default() };
+        Self::with_target(device, scene, &target)
     }
 
-    /// Draws the casters with pipelines of your own, made for `Depth32Float`.
-    pub fn with_pipelines(scene: GpuScene, pipelines: DepthPipelines) -> Self {
+    /// Draws the casters in another way than usual; format and faces of `target` are not looked at.
+    ///
+    /// # Errors
+    /// If a shader does not compose.
+    pub fn with_target(device: &wgpu::Device, scene: GpuScene, target: &DepthTarget) -> Result<Self, Error> {
+        let pipelines = |depth: DepthFormat| {
+            let format = depth.texture_format();
+            // Both faces: a wall without a back casts a shadow to either side.
+            let target = DepthTarget { format, faces: CullFaces::None, ..*target };
+            Ok((format, DepthPipelines::new(device, scene.layouts(), &target)?))
+        };
+        let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
         let all: Vec<u32> = (0..scene.bounds().len() as u32).collect();
         let draws = scene.draw_list(&all, scene.origin_world()).iter().copied().collect();
-        Self { scene, draws, pipelines }
+        Ok(Self { scene, draws, pipelines })
     }
 
     /// Returns how many triangles some casters have.
@@ -60,9 +63,12 @@ impl ShadowCasters for SceneCasters {
         self.scene.bounds().iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, _target: CasterTarget, casters: &[u32]) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]) {
+        let made = self.pipelines.iter().find(|(format, _)| *format == target.format);
+        // Maps have no other formats.
+        let Some((_, pipelines)) = made else { return };
         let draws: Vec<Draw> =
             casters.iter().filter_map(|&number| self.draws.get(number as usize)).copied().collect();
-        self.scene.draw(pass, &draws, false, &|key| self.pipelines.get(key));
+        self.scene.draw(pass, &draws, false, &|key| pipelines.get(key));
     }
 }

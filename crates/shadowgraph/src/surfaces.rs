@@ -26,9 +26,10 @@ impl SurfaceDrawer {
         view: &ViewBuffers,
         depth: &Texture,
         geometry: Geometry<'f>,
-    ) -> Texture {
-        let none = ShadowOutputs { bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() };
-        self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])
+    ) -> Result<Texture, Error> {
+        let none =
+            ShadowOutputs { variant: 0, bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() };
+        Ok(self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])?)
     }
 
     /// Adds the pass for a technique that reads surfaces.
@@ -38,8 +39,9 @@ impl SurfaceDrawer {
         view: &ViewBuffers,
         depth: &Texture,
         geometry: Geometry<'f>,
-    ) -> Screen {
-        let surfaces = self.add_to(frame, view, depth, geometry);
-        Screen { size_px: geometry.size_px, view: view.view.clone(), lights: view.lights.clone(), surfaces }
+    ) -> Result<Screen, Error> {
+        let surfaces = self.add_to(frame, view, depth, geometry)?;
+        let (view, lights) = (view.view.clone(), view.lights.clone());
+        Ok(Screen { size_px: geometry.size_px, view, lights, surfaces })
     }
 }

@@ -3,8 +3,6 @@
 use glam::{DMat4, DVec2, DVec3, Vec2};
 use shadowgraph_core::Rect;
 
-use crate::filter::BORDER_PX;
-
 /// The most tiles that the atlas holds.
 pub const MAX_ATLAS_TILES: usize = 16;
 
@@ -32,27 +30,16 @@ pub struct TileLayout {
     pub tiles: Vec<TileRect>,
 }
 
-/// Lays out the tiles of `count` cascades: one has all of the map, two lie side by side, three and four are in
-/// a square.
+/// Lays out `count` tiles of one size, 1 to 64: as many per row as a square of them needs, so 1, 2, 3 or 4 for up to 1, 4,
+/// 9 and 16. One has all of the map, two lie side by side, three and four are in a square.
 ///
 /// ```
-/// use shadowgraph_shadows::cascade_layout;
-/// assert_eq!(cascade_layout(2, 4096).size_px, [4096, 2048]);
+/// use shadowgraph_shadows::even_tiles;
+/// assert_eq!(even_tiles(2, 4096).size_px, [4096, 2048]);
 /// ```
 #[must_use]
-pub fn cascade_layout(count: usize, map_size_px: u32) -> TileLayout {
-    grid(count, if count > 1 { 2 } else { 1 }, map_size_px)
-}
-
-/// Lays out `count` tiles of the atlas: 1, 2, 3 or 4 per row for up to 1, 4, 9 and 16 tiles.
-#[must_use]
-pub fn atlas_layout(count: usize, map_size_px: u32) -> TileLayout {
-    let per_row = match count {
-        0..=1 => 1,
-        2..=4 => 2,
-        5..=9 => 3,
-        _ => 4,
-    };
+pub fn even_tiles(count: usize, map_size_px: u32) -> TileLayout {
+    let per_row = (1..8).find(|row| row * row >= count as u32).unwrap_or(8);
     grid(count, per_row, map_size_px)
 }
 
@@ -102,14 +89,14 @@ impl TileRect {
         DMat4::from_translation(center.extend(0.0)) * DMat4::from_scale(DVec3::new(scale.x, -scale.y, 1.0))
     }
 
-    /// Returns the corners, in parts of the map, of the part of the tile around whose points the filter stays
-    /// inside the tile.
+    /// Returns the corners, in parts of the map, of the tile without a border of some pixels: around points in there a
+    /// filter that reaches as far stays inside the tile.
     #[must_use]
-    pub fn inner_uv(&self, map_size_px: [u32; 2]) -> (Vec2, Vec2) {
+    pub fn inner_uv(&self, map_size_px: [u32; 2], border_px: u32) -> (Vec2, Vec2) {
         let map = Vec2::new(map_size_px[0] as f32, map_size_px[1] as f32);
         let at = |x: u32, y: u32| Vec2::new(x as f32, y as f32) / map;
-        let min = at(self.x + BORDER_PX, self.y + BORDER_PX);
-        let max = at(self.x + self.width - BORDER_PX, self.y + self.height - BORDER_PX);
+        let min = at(self.x + border_px, self.y + border_px);
+        let max = at(self.x + self.width - border_px, self.y + self.height - border_px);
         (min, max)
     }
 }

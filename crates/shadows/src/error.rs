@@ -14,6 +14,16 @@ pub enum Error {
         /// The values it can have.
         allowed: &'static str,
     },
+    /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) names a light that the scene does not have.
+    #[error(
+        "shadow setting `lights.light` is {light}; the scene has {count} lights, numbered from 0, and none of that name or number"
+    )]
+    NoSuchLight {
+        /// Its number, or its name in quotes.
+        light: String,
+        /// How many lights there are.
+        count: usize,
+    },
     /// The picture's width over its height is not a positive number.
     #[error("the picture's aspect ratio is {0}; it must be a number above 0")]
     Aspect(f64),

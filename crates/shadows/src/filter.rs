@@ -1,31 +1,97 @@
-//! The shadow filter: a 5 x 5 tent of nine bilinear comparisons.
+//! The shadow filter: a tent of bilinear comparisons.
 //!
-//! `pcf.wgsl` has the same weights; the functions here are its twin for tests and tools.
+//! `shadows/tent.wgsl` has the same weights; [`filter_taps`] is its twin for tests and tools.
 
-/// How far from the point it is asked for the filter reads, in texels of the map.
-pub const FILTER_REACH_TEXELS: f32 = 3.0;
+use serde::{Deserialize, Serialize};
 
-/// The unused border on each side of a tile, pixels: as wide as the filter reaches.
-pub const BORDER_PX: u32 = 3;
-
-/// The sum of the filter's weights.
-pub const FILTER_SUM: f64 = 144.0;
-
-/// The three bilinear taps of the filter along one axis.
+/// How shadows' edges are smoothed: by how many texels each way, and by how many bilinear comparisons.
 ///
-/// `fraction` is how far the point is past the centre of the texel it counts from, 0 up to 1. Returns
-/// weight and offset, in texels from that centre, of each tap. The weights add up to 12.
+/// The weights are those of a tent: each texel counts with the area of a triangle, as wide as the filter and centred at
+/// the point, over it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum ShadowFilter {
+    /// 2 x 2 texels, 1 comparison: the bilinear mix that hardware does. What others call hard shadows.
+    Tent2,
+    /// 3 x 3 texels, 4 comparisons.
+    Tent3,
+    /// 5 x 5 texels, 9 comparisons.
+    #[default]
+    Tent5,
+    /// 7 x 7 texels, 16 comparisons.
+    Tent7,
+}
+
+impl ShadowFilter {
+    /// All of them, from hard to soft.
+    pub const ALL: [Self; 4] = [Self::Tent2, Self::Tent3, Self::Tent5, Self::Tent7];
+
+    /// Returns how many comparisons it makes along each axis, 1 to 4.
+    #[must_use]
+    pub fn taps(self) -> u32 {
+        match self {
+            Self::Tent2 => 1,
+            Self::Tent3 => 2,
+            Self::Tent5 => 3,
+            Self::Tent7 => 4,
+        }
+    }
+
+    /// Returns how far from the point it is asked for it reads, in texels of the map: 1 to 4. Tiles have a border as wide.
+    #[must_use]
+    pub fn reach_texels(self) -> f32 {
+        self.taps() as f32
+    }
+
+    /// Returns the border on each side of a tile, pixels: as wide as the filter reaches.
+    #[must_use]
+    pub fn border_px(self) -> u32 {
+        self.taps()
+    }
+
+    /// Returns half the width of the tent, texels.
+    #[must_use]
+    pub fn half_width_texels(self) -> f64 {
+        match self {
+            Self::Tent2 => 1.0,
+            _ => f64::from(self.taps()) - 0.5,
+        }
+    }
+}
+
+/// Returns the bilinear taps of a filter along one axis: the weight and the offset of each, in texels.
+///
+/// `fraction` is how far the point is past the centre of the texel that offsets count from, 0 up to 1. `width` makes the
+/// tent narrower, above 0 to 1; it never gets narrower than one texel. Weights add up to 1.
 ///
 /// ```
-/// use shadowgraph_shadows::filter_taps;
-/// let weights: f64 = filter_taps(0.3).iter().map(|(weight, _)| weight).sum();
-/// assert!((weights - 12.0).abs() < 1e-12);
+/// use shadowgraph_shadows::{ShadowFilter, filter_taps};
+/// let weights: f64 = filter_taps(ShadowFilter::Tent5, 1.0, 0.3).map(|(weight, _)| weight).sum();
+/// assert!((weights - 1.0).abs() < 1e-12);
 /// ```
-#[must_use]
-pub fn filter_taps(fraction: f64) -> [(f64, f64); 3] {
-    let s = fraction;
-    let (first, last) = (4.0 - 3.0 * s, 1.0 + 3.0 * s);
-    [(first, (3.0 - 2.0 * s) / first - 2.0), (7.0, (3.0 + s) / 7.0), (last, s / last + 2.0)]
+pub fn filter_taps(
+    filter: ShadowFilter,
+    width: f64,
+    fraction: f64,
+) -> impl Iterator<Item = (f64, f64)> + Clone {
+    let half = (filter.half_width_texels() * width).max(0.5);
+    let taps = filter.taps();
+    (0..taps).map(move |tap| {
+        if taps == 1 {
+            return (1.0, fraction);
+        }
+        // The two texels of the tap lie between these edges.
+        let first = f64::from(2 * tap) - f64::from(taps - 1);
+        let edge = |i: f64| tent_integral(first - fraction - 0.5 + i, half);
+        let (left, right) = (edge(1.0) - edge(0.0), edge(2.0) - edge(1.0));
+        let weight = left + right;
+        (weight, first + if weight > 0.0 { right / weight } else { 0.5 })
+    })
+}
+
+/// The area, of 1 in all, of a tent from its left end at `-half` to `x`: 0 to 1.
+fn tent_integral(x: f64, half: f64) -> f64 {
+    let t = (x / half).clamp(-1.0, 1.0);
+    0.5 + t - 0.5 * t * t.abs()
 }
 
 /// What shared services must know about a technique: how wide it reads, how it moves its lookups, and how far

@@ -20,6 +20,7 @@ mod ortho;
 mod plan;
 mod planner;
 pub mod rays;
+mod rules;
 mod select;
 mod settings;
 mod spot;
@@ -27,19 +28,24 @@ mod technique;
 mod techniques;
 mod views;
 
-pub use atlas::{
-    MAX_ATLAS_TILES, TileLayout, TileRect, atlas_layout, cascade_layout, smallest_atlas_tile_px,
-};
+pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
 pub use basis::{Sphere, light_from_world};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
 pub use casters::{CasterTarget, ShadowCasters, caster_view_layout};
 pub use error::Error;
-pub use filter::{BORDER_PX, FILTER_REACH_TEXELS, FILTER_SUM, Needs, filter_taps};
+pub use filter::{Needs, ShadowFilter, filter_taps};
 pub use ortho::OrthoFit;
-pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePlan, plan_shadows};
+pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows};
 pub use select::{Unshadowed, UnshadowedReason};
-pub use settings::{AtlasSettings, BiasSettings, CascadeSettings, ShadowSettings, SplitScheme};
+pub use settings::{
+    AtlasSettings, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection, CascadeSettings,
+    DepthFormat, LightRef, LightShadows, MAX_CASCADE_LIGHTS, MAX_CASCADES, NormalBias, ShadowSettings,
+    SplitScheme,
+};
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
-pub use techniques::{MAX_MASK_LAYERS, NoShadows, Pcf, Raytraced};
-pub use views::{MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowLight, ShadowView};
+pub use techniques::{MAX_MASK_LAYERS, NoShadows, Pcf, PcfVariant, Raytraced};
+pub use views::{
+    BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
+    NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView, TilePlace,
+};

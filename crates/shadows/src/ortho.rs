@@ -1,16 +1,16 @@
 //! The box that a directional light's tile covers, fixed to whole texels of the world.
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
-use shadowgraph_scene::{ConvexVolume, Plane};
+use shadowgraph_scene::{Aabb, ConvexVolume, Plane};
 
 use crate::Sphere;
 
 /// A box around a sphere, with its axes along a light's, that moves through the world in whole texels only.
 ///
 /// Width and height are `texel_m * tile_px`; the depth range is twice that, so that the surroundings of what lies
-/// in the sphere are not clamped to the near plane even where they slope up steeply to the light. The centre is a whole number of texels from the
-/// world's origin on each of the light's axes, so while rotation and radius stay as they are, what a texel
-/// covers stays as it is, and a depth changes by a multiple of `1 / (2 * tile_px)`.
+/// in the sphere are not clamped to the near plane even where they slope up steeply to the light. The centre is a whole
+/// number of texels from the world's origin on each of the light's axes, so while rotation and radius stay as they are,
+/// what a texel covers stays as it is, and a depth changes by a multiple of `1 / (2 * depth_scale * tile_px)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthoFit {
     /// The rotation from world to the light's axes, +Z towards the light.
@@ -21,7 +21,9 @@ pub struct OrthoFit {
     pub texel_m: f64,
     /// The width of the tile, pixels, border and all.
     pub tile_px: u32,
-    /// The sphere that it was made for.
+    /// How many times as deep as usual the box is: a power of two, so that steps of whole texels stay exact.
+    pub depth_scale: f64,
+    /// The sphere that it was made for, or one around what it was made for.
     pub sphere: Sphere,
 }
 
@@ -41,7 +43,31 @@ impl OrthoFit {
         let radius_m = round_up(sphere.radius_m.max(f64::MIN_POSITIVE.sqrt()), RADIUS_STEPS);
         let texel_m = 2.0 * radius_m / (f64::from(tile_px) - 2.0 * margin_px);
         let center_texels = (light_from_world * sphere.center_world / texel_m).round();
-        Self { light_from_world, center_texels, texel_m, tile_px, sphere }
+        Self { light_from_world, center_texels, texel_m, tile_px, depth_scale: 1.0, sphere }
+    }
+
+    /// Fits the box to some points: as wide as they need, so its texels change with them. Otherwise as [`new`](Self::new).
+    #[must_use]
+    pub fn tight(light_from_world: DMat3, points_world: &[DVec3], tile_px: u32, margin_px: f64) -> Self {
+        let bounds = Aabb::from_points(points_world.iter().map(|&point| light_from_world * point));
+        let half = bounds.half_extent();
+        let center_world = light_from_world.transpose() * bounds.center();
+        let across = Sphere { center_world, radius_m: half.x.max(half.y) };
+        let fit = Self::new(light_from_world, across, tile_px, margin_px);
+        let sphere = Sphere { center_world, radius_m: half.length() };
+        Self { sphere, ..fit }.deepened(half.z / fit.half_extent_m())
+    }
+
+    /// Makes room for depths up to `offset_m` (metres, 0 or more) farther towards the light.
+    #[must_use]
+    pub fn with_near_offset(self, offset_m: f64) -> Self {
+        self.deepened(self.depth_scale + offset_m / (3.0 * self.half_extent_m()))
+    }
+
+    /// At least this many times as deep as usual.
+    fn deepened(self, scale: f64) -> Self {
+        let depth_scale = scale.max(self.depth_scale).log2().ceil().exp2();
+        Self { depth_scale, ..self }
     }
 
     /// Half the width and height of the box, metres.
@@ -60,8 +86,9 @@ impl OrthoFit {
         let origin_texels = self.light_from_world * origin_world / self.texel_m;
         let phase = (origin_texels * PHASE_STEPS).round() / PHASE_STEPS;
         let translation = DMat4::from_translation((phase - self.center_texels) / half_px);
-        // x and y as they are; z from -1..3 to 0..1.
-        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::Z * 0.25, DVec4::new(0.0, 0.0, 0.25, 1.0));
+        // x and y as they are; z from -1..3, times the scale, to 0..1.
+        let z = DVec4::Z * (0.25 / self.depth_scale);
+        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, z, DVec4::new(0.0, 0.0, 0.25, 1.0));
         let scale = DMat4::from_scale(DVec3::splat(1.0 / self.half_extent_m()));
         depth * translation * scale * rotation
     }
@@ -69,7 +96,7 @@ impl OrthoFit {
     /// The depth range, metres.
     #[must_use]
     pub fn depth_range_m(&self) -> f64 {
-        4.0 * self.half_extent_m()
+        4.0 * self.half_extent_m() * self.depth_scale
     }
 
     /// The space whose casters can matter: the box without its side towards the light, since what is nearer
@@ -85,7 +112,7 @@ impl OrthoFit {
             planes.push(Plane { normal: axis, distance: half - at });
             planes.push(Plane { normal: -axis, distance: half + at });
         }
-        planes.push(Plane { normal: axes.z_axis, distance: half - center.z });
+        planes.push(Plane { normal: axes.z_axis, distance: half * self.depth_scale - center.z });
         ConvexVolume { planes }
     }
 }

@@ -5,9 +5,10 @@ use glam::DVec3;
 use shadowgraph_scene::{Camera, Light};
 
 use crate::planner::Planner;
+use crate::rules::LightRules;
+use crate::techniques::PcfVariant;
 use crate::{
-    Error, FILTER_REACH_TEXELS, Needs, ShadowCasters, ShadowLight, ShadowSettings, ShadowView, TileRect,
-    Unshadowed,
+    DepthFormat, Error, Needs, ShadowCasters, ShadowLight, ShadowSettings, ShadowView, TileRect, Unshadowed,
 };
 
 /// What shadows are planned for.
@@ -30,11 +31,12 @@ pub struct ShadowInputs<'a> {
 /// A frame's shadows. Equal inputs give equal plans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowPlan {
-    /// The map of the main light's cascades, if there is one.
+    /// The map of the brightest directional lights' cascades, if there is one.
     pub cascades: Option<MapPlan>,
     /// The map of all other lights, if there is one.
     pub atlas: Option<MapPlan>,
-    /// One for each tile of both maps, the cascades first.
+    /// One for each tile of both maps, the cascades first; and where a light's view is chosen by spheres or depths, a view of
+    /// nothing after its last.
     pub views: Vec<ShadowView>,
     /// One for each light of the scene, in its order.
     pub lights: Vec<ShadowLight>,
@@ -49,6 +51,8 @@ pub struct ShadowPlan {
 pub struct MapPlan {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
+    /// How finely it stores depth.
+    pub depth: DepthFormat,
     /// What it holds. Some casters are in reach of at least one tile.
     pub tiles: Vec<TilePlan>,
 }
@@ -60,12 +64,23 @@ pub struct TilePlan {
     pub light: u32,
     /// Index of its [`ShadowView`] in [`ShadowPlan::views`].
     pub view: u32,
-    /// Which cascade it is, from 0; `None` in the atlas.
-    pub cascade: Option<u32>,
+    /// Which of its light's tiles it is.
+    pub part: TilePart,
     /// Viewport and scissor.
     pub rect: TileRect,
     /// The casters to draw, as [`ShadowCasters::cull`] gave them. Can be empty: cleared means lit.
     pub casters: Vec<u32>,
+}
+
+/// What of a light's surroundings a tile shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TilePart {
+    /// All that it has.
+    Whole,
+    /// A cascade, from 0 for the nearest to the camera.
+    Cascade(u32),
+    /// A side of a point light: 0 +X, 1 -X, 2 +Y, 3 -Y, 4 +Z, 5 -Z.
+    Face(u32),
 }
 
 /// Plans the shadows of a frame.
@@ -131,6 +146,17 @@ impl ShadowPlan {
         }
     }
 
+    /// Returns which variant of `pcf`'s WGSL has what this frame needs and the least beyond.
+    #[must_use]
+    pub fn variant(&self) -> PcfVariant {
+        let mut taps = self.lights.iter().filter(|light| light.view_count > 0).map(|light| light.filter_taps);
+        match taps.next() {
+            None => PcfVariant::Unshadowed,
+            Some(first) if taps.all(|other| other == first) => PcfVariant::OneFilter { taps: first },
+            Some(_) => PcfVariant::Mixed,
+        }
+    }
+
     /// Returns the bytes for the buffer of views. Never empty, as a buffer cannot be.
     #[must_use]
     pub fn view_bytes(&self) -> Vec<u8> {
@@ -144,13 +170,18 @@ impl ShadowPlan {
     }
 }
 
-/// What the `pcf` technique needs of shared services.
+/// What the `pcf` technique needs of shared services: the most that any light does.
 pub(crate) fn needs(settings: &ShadowSettings) -> Needs {
-    Needs {
-        kernel_radius_texels: FILTER_REACH_TEXELS,
-        bias_texels: settings.bias.normal_texels,
-        blocker_reach_m: 0.0,
-    }
+    let all = [true, false].into_iter().flat_map(|has_cascades| {
+        let owns = settings.lights.iter().map(Some).chain([None]);
+        owns.map(move |own| LightRules::new(settings, own, has_cascades))
+    });
+    let none = Needs { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 };
+    all.fold(none, |most, rules| Needs {
+        kernel_radius_texels: most.kernel_radius_texels.max(rules.filter.reach_texels()),
+        bias_texels: most.bias_texels.max(rules.normal_texels()),
+        ..most
+    })
 }
 
 fn bytes_or_one<T: bytemuck::Pod>(records: &[T]) -> Vec<u8> {

@@ -1,11 +1,12 @@
 //! Which lights get shadows.
 
 use std::cmp::Ordering;
+use std::f64::consts::FRAC_PI_4;
 
 use glam::{DMat3, DVec3, Vec3};
 use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Plane};
 
-use crate::{Sphere, SpotCone, light_from_world};
+use crate::{LightShadows, Sphere, SpotCone, light_from_world};
 
 /// A light that is to cast shadows but has none in this frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +21,7 @@ pub struct Unshadowed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UnshadowedReason {
-    /// The atlas has 16 tiles, and as many lights are more important.
+    /// More important lights have all the tiles of the atlas.
     AtlasFull,
     /// Nothing that casts a shadow is in its reach.
     NoCasterInReach,
@@ -30,8 +31,6 @@ pub enum UnshadowedReason {
     NoLight,
     /// Its direction has no length, or a number in it is not finite.
     Unusable,
-    /// Point lights cast no shadows yet.
-    PointLight,
 }
 
 impl UnshadowedReason {
@@ -39,12 +38,11 @@ impl UnshadowedReason {
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
-            Self::AtlasFull => "the shadow atlas is full (16 tiles) and more important lights have them",
+            Self::AtlasFull => "the shadow atlas is full: more important lights have its tiles",
             Self::NoCasterInReach => "no shadow caster in reach",
             Self::OutOfReach => "nothing in view within the shadow distance is lit",
             Self::NoLight => "no light is given",
             Self::Unusable => "a direction without length, or a number that is not usable",
-            Self::PointLight => "point lights cast no shadows yet",
         }
     }
 }
@@ -75,10 +73,12 @@ impl Reach<'_> {
     }
 }
 
-/// A light that wants a tile, and what kind of tile.
-pub(crate) struct Candidate {
+/// A light that wants tiles, and what kind of tiles.
+pub(crate) struct Candidate<'s> {
     pub(crate) light: u32,
     pub(crate) shape: Shape,
+    /// What the user wants to be different for it.
+    pub(crate) own: Option<&'s LightShadows>,
     importance: (f64, f64),
 }
 
@@ -86,22 +86,47 @@ pub(crate) struct Candidate {
 pub(crate) enum Shape {
     Directional { light_from_world: DMat3 },
     Spot { cone: SpotCone, light_from_world: DMat3 },
+    Point { position_world: DVec3, range_m: f64 },
 }
 
-impl Candidate {
+impl Shape {
+    /// How many tiles of the atlas it needs.
+    pub(crate) fn tiles(&self) -> usize {
+        if matches!(self, Self::Point { .. }) { POINT_FACES.len() } else { 1 }
+    }
+}
+
+/// The pyramid of one side of a point light, and the rotation from world to it.
+pub(crate) fn point_face(position_world: DVec3, range_m: f64, face: usize) -> (SpotCone, DMat3) {
+    let direction = POINT_FACES[face];
+    // An axis has a length.
+    let rotation = light_from_world(direction).unwrap_or(DMat3::IDENTITY);
+    (SpotCone { position_world, direction, half_angle: FRAC_PI_4, range_m }, rotation)
+}
+
+/// Which way the six tiles of a point light look, in their order: `cube_face` of `pcf.wgsl`.
+const POINT_FACES: [DVec3; 6] = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
+
+impl Candidate<'_> {
     /// Most important first; equally important ones in the scene's order.
     pub(crate) fn order(&self, other: &Self) -> Ordering {
         let (a, b) = (self.importance, other.importance);
         b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)).then(self.light.cmp(&other.light))
     }
+
+    /// How much of the view its light can fill, times what the user weighs it with; infinite for directional lights.
+    pub(crate) fn coverage(&self) -> f64 {
+        self.importance.0
+    }
 }
 
 /// Finds whether a light that casts shadows can have some in this view.
-pub(crate) fn candidate(
+pub(crate) fn candidate<'s>(
     light: u32,
     source: &Light,
+    own: Option<&'s LightShadows>,
     reach: &Reach<'_>,
-) -> Result<Candidate, UnshadowedReason> {
+) -> Result<Candidate<'s>, UnshadowedReason> {
     let brightness = brightness(source);
     if !brightness.is_finite() {
         return Err(UnshadowedReason::Unusable);
@@ -109,49 +134,55 @@ pub(crate) fn candidate(
     if brightness <= 0.0 {
         return Err(UnshadowedReason::NoLight);
     }
+    let shape = shape(source)?;
+    let weight = own.map_or(1.0, |own| f64::from(own.importance));
+    let importance = match shape {
+        // Directional lights are everywhere: before any other light.
+        Shape::Directional { .. } => (f64::INFINITY, weight * brightness),
+        Shape::Spot { cone, .. } => local_importance(cone.bounding_sphere(), weight, brightness, reach)?,
+        Shape::Point { position_world, range_m } => {
+            let sphere = Sphere { center_world: position_world, radius_m: range_m };
+            local_importance(sphere, weight, brightness, reach)?
+        }
+    };
+    Ok(Candidate { light, shape, own, importance })
+}
+
+fn shape(source: &Light) -> Result<Shape, UnshadowedReason> {
+    let range_m = source.effective_range().unwrap_or(f64::INFINITY);
+    let reaches = range_m.is_finite() && range_m > 0.0;
     match source.kind {
-        LightKind::Point { .. } => Err(UnshadowedReason::PointLight),
         LightKind::Directional { direction } => {
             let light_from_world = light_from_world(direction).ok_or(UnshadowedReason::Unusable)?;
-            // Directional lights are everywhere: before any spot light.
-            let importance = (f64::INFINITY, brightness);
-            Ok(Candidate { light, shape: Shape::Directional { light_from_world }, importance })
+            Ok(Shape::Directional { light_from_world })
         }
-        LightKind::Spot { position_world, direction, outer_angle, .. } => {
+        LightKind::Spot { position_world, direction, outer_angle: half_angle, .. } => {
             let light_from_world = light_from_world(direction).ok_or(UnshadowedReason::Unusable)?;
-            let range_m = source.effective_range().unwrap_or(0.0);
-            let usable = position_world.is_finite() && range_m.is_finite() && outer_angle.is_finite();
-            if !usable || range_m <= 0.0 || outer_angle <= 0.0 {
-                return Err(UnshadowedReason::Unusable);
-            }
+            let usable = position_world.is_finite() && reaches && half_angle.is_finite() && half_angle > 0.0;
             let direction = direction.normalize();
-            let cone = SpotCone { position_world, direction, half_angle: outer_angle, range_m };
-            let importance = spot_importance(&cone, brightness, reach)?;
-            Ok(Candidate { light, shape: Shape::Spot { cone, light_from_world }, importance })
+            let cone = SpotCone { position_world, direction, half_angle, range_m };
+            usable.then_some(Shape::Spot { cone, light_from_world }).ok_or(UnshadowedReason::Unusable)
+        }
+        LightKind::Point { position_world, .. } => {
+            let usable = position_world.is_finite() && reaches;
+            usable.then_some(Shape::Point { position_world, range_m }).ok_or(UnshadowedReason::Unusable)
         }
     }
 }
 
 /// How much of the view its light can fill, then how bright it is from the camera.
-fn spot_importance(
-    cone: &SpotCone,
+fn local_importance(
+    sphere: Sphere,
+    weight: f64,
     brightness: f64,
     reach: &Reach<'_>,
 ) -> Result<(f64, f64), UnshadowedReason> {
-    let sphere = cone.bounding_sphere();
     if !reach.touches(sphere) {
         return Err(UnshadowedReason::OutOfReach);
     }
     let distance_m = reach.camera.position_world().distance(sphere.center_world);
     let coverage = sphere.radius_m / distance_m.max(sphere.radius_m);
-    Ok((coverage, brightness / (distance_m * distance_m).max(1e-6)))
-}
-
-/// Returns the place in the list of the main light: the brightest directional one.
-pub(crate) fn main_light(candidates: &[Candidate]) -> Option<usize> {
-    let directional =
-        candidates.iter().enumerate().filter(|(_, c)| matches!(c.shape, Shape::Directional { .. }));
-    directional.min_by(|a, b| a.1.order(b.1)).map(|(i, _)| i)
+    Ok((weight * coverage, brightness / (distance_m * distance_m).max(1e-6)))
 }
 
 fn brightness(light: &Light) -> f64 {

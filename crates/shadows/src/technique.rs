@@ -9,7 +9,7 @@ use crate::{Error, Needs, ShadowInputs, Unshadowed};
 /// A way of making shadows: nodes for the graph, and a WGSL module that answers "how much of this light arrives
 /// here".
 ///
-/// The module has `#define_import_path shadowgraph::technique` and the functions
+/// The first module has `#define_import_path shadowgraph::technique` and the functions
 /// `shadow_visibility(light: u32, receiver: Receiver) -> vec3f` (1 lit, 0 in shadow) and
 /// `shadow_debug_color(light: u32, receiver: Receiver) -> vec3f`. It is called in loops and from compute passes, so
 /// it never uses implicit derivatives. All of bind group 1 is its own.
@@ -25,8 +25,14 @@ pub trait ShadowTechnique: Sync {
         false
     }
 
-    /// Returns its WGSL module.
-    fn module(&self) -> ModuleSource;
+    /// Returns how many variants of its WGSL there are, at least 1. Variant 0 serves every frame; others have less in them,
+    /// and [`ShadowOutputs::variant`] says which of them a frame is best lit with.
+    fn variant_count(&self) -> u32 {
+        1
+    }
+
+    /// Returns its WGSL modules in a variant: the one with the functions, and those that take the place of built-in ones.
+    fn modules(&self, variant: u32) -> Vec<ModuleSource>;
 
     /// Returns the layout of bind group 1.
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout;
@@ -60,6 +66,9 @@ pub struct Screen {
 
 /// What a technique gives to the passes that light.
 pub struct ShadowOutputs<'f> {
+    /// Which variant of the technique's modules has all that this frame needs, and the least beyond; see
+    /// [`ShadowTechnique::modules`].
+    pub variant: u32,
     /// Bind group 1: its place in the list is the binding number.
     pub bindings: Vec<ShadowBinding<'f>>,
     /// Textures worth looking at, by name.

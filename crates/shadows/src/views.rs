@@ -3,7 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
 
-use crate::{OrthoFit, ShadowSettings, Sphere, SpotFit, TileRect};
+use crate::rules::LightRules;
+use crate::{
+    BiasMethod, CascadeBlend, CascadeSelection, OrthoFit, ShadowSettings, Sphere, SpotFit, TileRect,
+};
 
 /// One tile, 256 bytes: the dynamic offset at which it is bound to draw into it, and what is needed to look
 /// something up in it. World space here is relative to the frame's origin.
@@ -36,15 +39,23 @@ pub struct ShadowView {
     pub near_m: f32,
     /// Which cascade it is, from 0; [`NOT_A_CASCADE`] for others.
     pub cascade: u32,
-    /// Zero.
-    pub unused: [u32; 2],
+    /// View depth where the cascade's own part begins, metres; 0 for others.
+    pub begin_m: f32,
+    /// View depth where the cascade's own part ends, metres; 0 for others.
+    pub end_m: f32,
     /// The tile in the map, pixels: left, top, width, height.
     pub tile_px: [u32; 4],
+    /// What biases are multiplied by.
+    pub bias_scale: f32,
+    /// How far apart two depths are that the map can tell apart.
+    pub depth_step: f32,
     /// Zero.
-    pub reserved: [u32; 8],
+    pub unused: [u32; 2],
+    /// Zero.
+    pub reserved: [u32; 4],
 }
 
-/// Which views a light has and how they are read, 48 bytes. One for each light of the scene, in its order.
+/// Which views a light has and how they are read, 80 bytes. One for each light of the scene, in its order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ShadowLight {
@@ -54,8 +65,16 @@ pub struct ShadowLight {
     pub view_count: u32,
     /// Which map they are in: [`MAP_CASCADES`] or [`MAP_ATLAS`].
     pub map: u32,
-    /// Zero.
-    pub unused: u32,
+    /// How the view of a point is found: one of `SELECT_*`.
+    pub select: u32,
+    /// How views go over into each other: one of `BLEND_*`.
+    pub blend: u32,
+    /// [`ShadowFilter::taps`](crate::ShadowFilter::taps).
+    pub filter_taps: u32,
+    /// How lookups are moved towards the light: one of `BIAS_*`.
+    pub bias_method: u32,
+    /// 1: the bias along the normal is scaled by the sine of the angle between normal and light.
+    pub normal_sine: u32,
     /// How dark its shadows are, 0 to 1.
     pub strength: f32,
     /// See [`BiasSettings::normal_texels`](crate::BiasSettings::normal_texels).
@@ -72,6 +91,14 @@ pub struct ShadowLight {
     pub fade_end_m: f32,
     /// How fast they fade before that, parts per metre.
     pub fade_per_m: f32,
+    /// The outer part of a view that is blended, 0 to 0.5.
+    pub blend_fraction: f32,
+    /// The outer part of the last view over which shadows fade out, 0 to 1.
+    pub edge_fade: f32,
+    /// Half the width of the filter's tent at the camera, texels.
+    pub filter_half: f32,
+    /// By how much that shrinks up to `fade_end_m`, texels per metre.
+    pub filter_falloff: f32,
 }
 
 /// [`ShadowView::cascade`] of a tile that is none.
@@ -83,10 +110,39 @@ pub const MAP_CASCADES: u32 = 0;
 /// [`ShadowLight::map`]: the atlas of all other lights.
 pub const MAP_ATLAS: u32 = 1;
 
+/// [`ShadowLight::select`]: the first view that covers the point.
+pub const SELECT_MAP: u32 = 0;
+/// [`ShadowLight::select`]: the first view whose sphere holds the point; after the last there is a view of nothing.
+pub const SELECT_SPHERE: u32 = 1;
+/// [`ShadowLight::select`]: the view whose view depths the point is in; after the last there is a view of nothing.
+pub const SELECT_DEPTH: u32 = 2;
+/// [`ShadowLight::select`]: the face of a cube: +X, -X, +Y, -Y, +Z, -Z.
+pub const SELECT_FACE: u32 = 3;
+
+/// [`ShadowLight::blend`]: not at all.
+pub const BLEND_HARD: u32 = 0;
+/// [`ShadowLight::blend`]: two views are mixed.
+pub const BLEND_SOFT: u32 = 1;
+/// [`ShadowLight::blend`]: each pixel takes one of two.
+pub const BLEND_DITHER: u32 = 2;
+
+/// [`ShadowLight::bias_method`]: along the receiver's plane.
+pub const BIAS_PLANE: u32 = 0;
+/// [`ShadowLight::bias_method`]: by the receiver's slope.
+pub const BIAS_SLOPE: u32 = 1;
+/// [`ShadowLight::bias_method`]: by the map's own gradient.
+pub const BIAS_GRADIENT: u32 = 2;
+
 impl ShadowView {
+    /// The view of nothing: what is looked up in it is lit.
+    #[must_use]
+    pub fn nothing() -> Self {
+        Self { cascade: NOT_A_CASCADE, ..Self::zeroed() }
+    }
+
     /// Describes a directional light's tile.
     #[must_use]
-    pub fn directional(fit: &OrthoFit, rect: TileRect, map_size_px: [u32; 2], origin_world: DVec3) -> Self {
+    pub fn directional(fit: &OrthoFit, tile: &TilePlace, origin_world: DVec3) -> Self {
         let towards_light = fit.light_from_world.transpose().z_axis;
         Self {
             light: towards_light.as_vec3().extend(0.0),
@@ -94,14 +150,14 @@ impl ShadowView {
             depth_per_texel: (fit.texel_m / fit.depth_range_m()) as f32,
             axis_scale: fit.half_extent_m() as f32,
             depth_range_m: fit.depth_range_m() as f32,
-            ..Self::tile(&fit.clip_from_world(origin_world), rect, map_size_px)
+            ..Self::tile(&fit.clip_from_world(origin_world), tile)
         }
         .around(fit.sphere, origin_world)
     }
 
     /// Describes a spot light's tile.
     #[must_use]
-    pub fn spot(fit: &SpotFit, rect: TileRect, map_size_px: [u32; 2], origin_world: DVec3) -> Self {
+    pub fn spot(fit: &SpotFit, tile: &TilePlace, origin_world: DVec3) -> Self {
         let sphere = fit.cone.bounding_sphere();
         Self {
             light: (fit.cone.position_world - origin_world).as_vec3().extend(1.0),
@@ -110,13 +166,14 @@ impl ShadowView {
             axis_scale: fit.tan_half as f32,
             depth_range_m: (fit.far_m - fit.near_m) as f32,
             near_m: fit.near_m as f32,
-            ..Self::tile(&fit.clip_from_world(origin_world), rect, map_size_px)
+            ..Self::tile(&fit.clip_from_world(origin_world), tile)
         }
         .around(sphere, origin_world)
     }
 
-    fn tile(clip_from_world: &DMat4, rect: TileRect, map_size_px: [u32; 2]) -> Self {
-        let (uv_min, uv_max) = rect.inner_uv(map_size_px);
+    fn tile(clip_from_world: &DMat4, tile: &TilePlace) -> Self {
+        let TilePlace { rect, map_size_px, border_px, depth_step } = *tile;
+        let (uv_min, uv_max) = rect.inner_uv(map_size_px, border_px);
         Self {
             clip_from_world: clip_from_world.as_mat4(),
             map_from_world: (rect.map_from_clip(map_size_px) * *clip_from_world).as_mat4(),
@@ -124,6 +181,8 @@ impl ShadowView {
             uv_max,
             cascade: NOT_A_CASCADE,
             tile_px: [rect.x, rect.y, rect.width, rect.height],
+            bias_scale: 1.0,
+            depth_step,
             ..Self::zeroed()
         }
     }
@@ -134,22 +193,68 @@ impl ShadowView {
     }
 }
 
+/// Where a view's tile is, and in which map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TilePlace {
+    /// The tile, border and all.
+    pub rect: TileRect,
+    /// Width and height of the map, pixels.
+    pub map_size_px: [u32; 2],
+    /// The border, pixels: as wide as the filter reaches.
+    pub border_px: u32,
+    /// See [`DepthFormat::step`](crate::DepthFormat::step).
+    pub depth_step: f32,
+}
+
 impl ShadowLight {
-    /// Describes how the shadows of a light without views are read: its shadows fade out before `distance_m`
-    /// (above 0) as the settings say.
+    /// Describes how the shadows of a light without views or settings of its own are read: its shadows fade out before
+    /// `distance_m` (above 0) as the settings say.
     #[must_use]
     pub fn new(settings: &ShadowSettings, distance_m: f64) -> Self {
-        let ShadowSettings { bias, fade_fraction, .. } = settings;
+        Self::with_rules(&LightRules::new(settings, None, true), distance_m)
+    }
+
+    pub(crate) fn with_rules(rules: &LightRules, distance_m: f64) -> Self {
+        let half = rules.filter.half_width_texels();
         Self {
-            strength: 1.0,
-            normal_bias_texels: bias.normal_texels,
-            slope_bias: bias.slope,
-            min_slope: bias.min_slope,
-            max_slope: bias.max_slope,
-            depth_bias_texels: bias.depth_texels,
+            filter_taps: rules.filter.taps(),
+            bias_method: match rules.bias.method {
+                BiasMethod::Plane => BIAS_PLANE,
+                BiasMethod::Slope => BIAS_SLOPE,
+                BiasMethod::Gradient => BIAS_GRADIENT,
+            },
+            normal_sine: u32::from(rules.normal_sine()),
+            strength: rules.strength,
+            normal_bias_texels: rules.normal_texels(),
+            slope_bias: rules.bias.slope,
+            min_slope: rules.bias.min_slope,
+            max_slope: rules.bias.max_slope,
+            depth_bias_texels: rules.bias.depth_texels,
             fade_end_m: distance_m as f32,
-            fade_per_m: (1.0 / (distance_m * f64::from(*fade_fraction))) as f32,
+            fade_per_m: (1.0 / (distance_m * f64::from(rules.fade_fraction))) as f32,
+            filter_half: half as f32,
             ..Self::default()
+        }
+    }
+
+    /// Describes a light that has cascades.
+    pub(crate) fn with_cascades(self, settings: &crate::CascadeSettings) -> Self {
+        let shrinks = self.filter_half * (1.0 - settings.far_filter);
+        Self {
+            select: match settings.select {
+                CascadeSelection::Map => SELECT_MAP,
+                CascadeSelection::Sphere => SELECT_SPHERE,
+                CascadeSelection::Depth => SELECT_DEPTH,
+            },
+            blend: match settings.blend {
+                CascadeBlend::Hard => BLEND_HARD,
+                CascadeBlend::Soft(_) => BLEND_SOFT,
+                CascadeBlend::Dither(_) => BLEND_DITHER,
+            },
+            blend_fraction: settings.blend.fraction(),
+            edge_fade: settings.edge_fade,
+            filter_falloff: shrinks / self.fade_end_m,
+            ..self
         }
     }
 

@@ -6,7 +6,7 @@
 struct ShadowView {
     // To the tile: x and y -w to w, y up.
     clip_from_world: mat4x4f,
-    // To the map: x/w and y/w 0 to 1 over all of it, y down.
+    // To the map: x/w and y/w 0 to 1 over all of it, y down. All zeros: the view of nothing.
     map_from_world: mat4x4f,
     // The tile without its border, in parts of the map: around points in here the filter stays in the tile.
     uv_min: vec2f,
@@ -28,27 +28,43 @@ struct ShadowView {
     near_m: f32,
     // NOT_A_CASCADE in the atlas.
     cascade: u32,
-    unused: vec2u,
+    // View depths of the cascade's own part, metres.
+    begin_m: f32,
+    end_m: f32,
     // Left, top, width, height.
     tile_px: vec4u,
-    reserved: array<vec4u, 2>,
+    // What biases are multiplied by.
+    bias_scale: f32,
+    // How far apart two depths are that the map can tell apart.
+    depth_step: f32,
+    unused: vec2u,
+    reserved: vec4u,
 }
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;
 
-// 48 bytes. One for each light of the scene.
+// 80 bytes. One for each light of the scene.
 struct ShadowLight {
     first_view: u32,
     // 0: no shadows.
     view_count: u32,
     // MAP_*.
     map: u32,
-    unused: u32,
+    // SELECT_*.
+    select: u32,
+    // BLEND_*.
+    blend: u32,
+    // Comparisons of the filter along each axis, 1 to 4.
+    filter_taps: u32,
+    // BIAS_*.
+    bias_method: u32,
+    // 1: the bias along the normal is scaled by the sine of the angle between normal and light.
+    normal_sine: u32,
     // How dark the shadows are, 0 to 1.
     strength: f32,
-    // How far a receiver is moved along its normal, texels, times the sine of the light's angle to it.
+    // How far a receiver is moved along its normal, texels.
     normal_bias_texels: f32,
-    // How far a tap is moved towards the light, in parts of the receiver's depth change from its middle to there.
+    // How far a tap is moved towards the light, in parts of the depth change that bias_method follows.
     slope_bias: f32,
     // The flattest depth change that taps allow for in every direction, texels per texel.
     min_slope: f32,
@@ -60,7 +76,30 @@ struct ShadowLight {
     fade_end_m: f32,
     // How fast they fade out before that.
     fade_per_m: f32,
+    // The outer part of a view that is blended with the next.
+    blend_fraction: f32,
+    // The outer part of the last view over which shadows fade out; 0: none.
+    edge_fade: f32,
+    // Half the width of the filter's tent at the camera, texels, and how much narrower it gets with each metre of view depth.
+    filter_half: f32,
+    filter_falloff: f32,
 }
 
 const MAP_CASCADES: u32 = 0u;
 const MAP_ATLAS: u32 = 1u;
+
+// The first view that covers the point, the first whose sphere holds it, the one whose view depths it is in, or the face of
+// a cube. After the last view of SELECT_SPHERE and SELECT_DEPTH there is a view of nothing.
+const SELECT_MAP: u32 = 0u;
+const SELECT_SPHERE: u32 = 1u;
+const SELECT_DEPTH: u32 = 2u;
+const SELECT_FACE: u32 = 3u;
+
+const BLEND_HARD: u32 = 0u;
+const BLEND_SOFT: u32 = 1u;
+const BLEND_DITHER: u32 = 2u;
+
+// Along the receiver's plane, by the receiver's slope, by the map's own gradient.
+const BIAS_PLANE: u32 = 0u;
+const BIAS_SLOPE: u32 = 1u;
+const BIAS_GRADIENT: u32 = 2u;

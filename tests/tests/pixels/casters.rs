@@ -7,7 +7,7 @@ use crate::stage::{
 use glam::DVec3;
 use shadowgraph::SceneCasters;
 use shadowgraph::options::Aov;
-use shadowgraph::scene::gpu::{CullFaces, DepthPipelines, DepthTarget, GpuScene};
+use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
 use shadowgraph::scene::{AlphaMode, Image, Mesh, Scene, TextureRef};
 use shadowgraph::shadows::{Pcf, ShadowSettings};
 
@@ -107,16 +107,9 @@ fn clamping_in_the_fragment_shader_draws_the_map_that_the_hardware_draws() {
     // Another cube high over the cascades on the way of the light, so that something is clamped.
     add_instance(&mut scene, 1, 0, direction * -60.0);
     let upload = || GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
-    let target = |emulate_clamp| DepthTarget {
-        clamp_near: true,
-        faces: CullFaces::None,
-        emulate_clamp,
-        ..DepthTarget::default()
-    };
-    let maps = [false, true].map(|emulate| {
-        let upload = upload();
-        let pipelines = DepthPipelines::new(&gpu.device, upload.layouts(), &target(emulate)).unwrap();
-        let casters = SceneCasters::with_pipelines(upload, pipelines);
+    let maps = [false, true].map(|emulate_clamp| {
+        let target = DepthTarget { clamp_near: true, emulate_clamp, ..DepthTarget::default() };
+        let casters = SceneCasters::with_target(&gpu.device, upload(), &target).unwrap();
         let camera = camera(DVec3::new(2.0, 2.0, 3.0), DVec3::ZERO);
         let settings = ShadowSettings { distance_m: 10.0, ..ShadowSettings::default() };
         draw_map(gpu, &Pcf::new(&gpu.device), &casters, &scene.lights, &camera, &settings, "cascades")

@@ -7,6 +7,7 @@ mod casters;
 mod maps;
 mod measure;
 mod raytraced;
+mod rows;
 mod scenes;
 mod snapping;
 mod stage;

@@ -44,8 +44,14 @@ fn the_shadow_of_a_cube_is_nearly_the_true_one() {
 
 #[test]
 fn without_bias_acne_is_seen() {
-    let bias =
-        BiasSettings { normal_texels: 0.0, slope: 0.0, min_slope: 0.0, max_slope: 1.0, depth_texels: 0.0 };
+    let bias = BiasSettings {
+        normal_texels: 0.0,
+        slope: 0.0,
+        min_slope: 0.0,
+        max_slope: 1.0,
+        depth_texels: 0.0,
+        ..BiasSettings::default()
+    };
     let Some(errors) = measured("cube", with_bias(bias)) else { return };
     let good = measured("cube", ShadowSettings::default()).unwrap();
     let (acne, none) = (errors.misclassified.outside.acne, good.misclassified.outside.acne);

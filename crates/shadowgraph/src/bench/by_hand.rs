@@ -1,10 +1,12 @@
 //! The passes of `forward` without the graph, as one would write them for this very frame: every texture, view and
 //! bind group is made once, and a frame writes the buffers and encodes.
 
+use std::sync::Arc;
+
 use shadowgraph_core::Format;
-use shadowgraph_lighting::{GpuLight, GpuView, ViewRecords};
+use shadowgraph_lighting::{GpuLight, GpuView, LitPipelines, ViewRecords};
 use shadowgraph_shadows::{
-    CasterTarget, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, plan_shadows,
+    CasterTarget, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, TilePart, plan_shadows,
 };
 use wgpu::{BindingResource, TextureUsages};
 
@@ -29,6 +31,7 @@ pub(super) struct ByHand<'v> {
     lit: wgpu::TextureView,
     target: wgpu::TextureView,
     groups: Groups,
+    pipelines: Arc<LitPipelines>,
 }
 
 struct Groups {
@@ -60,11 +63,16 @@ impl<'v> ByHand<'v> {
         let depth = attachment(device, [width, height], DEPTH, TextureUsages::empty());
         let lit = attachment(device, [width, height], Format::Rgba16Float, TextureUsages::TEXTURE_BINDING);
         let map = |plan: &Option<MapPlan>| {
-            plan.as_ref().map(|plan| attachment(device, plan.size_px, DEPTH, TextureUsages::TEXTURE_BINDING))
+            let map = |plan: &MapPlan| {
+                let format = plan.depth.texture_format();
+                attachment(device, plan.size_px, format, TextureUsages::TEXTURE_BINDING)
+            };
+            plan.as_ref().map(map)
         };
         let maps = [map(&records.shadows.cascades), map(&records.shadows.atlas)];
         Ok(Self {
             counts: counts(&records, view),
+            pipelines: renderer.forward.pipelines(records.shadows.variant().index())?,
             groups: Groups::new(device, renderer, view, &buffers, &maps, &lit),
             target: target.create_view(&wgpu::TextureViewDescriptor::default()),
             renderer,
@@ -125,7 +133,8 @@ impl<'v> ByHand<'v> {
             let [x, y, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|px| px as f32);
             pass.set_viewport(x, y, width, height, 0.0, 1.0);
             pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
-            let target = CasterTarget { format: DEPTH, perspective: tile.cascade.is_none() };
+            let format = plan.depth.texture_format();
+            let target = CasterTarget { format, perspective: !matches!(tile.part, TilePart::Cascade(_)) };
             self.renderer.casters.draw(&mut pass, target, &tile.casters);
         }
     }
@@ -142,9 +151,8 @@ impl<'v> ByHand<'v> {
         let mut pass = begin(encoder, "forward", Some((&self.lit, background)), Some((&self.depth, false)));
         pass.set_bind_group(0, &self.groups.view, &[]);
         pass.set_bind_group(1, &self.groups.shadows, &[]);
-        let forward = &self.renderer.forward;
         for draws in [&self.view.draws.solid, &self.view.draws.blend] {
-            self.renderer.casters.scene.draw(&mut pass, draws, true, &|key| forward.pipeline(key));
+            self.renderer.casters.scene.draw(&mut pass, draws, true, &|key| self.pipelines.get(key));
         }
     }
 

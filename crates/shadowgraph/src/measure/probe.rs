@@ -87,7 +87,7 @@ impl Probe {
     }
 
     fn unchecked(device: &wgpu::Device, renderer: &Renderer) -> Result<Self, Error> {
-        let module = shadowgraph_shaders::compose("probe.wgsl", &[renderer.technique.module()])?;
+        let module = shadowgraph_shaders::compose("probe.wgsl", &renderer.technique.modules(0))?;
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("probe.wgsl"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
@@ -160,6 +160,7 @@ impl Probe {
             let depth = renderer.forward.prepass(&mut frame, &buffers, geometry);
             drawer.screen(&mut frame, &buffers, &depth, geometry)
         });
+        let screen = screen.transpose()?;
         let inputs = ShadowInputs {
             camera: &options.camera,
             aspect: options.aspect(),

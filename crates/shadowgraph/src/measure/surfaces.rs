@@ -55,7 +55,7 @@ impl SurfaceReader {
             let buffers = records.upload(&mut frame);
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
             let depth = renderer.forward.prepass(&mut frame, &buffers, geometry);
-            let surfaces = self.drawer.add_to(&mut frame, &buffers, &depth, geometry);
+            let surfaces = self.drawer.add_to(&mut frame, &buffers, &depth, geometry)?;
             let request = frame.read_back_texture(&surfaces, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;

@@ -1,7 +1,7 @@
 //! How large the shadow texels are that shade each pixel.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
-use shadowgraph_shadows::{ShadowPlan, ShadowView};
+use shadowgraph_shadows::{SELECT_DEPTH, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowPlan, ShadowView};
 
 use super::Surfaces;
 use crate::ViewOptions;
@@ -40,10 +40,13 @@ impl Texels {
         let clip_from_position =
             camera.clip_from_view(options.aspect()) * camera.view_from_world() * from_origin;
         let screen = Screen { clip_from_position, size_px: DVec2::from(options.size_px.map(f64::from)) };
+        let selected = Selected::new(plan.lights.get(light), options, origin_world);
         let pixels = surfaces.positions.iter().zip(&surfaces.normals);
         let mut texels = Self { side_m: Vec::new(), reach_px: Vec::new(), views: Vec::new() };
         for (position, normal) in pixels {
-            let found = (0..).zip(views).find_map(|(index, view)| Some((index, side_m(view, *position)?)));
+            let candidates = (0..).zip(views).filter(|(_, view)| selected.may_be(view, *position));
+            let mut found = candidates.filter_map(|(index, view)| Some((index, side_m(view, *position)?)));
+            let found = found.next();
             let (view, side_m, reach_px) = match found {
                 Some((view, (side_m, to_light))) if *normal != Vec3::ZERO => {
                     (view, side_m, screen.reach_px(*position, *normal, to_light, side_m))
@@ -65,6 +68,29 @@ fn side_m(view: &ShadowView, position: Vec3) -> Option<(f32, Vec3)> {
     let covered = map.w > 0.0 && inside(map.truncate().truncate() / map.w) && map.z > 0.0;
     let to_light = view.light.truncate() - position * view.light.w;
     covered.then_some((view.texel_world * map.w, to_light.normalize_or(Vec3::Y)))
+}
+
+/// How a light's views are chosen, as far as it is not by what covers a point.
+struct Selected {
+    select: u32,
+    view_from_position: DMat4,
+}
+
+impl Selected {
+    fn new(light: Option<&ShadowLight>, options: &ViewOptions, origin_world: DVec3) -> Self {
+        let view_from_position = options.camera.view_from_world() * DMat4::from_translation(origin_world);
+        Self { select: light.map_or(SELECT_MAP, |light| light.select), view_from_position }
+    }
+
+    fn may_be(&self, view: &ShadowView, position: Vec3) -> bool {
+        match self.select {
+            SELECT_SPHERE => position.distance(view.center) < view.radius,
+            SELECT_DEPTH => {
+                -self.view_from_position.transform_point3(position.as_dvec3()).z < f64::from(view.end_m)
+            }
+            _ => true,
+        }
+    }
 }
 
 struct Screen {

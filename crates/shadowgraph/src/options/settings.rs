@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn a_value_out_of_range_is_named_with_the_range() {
         let error = load("(cascades: (count: 9))").unwrap_err();
-        assert!(error.contains("cascades.count") && error.contains("1 to 4"), "{error}");
+        assert!(error.contains("cascades.count") && error.contains("0 to 8"), "{error}");
     }
 
     #[test]

@@ -33,8 +33,8 @@ pub fn forward<'f>(
     let (depth, screen) = frame.node("geometry", |frame| {
         let depth = forward.prepass(frame, &buffers, geometry);
         let screen = surfaces.as_ref().map(|drawer| drawer.screen(frame, &buffers, &depth, geometry));
-        (depth, screen)
-    });
+        screen.transpose().map(|screen| (depth, screen))
+    })?;
 
     // Shadows, by whatever technique.
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
@@ -45,8 +45,8 @@ pub fn forward<'f>(
     // The lit scene. Only pictures have a sky: in the others nothing is where nothing is drawn.
     let is_data = matches!(renderer.aov(), Aov::Visibility(_) | Aov::Cascade | Aov::Normal);
     let background = if is_data { [0.0; 4] } else { view.ambience.background() };
-    let lit =
-        frame.node("lighting", |frame| forward.lit(frame, &buffers, &shadows, &depth, geometry, background));
+    let lit = frame
+        .node("lighting", |frame| forward.lit(frame, &buffers, &shadows, &depth, geometry, background))?;
 
     // The picture. What an output does not need is culled.
     let picture = frame.node("picture", |frame| match renderer.aov() {

@@ -4,7 +4,9 @@ mod layout;
 mod none;
 mod pcf;
 mod raytraced;
+mod variant;
 
 pub use none::NoShadows;
 pub use pcf::Pcf;
 pub use raytraced::{MAX_MASK_LAYERS, Raytraced};
+pub use variant::PcfVariant;

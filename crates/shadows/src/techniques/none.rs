@@ -28,8 +28,8 @@ impl ShadowTechnique for NoShadows {
         Needs { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 }
     }
 
-    fn module(&self) -> ModuleSource {
-        NONE
+    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
+        vec![NONE]
     }
 
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
@@ -42,7 +42,7 @@ impl ShadowTechnique for NoShadows {
         _inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        Ok(ShadowOutputs { bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() })
+        Ok(ShadowOutputs { variant: 0, bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() })
     }
 }
 

@@ -1,18 +1,16 @@
-//! `pcf`: cascades for the main light, an atlas for the others, percentage-closer filtering with a 5 x 5 tent.
+//! `pcf`: cascades for the brightest directional lights, an atlas for the others, percentage-closer filtering.
 
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc};
 use shadowgraph_shaders::{ModuleSource, PCF};
 
 use super::layout::{STORAGE, layout};
+use super::variant::PcfVariant;
 use crate::plan;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
-    CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowView, TilePlan,
+    CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowView, TilePart, TilePlan,
     caster_view_layout, plan_shadows,
 };
-
-/// The format of both maps.
-const MAP_FORMAT: Format = Format::Depth32Float;
 
 /// The bytes of a view: also the step of its dynamic offset.
 const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
@@ -47,7 +45,7 @@ impl Pcf {
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
-                format: MAP_FORMAT,
+                format: wgpu::TextureFormat::Depth32Float,
                 usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
                 view_formats: &[],
             }),
@@ -67,13 +65,14 @@ impl Pcf {
             return frame.import_texture(format_args!("no {name}"), &self.lit, true);
         };
         let [width, height] = plan.size_px;
-        let mut map = frame.create_texture(name, TextureDesc::d2(width, height, MAP_FORMAT));
+        let format = plan.depth.texture_format();
+        let mut map = frame.create_texture(name, TextureDesc::d2(width, height, format));
         frame.node(name, |frame| {
             // All of the map, as shaders sample it whole and its tiles need not cover it. Tiles do not overlap, so
             // nothing orders them among each other, and all become one render pass that begins with this clear.
             frame.render_pass("clear").depth(&mut map, Contents::clear_depth(0.0));
             for tile in plan.tiles.into_iter().filter(|tile| !tile.casters.is_empty()) {
-                self.tile(frame, &mut map, tile, views, casters);
+                self.tile(frame, (&mut map, format), tile, views, casters);
             }
         });
         map
@@ -83,20 +82,22 @@ impl Pcf {
     fn tile<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        map: &mut Texture,
+        (map, format): (&mut Texture, Format),
         tile: TilePlan,
         (buffer, views): (&Buffer, &[ShadowView]),
         casters: &'f dyn ShadowCasters,
     ) {
-        let mut pass = match tile.cascade {
-            Some(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
-            None => frame.render_pass(format_args!("light {}", tile.light)),
+        let light = tile.light;
+        let mut pass = match tile.part {
+            TilePart::Cascade(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
+            TilePart::Face(face) => frame.render_pass(format_args!("light {light} face {face}")),
+            TilePart::Whole => frame.render_pass(format_args!("light {light}")),
         };
         let buffer = pass.storage_buffer(buffer);
         // The graph keeps viewport and scissor to the tile.
         pass.on(Part::WHOLE.rect(tile.rect.into())).depth(map, Contents::Preserve);
         let perspective = views[tile.view as usize].light.w != 0.0;
-        let target = CasterTarget { format: MAP_FORMAT, perspective };
+        let target = CasterTarget { format, perspective };
         pass.body(move |ctx| {
             let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
             ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
@@ -115,8 +116,12 @@ impl ShadowTechnique for Pcf {
         plan::needs(inputs.settings)
     }
 
-    fn module(&self) -> ModuleSource {
-        PCF
+    fn variant_count(&self) -> u32 {
+        PcfVariant::COUNT
+    }
+
+    fn modules(&self, variant: u32) -> Vec<ModuleSource> {
+        vec![PCF, PcfVariant::from_index(variant).module()]
     }
 
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
@@ -130,6 +135,7 @@ impl ShadowTechnique for Pcf {
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let plan = plan_shadows(inputs)?;
+        let variant = plan.variant().index();
         let outputs = frame.node("shadows", |frame| {
             let (views, lights) = frame.node("set up views", |frame| {
                 let views = frame.upload_buffer("shadow views", plan.view_bytes());
@@ -139,6 +145,7 @@ impl ShadowTechnique for Pcf {
             let cascades = self.map(frame, "cascades", plan.cascades, of, inputs.casters);
             let atlas = self.map(frame, "atlas", plan.atlas, of, inputs.casters);
             ShadowOutputs {
+                variant,
                 debug: vec![("cascades", cascades.clone()), ("atlas", atlas.clone())],
                 bindings: vec![
                     ShadowBinding::Buffer(views),

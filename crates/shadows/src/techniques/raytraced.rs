@@ -121,8 +121,8 @@ impl ShadowTechnique for Raytraced {
         true
     }
 
-    fn module(&self) -> ModuleSource {
-        RAYTRACED
+    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
+        vec![RAYTRACED]
     }
 
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
@@ -147,7 +147,8 @@ impl ShadowTechnique for Raytraced {
             let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::OwnBuffer).collect();
             bindings.push(ShadowBinding::Buffer(traced));
             bindings.push(ShadowBinding::TextureArray(mask.clone()));
-            ShadowOutputs { bindings, debug: vec![("shadow mask", mask)], unshadowed: Vec::new() }
+            let debug = vec![("shadow mask", mask)];
+            ShadowOutputs { variant: 0, bindings, debug, unshadowed: Vec::new() }
         }))
     }
 }

@@ -1,18 +1,12 @@
 //! Where tiles lie.
 
 use glam::DVec3;
-use shadowgraph_shadows::{
-    BORDER_PX, FILTER_REACH_TEXELS, MAX_ATLAS_TILES, TileLayout, atlas_layout, cascade_layout,
-    smallest_atlas_tile_px,
-};
+use shadowgraph_shadows::{MAX_ATLAS_TILES, ShadowFilter, TileLayout, even_tiles, smallest_atlas_tile_px};
 
 const SIZES_PX: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
 
 fn layouts() -> impl Iterator<Item = (usize, TileLayout)> {
-    SIZES_PX.into_iter().flat_map(|size| {
-        let cascades = (1..=4).map(move |count| (count, cascade_layout(count, size)));
-        cascades.chain((1..=MAX_ATLAS_TILES).map(move |count| (count, atlas_layout(count, size))))
-    })
+    SIZES_PX.into_iter().flat_map(|size| (1..=64).map(move |count| (count, even_tiles(count, size))))
 }
 
 #[test]
@@ -29,13 +23,12 @@ fn tiles_are_inside_the_map_and_do_not_overlap() {
 
 #[test]
 fn border_is_as_wide_as_the_filter_reaches() {
-    assert!(BORDER_PX as f32 >= FILTER_REACH_TEXELS);
-    for (_, layout) in layouts() {
+    for (filter, (_, layout)) in ShadowFilter::ALL.into_iter().flat_map(|f| layouts().map(move |l| (f, l))) {
         for tile in &layout.tiles {
-            let (min, max) = tile.inner_uv(layout.size_px);
+            let (min, max) = tile.inner_uv(layout.size_px, filter.border_px());
             let size = glam::Vec2::new(layout.size_px[0] as f32, layout.size_px[1] as f32);
             let (min, max) = (min * size, max * size);
-            let reach = FILTER_REACH_TEXELS - 1e-2;
+            let reach = filter.reach_texels() - 1e-2;
             assert!(min.x - reach >= tile.x as f32 && min.y - reach >= tile.y as f32);
             assert!(max.x + reach <= (tile.x + tile.width) as f32);
             assert!(max.y + reach <= (tile.y + tile.height) as f32);
@@ -45,27 +38,26 @@ fn border_is_as_wide_as_the_filter_reaches() {
 }
 
 #[test]
-fn atlas_is_split_one_two_three_or_four_times_by_count() {
+fn a_map_is_split_one_two_three_or_four_times_by_count() {
     for (count, per_row) in [(1, 1), (2, 2), (4, 2), (5, 3), (9, 3), (10, 4), (16, 4)] {
-        assert_eq!(atlas_layout(count, 2048).tile_px, 2048 / per_row, "{count}");
+        assert_eq!(even_tiles(count, 2048).tile_px, 2048 / per_row, "{count}");
     }
-    assert_eq!(atlas_layout(16, 2048).tile_px, smallest_atlas_tile_px(2048));
-    assert_eq!(atlas_layout(1, 2048).size_px, [2048, 2048]);
+    assert_eq!(even_tiles(MAX_ATLAS_TILES, 2048).tile_px, smallest_atlas_tile_px(2048));
+    assert_eq!(even_tiles(1, 2048).size_px, [2048, 2048]);
 }
 
 #[test]
 fn rows_that_nobody_needs_are_left_off() {
-    assert_eq!(cascade_layout(1, 4096).size_px, [4096, 4096]);
-    assert_eq!(cascade_layout(2, 4096).size_px, [4096, 2048]);
-    assert_eq!(cascade_layout(3, 4096).size_px, [4096, 4096]);
-    assert_eq!(atlas_layout(2, 2048).size_px, [2048, 1024]);
-    assert_eq!(atlas_layout(12, 2048).size_px, [2048, 1536]);
+    assert_eq!(even_tiles(1, 4096).size_px, [4096, 4096]);
+    assert_eq!(even_tiles(2, 4096).size_px, [4096, 2048]);
+    assert_eq!(even_tiles(3, 4096).size_px, [4096, 4096]);
+    assert_eq!(even_tiles(2, 2048).size_px, [2048, 1024]);
+    assert_eq!(even_tiles(12, 2048).size_px, [2048, 1536]);
 }
 
 #[test]
 fn more_tiles_than_fit_are_not_laid_out() {
-    assert_eq!(atlas_layout(40, 1024).tiles.len(), MAX_ATLAS_TILES);
-    assert_eq!(cascade_layout(9, 1024).tiles.len(), 4);
+    assert_eq!(even_tiles(65, 1024).tiles.len(), 64);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use crate::common::{Analytic, Receiver};
 use glam::DVec3;
 use shadowgraph_scene::Aabb;
 use shadowgraph_shadows::{
-    BiasSettings, OrthoFit, ShadowLight, ShadowSettings, ShadowView, Sphere, SpotCone, SpotFit, TileRect,
-    light_from_world,
+    BiasSettings, OrthoFit, ShadowLight, ShadowSettings, ShadowView, Sphere, SpotCone, SpotFit, TilePlace,
+    TileRect, light_from_world,
 };
 
 const TILE_PX: u32 = 1024;
@@ -38,6 +38,10 @@ fn sun_direction(elevation_deg: f64, azimuth_deg: f64) -> DVec3 {
     -DVec3::new(a.cos() * e.cos(), e.sin(), a.sin() * e.cos())
 }
 
+fn place(rect: TileRect, map_size_px: [u32; 2]) -> TilePlace {
+    TilePlace { rect, map_size_px, border_px: 3, depth_step: 0.0 }
+}
+
 fn cube() -> Aabb {
     Aabb { min: DVec3::new(-0.5, 0.0, -0.5), max: DVec3::new(0.5, 1.0, 0.5) }
 }
@@ -52,7 +56,7 @@ fn sunlit(direction: DVec3, texel_m: f64, bias: &BiasSettings) -> Analytic {
     Analytic {
         floor: 0.0,
         block: cube(),
-        view: ShadowView::directional(&fit, rect, map_size_px, DVec3::ZERO),
+        view: ShadowView::directional(&fit, &place(rect, map_size_px), DVec3::ZERO),
         light: light(bias),
         map_size_px,
     }
@@ -147,8 +151,14 @@ fn surfaces_away_from_outlines_and_corners_are_fully_lit() {
 
 #[test]
 fn without_any_bias_surfaces_would_shadow_themselves() {
-    let none =
-        BiasSettings { normal_texels: 0.0, slope: 0.0, min_slope: 0.0, max_slope: 10.0, depth_texels: 0.0 };
+    let none = BiasSettings {
+        normal_texels: 0.0,
+        slope: 0.0,
+        min_slope: 0.0,
+        max_slope: 10.0,
+        depth_texels: 0.0,
+        ..BiasSettings::default()
+    };
     let direction = sun_direction(30.0, 25.0);
     let scene = sunlit(direction, 0.03, &none);
     let floor = grid(10, |u, v| DVec3::new(2.0 + u, 0.0, 2.0 + v));
@@ -188,7 +198,7 @@ fn spotlit(position: DVec3, target: DVec3, tile_px: u32) -> Analytic {
     Analytic {
         floor: 0.0,
         block: cube(),
-        view: ShadowView::spot(&fit, rect, map_size_px, DVec3::ZERO),
+        view: ShadowView::spot(&fit, &place(rect, map_size_px), DVec3::ZERO),
         light: light(&bias()),
         map_size_px,
     }

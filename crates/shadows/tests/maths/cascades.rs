@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use shadowgraph_scene::{Aabb, Camera, Light, Projection, origin_near};
 use shadowgraph_shadows::{
-    OrthoFit, ShadowInputs, ShadowPlan, ShadowSettings, Slice, Sphere, SplitScheme, light_from_world,
-    plan_shadows, slice_sphere, split_distances,
+    CascadeFitting, OrthoFit, ShadowInputs, ShadowPlan, ShadowSettings, Slice, Sphere, SplitScheme,
+    light_from_world, plan_shadows, slice_sphere, split_distances,
 };
 
 use crate::common::{Boxes, Lookup, Receiver, cube, sun};
@@ -67,9 +67,17 @@ proptest! {
 
     #[test]
     fn splits_rise_to_the_shadow_distance(
-        near in 0.0..5.0f64, length in 0.1..1000.0f64, count in 1u32..=4, lambda in 0f32..=1.0,
+        near in 0.0..5.0f64, length in 0.1..1000.0f64, count in 1u32..=8, lambda in 0f32..=1.0,
+        number in 0.01f32..1000.0,
     ) {
-        for scheme in [SplitScheme::Standard, SplitScheme::Practical { lambda }] {
+        for scheme in [
+            SplitScheme::Standard,
+            SplitScheme::Practical { lambda },
+            SplitScheme::Logarithmic,
+            SplitScheme::Geometric { first_m: number },
+            SplitScheme::Factor(1.01 + number),
+            SplitScheme::Metres((1..count).map(|i| number * i as f32).collect()),
+        ] {
             let ends = split_distances(&scheme, count, near, near + length);
             prop_assert_eq!(ends.len(), count as usize);
             prop_assert_eq!(ends.last(), Some(&(near + length)));
@@ -80,10 +88,11 @@ proptest! {
     #[test]
     fn every_point_in_the_shadow_distance_has_a_cascade(
         camera in any_camera(), aspect in 0.3..4.0f64, direction in any_direction(), normal in any_direction(),
-        at in (-1.0..=1.0f64, -1.0..=1.0f64, 0.0..=1.0f64), count in 1u32..=4,
+        at in (-1.0..=1.0f64, -1.0..=1.0f64, 0.0..=1.0f64), count in 1u32..=8, tight in any::<bool>(),
     ) {
         let mut settings = ShadowSettings::default();
         settings.cascades.count = count;
+        settings.cascades.fit = if tight { CascadeFitting::Tight } else { CascadeFitting::Stable };
         settings.bias.normal_texels = 1.5;
         let (plan, origin_world) = plan(&camera, aspect, sun(direction, 1.0), &settings);
         let far = camera.far().unwrap_or(150.0).min(150.0);
@@ -224,6 +233,12 @@ fn schemes_split_as_documented() {
     close(&SplitScheme::Ratios(vec![0.25]), &[26.0, 101.0]);
     close(&SplitScheme::Practical { lambda: 0.0 }, &[51.0, 101.0]);
     close(&SplitScheme::Practical { lambda: 1.0 }, &[101f64.sqrt(), 101.0]);
+    close(&SplitScheme::Logarithmic, &[101f64.sqrt(), 101.0]);
+    close(&SplitScheme::Metres(vec![20.0, 30.0]), &[20.0, 30.0, 101.0]);
+    close(&SplitScheme::Factor(2.0), &[12.625, 25.25, 50.5, 101.0]);
+    close(&SplitScheme::Geometric { first_m: 6.0 }, &[6.0, (6.0f64 * 101.0).sqrt(), 101.0]);
+    // Where the first would end too late, each is twice the last.
+    close(&SplitScheme::Geometric { first_m: 90.0 }, &[25.25, 50.5, 101.0]);
 }
 
 #[test]

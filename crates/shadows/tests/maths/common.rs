@@ -2,9 +2,7 @@
 
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Projection};
-use shadowgraph_shadows::{
-    CasterTarget, FILTER_REACH_TEXELS, ShadowCasters, ShadowLight, ShadowView, filter_taps,
-};
+use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowFilter, ShadowLight, ShadowView, filter_taps};
 
 /// Boxes that cast shadows.
 pub(crate) struct Boxes(pub(crate) Vec<Aabb>);
@@ -100,7 +98,7 @@ impl Lookup {
         let steepest = f64::from(light.max_slope) * depth_per_texel;
         let slope = slope * f64::from(light.slope_bias) * steepest / slope.length().max(steepest);
         let inside = uv.cmpge(view.uv_min.as_dvec2()).all() && uv.cmple(view.uv_max.as_dvec2()).all();
-        let rise = f64::from(FILTER_REACH_TEXELS) * (slope.x.abs() + slope.y.abs());
+        let rise = f64::from(light.filter_taps) * (slope.x.abs() + slope.y.abs());
         if !(inside && depth > 0.0 && depth + rise < 0.999_999) {
             return None;
         }
@@ -115,14 +113,14 @@ impl Lookup {
     fn tent(&self, at: DVec2, stored: &dyn Fn(i64, i64) -> f64) -> f64 {
         let base = (at + 0.5).floor() - 0.5;
         let s = at - base;
-        let (taps_x, taps_y) = (filter_taps(s.x), filter_taps(s.y));
+        let taps = |s: f64| filter_taps(ShadowFilter::Tent5, 1.0, s).enumerate();
         let rise = |tap: usize, s: f64, slope: f64| {
             let first = tap as f64 * 2.0 - 2.0;
             ((first - s) * slope).max((first + 1.0 - s) * slope)
         };
         let mut sum = 0.0;
-        for (j, (weight_y, tap_y)) in taps_y.into_iter().enumerate() {
-            for (i, (weight_x, tap_x)) in taps_x.into_iter().enumerate() {
+        for (j, (weight_y, tap_y)) in taps(s.y) {
+            for (i, (weight_x, tap_x)) in taps(s.x) {
                 let rise = rise(i, s.x, self.slope.x) + rise(j, s.y, self.slope.y);
                 let cone = ((DVec2::new(tap_x, tap_y) - s).length() + 0.5) * self.min_slope;
                 let depth = (self.depth + rise.abs().max(cone)).min(0.999_999);
@@ -130,7 +128,7 @@ impl Lookup {
                 sum += weight_x * weight_y * bilinear_comparison(point, depth, stored);
             }
         }
-        sum / 144.0
+        sum
     }
 }
 

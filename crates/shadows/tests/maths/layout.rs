@@ -3,7 +3,10 @@
 use std::mem::offset_of;
 
 use shadowgraph_shaders::{ModuleSource, builtin, compose, compose_source, layout};
-use shadowgraph_shadows::{MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowLight, ShadowView};
+use shadowgraph_shadows::{
+    BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
+    NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,
+};
 
 macro_rules! fields {
     ($record:ty: $($field:ident),* $(,)?) => {
@@ -23,19 +26,34 @@ const ENTRY: &str = "
 fn records_lie_in_wgsl_as_in_rust() {
     let module = compose_source(&ModuleSource::new("touch.wgsl", ENTRY), &[]).unwrap();
     let view = fields!(ShadowView: clip_from_world, map_from_world, uv_min, uv_max, light, center, radius,
-        texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, unused, tile_px, reserved);
+        texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, begin_m, end_m, tile_px,
+        bias_scale, depth_step, unused, reserved);
     layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
     assert_eq!(size_of::<ShadowView>(), 256);
     assert_eq!(offset_of!(ShadowView, clip_from_world), 0);
-    let light = fields!(ShadowLight: first_view, view_count, map, unused, strength, normal_bias_texels,
-        slope_bias, min_slope, max_slope, depth_bias_texels, fade_end_m, fade_per_m);
+    let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
+        normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
+        fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff);
     layout::check(&module, "ShadowLight", size_of::<ShadowLight>(), &light).unwrap();
 }
 
 #[test]
 fn constants_are_the_same_in_wgsl_and_rust() {
     let types = builtin("shadows/types.wgsl").unwrap().source;
-    for (name, value) in [("MAP_CASCADES", MAP_CASCADES), ("MAP_ATLAS", MAP_ATLAS)] {
+    for (name, value) in [
+        ("MAP_CASCADES", MAP_CASCADES),
+        ("MAP_ATLAS", MAP_ATLAS),
+        ("SELECT_MAP", SELECT_MAP),
+        ("SELECT_SPHERE", SELECT_SPHERE),
+        ("SELECT_DEPTH", SELECT_DEPTH),
+        ("SELECT_FACE", SELECT_FACE),
+        ("BLEND_HARD", BLEND_HARD),
+        ("BLEND_SOFT", BLEND_SOFT),
+        ("BLEND_DITHER", BLEND_DITHER),
+        ("BIAS_PLANE", BIAS_PLANE),
+        ("BIAS_SLOPE", BIAS_SLOPE),
+        ("BIAS_GRADIENT", BIAS_GRADIENT),
+    ] {
         assert!(types.contains(&format!("const {name}: u32 = {value}u;")), "{name}");
     }
     assert!(types.contains(&format!("const NOT_A_CASCADE: u32 = {NOT_A_CASCADE:#x}u;")));

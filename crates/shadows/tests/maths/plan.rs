@@ -4,7 +4,7 @@ use glam::DVec3;
 use shadowgraph_scene::{Camera, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
     Error, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings,
-    ShadowView, Unshadowed, UnshadowedReason, plan_shadows,
+    ShadowView, TilePart, Unshadowed, UnshadowedReason, plan_shadows,
 };
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
@@ -59,7 +59,10 @@ fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
     let cascades = plan.cascades.as_ref().unwrap();
     assert!(cascades.tiles.iter().all(|tile| tile.light == 1));
     assert_eq!(cascades.tiles[3].casters, [0]);
-    assert_eq!(cascades.tiles.iter().map(|tile| tile.cascade).collect::<Vec<_>>(), [0, 1, 2, 3].map(Some));
+    assert_eq!(
+        cascades.tiles.iter().map(|tile| tile.part).collect::<Vec<_>>(),
+        [0, 1, 2, 3].map(TilePart::Cascade)
+    );
     let atlas = plan.atlas.as_ref().unwrap();
     assert_eq!(
         atlas.tiles.iter().map(|tile| (tile.light, tile.view)).collect::<Vec<_>>(),
@@ -84,8 +87,9 @@ fn views_describe_their_tiles() {
             let view = &plan.views[tile.view as usize];
             let rect = tile.rect;
             assert_eq!(view.tile_px, [rect.x, rect.y, rect.width, rect.height]);
-            assert_eq!(view.cascade, tile.cascade.unwrap_or(NOT_A_CASCADE));
-            assert_eq!((view.uv_min, view.uv_max), rect.inner_uv(map.size_px));
+            let cascade = if let TilePart::Cascade(cascade) = tile.part { cascade } else { NOT_A_CASCADE };
+            assert_eq!(view.cascade, cascade);
+            assert_eq!((view.uv_min, view.uv_max), rect.inner_uv(map.size_px, 3));
             assert_eq!(view.light.w, if tile.light == 2 { 1.0 } else { 0.0 });
             assert!(view.map_from_world.is_finite() && view.radius > 0.0);
         }
@@ -109,7 +113,7 @@ fn each_cascade_has_its_own_casters() {
 
 #[test]
 fn lights_that_cannot_have_shadows_are_reported() {
-    let point = light(LightKind::Point { position_world: DVec3::Y, range: None }, 10.0);
+    let point = light(LightKind::Point { position_world: DVec3::Y, range: Some(-1.0) }, 10.0);
     let nowhere = spot(DVec3::new(0.0, 2.0, 500.0), DVec3::Z, 5.0, 0.5);
     let too_far = spot(DVec3::new(0.0, 2.0, -400.0), DVec3::NEG_Y, 5.0, 0.5);
     let alone = spot(DVec3::new(4.0, 2.0, 0.0), DVec3::NEG_Y, 3.0, 0.3);
@@ -117,7 +121,7 @@ fn lights_that_cannot_have_shadows_are_reported() {
     let bright_nan = Light { intensity: f32::NAN, ..sun(DOWN, 1.0) };
     let plan =
         plan(&[sun(DVec3::ZERO, 1.0), sun(DOWN, 0.0), bright_nan, nowhere, too_far, alone, broken, point]);
-    use UnshadowedReason::{NoCasterInReach, NoLight, OutOfReach, PointLight, Unusable};
+    use UnshadowedReason::{NoCasterInReach, NoLight, OutOfReach, Unusable};
     assert_eq!(
         reasons(&plan),
         [
@@ -128,7 +132,7 @@ fn lights_that_cannot_have_shadows_are_reported() {
             (4, OutOfReach),
             (5, NoCasterInReach),
             (6, Unusable),
-            (7, PointLight),
+            (7, Unusable),
         ]
     );
     assert!(plan.cascades.is_none() && plan.atlas.is_none());

@@ -1,7 +1,10 @@
 //! Settings: ranges, files, messages.
 
 use proptest::prelude::*;
-use shadowgraph_shadows::{BiasSettings, CascadeSettings, ShadowSettings, SplitScheme};
+use shadowgraph_shadows::{
+    BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection, CascadeSettings, DepthFormat,
+    LightRef, LightShadows, NormalBias, ShadowFilter, ShadowSettings, SplitScheme,
+};
 
 fn read(text: &str) -> Result<ShadowSettings, String> {
     let settings: ShadowSettings = ron::from_str(text).map_err(|error| error.to_string())?;
@@ -50,8 +53,54 @@ fn a_value_out_of_range_is_named_with_field_and_range() {
             "(fade_fraction: 1.5)",
             "shadow setting `fade_fraction` is 1.5; allowed: 0.001 to 1 (part of the distance)",
         ),
-        ("(cascades: (count: 0))", "shadow setting `cascades.count` is 0; allowed: 1 to 4"),
-        ("(cascades: (count: 5))", "shadow setting `cascades.count` is 5; allowed: 1 to 4"),
+        ("(cascades: (count: 9))", "shadow setting `cascades.count` is 9; allowed: 0 to 8"),
+        ("(cascades: (lights: 0))", "shadow setting `cascades.lights` is 0; allowed: 1 to 4"),
+        (
+            "(cascades: (overlap: 0.6))",
+            "shadow setting `cascades.overlap` is 0.6; allowed: 0 to 0.5 (part of a slice's length)",
+        ),
+        (
+            "(cascades: (blend: Soft(0.7)))",
+            "shadow setting `cascades.blend` is 0.7; allowed: 0.001 to 0.5 (outer part of a cascade)",
+        ),
+        (
+            "(cascades: (edge_fade: -1.0))",
+            "shadow setting `cascades.edge_fade` is -1; allowed: 0 to 1 (outer part of the last cascade)",
+        ),
+        (
+            "(cascades: (far_filter: 0.0))",
+            "shadow setting `cascades.far_filter` is 0; allowed: 0.2 to 1 (part of the filter's width)",
+        ),
+        (
+            "(cascades: (near_offset_m: inf))",
+            "shadow setting `cascades.near_offset_m` is inf; allowed: 0 to 10000 (metres)",
+        ),
+        (
+            "(cascades: (bias_scales: [1.0, NaN]))",
+            "shadow setting `cascades.bias_scales` is NaN; allowed: each 0 to 16",
+        ),
+        (
+            "(cascades: (split: Metres([10.0, 5.0, 20.0])))",
+            "shadow setting `cascades.split` is [10.0, 5.0, 20.0] for 4 cascades; \
+             allowed: one end fewer than cascades, above 0, rising (metres)",
+        ),
+        (
+            "(cascades: (split: Factor(1.0)))",
+            "shadow setting `cascades.split` is 1; allowed: 1.01 to 100 (factor)",
+        ),
+        (
+            "(cascades: (split: Geometric(first_m: 0.0)))",
+            "shadow setting `cascades.split.first_m` is 0; allowed: 0.001 to 100000 (metres)",
+        ),
+        ("(lights: [(light: 0, strength: 1.5)])", "shadow setting `lights.strength` is 1.5; allowed: 0 to 1"),
+        (
+            "(lights: [(light: 0, near_m: Some(0.0))])",
+            "shadow setting `lights.near_m` is 0; allowed: 0.0001 to 10000 (metres)",
+        ),
+        (
+            "(lights: [(light: \"lamp\", importance: -1.0)])",
+            "shadow setting `lights.importance` is -1; allowed: 0 to 100",
+        ),
         (
             "(cascades: (map_size_px: 1000))",
             "shadow setting `cascades.map_size_px` is 1000; allowed: 256, 512, 1024, 2048, 4096 or 8192 (pixels)",
@@ -106,14 +155,64 @@ fn ratios_must_fit_the_number_of_cascades() {
     }
 }
 
+fn any_split(count: u32) -> impl Strategy<Value = SplitScheme> {
+    let ends = |scale: f32| (1..count).map(move |i| scale * i as f32 / count as f32).collect::<Vec<_>>();
+    prop_oneof![
+        Just(SplitScheme::Standard),
+        Just(SplitScheme::Ratios(ends(1.0))),
+        Just(SplitScheme::Metres(ends(90.0))),
+        (1.01f32..100.0).prop_map(SplitScheme::Factor),
+        (0.001f32..1e5).prop_map(|first_m| SplitScheme::Geometric { first_m }),
+        Just(SplitScheme::Logarithmic),
+        (0f32..=1.0).prop_map(|lambda| SplitScheme::Practical { lambda }),
+    ]
+}
+
+prop_compose! {
+    fn any_cascades()(count in 1u32..=8)(
+        split in any_split(count), count in Just(count), lights in 1u32..=4, exponent in 8u32..=13,
+        depth in prop::sample::select(&DepthFormat::ALL[..]),
+        overlap in 0f32..=0.5, fit in prop::sample::select(vec![CascadeFitting::Stable, CascadeFitting::Tight]),
+        select in prop::sample::select(vec![CascadeSelection::Map, CascadeSelection::Sphere, CascadeSelection::Depth]),
+        blend in prop_oneof![
+            Just(CascadeBlend::Hard),
+            (0.001f32..=0.5).prop_map(CascadeBlend::Soft),
+            (0.001f32..=0.5).prop_map(CascadeBlend::Dither),
+        ],
+        numbers in (0f32..=1.0, 0.2f32..=1.0, 0f32..=1e4),
+        filter in prop::sample::select(&ShadowFilter::ALL[..]),
+        bias_scales in prop::collection::vec(0f32..=16.0, 0..4),
+    ) -> CascadeSettings {
+        let (edge_fade, far_filter, near_offset_m) = numbers;
+        CascadeSettings {
+            count, lights, map_size_px: 1 << exponent, depth, split, overlap, fit, select, blend,
+            edge_fade, far_filter, near_offset_m, filter, bias_scales,
+        }
+    }
+}
+
+prop_compose! {
+    fn any_light()(
+        light in prop_oneof![(0u32..9).prop_map(LightRef::Index), ".{0,9}".prop_map(LightRef::Name)],
+        casts in any::<bool>(), strength in 0f32..=1.0,
+        filter in prop::option::of(prop::sample::select(&ShadowFilter::ALL[..])),
+        depth_texels in prop::option::of(0f32..=16.0), slope in prop::option::of(0f32..=4.0),
+        normal_texels in prop::option::of(0f32..=4.0), near_m in prop::option::of(1e-4f32..=1e4),
+        importance in 0f32..=100.0,
+    ) -> LightShadows {
+        LightShadows { light, casts, strength, filter, depth_texels, slope, normal_texels, near_m, importance }
+    }
+}
+
 proptest! {
     #[test]
     fn valid_settings_survive_a_round_trip(
-        distance_m in 0.001f32..1e6, lambda in 0f32..=1.0, count in 1u32..=4, exponent in 8u32..=13,
+        distance_m in 0.001f32..1e6, cascades in any_cascades(), lights in prop::collection::vec(any_light(), 0..3),
+        normal in prop::sample::select(vec![NormalBias::Sine, NormalBias::Filter]),
+        method in prop::sample::select(vec![BiasMethod::Plane, BiasMethod::Slope, BiasMethod::Gradient]),
     ) {
-        let split = SplitScheme::Practical { lambda };
-        let cascades = CascadeSettings { count, map_size_px: 1 << exponent, split };
-        let settings = ShadowSettings { distance_m, cascades, ..ShadowSettings::default() };
+        let bias = BiasSettings { normal, method, ..BiasSettings::default() };
+        let settings = ShadowSettings { distance_m, cascades, bias, lights, ..ShadowSettings::default() };
         prop_assert_eq!(read(&ron::to_string(&settings).unwrap()), Ok(settings));
     }
 }

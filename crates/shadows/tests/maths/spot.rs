@@ -4,7 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use shadowgraph_scene::Aabb;
 use shadowgraph_shadows::{
-    BORDER_PX, MAX_SPOT_HALF_ANGLE, ShadowView, SpotCone, SpotFit, TileRect, light_from_world,
+    MAX_SPOT_HALF_ANGLE, ShadowFilter, ShadowView, SpotCone, SpotFit, TilePlace, TileRect, light_from_world,
 };
 
 const MARGIN_PX: f64 = 4.5;
@@ -41,7 +41,7 @@ proptest! {
     fn cone_stays_inside_the_border_of_its_tile(cone in any_cone(), shift in 6u32..12) {
         let tile_px = 1 << shift;
         let clip_from_world = fit(cone, tile_px).clip_from_world(DVec3::ZERO);
-        let inner = 1.0 - 2.0 * f64::from(BORDER_PX) / f64::from(tile_px);
+        let inner = 1.0 - 2.0 * f64::from(ShadowFilter::Tent5.border_px()) / f64::from(tile_px);
         for point in rim(&cone, 0.7) {
             let clip = clip_from_world.project_point3(point);
             prop_assert!(clip.truncate().abs().max_element() < inner, "{clip}");
@@ -52,7 +52,8 @@ proptest! {
     fn uploaded_view_puts_the_cone_in_its_inner_rect(cone in any_cone()) {
         let rect = TileRect { x: 512, y: 0, width: 512, height: 512 };
         let origin = shadowgraph_scene::origin_near(cone.position_world);
-        let view = ShadowView::spot(&fit(cone, 512), rect, [1024, 1024], origin);
+        let tile = TilePlace { rect, map_size_px: [1024, 1024], border_px: 3, depth_step: 0.0 };
+        let view = ShadowView::spot(&fit(cone, 512), &tile, origin);
         for point in rim(&cone, 0.9) {
             let map = view.map_from_world * (point - origin).as_vec3().extend(1.0);
             let uv = map.truncate().truncate() / map.w;

@@ -1,0 +1,106 @@
+//! The map of cascades.
+
+use glam::DMat3;
+
+use super::{Planner, place};
+use crate::rules::LightRules;
+use crate::select::{Candidate, Shape};
+use crate::{
+    CascadeFit, CascadeSelection, MAP_CASCADES, MapPlan, ShadowView, TileLayout, TilePart, TilePlan,
+    UnshadowedReason, even_tiles, fit_cascades, split_distances,
+};
+
+/// A light's cascades.
+struct Cascades<'s> {
+    candidate: Candidate<'s>,
+    rules: LightRules,
+    fits: Vec<CascadeFit>,
+    /// Of each cascade.
+    casters: Vec<Vec<u32>>,
+}
+
+impl<'a> Planner<'a> {
+    /// Gives cascades to these directional lights, or as many of them as something casts a shadow under.
+    pub(super) fn add_cascades(&mut self, mut lights: Vec<Candidate<'a>>) {
+        let settings = &self.inputs.settings.cascades;
+        // What has no casters leaves larger tiles for the others.
+        let (layout, planned) = loop {
+            if lights.is_empty() {
+                return;
+            }
+            let layout = even_tiles(lights.len() * settings.count as usize, settings.map_size_px);
+            let (kept, idle): (Vec<_>, Vec<_>) = lights
+                .into_iter()
+                .map(|light| self.cascades(light, layout.tile_px))
+                .partition(|cascades| cascades.casters.iter().any(|casters| !casters.is_empty()));
+            for cascades in &idle {
+                self.skip(cascades.candidate.light, UnshadowedReason::NoCasterInReach);
+            }
+            if idle.is_empty() {
+                break (layout, kept);
+            }
+            lights = kept.into_iter().map(|cascades| cascades.candidate).collect();
+        };
+        let mut map = MapPlan { size_px: layout.size_px, depth: settings.depth, tiles: Vec::new() };
+        for (cascades, rects) in planned.into_iter().zip(layout.tiles.chunks(settings.count as usize)) {
+            let layout = TileLayout { tiles: rects.to_vec(), ..layout };
+            map.tiles.extend(self.add_light(cascades, layout));
+        }
+        self.plan.cascades = Some(map);
+    }
+
+    fn cascades(&self, candidate: Candidate<'a>, tile_px: u32) -> Cascades<'a> {
+        let Shape::Directional { light_from_world } = candidate.shape else {
+            let rules = self.rules(&candidate, true);
+            return Cascades { candidate, rules, fits: Vec::new(), casters: Vec::new() };
+        };
+        let rules = self.rules(&candidate, true);
+        let fits = self.fit_cascades(light_from_world, tile_px, &rules);
+        let casters = fits.iter().map(|fit| self.cull(&fit.fit.cull_volume())).collect();
+        Cascades { candidate, rules, fits, casters }
+    }
+
+    fn fit_cascades(&self, light_from_world: DMat3, tile_px: u32, rules: &LightRules) -> Vec<CascadeFit> {
+        let reach = &self.reach;
+        let settings = &self.inputs.settings.cascades;
+        let ends = split_distances(&settings.split, settings.count, reach.near_m, reach.fit_m);
+        let largest_scale = settings.bias_scales.iter().copied().fold(1.0, f32::max);
+        let tile = (tile_px, rules.margin_px(largest_scale));
+        fit_cascades(reach.camera, reach.aspect, &ends, light_from_world, tile, settings)
+            .into_iter()
+            .map(|cascade| match rules.near_m {
+                Some(offset_m) => CascadeFit { fit: cascade.fit.with_near_offset(offset_m), ..cascade },
+                None => cascade,
+            })
+            .collect()
+    }
+
+    /// Adds a light's views, and returns its tiles.
+    fn add_light(&mut self, cascades: Cascades<'_>, layout: TileLayout) -> Vec<TilePlan> {
+        let Cascades { candidate, rules, fits, casters } = cascades;
+        let settings = &self.inputs.settings.cascades;
+        let first_view = self.plan.views.len() as u32;
+        let mut begin_m = self.reach.near_m;
+        let mut tiles = Vec::new();
+        for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
+            let tile = place(rect, layout.size_px, &rules, settings.depth.step());
+            self.plan.views.push(ShadowView {
+                cascade,
+                begin_m: begin_m as f32,
+                end_m: fit.far_m as f32,
+                bias_scale: settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0),
+                ..ShadowView::directional(&fit.fit, &tile, self.inputs.origin_world)
+            });
+            begin_m = fit.far_m;
+            let (light, view, part) = (candidate.light, first_view + cascade, TilePart::Cascade(cascade));
+            tiles.push(TilePlan { light, view, part, rect, casters });
+        }
+        if settings.select != CascadeSelection::Map {
+            self.plan.views.push(ShadowView::nothing());
+        }
+        let views = (MAP_CASCADES, first_view, tiles.len() as u32);
+        let record = self.set_light(candidate.light, &rules, views);
+        *record = record.with_cascades(settings);
+        tiles
+    }
+}

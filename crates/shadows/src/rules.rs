@@ -1,0 +1,82 @@
+//! The settings of one light: those of its map, and what is different for it.
+
+use shadowgraph_scene::Light;
+
+use crate::{BiasSettings, Error, LightRef, LightShadows, NormalBias, ShadowFilter, ShadowSettings};
+
+/// How one light's shadows are made and read.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LightRules {
+    pub(crate) bias: BiasSettings,
+    pub(crate) filter: ShadowFilter,
+    pub(crate) strength: f32,
+    pub(crate) fade_fraction: f32,
+    pub(crate) near_m: Option<f64>,
+    pub(crate) importance: f64,
+}
+
+impl LightRules {
+    /// Of a light in the map of cascades, or of one in the atlas.
+    pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
+        let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
+        let bias = settings.bias.clone();
+        let fade_fraction = settings.fade_fraction;
+        let Some(own) = own else {
+            return Self { bias, filter, strength: 1.0, fade_fraction, near_m: None, importance: 1.0 };
+        };
+        let bias = BiasSettings {
+            depth_texels: own.depth_texels.unwrap_or(bias.depth_texels),
+            slope: own.slope.unwrap_or(bias.slope),
+            normal_texels: own.normal_texels.unwrap_or(bias.normal_texels),
+            ..bias
+        };
+        Self {
+            bias,
+            filter: own.filter.unwrap_or(filter),
+            strength: own.strength,
+            fade_fraction,
+            near_m: own.near_m.map(f64::from),
+            importance: f64::from(own.importance),
+        }
+    }
+
+    pub(crate) fn normal_sine(&self) -> bool {
+        self.bias.normal == NormalBias::Sine
+    }
+
+    /// The longest way along the normal, texels.
+    pub(crate) fn normal_texels(&self) -> f32 {
+        let scale =
+            if self.normal_sine() { 1.0 } else { std::f32::consts::SQRT_2 * self.filter.reach_texels() };
+        self.bias.normal_texels * scale
+    }
+
+    /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that snapping
+    /// can be off.
+    pub(crate) fn margin_px(&self, bias_scale: f32) -> f64 {
+        f64::from(self.filter.reach_texels() + self.normal_texels() * bias_scale.max(1.0)) + 1.0
+    }
+}
+
+/// The settings of each light of the scene that has some of its own.
+///
+/// # Errors
+/// If there is no such light.
+pub(crate) fn of_lights<'s>(
+    settings: &'s ShadowSettings,
+    lights: &[Light],
+) -> Result<Vec<Option<&'s LightShadows>>, Error> {
+    let mut of_lights = vec![None; lights.len()];
+    for own in &settings.lights {
+        let index = match &own.light {
+            LightRef::Index(index) => Some(*index as usize),
+            LightRef::Name(name) => lights.iter().position(|light| light.name.as_ref() == Some(name)),
+        };
+        let slot = index.and_then(|index| of_lights.get_mut(index));
+        let Some(slot) = slot else {
+            return Err(Error::NoSuchLight { light: own.light.to_string(), count: lights.len() });
+        };
+        *slot = Some(own);
+    }
+    Ok(of_lights)
+}

@@ -1,0 +1,42 @@
+//! How finely a map stores depth.
+
+use serde::{Deserialize, Serialize};
+
+/// The format of a shadow map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum DepthFormat {
+    /// 16 bits: half the memory. Enough for directional lights; for spot and point lights only with a near plane that is
+    /// not much nearer than what they light.
+    Depth16,
+    /// At least 24 bits.
+    Depth24,
+    /// 32 bits, floating.
+    #[default]
+    Depth32,
+}
+
+impl DepthFormat {
+    /// All of them, from coarse to fine.
+    pub const ALL: [Self; 3] = [Self::Depth16, Self::Depth24, Self::Depth32];
+
+    /// Returns the texture format.
+    #[must_use]
+    pub fn texture_format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Depth16 => wgpu::TextureFormat::Depth16Unorm,
+            Self::Depth24 => wgpu::TextureFormat::Depth24Plus,
+            Self::Depth32 => wgpu::TextureFormat::Depth32Float,
+        }
+    }
+
+    /// Returns how far apart two depths are that it can tell apart: 0 where that is less than what shaders compute with.
+    #[must_use]
+    pub fn step(self) -> f32 {
+        match self {
+            Self::Depth16 => 1.0 / 65_535.0,
+            // As fixed or as floating point, whichever the device has for it.
+            Self::Depth24 => 1.0 / 16_777_215.0,
+            Self::Depth32 => 0.0,
+        }
+    }
+}

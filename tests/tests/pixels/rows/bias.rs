@@ -1,0 +1,111 @@
+//! Biases.
+
+use super::{count, cube_view, greys, pillar_view, pillars, plan, wrong};
+use crate::stage::{cube_on_floor, gpu, sun, sun_direction};
+use glam::DVec3;
+use shadowgraph::scene::Scene;
+use shadowgraph::shadows::{BiasMethod, BiasSettings, NormalBias, ShadowFilter};
+
+fn low_sun() -> Scene {
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.add_light(sun(sun_direction(25.0, 130.0)));
+    scene
+}
+
+const NO_BIAS: BiasSettings = BiasSettings {
+    method: BiasMethod::Slope,
+    normal_texels: 0.0,
+    normal: NormalBias::Sine,
+    slope: 0.0,
+    min_slope: 0.0,
+    max_slope: 10.0,
+    depth_texels: 0.0,
+};
+
+/// How many pixels are too dark.
+fn acne(bias: BiasSettings, change: impl FnOnce(&mut shadowgraph::shadows::ShadowSettings)) -> Option<usize> {
+    let gpu = gpu()?;
+    let mut options = cube_view(|settings| {
+        settings.bias = bias;
+        settings.cascades.map_size_px = 1024;
+    });
+    change(&mut options.shadows);
+    Some(count(&greys(gpu, &low_sun(), 0, &options), |grey| grey < 200))
+}
+
+#[test]
+fn row_19_slope_scale_and_normal_bias_each_remove_acne() {
+    let Some(none) = acne(NO_BIAS, |_| ()) else { return };
+    let usual = acne(BiasSettings::default(), |_| ()).unwrap();
+    let slope = BiasSettings { slope: 3.0, depth_texels: 1.0, ..NO_BIAS };
+    let normal =
+        BiasSettings { normal_texels: 1.0, normal: NormalBias::Filter, depth_texels: 0.5, ..NO_BIAS };
+    for bias in [slope, normal] {
+        let with = acne(bias.clone(), |_| ()).unwrap();
+        assert!(with * 2 < none && with < usual + usual / 4, "{bias:?}: {none} {with} {usual}");
+    }
+}
+
+#[test]
+fn row_19_normal_bias_is_a_texels_diagonal_times_the_filters_radius_and_one() {
+    for (filter, radius) in ShadowFilter::ALL.into_iter().zip([0.0, 1.0, 2.0, 3.0]) {
+        let mut options = cube_view(|settings| {
+            settings.cascades.filter = filter;
+            settings.bias.normal_texels = 1.0;
+            settings.bias.normal = NormalBias::Filter;
+        });
+        let texels = plan(&low_sun(), &options).lights[0].normal_bias_texels;
+        assert!((texels - std::f32::consts::SQRT_2 * (1.0 + radius)).abs() < 1e-6, "{texels}");
+        options.shadows.bias.normal = NormalBias::Sine;
+        assert_eq!(plan(&low_sun(), &options).lights[0].normal_bias_texels, 1.0);
+    }
+}
+
+#[test]
+fn row_31_each_cascade_has_a_bias_of_its_own() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = pillars(12);
+    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    // Without any bias in the first cascade, acne is near the camera only, in the lower part of the picture.
+    let dark = |scales: Vec<f32>| {
+        let options = pillar_view(|settings| {
+            settings.bias = BiasSettings { slope: 1.5, depth_texels: 1.0, ..NO_BIAS };
+            settings.cascades.bias_scales = scales;
+            settings.cascades.select = shadowgraph::shadows::CascadeSelection::Depth;
+            settings.cascades.split = shadowgraph::shadows::SplitScheme::Metres(vec![12.0, 20.0, 30.0]);
+        });
+        let greys = greys(gpu, &scene, 0, &options);
+        let (far, near) = greys.split_at(greys.len() / 2);
+        [far.to_vec(), near.to_vec()].map(|half| count(&half, |grey| grey < 200))
+    };
+    let (even, first) = (dark(vec![]), dark(vec![0.0]));
+    assert!(first[1] > even[1] + even[1] / 4, "near: {even:?} {first:?}");
+    assert!(first[0] <= even[0] + even[0] / 50, "far: {even:?} {first:?}");
+}
+
+#[test]
+fn row_31_a_bias_that_follows_the_maps_gradient_removes_acne() {
+    let without = BiasSettings { method: BiasMethod::Gradient, depth_texels: 0.5, ..NO_BIAS };
+    let Some(none) = acne(without.clone(), |_| ()) else { return };
+    let with = acne(BiasSettings { slope: 3.5, ..without }, |_| ()).unwrap();
+    let usual = acne(BiasSettings::default(), |_| ()).unwrap();
+    assert!(with * 2 < none && with < usual + usual / 4, "{none} {with} {usual}");
+}
+
+#[test]
+fn row_20_a_near_offset_keeps_the_depths_of_high_casters_apart() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = low_sun();
+    let direction = sun_direction(60.0, 130.0);
+    scene.lights[0] = sun(direction);
+    crate::stage::add_instance(&mut scene, 1, 0, -direction * 30.0);
+    let near = |near_offset_m| {
+        let options = cube_view(|settings| settings.cascades.near_offset_m = near_offset_m);
+        let depth = plan(&scene, &options).views[0].depth_range_m;
+        (depth, wrong(gpu, &scene, 0, &options))
+    };
+    let ((usual, pancaked), (deep, told_apart)) = (near(0.0), near(100.0));
+    assert!(deep >= usual + 100.0, "{usual} {deep}");
+    // Flattened to the near plane or not, a caster casts the same shadow.
+    assert!(pancaked < 200 && told_apart < 200, "{pancaked} {told_apart}");
+}

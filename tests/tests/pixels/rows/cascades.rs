@@ -1,0 +1,238 @@
+//! Cascades: how many, where, how chosen, how blended.
+
+use super::{Greys, count, cube_view, different, greys, pillar_view, pillars, plan, wrong};
+use crate::stage::{cube_on_floor, gpu, light, sun, sun_direction};
+use glam::DVec3;
+use shadowgraph::options::Aov;
+use shadowgraph::scene::{Light, LightKind, Scene};
+use shadowgraph::shadows::{
+    CascadeBlend, CascadeFitting, CascadeSelection, MAP_ATLAS, MAP_CASCADES, ShadowSettings, SplitScheme,
+};
+use shadowgraph::{Picture, Renderer};
+
+fn pillars_in_sun() -> Scene {
+    let mut scene = pillars(12);
+    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene
+}
+
+#[test]
+fn row_12_none_one_two_three_and_four_cascades() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    let wrong = [0, 1, 2, 3, 4, 8].map(|number| {
+        let options = pillar_view(|settings| settings.cascades.count = number);
+        let planned = plan(&scene, &options);
+        let map = if number == 0 { MAP_ATLAS } else { MAP_CASCADES };
+        assert_eq!((planned.lights[0].map, planned.lights[0].view_count), (map, number.max(1)));
+        wrong(gpu, &scene, 0, &options)
+    });
+    // More cascades are nearer to the truth; none is one tile of the smaller atlas.
+    assert!(wrong[4] * 3 < wrong[1] && wrong[1] < wrong[0], "{wrong:?}");
+}
+
+#[test]
+fn row_12_outside_all_spheres_is_lit() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    // The slices end at 12 m: what is beyond the last sphere has no shadow, though shadows reach to 60 m.
+    let dark = |select| {
+        let options = pillar_view(|settings| {
+            settings.cascades.select = select;
+            settings.distance_m = 14.0;
+        });
+        let planned = plan(&scene, &options);
+        let nothing = planned.views.get(4).map(|view| view.map_from_world == glam::Mat4::ZERO);
+        let greys = greys(gpu, &scene, 0, &options);
+        (
+            nothing,
+            count(&greys[..greys.len() / 3].to_vec(), |grey| grey < 255),
+            count(&greys, |grey| grey == 0),
+        )
+    };
+    for select in [CascadeSelection::Sphere, CascadeSelection::Depth] {
+        let (nothing, far, all) = dark(select);
+        assert_eq!((nothing, far), (Some(true), 0), "{select:?}");
+        assert!(all > 1000);
+    }
+    assert_eq!(dark(CascadeSelection::Map).0, None, "the map's own edges say where it ends");
+}
+
+#[test]
+fn row_13_cascades_are_shown_in_colour() {
+    let Some(gpu) = gpu() else { return };
+    let colours = |change: fn(&mut ShadowSettings)| {
+        let options = pillar_view(change);
+        let mut renderer = Renderer::new(gpu, pillars_in_sun(), &options.camera, Aov::Cascade).unwrap();
+        let picture: Picture = renderer.draw(gpu, &options).unwrap().picture;
+        let pixels = picture.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255);
+        // Without the fade: strong colours only.
+        let colours: std::collections::BTreeSet<_> =
+            pixels.filter(|rgba| rgba[..3].iter().any(|c| *c < 120)).map(<[u8]>::to_vec).collect();
+        colours.len()
+    };
+    let two = colours(|s| {
+        s.cascades.count = 2;
+        s.fade_fraction = 0.001;
+    });
+    let four = colours(|s| s.fade_fraction = 0.001);
+    assert_eq!((two, four), (2, 4));
+}
+
+fn suns(number: u32) -> Vec<Light> {
+    (0..number)
+        .map(|i| {
+            let direction = sun_direction(45.0, 70.0 + 90.0 * f64::from(i));
+            light(LightKind::Directional { direction }, 4000.0 - i as f32)
+        })
+        .collect()
+}
+
+#[test]
+fn row_16_four_directional_lights_share_sixteen_tiles() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.lights = suns(5);
+    let with = |lights| cube_view(|settings| settings.cascades.lights = lights);
+    let (one, four) = (plan(&scene, &with(1)), plan(&scene, &with(4)));
+    let tiles = |plan: &shadowgraph::shadows::ShadowPlan| {
+        (plan.cascades.as_ref().unwrap().tiles.len(), plan.atlas.as_ref().unwrap().tiles.len())
+    };
+    assert_eq!((tiles(&one), tiles(&four)), ((4, 4), (16, 1)));
+    for light in 0..5 {
+        let wrong = wrong(gpu, &scene, light, &with(4));
+        assert!(wrong < 300, "light {light}: {wrong}");
+    }
+}
+
+#[test]
+fn row_18_the_last_cascade_fades_at_its_edge() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    for select in [CascadeSelection::Map, CascadeSelection::Sphere, CascadeSelection::Depth] {
+        let shadows = |edge_fade| {
+            let options = pillar_view(|settings| {
+                settings.cascades.select = select;
+                settings.cascades.edge_fade = edge_fade;
+                settings.distance_m = 25.0;
+                settings.fade_fraction = 0.001;
+            });
+            greys(gpu, &scene, 0, &options)
+        };
+        let (cut, faded) = (shadows(0.0), shadows(0.8));
+        let lighter = cut.iter().zip(&faded).filter(|(a, b)| b > a).count();
+        let darker = cut.iter().zip(&faded).filter(|(a, b)| b < a).count();
+        assert!(lighter > 100 && darker == 0, "{select:?}: {lighter} {darker}");
+        // Near the camera nothing changes.
+        let near = cut.len() * 3 / 4;
+        assert_eq!(cut[near..], faded[near..]);
+    }
+}
+
+/// The sum of differences of the filtered edges above and below the border of two cascades, where it is seen best: with
+/// cascades whose texels are very different.
+fn blend_settings(blend: CascadeBlend, select: CascadeSelection) -> impl FnOnce(&mut ShadowSettings) {
+    move |settings| {
+        settings.cascades.count = 2;
+        settings.cascades.split = SplitScheme::Metres(vec![14.0]);
+        settings.cascades.map_size_px = 1024;
+        settings.cascades.select = select;
+        settings.cascades.blend = blend;
+    }
+}
+
+#[test]
+fn row_22_cascades_blend_hard_softly_or_by_dithering() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    for select in [CascadeSelection::Map, CascadeSelection::Sphere, CascadeSelection::Depth] {
+        let draw = |blend| -> Greys { greys(gpu, &scene, 0, &pillar_view(blend_settings(blend, select))) };
+        let hard = draw(CascadeBlend::Hard);
+        let soft = draw(CascadeBlend::Soft(0.4));
+        let dithered = draw(CascadeBlend::Dither(0.4));
+        // Blending changes pixels where cascades meet, and dithering takes one or the other of the two.
+        let (mixed, taken) = (different(&hard, &soft, 4), different(&soft, &dithered, 4));
+        assert!(mixed > 50 && taken > 20, "{select:?}: {mixed} {taken}");
+        // In the mean both are alike.
+        let mean =
+            |greys: &Greys| greys.iter().flatten().map(|g| f64::from(*g)).sum::<f64>() / greys.len() as f64;
+        assert!(
+            (mean(&soft) - mean(&dithered)).abs() < 0.3,
+            "{select:?}: {} {}",
+            mean(&soft),
+            mean(&dithered)
+        );
+    }
+}
+
+#[test]
+fn row_26_a_fixed_factor_and_eight_slices() {
+    let scene = pillars_in_sun();
+    let options = pillar_view(|settings| {
+        settings.distance_m = 60.0;
+        settings.cascades.split = SplitScheme::Factor(3.0);
+    });
+    let planned = plan(&scene, &options);
+    let ends: Vec<f32> = planned.views.iter().map(|view| view.end_m).collect();
+    assert!(ends.windows(2).all(|pair| (pair[1] / pair[0] - 3.0).abs() < 1e-3), "{ends:?}");
+    let eight = plan(&scene, &pillar_view(|settings| settings.cascades.count = 8));
+    assert_eq!(eight.views.len(), 8);
+    assert_eq!(eight.cascades.unwrap().tiles[0].rect.width, 4096 / 3);
+    let mut nine = ShadowSettings::default();
+    nine.cascades.count = 9;
+    assert!(nine.validate().is_err());
+}
+
+#[test]
+fn row_27_a_tight_fit_has_finer_texels_that_change_as_the_camera_turns() {
+    let scene = pillars_in_sun();
+    let texels = |fit, turn: f64| {
+        let mut options = pillar_view(|settings| settings.cascades.fit = fit);
+        let eye = DVec3::new(0.3, 2.5, 5.0);
+        options.camera = crate::stage::camera(eye, eye + DVec3::new(turn, -0.1, -1.0));
+        plan(&scene, &options).views.iter().map(|view| view.texel_world).collect::<Vec<_>>()
+    };
+    let (stable, tight) = (texels(CascadeFitting::Stable, 0.0), texels(CascadeFitting::Tight, 0.0));
+    assert!(stable.iter().zip(&tight).all(|(stable, tight)| tight < stable), "{stable:?} {tight:?}");
+    assert_eq!(stable, texels(CascadeFitting::Stable, 0.7));
+    assert_ne!(tight, texels(CascadeFitting::Tight, 0.7));
+    let Some(gpu) = gpu() else { return };
+    let wrong = [CascadeFitting::Stable, CascadeFitting::Tight]
+        .map(|fit| wrong(gpu, &scene, 0, &pillar_view(|settings| settings.cascades.fit = fit)));
+    assert!(wrong[1] < 250, "{wrong:?}");
+}
+
+#[test]
+fn row_27_slices_overlap() {
+    let scene = pillars_in_sun();
+    let radius = |overlap| {
+        let options = pillar_view(|settings| settings.cascades.overlap = overlap);
+        plan(&scene, &options).views.iter().map(|view| view.radius).collect::<Vec<_>>()
+    };
+    let (apart, overlapping) = (radius(0.0), radius(0.5));
+    assert_eq!(apart[0], overlapping[0]);
+    assert!(apart[1..].iter().zip(&overlapping[1..]).all(|(a, b)| a < b), "{apart:?} {overlapping:?}");
+}
+
+#[test]
+fn row_28_slices_move_from_frame_to_frame() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    let first = pillar_view(|_| ());
+    let mut renderer = Renderer::new(gpu, scene, &first.camera, Aov::Cascade).unwrap();
+    let mut seen = Vec::new();
+    for ends in [vec![6.0, 12.0, 30.0], vec![10.0, 20.0, 40.0], vec![6.0, 12.0, 30.0]] {
+        let options = pillar_view(|settings| settings.cascades.split = SplitScheme::Metres(ends));
+        seen.push(renderer.draw(gpu, &options).unwrap().picture.rgba8);
+    }
+    assert!(seen[0] != seen[1] && seen[0] == seen[2]);
+}
+
+#[test]
+fn row_30_selection_by_depth_and_by_sphere_are_as_right_as_by_map() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    let wrong = [CascadeSelection::Map, CascadeSelection::Sphere, CascadeSelection::Depth]
+        .map(|select| wrong(gpu, &scene, 0, &pillar_view(|settings| settings.cascades.select = select)));
+    assert!(wrong.iter().all(|wrong| *wrong < 400), "{wrong:?}");
+}

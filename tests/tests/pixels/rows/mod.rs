@@ -1,0 +1,115 @@
+//! The rows of `docs/shadows.md`, each with its setting on and off: what it is for holds with it, and does not without.
+
+mod atlas;
+mod bias;
+mod cascades;
+mod filters;
+mod points;
+
+use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, cube_on_floor, floor_mesh, material, view};
+use glam::DVec3;
+use shadowgraph::options::{Aov, Technique};
+use shadowgraph::scene::{Camera, Light, LightKind, Scene};
+use shadowgraph::shadows::{ShadowInputs, ShadowPlan, ShadowSettings, plan_shadows};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+/// The visibility of a light in each pixel, 255 lit; `None` where nothing is drawn or the surface faces away.
+type Greys = Vec<Option<u8>>;
+
+fn greys_with(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions, technique: Technique) -> Greys {
+    let aov = Aov::Visibility(light);
+    let mut renderer = Renderer::with_technique(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().picture;
+    picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
+}
+
+fn greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
+    greys_with(gpu, scene, light, options, Technique::Pcf)
+}
+
+/// How many pixels differ by more than one half from rays.
+fn wrong(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> usize {
+    let truth = greys_with(gpu, scene, light, options, Technique::Raytraced);
+    different(&greys(gpu, scene, light, options), &truth, 127)
+}
+
+/// How many pixels differ by more than `by`.
+fn different(a: &Greys, b: &Greys, by: u8) -> usize {
+    a.iter().zip(b).filter(|(a, b)| a.zip(**b).is_some_and(|(a, b)| a.abs_diff(b) > by)).count()
+}
+
+fn count(greys: &Greys, is: impl Fn(u8) -> bool) -> usize {
+    greys.iter().flatten().filter(|grey| is(**grey)).count()
+}
+
+/// Pixels in shadow, and pixels neither in shadow nor lit.
+fn dark_and_between(greys: &Greys) -> (usize, usize) {
+    (count(greys, |grey| grey < 3), count(greys, |grey| (3..253).contains(&grey)))
+}
+
+fn plan(scene: &Scene, options: &ViewOptions) -> ShadowPlan {
+    let gpu = Gpu::noop().unwrap();
+    let renderer = Renderer::new(&gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
+    plan_shadows(&ShadowInputs {
+        camera: &options.camera,
+        aspect: f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]),
+        lights: &scene.lights,
+        casters: renderer.casters(),
+        origin_world: renderer.casters().scene.origin_world(),
+        settings: &options.shadows,
+    })
+    .unwrap()
+}
+
+/// Looks down at the cube on its floor from 5 m away.
+fn at_cube() -> Camera {
+    camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0))
+}
+
+fn cube_view(change: impl FnOnce(&mut ShadowSettings)) -> ViewOptions {
+    let mut options = view(at_cube(), 20.0);
+    change(&mut options.shadows);
+    options
+}
+
+fn spot(position_world: DVec3, target: DVec3, half_angle: f64) -> Light {
+    let direction = (target - position_world).normalize();
+    let kind = LightKind::Spot {
+        position_world,
+        direction,
+        range: Some(20.0),
+        inner_angle: half_angle * 0.9,
+        outer_angle: half_angle,
+    };
+    crate::stage::light(kind, 4000.0)
+}
+
+/// The cube on its floor under a spot light from the side.
+fn cube_under_spot() -> Scene {
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.add_light(spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
+    scene
+}
+
+/// A row of pillars that leads away from the camera, 2 m apart, on a floor 200 m long.
+fn pillars(count: usize) -> Scene {
+    let mut scene = Scene {
+        meshes: vec![floor_mesh(200.0), box_mesh(DVec3::new(-0.3, 0.0, -0.3), DVec3::new(0.3, 2.5, 0.3))],
+        materials: vec![material()],
+        ..Scene::default()
+    };
+    add_instance(&mut scene, 0, 0, DVec3::ZERO);
+    for i in 0..count {
+        for side in [-2.0, 2.0] {
+            add_instance(&mut scene, 1, 0, DVec3::new(side, 0.0, -2.0 * i as f64));
+        }
+    }
+    scene
+}
+
+/// Looks along the pillars.
+fn pillar_view(change: impl FnOnce(&mut ShadowSettings)) -> ViewOptions {
+    let mut options = view(camera(DVec3::new(0.3, 2.5, 5.0), DVec3::new(0.0, 0.5, -15.0)), 60.0);
+    change(&mut options.shadows);
+    options
+}

@@ -1,0 +1,53 @@
+//! Point lights.
+
+use super::{count, cube_view, greys, plan, wrong};
+use crate::stage::{add_instance, cube_on_floor, gpu, light, view};
+use glam::DVec3;
+use shadowgraph::scene::{LightKind, Scene};
+use shadowgraph::shadows::{SELECT_FACE, TilePart};
+
+/// A lamp in the middle of eight cubes, so that their shadows fall over all faces and edges of its cube.
+fn lamp_among_cubes() -> Scene {
+    let mut scene = cube_on_floor(DVec3::new(2.0, 0.0, 0.0));
+    for i in 1..8 {
+        let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
+        add_instance(&mut scene, 1, 0, DVec3::new(2.0 * cos, 0.0, 2.0 * sin));
+    }
+    let kind = LightKind::Point { position_world: DVec3::new(0.0, 1.6, 0.0), range: Some(15.0) };
+    scene.add_light(light(kind, 3000.0));
+    scene
+}
+
+#[test]
+fn row_37_point_lights_cast_shadows_to_all_sides() {
+    let Some(gpu) = gpu() else { return };
+    let scene = lamp_among_cubes();
+    let mut options = cube_view(|_| ());
+    let planned = plan(&scene, &options);
+    let parts: Vec<_> = planned.atlas.as_ref().unwrap().tiles.iter().map(|tile| tile.part).collect();
+    assert_eq!(parts, [0, 1, 2, 3, 4, 5].map(TilePart::Face));
+    assert_eq!((planned.lights[0].select, planned.lights[0].view_count), (SELECT_FACE, 6));
+    for eye in [DVec3::new(0.0, 9.0, 0.1), DVec3::new(-6.0, 4.0, 5.0), DVec3::new(5.0, 3.0, -6.0)] {
+        options.camera = crate::stage::camera(eye, DVec3::ZERO);
+        let dark = count(&greys(gpu, &scene, 0, &options), |grey| grey < 3);
+        let wrong = wrong(gpu, &scene, 0, &options);
+        assert!(dark > 2000 && wrong * 60 < dark, "{eye}: {wrong} of {dark} dark pixels");
+    }
+}
+
+#[test]
+fn row_37_faces_meet_without_a_seam() {
+    let Some(gpu) = gpu() else { return };
+    // A lamp over a bare floor: the edges of its lower faces run over the floor at 45 degrees.
+    let mut scene = cube_on_floor(DVec3::new(0.0, -1.001, 0.0));
+    let kind = LightKind::Point { position_world: DVec3::new(0.1, 1.5, 0.2), range: Some(30.0) };
+    scene.add_light(light(kind, 3000.0));
+    for filter in shadowgraph::shadows::ShadowFilter::ALL {
+        let mut options = view(crate::stage::camera(DVec3::new(3.0, 6.0, 4.0), DVec3::ZERO), 40.0);
+        options.shadows.atlas.filter = filter;
+        // Coarse enough that a lost texel would be seen.
+        options.shadows.atlas.map_size_px = 512;
+        let lit = greys(gpu, &scene, 0, &options);
+        assert_eq!(count(&lit, |grey| grey < 255), 0, "{filter:?}");
+    }
+}
