@@ -27,7 +27,7 @@ pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, Projection};
-pub use cull::visible;
+pub use cull::{BoundingSphere, Cone, CullTree, CullVolume, visible};
 pub use error::Error;
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, TextureRef, Wrap};

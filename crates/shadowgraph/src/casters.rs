@@ -1,19 +1,16 @@
 //! A scene's instances as shadow casters.
 
-use shadowgraph_scene::gpu::{CullFaces, DepthPipelines, DepthTarget, Draw, GpuScene};
-use shadowgraph_scene::{Aabb, ConvexVolume};
+use shadowgraph_scene::gpu::{CullFaces, DepthPipelines, DepthTarget, GpuScene};
+use shadowgraph_scene::{Aabb, CullVolume};
 use shadowgraph_shadows::{CasterTarget, DepthFormat, ShadowCasters};
 
 use crate::Error;
 
-/// The instances of a scene on the GPU, as casters. They are numbered in the order in which they are drawn with few
-/// changes of state, so that culling gives draws that need no sorting. What is alpha-cut casts the shadow of what is
+/// The instances of a scene on the GPU, as casters, with the numbers that they have there. What is alpha-cut casts the shadow of what is
 /// left; what is blended, of what is more than half opaque.
 pub struct SceneCasters {
     /// The scene.
     pub scene: GpuScene,
-    /// By number.
-    draws: Vec<Draw>,
     /// For each format of a map.
     pipelines: Vec<(wgpu::TextureFormat, DepthPipelines)>,
 }
@@ -40,35 +37,34 @@ impl SceneCasters {
             Ok((format, DepthPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        let all: Vec<u32> = (0..scene.bounds().len() as u32).collect();
-        let draws = scene.draw_list(&all, scene.origin_world()).iter().copied().collect();
-        Ok(Self { scene, draws, pipelines })
+        Ok(Self { scene, pipelines })
     }
 
     /// Returns how many triangles some casters have.
     pub fn triangle_count(&self, casters: &[u32]) -> u64 {
-        let draws = casters.iter().filter_map(|&number| self.draws.get(number as usize));
+        let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
         draws.map(|draw| u64::from(self.scene.triangle_count(draw))).sum()
     }
 }
 
 impl ShadowCasters for SceneCasters {
-    fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
-        let bounds = self.scene.bounds();
-        let touches = |draw: &Draw| volume.intersects(&bounds[draw.instance as usize]);
-        casters.extend((0u32..).zip(&self.draws).filter(|(_, draw)| touches(draw)).map(|(number, _)| number));
+    fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
+        self.scene.cull(volume, casters);
     }
 
     fn bounds(&self) -> Aabb {
-        self.scene.bounds().iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
+        self.scene.all_bounds()
+    }
+
+    fn bounds_of(&self, caster: u32) -> Aabb {
+        self.scene.bounds().get(caster as usize).copied().unwrap_or(Aabb::EMPTY)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]) {
         let made = self.pipelines.iter().find(|(format, _)| *format == target.format);
         // Maps have no other formats.
         let Some((_, pipelines)) = made else { return };
-        let draws: Vec<Draw> =
-            casters.iter().filter_map(|&number| self.draws.get(number as usize)).copied().collect();
-        self.scene.draw(pass, &draws, false, &|key| pipelines.get(key));
+        let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
+        self.scene.draw(pass, draws, false, &|key| pipelines.get(key));
     }
 }

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Timer};
 use shadowgraph_lighting::{Ambience, Forward, Key, Shows, Tonemap};
-use shadowgraph_scene::gpu::{DrawList, GpuScene};
+use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
 use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Unshadowed};
 
@@ -255,8 +255,9 @@ impl Renderer {
         target: Option<&'v wgpu::Texture>,
     ) -> View<'v> {
         let gpu_scene = &self.casters.scene;
-        let seen = visible(&self.scene, gpu_scene.bounds(), &options.camera.volume(options.aspect()));
-        let draws: DrawList = gpu_scene.draw_list(&seen, options.camera.position_world());
+        let mut seen = Vec::new();
+        gpu_scene.cull(&options.camera.volume(options.aspect()).into(), &mut seen);
+        let draws = gpu_scene.draw_list(&seen, options.camera.position_world());
         let key = Key::of(&self.scene.lights, gpu_scene.bounds());
         let tonemap = match (target, &self.target_tonemap) {
             (Some(_), Some((_, tonemap))) => tonemap,

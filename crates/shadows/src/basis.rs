@@ -1,15 +1,6 @@
-//! The axes of a light, and spheres.
+//! The axes of a light.
 
 use glam::{DMat3, DVec3};
-
-/// A sphere in absolute world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sphere {
-    /// Its centre, metres.
-    pub center_world: DVec3,
-    /// Its radius, metres.
-    pub radius_m: f64,
-}
 
 /// Steeper than this, in cosine to the vertical, a light's up axis is taken from north instead of the sky.
 const STEEP: f64 = 0.999;

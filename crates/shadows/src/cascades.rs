@@ -1,9 +1,9 @@
 //! Cascades: how the shadow distance is split, and which sphere holds each slice of the view.
 
 use glam::{DMat3, DVec3};
-use shadowgraph_scene::Camera;
+use shadowgraph_scene::{BoundingSphere, Camera};
 
-use crate::{CascadeFitting, CascadeSettings, OrthoFit, Sphere, SplitScheme};
+use crate::{CascadeFitting, CascadeSettings, OrthoFit, SplitScheme};
 
 /// The part of the view that one cascade serves, and its place in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,7 +92,7 @@ fn standard_ratios(count: u32) -> &'static [f32] {
 ///
 /// The radius comes from the projection alone, so it is the same wherever the camera is and looks.
 #[must_use]
-pub fn slice_sphere(slice: &Slice<'_>) -> Sphere {
+pub fn slice_sphere(slice: &Slice<'_>) -> BoundingSphere {
     let Slice { camera, aspect, near_m, far_m } = *slice;
     let corners = camera.slice_corners_view(aspect, near_m, far_m);
     // The widest corner at each end, squared distance from the axis.
@@ -109,7 +109,7 @@ pub fn slice_sphere(slice: &Slice<'_>) -> Sphere {
     let reach = |lateral: f64, depth: f64| lateral + (depth - center) * (depth - center);
     let radius_m = reach(at_near, near_m).max(reach(at_far, far_m)).sqrt();
     let center_world = camera.world_from_view.transform_point3(DVec3::NEG_Z * center);
-    Sphere { center_world, radius_m }
+    BoundingSphere { center_world, radius_m }
 }
 
 /// Fits one box per cascade: `ends_m` are their far ends in view depth (see [`split_distances`]); the first

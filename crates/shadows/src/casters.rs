@@ -1,6 +1,6 @@
 //! What an engine tells about the things that cast shadows.
 
-use shadowgraph_scene::{Aabb, ConvexVolume};
+use shadowgraph_scene::{Aabb, CullVolume};
 
 /// The things that can cast shadows. Implement it for a scene of your own.
 ///
@@ -8,11 +8,17 @@ use shadowgraph_scene::{Aabb, ConvexVolume};
 /// absolute, in f64.
 pub trait ShadowCasters: Sync {
     /// Appends the numbers of all casters that touch the volume, ascending. Casters that only come near may
-    /// be among them; none that touches may be missing.
-    fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>);
+    /// be among them; none that touches may be missing. A [`CullTree`](shadowgraph_scene::CullTree) does it fast.
+    fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>);
 
     /// Returns the bounds of all casters, [`Aabb::EMPTY`] where there are none.
     fn bounds(&self) -> Aabb;
+
+    /// Returns the bounds of one caster. By default those of all: then no caster is left out for what it covers.
+    fn bounds_of(&self, caster: u32) -> Aabb {
+        let _ = caster;
+        self.bounds()
+    }
 
     /// Returns the bounds of everything that shadows can fall on: cascades end there, if that is before the shadow
     /// distance. By default the bounds of all casters; with surfaces that receive shadows and cast none, theirs too.

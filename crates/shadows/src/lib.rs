@@ -10,10 +10,12 @@
 //! Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0). Directional tiles move through the
 //! world in whole texels, so shadows do not flicker when the camera moves.
 
+mod allot;
 mod atlas;
 mod basis;
 mod cascades;
 mod casters;
+mod cull;
 mod error;
 mod filter;
 mod ortho;
@@ -28,19 +30,21 @@ mod technique;
 mod techniques;
 mod views;
 
+pub use allot::{AllotRules, Allotment, Granted, TileWish, allot};
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
-pub use basis::{Sphere, light_from_world};
+pub use basis::light_from_world;
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
 pub use casters::{CasterTarget, ShadowCasters, caster_view_layout};
+pub use cull::{ReceiverHull, Served, ServedCasters, ViewInLight};
 pub use error::Error;
 pub use filter::{Needs, ShadowFilter, filter_taps};
 pub use ortho::OrthoFit;
-pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows};
+pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows, plan_shadows_after};
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
-    AtlasSettings, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection, CascadeSettings,
-    DepthFormat, LightRef, LightShadows, MAX_CASCADE_LIGHTS, MAX_CASCADES, NormalBias, ShadowSettings,
-    SplitScheme,
+    AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
+    CascadeSettings, CullSettings, DepthFormat, LightRef, LightShadows, MAX_CASCADE_LIGHTS, MAX_CASCADES,
+    NormalBias, ShadowSettings, SplitScheme,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};

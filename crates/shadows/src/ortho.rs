@@ -1,9 +1,7 @@
 //! The box that a directional light's tile covers, fixed to whole texels of the world.
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
-use shadowgraph_scene::{Aabb, ConvexVolume, Plane};
-
-use crate::Sphere;
+use shadowgraph_scene::{Aabb, BoundingSphere, ConvexVolume, Plane};
 
 /// A box around a sphere, with its axes along a light's, that moves through the world in whole texels only.
 ///
@@ -24,7 +22,7 @@ pub struct OrthoFit {
     /// How many times as deep as usual the box is: a power of two, so that steps of whole texels stay exact.
     pub depth_scale: f64,
     /// The sphere that it was made for, or one around what it was made for.
-    pub sphere: Sphere,
+    pub sphere: BoundingSphere,
 }
 
 /// Radii come in this many steps per factor of two: a small change of the camera's angle changes no texel.
@@ -39,7 +37,7 @@ impl OrthoFit {
     ///
     /// `margin_px` must be below half of `tile_px`.
     #[must_use]
-    pub fn new(light_from_world: DMat3, sphere: Sphere, tile_px: u32, margin_px: f64) -> Self {
+    pub fn new(light_from_world: DMat3, sphere: BoundingSphere, tile_px: u32, margin_px: f64) -> Self {
         let radius_m = round_up(sphere.radius_m.max(f64::MIN_POSITIVE.sqrt()), RADIUS_STEPS);
         let texel_m = 2.0 * radius_m / (f64::from(tile_px) - 2.0 * margin_px);
         let center_texels = (light_from_world * sphere.center_world / texel_m).round();
@@ -52,9 +50,9 @@ impl OrthoFit {
         let bounds = Aabb::from_points(points_world.iter().map(|&point| light_from_world * point));
         let half = bounds.half_extent();
         let center_world = light_from_world.transpose() * bounds.center();
-        let across = Sphere { center_world, radius_m: half.x.max(half.y) };
+        let across = BoundingSphere { center_world, radius_m: half.x.max(half.y) };
         let fit = Self::new(light_from_world, across, tile_px, margin_px);
-        let sphere = Sphere { center_world, radius_m: half.length() };
+        let sphere = BoundingSphere { center_world, radius_m: half.length() };
         Self { sphere, ..fit }.deepened(half.z / fit.half_extent_m())
     }
 

@@ -8,12 +8,15 @@ use crate::planner::Planner;
 use crate::rules::LightRules;
 use crate::techniques::PcfVariant;
 use crate::{
-    DepthFormat, Error, Needs, ShadowCasters, ShadowLight, ShadowSettings, ShadowView, TileRect, Unshadowed,
+    Allotment, DepthFormat, Error, Needs, ShadowCasters, ShadowLight, ShadowSettings, ShadowView, TileRect,
+    Unshadowed,
 };
 
 /// What shadows are planned for.
 #[derive(Clone, Copy)]
 pub struct ShadowInputs<'a> {
+    /// Which of a frame's views it is, if it has several: what is kept from frame to frame is kept for each of them.
+    pub view: u32,
     /// Who looks.
     pub camera: &'a Camera,
     /// The picture's width over its height.
@@ -42,6 +45,8 @@ pub struct ShadowPlan {
     pub lights: Vec<ShadowLight>,
     /// The lights that are to cast shadows but have none in this frame, in the scene's order.
     pub unshadowed: Vec<Unshadowed>,
+    /// Which tiles of the atlas lights have, for the next frame.
+    pub allotment: Allotment,
     /// What the technique needs of shared services.
     pub needs: Needs,
 }
@@ -87,12 +92,12 @@ pub enum TilePart {
 ///
 /// ```
 /// use glam::{DVec3, Vec3};
-/// use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Projection, origin_near};
+/// use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
 /// use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowInputs, ShadowSettings, plan_shadows};
 ///
 /// struct OneBox(Aabb);
 /// impl ShadowCasters for OneBox {
-///     fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
+///     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
 ///         casters.extend(volume.intersects(&self.0).then_some(0));
 ///     }
 ///     fn bounds(&self) -> Aabb {
@@ -111,6 +116,7 @@ pub enum TilePart {
 ///     casts_shadow: true,
 /// };
 /// let plan = plan_shadows(&ShadowInputs {
+///     view: 0,
 ///     camera: &camera,
 ///     aspect: 16.0 / 9.0,
 ///     lights: &[sun],
@@ -129,7 +135,20 @@ pub enum TilePart {
 /// [`Error::Setting`] for a setting out of range, [`Error::Aspect`] and [`Error::Camera`] for a view that is
 /// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
 pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
-    Ok(Planner::new(inputs)?.plan())
+    plan_shadows_after(inputs, None)
+}
+
+/// Plans the shadows of a frame that follows another one: lights keep the size and the place of their tiles
+/// ([`ShadowPlan::allotment`]) as far as they can.
+///
+/// # Errors
+///
+/// As [`plan_shadows`].
+pub fn plan_shadows_after(
+    inputs: &ShadowInputs<'_>,
+    before: Option<&Allotment>,
+) -> Result<ShadowPlan, Error> {
+    Ok(Planner::new(inputs, before)?.plan())
 }
 
 impl ShadowPlan {
@@ -142,6 +161,7 @@ impl ShadowPlan {
             views: Vec::new(),
             lights: vec![ShadowLight::default(); light_count],
             unshadowed: Vec::new(),
+            allotment: Allotment::default(),
             needs: needs(settings),
         }
     }

@@ -2,13 +2,16 @@
 
 mod atlas;
 mod cascades;
+mod culling;
 
-use shadowgraph_scene::{Aabb, Camera, ConvexVolume};
+use shadowgraph_scene::{Aabb, Camera, CullVolume};
+
+use culling::Seen;
 
 use crate::rules::{self, LightRules};
 use crate::select::{Candidate, Reach, Shape, candidate};
 use crate::{
-    Error, LightShadows, ShadowInputs, ShadowLight, ShadowPlan, TilePlace, TileRect, Unshadowed,
+    Allotment, Error, LightShadows, ShadowInputs, ShadowLight, ShadowPlan, TilePlace, TileRect, Unshadowed,
     UnshadowedReason,
 };
 
@@ -16,14 +19,17 @@ use crate::{
 pub(crate) struct Planner<'a> {
     inputs: ShadowInputs<'a>,
     reach: Reach<'a>,
+    seen: Seen,
     /// Of each light of the scene.
     own: Vec<Option<&'a LightShadows>>,
+    /// The tiles of the last frame.
+    before: Option<&'a Allotment>,
     plan: ShadowPlan,
 }
 
 impl<'a> Planner<'a> {
     /// Checks the inputs.
-    pub(crate) fn new(inputs: &ShadowInputs<'a>) -> Result<Self, Error> {
+    pub(crate) fn new(inputs: &ShadowInputs<'a>, before: Option<&'a Allotment>) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
         settings.validate()?;
         let own = rules::of_lights(settings, inputs.lights)?;
@@ -44,7 +50,8 @@ impl<'a> Planner<'a> {
         let fit_m = farthest_m(&inputs.casters.receivers(), camera).max(near_m * 1.01 + 1e-3).min(distance_m);
         let reach = Reach { camera, aspect, near_m, distance_m, fit_m };
         let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
-        Ok(Self { inputs: *inputs, reach, own, plan })
+        let seen = Seen::new(inputs, &reach);
+        Ok(Self { inputs: *inputs, reach, seen, own, before, plan })
     }
 
     /// Makes the plan.
@@ -88,7 +95,7 @@ impl<'a> Planner<'a> {
         LightRules::new(self.inputs.settings, candidate.own, has_cascades)
     }
 
-    fn cull(&self, volume: &ConvexVolume) -> Vec<u32> {
+    fn cull(&self, volume: &CullVolume) -> Vec<u32> {
         let mut casters = Vec::new();
         self.inputs.casters.cull(volume, &mut casters);
         casters

@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_4;
 
 use glam::{DMat3, DVec3, Vec3};
-use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Plane};
+use shadowgraph_scene::{Aabb, BoundingSphere, Camera, ConvexVolume, Light, LightKind, Plane};
 
-use crate::{LightShadows, Sphere, SpotCone, light_from_world};
+use crate::{LightShadows, SpotCone, light_from_world};
 
 /// A light that is to cast shadows but has none in this frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +63,7 @@ impl Reach<'_> {
     }
 
     /// Whether a sphere may reach into it.
-    fn touches(&self, sphere: Sphere) -> bool {
+    fn touches(&self, sphere: BoundingSphere) -> bool {
         let mut volume: ConvexVolume = self.camera.volume(self.aspect);
         let forward = self.camera.forward_world();
         let end = self.camera.position_world() + forward * self.distance_m;
@@ -141,7 +141,7 @@ pub(crate) fn candidate<'s>(
         Shape::Directional { .. } => (f64::INFINITY, weight * brightness),
         Shape::Spot { cone, .. } => local_importance(cone.bounding_sphere(), weight, brightness, reach)?,
         Shape::Point { position_world, range_m } => {
-            let sphere = Sphere { center_world: position_world, radius_m: range_m };
+            let sphere = BoundingSphere { center_world: position_world, radius_m: range_m };
             local_importance(sphere, weight, brightness, reach)?
         }
     };
@@ -172,7 +172,7 @@ fn shape(source: &Light) -> Result<Shape, UnshadowedReason> {
 
 /// How much of the view its light can fill, then how bright it is from the camera.
 fn local_importance(
-    sphere: Sphere,
+    sphere: BoundingSphere,
     weight: f64,
     brightness: f64,
     reach: &Reach<'_>,

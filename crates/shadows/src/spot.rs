@@ -1,9 +1,7 @@
 //! The pyramid that a spot light's tile covers.
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
-use shadowgraph_scene::{ConvexVolume, Plane};
-
-use crate::Sphere;
+use shadowgraph_scene::{BoundingSphere, ConvexVolume, Plane};
 
 /// A spot light: its tip, axis, half angle and reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +23,7 @@ pub const MAX_SPOT_HALF_ANGLE: f64 = 1.396;
 impl SpotCone {
     /// Returns a small sphere that holds the lit space.
     #[must_use]
-    pub fn bounding_sphere(&self) -> Sphere {
+    pub fn bounding_sphere(&self) -> BoundingSphere {
         let (sin, cos) = self.half_angle.sin_cos();
         // A narrow cone touches its sphere with tip and rim, a wide one with the rim as the equator.
         let (along, radius_m) = if self.half_angle > std::f64::consts::FRAC_PI_4 {
@@ -34,7 +32,7 @@ impl SpotCone {
             let radius = self.range_m * 0.5 / cos;
             (radius, radius)
         };
-        Sphere { center_world: self.position_world + self.direction * along, radius_m }
+        BoundingSphere { center_world: self.position_world + self.direction * along, radius_m }
     }
 }
 

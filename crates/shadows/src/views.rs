@@ -2,11 +2,10 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
+use shadowgraph_scene::BoundingSphere;
 
 use crate::rules::LightRules;
-use crate::{
-    BiasMethod, CascadeBlend, CascadeSelection, OrthoFit, ShadowSettings, Sphere, SpotFit, TileRect,
-};
+use crate::{BiasMethod, CascadeBlend, CascadeSelection, OrthoFit, ShadowSettings, SpotFit, TileRect};
 
 /// One tile, 256 bytes: the dynamic offset at which it is bound to draw into it, and what is needed to look
 /// something up in it. World space here is relative to the frame's origin.
@@ -187,7 +186,7 @@ impl ShadowView {
         }
     }
 
-    fn around(self, sphere: Sphere, origin_world: DVec3) -> Self {
+    fn around(self, sphere: BoundingSphere, origin_world: DVec3) -> Self {
         let center = (sphere.center_world - origin_world).as_vec3();
         Self { center, radius: sphere.radius_m as f32, ..self }
     }

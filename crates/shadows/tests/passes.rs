@@ -5,14 +5,16 @@ use glam::{DVec3, Vec3};
 use shadowgraph_core::{
     Contents, DependencyKind, Format, Frame, LoadAction, PassId, PassKind, Plan, StoreAction, TextureDesc,
 };
-use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Projection, origin_near};
-use shadowgraph_shadows::{CasterTarget, Pcf, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique};
+use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
+use shadowgraph_shadows::{
+    CasterTarget, CullSettings, Pcf, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique,
+};
 
 /// Boxes that cast shadows.
 struct Boxes(Vec<Aabb>);
 
 impl ShadowCasters for Boxes {
-    fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
+    fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
         let touching = (0u32..).zip(&self.0).filter(|(_, bounds)| volume.intersects(bounds));
         casters.extend(touching.map(|(index, _)| index));
     }
@@ -57,10 +59,19 @@ fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
     let camera = Camera::look_at(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO, DVec3::Y, projection);
     let mut settings = ShadowSettings::default();
     settings.cascades.count = cascades;
+    // Every cascade has its casters, whatever finer ones serve.
+    settings.cull = CullSettings::NONE;
     let origin_world = origin_near(camera.position_world());
     let (casters, settings) = (Boxes(casters), &settings);
-    let inputs =
-        ShadowInputs { camera: &camera, aspect: 1.5, lights, casters: &casters, origin_world, settings };
+    let inputs = ShadowInputs {
+        view: 0,
+        camera: &camera,
+        aspect: 1.5,
+        lights,
+        casters: &casters,
+        origin_world,
+        settings,
+    };
     let mut frame = Frame::new();
     let shadows = technique.add_to(&mut frame, &inputs, None).unwrap();
     let mut lit = frame.create_texture("lit", TextureDesc::d2(64, 64, Format::Rgba8Unorm));

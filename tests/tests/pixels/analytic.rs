@@ -101,6 +101,7 @@ fn plan(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> ShadowPlan {
     let renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
     let casters = renderer.casters();
     plan_shadows(&ShadowInputs {
+        view: 0,
         camera: &options.camera,
         aspect: f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]),
         lights: &scene.lights,

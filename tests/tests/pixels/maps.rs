@@ -30,7 +30,8 @@ pub(crate) fn draw_map(
     name: &str,
 ) -> Map {
     let origin_world = casters.scene.origin_world();
-    let inputs = ShadowInputs { camera, aspect: 16.0 / 9.0, lights, casters, origin_world, settings };
+    let inputs =
+        ShadowInputs { view: 0, camera, aspect: 16.0 / 9.0, lights, casters, origin_world, settings };
     let plan = plan_shadows(&inputs).unwrap();
     let mut frame = Frame::new();
     let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
@@ -70,6 +71,7 @@ fn no_caster_in_reach_means_no_pass_and_a_map_of_one_lit_texel() {
     let lights = [crate::stage::sun(glam::DVec3::NEG_Y)];
     let settings = ShadowSettings::default();
     let inputs = ShadowInputs {
+        view: 0,
         camera: &camera,
         aspect: 1.0,
         lights: &lights,

@@ -13,8 +13,15 @@ pub struct Draw {
     pub material: u32,
     /// Index of the mesh.
     pub mesh: u32,
-    /// Index of the instance.
+    /// Number of the instance: see [`GpuScene`](super::GpuScene).
     pub instance: u32,
+}
+
+impl Draw {
+    /// Whether this is the same as `first` for the instance with the number `instance`.
+    pub(super) fn continues(&self, first: &Self, instance: u32) -> bool {
+        *self == Self { instance, ..*first }
+    }
 }
 
 /// The draws of the instances that are seen.
@@ -27,17 +34,20 @@ pub struct DrawList {
 }
 
 impl DrawList {
-    /// Sorts draws. `distance` is asked for the blended ones: how far an instance is, in any unit that grows.
-    pub(super) fn sorted(draws: impl Iterator<Item = Draw>, distance: impl Fn(u32) -> f64) -> Self {
-        let is_blend = |draw: &Draw| draw.key.alpha == super::AlphaKey::Blend;
-        let (mut blend, mut solid): (Vec<Draw>, Vec<Draw>) = draws.partition(is_blend);
-        solid.sort_unstable();
-        // Equally far: in the order of the scene.
-        blend.sort_by(|a, b| {
+    /// Takes draws, those of solid things in their order. `distance` is asked for the blended ones: how far an instance is,
+    /// in any unit that grows.
+    pub(super) fn fill(&mut self, draws: impl Iterator<Item = Draw>, distance: impl Fn(u32) -> f64) {
+        let Self { solid, blend } = self;
+        solid.clear();
+        blend.clear();
+        for draw in draws {
+            if draw.key.alpha == super::AlphaKey::Blend { blend.push(draw) } else { solid.push(draw) }
+        }
+        // Equally far: in the order of their numbers.
+        blend.sort_unstable_by(|a, b| {
             let nearer = distance(b.instance).total_cmp(&distance(a.instance));
             nearer.then(a.instance.cmp(&b.instance))
         });
-        Self { solid, blend }
     }
 
     /// Returns every draw, the solid ones first.
@@ -60,8 +70,14 @@ mod tests {
         Draw { key: MaterialKey { alpha, double_sided: false, mirrored: false }, material, mesh, instance }
     }
 
+    fn list(draws: impl Iterator<Item = Draw>, distance: impl Fn(u32) -> f64) -> DrawList {
+        let mut list = DrawList::default();
+        list.fill(draws, distance);
+        list
+    }
+
     #[test]
-    fn solid_draws_are_ordered_by_key_then_material_then_mesh() {
+    fn draws_are_ordered_by_key_then_material_then_mesh() {
         use AlphaKey::{Mask, Opaque};
         let ordered = [
             draw(Opaque, 0, 5, 7),
@@ -70,11 +86,19 @@ mod tests {
             draw(Opaque, 1, 2, 4),
             draw(Mask, 0, 0, 0),
         ];
-        for start in 0..ordered.len() {
-            let shuffled = ordered.iter().cycle().skip(start).take(ordered.len());
-            let list = DrawList::sorted(shuffled.copied(), |_| 0.0);
-            assert_eq!(list.solid, ordered);
-            assert!(list.blend.is_empty());
+        assert!(ordered.is_sorted());
+        let list = list(ordered.into_iter(), |_| 0.0);
+        assert_eq!(list.solid, ordered);
+        assert!(list.blend.is_empty());
+    }
+
+    #[test]
+    fn the_next_instance_of_the_same_mesh_and_material_is_drawn_together() {
+        use AlphaKey::Opaque;
+        let first = draw(Opaque, 1, 2, 4);
+        assert!(draw(Opaque, 1, 2, 5).continues(&first, 5) && draw(Opaque, 1, 2, 6).continues(&first, 6));
+        for other in [draw(Opaque, 1, 2, 6), draw(Opaque, 0, 2, 5), draw(Opaque, 1, 3, 5)] {
+            assert!(!other.continues(&first, 5));
         }
     }
 
@@ -90,7 +114,7 @@ mod tests {
         let draws = [(0, 4.0), (1, 9.0), (2, 1.0), (3, 9.0)].map(|(i, _)| draw(AlphaKey::Blend, i, 0, i));
         let solid = draw(AlphaKey::Opaque, 0, 0, 4);
         let distances = [4.0, 9.0, 1.0, 9.0, f64::NAN];
-        let list = DrawList::sorted(draws.into_iter().chain([solid]), |i| distances[i as usize]);
+        let list = list(draws.into_iter().chain([solid]), |i| distances[i as usize]);
         assert_eq!(list.solid, [solid]);
         assert_eq!(list.blend.iter().map(|draw| draw.instance).collect::<Vec<_>>(), [1, 3, 0, 2]);
         assert_eq!(list.iter().count(), 5);

@@ -5,12 +5,19 @@ use glam::DVec3;
 use super::draw_list::squared_distance;
 use super::upload::{Geometry, GpuInstance, buffer};
 use super::{AlphaKey, Draw, DrawList, MaterialKey, MaterialLayouts, limits, materials};
-use crate::{Aabb, Error, Scene};
+use crate::{Aabb, CullTree, CullVolume, Error, Scene};
 
 /// The GPU copy of a scene: geometry, images, materials and placements.
+///
+/// Its instances are numbered anew, in the order in which they are drawn with few changes of state: what is culled by
+/// number needs no sorting, and neighbours with the same mesh and material are drawn together.
 pub struct GpuScene {
     origin_world: DVec3,
+    /// The scene's instance of each number.
+    order: Vec<u32>,
     bounds: Vec<Aabb>,
+    tree: CullTree,
+    /// By number.
     draws: Vec<Draw>,
     geometry: Geometry,
     instances: wgpu::Buffer,
@@ -33,18 +40,21 @@ impl GpuScene {
         scene: &Scene,
         origin_world: DVec3,
     ) -> Result<Self, Error> {
-        let draws = draws(scene)?;
+        let (order, draws) = draws(scene)?;
         let layouts = MaterialLayouts::new(device);
         let geometry = Geometry::new(device, queue, &scene.meshes)?;
-        let instances = upload_instances(device, queue, scene, origin_world)?;
+        let instances = upload_instances(device, queue, scene, &order, origin_world)?;
         let instance_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("instances"),
             layout: &layouts.draw,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: instances.as_entire_binding() }],
         });
+        let bounds: Vec<_> = order.iter().map(|&i| scene.instance_bounds(i as usize)).collect();
         Ok(Self {
             origin_world,
-            bounds: (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect(),
+            tree: CullTree::new(&bounds),
+            bounds,
+            order,
             draws,
             geometry,
             instances,
@@ -61,8 +71,7 @@ impl GpuScene {
             return;
         }
         self.origin_world = origin_world;
-        let mut instances = GpuInstance::all(scene, origin_world);
-        instances.truncate(self.draws.len());
+        let instances = GpuInstance::all(scene, &self.order, origin_world);
         queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
     }
 
@@ -78,10 +87,33 @@ impl GpuScene {
         self.geometry.ranges.get(draw.mesh as usize).map_or(0, |range| range.index_count / 3)
     }
 
-    /// Returns the bounds of each instance in the world.
+    /// Returns the bounds of each instance in the world, by number.
     #[must_use]
     pub fn bounds(&self) -> &[Aabb] {
         &self.bounds
+    }
+
+    /// Returns the bounds of all instances in the world.
+    #[must_use]
+    pub fn all_bounds(&self) -> Aabb {
+        self.tree.bounds()
+    }
+
+    /// Returns which of the scene's instances has a number.
+    #[must_use]
+    pub fn instance(&self, number: u32) -> Option<u32> {
+        self.order.get(number as usize).copied()
+    }
+
+    /// Appends the numbers of the instances that touch a volume, ascending.
+    pub fn cull(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
+        self.tree.query(volume, numbers);
+    }
+
+    /// Returns what there is to draw of an instance.
+    #[must_use]
+    pub fn draw_of(&self, number: u32) -> Option<&Draw> {
+        self.draws.get(number as usize)
     }
 
     /// Returns the layouts of groups 2 and 3, for pipelines that draw this scene.
@@ -90,13 +122,19 @@ impl GpuScene {
         &self.layouts
     }
 
-    /// Orders the draws of these instances for an eye at `eye_world`. Instances that do not exist are left out.
+    /// Lists the draws of the instances with these numbers (ascending) for an eye at `eye_world`. Numbers that do not exist
+    /// are left out.
     #[must_use]
-    pub fn draw_list(&self, visible: &[u32], eye_world: DVec3) -> DrawList {
-        let draws = visible.iter().filter_map(|&instance| self.draws.get(instance as usize));
-        DrawList::sorted(draws.copied(), |instance| {
-            squared_distance(&self.bounds[instance as usize], eye_world)
-        })
+    pub fn draw_list(&self, numbers: &[u32], eye_world: DVec3) -> DrawList {
+        let mut list = DrawList::default();
+        self.list(numbers, eye_world, &mut list);
+        list
+    }
+
+    /// Lists as [`draw_list`](Self::draw_list) does into a list of before: once it has been as long, nothing is allocated.
+    pub fn list(&self, numbers: &[u32], eye_world: DVec3, list: &mut DrawList) {
+        let draws = numbers.iter().filter_map(|&number| self.draws.get(number as usize));
+        list.fill(draws.copied(), |number| squared_distance(&self.bounds[number as usize], eye_world));
     }
 
     /// Draws. Sets the pipeline, group 2 (for keys that are not opaque, and for all with `material_group`: the
@@ -105,18 +143,19 @@ impl GpuScene {
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        draws: &[Draw],
+        draws: impl IntoIterator<Item = &'p Draw>,
         material_group: bool,
         pipeline_for: &dyn Fn(MaterialKey) -> &'p wgpu::RenderPipeline,
     ) {
-        if draws.is_empty() {
+        let mut draws = draws.into_iter().peekable();
+        if draws.peek().is_none() {
             return;
         }
         pass.set_vertex_buffer(0, self.geometry.vertices.slice(..));
         pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.set_bind_group(3, &self.instance_group, &[]);
         let (mut key, mut material) = (None, None);
-        for draw in draws {
+        while let Some(draw) = draws.next() {
             let Some(range) = self.geometry.ranges.get(draw.mesh as usize) else { continue };
             let Some(group) = self.material_groups.get(draw.material as usize) else { continue };
             if draw.instance as usize >= self.draws.len() {
@@ -131,14 +170,18 @@ impl GpuScene {
                 pass.set_bind_group(2, group, &[]);
                 material = Some(draw.material);
             }
+            let mut end = draw.instance + 1;
+            while draws.next_if(|next| next.continues(draw, end)).is_some() {
+                end += 1;
+            }
             let indices = range.first_index..range.first_index + range.index_count;
-            pass.draw_indexed(indices, range.base_vertex, draw.instance..draw.instance + 1);
+            pass.draw_indexed(indices, range.base_vertex, draw.instance..end);
         }
     }
 }
 
-/// The draw of each instance.
-fn draws(scene: &Scene) -> Result<Vec<Draw>, Error> {
+/// The scene's instances in the order of their draws, and the draws.
+fn draws(scene: &Scene) -> Result<(Vec<u32>, Vec<Draw>), Error> {
     let draw = |(index, instance): (usize, &crate::Instance)| {
         let missing = |kind: &str, wanted: usize, count: usize| Error::Inconsistent {
             what: format!("instance {index} \"{}\"", instance.name),
@@ -158,7 +201,13 @@ fn draws(scene: &Scene) -> Result<Vec<Draw>, Error> {
             instance: index as u32,
         })
     };
-    scene.instances.iter().enumerate().map(draw).collect()
+    let mut draws: Vec<Draw> = scene.instances.iter().enumerate().map(draw).collect::<Result<_, _>>()?;
+    draws.sort_unstable();
+    let order = draws.iter().map(|draw| draw.instance).collect();
+    for (number, draw) in (0..).zip(&mut draws) {
+        draw.instance = number;
+    }
+    Ok((order, draws))
 }
 
 /// The storage buffer of all placements.
@@ -166,12 +215,13 @@ fn upload_instances(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     scene: &Scene,
+    order: &[u32],
     origin_world: DVec3,
 ) -> Result<wgpu::Buffer, Error> {
     let size = size_of::<GpuInstance>() as u64;
     let bytes = scene.instances.len() as u64 * size;
     limits::storage(&device.limits(), "the scene's instances", bytes)?;
-    let instances = GpuInstance::all(scene, origin_world);
+    let instances = GpuInstance::all(scene, order, origin_world);
     let data = bytemuck::cast_slice(&instances);
     Ok(buffer(device, queue, "instances", wgpu::BufferUsages::STORAGE, size, bytes, [data]))
 }

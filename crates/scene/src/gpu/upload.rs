@@ -48,8 +48,9 @@ impl GpuInstance {
     }
 
     /// All instances of a scene.
-    pub(super) fn all(scene: &Scene, origin_world: DVec3) -> Vec<Self> {
-        let instances = scene.instances.iter();
+    /// In the order of draws.
+    pub(super) fn all(scene: &Scene, order: &[u32], origin_world: DVec3) -> Vec<Self> {
+        let instances = order.iter().filter_map(|&instance| scene.instances.get(instance as usize));
         instances.map(|instance| Self::new(&instance.world_from_local, origin_world)).collect()
     }
 }

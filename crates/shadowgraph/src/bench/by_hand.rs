@@ -205,7 +205,7 @@ fn records(renderer: &Renderer, view: &View<'_>) -> Result<Records, Error> {
     let (casters, settings) = (&renderer.casters, &options.shadows);
     let origin_world = casters.scene.origin_world();
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
-    let inputs = ShadowInputs { camera, aspect, lights, casters, origin_world, settings };
+    let inputs = ShadowInputs { view: 0, camera, aspect, lights, casters, origin_world, settings };
     Ok(Records {
         view: ViewRecords::new(camera, size_px, lights, origin_world, &view.ambience),
         shadows: plan_shadows(&inputs)?,

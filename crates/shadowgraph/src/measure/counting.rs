@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use shadowgraph_scene::{Aabb, ConvexVolume};
+use shadowgraph_scene::{Aabb, CullVolume};
 use shadowgraph_shadows::{CasterTarget, ShadowCasters};
 
 use crate::SceneCasters;
@@ -26,12 +26,16 @@ impl<'a> CountingCasters<'a> {
 }
 
 impl ShadowCasters for CountingCasters<'_> {
-    fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
+    fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
         self.casters.cull(volume, casters);
     }
 
     fn bounds(&self) -> Aabb {
         self.casters.bounds()
+    }
+
+    fn bounds_of(&self, caster: u32) -> Aabb {
+        self.casters.bounds_of(caster)
     }
 
     fn receivers(&self) -> Aabb {

@@ -220,6 +220,7 @@ fn texels(
     origin_world: DVec3,
 ) -> Result<Texels, Error> {
     let plan = plan_shadows(&ShadowInputs {
+        view: 0,
         camera: &options.camera,
         aspect: options.aspect(),
         lights: &renderer.scene().lights,

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Graph, Part, Plan, ResourceDesc, TextureDesc, Timer};
 use shadowgraph_lighting::{Geometry, ViewRecords};
-use shadowgraph_shadows::ShadowInputs;
+use shadowgraph_shadows::{CullSettings, ShadowInputs};
 
 use super::Surfaces;
 use super::counting::CountingCasters;
@@ -123,7 +123,10 @@ impl Probe {
         points: &Points,
         question: Question,
     ) -> Result<Answers, Error> {
-        let view = renderer.view(options, None);
+        // Points may be beside the view, and are asked for in coarser cascades than they would be read from.
+        let mut options = options.clone();
+        options.shadows.cull = CullSettings::NONE;
+        let view = renderer.view(&options, None);
         let casters = CountingCasters::new(renderer.casters());
         let (mut graph, mut timer) = (renderer.graph(), Timer::new());
         let (bytes, plan) = gpu.checked(|| {
@@ -162,6 +165,7 @@ impl Probe {
         });
         let screen = screen.transpose()?;
         let inputs = ShadowInputs {
+            view: 0,
             camera: &options.camera,
             aspect: options.aspect(),
             lights,

@@ -39,7 +39,7 @@ pub fn forward<'f>(
     // Shadows, by whatever technique.
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
     let (camera, settings) = (&options.camera, &options.shadows);
-    let inputs = ShadowInputs { camera, aspect, lights, casters, origin_world, settings };
+    let inputs = ShadowInputs { view: 0, camera, aspect, lights, casters, origin_world, settings };
     let shadows = technique.add_to(frame, &inputs, screen.as_ref())?;
 
     // The lit scene. Only pictures have a sky: in the others nothing is where nothing is drawn.

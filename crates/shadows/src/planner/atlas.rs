@@ -3,79 +3,136 @@
 use super::{Planner, place};
 use crate::rules::LightRules;
 use crate::select::{Candidate, Reach, Shape, point_face};
-use crate::views::SELECT_FACE;
+use crate::views::{SELECT_FACE, SELECT_MAP};
 use crate::{
-    MAP_ATLAS, MAX_ATLAS_TILES, MapPlan, OrthoFit, ShadowView, Slice, SpotFit, TileLayout, TilePart,
-    TilePlace, TilePlan, UnshadowedReason, even_tiles, slice_sphere, smallest_atlas_tile_px,
+    AllotRules, AtlasTiles, MAP_ATLAS, MAX_ATLAS_TILES, MapPlan, OrthoFit, ShadowView, Slice, SpotFit,
+    TilePart, TilePlace, TilePlan, TileRect, TileWish, UnshadowedReason, allot, even_tiles, slice_sphere,
+    smallest_atlas_tile_px,
 };
 
-/// A light of the atlas, and the casters of each of its tiles.
-struct Chosen<'s> {
+/// A light that casts shadows, and the casters of each of its tiles.
+struct Asking<'s> {
     candidate: Candidate<'s>,
     rules: LightRules,
     casters: Vec<Vec<u32>>,
 }
 
+/// The tiles of a light in a map.
+struct Tiles {
+    map_size_px: [u32; 2],
+    tile_px: u32,
+    rects: Vec<TileRect>,
+}
+
 impl<'a> Planner<'a> {
     /// Gives tiles to lights, the most important (in front) first.
     pub(super) fn add_atlas(&mut self, candidates: Vec<Candidate<'a>>) {
-        let chosen = self.choose(candidates);
-        if chosen.is_empty() {
-            return;
-        }
+        let asking = self.asking(candidates);
+        let chosen = match self.inputs.settings.atlas.tiles {
+            AtlasTiles::Even => self.even(asking),
+            AtlasTiles::ByImportance { smallest_px } => self.by_importance(asking, smallest_px),
+        };
+        let Some((_, first)) = chosen.first() else { return };
         let settings = &self.inputs.settings.atlas;
-        let count = chosen.iter().map(|chosen| chosen.casters.len()).sum();
-        let TileLayout { size_px, tile_px, tiles } = even_tiles(count, settings.map_size_px);
-        let mut map = MapPlan { size_px, depth: settings.depth, tiles: Vec::new() };
-        let mut rects = tiles.into_iter();
-        for Chosen { candidate, rules, casters } in chosen {
-            let first_view = self.plan.views.len() as u32;
-            let views = (MAP_ATLAS, first_view, casters.len() as u32);
-            let is_point = casters.len() > 1;
-            if is_point {
-                self.set_light(candidate.light, &rules, views).select = SELECT_FACE;
-            } else {
-                self.set_light(candidate.light, &rules, views);
-            }
-            for ((index, casters), rect) in (0u32..).zip(casters).zip(&mut rects) {
-                let fit = self.fit(&candidate.shape, index as usize, tile_px, &rules);
-                let tile = place(rect, size_px, &rules, settings.depth.step());
-                self.plan.views.push(fit.view(&tile, self.inputs.origin_world));
-                let part = if is_point { TilePart::Face(index) } else { TilePart::Whole };
-                let (light, view) = (candidate.light, first_view + index);
-                map.tiles.push(TilePlan { light, view, part, rect, casters });
-            }
+        let mut map = MapPlan { size_px: first.map_size_px, depth: settings.depth, tiles: Vec::new() };
+        for (light, tiles) in chosen {
+            map.tiles.extend(self.add_local(light, tiles));
         }
         self.plan.atlas = Some(map);
     }
 
-    /// The lights that get tiles and their casters, in the scene's order: a light keeps its tile when
-    /// importances change places.
-    fn choose(&mut self, candidates: Vec<Candidate<'a>>) -> Vec<Chosen<'a>> {
-        let smallest_px = smallest_atlas_tile_px(self.inputs.settings.atlas.map_size_px);
-        let mut chosen: Vec<Chosen<'a>> = Vec::new();
-        let mut free = MAX_ATLAS_TILES;
+    /// The lights under which something casts a shadow.
+    fn asking(&mut self, candidates: Vec<Candidate<'a>>) -> Vec<Asking<'a>> {
+        let smallest_px = match self.inputs.settings.atlas.tiles {
+            AtlasTiles::Even => smallest_atlas_tile_px(self.inputs.settings.atlas.map_size_px),
+            AtlasTiles::ByImportance { smallest_px } => smallest_px,
+        };
+        let mut asking = Vec::new();
         for candidate in candidates {
-            let tiles = candidate.shape.tiles();
-            if tiles > free {
-                // Less important lights do not get what is left.
-                free = 0;
-                self.skip(candidate.light, UnshadowedReason::AtlasFull);
-                continue;
-            }
             let rules = self.rules(&candidate, false);
             // The smallest tile has the widest margin: what its view misses, a larger tile's misses too.
-            let cull = |tile| self.fit(&candidate.shape, tile, smallest_px, &rules).cull(self);
-            let casters: Vec<Vec<u32>> = (0..tiles).map(cull).collect();
+            let cull = |tile| self.fit(&candidate.shape, tile, smallest_px, &rules).cull(self, &rules);
+            let casters: Vec<Vec<u32>> = (0..candidate.shape.tiles()).map(cull).collect();
             if casters.iter().all(Vec::is_empty) {
                 self.skip(candidate.light, UnshadowedReason::NoCasterInReach);
             } else {
-                free -= tiles;
-                chosen.push(Chosen { candidate, rules, casters });
+                asking.push(Asking { candidate, rules, casters });
             }
         }
-        chosen.sort_by_key(|chosen| chosen.candidate.light);
-        chosen
+        asking
+    }
+
+    /// Tiles of one size for as many as there is room for, in the scene's order: a light keeps its tile when importances
+    /// change places.
+    fn even(&mut self, asking: Vec<Asking<'a>>) -> Vec<(Asking<'a>, Tiles)> {
+        let mut free = MAX_ATLAS_TILES;
+        let mut chosen = Vec::new();
+        for light in asking {
+            if light.casters.len() <= free {
+                free -= light.casters.len();
+                chosen.push(light);
+            } else {
+                // Less important lights do not get what is left.
+                free = 0;
+                self.skip(light.candidate.light, UnshadowedReason::AtlasFull);
+            }
+        }
+        chosen.sort_by_key(|light| light.candidate.light);
+        let count = chosen.iter().map(|light| light.casters.len()).sum();
+        let layout = even_tiles(count, self.inputs.settings.atlas.map_size_px);
+        let mut rects = layout.tiles.into_iter();
+        let tiles = |count| Tiles {
+            map_size_px: layout.size_px,
+            tile_px: layout.tile_px,
+            rects: rects.by_ref().take(count).collect(),
+        };
+        let counts: Vec<usize> = chosen.iter().map(|light| light.casters.len()).collect();
+        chosen.into_iter().zip(counts.into_iter().map(tiles)).collect()
+    }
+
+    /// Tiles as large as the lights are important.
+    fn by_importance(&mut self, mut asking: Vec<Asking<'a>>, smallest_px: u32) -> Vec<(Asking<'a>, Tiles)> {
+        let map_px = self.inputs.settings.atlas.map_size_px;
+        let rules = AllotRules { map_px, smallest_px, largest_px: map_px };
+        let wishes: Vec<TileWish> = (0u32..)
+            .zip(&asking)
+            .map(|(rank, light)| TileWish {
+                owner: light.candidate.light,
+                tiles: light.casters.len() as u32,
+                size_px: f64::from(map_px) * light.candidate.coverage().min(1.0),
+                importance: -f64::from(rank),
+            })
+            .collect();
+        self.plan.allotment = allot(&rules, &wishes, self.before);
+        for &light in &self.plan.allotment.refused.clone() {
+            self.skip(light, UnshadowedReason::AtlasFull);
+        }
+        asking.sort_by_key(|light| light.candidate.light);
+        let tiles = |light: Asking<'a>| {
+            let granted = self.plan.allotment.granted_to(light.candidate.light)?;
+            let rects = self.plan.allotment.rects_of(light.candidate.light).to_vec();
+            Some((light, Tiles { map_size_px: [map_px; 2], tile_px: granted.tile_px, rects }))
+        };
+        asking.into_iter().filter_map(tiles).collect()
+    }
+
+    /// Adds a light's views, and returns its tiles.
+    fn add_local(&mut self, light: Asking<'_>, tiles: Tiles) -> Vec<TilePlan> {
+        let Asking { candidate, rules, casters } = light;
+        let depth_step = self.inputs.settings.atlas.depth.step();
+        let first_view = self.plan.views.len() as u32;
+        let is_point = casters.len() > 1;
+        let record = self.set_light(candidate.light, &rules, (MAP_ATLAS, first_view, casters.len() as u32));
+        record.select = if is_point { SELECT_FACE } else { SELECT_MAP };
+        let mut planned = Vec::new();
+        for ((index, casters), rect) in (0u32..).zip(casters).zip(tiles.rects) {
+            let fit = self.fit(&candidate.shape, index as usize, tiles.tile_px, &rules);
+            let tile = place(rect, tiles.map_size_px, &rules, depth_step);
+            self.plan.views.push(fit.view(&tile, self.inputs.origin_world));
+            let part = if is_point { TilePart::Face(index) } else { TilePart::Whole };
+            planned.push(TilePlan { light: candidate.light, view: first_view + index, part, rect, casters });
+        }
+        planned
     }
 
     fn fit(&self, shape: &Shape, tile: usize, tile_px: u32, rules: &LightRules) -> TileFit {
@@ -111,10 +168,10 @@ impl TileFit {
         }
     }
 
-    fn cull(&self, planner: &Planner<'_>) -> Vec<u32> {
+    fn cull(&self, planner: &Planner<'_>, rules: &LightRules) -> Vec<u32> {
         match self {
-            Self::Spot(fit) => planner.cull(&fit.cull_volume()),
-            Self::Directional(fit) => planner.cull(&fit.cull_volume()),
+            Self::Spot(fit) => planner.cull_local(fit, rules),
+            Self::Directional(fit) => planner.cull_directional(fit, rules),
         }
     }
 }

@@ -56,7 +56,7 @@ impl<'a> Planner<'a> {
         };
         let rules = self.rules(&candidate, true);
         let fits = self.fit_cascades(light_from_world, tile_px, &rules);
-        let casters = fits.iter().map(|fit| self.cull(&fit.fit.cull_volume())).collect();
+        let casters = self.cull_cascades(&fits, &rules);
         Cascades { candidate, rules, fits, casters }
     }
 

@@ -4,15 +4,17 @@ mod atlas;
 mod bias;
 mod cascades;
 mod check;
+mod cull;
 mod depth;
 mod lights;
 
-pub use atlas::AtlasSettings;
+pub use atlas::{AtlasSettings, AtlasTiles};
 pub use bias::{BiasMethod, BiasSettings, NormalBias};
 pub use cascades::{
     CascadeBlend, CascadeFitting, CascadeSelection, CascadeSettings, MAX_CASCADE_LIGHTS, MAX_CASCADES,
     SplitScheme,
 };
+pub use cull::CullSettings;
 pub use depth::DepthFormat;
 pub use lights::{LightRef, LightShadows};
 
@@ -44,6 +46,8 @@ pub struct ShadowSettings {
     pub atlas: AtlasSettings,
     /// What keeps surfaces from shadowing themselves.
     pub bias: BiasSettings,
+    /// Which casters are left out.
+    pub cull: CullSettings,
     /// What is different for single lights.
     pub lights: Vec<LightShadows>,
 }
@@ -56,6 +60,7 @@ impl Default for ShadowSettings {
             cascades: CascadeSettings::default(),
             atlas: AtlasSettings::default(),
             bias: BiasSettings::default(),
+            cull: CullSettings::default(),
             lights: Vec::new(),
         }
     }

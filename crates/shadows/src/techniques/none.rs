@@ -52,11 +52,11 @@ mod tests {
     use super::*;
     use crate::{CasterTarget, ShadowCasters, ShadowSettings};
     use glam::DVec3;
-    use shadowgraph_scene::{Aabb, Camera, ConvexVolume};
+    use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
     struct Nothing;
     impl ShadowCasters for Nothing {
-        fn cull(&self, _: &ConvexVolume, _: &mut Vec<u32>) {}
+        fn cull(&self, _: &CullVolume, _: &mut Vec<u32>) {}
         fn bounds(&self) -> Aabb {
             Aabb::EMPTY
         }
@@ -68,6 +68,7 @@ mod tests {
         let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
         let technique = NoShadows::new(&device);
         let inputs = ShadowInputs {
+            view: 0,
             camera: &Camera::framing(&Aabb::EMPTY, 1.0),
             aspect: 1.0,
             lights: &[],

@@ -1,5 +1,8 @@
 //! `pcf`: cascades for the brightest directional lights, an atlas for the others, percentage-closer filtering.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc};
 use shadowgraph_shaders::{ModuleSource, PCF};
 
@@ -8,8 +11,8 @@ use super::variant::PcfVariant;
 use crate::plan;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
-    CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowView, TilePart, TilePlan,
-    caster_view_layout, plan_shadows,
+    Allotment, CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowPlan, ShadowView,
+    TilePart, TilePlan, caster_view_layout, plan_shadows_after,
 };
 
 /// The bytes of a view: also the step of its dynamic offset.
@@ -23,6 +26,8 @@ pub struct Pcf {
     sampler: wgpu::Sampler,
     /// One texel that means lit, where there is no map.
     lit: wgpu::Texture,
+    /// The tiles that lights had in the last frame, of each view.
+    allotments: Mutex<BTreeMap<u32, Allotment>>,
 }
 
 impl Pcf {
@@ -49,7 +54,16 @@ impl Pcf {
                 usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
                 view_formats: &[],
             }),
+            allotments: Mutex::default(),
         }
+    }
+
+    /// Plans a frame after the last one of the same view.
+    fn plan(&self, inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
+        let mut allotments = self.allotments.lock().unwrap_or_else(PoisonError::into_inner);
+        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view))?;
+        allotments.insert(inputs.view, plan.allotment.clone());
+        Ok(plan)
     }
 
     /// Adds the passes that draw a map, or imports the texel that means lit.
@@ -134,7 +148,7 @@ impl ShadowTechnique for Pcf {
         inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let plan = plan_shadows(inputs)?;
+        let plan = self.plan(inputs)?;
         let variant = plan.variant().index();
         let outputs = frame.node("shadows", |frame| {
             let (views, lights) = frame.node("set up views", |frame| {

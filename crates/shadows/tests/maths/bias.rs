@@ -2,10 +2,10 @@
 
 use crate::common::{Analytic, Receiver};
 use glam::DVec3;
-use shadowgraph_scene::Aabb;
+use shadowgraph_scene::{Aabb, BoundingSphere};
 use shadowgraph_shadows::{
-    BiasSettings, OrthoFit, ShadowLight, ShadowSettings, ShadowView, Sphere, SpotCone, SpotFit, TilePlace,
-    TileRect, light_from_world,
+    BiasSettings, OrthoFit, ShadowLight, ShadowSettings, ShadowView, SpotCone, SpotFit, TilePlace, TileRect,
+    light_from_world,
 };
 
 const TILE_PX: u32 = 1024;
@@ -50,7 +50,7 @@ fn cube() -> Aabb {
 fn sunlit(direction: DVec3, texel_m: f64, bias: &BiasSettings) -> Analytic {
     let radius_m = texel_m * f64::from(TILE_PX) * 0.48;
     // Off the middle, so that no edge falls on the border of texels by design.
-    let sphere = Sphere { center_world: DVec3::new(0.313, 0.217, 0.131), radius_m };
+    let sphere = BoundingSphere { center_world: DVec3::new(0.313, 0.217, 0.131), radius_m };
     let fit = OrthoFit::new(light_from_world(direction).unwrap(), sphere, TILE_PX, 8.0);
     let (rect, map_size_px) = whole_tile();
     Analytic {

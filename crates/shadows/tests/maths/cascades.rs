@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
-use shadowgraph_scene::{Aabb, Camera, Light, Projection, origin_near};
+use shadowgraph_scene::{Aabb, BoundingSphere, Camera, Light, Projection, origin_near};
 use shadowgraph_shadows::{
-    CascadeFitting, OrthoFit, ShadowInputs, ShadowPlan, ShadowSettings, Slice, Sphere, SplitScheme,
-    light_from_world, plan_shadows, slice_sphere, split_distances,
+    CascadeFitting, OrthoFit, ShadowInputs, ShadowPlan, ShadowSettings, Slice, SplitScheme, light_from_world,
+    plan_shadows, slice_sphere, split_distances,
 };
 
 use crate::common::{Boxes, Lookup, Receiver, cube, sun};
@@ -46,7 +46,8 @@ fn plan(camera: &Camera, aspect: f64, light: Light, settings: &ShadowSettings) -
     // Something large: everything is in reach.
     let casters = Boxes(vec![cube(camera.position_world(), 1e5)]);
     let lights = [light];
-    let inputs = ShadowInputs { camera, aspect, lights: &lights, casters: &casters, origin_world, settings };
+    let inputs =
+        ShadowInputs { view: 0, camera, aspect, lights: &lights, casters: &casters, origin_world, settings };
     (plan_shadows(&inputs).unwrap(), origin_world)
 }
 
@@ -113,7 +114,7 @@ proptest! {
         a in any_direction(), b in any_direction(),
     ) {
         let rotation = light_from_world(direction).unwrap();
-        let fit = OrthoFit::new(rotation, Sphere { center_world, radius_m }, 1024, 5.0);
+        let fit = OrthoFit::new(rotation, BoundingSphere { center_world, radius_m }, 1024, 5.0);
         let origin_world = origin_near(center_world);
         let clip_from_world = fit.clip_from_world(origin_world);
         let depth = |p: DVec3| clip_from_world.transform_point3(p - origin_world).z;
@@ -135,7 +136,7 @@ proptest! {
         towards in 0.0..1e4f64, within in any_direction(),
     ) {
         let rotation = light_from_world(direction).unwrap();
-        let fit = OrthoFit::new(rotation, Sphere { center_world, radius_m }, 512, 5.0);
+        let fit = OrthoFit::new(rotation, BoundingSphere { center_world, radius_m }, 512, 5.0);
         let volume = fit.cull_volume();
         let small = |center: DVec3| cube(center, radius_m * 1e-3);
         let receiver = center_world + within * radius_m;
@@ -152,7 +153,7 @@ proptest! {
         corner in (0..2, 0..2, 0..2), step in 0usize..3,
     ) {
         let rotation = light_from_world(direction).unwrap();
-        let sphere = Sphere { center_world, radius_m };
+        let sphere = BoundingSphere { center_world, radius_m };
         let large_px = [2048, 1024, 682][step];
         let (small, large) =
             (OrthoFit::new(rotation, sphere, 512, 4.0), OrthoFit::new(rotation, sphere, large_px, 4.0));
@@ -207,7 +208,8 @@ fn sphere_stays_the_margin_away_from_the_tile_whatever_snapping_does() {
             let angle = f64::from(i) * 0.7;
             let direction = DVec3::new(angle.sin(), -1.2, angle.cos());
             let rotation = light_from_world(direction).unwrap();
-            let sphere = Sphere { center_world: DVec3::new(angle, -angle, 0.3 * angle) * 7.7, radius_m };
+            let sphere =
+                BoundingSphere { center_world: DVec3::new(angle, -angle, 0.3 * angle) * 7.7, radius_m };
             let clip_from_world =
                 OrthoFit::new(rotation, sphere, tile_px, margin_px).clip_from_world(DVec3::ZERO);
             let center = clip_from_world.transform_point3(sphere.center_world).truncate();
@@ -244,6 +246,6 @@ fn schemes_split_as_documented() {
 #[test]
 fn bounds_of_nothing_touch_no_cascade() {
     let rotation = light_from_world(DVec3::NEG_Y).unwrap();
-    let sphere = Sphere { center_world: DVec3::ZERO, radius_m: 10.0 };
+    let sphere = BoundingSphere { center_world: DVec3::ZERO, radius_m: 10.0 };
     assert!(!OrthoFit::new(rotation, sphere, 512, 4.0).cull_volume().intersects(&Aabb::EMPTY));
 }

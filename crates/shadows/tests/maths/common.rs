@@ -1,14 +1,14 @@
 //! Scenes and a CPU twin of `pcf.wgsl`.
 
 use glam::{DVec2, DVec3, DVec4, Vec3};
-use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Light, LightKind, Projection};
+use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection};
 use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowFilter, ShadowLight, ShadowView, filter_taps};
 
 /// Boxes that cast shadows.
 pub(crate) struct Boxes(pub(crate) Vec<Aabb>);
 
 impl ShadowCasters for Boxes {
-    fn cull(&self, volume: &ConvexVolume, casters: &mut Vec<u32>) {
+    fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
         let touching = (0u32..).zip(&self.0).filter(|(_, bounds)| volume.intersects(bounds));
         casters.extend(touching.map(|(index, _)| index));
     }

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
-    Error, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings,
-    ShadowView, TilePart, Unshadowed, UnshadowedReason, plan_shadows,
+    AtlasTiles, Error, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs, ShadowLight,
+    ShadowPlan, ShadowSettings, ShadowView, TilePart, Unshadowed, UnshadowedReason, plan_shadows,
+    plan_shadows_after,
 };
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
@@ -22,11 +23,18 @@ fn try_plan(
     settings: &ShadowSettings,
 ) -> Result<ShadowPlan, Error> {
     let origin_world = origin_near(camera.position_world());
-    plan_shadows(&ShadowInputs { camera, aspect: 1.5, lights, casters, origin_world, settings })
+    plan_shadows(&ShadowInputs { view: 0, camera, aspect: 1.5, lights, casters, origin_world, settings })
 }
 
 fn plan_with(lights: &[Light], casters: Vec<shadowgraph_scene::Aabb>) -> ShadowPlan {
     try_plan(&look(), lights, &Boxes(casters), &ShadowSettings::default()).unwrap()
+}
+
+/// With tiles of one size.
+fn plan_even(lights: &[Light], casters: Vec<shadowgraph_scene::Aabb>) -> ShadowPlan {
+    let mut settings = ShadowSettings::default();
+    settings.atlas.tiles = AtlasTiles::Even;
+    try_plan(&look(), lights, &Boxes(casters), &settings).unwrap()
 }
 
 fn plan(lights: &[Light]) -> ShadowPlan {
@@ -140,12 +148,12 @@ fn lights_that_cannot_have_shadows_are_reported() {
 }
 
 #[test]
-fn seventeenth_light_is_reported_and_the_least_important_one() {
+fn row_07_seventeenth_light_is_reported_and_the_least_important_one() {
     let mut lights: Vec<Light> = (0..17).map(|i| lamp(f64::from(i) * 0.2 - 1.7)).collect();
     // Small and far away: the least of them.
     lights[4] = spot(DVec3::new(0.0, 1.5, -30.0), DVec3::NEG_Y, 2.0, 0.5);
     let casters = vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(0.0, 0.0, -30.0), 1.0)];
-    let plan = plan_with(&lights, casters);
+    let plan = plan_even(&lights, casters);
     assert_eq!(reasons(&plan), [(4, UnshadowedReason::AtlasFull)]);
     let atlas = plan.atlas.unwrap();
     assert_eq!(atlas.tiles.len(), 16);
@@ -154,12 +162,12 @@ fn seventeenth_light_is_reported_and_the_least_important_one() {
 }
 
 #[test]
-fn light_without_casters_gives_up_its_tile() {
+fn row_07_light_without_casters_gives_up_its_tile() {
     let alone = spot(DVec3::new(4.0, 2.0, 0.0), DVec3::NEG_Y, 3.0, 0.3);
     let with = plan(&[lamp(1.0), alone.clone()]);
     assert_eq!(with.atlas.unwrap().tiles[0].rect.width, 2048, "one light has the whole map");
     let casters = vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(4.0, 0.0, 0.0), 1.0)];
-    let both = plan_with(&[lamp(1.0), alone], casters).atlas.unwrap();
+    let both = plan_even(&[lamp(1.0), alone], casters).atlas.unwrap();
     assert_eq!((both.size_px, both.tiles.len()), ([2048, 1024], 2));
     assert_eq!((both.tiles[0].casters.as_slice(), both.tiles[1].casters.as_slice()), (&[0][..], &[1][..]));
 }
@@ -212,6 +220,7 @@ fn view_that_begins_beyond_the_shadow_distance_has_none() {
 fn views_that_are_none_are_errors() {
     let (good, casters, settings) = (look(), Boxes(vec![cube(DVec3::ZERO, 1.0)]), ShadowSettings::default());
     let inputs = ShadowInputs {
+        view: 0,
         camera: &good,
         aspect: 1.5,
         lights: &[],
@@ -224,10 +233,16 @@ fn views_that_are_none_are_errors() {
     }
     let mut lost = look();
     lost.world_from_view.translation.x = f64::NAN;
-    assert_eq!(plan_shadows(&ShadowInputs { camera: &lost, ..inputs }), Err(Error::Camera("placement")));
+    assert_eq!(
+        plan_shadows(&ShadowInputs { view: 0, camera: &lost, ..inputs }),
+        Err(Error::Camera("placement"))
+    );
     let projection = Projection::Perspective { fov_y: f64::NAN, near: 0.1, far: None };
     let blind = Camera { projection, ..look() };
-    assert_eq!(plan_shadows(&ShadowInputs { camera: &blind, ..inputs }), Err(Error::Camera("projection")));
+    assert_eq!(
+        plan_shadows(&ShadowInputs { view: 0, camera: &blind, ..inputs }),
+        Err(Error::Camera("projection"))
+    );
     let wrong = ShadowSettings { distance_m: 0.0, ..ShadowSettings::default() };
     let error = plan_shadows(&ShadowInputs { settings: &wrong, ..inputs }).unwrap_err();
     assert!(error.to_string().contains("distance_m"));
@@ -274,4 +289,92 @@ fn cascades_stay_as_large_when_the_camera_turns() {
     });
     let radii: std::collections::BTreeSet<u32> = radii.map(f32::to_bits).collect();
     assert_eq!(radii.len(), 1, "{radii:?}");
+}
+
+/// Lamps over a floor of small boxes, from near to far.
+fn street_lamps(count: usize) -> (Vec<Light>, Boxes) {
+    let at = |i: usize| DVec3::new((i % 8) as f64 * 5.0 - 17.0, 3.0, -4.0 * (i / 8) as f64);
+    let lamp = |i: usize| {
+        if i.is_multiple_of(2) {
+            return spot(at(i), DVec3::NEG_Y, 6.0, 0.8);
+        }
+        light(LightKind::Point { position_world: at(i), range: Some(6.0) }, 50.0)
+    };
+    let boxes = (0..count).map(|i| cube(at(i).with_y(0.5), 1.0)).collect();
+    ((0..count).map(lamp).collect(), Boxes(boxes))
+}
+
+#[test]
+fn row_38_sixty_four_spot_and_point_lights_share_one_atlas() {
+    let (lights, casters) = street_lamps(72);
+    let mut settings = ShadowSettings::default();
+    settings.atlas.map_size_px = 4096;
+    let plan = try_plan(&look(), &lights, &casters, &settings).unwrap();
+    let shadowed = plan.lights.iter().filter(|light| light.view_count > 0).count();
+    assert!(
+        shadowed >= 64 && reasons(&plan).iter().all(|(_, reason)| *reason == UnshadowedReason::OutOfReach),
+        "{shadowed} {:?}",
+        reasons(&plan)
+    );
+    // Nearer lamps have larger tiles, and none overlaps another.
+    let tiles = &plan.atlas.as_ref().unwrap().tiles;
+    let width = |light: u32| tiles.iter().find(|tile| tile.light == light).map(|tile| tile.rect.width);
+    assert!(width(2) > width(66), "{:?} {:?}", width(2), width(66));
+    assert!(tiles.iter().enumerate().all(|(i, a)| tiles[..i].iter().all(|b| !a.rect.overlaps(&b.rect))));
+    settings.atlas.tiles = AtlasTiles::Even;
+    let even = try_plan(&look(), &lights, &casters, &settings).unwrap();
+    assert!(even.lights.iter().filter(|light| light.view_count > 0).count() <= 16);
+    assert!(reasons(&even).iter().any(|(_, reason)| *reason == UnshadowedReason::AtlasFull), "reported");
+}
+
+#[test]
+fn row_38_a_light_that_matters_more_has_larger_tiles() {
+    let lights = [lamp(-2.0), lamp(0.0), lamp(2.0)];
+    let width = |importance| {
+        let own = LightShadows { importance, ..LightShadows::new(1.into()) };
+        let settings = ShadowSettings { lights: vec![own], ..ShadowSettings::default() };
+        let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
+        let plan = try_plan(&look(), &lights, &casters, &settings).unwrap();
+        plan.atlas.unwrap().tiles.iter().find(|tile| tile.light == 1).unwrap().rect.width
+    };
+    assert!(
+        width(0.1) < width(1.0) && width(1.0) <= width(8.0),
+        "{} {} {}",
+        width(0.1),
+        width(1.0),
+        width(8.0)
+    );
+}
+
+#[test]
+fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
+    let (lights, casters) = street_lamps(24);
+    let settings = ShadowSettings::default();
+    let at = |step: f64| camera(DVec3::new(0.3 * step, 2.0, 8.0), DVec3::ZERO);
+    let plan = |step: f64, before: Option<&shadowgraph_shadows::Allotment>| {
+        let camera = at(step);
+        let inputs = ShadowInputs {
+            view: 0,
+            camera: &camera,
+            aspect: 1.5,
+            lights: &lights,
+            casters: &casters,
+            origin_world: DVec3::ZERO,
+            settings: &settings,
+        };
+        plan_shadows_after(&inputs, before).unwrap()
+    };
+    let rects = |plan: &ShadowPlan| plan.allotment.rects.clone();
+    let (mut changed, mut changed_without) = (0, 0);
+    let first = plan(0.0, None);
+    let mut before = first.clone();
+    for step in 1..40 {
+        // There and back again, by 30 cm each.
+        let at = f64::from(step % 2);
+        let next = plan(at, Some(&before.allotment));
+        changed += usize::from(rects(&next) != rects(&before));
+        changed_without += usize::from(rects(&plan(at, None)) != rects(&plan(1.0 - at, None)));
+        before = next;
+    }
+    assert!(changed <= 1, "{changed} of 39, {changed_without} without memory");
 }

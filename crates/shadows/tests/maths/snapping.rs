@@ -13,6 +13,7 @@ fn plan_at(eye: DVec3, forward: DVec3, light: DVec3, origin_world: DVec3) -> Sha
     let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: Some(500.0) };
     let camera = Camera::look_at(eye, eye + forward, DVec3::Y, projection);
     plan_shadows(&ShadowInputs {
+        view: 0,
         camera: &camera,
         aspect: 16.0 / 9.0,
         lights: &[sun(light, 1.0), sun(light.with_x(0.3), 0.5)],

@@ -21,7 +21,11 @@ fn row_12_none_one_two_three_and_four_cascades() {
     let Some(gpu) = gpu() else { return };
     let scene = pillars_in_sun();
     let wrong = [0, 1, 2, 3, 4, 8].map(|number| {
-        let options = pillar_view(|settings| settings.cascades.count = number);
+        let options = pillar_view(|settings| {
+            settings.cascades.count = number;
+            settings.cascades.map_size_px = 512;
+            settings.atlas.map_size_px = 256;
+        });
         let planned = plan(&scene, &options);
         let map = if number == 0 { MAP_ATLAS } else { MAP_CASCADES };
         assert_eq!((planned.lights[0].map, planned.lights[0].view_count), (map, number.max(1)));
@@ -65,11 +69,18 @@ fn row_13_cascades_are_shown_in_colour() {
         let options = pillar_view(change);
         let mut renderer = Renderer::new(gpu, pillars_in_sun(), &options.camera, Aov::Cascade).unwrap();
         let picture: Picture = renderer.draw(gpu, &options).unwrap().picture;
-        let pixels = picture.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255);
-        // Without the fade: strong colours only.
-        let colours: std::collections::BTreeSet<_> =
-            pixels.filter(|rgba| rgba[..3].iter().any(|c| *c < 120)).map(<[u8]>::to_vec).collect();
-        colours.len()
+        // Colours are shaded: what tells them apart is which of the three is strongest, and by how much.
+        let hue = |rgba: &[u8]| {
+            let most = f32::from(*rgba[..3].iter().max().unwrap());
+            [0, 1, 2].map(|i| (f32::from(rgba[i]) / most * 8.0).round() as u8)
+        };
+        let mut hues = std::collections::BTreeMap::<_, usize>::new();
+        for rgba in picture.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255) {
+            *hues.entry(hue(rgba)).or_default() += 1;
+        }
+        // White is where no shadow is; a few pixels of other colours are where shadows fade.
+        hues.remove(&[8, 8, 8]);
+        hues.values().filter(|pixels| **pixels > 100).count()
     };
     let two = colours(|s| {
         s.cascades.count = 2;
@@ -122,7 +133,7 @@ fn row_18_the_last_cascade_fades_at_its_edge() {
         let (cut, faded) = (shadows(0.0), shadows(0.8));
         let lighter = cut.iter().zip(&faded).filter(|(a, b)| b > a).count();
         let darker = cut.iter().zip(&faded).filter(|(a, b)| b < a).count();
-        assert!(lighter > 100 && darker == 0, "{select:?}: {lighter} {darker}");
+        assert!(lighter > 50 && darker == 0, "{select:?}: {lighter} {darker}");
         // Near the camera nothing changes.
         let near = cut.len() * 3 / 4;
         assert_eq!(cut[near..], faded[near..]);
@@ -206,7 +217,10 @@ fn row_27_a_tight_fit_has_finer_texels_that_change_as_the_camera_turns() {
 fn row_27_slices_overlap() {
     let scene = pillars_in_sun();
     let radius = |overlap| {
-        let options = pillar_view(|settings| settings.cascades.overlap = overlap);
+        let options = pillar_view(|settings| {
+            settings.cascades.overlap = overlap;
+            settings.cascades.fit = CascadeFitting::Tight;
+        });
         plan(&scene, &options).views.iter().map(|view| view.radius).collect::<Vec<_>>()
     };
     let (apart, overlapping) = (radius(0.0), radius(0.5));

@@ -3,6 +3,7 @@
 mod atlas;
 mod bias;
 mod cascades;
+mod culling;
 mod filters;
 mod points;
 
@@ -51,6 +52,7 @@ fn plan(scene: &Scene, options: &ViewOptions) -> ShadowPlan {
     let gpu = Gpu::noop().unwrap();
     let renderer = Renderer::new(&gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
     plan_shadows(&ShadowInputs {
+        view: 0,
         camera: &options.camera,
         aspect: f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]),
         lights: &scene.lights,

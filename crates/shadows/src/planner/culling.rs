@@ -1,0 +1,158 @@
+//! Which casters are drawn into a tile.
+
+use glam::DVec3;
+use shadowgraph_scene::{Aabb, BoundingSphere, Cone, ConvexVolume, CullVolume};
+
+use super::Planner;
+use crate::rules::LightRules;
+use crate::select::Reach;
+use crate::{
+    CascadeFit, CascadeSelection, CascadeSettings, OrthoFit, ReceiverHull, Served, ServedCasters,
+    ShadowInputs, SpotFit, ViewInLight,
+};
+
+/// What is seen, to tell which casters matter.
+pub(super) struct Seen {
+    /// The view up to the shadow distance.
+    view: ReceiverHull,
+    /// Everything that shadows can fall on.
+    receivers: ReceiverHull,
+    /// How far from where it should be a position can be on the GPU, metres.
+    precision_m: f64,
+}
+
+impl Seen {
+    pub(super) fn new(inputs: &ShadowInputs<'_>, reach: &Reach<'_>) -> Self {
+        let view = ReceiverHull::of_view(reach.camera, reach.aspect, reach.near_m, reach.distance_m);
+        let bounds = inputs.casters.receivers();
+        let origin = inputs.origin_world;
+        let farthest = view.corners().iter().map(|corner| corner.distance(origin)).fold(0.0, f64::max);
+        Self { view, receivers: ReceiverHull::of_box(&bounds), precision_m: 1e-4 + 1e-6 * farthest }
+    }
+
+    /// Where casters can darken anything that is seen, with a light in this direction.
+    fn towards(&self, to_light: DVec3, pad_m: f64) -> ConvexVolume {
+        let pad_m = pad_m + self.precision_m;
+        both([&self.view, &self.receivers].map(|hull| hull.swept_towards(to_light, pad_m)))
+    }
+
+    /// The same for a light at this place.
+    fn around(&self, light_world: DVec3, pad_m: f64) -> ConvexVolume {
+        let pad_m = pad_m + self.precision_m;
+        both([&self.view, &self.receivers].map(|hull| hull.hull_with(light_world, pad_m)))
+    }
+}
+
+fn both([mut first, second]: [ConvexVolume; 2]) -> ConvexVolume {
+    first.planes.extend(second.planes);
+    first
+}
+
+impl Planner<'_> {
+    /// The casters of a directional light's tile.
+    pub(super) fn cull_directional(&self, fit: &OrthoFit, rules: &LightRules) -> Vec<u32> {
+        let mut planes = fit.cull_volume();
+        if self.inputs.settings.cull.unseen {
+            let to_light = fit.light_from_world.transpose().z_axis;
+            planes.planes.extend(self.seen.towards(to_light, rules.margin_px(1.0) * fit.texel_m).planes);
+        }
+        self.cull(&planes.into())
+    }
+
+    /// The casters of a tile of a spot or point light.
+    pub(super) fn cull_local(&self, fit: &SpotFit, rules: &LightRules) -> Vec<u32> {
+        let mut planes = fit.cull_volume();
+        let cone = fit.cone;
+        if self.inputs.settings.cull.unseen {
+            let pad_m = rules.margin_px(1.0) * fit.texel_per_m() * fit.far_m;
+            planes.planes.extend(self.seen.around(cone.position_world, pad_m).planes);
+        }
+        // The pyramid around the cone has corners that the light does not reach, but its filter can.
+        let widest = (fit.tan_half * std::f64::consts::SQRT_2).atan();
+        self.cull(&CullVolume {
+            sphere: Some(BoundingSphere {
+                center_world: cone.position_world,
+                radius_m: fit.far_m / widest.cos(),
+            }),
+            cone: Some(Cone {
+                tip_world: cone.position_world,
+                axis: cone.direction,
+                half_angle: widest,
+                length_m: fit.far_m,
+            }),
+            planes,
+        })
+    }
+
+    /// The casters of all cascades of a light.
+    pub(super) fn cull_cascades(&self, fits: &[CascadeFit], rules: &LightRules) -> Vec<Vec<u32>> {
+        let mut casters: Vec<_> = fits.iter().map(|fit| self.cull_directional(&fit.fit, rules)).collect();
+        let Some(first) = fits.first() else { return casters };
+        if !self.inputs.settings.cull.covered {
+            return casters;
+        }
+        let light_from_world = first.fit.light_from_world;
+        let in_light = |hull: &ReceiverHull| ViewInLight::new(hull, light_from_world);
+        let receivers = in_light(&self.seen.receivers);
+        let view = in_light(&self.seen.view).within(&receivers);
+        let served = self.served(fits, rules, &receivers);
+        let axes = glam::DAffine3::from_mat3(light_from_world);
+        for (cascade, (fit, casters)) in fits.iter().zip(&mut casters).enumerate().skip(1) {
+            let reach_m = rules.margin_px(largest_scale(&self.inputs.settings.cascades)) * fit.fit.texel_m;
+            let query = ServedCasters::new(&view, &served[..cascade], reach_m + self.seen.precision_m);
+            let bounds_of = |caster| self.inputs.casters.bounds_of(caster).transformed(&axes);
+            casters.retain(|&caster| !query.is_served(&bounds_of(caster)));
+        }
+        casters
+    }
+
+    /// Which receivers read each cascade or a finer one.
+    fn served(&self, fits: &[CascadeFit], rules: &LightRules, receivers: &ViewInLight) -> Vec<Served> {
+        let settings = &self.inputs.settings.cascades;
+        let blend = f64::from(settings.blend.fraction());
+        let scale = f64::from(largest_scale(settings));
+        let mut begin_m = self.reach.near_m;
+        let served = |fit: &CascadeFit| {
+            let OrthoFit { light_from_world, texel_m, .. } = fit.fit;
+            let slack_m = self.seen.precision_m + texel_m * (scale * f64::from(rules.normal_texels()) + 0.1);
+            let length_m = fit.far_m - begin_m;
+            begin_m = fit.far_m;
+            match settings.select {
+                CascadeSelection::Map => Served::Box(inner_box(&fit.fit, rules, slack_m, blend, scale)),
+                CascadeSelection::Sphere => Served::Sphere {
+                    center_light: light_from_world * fit.fit.sphere.center_world,
+                    radius_m: fit.fit.sphere.radius_m * (1.0 - blend) - slack_m,
+                },
+                CascadeSelection::Depth => {
+                    let from_m = fit.far_m - blend * length_m - slack_m;
+                    let reach = &self.reach;
+                    let beyond = ReceiverHull::of_view(reach.camera, reach.aspect, from_m, reach.distance_m);
+                    Served::Depth { beyond: ViewInLight::new(&beyond, light_from_world).within(receivers) }
+                }
+            }
+        };
+        fits.iter().map(served).collect()
+    }
+}
+
+/// The points that a cascade's map covers wholly, on the light's axes: without its border, its blend, and where bias or the
+/// near plane may send a point to the next.
+fn inner_box(fit: &OrthoFit, rules: &LightRules, slack_m: f64, blend: f64, scale: f64) -> Aabb {
+    let center = fit.center_texels * fit.texel_m;
+    let half = fit.half_extent_m();
+    let inner = (half - f64::from(rules.filter.border_px()) * fit.texel_m) * (1.0 - blend) - slack_m;
+    let steepest = f64::from(rules.filter.reach_texels() * rules.bias.slope * rules.bias.max_slope) * scale;
+    let rise_m = std::f64::consts::SQRT_2 * steepest * fit.texel_m;
+    let depth_m = fit.depth_range_m();
+    let faded_m = 0.5 * blend * depth_m + slack_m + 1e-5 * depth_m;
+    let far = center.z - half * fit.depth_scale;
+    let across = DVec3::new(inner, inner, 0.0);
+    Aabb {
+        min: (center.with_z(far + faded_m)) - across,
+        max: (center.with_z(far + depth_m - faded_m - rise_m)) + across,
+    }
+}
+
+fn largest_scale(settings: &CascadeSettings) -> f32 {
+    settings.bias_scales.iter().copied().fold(1.0, f32::max)
+}
