@@ -29,4 +29,5 @@ mod source;
 
 pub use compose::{compose, compose_source};
 pub use error::Error;
-pub use source::{ModuleSource, NONE, PCF, RAYTRACED, builtin, builtin_files};
+pub use naga;
+pub use source::{MASK_ONLY, ModuleSource, NONE, PCF, RAYTRACED, SCREEN, builtin, builtin_files};

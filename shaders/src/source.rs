@@ -34,6 +34,12 @@ pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 /// The technique `pcf`: cascades and an atlas, filtered with a tent.
 pub const PCF: ModuleSource = file!("shadows/pcf.wgsl");
 
+/// The technique `screen`: what another technique says of all that the picture shows, in a screen mask.
+pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");
+
+/// The technique `screen` where nothing but its mask is needed.
+pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
+
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
 pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 
@@ -45,6 +51,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("material.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
+    file!("shadows/layers.wgsl"),
     file!("shadows/lookup.wgsl"),
     file!("shadows/tent.wgsl"),
     file!("shadows/traced.wgsl"),
@@ -55,10 +62,12 @@ pub(crate) const MODULES: &[ModuleSource] = &[
 ];
 
 /// The modules of which the caller passes one, as all have the import path [`TECHNIQUE`].
-pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED];
+pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED, SCREEN, MASK_ONLY];
 
 /// The files with entry points.
 pub(crate) const ENTRIES: &[ModuleSource] = &[
+    file!("blur.wgsl"),
+    file!("collect.wgsl"),
     file!("depth.wgsl"),
     file!("forward.wgsl"),
     file!("probe.wgsl"),

@@ -55,14 +55,15 @@ pub struct Forward {
     recipe: Arc<Recipe>,
     /// The technique's modules in each of its variants.
     modules: Vec<Vec<ModuleSource>>,
-    /// Those variants that frames have asked for.
-    lit: Mutex<BTreeMap<u32, Arc<LitPipelines>>>,
+    /// Those variants that frames have asked for, with and without a prepass.
+    lit: Mutex<BTreeMap<(u32, bool), Arc<LitPipelines>>>,
 }
 
 /// The pipelines that light with one variant of a technique: each is made when it is first asked for.
 pub struct LitPipelines {
     recipe: Arc<Recipe>,
     shader: wgpu::ShaderModule,
+    writes_depth: bool,
     /// By [`MaterialKey::index`].
     made: Vec<OnceLock<wgpu::RenderPipeline>>,
 }
@@ -70,7 +71,7 @@ pub struct LitPipelines {
 impl LitPipelines {
     /// Returns the pipeline of a key.
     pub fn get(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
-        self.made[key.index()].get_or_init(|| self.recipe.pipeline(&self.shader, key))
+        self.made[key.index()].get_or_init(|| self.recipe.pipeline(&self.shader, self.writes_depth, key))
     }
 }
 
@@ -124,13 +125,13 @@ impl Forward {
     }
 
     /// Returns the pipelines that light with a variant of the technique ([`ShadowOutputs::variant`]), and composes them if it
-    /// is the first time.
+    /// is the first time. With `writes_depth` they draw depth themselves, for passes without a prepass.
     ///
     /// # Errors
     /// If the variant's WGSL does not compose.
-    pub fn pipelines(&self, variant: u32) -> Result<Arc<LitPipelines>, Error> {
+    pub fn pipelines(&self, variant: u32, writes_depth: bool) -> Result<Arc<LitPipelines>, Error> {
         let mut known = self.lit.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipelines) = known.get(&variant) {
+        if let Some(pipelines) = known.get(&(variant, writes_depth)) {
             return Ok(pipelines.clone());
         }
         let module = shadowgraph_shaders::compose("forward.wgsl", self.modules_of(variant))?;
@@ -140,8 +141,8 @@ impl Forward {
         });
         let recipe = self.recipe.clone();
         let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
-        let pipelines = Arc::new(LitPipelines { recipe, shader, made });
-        known.insert(variant, pipelines.clone());
+        let pipelines = Arc::new(LitPipelines { recipe, shader, writes_depth, made });
+        known.insert((variant, writes_depth), pipelines.clone());
         Ok(pipelines)
     }
 
@@ -178,7 +179,7 @@ impl Forward {
     }
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where
-    /// nothing is drawn it holds `background`, in the texture's own terms.
+    /// nothing is drawn it holds `background`, in the texture's own terms. `depth` is the prepass's.
     ///
     /// # Errors
     /// If the technique's WGSL does not compose in the variant that the frame asks for.
@@ -191,7 +192,40 @@ impl Forward {
         geometry: Geometry<'f>,
         background: [f64; 4],
     ) -> Result<Texture, Error> {
-        let pipelines = self.pipelines(shadows.variant)?;
+        self.add_lit(frame, view, shadows, Depth::Prepass(depth), geometry, background)
+    }
+
+    /// Adds the pass like [`lit`](Self::lit) where there is no prepass: all that is drawn is lit, what is covered later too.
+    /// Returns the depth besides.
+    ///
+    /// # Errors
+    /// As `lit`.
+    pub fn lit_without_prepass<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        shadows: &ShadowOutputs<'f>,
+        geometry: Geometry<'f>,
+        background: [f64; 4],
+    ) -> Result<(Texture, Texture), Error> {
+        let [width, height] = geometry.size_px;
+        let mut depth = frame.create_texture("depth", TextureDesc::d2(width, height, DEPTH_FORMAT));
+        let lit = self.add_lit(frame, view, shadows, Depth::Own(&mut depth), geometry, background)?;
+        Ok((lit, depth))
+    }
+
+    fn add_lit<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        shadows: &ShadowOutputs<'f>,
+        depth: Depth<'_>,
+        geometry: Geometry<'f>,
+        background: [f64; 4],
+    ) -> Result<Texture, Error> {
+        // Debug colours are not in every variant.
+        let variant = if let Shows::Cascades(_) = self.recipe.shows { 0 } else { shadows.variant };
+        let pipelines = self.pipelines(variant, matches!(depth, Depth::Own(_)))?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.recipe.shows {
             Shows::Surface => ("surfaces", "surfaces"),
@@ -201,7 +235,10 @@ impl Forward {
         let mut pass = frame.render_pass(pass);
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
-        pass.depth_read(depth);
+        match depth {
+            Depth::Prepass(depth) => pass.depth_read(depth),
+            Depth::Own(depth) => pass.depth(depth, Contents::clear_depth(0.0)),
+        };
         pass.color(&mut color, Contents::clear_color(background));
         pass.body(move |ctx| {
             let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?;
@@ -218,8 +255,21 @@ impl Forward {
     }
 }
 
+/// Where the depth of a lit pass comes from.
+enum Depth<'d> {
+    /// A prepass has drawn it.
+    Prepass(&'d Texture),
+    /// The pass draws it.
+    Own(&'d mut Texture),
+}
+
 impl Recipe {
-    fn pipeline(&self, shader: &wgpu::ShaderModule, key: MaterialKey) -> wgpu::RenderPipeline {
+    fn pipeline(
+        &self,
+        shader: &wgpu::ShaderModule,
+        writes_depth: bool,
+        key: MaterialKey,
+    ) -> wgpu::RenderPipeline {
         let (aov, light) = match self.shows {
             Shows::Light => (0, 0),
             Shows::Visibility(light) => (1, light),
@@ -240,10 +290,10 @@ impl Recipe {
                 buffers: &[Some(vertex_layout())],
             },
             primitive: key.primitive_state(),
-            // The prepass has drawn the depth of all that is solid.
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
-                depth_write_enabled: Some(false),
+                // What is blended covers nothing.
+                depth_write_enabled: Some(writes_depth && key.alpha != AlphaKey::Blend),
                 depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
                 stencil: Default::default(),
                 bias: Default::default(),

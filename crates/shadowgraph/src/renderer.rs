@@ -8,7 +8,7 @@ use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
 use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Unshadowed};
 
-use crate::options::{Aov, ShadowDistance, Technique};
+use crate::options::{Aov, Pipeline, ShadowDistance, Technique};
 use crate::picture::{Drawn, Picture};
 use crate::pipelines::{self, Target, View};
 use crate::surfaces::SurfaceDrawer;
@@ -57,6 +57,7 @@ pub struct Renderer {
     pub(crate) casters: SceneCasters,
     pub(crate) technique: Box<dyn ShadowTechnique>,
     technique_name: Technique,
+    pipeline: Pipeline,
     pub(crate) forward: Forward,
     /// Where the technique reads them.
     pub(crate) surfaces: Option<SurfaceDrawer>,
@@ -94,7 +95,22 @@ impl Renderer {
         aov: Aov,
         technique: Technique,
     ) -> Result<Self, Error> {
-        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov, technique))
+        Self::with_pipeline(gpu, scene, eye, aov, technique, Pipeline::default())
+    }
+
+    /// Is like [`with_technique`](Self::with_technique), with another pipeline than the default one.
+    ///
+    /// # Errors
+    /// As `with_technique`.
+    pub fn with_pipeline(
+        gpu: &Gpu,
+        scene: Scene,
+        eye: &Camera,
+        aov: Aov,
+        technique: Technique,
+        pipeline: Pipeline,
+    ) -> Result<Self, Error> {
+        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov, (technique, pipeline)))
     }
 
     fn unchecked(
@@ -102,12 +118,12 @@ impl Renderer {
         scene: Scene,
         eye: &Camera,
         aov: Aov,
-        technique_name: Technique,
+        (technique_name, pipeline): (Technique, Pipeline),
     ) -> Result<Self, Error> {
         let device = &gpu.device;
         let origin_world = origin_near(eye.position_world());
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique = techniques::make(technique_name, gpu, &scene, origin_world)?;
+        let technique = techniques::make(technique_name, pipeline, gpu, &scene, origin_world)?;
         let (shows, format) = shows(&aov, &scene.lights)?;
         let forward = Forward::new(device, uploaded.layouts(), technique.as_ref(), format, shows)?;
         let reads_surfaces = technique.reads_surfaces();
@@ -116,6 +132,7 @@ impl Renderer {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
             technique_name,
+            pipeline,
             forward,
             surfaces,
             show: Show::new(device)?,
@@ -145,6 +162,11 @@ impl Renderer {
     /// Returns the scene on the GPU, as shadow casters.
     pub fn casters(&self) -> &SceneCasters {
         &self.casters
+    }
+
+    /// Returns the pipeline that draws.
+    pub fn pipeline(&self) -> Pipeline {
+        self.pipeline
     }
 
     /// Returns what pictures show.
@@ -179,7 +201,7 @@ impl Renderer {
         let view = self.view(options, None);
         gpu.checked(|| {
             let mut frame = self.graph().frame();
-            let output = pipelines::forward(&mut frame, self, &view)?;
+            let output = pipelines::add(&mut frame, self, &view)?;
             let request = frame.read_back_texture(&output.picture, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = self.execute(frame, gpu, &mut encoder, timer.as_deref_mut())?;
@@ -228,7 +250,7 @@ impl Renderer {
         self.move_origin(gpu, &options)?;
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
-        let output = pipelines::forward(&mut frame, self, &view)?;
+        let output = pipelines::add(&mut frame, self, &view)?;
         if self.aov != Aov::Color {
             let mut target = frame.import_texture("target", target, false);
             frame.copy_pass("copy to target").texture(&output.picture, &mut target);
@@ -243,9 +265,22 @@ impl Renderer {
     pub fn plan(&self, options: &ViewOptions) -> Result<(Arc<Plan>, Vec<Unshadowed>), Error> {
         let view = self.view(options, None);
         let mut frame = self.graph().frame();
-        let output = pipelines::forward(&mut frame, self, &view)?;
+        let output = pipelines::add(&mut frame, self, &view)?;
         frame.export_texture(&output.picture);
         Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
+    }
+
+    /// Returns the names of the resources that the shader of a view's lit pass has: for tests.
+    ///
+    /// # Errors
+    /// Settings out of range.
+    #[doc(hidden)]
+    pub fn lit_shader_variant(&self, options: &ViewOptions) -> Result<String, Error> {
+        let view = self.view(options, None);
+        let mut frame = self.graph().frame();
+        let output = pipelines::add(&mut frame, self, &view)?;
+        let modules = self.technique.modules(output.variant);
+        Ok(modules.iter().map(|module| module.source.as_ref()).collect())
     }
 
     /// Culls and sorts what the view sees. `target` is one that was prepared for.
@@ -264,7 +299,7 @@ impl Renderer {
             _ => &self.tonemap,
         };
         let target = Target { texture: target, tonemap };
-        View { options, draws, ambience: Ambience::for_key(key), target }
+        View { number: 0, options, draws, ambience: Ambience::for_key(key), target }
     }
 
     /// Makes the pipeline that draws colours into a target of the caller's, if there is none yet.
@@ -287,7 +322,8 @@ impl Renderer {
         }
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
         // It may hold positions.
-        self.technique = techniques::make(self.technique_name, gpu, &self.scene, origin_world)?;
+        self.technique =
+            techniques::make(self.technique_name, self.pipeline, gpu, &self.scene, origin_world)?;
         Ok(())
     }
 

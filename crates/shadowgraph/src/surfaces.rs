@@ -42,6 +42,7 @@ impl SurfaceDrawer {
     ) -> Result<Screen, Error> {
         let surfaces = self.add_to(frame, view, depth, geometry)?;
         let (view, lights) = (view.view.clone(), view.lights.clone());
-        Ok(Screen { size_px: geometry.size_px, view, lights, surfaces })
+        let has_blended = !geometry.draws.blend.is_empty();
+        Ok(Screen { size_px: geometry.size_px, view, lights, surfaces, has_blended })
     }
 }

@@ -3,20 +3,21 @@
 use glam::DVec3;
 use shadowgraph_scene::Scene;
 use shadowgraph_shadows::rays::GpuRayScene;
-use shadowgraph_shadows::{NoShadows, Pcf, Raytraced, ShadowTechnique};
+use shadowgraph_shadows::{NoShadows, Pcf, Raytraced, ScreenShadows, ShadowTechnique};
 
-use crate::options::Technique;
+use crate::options::{Pipeline, Technique};
 use crate::{Error, Gpu, ray_scene};
 
 /// Makes a technique for a scene whose GPU positions are relative to `origin_world`.
 pub(crate) fn make(
     technique: Technique,
+    pipeline: Pipeline,
     gpu: &Gpu,
     scene: &Scene,
     origin_world: DVec3,
 ) -> Result<Box<dyn ShadowTechnique>, Error> {
     let device = &gpu.device;
-    Ok(match technique {
+    let technique: Box<dyn ShadowTechnique> = match technique {
         Technique::Pcf => Box::new(Pcf::new(device)),
         Technique::None => Box::new(NoShadows::new(device)),
         Technique::Raytraced => {
@@ -24,5 +25,9 @@ pub(crate) fn make(
             let rays = GpuRayScene::new(&ray_scene(scene, origin_world)?, limit);
             Box::new(Raytraced::new(device, &rays.map_err(shadowgraph_shadows::Error::from)?)?)
         }
+    };
+    Ok(match pipeline {
+        Pipeline::ScreenShadows => Box::new(ScreenShadows::new(device, technique)?),
+        Pipeline::Forward | Pipeline::Minimal => technique,
     })
 }

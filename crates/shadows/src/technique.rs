@@ -1,7 +1,7 @@
 //! The contract between shadow techniques and whoever lights a scene.
 
 use shadowgraph_core::{Bind, Error as GraphError, Frame, Pass, Resources, ShaderPass};
-use shadowgraph_core::{Buffer, BufferToken, Texture, TextureToken};
+use shadowgraph_core::{Buffer, BufferToken, Texture, TextureToken, Uniform};
 use shadowgraph_shaders::ModuleSource;
 
 use crate::{Error, Needs, ShadowInputs, Unshadowed};
@@ -34,7 +34,10 @@ pub trait ShadowTechnique: Sync {
     /// Returns its WGSL modules in a variant: the one with the functions, and those that take the place of built-in ones.
     fn modules(&self, variant: u32) -> Vec<ModuleSource>;
 
-    /// Returns the layout of bind group 1.
+    /// Returns what each binding of group 1 is, by number.
+    fn binding_types(&self) -> Vec<wgpu::BindingType>;
+
+    /// Returns the layout of bind group 1: that of [`binding_types`](Self::binding_types).
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout;
 
     /// Adds its passes to the frame. What is not needed (no shadowed light, no caster in reach) adds no pass.
@@ -62,6 +65,8 @@ pub struct Screen {
     /// Where surfaces are and which way they face, those of all that is not blended: `Rgba32Float`, as
     /// `shadowgraph::surface` says.
     pub surfaces: Texture,
+    /// Whether something is blended over the surfaces.
+    pub has_blended: bool,
 }
 
 /// What a technique gives to the passes that light.
@@ -89,6 +94,8 @@ pub enum ShadowBinding<'f> {
     OwnBuffer(&'f wgpu::Buffer),
     /// A sampler of the technique's.
     Sampler(&'f wgpu::Sampler),
+    /// A uniform block of the frame.
+    Uniform(Uniform),
 }
 
 /// The bindings of a pass that has declared to read them.
@@ -100,6 +107,7 @@ enum Token<'f> {
     TextureArray(TextureToken),
     OwnBuffer(&'f wgpu::Buffer),
     Sampler(&'f wgpu::Sampler),
+    Uniform(Uniform),
 }
 
 impl Token<'_> {
@@ -110,6 +118,7 @@ impl Token<'_> {
             Token::TextureArray(texture) => Bind::TextureArray(*texture),
             Token::OwnBuffer(buffer) => Bind::OwnBuffer(buffer),
             Token::Sampler(sampler) => Bind::Sampler(sampler),
+            Token::Uniform(uniform) => Bind::Uniform(*uniform),
         }
     }
 }
@@ -123,6 +132,7 @@ impl<'f> ShadowOutputs<'f> {
             ShadowBinding::TextureArray(texture) => Token::TextureArray(pass.sample(texture)),
             ShadowBinding::OwnBuffer(buffer) => Token::OwnBuffer(buffer),
             ShadowBinding::Sampler(sampler) => Token::Sampler(sampler),
+            ShadowBinding::Uniform(uniform) => Token::Uniform(*uniform),
         };
         ShadowTokens(self.bindings.iter().map(declare).collect())
     }

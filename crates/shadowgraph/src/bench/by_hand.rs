@@ -72,7 +72,7 @@ impl<'v> ByHand<'v> {
         let maps = [map(&records.shadows.cascades), map(&records.shadows.atlas)];
         Ok(Self {
             counts: counts(&records, view),
-            pipelines: renderer.forward.pipelines(records.shadows.variant().index())?,
+            pipelines: renderer.forward.pipelines(records.shadows.variant().index(), false)?,
             groups: Groups::new(device, renderer, view, &buffers, &maps, &lit),
             target: target.create_view(&wgpu::TextureViewDescriptor::default()),
             renderer,

@@ -147,7 +147,7 @@ fn through_graph(
 ) -> Result<FrameTime, Error> {
     let mut clock = Clock::start();
     let mut frame = graph.frame();
-    pipelines::forward(&mut frame, renderer, view)?;
+    pipelines::add(&mut frame, renderer, view)?;
     let declare = clock.lap();
     let compiled = graph.compile(frame)?;
     let compile = clock.lap();

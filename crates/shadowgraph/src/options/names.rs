@@ -7,7 +7,7 @@ use std::str::FromStr;
 pub const TECHNIQUES: &[&str] = &["pcf", "raytraced", "none"];
 
 /// The names of the built-in pipelines, the default first.
-pub const PIPELINES: &[&str] = &["forward"];
+pub const PIPELINES: &[&str] = &["forward", "screen_shadows", "minimal"];
 
 /// A shadow technique that exists.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,8 +22,16 @@ pub enum Technique {
 }
 
 /// A built-in pipeline that exists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pipeline(&'static str);
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pipeline {
+    /// `forward`: a depth prepass, then each pixel is lit once and asks for its shadows.
+    #[default]
+    Forward,
+    /// `screen_shadows`: as `forward`, with shadows collected in a screen mask before anything is lit.
+    ScreenShadows,
+    /// `minimal`: everything that is drawn is lit, without a depth prepass.
+    Minimal,
+}
 
 impl Technique {
     /// Returns its name, one of [`TECHNIQUES`].
@@ -41,13 +49,11 @@ impl Pipeline {
     /// Returns its name, one of [`PIPELINES`].
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.0
-    }
-}
-
-impl Default for Pipeline {
-    fn default() -> Self {
-        Self("forward")
+        match self {
+            Self::Forward => "forward",
+            Self::ScreenShadows => "screen_shadows",
+            Self::Minimal => "minimal",
+        }
     }
 }
 
@@ -71,7 +77,9 @@ impl FromStr for Pipeline {
     type Err = OptionError;
 
     fn from_str(text: &str) -> Result<Self, OptionError> {
-        known("--pipeline", "pipeline", text, PIPELINES).map(Self)
+        let all = [Self::Forward, Self::ScreenShadows, Self::Minimal];
+        let name = known("--pipeline", "pipeline", text, PIPELINES)?;
+        Ok(all.into_iter().find(|pipeline| pipeline.name() == name).unwrap_or_default())
     }
 }
 
@@ -98,11 +106,17 @@ mod tests {
             assert_eq!(name.parse::<Technique>().unwrap().name(), *name);
         }
         assert_eq!(Pipeline::default().name(), PIPELINES[0]);
+        for name in PIPELINES {
+            assert_eq!(name.parse::<Pipeline>().unwrap().name(), *name);
+        }
     }
 
     #[test]
     fn an_unknown_name_is_refused_with_those_that_exist() {
         let error = "deferred".parse::<Pipeline>().unwrap_err().to_string();
-        assert_eq!(error, "--pipeline: there is no pipeline `deferred`; there is: forward");
+        assert_eq!(
+            error,
+            "--pipeline: there is no pipeline `deferred`; there is: forward, screen_shadows, minimal"
+        );
     }
 }

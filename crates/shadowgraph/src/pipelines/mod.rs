@@ -1,18 +1,36 @@
 //! Pipelines: scripts that wire nodes together, one call per step. Copy one and edit it.
 
 mod forward;
+mod minimal;
+mod steps;
 
 pub use forward::forward;
+pub use minimal::minimal;
+use steps::{background, geometry, inputs, picture, records};
 
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{Ambience, Tonemap};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_shadows::Unshadowed;
 
-use crate::ViewOptions;
+use crate::options::Pipeline;
+use crate::{Error, Renderer, ViewOptions};
+
+/// Adds the passes of the renderer's own pipeline.
+///
+/// # Errors
+/// Shadow settings out of range, or an output that the frame does not have.
+pub fn add<'f>(frame: &mut Frame<'f>, renderer: &'f Renderer, view: &'f View<'f>) -> Result<Output, Error> {
+    match renderer.pipeline() {
+        Pipeline::Forward | Pipeline::ScreenShadows => forward(frame, renderer, view),
+        Pipeline::Minimal => minimal(frame, renderer, view),
+    }
+}
 
 /// One view of a frame.
 pub struct View<'v> {
+    /// Which of the frame's views it is, from 0.
+    pub number: u32,
     /// Who looks, and how.
     pub options: &'v ViewOptions,
     /// What of the scene is seen.
@@ -46,6 +64,8 @@ impl Target<'_> {
 pub struct Output {
     /// Four bytes a pixel, as large as the view.
     pub picture: Texture,
+    /// Which variant of the technique's shaders lights it.
+    pub variant: u32,
     /// The lights that are to cast shadows but have none, and why.
     pub unshadowed: Vec<Unshadowed>,
 }

@@ -7,6 +7,7 @@ mod check;
 mod cull;
 mod depth;
 mod lights;
+mod screen;
 
 pub use atlas::{AtlasSettings, AtlasTiles};
 pub use bias::{BiasMethod, BiasSettings, NormalBias};
@@ -17,6 +18,7 @@ pub use cascades::{
 pub use cull::CullSettings;
 pub use depth::DepthFormat;
 pub use lights::{LightRef, LightShadows};
+pub use screen::ScreenSettings;
 
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +48,8 @@ pub struct ShadowSettings {
     pub atlas: AtlasSettings,
     /// What keeps surfaces from shadowing themselves.
     pub bias: BiasSettings,
+    /// Shadows that are collected in a screen mask.
+    pub screen: ScreenSettings,
     /// Which casters are left out.
     pub cull: CullSettings,
     /// What is different for single lights.
@@ -60,6 +64,7 @@ impl Default for ShadowSettings {
             cascades: CascadeSettings::default(),
             atlas: AtlasSettings::default(),
             bias: BiasSettings::default(),
+            screen: ScreenSettings::default(),
             cull: CullSettings::default(),
             lights: Vec::new(),
         }
@@ -78,6 +83,7 @@ impl ShadowSettings {
         self.cascades.validate()?;
         self.atlas.validate()?;
         self.bias.validate()?;
+        self.screen.validate()?;
         self.lights.iter().try_for_each(LightShadows::validate)
     }
 }

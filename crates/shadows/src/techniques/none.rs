@@ -32,6 +32,10 @@ impl ShadowTechnique for NoShadows {
         vec![NONE]
     }
 
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        Vec::new()
+    }
+
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }

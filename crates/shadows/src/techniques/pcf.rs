@@ -34,7 +34,7 @@ impl Pcf {
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
-            layout: group_layout(device),
+            layout: layout(device, "pcf shadows", &binding_types()),
             view_layout: caster_view_layout(device),
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("shadow comparison"),
@@ -138,6 +138,10 @@ impl ShadowTechnique for Pcf {
         vec![PCF, PcfVariant::from_index(variant).module()]
     }
 
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        binding_types().into()
+    }
+
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -175,12 +179,13 @@ impl ShadowTechnique for Pcf {
     }
 }
 
-fn group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+/// What each binding of group 1 is: `pcf.wgsl`.
+fn binding_types() -> [wgpu::BindingType; 5] {
     let map = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Depth,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    layout(device, "pcf shadows", &[STORAGE, STORAGE, map, map, sampler])
+    [STORAGE, STORAGE, map, map, sampler]
 }

@@ -2,24 +2,16 @@
 
 use std::borrow::Cow;
 
-use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture, TextureDesc};
 use shadowgraph_scene::Light;
 use shadowgraph_shaders::{ModuleSource, RAYTRACED};
 use wgpu::util::DeviceExt as _;
 
 use super::layout::{STORAGE, layout};
+use super::mask::{MASK, MASK_FORMAT, SURFACES, TARGET, WORKGROUP_PX, masked_lights, no_mask};
 use crate::rays::GpuRayScene;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs};
-
-/// The format of the screen mask.
-const MASK_FORMAT: Format = Format::Rgba8Unorm;
-
-/// The most lights that get a layer of the screen mask; others are traced where they are asked for.
-pub const MAX_MASK_LAYERS: usize = 16;
-
-/// The side of a workgroup of `raytrace.wgsl`, pixels.
-const WORKGROUP_PX: u32 = 8;
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;
@@ -31,7 +23,7 @@ const LIT: u32 = u32::MAX;
 /// surface, at any distance. No other setting changes it.
 ///
 /// What the picture shows is traced by a compute pass into a screen mask, a layer a light, the first
-/// [`MAX_MASK_LAYERS`] of them; blended surfaces and points elsewhere are traced where they are asked for.
+/// [`MAX_MASK_LAYERS`](super::MAX_MASK_LAYERS) of them; blended surfaces and points elsewhere are traced where they are asked for.
 pub struct Raytraced {
     /// Group 1 of who asks.
     layout: wgpu::BindGroupLayout,
@@ -62,20 +54,11 @@ impl Raytraced {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
         };
         Ok(Self {
-            layout: layout(device, "raytraced shadows", &[[STORAGE; 6].as_slice(), &[MASK]].concat()),
+            layout: layout(device, "raytraced shadows", &binding_types()),
             trace: Trace::new(device)?,
             rays: scene.buffers().map(buffer),
             reach_m: scene.reach_m,
-            no_mask: device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("no shadow mask"),
-                size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: MASK_FORMAT,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            }),
+            no_mask: no_mask(device),
         })
     }
 
@@ -125,6 +108,10 @@ impl ShadowTechnique for Raytraced {
         vec![RAYTRACED]
     }
 
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        binding_types().into()
+    }
+
     fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -153,18 +140,19 @@ impl ShadowTechnique for Raytraced {
     }
 }
 
-/// Gives layers to the lights that cast shadows, in their order: directional lights come first.
+/// What each light of the scene has: a layer, rays alone, or light.
 fn mask_layers(lights: &[Light]) -> Vec<u32> {
-    let mut next = 0;
-    let layer = |light: &Light| {
-        if !light.casts_shadow {
-            return LIT;
-        }
-        let layer = if next < MAX_MASK_LAYERS as u32 { next } else { UNMASKED };
-        next += 1;
-        layer
-    };
-    lights.iter().map(layer).collect()
+    let unmasked = |light: &Light| if light.casts_shadow { UNMASKED } else { LIT };
+    let mut layers: Vec<u32> = lights.iter().map(unmasked).collect();
+    for (layer, light) in (0..).zip(masked_lights(lights)) {
+        layers[light as usize] = layer;
+    }
+    layers
+}
+
+/// What each binding of group 1 is: `rays.wgsl`, `traced.wgsl`, `raytraced.wgsl`.
+fn binding_types() -> [wgpu::BindingType; 7] {
+    [STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, MASK]
 }
 
 /// A `Traced` of `traced.wgsl`.
@@ -200,24 +188,6 @@ impl Trace {
         Ok(Self { view_layout, rays_layout, screen_layout, pipeline })
     }
 }
-
-const MASK: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-    view_dimension: wgpu::TextureViewDimension::D2Array,
-    multisampled: false,
-};
-
-const SURFACES: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-    view_dimension: wgpu::TextureViewDimension::D2,
-    multisampled: false,
-};
-
-const TARGET: wgpu::BindingType = wgpu::BindingType::StorageTexture {
-    access: wgpu::StorageTextureAccess::WriteOnly,
-    format: MASK_FORMAT,
-    view_dimension: wgpu::TextureViewDimension::D2Array,
-};
 
 #[cfg(test)]
 mod tests {

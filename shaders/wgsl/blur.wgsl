@@ -1,0 +1,65 @@
+// Blurs a screen mask over surfaces: a Poisson disc, turned from pixel to pixel, wider nearby, that leaves out what lies on
+// another surface. After Pranckevičius, "Deferred Cascaded Shadow Maps" (2009), and Mitchell, "Poisson Shadow Blur" (ShaderX3,
+// 2005).
+#import shadowgraph::view::{view, view_depth_of}
+#import shadowgraph::surface::unpack_normal
+#import shadowgraph::shadows::layers::MaskLayers
+
+@group(1) @binding(0) var surfaces: texture_2d<f32>;
+@group(1) @binding(1) var collected: texture_2d_array<f32>;
+@group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
+@group(1) @binding(3) var<uniform> layers: MaskLayers;
+
+const TAPS: u32 = 16u;
+// Points of the unit disc, each at least 0.49 from the others.
+const DISC = array<vec2f, TAPS>(
+    vec2f(0.2857, 0.4246), vec2f(-0.1977, -0.8546), vec2f(-0.6936, 0.6417), vec2f(0.7984, -0.4879),
+    vec2f(-0.9381, -0.2836), vec2f(-0.2460, -0.0367), vec2f(0.9650, 0.1553), vec2f(-0.1677, 0.9594),
+    vec2f(0.4068, -0.0604), vec2f(0.4008, -0.8943), vec2f(-0.2267, 0.4629), vec2f(-0.6761, -0.7094),
+    vec2f(-0.9559, 0.2160), vec2f(0.3309, 0.9224), vec2f(0.7644, 0.6133), vec2f(0.1279, -0.4753),
+);
+
+// Pixels per metre at this view depth.
+fn pixels_per_metre(depth: f32) -> f32 {
+    // The second row of the projection: how much of the picture's half height one unit of height is.
+    let m = view.clip_from_world;
+    let up = length(vec3f(m[0].y, m[1].y, m[2].y)) * 0.5 * view.size_px.y;
+    return select(up / max(depth, 1e-6), up, view.orthographic == 1u);
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
+    let size = textureDimensions(surfaces);
+    if any(id.xy >= size) {
+        return;
+    }
+    let surface = textureLoad(surfaces, id.xy, 0);
+    let normal = unpack_normal(surface.w);
+    var sum = textureLoad(collected, id.xy, id.z, 0).rgb;
+    var count = 1.0;
+    if any(normal != vec3f(0.0)) {
+        let depth = view_depth_of(surface.xyz);
+        let radius_px = min(layers.blur_world * pixels_per_metre(depth), layers.blur_max_px);
+        let apart = layers.depth_threshold * depth;
+        // Interleaved gradient noise (Jimenez 2014).
+        let pixel = vec2f(id.xy);
+        let angle = 6.2831853 * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+        let turn = mat2x2f(cos(angle), sin(angle), -sin(angle), cos(angle));
+        // Within half a pixel there is nothing to blur.
+        let taps = select(0u, TAPS, radius_px > 0.5);
+        for (var tap = 0u; tap < taps; tap++) {
+            let at = vec2i(round(pixel + turn * DISC[tap] * radius_px));
+            if any(at < vec2i(0)) || any(at >= vec2i(size)) {
+                continue;
+            }
+            let other = textureLoad(surfaces, at, 0);
+            // Behind an edge, or on a surface that only crosses this one.
+            let off_plane = abs(dot(other.xyz - surface.xyz, normal));
+            if other.w >= 1.0 && abs(view_depth_of(other.xyz) - depth) < apart && off_plane < 0.5 * apart {
+                sum += textureLoad(collected, at, id.z, 0).rgb;
+                count += 1.0;
+            }
+        }
+    }
+    textureStore(mask, id.xy, id.z, vec4f(sum / count, 1.0));
+}

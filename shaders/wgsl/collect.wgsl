@@ -1,0 +1,27 @@
+// Collects shadows: asks the technique for each light and each surface that the picture shows, and writes a screen mask.
+#import shadowgraph::view::view_depth_of
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::surface::unpack_normal
+#import shadowgraph::shadows::layers::MaskLayers
+#import shadowgraph::technique::shadow_visibility
+
+@group(2) @binding(0) var surfaces: texture_2d<f32>;
+@group(2) @binding(1) var mask: texture_storage_2d_array<rgba8unorm, write>;
+@group(2) @binding(2) var<uniform> layers: MaskLayers;
+
+@compute @workgroup_size(8, 8)
+fn cs_collect(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= textureDimensions(surfaces)) {
+        return;
+    }
+    let surface = textureLoad(surfaces, id.xy, 0);
+    let normal = unpack_normal(surface.w);
+    var visibility = vec3f(1.0);
+    if any(normal != vec3f(0.0)) {
+        let pixel = vec2f(id.xy) + 0.5;
+        let depth = view_depth_of(surface.xyz);
+        let receiver = Receiver(surface.xyz, depth, normal, 0u, normal, pixel, vec3f(0.0), vec3f(0.0));
+        visibility = shadow_visibility(layers.light[id.z / 4u][id.z % 4u], receiver);
+    }
+    textureStore(mask, id.xy, id.z, vec4f(visibility, 1.0));
+}

@@ -1,0 +1,25 @@
+// Which light each layer of a screen mask is for.
+#define_import_path shadowgraph::shadows::layers
+
+// 80 bytes.
+struct MaskLayers {
+    count: u32,
+    // How soft shadows' edges are blurred: the radius in metres, and at most in pixels.
+    blur_world: f32,
+    blur_max_px: f32,
+    // How far apart two surfaces are, in parts of their view depth, that are not blurred over each other.
+    depth_threshold: f32,
+    // The light of each layer.
+    light: array<vec4u, 4>,
+}
+
+const UNMASKED: u32 = 0xffffffffu;
+
+fn mask_layer(layers: MaskLayers, light: u32) -> u32 {
+    for (var layer = 0u; layer < layers.count; layer++) {
+        if layers.light[layer / 4u][layer % 4u] == light {
+            return layer;
+        }
+    }
+    return UNMASKED;
+}

@@ -1,0 +1,136 @@
+//! Shadows that are collected on the screen.
+
+use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
+use crate::stage::{SIZE_PX, cube_on_floor, gpu, sun, sun_direction};
+use glam::DVec3;
+use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::scene::{AlphaMode, Scene};
+use shadowgraph::shadows::{CascadeSelection, ShadowFilter};
+use shadowgraph::{Gpu, Picture, Renderer, ViewOptions};
+
+fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> Picture {
+    let technique = Technique::Pcf;
+    let mut renderer =
+        Renderer::with_pipeline(gpu, scene.clone(), &options.camera, aov, technique, pipeline).unwrap();
+    renderer.draw(gpu, options).unwrap().picture
+}
+
+fn screen_greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
+    let picture = picture(gpu, scene, Aov::Visibility(light), options, Pipeline::ScreenShadows);
+    picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
+}
+
+fn pillars_in_sun() -> Scene {
+    let mut scene = pillars(12);
+    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene.add_light(super::spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7));
+    scene
+}
+
+#[test]
+fn row_15_three_pipelines_draw_the_same_picture() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
+    let [forward, screen, minimal] = [Pipeline::Forward, Pipeline::ScreenShadows, Pipeline::Minimal]
+        .map(|pipeline| picture(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
+    let differ = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| a.abs_diff(**b) > 3).count();
+    let pixels = (SIZE_PX[0] * SIZE_PX[1]) as usize;
+    assert_eq!(differ(&forward, &minimal), 0);
+    assert!(differ(&forward, &screen) < pixels / 500, "{}", differ(&forward, &screen));
+}
+
+#[test]
+fn row_29_shadows_collected_beforehand_are_those_that_each_pixel_asks_for() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
+    for light in 0..2 {
+        let (asked, collected) =
+            (greys(gpu, &scene, light, &options), screen_greys(gpu, &scene, light, &options));
+        let differ = different(&asked, &collected, 8);
+        assert!(differ < asked.len() / 1000, "light {light}: {differ}");
+        assert!(count(&collected, |grey| grey == 0) > 500);
+    }
+}
+
+#[test]
+fn row_34_collecting_chooses_cascades_by_depth_without_branches() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    let options = pillar_view(|settings| settings.cascades.select = CascadeSelection::Depth);
+    let (asked, collected) = (greys(gpu, &scene, 0, &options), screen_greys(gpu, &scene, 0, &options));
+    assert!(different(&asked, &collected, 8) < asked.len() / 1000);
+    let other = screen_greys(gpu, &scene, 0, &pillar_view(|_| ()));
+    assert!(different(&other, &collected, 8) > 0, "another cascade is read somewhere");
+}
+
+#[test]
+fn row_35_blurring_widens_edges_nearby_and_leaves_out_other_surfaces() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.add_light(sun(sun_direction(40.0, 130.0)));
+    let draw = |blur_m, depth_threshold| {
+        let options = cube_view(|settings| {
+            settings.cascades.filter = ShadowFilter::Tent2;
+            settings.screen.blur_m = blur_m;
+            settings.screen.depth_threshold = depth_threshold;
+        });
+        screen_greys(gpu, &scene, 0, &options)
+    };
+    let between = |greys: &Greys| count(greys, |grey| (3..253).contains(&grey));
+    let (sharp, blurred) = (draw(0.0, 0.02), draw(0.15, 0.02));
+    assert!(between(&blurred) > 3 * between(&sharp), "{} {}", between(&sharp), between(&blurred));
+    // Without the threshold, the dark floor behind the cube's lit edges bleeds over them.
+    let careless = draw(0.15, 1.0);
+    let lit = sharp.iter().map(|grey| *grey == Some(255)).collect::<Vec<_>>();
+    let darkened = |greys: &Greys| {
+        greys.iter().zip(&lit).filter(|(grey, lit)| **lit && grey.is_some_and(|grey| grey < 230)).count()
+    };
+    assert!(darkened(&careless) > darkened(&blurred), "{} {}", darkened(&careless), darkened(&blurred));
+    // Farther away the same radius is fewer pixels.
+    let mut far = cube_view(|settings| {
+        settings.cascades.filter = ShadowFilter::Tent2;
+        settings.screen.blur_m = 0.15;
+        settings.distance_m = 90.0;
+    });
+    far.camera = crate::stage::camera(DVec3::new(10.0, 15.0, 20.0), DVec3::new(0.0, 0.3, 0.0));
+    let share = |greys: &Greys| between(greys) as f64 / count(greys, |grey| grey < 253) as f64;
+    let near = cube_view(|settings| {
+        settings.cascades.filter = ShadowFilter::Tent2;
+        settings.screen.blur_m = 0.15;
+        settings.screen.blur_max_px = 32.0;
+    });
+    let widths = [&near, &far].map(|options| between(&screen_greys(gpu, &scene, 0, options)));
+    assert!(widths[1] * 4 < widths[0], "{widths:?} {}", share(&blurred));
+}
+
+#[test]
+fn row_36_the_lit_pass_reads_one_texel_and_knows_nothing_of_cascades() {
+    let noop = Gpu::noop().unwrap();
+    let renderer = |pipeline| {
+        let options = pillar_view(|_| ());
+        let (technique, aov) = (Technique::Pcf, Aov::Color);
+        Renderer::with_pipeline(&noop, pillars_in_sun(), &options.camera, aov, technique, pipeline).unwrap()
+    };
+    let lit = |pipeline| renderer(pipeline).lit_shader_variant(&pillar_view(|_| ())).unwrap();
+    let (forward, screen) = (lit(Pipeline::Forward), lit(Pipeline::ScreenShadows));
+    assert!(forward.contains("shadow_views") && forward.contains("cascade_map"));
+    assert!(
+        !screen.contains("shadow_views") && !screen.contains("cascade_map") && screen.contains("shadow_mask")
+    );
+}
+
+#[test]
+fn row_36_what_is_blended_still_has_shadows() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    let glass = shadowgraph::scene::Material { alpha: AlphaMode::Blend, ..crate::stage::material() };
+    scene.materials.push(glass);
+    // A blended sheet close above the floor: the cube's shadow falls on it.
+    crate::stage::add_instance(&mut scene, 0, 1, DVec3::new(0.0, 0.02, 0.0));
+    scene.add_light(sun(sun_direction(40.0, 130.0)));
+    let options = cube_view(|_| ());
+    let [forward, screen] = [Pipeline::Forward, Pipeline::ScreenShadows]
+        .map(|pipeline| picture(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
+    let differ = forward.iter().zip(&screen).filter(|(a, b)| a.abs_diff(**b) > 3).count();
+    assert!(differ < forward.len() / 1000, "{differ}");
+}
