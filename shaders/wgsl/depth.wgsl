@@ -2,11 +2,12 @@
 //
 //   opaque        vs_depth, no fragment stage
 //   with holes    vs_depth, fs_mask
+//   dithered      vs_depth, fs_dither
 //   casters before the near plane are kept at depth 1:
 //     the device clamps (unclipped_depth)      as above
-//     it does not                              vs_depth_clamp with fs_clamp or fs_mask_clamp
+//     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp or fs_dither_clamp
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
-#import shadowgraph::material::{TextureCoordinates, base_color, is_hole}
+#import shadowgraph::material::{TextureCoordinates, base_color, hole_cutoff}
 
 // The head of a View, and of a ShadowView: bound at a dynamic offset.
 struct DepthView {
@@ -44,8 +45,18 @@ fn vs_depth_clamp(vertex: Vertex) -> DepthVertex {
     return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
 }
 
+fn alpha_of(in: DepthVertex) -> f32 {
+    return base_color(TextureCoordinates(in.uv_first, in.uv_second), in.color).a;
+}
+
 fn covers(in: DepthVertex) -> bool {
-    return !is_hole(base_color(TextureCoordinates(in.uv_first, in.uv_second), in.color).a);
+    return alpha_of(in) >= hole_cutoff();
+}
+
+// As many pixels as alpha says, by interleaved gradient noise (Jimenez 2014).
+fn covers_by_chance(in: DepthVertex) -> bool {
+    let noise = fract(52.9829189 * fract(dot(floor(in.position.xy), vec2f(0.06711056, 0.00583715))));
+    return alpha_of(in) > noise;
 }
 
 // Takes derivatives: call in uniform control flow.
@@ -63,6 +74,13 @@ fn fs_mask(in: DepthVertex) {
 }
 
 @fragment
+fn fs_dither(in: DepthVertex) {
+    if !covers_by_chance(in) {
+        discard;
+    }
+}
+
+@fragment
 fn fs_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
     return clamped_depth(in);
 }
@@ -71,6 +89,15 @@ fn fs_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
 fn fs_mask_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
     let depth = clamped_depth(in);
     if !covers(in) {
+        discard;
+    }
+    return depth;
+}
+
+@fragment
+fn fs_dither_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
+    let depth = clamped_depth(in);
+    if !covers_by_chance(in) {
         discard;
     }
     return depth;

@@ -4,7 +4,8 @@
     Vertex, world_position, world_normal, world_direction, handedness, clip_position,
 }
 #import shadowgraph::material::{
-    MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_NORMAL_MAP, TextureCoordinates, material_has,
+    MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_NORMAL_MAP, MATERIAL_UNSHADOWED,
+    TextureCoordinates, material_has,
     base_color, metallic_roughness, normal_in_tangent_space, occlusion, emissive, is_hole,
 }
 #import shadowgraph::surface::pack_normal
@@ -86,6 +87,14 @@ fn shading_normal(in: ForwardVertex, uv: TextureCoordinates, front_facing: bool,
     return select(-normal, normal, front_facing);
 }
 
+// What the technique says, where the material lets shadows fall.
+fn visibility_of(light: u32, receiver: Receiver) -> vec3f {
+    if material_has(MATERIAL_UNSHADOWED) {
+        return vec3f(1.0);
+    }
+    return shadow_visibility(light, receiver);
+}
+
 fn lit(surface: Surface, receiver: Receiver) -> vec3f {
     var sum = ambient(surface, view.ambient_sky, view.ambient_ground);
     for (var i = 0u; i < view.light_count; i++) {
@@ -93,7 +102,7 @@ fn lit(surface: Surface, receiver: Receiver) -> vec3f {
         let arriving = arriving_light(light, receiver.position);
         let n_dot_l = dot(surface.normal, arriving.to_light);
         if n_dot_l > 0.0 && arriving.attenuation > 0.0 {
-            let visibility = shadow_visibility(i, receiver);
+            let visibility = visibility_of(i, receiver);
             let illuminance = light.color * arriving.attenuation * visibility;
             sum += reflected(surface, arriving.to_light, n_dot_l) * illuminance;
         }
@@ -110,7 +119,7 @@ fn visibility_aov(receiver: Receiver) -> vec4f {
     if dot(receiver.shading_normal, arriving.to_light) <= 0.0 {
         return vec4f(0.0);
     }
-    let factor = dot(shadow_visibility(AOV_LIGHT, receiver), vec3f(1.0 / 3.0));
+    let factor = dot(visibility_of(AOV_LIGHT, receiver), vec3f(1.0 / 3.0));
     return vec4f(vec3f(factor), 1.0);
 }
 
@@ -123,7 +132,7 @@ fn cascade_aov(receiver: Receiver, to_camera: vec3f) -> vec4f {
     let arriving = arriving_light(lights[AOV_LIGHT], receiver.position);
     let n_dot_l = dot(receiver.shading_normal, arriving.to_light);
     if n_dot_l > 0.0 {
-        shade += 0.4 * n_dot_l * dot(shadow_visibility(AOV_LIGHT, receiver), vec3f(1.0 / 3.0));
+        shade += 0.4 * n_dot_l * dot(visibility_of(AOV_LIGHT, receiver), vec3f(1.0 / 3.0));
     }
     return vec4f(shadow_debug_color(AOV_LIGHT, receiver) * shade, 1.0);
 }

@@ -7,6 +7,8 @@ const MATERIAL_UNLIT: u32 = 4u;
 const MATERIAL_DOUBLE_SIDED: u32 = 8u;
 // Without it the normal texture is not read.
 const MATERIAL_NORMAL_MAP: u32 = 16u;
+// No shadows fall on it.
+const MATERIAL_UNSHADOWED: u32 = 32u;
 
 const BASE_COLOR: u32 = 0u;
 const METALLIC_ROUGHNESS: u32 = 1u;
@@ -102,6 +104,9 @@ fn emissive(uv: TextureCoordinates) -> vec3f {
 // True where an alpha below the cutoff makes a hole. Blended surfaces are cut at one half where they must be
 // one or the other (in depth).
 fn is_hole(alpha: f32) -> bool {
-    let cutoff = select(0.5, material.alpha_cutoff, material_has(MATERIAL_MASK));
-    return (material.flags & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u && alpha < cutoff;
+    return (material.flags & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u && alpha < hole_cutoff();
+}
+
+fn hole_cutoff() -> f32 {
+    return select(0.5, material.alpha_cutoff, material_has(MATERIAL_MASK));
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{
-    AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialKey, MaterialLayouts,
+    AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, DrawWith, GpuScene, MaterialKey, MaterialLayouts,
     vertex_layout,
 };
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
@@ -69,9 +69,10 @@ pub struct LitPipelines {
 }
 
 impl LitPipelines {
-    /// Returns the pipeline of a key.
-    pub fn get(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
-        self.made[key.index()].get_or_init(|| self.recipe.pipeline(&self.shader, self.writes_depth, key))
+    /// Returns what draws of a key are drawn with.
+    pub fn get(&self, key: MaterialKey) -> DrawWith<'_> {
+        let make = || self.recipe.pipeline(&self.shader, self.writes_depth, key);
+        DrawWith { pipeline: self.made[key.index()].get_or_init(make), reads_material: true }
     }
 }
 
@@ -172,7 +173,8 @@ impl Forward {
             let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
             let group = ctx.bind_group(self.prepass.view_layout(), &[whole])?;
             ctx.pass.set_bind_group(0, &group, &[0]);
-            geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, false, &|key| self.prepass.get(key));
+            let with = |draw: &Draw| Some(self.prepass.get(draw.key));
+            geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
             Ok(())
         });
         depth
@@ -247,7 +249,7 @@ impl Forward {
             ctx.pass.set_bind_group(1, &shadows, &[]);
             let blend: &[Draw] = if self.recipe.shows == Shows::Light { &geometry.draws.blend } else { &[] };
             for draws in [&geometry.draws.solid, blend] {
-                geometry.scene.draw(&mut ctx.pass, draws, true, &|key| pipelines.get(key));
+                geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
             }
             Ok(())
         });

@@ -30,7 +30,7 @@ pub use camera::{Camera, Projection};
 pub use cull::{BoundingSphere, Cone, CullTree, CullVolume, visible};
 pub use error::Error;
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
-pub use material::{AlphaMode, Filter, Image, Material, Sampler, TextureRef, Wrap};
+pub use material::{AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap};
 pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
 pub use scene::{Instance, Scene};

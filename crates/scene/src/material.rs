@@ -23,8 +23,12 @@ pub struct Material {
     pub alpha: AlphaMode,
     /// Whether back faces are drawn.
     pub double_sided: bool,
-    /// Whether the base colour is shown as it is, without lighting.
+    /// Whether the base colour is shown as it is, without lighting. It casts shadows all the same.
     pub unlit: bool,
+    /// What shadow it casts; `None`: as its alpha says, `On` where alpha is ignored, else `Clip`.
+    pub casts: Option<CasterMode>,
+    /// Whether others' shadows fall on it.
+    pub receives_shadows: bool,
     /// RGB in sRGB, alpha linear.
     pub base_color_texture: Option<TextureRef>,
     /// Green: roughness, blue: metallic; linear.
@@ -51,6 +55,8 @@ impl Default for Material {
             alpha: AlphaMode::Opaque,
             double_sided: false,
             unlit: false,
+            casts: None,
+            receives_shadows: true,
             base_color_texture: None,
             metallic_roughness_texture: None,
             normal_texture: None,
@@ -58,6 +64,28 @@ impl Default for Material {
             emissive_texture: None,
         }
     }
+}
+
+impl Material {
+    /// Returns what shadow it casts.
+    #[must_use]
+    pub fn caster_mode(&self) -> CasterMode {
+        let by_alpha = if self.alpha == AlphaMode::Opaque { CasterMode::On } else { CasterMode::Clip };
+        self.casts.unwrap_or(by_alpha)
+    }
+}
+
+/// What shadow a material casts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum CasterMode {
+    /// That of all of its surface, whatever its alpha.
+    On,
+    /// That of where its alpha is at least the cutoff of [`AlphaMode::Mask`]; one half, where there is none.
+    Clip,
+    /// One as dense as its alpha: the larger it is, the more texels of a shadow map it fills, by a pattern of noise.
+    Dither,
+    /// None.
+    Off,
 }
 
 /// How a material's alpha is used.

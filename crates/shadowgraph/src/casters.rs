@@ -1,18 +1,22 @@
 //! A scene's instances as shadow casters.
 
-use shadowgraph_scene::gpu::{CullFaces, DepthPipelines, DepthTarget, GpuScene};
-use shadowgraph_scene::{Aabb, CullVolume};
+use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, Draw, GpuScene};
+use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::{CasterTarget, DepthFormat, ShadowCasters};
 
 use crate::Error;
 
-/// The instances of a scene on the GPU, as casters, with the numbers that they have there. What is alpha-cut casts the shadow of what is
-/// left; what is blended, of what is more than half opaque.
+/// The instances of a scene on the GPU, as casters, with the numbers that they have there. They cast
+/// the shadows that their materials say.
 pub struct SceneCasters {
     /// The scene.
     pub scene: GpuScene,
     /// For each format of a map.
-    pipelines: Vec<(wgpu::TextureFormat, DepthPipelines)>,
+    pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
+    /// Of all that casts shadows.
+    bounds: Aabb,
+    /// Whether something casts none.
+    some_off: bool,
 }
 
 impl SceneCasters {
@@ -25,19 +29,23 @@ impl SceneCasters {
         Self::with_target(device, scene, &target)
     }
 
-    /// Draws the casters in another way than usual; format and faces of `target` are not looked at.
+    /// Draws the casters in another way than usual; the format of `target` is not looked at.
     ///
     /// # Errors
     /// If a shader does not compose.
     pub fn with_target(device: &wgpu::Device, scene: GpuScene, target: &DepthTarget) -> Result<Self, Error> {
         let pipelines = |depth: DepthFormat| {
             let format = depth.texture_format();
-            // Both faces: a wall without a back casts a shadow to either side.
-            let target = DepthTarget { format, faces: CullFaces::None, ..*target };
-            Ok((format, DepthPipelines::new(device, scene.layouts(), &target)?))
+            let target = DepthTarget { format, ..*target };
+            Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        Ok(Self { scene, pipelines })
+        let casts = |number: u32| scene.draw_of(number).is_some_and(|draw| draw.casts != CasterMode::Off);
+        let (mut all, mut some_off) = (Aabb::EMPTY, false);
+        for (number, bounds) in (0..).zip(scene.bounds()) {
+            if casts(number) { all = all.union(bounds) } else { some_off = true }
+        }
+        Ok(Self { bounds: all, some_off, scene, pipelines })
     }
 
     /// Returns how many triangles some casters have.
@@ -49,10 +57,23 @@ impl SceneCasters {
 
 impl ShadowCasters for SceneCasters {
     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
+        let first = casters.len();
         self.scene.cull(volume, casters);
+        if self.some_off {
+            let casts = |draw: &Draw| draw.casts != CasterMode::Off;
+            let mut index = 0;
+            casters.retain(|&caster| {
+                index += 1;
+                index <= first || self.scene.draw_of(caster).is_some_and(casts)
+            });
+        }
     }
 
     fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    fn receivers(&self) -> Aabb {
         self.scene.all_bounds()
     }
 
@@ -65,6 +86,6 @@ impl ShadowCasters for SceneCasters {
         // Maps have no other formats.
         let Some((_, pipelines)) = made else { return };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
-        self.scene.draw(pass, draws, false, &|key| pipelines.get(key));
+        self.scene.draw(pass, draws, &|draw| pipelines.get(draw.casts));
     }
 }

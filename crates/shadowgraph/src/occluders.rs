@@ -1,7 +1,7 @@
 //! A scene's triangles, as they stop light.
 
 use glam::{DVec3, Vec2, Vec3};
-use shadowgraph_scene::{AlphaMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap};
+use shadowgraph_scene::{AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap};
 use shadowgraph_shadows::rays::{self, AlphaTexture, Cut, Occluder, RayScene};
 
 use crate::Error;
@@ -22,6 +22,9 @@ pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> 
         else {
             continue;
         };
+        if material.caster_mode() == CasterMode::Off {
+            continue;
+        }
         let holes = Holes::of(material, scene, &mut textures)?;
         for triangle in mesh.indices.chunks_exact(3) {
             let vertices =
@@ -48,10 +51,13 @@ struct Holes {
 
 impl Holes {
     fn of(material: &Material, scene: &Scene, textures: &mut Textures) -> Result<Option<Self>, Error> {
+        if material.caster_mode() == CasterMode::On {
+            return Ok(None);
+        }
+        // A ray meets something or not: what is dithered is cut where more than half of it is left out.
         let cutoff = match material.alpha {
-            AlphaMode::Opaque => return Ok(None),
-            AlphaMode::Mask { cutoff } => cutoff,
-            AlphaMode::Blend => BLEND_CUTOFF,
+            AlphaMode::Mask { cutoff } if material.caster_mode() == CasterMode::Clip => cutoff,
+            _ => BLEND_CUTOFF,
         };
         let texture = match material.base_color_texture {
             Some(used) => textures.get(scene, used)?.map(|index| (index, used)),

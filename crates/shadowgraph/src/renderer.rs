@@ -270,19 +270,6 @@ impl Renderer {
         Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
     }
 
-    /// Returns the names of the resources that the shader of a view's lit pass has: for tests.
-    ///
-    /// # Errors
-    /// Settings out of range.
-    #[doc(hidden)]
-    pub fn lit_shader_variant(&self, options: &ViewOptions) -> Result<String, Error> {
-        let view = self.view(options, None);
-        let mut frame = self.graph().frame();
-        let output = pipelines::add(&mut frame, self, &view)?;
-        let modules = self.technique.modules(output.variant);
-        Ok(modules.iter().map(|module| module.source.as_ref()).collect())
-    }
-
     /// Culls and sorts what the view sees. `target` is one that was prepared for.
     pub(crate) fn view<'v>(
         &'v self,

@@ -117,6 +117,8 @@ fn convert(
         occlusion_strength: finite("occlusionTexture strength", occlusion, 0.0, 1.0)?,
         alpha: alpha(material).at(|| there)?,
         double_sided: material.double_sided,
+        casts: None,
+        receives_shadows: true,
         unlit: material.extensions.as_ref().is_some_and(|e| e.unlit.is_some()),
         base_color_texture,
         metallic_roughness_texture,

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::num::NonZeroU64;
 
 use super::upload::vertex_layout;
-use super::{AlphaKey, MaterialKey, MaterialLayouts};
-use crate::Error;
+use super::{AlphaKey, DrawWith, MaterialKey, MaterialLayouts};
+use crate::{CasterMode, Error};
 
 /// What depth pipelines draw into, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,37 +18,24 @@ pub struct DepthTarget {
     /// Bias by the slope of a surface, in steepest changes of depth per pixel. Depth is reversed: negative
     /// pushes away.
     pub slope_bias: f32,
-    /// Which faces are left out.
-    pub faces: CullFaces,
     /// Clamps in the fragment shader even where the device could do it: for tests of that path.
     pub emulate_clamp: bool,
 }
 
 impl Default for DepthTarget {
-    /// Returns `Depth32Float`, without clamping or bias, back faces left out.
+    /// Returns `Depth32Float`, without clamping or bias.
     fn default() -> Self {
         Self {
             format: wgpu::TextureFormat::Depth32Float,
             clamp_near: false,
             slope_bias: 0.0,
-            faces: CullFaces::AsMaterial,
             emulate_clamp: false,
         }
     }
 }
 
-/// Which faces are not drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum CullFaces {
-    /// The back faces of materials that are not double-sided.
-    #[default]
-    AsMaterial,
-    /// None: for shadow maps, where a wall without a back casts a shadow to either side.
-    None,
-}
-
-/// A pipeline for each key. Opaque ones have no fragment stage and do not read the material; mask and blend
-/// ones leave holes where alpha is low (blend: under one half).
+/// A pipeline for each key, that leaves out back faces as the material says. Opaque ones have no fragment stage and do not
+/// read the material; mask and blend ones leave holes where alpha is low (blend: under one half).
 ///
 /// Group 0 is [`view_layout`](Self::view_layout), group 1 is free.
 pub struct DepthPipelines {
@@ -72,7 +59,7 @@ impl DepthPipelines {
         // Keys that come to the same share a pipeline.
         let mut made: Vec<(Variant, wgpu::RenderPipeline)> = Vec::new();
         let pipeline = |key: MaterialKey| {
-            let variant = Variant::new(key, target.faces);
+            let variant = Variant::new(key);
             if let Some((_, pipeline)) = made.iter().find(|(other, _)| *other == variant) {
                 return pipeline.clone();
             }
@@ -84,10 +71,11 @@ impl DepthPipelines {
         Ok(Self { view_layout: recipe.view_layout, pipelines })
     }
 
-    /// Returns the pipeline of a key.
+    /// Returns what draws of a key are drawn with.
     #[must_use]
-    pub fn get(&self, key: MaterialKey) -> &wgpu::RenderPipeline {
-        &self.pipelines[key.index()]
+    pub fn get(&self, key: MaterialKey) -> DrawWith<'_> {
+        let reads_material = key.alpha != AlphaKey::Opaque;
+        DrawWith { pipeline: &self.pipelines[key.index()], reads_material }
     }
 
     /// Returns the layout of group 0: at binding 0 a storage buffer, read by vertices, at a dynamic offset, that
@@ -98,19 +86,69 @@ impl DepthPipelines {
     }
 }
 
+/// A pipeline for each [`CasterMode`], that draws both sides: a wall without a back casts a shadow to either side.
+///
+/// Group 0 is that of [`DepthPipelines::view_layout`], group 1 is free.
+pub struct CasterPipelines {
+    solid: wgpu::RenderPipeline,
+    clip: wgpu::RenderPipeline,
+    dither: wgpu::RenderPipeline,
+}
+
+impl CasterPipelines {
+    /// Makes the pipelines for a target.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Shader`] if the shader cannot be composed.
+    pub fn new(
+        device: &wgpu::Device,
+        layouts: &MaterialLayouts,
+        target: &DepthTarget,
+    ) -> Result<Self, Error> {
+        let recipe = Recipe::new(device, layouts, target)?;
+        let pipeline = |holes| recipe.pipeline(device, Variant { holes, culled: None });
+        Ok(Self {
+            solid: pipeline(Holes::None),
+            clip: pipeline(Holes::Clip),
+            dither: pipeline(Holes::Dither),
+        })
+    }
+
+    /// Returns what draws of a mode are drawn with; `None` for those that cast no shadow.
+    #[must_use]
+    pub fn get(&self, mode: CasterMode) -> Option<DrawWith<'_>> {
+        let (pipeline, reads_material) = match mode {
+            CasterMode::On => (&self.solid, false),
+            CasterMode::Clip => (&self.clip, true),
+            CasterMode::Dither => (&self.dither, true),
+            CasterMode::Off => return None,
+        };
+        Some(DrawWith { pipeline, reads_material })
+    }
+}
+
+/// Where alpha leaves something out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Holes {
+    None,
+    Clip,
+    Dither,
+}
+
 /// What of a key matters where only depth is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Variant {
-    holes: bool,
+    holes: Holes,
     /// The winding whose backs are left out; none: both sides are drawn.
     culled: Option<wgpu::FrontFace>,
 }
 
 impl Variant {
-    fn new(key: MaterialKey, faces: CullFaces) -> Self {
+    fn new(key: MaterialKey) -> Self {
         let state = key.primitive_state();
-        let culls = faces == CullFaces::AsMaterial && state.cull_mode.is_some();
-        Self { holes: key.alpha != AlphaKey::Opaque, culled: culls.then_some(state.front_face) }
+        let holes = if key.alpha == AlphaKey::Opaque { Holes::None } else { Holes::Clip };
+        Self { holes, culled: state.cull_mode.map(|_| state.front_face) }
     }
 }
 
@@ -158,10 +196,12 @@ impl Recipe {
 
     fn pipeline(&self, device: &wgpu::Device, variant: Variant) -> wgpu::RenderPipeline {
         let fragment_entry = match (variant.holes, self.emulated) {
-            (false, false) => None,
-            (true, false) => Some("fs_mask"),
-            (false, true) => Some("fs_clamp"),
-            (true, true) => Some("fs_mask_clamp"),
+            (Holes::None, false) => None,
+            (Holes::Clip, false) => Some("fs_mask"),
+            (Holes::Dither, false) => Some("fs_dither"),
+            (Holes::None, true) => Some("fs_clamp"),
+            (Holes::Clip, true) => Some("fs_mask_clamp"),
+            (Holes::Dither, true) => Some("fs_dither_clamp"),
         };
         let constants = [("SLOPE_BIAS", f64::from(self.target.slope_bias))];
         let options = wgpu::PipelineCompilationOptions {
@@ -176,7 +216,7 @@ impl Recipe {
         };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("depth"),
-            layout: Some(if variant.holes { &self.holes_layout } else { &self.opaque_layout }),
+            layout: Some(if variant.holes == Holes::None { &self.opaque_layout } else { &self.holes_layout }),
             vertex,
             primitive: wgpu::PrimitiveState {
                 front_face: variant.culled.unwrap_or_default(),
@@ -232,23 +272,19 @@ mod tests {
 
     #[test]
     fn keys_that_come_to_the_same_share_a_variant() {
-        let count = |faces| {
-            let mut variants: Vec<Variant> = Vec::new();
-            for variant in MaterialKey::all().map(|key| Variant::new(key, faces)) {
-                if !variants.contains(&variant) {
-                    variants.push(variant);
-                }
+        let mut variants: Vec<Variant> = Vec::new();
+        for variant in MaterialKey::all().map(Variant::new) {
+            if !variants.contains(&variant) {
+                variants.push(variant);
             }
-            variants.len()
-        };
-        assert_eq!(count(CullFaces::AsMaterial), 6);
-        assert_eq!(count(CullFaces::None), 2);
+        }
+        assert_eq!(variants.len(), 6);
     }
 
     #[test]
     fn mirrored_instances_flip_their_front_and_double_sided_ones_keep_their_back() {
         let key = |double_sided, mirrored| MaterialKey { alpha: AlphaKey::Mask, double_sided, mirrored };
-        let culled = |key| Variant::new(key, CullFaces::AsMaterial).culled;
+        let culled = |key| Variant::new(key).culled;
         assert_eq!(culled(key(false, false)), Some(wgpu::FrontFace::Ccw));
         assert_eq!(culled(key(false, true)), Some(wgpu::FrontFace::Cw));
         assert_eq!(culled(key(true, true)), None);

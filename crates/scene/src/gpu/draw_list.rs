@@ -3,12 +3,15 @@
 use glam::DVec3;
 
 use super::MaterialKey;
+use crate::CasterMode;
 
 /// The draw of one instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Draw {
     /// What decides the pipeline.
     pub key: MaterialKey,
+    /// What shadow it casts.
+    pub casts: CasterMode,
     /// Index of the material.
     pub material: u32,
     /// Index of the mesh.
@@ -67,7 +70,8 @@ mod tests {
     use super::*;
 
     fn draw(alpha: AlphaKey, material: u32, mesh: u32, instance: u32) -> Draw {
-        Draw { key: MaterialKey { alpha, double_sided: false, mirrored: false }, material, mesh, instance }
+        let key = MaterialKey { alpha, double_sided: false, mirrored: false };
+        Draw { key, casts: CasterMode::On, material, mesh, instance }
     }
 
     fn list(draws: impl Iterator<Item = Draw>, distance: impl Fn(u32) -> f64) -> DrawList {

@@ -19,6 +19,7 @@ const BLEND: u32 = 2;
 const UNLIT: u32 = 4;
 const DOUBLE_SIDED: u32 = 8;
 const NORMAL_MAP: u32 = 16;
+const UNSHADOWED: u32 = 32;
 
 /// `Material` of `material.wgsl`.
 #[repr(C)]
@@ -189,7 +190,8 @@ fn uniform(material: &Material) -> MaterialUniform {
         flags: alpha_flag
             | flag(material.unlit, UNLIT)
             | flag(material.double_sided, DOUBLE_SIDED)
-            | flag(material.normal_texture.is_some(), NORMAL_MAP),
+            | flag(material.normal_texture.is_some(), NORMAL_MAP)
+            | flag(!material.receives_shadows, UNSHADOWED),
         uv_sets,
         pad: [0; 2],
         uv_transforms,
@@ -236,6 +238,7 @@ mod tests {
             ("UNLIT", UNLIT),
             ("DOUBLE_SIDED", DOUBLE_SIDED),
             ("NORMAL_MAP", NORMAL_MAP),
+            ("UNSHADOWED", UNSHADOWED),
         ] {
             let line = format!("const MATERIAL_{name}: u32 = {value}u;");
             assert!(source.contains(&line), "{line}");

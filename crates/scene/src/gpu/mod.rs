@@ -30,11 +30,11 @@ mod scene;
 mod textures;
 mod upload;
 
-pub use depth::{CullFaces, DepthPipelines, DepthTarget};
+pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
 pub use draw_list::{Draw, DrawList};
 pub use key::{AlphaKey, MaterialKey};
 pub use materials::MaterialLayouts;
-pub use scene::GpuScene;
+pub use scene::{DrawWith, GpuScene};
 pub use upload::vertex_layout;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::draw_list::squared_distance;
 use super::upload::{Geometry, GpuInstance, buffer};
-use super::{AlphaKey, Draw, DrawList, MaterialKey, MaterialLayouts, limits, materials};
+use super::{Draw, DrawList, MaterialKey, MaterialLayouts, limits, materials};
 use crate::{Aabb, CullTree, CullVolume, Error, Scene};
 
 /// The GPU copy of a scene: geometry, images, materials and placements.
@@ -137,15 +137,13 @@ impl GpuScene {
         list.fill(draws.copied(), |number| squared_distance(&self.bounds[number as usize], eye_world));
     }
 
-    /// Draws. Sets the pipeline, group 2 (for keys that are not opaque, and for all with `material_group`: the
-    /// pipelines of opaque keys read the material too), group 3 and the buffers, each only where it changes;
-    /// groups 0 and 1 must be set. Draws of another scene are left out.
+    /// Draws. Sets the pipeline, group 2 (where the pipeline reads it), group 3 and the buffers, each only where it
+    /// changes; groups 0 and 1 must be set. Draws without a pipeline, or of another scene, are left out.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         draws: impl IntoIterator<Item = &'p Draw>,
-        material_group: bool,
-        pipeline_for: &dyn Fn(MaterialKey) -> &'p wgpu::RenderPipeline,
+        pipeline_for: &dyn Fn(&Draw) -> Option<DrawWith<'p>>,
     ) {
         let mut draws = draws.into_iter().peekable();
         if draws.peek().is_none() {
@@ -154,19 +152,19 @@ impl GpuScene {
         pass.set_vertex_buffer(0, self.geometry.vertices.slice(..));
         pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.set_bind_group(3, &self.instance_group, &[]);
-        let (mut key, mut material) = (None, None);
+        let (mut set, mut material) = (None, None);
         while let Some(draw) = draws.next() {
             let Some(range) = self.geometry.ranges.get(draw.mesh as usize) else { continue };
             let Some(group) = self.material_groups.get(draw.material as usize) else { continue };
             if draw.instance as usize >= self.draws.len() {
                 continue;
             }
-            if key != Some(draw.key) {
-                pass.set_pipeline(pipeline_for(draw.key));
-                key = Some(draw.key);
+            let Some(with) = pipeline_for(draw) else { continue };
+            if set != Some(with.pipeline) {
+                pass.set_pipeline(with.pipeline);
+                set = Some(with.pipeline);
             }
-            let needs_material = material_group || draw.key.alpha != AlphaKey::Opaque;
-            if needs_material && material != Some(draw.material) {
+            if with.reads_material && material != Some(draw.material) {
                 pass.set_bind_group(2, group, &[]);
                 material = Some(draw.material);
             }
@@ -178,6 +176,15 @@ impl GpuScene {
             pass.draw_indexed(indices, range.base_vertex, draw.instance..end);
         }
     }
+}
+
+/// What something is drawn with.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawWith<'p> {
+    /// The pipeline.
+    pub pipeline: &'p wgpu::RenderPipeline,
+    /// Whether it reads group 2, the material.
+    pub reads_material: bool,
 }
 
 /// The scene's instances in the order of their draws, and the draws.
@@ -196,6 +203,7 @@ fn draws(scene: &Scene) -> Result<(Vec<u32>, Vec<Draw>), Error> {
         let mirrored = instance.world_from_local.matrix3.determinant() < 0.0;
         Ok(Draw {
             key: MaterialKey::new(material, mirrored),
+            casts: material.caster_mode(),
             material: instance.material as u32,
             mesh: instance.mesh as u32,
             instance: index as u32,

@@ -4,7 +4,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::*;
-use crate::{AlphaMode, Error, Scene, demo::demo_scene, origin_near};
+use crate::{AlphaMode, CasterMode, Error, Scene, demo::demo_scene, origin_near};
 
 /// A device with wgpu's default limits and these features.
 fn device(required_features: wgpu::Features) -> (wgpu::Device, wgpu::Queue) {
@@ -52,7 +52,7 @@ fn draw_depth(
     queue: &wgpu::Queue,
     gpu: &GpuScene,
     draws: &DrawList,
-    pipelines: &DepthPipelines,
+    (pipelines, casters): (&DepthPipelines, &CasterPipelines),
     format: wgpu::TextureFormat,
 ) {
     let views = device.create_buffer(&wgpu::BufferDescriptor {
@@ -87,8 +87,11 @@ fn draw_depth(
         ..wgpu::RenderPassDescriptor::default()
     });
     pass.set_bind_group(0, &view_group, &[256]);
-    gpu.draw(&mut pass, &draws.solid, false, &|key| pipelines.get(key));
-    gpu.draw(&mut pass, &draws.blend, false, &|key| pipelines.get(key));
+    gpu.draw(&mut pass, &draws.solid, &|draw| Some(pipelines.get(draw.key)));
+    gpu.draw(&mut pass, &draws.blend, &|draw| Some(pipelines.get(draw.key)));
+    for mode in [CasterMode::On, CasterMode::Clip, CasterMode::Dither, CasterMode::Off] {
+        gpu.draw(&mut pass, draws.iter(), &|_| casters.get(mode));
+    }
     drop(pass);
     queue.submit([encoder.finish()]);
 }
@@ -102,15 +105,14 @@ fn demo_scene_draws_depth_without_complaints_on_every_path() {
         let gpu =
             without_complaints(&device, || GpuScene::new(&device, &queue, &scene, DVec3::ZERO).unwrap());
         let draws = gpu.draw_list(&all(&scene), DVec3::ZERO);
-        for (format, clamp_near, emulate_clamp, faces) in [
-            (Depth32Float, false, false, CullFaces::AsMaterial),
-            (Depth32Float, true, false, CullFaces::None),
-            (Depth16Unorm, true, true, CullFaces::AsMaterial),
-        ] {
+        for (format, clamp_near, emulate_clamp) in
+            [(Depth32Float, false, false), (Depth32Float, true, false), (Depth16Unorm, true, true)]
+        {
             without_complaints(&device, || {
-                let target = DepthTarget { format, clamp_near, slope_bias: -1.5, faces, emulate_clamp };
+                let target = DepthTarget { format, clamp_near, slope_bias: -1.5, emulate_clamp };
                 let pipelines = DepthPipelines::new(&device, gpu.layouts(), &target).unwrap();
-                draw_depth(&device, &queue, &gpu, &draws, &pipelines, format);
+                let casters = CasterPipelines::new(&device, gpu.layouts(), &target).unwrap();
+                draw_depth(&device, &queue, &gpu, &draws, (&pipelines, &casters), format);
             });
         }
     }
@@ -144,7 +146,8 @@ fn origin_moves_without_complaints_and_an_empty_scene_uploads() {
         let empty = GpuScene::new(&device, &queue, &Scene::default(), DVec3::ZERO).unwrap();
         let pipelines = DepthPipelines::new(&device, empty.layouts(), &DepthTarget::default()).unwrap();
         let format = DepthTarget::default().format;
-        draw_depth(&device, &queue, &empty, &DrawList::default(), &pipelines, format);
+        let casters = CasterPipelines::new(&device, empty.layouts(), &DepthTarget::default()).unwrap();
+        draw_depth(&device, &queue, &empty, &DrawList::default(), (&pipelines, &casters), format);
         queue.submit([]);
     });
 }

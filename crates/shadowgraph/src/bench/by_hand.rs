@@ -143,7 +143,10 @@ impl<'v> ByHand<'v> {
         let mut pass = begin(encoder, "depth prepass", None, Some((&self.depth, true)));
         pass.set_bind_group(0, &self.groups.prepass, &[0]);
         let pipelines = self.renderer.forward.depth_pipelines();
-        self.renderer.casters.scene.draw(&mut pass, &self.view.draws.solid, false, &|key| pipelines.get(key));
+        self.renderer
+            .casters
+            .scene
+            .draw(&mut pass, &self.view.draws.solid, &|draw| Some(pipelines.get(draw.key)));
     }
 
     fn lit(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -152,7 +155,7 @@ impl<'v> ByHand<'v> {
         pass.set_bind_group(0, &self.groups.view, &[]);
         pass.set_bind_group(1, &self.groups.shadows, &[]);
         for draws in [&self.view.draws.solid, &self.view.draws.blend] {
-            self.renderer.casters.scene.draw(&mut pass, draws, true, &|key| self.pipelines.get(key));
+            self.renderer.casters.scene.draw(&mut pass, draws, &|draw| Some(self.pipelines.get(draw.key)));
         }
     }
 

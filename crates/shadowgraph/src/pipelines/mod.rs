@@ -64,8 +64,6 @@ impl Target<'_> {
 pub struct Output {
     /// Four bytes a pixel, as large as the view.
     pub picture: Texture,
-    /// Which variant of the technique's shaders lights it.
-    pub variant: u32,
     /// The lights that are to cast shadows but have none, and why.
     pub unshadowed: Vec<Unshadowed>,
 }

@@ -70,8 +70,7 @@ pub(super) fn picture<'f>(
             Ok(show.textures(frame, buffers, &[&texture], size_px))
         }
     });
-    let ShadowOutputs { variant, unshadowed, .. } = shadows;
-    picture.map(|picture| Output { picture, variant, unshadowed })
+    picture.map(|picture| Output { picture, unshadowed: shadows.unshadowed })
 }
 
 fn maps<'s>(shadows: &'s ShadowOutputs<'_>) -> Vec<&'s Texture> {

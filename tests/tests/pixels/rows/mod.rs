@@ -5,6 +5,7 @@ mod bias;
 mod cascades;
 mod culling;
 mod filters;
+mod materials;
 mod points;
 mod screen;
 

@@ -3,10 +3,13 @@
 use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
 use crate::stage::{SIZE_PX, cube_on_floor, gpu, sun, sun_direction};
 use glam::DVec3;
+use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
 use shadowgraph::options::{Aov, Pipeline, Technique};
 use shadowgraph::scene::{AlphaMode, Scene};
-use shadowgraph::shadows::{CascadeSelection, ShadowFilter};
-use shadowgraph::{Gpu, Picture, Renderer, ViewOptions};
+use shadowgraph::shadows::{
+    CascadeSelection, Pcf, Screen, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
+};
+use shadowgraph::{Gpu, Picture, Renderer, ViewOptions, wgpu};
 
 fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> Picture {
     let technique = Technique::Pcf;
@@ -48,7 +51,7 @@ fn row_29_shadows_collected_beforehand_are_those_that_each_pixel_asks_for() {
             (greys(gpu, &scene, light, &options), screen_greys(gpu, &scene, light, &options));
         let differ = different(&asked, &collected, 8);
         assert!(differ < asked.len() / 1000, "light {light}: {differ}");
-        assert!(count(&collected, |grey| grey == 0) > 500);
+        assert!(count(&collected, |grey| grey < 255) > 20, "light {light}");
     }
 }
 
@@ -103,20 +106,48 @@ fn row_35_blurring_widens_edges_nearby_and_leaves_out_other_surfaces() {
     assert!(widths[1] * 4 < widths[0], "{widths:?} {}", share(&blurred));
 }
 
+/// Whether a frame is lit by the mask alone, and what there is then in the WGSL of the technique.
+fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
+    let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let screen_shadows = ScreenShadows::new(&device, Box::new(Pcf::new(&device))).unwrap();
+    let mut scene = pillars_in_sun();
+    scene.lights.resize(lights, scene.lights[1].clone());
+    let options = pillar_view(|_| ());
+    let renderer = Renderer::new(&Gpu::noop().unwrap(), scene, &options.camera, Aov::Color).unwrap();
+    let inputs = ShadowInputs {
+        view: 0,
+        camera: &options.camera,
+        aspect: 1.5,
+        lights: &renderer.scene().lights,
+        casters: renderer.casters(),
+        origin_world: DVec3::ZERO,
+        settings: &options.shadows,
+    };
+    let mut frame = Frame::new();
+    let mut surfaces = frame.create_texture("surfaces", TextureDesc::d2(64, 64, Format::Rgba32Float));
+    frame.render_pass("surfaces").color(&mut surfaces, Contents::clear_color([0.0; 4]));
+    let screen = Screen {
+        size_px: [64, 64],
+        view: frame.upload_buffer("view", vec![0; 256]),
+        lights: frame.upload_buffer("lights", vec![0; 64]),
+        surfaces,
+        has_blended,
+    };
+    let outputs = screen_shadows.add_to(&mut frame, &inputs, Some(&screen)).unwrap();
+    let modules = screen_shadows.modules(outputs.variant);
+    let text = modules.iter().map(|module| module.source.as_ref()).collect();
+    (outputs.variant == screen_shadows.variant_count() - 1, text)
+}
+
 #[test]
 fn row_36_the_lit_pass_reads_one_texel_and_knows_nothing_of_cascades() {
-    let noop = Gpu::noop().unwrap();
-    let renderer = |pipeline| {
-        let options = pillar_view(|_| ());
-        let (technique, aov) = (Technique::Pcf, Aov::Color);
-        Renderer::with_pipeline(&noop, pillars_in_sun(), &options.camera, aov, technique, pipeline).unwrap()
-    };
-    let lit = |pipeline| renderer(pipeline).lit_shader_variant(&pillar_view(|_| ())).unwrap();
-    let (forward, screen) = (lit(Pipeline::Forward), lit(Pipeline::ScreenShadows));
-    assert!(forward.contains("shadow_views") && forward.contains("cascade_map"));
-    assert!(
-        !screen.contains("shadow_views") && !screen.contains("cascade_map") && screen.contains("shadow_mask")
-    );
+    let (mask_only, text) = lit_by(false, 2);
+    assert!(mask_only && text.contains("shadow_mask"), "{text}");
+    assert!(!text.contains("shadow_views") && !text.contains("cascade_map"), "{text}");
+    // Where the mask does not tell everything, all of the other technique is there.
+    for (mask_only, text) in [lit_by(true, 2), lit_by(false, 17)] {
+        assert!(!mask_only && text.contains("shadow_mask") && text.contains("shadow_views"), "{text}");
+    }
 }
 
 #[test]

@@ -1,0 +1,88 @@
+//! What materials have to do with shadows.
+
+use super::{Greys, count, cube_view, greys, plan};
+use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, sun};
+use glam::{DVec3, Vec4};
+use shadowgraph::options::Technique;
+use shadowgraph::scene::{AlphaMode, CasterMode, Material, Scene};
+use shadowgraph::shadows::ShadowFilter;
+
+/// A sheet of a material, 1.5 m over a floor, under a sun straight above. Its alpha is 0.6.
+fn sheet(change: impl FnOnce(&mut Material)) -> Scene {
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.instances.truncate(1);
+    scene.meshes.push(box_mesh(DVec3::new(-1.0, 1.5, -1.0), DVec3::new(1.0, 1.51, 1.0)));
+    let mut sheet =
+        Material { alpha: AlphaMode::Blend, base_color: Vec4::new(0.8, 0.8, 0.8, 0.6), ..material() };
+    change(&mut sheet);
+    scene.materials.push(sheet);
+    add_instance(&mut scene, 2, 1, DVec3::ZERO);
+    scene.add_light(sun(DVec3::NEG_Y));
+    scene
+}
+
+fn shadows(scene: &Scene) -> Option<Greys> {
+    let mut options = cube_view(|settings| settings.cascades.filter = ShadowFilter::Tent7);
+    options.camera = crate::stage::camera(DVec3::new(0.0, 0.8, 3.5), DVec3::new(0.0, 0.0, 0.0));
+    Some(greys(gpu()?, scene, 0, &options))
+}
+
+#[test]
+fn row_24_casters_are_solid_clipped_dithered_or_none() {
+    let mode = |mode| shadows(&sheet(|sheet| sheet.casts = Some(mode)));
+    let Some(on) = mode(CasterMode::On) else { return };
+    let [clip, dither, off] =
+        [CasterMode::Clip, CasterMode::Dither, CasterMode::Off].map(|m| mode(m).unwrap());
+    let dark = count(&on, |grey| grey == 0);
+    assert!(dark > 1000);
+    // Its alpha is above one half: all of it is left.
+    assert_eq!(count(&clip, |grey| grey == 0), dark);
+    assert_eq!(count(&off, |grey| grey < 255), 0);
+    // 60 % of the texels are filled: a filter of many of them says 0.4, more or less.
+    let under: Vec<u8> =
+        dither.iter().zip(&on).filter(|(_, on)| **on == Some(0)).filter_map(|(d, _)| *d).collect();
+    let mean = under.iter().map(|grey| f64::from(*grey)).sum::<f64>() / under.len() as f64;
+    assert!((mean - 0.4 * 255.0).abs() < 15.0, "{mean}");
+    let thin = shadows(&sheet(|sheet| {
+        sheet.casts = Some(CasterMode::Clip);
+        sheet.base_color.w = 0.4;
+    }));
+    assert_eq!(count(&thin.unwrap(), |grey| grey < 255), 0, "clipped away");
+}
+
+#[test]
+fn row_24_what_casts_no_shadow_needs_no_map() {
+    let options = cube_view(|_| ());
+    let casters = |mode| {
+        let mut scene = sheet(|sheet| sheet.casts = mode);
+        scene.materials[0].casts = Some(CasterMode::Off);
+        plan(&scene, &options).cascades.is_some()
+    };
+    assert_eq!([casters(None), casters(Some(CasterMode::Off))], [true, false]);
+}
+
+#[test]
+fn row_24_unlit_materials_cast_and_others_may_receive_nothing() {
+    let Some(unlit) = shadows(&sheet(|sheet| (sheet.unlit, sheet.alpha) = (true, AlphaMode::Opaque))) else {
+        return;
+    };
+    assert!(count(&unlit, |grey| grey == 0) > 1000);
+    let mut bright = sheet(|sheet| sheet.alpha = AlphaMode::Opaque);
+    bright.materials[0].receives_shadows = false;
+    assert_eq!(count(&shadows(&bright).unwrap(), |grey| grey < 255), 0);
+}
+
+#[test]
+fn row_24_rays_see_casters_as_maps_do() {
+    let Some(gpu) = gpu() else { return };
+    for mode in [CasterMode::On, CasterMode::Clip, CasterMode::Off] {
+        let scene = sheet(|sheet| sheet.casts = Some(mode));
+        let options = cube_view(|_| ());
+        let (mapped, traced) = (
+            greys(gpu, &scene, 0, &options),
+            super::greys_with(gpu, &scene, 0, &options, Technique::Raytraced),
+        );
+        let dark = |greys: &Greys| count(greys, |grey| grey < 128);
+        assert!(dark(&mapped).abs_diff(dark(&traced)) < 100, "{mode:?}: {} {}", dark(&mapped), dark(&traced));
+    }
+}
