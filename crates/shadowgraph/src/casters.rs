@@ -73,6 +73,11 @@ impl ShadowCasters for SceneCasters {
         self.bounds
     }
 
+    /// A scene on the GPU stays as it was uploaded.
+    fn version(&self, _caster: u32) -> Option<u64> {
+        Some(0)
+    }
+
     fn receivers(&self) -> Aabb {
         self.scene.all_bounds()
     }

@@ -20,6 +20,13 @@ pub trait ShadowCasters: Sync {
         self.bounds()
     }
 
+    /// Returns a number that changes whenever what a caster draws does; `None` if it may change at any time. Tiles whose
+    /// casters all have one are cached where the settings say so.
+    fn version(&self, caster: u32) -> Option<u64> {
+        let _ = caster;
+        None
+    }
+
     /// Returns the bounds of everything that shadows can fall on: cascades end there, if that is before the shadow
     /// distance. By default the bounds of all casters; with surfaces that receive shadows and cast none, theirs too.
     fn receivers(&self) -> Aabb {

@@ -58,6 +58,8 @@ pub struct MapPlan {
     pub size_px: [u32; 2],
     /// How finely it stores depth.
     pub depth: DepthFormat,
+    /// Whether its tiles are kept from frame to frame.
+    pub cache: bool,
     /// What it holds. Some casters are in reach of at least one tile.
     pub tiles: Vec<TilePlan>,
 }

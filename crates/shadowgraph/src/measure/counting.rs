@@ -38,6 +38,10 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.bounds_of(caster)
     }
 
+    fn version(&self, caster: u32) -> Option<u64> {
+        self.casters.version(caster)
+    }
+
     fn receivers(&self) -> Aabb {
         self.casters.receivers()
     }

@@ -34,7 +34,12 @@ impl<'a> Planner<'a> {
         };
         let Some((_, first)) = chosen.first() else { return };
         let settings = &self.inputs.settings.atlas;
-        let mut map = MapPlan { size_px: first.map_size_px, depth: settings.depth, tiles: Vec::new() };
+        let mut map = MapPlan {
+            size_px: first.map_size_px,
+            depth: settings.depth,
+            cache: settings.cache,
+            tiles: Vec::new(),
+        };
         for (light, tiles) in chosen {
             map.tiles.extend(self.add_local(light, tiles));
         }

@@ -41,7 +41,12 @@ impl<'a> Planner<'a> {
             }
             lights = kept.into_iter().map(|cascades| cascades.candidate).collect();
         };
-        let mut map = MapPlan { size_px: layout.size_px, depth: settings.depth, tiles: Vec::new() };
+        let mut map = MapPlan {
+            size_px: layout.size_px,
+            depth: settings.depth,
+            cache: settings.cache,
+            tiles: Vec::new(),
+        };
         for (cascades, rects) in planned.into_iter().zip(layout.tiles.chunks(settings.count as usize)) {
             let layout = TileLayout { tiles: rects.to_vec(), ..layout };
             map.tiles.extend(self.add_light(cascades, layout));

@@ -63,7 +63,7 @@ impl Planner<'_> {
     pub(super) fn cull_local(&self, fit: &SpotFit, rules: &LightRules) -> Vec<u32> {
         let mut planes = fit.cull_volume();
         let cone = fit.cone;
-        if self.inputs.settings.cull.unseen {
+        if self.inputs.settings.cull.unseen && !self.inputs.settings.atlas.cache {
             let pad_m = rules.margin_px(1.0) * fit.texel_per_m() * fit.far_m;
             planes.planes.extend(self.seen.around(cone.position_world, pad_m).planes);
         }

@@ -14,6 +14,9 @@ pub struct AtlasSettings {
     pub map_size_px: u32,
     /// How it is divided among the lights.
     pub tiles: AtlasTiles,
+    /// Whether tiles are kept from frame to frame, and drawn again only when their light, their place or their casters
+    /// change. Casters that are not seen are then drawn too, as the next frame may see them.
+    pub cache: bool,
     /// How finely the map stores depth.
     pub depth: DepthFormat,
     /// How shadows' edges are smoothed.
@@ -42,6 +45,7 @@ impl Default for AtlasSettings {
         Self {
             map_size_px: 2048,
             tiles: AtlasTiles::ByImportance { smallest_px: 64 },
+            cache: false,
             depth: DepthFormat::default(),
             filter: ShadowFilter::default(),
             spot_near_m: 0.05,

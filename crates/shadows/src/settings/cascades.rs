@@ -17,6 +17,9 @@ pub struct CascadeSettings {
     /// Width of the map that holds them all, pixels, a power of two from 256 to 8192. It is split as often each way as
     /// its tiles need: twice for up to four.
     pub map_size_px: u32,
+    /// Whether the map is kept from frame to frame, and a cascade drawn again only when it, its light or its casters change:
+    /// while the camera stands still.
+    pub cache: bool,
     /// How finely the map stores depth.
     pub depth: DepthFormat,
     /// Where one cascade ends and the next begins.
@@ -134,6 +137,7 @@ impl Default for CascadeSettings {
             count: 4,
             lights: 1,
             map_size_px: 4096,
+            cache: false,
             depth: DepthFormat::default(),
             split: SplitScheme::Practical { lambda: 0.85 },
             overlap: 0.0,

@@ -1,5 +1,6 @@
 //! The techniques that come with Shadowgraph, a room each.
 
+mod cache;
 mod layout;
 mod mask;
 mod none;

@@ -1,18 +1,19 @@
 //! `pcf`: cascades for the brightest directional lights, an atlas for the others, percentage-closer filtering.
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc};
 use shadowgraph_shaders::{ModuleSource, PCF};
 
+use super::cache::{CachedMap, TileKey};
 use super::layout::{STORAGE, layout};
 use super::variant::PcfVariant;
 use crate::plan;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
     Allotment, CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowPlan, ShadowView,
-    TilePart, TilePlan, caster_view_layout, plan_shadows_after,
+    TilePart, TilePlan, TileRect, caster_view_layout, plan_shadows_after,
 };
 
 /// The bytes of a view: also the step of its dynamic offset.
@@ -26,8 +27,11 @@ pub struct Pcf {
     sampler: wgpu::Sampler,
     /// One texel that means lit, where there is no map.
     lit: wgpu::Texture,
+    device: wgpu::Device,
     /// The tiles that lights had in the last frame, of each view.
     allotments: Mutex<BTreeMap<u32, Allotment>>,
+    /// The maps that are kept, by view and name.
+    cached: Mutex<BTreeMap<(u32, &'static str), Arc<CachedMap>>>,
 }
 
 impl Pcf {
@@ -54,7 +58,9 @@ impl Pcf {
                 usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
                 view_formats: &[],
             }),
+            device: device.clone(),
             allotments: Mutex::default(),
+            cached: Mutex::default(),
         }
     }
 
@@ -72,12 +78,29 @@ impl Pcf {
         frame: &mut Frame<'f>,
         name: &'static str,
         plan: Option<MapPlan>,
-        views: (&Buffer, &[ShadowView]),
+        (view, views): (u32, Views<'_>),
         casters: &'f dyn ShadowCasters,
     ) -> Texture {
-        let Some(plan) = plan else {
-            return frame.import_texture(format_args!("no {name}"), &self.lit, true);
-        };
+        let cached = plan.as_ref().filter(|plan| plan.cache).map(|plan| self.cached_map(view, name, plan));
+        if cached.is_none() {
+            self.cached.lock().unwrap_or_else(PoisonError::into_inner).remove(&(view, name));
+        }
+        match (plan, cached) {
+            (None, _) => frame.import_texture(format_args!("no {name}"), &self.lit, true),
+            (Some(plan), None) => self.draw_map(frame, name, plan, views, casters),
+            (Some(plan), Some(cached)) => self.update_map(frame, name, plan, (cached, views), casters),
+        }
+    }
+
+    /// Draws a map anew.
+    fn draw_map<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        name: &'static str,
+        plan: MapPlan,
+        views: Views<'_>,
+        casters: &'f dyn ShadowCasters,
+    ) -> Texture {
         let [width, height] = plan.size_px;
         let format = plan.depth.texture_format();
         let mut map = frame.create_texture(name, TextureDesc::d2(width, height, format));
@@ -86,20 +109,67 @@ impl Pcf {
             // nothing orders them among each other, and all become one render pass that begins with this clear.
             frame.render_pass("clear").depth(&mut map, Contents::clear_depth(0.0));
             for tile in plan.tiles.into_iter().filter(|tile| !tile.casters.is_empty()) {
-                self.tile(frame, (&mut map, format), tile, views, casters);
+                self.tile(frame, (&mut map, format, Contents::Preserve), tile, views, casters, |_| ());
             }
         });
         map
     }
 
-    /// Adds the pass that draws casters into a tile.
+    /// Draws those tiles of a map again that do not hold what they should.
+    fn update_map<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        name: &'static str,
+        plan: MapPlan,
+        (cached, views): (Arc<CachedMap>, Views<'_>),
+        casters: &'f dyn ShadowCasters,
+    ) -> Texture {
+        let format = plan.depth.texture_format();
+        let cleared = cached.is_cleared();
+        let mut map = frame.import_texture(name, &cached.texture, cleared);
+        frame.node(name, |frame| {
+            if !cleared {
+                let cached = cached.clone();
+                let mut pass = frame.render_pass("clear");
+                pass.depth(&mut map, Contents::clear_depth(0.0));
+                pass.body(move |_| {
+                    cached.note_clear();
+                    Ok(())
+                });
+            }
+            for tile in plan.tiles {
+                let key = TileKey::new(&tile, &views.1[tile.view as usize], casters);
+                if key.as_ref().is_some_and(|key| cached.holds(tile.rect, key)) {
+                    continue;
+                }
+                // What a pass has drawn is known when it has been recorded, not when it is declared.
+                let cached = cached.clone();
+                let note = move |rect| cached.note(rect, key);
+                self.tile(frame, (&mut map, format, Contents::clear_depth(0.0)), tile, views, casters, note);
+            }
+        });
+        map
+    }
+
+    fn cached_map(&self, view: u32, name: &'static str, plan: &MapPlan) -> Arc<CachedMap> {
+        let mut all = self.cached.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || Arc::new(CachedMap::new(&self.device, name, plan));
+        let cached = all.entry((view, name)).or_insert_with(make);
+        if !cached.fits(plan) {
+            *cached = make();
+        }
+        cached.clone()
+    }
+
+    /// Adds the pass that draws casters into a tile; `then` is called when it has been recorded.
     fn tile<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        (map, format): (&mut Texture, Format),
+        (map, format, contents): (&mut Texture, Format, Contents),
         tile: TilePlan,
-        (buffer, views): (&Buffer, &[ShadowView]),
+        (buffer, views): Views<'_>,
         casters: &'f dyn ShadowCasters,
+        then: impl FnOnce(TileRect) + Send + 'f,
     ) {
         let light = tile.light;
         let mut pass = match tile.part {
@@ -109,17 +179,21 @@ impl Pcf {
         };
         let buffer = pass.storage_buffer(buffer);
         // The graph keeps viewport and scissor to the tile.
-        pass.on(Part::WHOLE.rect(tile.rect.into())).depth(map, Contents::Preserve);
+        pass.on(Part::WHOLE.rect(tile.rect.into())).depth(map, contents);
         let perspective = views[tile.view as usize].light.w != 0.0;
         let target = CasterTarget { format, perspective };
         pass.body(move |ctx| {
             let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
             ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
             casters.draw(&mut ctx.pass, target, &tile.casters);
+            then(tile.rect);
             Ok(())
         });
     }
 }
+
+/// The buffer of a frame's views, and the views.
+type Views<'v> = (&'v Buffer, &'v [ShadowView]);
 
 impl ShadowTechnique for Pcf {
     fn name(&self) -> &str {
@@ -159,7 +233,7 @@ impl ShadowTechnique for Pcf {
                 let views = frame.upload_buffer("shadow views", plan.view_bytes());
                 (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
             });
-            let of = (&views, &plan.views[..]);
+            let of = (inputs.view, (&views, &plan.views[..]));
             let cascades = self.map(frame, "cascades", plan.cascades, of, inputs.casters);
             let atlas = self.map(frame, "atlas", plan.atlas, of, inputs.casters);
             ShadowOutputs {

@@ -185,7 +185,7 @@ prop_compose! {
     ) -> CascadeSettings {
         let (edge_fade, far_filter, near_offset_m) = numbers;
         CascadeSettings {
-            count, lights, map_size_px: 1 << exponent, depth, split, overlap, fit, select, blend,
+            count, lights, map_size_px: 1 << exponent, cache: exponent == 9, depth, split, overlap, fit, select, blend,
             edge_fade, far_filter, near_offset_m, filter, bias_scales,
         }
     }

@@ -2,6 +2,7 @@
 
 mod atlas;
 mod bias;
+mod caching;
 mod cascades;
 mod culling;
 mod filters;

@@ -1,0 +1,89 @@
+//! Maps that are kept from frame to frame, and what their tiles hold.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::{MapPlan, ShadowCasters, ShadowView, TilePlan, TileRect};
+
+/// A map that outlives frames.
+pub(super) struct CachedMap {
+    pub(super) texture: wgpu::Texture,
+    drawn: Mutex<Drawn>,
+}
+
+/// What the passes of recorded frames have drawn.
+#[derive(Default)]
+struct Drawn {
+    /// All of the map has been cleared once.
+    cleared: bool,
+    tiles: Vec<(TileRect, TileKey)>,
+}
+
+/// What a tile holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TileKey {
+    clip_from_world: glam::Mat4,
+    /// The casters and the versions they were drawn in.
+    casters: Vec<(u32, u64)>,
+}
+
+impl TileKey {
+    /// `None` if a caster may change at any time.
+    pub(super) fn new(tile: &TilePlan, view: &ShadowView, casters: &dyn ShadowCasters) -> Option<Self> {
+        let version = |&caster: &u32| casters.version(caster).map(|version| (caster, version));
+        let casters = tile.casters.iter().map(version).collect::<Option<_>>()?;
+        Some(Self { clip_from_world: view.clip_from_world, casters })
+    }
+}
+
+impl CachedMap {
+    pub(super) fn new(device: &wgpu::Device, name: &str, plan: &MapPlan) -> Self {
+        let [width, height] = plan.size_px;
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::COPY_SRC;
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(name),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: plan.depth.texture_format(),
+            usage,
+            view_formats: &[],
+        });
+        Self { texture, drawn: Mutex::default() }
+    }
+
+    /// Whether it has the size and the format that a plan wants.
+    pub(super) fn fits(&self, plan: &MapPlan) -> bool {
+        let size_px = [self.texture.width(), self.texture.height()];
+        size_px == plan.size_px && self.texture.format() == plan.depth.texture_format()
+    }
+
+    fn drawn(&self) -> MutexGuard<'_, Drawn> {
+        self.drawn.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(super) fn is_cleared(&self) -> bool {
+        self.drawn().cleared
+    }
+
+    /// Whether the tile holds this already.
+    pub(super) fn holds(&self, rect: TileRect, key: &TileKey) -> bool {
+        self.drawn().tiles.iter().any(|(other, held)| *other == rect && held == key)
+    }
+
+    /// Notes that all of the map was cleared.
+    pub(super) fn note_clear(&self) {
+        *self.drawn() = Drawn { cleared: true, tiles: Vec::new() };
+    }
+
+    /// Notes what was drawn into a tile; with `None` that it has to be drawn again.
+    pub(super) fn note(&self, rect: TileRect, key: Option<TileKey>) {
+        let mut drawn = self.drawn();
+        // Where the tiles of a frame are all of the map, the graph leaves its clear out.
+        drawn.cleared = true;
+        drawn.tiles.retain(|(other, _)| !other.overlaps(&rect));
+        drawn.tiles.extend(key.map(|key| (rect, key)));
+    }
+}
