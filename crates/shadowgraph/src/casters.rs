@@ -2,7 +2,7 @@
 
 use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, Draw, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
-use shadowgraph_shadows::{CasterTarget, DepthFormat, ShadowCasters};
+use shadowgraph_shadows::{CasterView, DepthFormat, ShadowCasters};
 
 use crate::Error;
 
@@ -86,8 +86,8 @@ impl ShadowCasters for SceneCasters {
         self.scene.bounds().get(caster as usize).copied().unwrap_or(Aabb::EMPTY)
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]) {
-        let made = self.pipelines.iter().find(|(format, _)| *format == target.format);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) {
+        let made = self.pipelines.iter().find(|(format, _)| *format == view.target.format);
         // Maps have no other formats.
         let Some((_, pipelines)) = made else { return };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));

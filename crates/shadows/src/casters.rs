@@ -2,6 +2,8 @@
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
+use crate::TilePart;
+
 /// The things that can cast shadows. Implement it for a scene of your own.
 ///
 /// Casters are numbered; what a number stands for is the implementer's affair. All coordinates here are
@@ -36,7 +38,10 @@ pub trait ShadowCasters: Sync {
     /// Draws the depth of the casters into the pass. Viewport, scissor and group 0
     /// ([`caster_view_layout`]) are already set: its matrix `clip_from_world` takes positions relative to the
     /// frame's origin. Leave all of these as they are.
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]);
+    ///
+    /// Pipelines are the implementer's own, so vertices can be moved (skinning, wind), many instances be drawn at once, and
+    /// `view` tells which level of detail is enough. Bounds must hold what is drawn, wherever it is moved.
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]);
 }
 
 /// What a pipeline that draws casters must be made for: depth only, written, compared with
@@ -48,6 +53,22 @@ pub struct CasterTarget {
     /// Whether the view is a spot light's pyramid rather than a box. In both, casters between the light and
     /// the near plane are to be kept with depth 1 (`unclipped_depth`, or its emulation).
     pub perspective: bool,
+}
+
+/// The tile that casters are drawn into.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CasterView {
+    /// What pipelines must be made for.
+    pub target: CasterTarget,
+    /// Whose tile it is, by place in the scene's list of lights.
+    pub light: u32,
+    /// Which of its tiles.
+    pub part: TilePart,
+    /// Width and height of the tile, pixels.
+    pub size_px: [u32; 2],
+    /// The width of a texel in the world, metres; for spot and point lights at 1 m along the tile's axis. Detail that is
+    /// smaller casts no shadow of its own.
+    pub texel_world: f32,
 }
 
 /// Returns the layout of bind group 0 of pipelines that draw casters: at binding 0 a storage buffer, read by

@@ -34,7 +34,7 @@ pub use allot::{AllotRules, Allotment, Granted, TileWish, allot};
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
 pub use basis::light_from_world;
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
-pub use casters::{CasterTarget, ShadowCasters, caster_view_layout};
+pub use casters::{CasterTarget, CasterView, ShadowCasters, caster_view_layout};
 pub use cull::{ReceiverHull, Served, ServedCasters, ViewInLight};
 pub use error::Error;
 pub use filter::{Needs, ShadowFilter, filter_taps};

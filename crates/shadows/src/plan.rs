@@ -8,8 +8,8 @@ use crate::planner::Planner;
 use crate::rules::LightRules;
 use crate::techniques::PcfVariant;
 use crate::{
-    Allotment, DepthFormat, Error, Needs, ShadowCasters, ShadowLight, ShadowSettings, ShadowView, TileRect,
-    Unshadowed,
+    Allotment, CasterTarget, CasterView, DepthFormat, Error, Needs, ShadowCasters, ShadowLight,
+    ShadowSettings, ShadowView, TileRect, Unshadowed,
 };
 
 /// What shadows are planned for.
@@ -79,6 +79,20 @@ pub struct TilePlan {
     pub casters: Vec<u32>,
 }
 
+impl TilePlan {
+    /// Describes the tile to those who draw casters into it.
+    #[must_use]
+    pub fn caster_view(&self, view: &ShadowView, format: wgpu::TextureFormat) -> CasterView {
+        CasterView {
+            target: CasterTarget { format, perspective: view.light.w != 0.0 },
+            light: self.light,
+            part: self.part,
+            size_px: [self.rect.width, self.rect.height],
+            texel_world: view.texel_world,
+        }
+    }
+}
+
 /// What of a light's surroundings a tile shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TilePart {
@@ -95,7 +109,7 @@ pub enum TilePart {
 /// ```
 /// use glam::{DVec3, Vec3};
 /// use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
-/// use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowInputs, ShadowSettings, plan_shadows};
+/// use shadowgraph_shadows::{CasterView, ShadowCasters, ShadowInputs, ShadowSettings, plan_shadows};
 ///
 /// struct OneBox(Aabb);
 /// impl ShadowCasters for OneBox {
@@ -105,7 +119,7 @@ pub enum TilePart {
 ///     fn bounds(&self) -> Aabb {
 ///         self.0
 ///     }
-///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
+///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
 /// }
 ///
 /// let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };

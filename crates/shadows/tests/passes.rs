@@ -7,7 +7,7 @@ use shadowgraph_core::{
 };
 use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
-    CasterTarget, CullSettings, Pcf, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique,
+    CasterView, CullSettings, Pcf, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique,
 };
 
 /// Boxes that cast shadows.
@@ -28,7 +28,7 @@ impl ShadowCasters for Boxes {
         Aabb { min: DVec3::splat(-500.0), max: DVec3::splat(500.0) }
     }
 
-    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
+    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
 }
 
 fn cube(center: DVec3) -> Aabb {

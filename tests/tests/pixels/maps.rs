@@ -3,7 +3,9 @@
 use crate::stage::gpu;
 use shadowgraph::core::{Frame, Graph, PassKind};
 use shadowgraph::scene::Camera;
-use shadowgraph::shadows::{Pcf, ShadowInputs, ShadowPlan, ShadowSettings, ShadowTechnique, plan_shadows};
+use shadowgraph::shadows::{
+    Pcf, ShadowCasters, ShadowInputs, ShadowPlan, ShadowSettings, ShadowTechnique, plan_shadows,
+};
 use shadowgraph::{Gpu, SceneCasters};
 
 /// A map and the plan it was drawn by.
@@ -23,13 +25,13 @@ impl Map {
 pub(crate) fn draw_map(
     gpu: &Gpu,
     technique: &Pcf,
-    casters: &SceneCasters,
+    casters: &dyn ShadowCasters,
     lights: &[shadowgraph::scene::Light],
     camera: &Camera,
     settings: &ShadowSettings,
     name: &str,
 ) -> Map {
-    let origin_world = casters.scene.origin_world();
+    let origin_world = glam::DVec3::ZERO;
     let inputs =
         ShadowInputs { view: 0, camera, aspect: 16.0 / 9.0, lights, casters, origin_world, settings };
     let plan = plan_shadows(&inputs).unwrap();

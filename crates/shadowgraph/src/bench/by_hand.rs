@@ -5,9 +5,7 @@ use std::sync::Arc;
 
 use shadowgraph_core::Format;
 use shadowgraph_lighting::{GpuLight, GpuView, LitPipelines, ViewRecords};
-use shadowgraph_shadows::{
-    CasterTarget, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, TilePart, plan_shadows,
-};
+use shadowgraph_shadows::{MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, plan_shadows};
 use wgpu::{BindingResource, TextureUsages};
 
 use super::objects::{attachment, begin, buffer, comparison_sampler, group, range};
@@ -111,7 +109,7 @@ impl<'v> ByHand<'v> {
         let plans = [&shadows.cascades, &shadows.atlas];
         for ((label, plan), map) in ["cascades", "atlas"].into_iter().zip(plans).zip(&self.maps) {
             if let (Some(plan), Some(map)) = (plan, map) {
-                self.shadow_map(encoder, label, plan, map);
+                self.shadow_map(encoder, label, (plan, &shadows.views), map);
             }
         }
         self.prepass(encoder);
@@ -123,7 +121,7 @@ impl<'v> ByHand<'v> {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         label: &str,
-        plan: &MapPlan,
+        (plan, views): (&MapPlan, &[ShadowView]),
         map: &wgpu::TextureView,
     ) {
         let mut pass = begin(encoder, label, None, Some((map, true)));
@@ -133,9 +131,8 @@ impl<'v> ByHand<'v> {
             let [x, y, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|px| px as f32);
             pass.set_viewport(x, y, width, height, 0.0, 1.0);
             pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
-            let format = plan.depth.texture_format();
-            let target = CasterTarget { format, perspective: !matches!(tile.part, TilePart::Cascade(_)) };
-            self.renderer.casters.draw(&mut pass, target, &tile.casters);
+            let view = tile.caster_view(&views[tile.view as usize], plan.depth.texture_format());
+            self.renderer.casters.draw(&mut pass, &view, &tile.casters);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use shadowgraph_scene::{Aabb, CullVolume};
-use shadowgraph_shadows::{CasterTarget, ShadowCasters};
+use shadowgraph_shadows::{CasterView, ShadowCasters};
 
 use crate::SceneCasters;
 
@@ -46,9 +46,9 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.receivers()
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, target: CasterTarget, casters: &[u32]) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) {
         self.draws.fetch_add(casters.len() as u64, Ordering::Relaxed);
         self.triangles.fetch_add(self.casters.triangle_count(casters), Ordering::Relaxed);
-        self.casters.draw(pass, target, casters);
+        self.casters.draw(pass, view, casters);
     }
 }

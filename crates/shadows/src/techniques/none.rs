@@ -54,7 +54,7 @@ impl ShadowTechnique for NoShadows {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::{CasterTarget, ShadowCasters, ShadowSettings};
+    use crate::{CasterView, ShadowCasters, ShadowSettings};
     use glam::DVec3;
     use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
@@ -64,7 +64,7 @@ mod tests {
         fn bounds(&self) -> Aabb {
             Aabb::EMPTY
         }
-        fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
+        fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
     }
 
     #[test]

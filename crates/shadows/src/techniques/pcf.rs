@@ -12,8 +12,8 @@ use super::variant::PcfVariant;
 use crate::plan;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{
-    Allotment, CasterTarget, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowPlan, ShadowView,
-    TilePart, TilePlan, TileRect, caster_view_layout, plan_shadows_after,
+    Allotment, Error, MapPlan, Needs, ShadowCasters, ShadowInputs, ShadowPlan, ShadowView, TilePart,
+    TilePlan, TileRect, caster_view_layout, plan_shadows_after,
 };
 
 /// The bytes of a view: also the step of its dynamic offset.
@@ -180,12 +180,11 @@ impl Pcf {
         let buffer = pass.storage_buffer(buffer);
         // The graph keeps viewport and scissor to the tile.
         pass.on(Part::WHOLE.rect(tile.rect.into())).depth(map, contents);
-        let perspective = views[tile.view as usize].light.w != 0.0;
-        let target = CasterTarget { format, perspective };
+        let caster_view = tile.caster_view(&views[tile.view as usize], format);
         pass.body(move |ctx| {
             let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
             ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
-            casters.draw(&mut ctx.pass, target, &tile.casters);
+            casters.draw(&mut ctx.pass, &caster_view, &tile.casters);
             then(tile.rect);
             Ok(())
         });

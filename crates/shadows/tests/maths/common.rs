@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection};
-use shadowgraph_shadows::{CasterTarget, ShadowCasters, ShadowFilter, ShadowLight, ShadowView, filter_taps};
+use shadowgraph_shadows::{CasterView, ShadowCasters, ShadowFilter, ShadowLight, ShadowView, filter_taps};
 
 /// Boxes that cast shadows.
 pub(crate) struct Boxes(pub(crate) Vec<Aabb>);
@@ -17,7 +17,7 @@ impl ShadowCasters for Boxes {
         self.0.iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
     }
 
-    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: CasterTarget, _: &[u32]) {}
+    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
 }
 
 pub(crate) fn cube(center: DVec3, side: f64) -> Aabb {

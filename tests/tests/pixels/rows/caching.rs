@@ -68,8 +68,13 @@ fn row_41_cached_maps_give_the_picture_that_maps_drawn_anew_give() {
                 draw(renderer, &options)
             });
             let differ = super::different(&with.0, &without.0, 0);
-            let shown_in_one = with.0.iter().zip(&without.0).filter(|(a, b)| a.is_some() != b.is_some()).count();
-            assert_eq!((differ, shown_in_one), (0, 0), "light {shown}, step {step}, shift {shift}, size {size}");
+            let shown_in_one =
+                with.0.iter().zip(&without.0).filter(|(a, b)| a.is_some() != b.is_some()).count();
+            assert_eq!(
+                (differ, shown_in_one),
+                (0, 0),
+                "light {shown}, step {step}, shift {shift}, size {size}"
+            );
             assert!(count(&with.0, |grey| grey < 255) > 50);
             redrawn.push((with.1.len(), without.1.len()));
         }

@@ -7,6 +7,7 @@ mod cascades;
 mod culling;
 mod filters;
 mod materials;
+mod own_casters;
 mod points;
 mod screen;
 
