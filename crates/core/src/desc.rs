@@ -41,6 +41,13 @@ impl TextureDesc {
         }
     }
 
+    /// Sets how many samples each texel has.
+    #[must_use]
+    pub fn samples(mut self, samples: u32) -> Self {
+        self.samples = samples;
+        self
+    }
+
     /// Returns the description with `layers` array layers.
     pub fn layers(mut self, layers: u32) -> Self {
         self.size.depth_or_array_layers = layers;

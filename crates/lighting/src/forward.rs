@@ -80,12 +80,23 @@ impl LitPipelines {
 struct Recipe {
     device: wgpu::Device,
     layout: wgpu::PipelineLayout,
-    format: Format,
-    shows: Shows,
+    target: LitTarget,
+}
+
+/// What a lit pass draws into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LitTarget {
+    /// The format of what it writes.
+    pub format: Format,
+    /// What it writes.
+    pub shows: Shows,
+    /// How many samples each pixel has while it is drawn, 1 or 4; in the end it has one. Shadows are asked for once a pixel
+    /// and surface, and a screen mask has one answer for all surfaces of a pixel.
+    pub samples: u32,
 }
 
 impl Forward {
-    /// Makes the pipelines that light `layouts`' materials with the shadows of `technique` into `format`.
+    /// Makes the pipelines that light `layouts`' materials with the shadows of `technique` into `target`.
     ///
     /// # Errors
     /// If the technique's WGSL does not compose; the message has its file and line.
@@ -93,8 +104,7 @@ impl Forward {
         device: &wgpu::Device,
         layouts: &MaterialLayouts,
         technique: &dyn ShadowTechnique,
-        format: Format,
-        shows: Shows,
+        target: LitTarget,
     ) -> Result<Self, Error> {
         let view_layout = view_layout(device);
         let shadow_layout = technique.bind_group_layout().clone();
@@ -109,10 +119,14 @@ impl Forward {
             immediate_size: 0,
         });
         let forward = Self {
-            prepass: DepthPipelines::new(device, layouts, &DepthTarget::default())?,
+            prepass: DepthPipelines::new(
+                device,
+                layouts,
+                &DepthTarget { samples: target.samples, ..DepthTarget::default() },
+            )?,
             view_layout,
             shadow_layout,
-            recipe: Arc::new(Recipe { device: device.clone(), layout, format, shows }),
+            recipe: Arc::new(Recipe { device: device.clone(), layout, target }),
             modules: (0..technique.variant_count()).map(|variant| technique.modules(variant)).collect(),
             lit: Mutex::default(),
         };
@@ -165,7 +179,8 @@ impl Forward {
         geometry: Geometry<'f>,
     ) -> Texture {
         let [width, height] = geometry.size_px;
-        let mut depth = frame.create_texture("depth", TextureDesc::d2(width, height, DEPTH_FORMAT));
+        let desc = TextureDesc::d2(width, height, DEPTH_FORMAT).samples(self.recipe.target.samples);
+        let mut depth = frame.create_texture("depth", desc);
         let mut pass = frame.render_pass("depth prepass");
         let view = pass.storage_buffer(&view.view);
         pass.depth(&mut depth, Contents::clear_depth(0.0));
@@ -211,7 +226,8 @@ impl Forward {
         background: [f64; 4],
     ) -> Result<(Texture, Texture), Error> {
         let [width, height] = geometry.size_px;
-        let mut depth = frame.create_texture("depth", TextureDesc::d2(width, height, DEPTH_FORMAT));
+        let desc = TextureDesc::d2(width, height, DEPTH_FORMAT).samples(self.recipe.target.samples);
+        let mut depth = frame.create_texture("depth", desc);
         let lit = self.add_lit(frame, view, shadows, Depth::Own(&mut depth), geometry, background)?;
         Ok((lit, depth))
     }
@@ -226,14 +242,17 @@ impl Forward {
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         // Debug colours are not in every variant.
-        let variant = if let Shows::Cascades(_) = self.recipe.shows { 0 } else { shadows.variant };
+        let variant = if let Shows::Cascades(_) = self.recipe.target.shows { 0 } else { shadows.variant };
         let pipelines = self.pipelines(variant, matches!(depth, Depth::Own(_)))?;
         let [width, height] = geometry.size_px;
-        let (texture, pass) = match self.recipe.shows {
+        let (texture, pass) = match self.recipe.target.shows {
             Shows::Surface => ("surfaces", "surfaces"),
             _ => ("lit", "forward"),
         };
-        let mut color = frame.create_texture(texture, TextureDesc::d2(width, height, self.recipe.format));
+        let LitTarget { format, samples, .. } = self.recipe.target;
+        let desc = TextureDesc::d2(width, height, format);
+        let mut color = frame.create_texture(texture, desc);
+        let many = (samples > 1).then(|| frame.create_texture("lit samples", desc.samples(samples)));
         let mut pass = frame.render_pass(pass);
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
@@ -241,13 +260,22 @@ impl Forward {
             Depth::Prepass(depth) => pass.depth_read(depth),
             Depth::Own(depth) => pass.depth(depth, Contents::clear_depth(0.0)),
         };
-        pass.color(&mut color, Contents::clear_color(background));
+        match many {
+            Some(mut many) => {
+                pass.color(&mut many, Contents::clear_color(background));
+                pass.resolve(&mut color);
+            }
+            None => {
+                pass.color(&mut color, Contents::clear_color(background));
+            }
+        }
         pass.body(move |ctx| {
             let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?;
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
-            let blend: &[Draw] = if self.recipe.shows == Shows::Light { &geometry.draws.blend } else { &[] };
+            let blend: &[Draw] =
+                if self.recipe.target.shows == Shows::Light { &geometry.draws.blend } else { &[] };
             for draws in [&geometry.draws.solid, blend] {
                 geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
             }
@@ -272,7 +300,7 @@ impl Recipe {
         writes_depth: bool,
         key: MaterialKey,
     ) -> wgpu::RenderPipeline {
-        let (aov, light) = match self.shows {
+        let (aov, light) = match self.target.shows {
             Shows::Light => (0, 0),
             Shows::Visibility(light) => (1, light),
             Shows::Cascades(light) => (2, light),
@@ -281,7 +309,7 @@ impl Recipe {
         };
         let constants = [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))];
         // Only light is drawn for what is blended.
-        let blended = key.alpha == AlphaKey::Blend && self.shows == Shows::Light;
+        let blended = key.alpha == AlphaKey::Blend && self.target.shows == Shows::Light;
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("forward"),
             layout: Some(&self.layout),
@@ -300,7 +328,7 @@ impl Recipe {
                 stencil: Default::default(),
                 bias: Default::default(),
             }),
-            multisample: Default::default(),
+            multisample: wgpu::MultisampleState { count: self.target.samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: shader,
                 entry_point: Some("fs_forward"),
@@ -309,7 +337,7 @@ impl Recipe {
                     ..Default::default()
                 },
                 targets: &[Some(wgpu::ColorTargetState {
-                    format: self.format,
+                    format: self.target.format,
                     blend: blended.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                     write_mask: wgpu::ColorWrites::ALL,
                 })],

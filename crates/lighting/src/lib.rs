@@ -19,6 +19,6 @@ mod tonemap;
 
 pub use error::Error;
 pub use exposure::{Ambience, Key};
-pub use forward::{Forward, Geometry, LitPipelines, Shows};
+pub use forward::{Forward, Geometry, LitPipelines, LitTarget, Shows};
 pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
 pub use tonemap::Tonemap;

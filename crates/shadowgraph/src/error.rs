@@ -4,6 +4,12 @@
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// Pictures cannot be drawn with this many samples a pixel.
+    #[error("pictures cannot be drawn with {samples} samples a pixel; allowed: 1 and 4")]
+    Samples {
+        /// How many were asked for.
+        samples: u32,
+    },
     /// There is no adapter to draw with.
     #[error("no usable graphics adapter ({wanted}): {reason}")]
     NoAdapter {

@@ -38,7 +38,7 @@ pub use error::Error;
 pub use gpu::Gpu;
 pub use occluders::ray_scene;
 pub use picture::{Drawn, Picture};
-pub use renderer::{Renderer, ViewOptions};
+pub use renderer::{Method, Renderer, ViewOptions};
 pub use show::Show;
 
 pub use shadowgraph_core as core;

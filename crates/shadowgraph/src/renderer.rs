@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Timer};
-use shadowgraph_lighting::{Ambience, Forward, Key, Shows, Tonemap};
+use shadowgraph_lighting::{Ambience, Forward, Key, LitTarget, Shows, Tonemap};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
 use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Unshadowed};
@@ -52,12 +52,40 @@ impl ViewOptions {
     }
 }
 
-/// Draws one scene with one shadow technique.
+/// How pictures are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Method {
+    /// The shadows.
+    pub technique: Technique,
+    /// The passes.
+    pub pipeline: Pipeline,
+    /// How many samples each pixel has while colours are drawn: 1, or 4 for smooth edges.
+    pub samples: u32,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self { technique: Technique::default(), pipeline: Pipeline::default(), samples: 1 }
+    }
+}
+
+impl From<Technique> for Method {
+    fn from(technique: Technique) -> Self {
+        Self { technique, ..Self::default() }
+    }
+}
+
+impl From<Pipeline> for Method {
+    fn from(pipeline: Pipeline) -> Self {
+        Self { pipeline, ..Self::default() }
+    }
+}
+
+/// Draws one scene by one method.
 pub struct Renderer {
     pub(crate) casters: SceneCasters,
     pub(crate) technique: Box<dyn ShadowTechnique>,
-    technique_name: Technique,
-    pipeline: Pipeline,
+    method: Method,
     pub(crate) forward: Forward,
     /// Where the technique reads them.
     pub(crate) surfaces: Option<SurfaceDrawer>,
@@ -81,58 +109,46 @@ impl Renderer {
     /// # Errors
     /// Names the limit of the device that the scene is over, or the light that `aov` asks for and that is not there.
     pub fn new(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
-        Self::with_technique(gpu, scene, eye, aov, Technique::default())
+        Self::with(gpu, scene, eye, aov, Method::default())
     }
 
-    /// Is like [`new`](Self::new), with another shadow technique than the default one.
+    /// Is like [`new`](Self::new), by another method than the default one.
     ///
     /// # Errors
-    /// As `new`; for `raytraced` also a scene whose triangles or alpha textures do not fit the device's buffers.
-    pub fn with_technique(
+    /// As `new`; for `raytraced` also a scene whose triangles or alpha textures do not fit the device's buffers; for a number
+    /// of samples that cannot be.
+    pub fn with(
         gpu: &Gpu,
         scene: Scene,
         eye: &Camera,
         aov: Aov,
-        technique: Technique,
+        method: impl Into<Method>,
     ) -> Result<Self, Error> {
-        Self::with_pipeline(gpu, scene, eye, aov, technique, Pipeline::default())
+        let mut method = method.into();
+        if !matches!(method.samples, 1 | 4) {
+            return Err(Error::Samples { samples: method.samples });
+        }
+        if aov != Aov::Color {
+            // Data is not mixed.
+            method.samples = 1;
+        }
+        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov, method))
     }
 
-    /// Is like [`with_technique`](Self::with_technique), with another pipeline than the default one.
-    ///
-    /// # Errors
-    /// As `with_technique`.
-    pub fn with_pipeline(
-        gpu: &Gpu,
-        scene: Scene,
-        eye: &Camera,
-        aov: Aov,
-        technique: Technique,
-        pipeline: Pipeline,
-    ) -> Result<Self, Error> {
-        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov, (technique, pipeline)))
-    }
-
-    fn unchecked(
-        gpu: &Gpu,
-        scene: Scene,
-        eye: &Camera,
-        aov: Aov,
-        (technique_name, pipeline): (Technique, Pipeline),
-    ) -> Result<Self, Error> {
+    fn unchecked(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov, method: Method) -> Result<Self, Error> {
         let device = &gpu.device;
         let origin_world = origin_near(eye.position_world());
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique = techniques::make(technique_name, pipeline, gpu, &scene, origin_world)?;
+        let technique = techniques::make(method, gpu, &scene, origin_world)?;
         let (shows, format) = shows(&aov, &scene.lights)?;
-        let forward = Forward::new(device, uploaded.layouts(), technique.as_ref(), format, shows)?;
+        let target = LitTarget { format, shows, samples: method.samples };
+        let forward = Forward::new(device, uploaded.layouts(), technique.as_ref(), target)?;
         let reads_surfaces = technique.reads_surfaces();
         let surfaces = reads_surfaces.then(|| SurfaceDrawer::new(device, uploaded.layouts())).transpose()?;
         Ok(Self {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
-            technique_name,
-            pipeline,
+            method,
             forward,
             surfaces,
             show: Show::new(device)?,
@@ -166,7 +182,12 @@ impl Renderer {
 
     /// Returns the pipeline that draws.
     pub fn pipeline(&self) -> Pipeline {
-        self.pipeline
+        self.method.pipeline
+    }
+
+    /// Returns how many samples each pixel has while it is drawn.
+    pub fn samples(&self) -> u32 {
+        self.method.samples
     }
 
     /// Returns what pictures show.
@@ -210,6 +231,39 @@ impl Renderer {
             let picture = Picture { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let times = times(gpu, timer.as_deref())?;
             Ok(Drawn { picture, plan: executed.shared_plan(), times, unshadowed: output.unshadowed })
+        })
+    }
+
+    /// Draws several views in one frame, such as the halves of a split screen or two eyes: each has its own shadow maps. The
+    /// pictures come in the order of the views.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw); views whose GPU space cannot be the same, as they are kilometres apart.
+    pub fn draw_views(&mut self, gpu: &Gpu, views: &[ViewOptions]) -> Result<Vec<Picture>, Error> {
+        let Some(first) = views.first() else { return Ok(Vec::new()) };
+        self.move_origin(gpu, first)?;
+        let planned: Vec<View<'_>> = (0u32..)
+            .zip(views)
+            .map(|(number, options)| View { number, ..self.view(options, None) })
+            .collect();
+        gpu.checked(|| {
+            let mut frame = self.graph().frame();
+            let mut requests = Vec::new();
+            for view in &planned {
+                let name = format_args!("view {}", view.number);
+                let output = frame.node(name, |frame| pipelines::add(frame, self, view))?;
+                requests.push(frame.read_back_texture(&output.picture, Part::WHOLE));
+            }
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut executed = self.execute(frame, gpu, &mut encoder, None)?;
+            let texels: Option<Vec<_>> =
+                requests.into_iter().map(|request| executed.read_back(request)).collect();
+            gpu.queue.submit([encoder.finish()]);
+            let texels = texels.ok_or_else(nothing_read)?;
+            let pictures = views.iter().zip(texels).map(|(options, texels)| {
+                Ok(Picture { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? })
+            });
+            pictures.collect()
         })
     }
 
@@ -309,8 +363,7 @@ impl Renderer {
         }
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
         // It may hold positions.
-        self.technique =
-            techniques::make(self.technique_name, self.pipeline, gpu, &self.scene, origin_world)?;
+        self.technique = techniques::make(self.method, gpu, &self.scene, origin_world)?;
         Ok(())
     }
 

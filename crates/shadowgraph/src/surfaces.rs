@@ -1,7 +1,7 @@
 //! Drawing the surfaces that a view sees.
 
 use shadowgraph_core::{Format, Frame, Texture};
-use shadowgraph_lighting::{Forward, Geometry, Shows, ViewBuffers};
+use shadowgraph_lighting::{Forward, Geometry, LitTarget, Shows, ViewBuffers};
 use shadowgraph_scene::gpu::MaterialLayouts;
 use shadowgraph_shadows::{NoShadows, Screen, ShadowOutputs};
 
@@ -15,7 +15,8 @@ pub(crate) struct SurfaceDrawer {
 impl SurfaceDrawer {
     pub(crate) fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
         let technique = NoShadows::new(device);
-        let forward = Forward::new(device, layouts, &technique, Format::Rgba32Float, Shows::Surface)?;
+        let target = LitTarget { format: Format::Rgba32Float, shows: Shows::Surface, samples: 1 };
+        let forward = Forward::new(device, layouts, &technique, target)?;
         Ok(Self { forward })
     }
 
@@ -30,6 +31,18 @@ impl SurfaceDrawer {
         let none =
             ShadowOutputs { variant: 0, bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() };
         Ok(self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])?)
+    }
+
+    /// Adds a prepass of its own and the pass for a technique that reads surfaces: where the picture's prepass has more
+    /// samples, or there is none.
+    pub(crate) fn screen_alone<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        geometry: Geometry<'f>,
+    ) -> Result<Screen, Error> {
+        let depth = self.forward.prepass(frame, view, geometry);
+        self.screen(frame, view, &depth, geometry)
     }
 
     /// Adds the pass for a technique that reads surfaces.

@@ -6,18 +6,17 @@ use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{NoShadows, Pcf, Raytraced, ScreenShadows, ShadowTechnique};
 
 use crate::options::{Pipeline, Technique};
-use crate::{Error, Gpu, ray_scene};
+use crate::{Error, Gpu, Method, ray_scene};
 
 /// Makes a technique for a scene whose GPU positions are relative to `origin_world`.
 pub(crate) fn make(
-    technique: Technique,
-    pipeline: Pipeline,
+    method: Method,
     gpu: &Gpu,
     scene: &Scene,
     origin_world: DVec3,
 ) -> Result<Box<dyn ShadowTechnique>, Error> {
     let device = &gpu.device;
-    let technique: Box<dyn ShadowTechnique> = match technique {
+    let technique: Box<dyn ShadowTechnique> = match method.technique {
         Technique::Pcf => Box::new(Pcf::new(device)),
         Technique::None => Box::new(NoShadows::new(device)),
         Technique::Raytraced => {
@@ -26,7 +25,7 @@ pub(crate) fn make(
             Box::new(Raytraced::new(device, &rays.map_err(shadowgraph_shadows::Error::from)?)?)
         }
     };
-    Ok(match pipeline {
+    Ok(match method.pipeline {
         Pipeline::ScreenShadows => Box::new(ScreenShadows::new(device, technique)?),
         Pipeline::Forward | Pipeline::Minimal => technique,
     })

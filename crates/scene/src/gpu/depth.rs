@@ -18,17 +18,20 @@ pub struct DepthTarget {
     /// Bias by the slope of a surface, in steepest changes of depth per pixel. Depth is reversed: negative
     /// pushes away.
     pub slope_bias: f32,
+    /// How many samples each pixel has.
+    pub samples: u32,
     /// Clamps in the fragment shader even where the device could do it: for tests of that path.
     pub emulate_clamp: bool,
 }
 
 impl Default for DepthTarget {
-    /// Returns `Depth32Float`, without clamping or bias.
+    /// Returns `Depth32Float`, one sample, without clamping or bias.
     fn default() -> Self {
         Self {
             format: wgpu::TextureFormat::Depth32Float,
             clamp_near: false,
             slope_bias: 0.0,
+            samples: 1,
             emulate_clamp: false,
         }
     }
@@ -225,7 +228,10 @@ impl Recipe {
                 ..wgpu::PrimitiveState::default()
             },
             depth_stencil: Some(self.depth_state()),
-            multisample: wgpu::MultisampleState::default(),
+            multisample: wgpu::MultisampleState {
+                count: self.target.samples,
+                ..wgpu::MultisampleState::default()
+            },
             fragment: fragment_entry.map(|entry| wgpu::FragmentState {
                 module: &self.shader,
                 entry_point: Some(entry),

@@ -118,7 +118,7 @@ impl<'a> Run<'a> {
             .views
             .first()
             .map_or_else(|| scene.framing_camera(1.0), |(_, camera)| camera.clone());
-        let renderer = |aov| Renderer::with_technique(self.gpu, scene.clone(), &eye, aov, technique);
+        let renderer = |aov| Renderer::with(self.gpu, scene.clone(), &eye, aov, technique);
         let visibility = renderer(Aov::Visibility(light.index as u32))?;
         let color = self.task.pictures.then(|| renderer(Aov::Color)).transpose()?;
         let probe = Probe::new(self.gpu, &visibility)?;

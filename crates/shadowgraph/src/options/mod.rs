@@ -38,12 +38,14 @@ pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
 use shadowgraph_shadows::ShadowSettings;
 
 /// Everything that the options of a drawing command say, without the scene's file and the output's.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The pipeline that draws.
     pub pipeline: Pipeline,
     /// The sun's shadow technique.
     pub technique: Technique,
+    /// How many samples each pixel has while colours are drawn, 1 or 4.
+    pub samples: u32,
     /// The settings of the shadows.
     pub settings: ShadowSettings,
     /// The size of the picture.
@@ -60,4 +62,22 @@ pub struct Options {
     pub adapter: AdapterChoice,
     /// Whether times per pass are asked for.
     pub timings: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            pipeline: Pipeline::default(),
+            technique: Technique::default(),
+            samples: 1,
+            settings: ShadowSettings::default(),
+            size: Size::default(),
+            camera: CameraChoice::default(),
+            sun: SunChoice::default(),
+            shadow_distance: ShadowDistance::default(),
+            aov: Aov::default(),
+            adapter: AdapterChoice::default(),
+            timings: false,
+        }
+    }
 }

@@ -25,7 +25,10 @@ pub fn forward<'f>(
     let geometry = geometry(renderer, view);
     let (depth, screen) = frame.node("geometry", |frame| {
         let depth = forward.prepass(frame, &buffers, geometry);
-        let screen = surfaces.as_ref().map(|drawer| drawer.screen(frame, &buffers, &depth, geometry));
+        let screen = surfaces.as_ref().map(|drawer| match renderer.samples() {
+            1 => drawer.screen(frame, &buffers, &depth, geometry),
+            _ => drawer.screen_alone(frame, &buffers, geometry),
+        });
         screen.transpose().map(|screen| (depth, screen))
     })?;
 

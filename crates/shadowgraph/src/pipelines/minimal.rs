@@ -19,10 +19,7 @@ pub fn minimal<'f>(
     let geometry = geometry(renderer, view);
 
     // A technique that asks for surfaces needs them before anything is lit.
-    let screen = surfaces.as_ref().map(|drawer| {
-        let depth = forward.prepass(frame, &buffers, geometry);
-        drawer.screen(frame, &buffers, &depth, geometry)
-    });
+    let screen = surfaces.as_ref().map(|drawer| drawer.screen_alone(frame, &buffers, geometry));
     let screen = screen.transpose()?;
 
     // Shadows, by whatever technique.

@@ -170,7 +170,7 @@ fn row_17_without_shadows_maps_are_one_texel() {
         scene
     };
     let largest = [scene, with_sun].map(|scene| {
-        let renderer = Renderer::with_technique(
+        let renderer = Renderer::with(
             &shadowgraph::Gpu::noop().unwrap(),
             scene,
             &options.camera,

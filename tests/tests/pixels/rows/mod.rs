@@ -10,6 +10,7 @@ mod materials;
 mod own_casters;
 mod points;
 mod screen;
+mod views;
 
 use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, cube_on_floor, floor_mesh, material, view};
 use glam::DVec3;
@@ -23,7 +24,7 @@ type Greys = Vec<Option<u8>>;
 
 fn greys_with(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions, technique: Technique) -> Greys {
     let aov = Aov::Visibility(light);
-    let mut renderer = Renderer::with_technique(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
+    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
     let picture = renderer.draw(gpu, options).unwrap().picture;
     picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }

@@ -4,7 +4,7 @@ use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
 use crate::stage::{SIZE_PX, cube_on_floor, gpu, sun, sun_direction};
 use glam::DVec3;
 use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
-use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::options::{Aov, Pipeline};
 use shadowgraph::scene::{AlphaMode, Scene};
 use shadowgraph::shadows::{
     CascadeSelection, Pcf, Screen, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
@@ -12,9 +12,7 @@ use shadowgraph::shadows::{
 use shadowgraph::{Gpu, Picture, Renderer, ViewOptions, wgpu};
 
 fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> Picture {
-    let technique = Technique::Pcf;
-    let mut renderer =
-        Renderer::with_pipeline(gpu, scene.clone(), &options.camera, aov, technique, pipeline).unwrap();
+    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, pipeline).unwrap();
     renderer.draw(gpu, options).unwrap().picture
 }
 

@@ -133,12 +133,15 @@ pub(crate) enum Format {
 pub(crate) struct DrawArgs {
     /// A glTF or GLB file; without it the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
-    /// The pipeline: forward
+    /// The pipeline: forward, screen_shadows or minimal
     #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
     pipeline: String,
     /// The shadow technique: pcf, raytraced or none
     #[arg(long, value_name = "NAME", default_value = "pcf")]
     technique: String,
+    /// Samples a pixel while colours are drawn: 1 or 4
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    samples: u32,
     /// Shadow settings in RON
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
@@ -187,6 +190,7 @@ impl DrawArgs {
         Ok(Options {
             pipeline: self.pipeline.parse()?,
             technique: self.technique.parse()?,
+            samples: self.samples,
             settings: file.settings,
             size: self.size.parse()?,
             camera: or_default(self.camera.as_deref())?,

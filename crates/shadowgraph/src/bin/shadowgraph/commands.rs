@@ -14,7 +14,7 @@ use shadowgraph::output::{Pixels, write_png, write_text};
 use shadowgraph::scene::gltf::Progress as LoadProgress;
 use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::shadows::Unshadowed;
-use shadowgraph::{Drawn, Gpu, Picture, Renderer, ViewOptions};
+use shadowgraph::{Drawn, Gpu, Method, Picture, Renderer, ViewOptions};
 
 /// What every drawing command starts from.
 pub(crate) struct Input {
@@ -49,11 +49,16 @@ struct DrawnView {
 
 fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
     let _drawing = Progress::if_slow("drawing");
-    let Options { aov, timings, pipeline, .. } = input.options.clone();
+    let Options { aov, timings, pipeline, samples, .. } = input.options.clone();
     let view = view_options(&input);
     let technique = input.options.technique;
-    let mut renderer =
-        Renderer::with_pipeline(gpu, input.scene, &input.camera, aov.clone(), technique, pipeline)?;
+    let mut renderer = Renderer::with(
+        gpu,
+        input.scene,
+        &input.camera,
+        aov.clone(),
+        Method { technique, pipeline, samples },
+    )?;
     let mut timer = timings.then(Timer::new);
     if timings {
         // A software driver compiles shaders at the first draw.
@@ -94,8 +99,9 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
         Gpu::noop()?
     };
     let view = view_options(&input);
-    let Options { aov, technique, pipeline, .. } = input.options;
-    let renderer = Renderer::with_pipeline(&gpu, input.scene, &input.camera, aov, technique, pipeline)?;
+    let Options { aov, technique, pipeline, samples, .. } = input.options;
+    let renderer =
+        Renderer::with(&gpu, input.scene, &input.camera, aov, Method { technique, pipeline, samples })?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
 }
