@@ -34,10 +34,11 @@ pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 /// The technique `pcf`: cascades and an atlas, filtered with a tent.
 pub const PCF: ModuleSource = file!("shadows/pcf.wgsl");
 
-/// The technique `screen`: what another technique says of all that the picture shows, in a screen mask.
+/// The technique `screen`: what another technique says of all that the picture shows, in a screen mask. Its bindings follow
+/// those of the other: `MASK` and `LAYERS` stand for their numbers, and the other's import path is `shadowgraph::collected`.
 pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");
 
-/// The technique `screen` where nothing but its mask is needed.
+/// The technique `screen` where nothing but its mask is needed; `MASK` and `LAYERS` are as in [`SCREEN`].
 pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
@@ -62,7 +63,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
 ];
 
 /// The modules of which the caller passes one, as all have the import path [`TECHNIQUE`].
-pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED, SCREEN, MASK_ONLY];
+pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED];
 
 /// The files with entry points.
 pub(crate) const ENTRIES: &[ModuleSource] = &[

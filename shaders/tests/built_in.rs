@@ -7,8 +7,16 @@ use naga::{
 };
 use shadowgraph_shaders::{ModuleSource, NONE, PCF, RAYTRACED, builtin, builtin_files, compose, layout};
 
-const ENTRIES: [&str; 6] =
-    ["depth.wgsl", "forward.wgsl", "probe.wgsl", "raytrace.wgsl", "show.wgsl", "tonemap.wgsl"];
+const ENTRIES: [&str; 8] = [
+    "blur.wgsl",
+    "collect.wgsl",
+    "depth.wgsl",
+    "forward.wgsl",
+    "probe.wgsl",
+    "raytrace.wgsl",
+    "show.wgsl",
+    "tonemap.wgsl",
+];
 
 /// The files whose module is `shadowgraph::technique`.
 fn techniques() -> Vec<ModuleSource> {
@@ -61,7 +69,18 @@ fn every_file_is_reached_by_composition() {
 #[test]
 fn entry_points_have_the_names_that_pipelines_use() {
     let names = |entry| -> Vec<_> { composed(entry).entry_points.into_iter().map(|e| e.name).collect() };
-    assert_eq!(names("depth.wgsl"), ["vs_depth", "vs_depth_clamp", "fs_mask", "fs_clamp", "fs_mask_clamp"]);
+    assert_eq!(
+        names("depth.wgsl"),
+        [
+            "vs_depth",
+            "vs_depth_clamp",
+            "fs_mask",
+            "fs_dither",
+            "fs_clamp",
+            "fs_mask_clamp",
+            "fs_dither_clamp",
+        ]
+    );
     assert_eq!(names("forward.wgsl"), ["vs_forward", "fs_forward"]);
     assert_eq!(names("tonemap.wgsl"), ["vs_tonemap", "fs_tonemap"]);
     let show = ["vs_show_depth", "vs_show_texture", "fs_show_depth", "fs_show_atlas", "fs_show_texture"];

@@ -103,7 +103,7 @@ fn an_unknown_entry_file_says_which_there_are() {
     let text = compose("foward.wgsl", &[]).unwrap_err().to_string();
     assert_eq!(
         text,
-        "there is no built-in entry file `foward.wgsl`; there are: depth.wgsl, forward.wgsl, probe.wgsl, \
+        "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, collect.wgsl, depth.wgsl, forward.wgsl, probe.wgsl, \
          raytrace.wgsl, show.wgsl, tonemap.wgsl"
     );
     // A module is no entry file.

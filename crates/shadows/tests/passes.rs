@@ -95,7 +95,7 @@ fn operations(plan: &Plan, pass: PassId) -> (LoadAction, bool, StoreAction) {
 }
 
 #[test]
-fn tiles_of_a_map_share_one_render_pass_that_begins_with_one_clear() {
+fn row_01_tiles_of_a_map_share_one_render_pass_that_begins_with_one_clear() {
     // Three cascades and three lamps leave a quarter of each map without a tile.
     let lights = [sun(), lamp(1), lamp(2), lamp(3)];
     let plan = plan(&lights, vec![cube(DVec3::ZERO)], 3);
@@ -151,6 +151,6 @@ fn a_tile_without_casters_is_cleared_and_has_no_pass() {
 }
 
 #[test]
-fn without_casters_nothing_is_drawn_for_shadows() {
+fn row_01_without_casters_nothing_is_drawn_for_shadows() {
     assert_eq!(drawn(&plan(&[sun(), lamp(1)], vec![], 4)), [["lit"]]);
 }

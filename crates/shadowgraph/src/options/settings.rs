@@ -90,4 +90,28 @@ mod tests {
         let error = SettingsFile::load(Path::new("no/such/file.ron")).unwrap_err().to_string();
         assert!(error.starts_with("--settings: no/such/file.ron: cannot be read"), "{error}");
     }
+
+    #[test]
+    fn every_settings_file_in_the_documents_is_valid() {
+        let documents =
+            [include_str!("../../../../docs/shadows.md"), include_str!("../../../../docs/guide.md")];
+        let files: Vec<&str> = documents
+            .iter()
+            .flat_map(|text| text.split("```ron\n").skip(1))
+            .filter_map(|rest| rest.split("```").next())
+            .collect();
+        assert!(files.len() >= 3, "{}", files.len());
+        for file in &files {
+            load(file).unwrap_or_else(|error| panic!("{error} in\n{file}"));
+        }
+        // The longest has all fields, at their defaults.
+        let all = files.iter().max_by_key(|file| file.len()).unwrap();
+        assert_eq!(load(all).unwrap().settings, ShadowSettings::default());
+        let written = ron::to_string(&ShadowSettings::default()).unwrap();
+        let fields =
+            written.split([',', '(', ' ']).filter_map(|part| part.split_once(':').map(|(name, _)| name));
+        for field in fields.filter(|name| !name.is_empty()) {
+            assert!(all.contains(&format!("{field}:")), "{field} is missing");
+        }
+    }
 }

@@ -81,7 +81,7 @@ fn weights_move_on_by_a_texel_without_a_jump() {
 }
 
 #[test]
-fn row_8_filter_stays_in_the_tile_up_to_the_edges_of_its_inner_part() {
+fn row_08_filter_stays_in_the_tile_up_to_the_edges_of_its_inner_part() {
     let width = 64.0;
     for filter in ShadowFilter::ALL {
         let (border, last) = (f64::from(filter.border_px()), f64::from(filter.taps()));

@@ -206,7 +206,7 @@ prop_compose! {
 
 proptest! {
     #[test]
-    fn valid_settings_survive_a_round_trip(
+    fn row_25_valid_settings_survive_a_round_trip(
         distance_m in 0.001f32..1e6, cascades in any_cascades(), lights in prop::collection::vec(any_light(), 0..3),
         normal in prop::sample::select(vec![NormalBias::Sine, NormalBias::Filter]),
         method in prop::sample::select(vec![BiasMethod::Plane, BiasMethod::Slope, BiasMethod::Gradient]),

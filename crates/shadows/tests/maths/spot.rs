@@ -49,7 +49,7 @@ proptest! {
     }
 
     #[test]
-    fn uploaded_view_puts_the_cone_in_its_inner_rect(cone in any_cone()) {
+    fn row_03_uploaded_view_puts_the_cone_in_its_inner_rect(cone in any_cone()) {
         let rect = TileRect { x: 512, y: 0, width: 512, height: 512 };
         let origin = shadowgraph_scene::origin_near(cone.position_world);
         let tile = TilePlace { rect, map_size_px: [1024, 1024], border_px: 3, depth_step: 0.0 };

@@ -184,3 +184,42 @@ fn row_17_without_shadows_maps_are_one_texel() {
     });
     assert_eq!(largest, [(true, false), (false, true)]);
 }
+
+#[test]
+fn row_11_what_is_drawn_for_one_light_stays_in_its_tile() {
+    let Some(gpu) = gpu() else { return };
+    let map = |wall: bool| {
+        let mut scene = cube_under_spot();
+        scene.add_light(spot(DVec3::new(0.0, 3.5, 30.0), DVec3::new(0.0, 0.0, 28.0), 0.4));
+        add_instance(&mut scene, 1, 0, DVec3::new(0.0, 0.0, 28.0));
+        if wall {
+            // Right before the first light, and far beyond the edges of its tile.
+            scene.meshes.push(box_mesh(DVec3::new(-9.0, -9.0, -9.0), DVec3::new(9.0, -8.9, 9.0)));
+            add_instance(&mut scene, 2, 0, DVec3::new(-3.0, 11.9, 1.0));
+        }
+        let upload = GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
+        let casters = SceneCasters::new(&gpu.device, upload).unwrap();
+        let mut options =
+            view(crate::stage::camera(DVec3::new(8.0, 9.0, 40.0), DVec3::new(0.0, 0.0, 10.0)), 90.0);
+        options.shadows.atlas.map_size_px = 512;
+        options.shadows.atlas.tiles = shadowgraph::shadows::AtlasTiles::Even;
+        let technique = Pcf::new(&gpu.device);
+        crate::maps::draw_map(
+            gpu,
+            &technique,
+            &casters,
+            &scene.lights,
+            &options.camera,
+            &options.shadows,
+            "atlas",
+        )
+    };
+    let (with, without) = (map(true), map(false));
+    assert_eq!((with.size_px, without.size_px), ([512, 256], [512, 256]), "two tiles, side by side");
+    let (mut first, mut second) = (0, 0);
+    for (x, y) in (0..256).flat_map(|y| (0..512).map(move |x| (x, y))) {
+        let changed = usize::from(with.at(x, y) != without.at(x, y));
+        if x < 256 { first += changed } else { second += changed }
+    }
+    assert!(first > 50_000 && second == 0, "{first} {second}");
+}

@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Show the plan of a frame: passes, resources, and why each is as it is
     Dump(DumpArgs),
+    /// List the pipelines and techniques, and in how many permutations their shaders come
+    Nodes,
     /// Measure a frame: the graph beside the same passes encoded by hand, and the time of each pass
     Bench(BenchArgs),
     /// Measure shadows against ray-traced truth: a table, and with -o a page with pictures

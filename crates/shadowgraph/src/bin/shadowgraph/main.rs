@@ -9,6 +9,7 @@ mod commands;
 mod console;
 mod failure;
 mod measure;
+mod nodes;
 mod progress;
 mod report;
 
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args),
         Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args),
+        Ok(Cli { command: Some(Command::Nodes) }) => nodes::nodes(),
         Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args),
         Err(usage) => return tell_usage(&usage),
     };
