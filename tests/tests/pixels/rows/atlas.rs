@@ -60,10 +60,17 @@ fn row_04_maps_come_in_all_sizes_and_depths() {
 fn row_05_a_light_has_a_strength_a_filter_and_biases_of_its_own() {
     let Some(gpu) = gpu() else { return };
     let scene = cube_under_spot();
-    let with = |own: LightShadows| greys(gpu, &scene, 0, &cube_view(|settings| settings.lights = vec![own]));
+    // Coarse enough that a texel's bias is seen.
+    let coarse = |lights| {
+        cube_view(|settings| {
+            settings.lights = lights;
+            settings.atlas.map_size_px = 256;
+        })
+    };
+    let with = |own: LightShadows| greys(gpu, &scene, 0, &coarse(vec![own]));
     let plain = LightShadows::new(0.into());
     let usual = with(plain.clone());
-    assert_eq!(usual, greys(gpu, &scene, 0, &cube_view(|_| ())), "settings that change nothing");
+    assert_eq!(usual, greys(gpu, &scene, 0, &coarse(vec![])), "settings that change nothing");
     let half = with(LightShadows { strength: 0.5, ..plain.clone() });
     assert!(count(&usual, |grey| grey == 255).abs_diff(count(&half, |grey| grey == 255)) < 50);
     assert!(count(&half, |grey| (126..=129).contains(&grey)) >= count(&usual, |grey| grey == 0));
@@ -72,11 +79,12 @@ fn row_05_a_light_has_a_strength_a_filter_and_biases_of_its_own() {
     assert!(dark_and_between(&hard).1 * 2 < dark_and_between(&usual).1);
     // A constant bias of 16 texels, towards the light, takes the foot of the shadow away.
     let moved = with(LightShadows { depth_texels: Some(16.0), ..plain.clone() });
-    assert!(different(&moved, &usual, 60) > 30);
+    let gone = different(&moved, &usual, 60);
+    assert!(gone > 10, "{gone}");
     // Without bias the lit floor shadows itself.
     let own =
         LightShadows { depth_texels: Some(0.0), slope: Some(0.0), normal_texels: Some(0.0), ..plain.clone() };
-    let mut options = cube_view(|settings| settings.lights = vec![own]);
+    let mut options = coarse(vec![own]);
     options.shadows.bias.min_slope = 0.0;
     let acne = greys(gpu, &scene, 0, &options);
     assert!(count(&acne, |grey| grey < 200) > 2 * count(&usual, |grey| grey < 200));
