@@ -4,8 +4,10 @@
 //! tiles of a frame, who is drawn into each, and the records ([`ShadowView`], [`ShadowLight`]) that shaders read.
 //! It is pure maths in f64 and can be used without the nodes.
 //!
-//! - *Cascades*: up to four tiles for the brightest directional light, each around a slice of the view.
-//! - *Atlas*: up to 16 tiles for spot lights and further directional lights.
+//! - *Cascades*: up to eight tiles for each of the brightest directional lights, each around a slice of the view.
+//! - *Atlas*: tiles for spot and point lights and further directional lights.
+//!
+//! [`QualityController`] lowers the settings while the passes take longer than they may.
 //!
 //! Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0). Directional tiles move through the
 //! world in whole texels, so shadows do not flicker when the camera moves.
@@ -13,6 +15,7 @@
 mod allot;
 mod atlas;
 mod basis;
+mod budget;
 mod cascades;
 mod casters;
 mod cull;
@@ -33,6 +36,7 @@ mod views;
 pub use allot::{AllotRules, Allotment, Granted, TileWish, allot};
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
 pub use basis::light_from_world;
+pub use budget::{BudgetRules, Quality, QualityController};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
 pub use casters::{CasterTarget, CasterView, ShadowCasters, caster_view_layout};
 pub use cull::{ReceiverHull, Served, ServedCasters, ViewInLight};

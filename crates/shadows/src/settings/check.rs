@@ -2,7 +2,7 @@
 
 use crate::Error;
 
-pub(super) fn setting(field: &'static str, value: impl ToString, allowed: &'static str) -> Error {
+pub(crate) fn setting(field: &'static str, value: impl ToString, allowed: &'static str) -> Error {
     Error::Setting { field, value: value.to_string(), allowed }
 }
 

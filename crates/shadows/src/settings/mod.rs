@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use check::in_range;
+pub(crate) use check::setting;
 
 /// All settings of the `pcf` technique. Files may leave out what they do not change.
 ///

@@ -2,6 +2,7 @@
 
 mod atlas;
 mod bias;
+mod budget;
 mod caching;
 mod cascades;
 mod culling;

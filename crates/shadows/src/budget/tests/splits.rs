@@ -1,0 +1,129 @@
+//! Which of the user's own cascades are left.
+
+use super::lowering::{any_quality, any_settings, apply};
+use super::*;
+
+fn listed(split: &SplitScheme) -> Option<&[f32]> {
+    match split {
+        SplitScheme::Ratios(ends) | SplitScheme::Metres(ends) => Some(ends),
+        _ => None,
+    }
+}
+
+/// Settings with 150 m of shadows.
+fn with(split: SplitScheme, bias_scales: &[f32]) -> ShadowSettings {
+    let mut settings = ShadowSettings::default();
+    settings.cascades.count = listed(&split).map_or(4, |ends| ends.len() as u32 + 1);
+    settings.cascades.split = split;
+    settings.cascades.bias_scales = bias_scales.to_vec();
+    settings
+}
+
+/// The ends that are left.
+fn left(settings: &ShadowSettings, cascades: u32, distance_scale: f32) -> Vec<f32> {
+    let lowered = apply(Quality { cascades, distance_scale, ..Quality::default() }, settings).cascades;
+    let ends = listed(&lowered.split).unwrap().to_vec();
+    assert_eq!(ends.len() as u32 + 1, lowered.count);
+    ends
+}
+
+/// By how much texels grow at the worst place, compared with all the ends.
+fn worst_growth(all: &[f32], kept: &[f32], last: f32) -> f32 {
+    let covers = |end: &f32| kept.iter().find(|kept| *kept >= end).unwrap_or(&last) / end;
+    all.iter().map(covers).fold(1.0, f32::max)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1024))]
+
+    #[test]
+    fn ends_that_are_left_are_the_users(settings in any_settings(), quality in any_quality()) {
+        let lowered = apply(quality, &settings).cascades;
+        let (before, after) = (listed(&settings.cascades.split), listed(&lowered.split));
+        prop_assert_eq!(before.is_some(), after.is_some());
+        let before = before.unwrap_or(&[]);
+        prop_assert!(after.unwrap_or(&[]).iter().all(|end| before.contains(end)));
+    }
+
+    #[test]
+    fn no_cascade_begins_beyond_a_distance_that_got_shorter(settings in any_settings(), quality in any_quality()) {
+        let lowered = apply(quality, &settings);
+        if let SplitScheme::Metres(ends) = &lowered.cascades.split
+            && lowered.distance_m < settings.distance_m
+        {
+            prop_assert!(ends.iter().all(|end| *end < lowered.distance_m));
+            // Within it, they go only if there are too many.
+            let within = listed(&settings.cascades.split).unwrap().iter();
+            let within = within.filter(|end| **end < lowered.distance_m).count() as u32 + 1;
+            prop_assert_eq!(lowered.cascades.count, settings.cascades.count.min(within.min(quality.cascades)));
+        }
+    }
+
+    #[test]
+    fn leaving_out_one_end_loses_the_least_that_is_possible(settings in any_settings()) {
+        let SplitScheme::Ratios(all) = &settings.cascades.split else { return Ok(()) };
+        prop_assume!(settings.cascades.count >= 2);
+        let kept = left(&settings, settings.cascades.count - 1, 1.0);
+        for other in 0..all.len() {
+            let mut others = all.clone();
+            others.remove(other);
+            prop_assert!(worst_growth(all, &kept, 1.0) <= worst_growth(all, &others, 1.0));
+        }
+    }
+
+    #[test]
+    fn a_cascade_keeps_its_bias_when_another_goes(settings in any_settings(), quality in any_quality()) {
+        let before = &settings.cascades;
+        let after = apply(quality, &settings).cascades;
+        let (Some(all), Some(kept)) = (listed(&before.split), listed(&after.split)) else { return Ok(()) };
+        let scale = |scales: &[f32], i: usize| scales.get(i).copied().unwrap_or(1.0);
+        for (i, end) in kept.iter().enumerate() {
+            let was = all.iter().position(|other| other == end).unwrap();
+            prop_assert_eq!(scale(&after.bias_scales, i), scale(&before.bias_scales, was));
+        }
+    }
+}
+
+#[test]
+fn the_end_whose_texels_grow_least_is_left_out_first() {
+    let four = with(SplitScheme::Ratios(vec![0.067, 0.2, 0.467]), &[]);
+    assert_eq!(left(&four, 3, 1.0), [0.067, 0.2]);
+    assert_eq!(left(&four, 2, 1.0), [0.2]);
+    assert_eq!(left(&four, 1, 1.0), [0.0; 0]);
+}
+
+#[test]
+fn the_last_cascade_grows_too() {
+    // By 1.5, 1.3 and 5 times.
+    let metres = with(SplitScheme::Metres(vec![15.0, 23.0, 30.0]), &[]);
+    assert_eq!(left(&metres, 3, 1.0), [15.0, 30.0]);
+}
+
+#[test]
+fn of_equals_the_farthest_is_left_out() {
+    let mut engel = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
+    engel.distance_m = 270.0;
+    assert_eq!(left(&engel, 3, 1.0), [10.0, 30.0]);
+}
+
+#[test]
+fn a_shorter_distance_leaves_metres_where_they_are_and_ratios_follow_it() {
+    let metres = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
+    assert_eq!(left(&metres, 8, 0.7), [10.0, 30.0, 90.0]);
+    assert_eq!(left(&metres, 8, 0.5), [10.0, 30.0]);
+    assert_eq!(left(&metres, 8, 0.05), [0.0; 0]);
+    let at_the_end = with(SplitScheme::Metres(vec![10.0, 75.0]), &[]);
+    assert_eq!(left(&at_the_end, 8, 0.5), [10.0]);
+    let ratios = with(SplitScheme::Ratios(vec![0.1, 0.4]), &[]);
+    assert_eq!(left(&ratios, 8, 0.05), [0.1, 0.4]);
+}
+
+#[test]
+fn the_last_cascade_within_the_distance_keeps_its_bias() {
+    let metres = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[1.0, 2.0, 3.0, 4.0]);
+    let lowered = apply(Quality { distance_scale: 0.5, ..Quality::default() }, &metres).cascades;
+    assert_eq!(lowered.bias_scales, [1.0, 2.0, 3.0]);
+    // With fewer cascades than that, the one that is merged takes the bias of the farther one.
+    let lowered = apply(Quality { cascades: 2, distance_scale: 0.5, ..Quality::default() }, &metres).cascades;
+    assert_eq!((listed(&lowered.split), lowered.bias_scales), (Some(&[10.0][..]), vec![1.0, 3.0]));
+}

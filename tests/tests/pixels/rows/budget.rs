@@ -1,0 +1,43 @@
+//! Quality that follows a budget of time.
+
+use super::{count, greys, pillar_view, pillars, plan};
+use crate::stage::{gpu, sun, sun_direction};
+use shadowgraph::ViewOptions;
+use shadowgraph::scene::Scene;
+use shadowgraph::shadows::{BudgetRules, QualityController, TilePlan};
+
+/// What a made-up GPU takes for the maps of a view, milliseconds: 1 ns for each pixel that is cleared, 5 us for each draw.
+fn time_ms(scene: &Scene, options: &ViewOptions) -> f64 {
+    let plan = plan(scene, options);
+    let tiles = plan.cascades.iter().chain(&plan.atlas).flat_map(|map| &map.tiles);
+    let time = |tile: &TilePlan| {
+        f64::from(tile.rect.width) * f64::from(tile.rect.height) * 1e-6 + tile.casters.len() as f64 * 5e-3
+    };
+    tiles.map(time).sum()
+}
+
+#[test]
+fn row_28_a_controller_keeps_shadows_within_a_budget_of_time() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = pillars(12);
+    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    let best = pillar_view(|settings| settings.cascades.map_size_px = 4096);
+    let mut now_ms = time_ms(&scene, &best);
+    let budget_ms = now_ms / 6.0;
+    let mut controller = QualityController::new(BudgetRules { budget_ms, ..BudgetRules::default() }).unwrap();
+    let mut options = best.clone();
+    let mut times = Vec::new();
+    for _ in 0..300 {
+        times.push(now_ms);
+        if controller.update(now_ms) {
+            options.shadows = controller.apply(&best.shadows);
+            now_ms = time_ms(&scene, &options);
+        }
+    }
+    assert!(times[0] > budget_ms && times[200..].iter().all(|time| *time <= budget_ms), "{times:?}");
+    // No better level would do.
+    assert!(controller.level() > 1);
+    // What is left are shadows.
+    let dark = [&best, &options].map(|options| count(&greys(gpu, &scene, 0, options), |grey| grey < 128));
+    assert!(dark[1] * 2 > dark[0] && dark[1] < dark[0] * 2, "{dark:?}");
+}
