@@ -18,8 +18,9 @@ const MAX_THINGS: usize = 4_096;
 impl Key {
     /// Estimates the key light of things within these bounds. Shadows are not looked at.
     pub fn of(lights: &[Light], things: &[Aabb]) -> Self {
-        let strength = |light: &Light| f64::from(light.intensity) * f64::from(light.color.max_element());
-        let is_sun = |light: &&Light| matches!(light.kind, LightKind::Directional { .. });
+        let lights: Vec<&Light> = lights.iter().filter(|light| light.is_usable()).collect();
+        let strength = |light: &&Light| f64::from(light.intensity) * f64::from(light.color.max_element());
+        let is_sun = |light: &&&Light| matches!(light.kind, LightKind::Directional { .. });
         let directional_lx = lights.iter().filter(is_sun).map(strength).sum::<f64>() as f32;
         let stride = things.len().div_ceil(MAX_THINGS).max(1);
         let things = things.iter().step_by(stride).filter(|thing| !thing.is_empty());

@@ -127,8 +127,11 @@ impl GpuView {
 }
 
 impl GpuLight {
-    /// Describes a light relative to `origin_world`.
+    /// Describes a light relative to `origin_world`; one that is not usable gives no light.
     pub fn new(light: &Light, origin_world: DVec3) -> Self {
+        if !light.is_usable() {
+            return Self::zeroed();
+        }
         let relative = |position: DVec3| (position - origin_world).as_vec3();
         let range = |range: Option<f64>| range.map_or(0.0, |range| range as f32);
         let record = Self {
@@ -137,7 +140,9 @@ impl GpuLight {
             ..Self::zeroed()
         };
         match light.kind {
-            LightKind::Directional { direction } => Self { direction: direction.as_vec3(), ..record },
+            LightKind::Directional { direction } => {
+                Self { direction: direction.normalize().as_vec3(), ..record }
+            }
             LightKind::Point { position_world, range: end } => {
                 Self { position: relative(position_world), range: range(end), ..record }
             }
@@ -146,7 +151,7 @@ impl GpuLight {
                 let scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(0.001);
                 Self {
                     position: relative(position_world),
-                    direction: direction.as_vec3(),
+                    direction: direction.normalize().as_vec3(),
                     range: range(end),
                     spot_scale: scale as f32,
                     spot_offset: (-outer_angle.cos() * scale) as f32,

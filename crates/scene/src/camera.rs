@@ -5,6 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Aabb, ConvexVolume, Plane};
 
+mod check;
+
+pub use check::CameraError;
+
 /// A camera. It looks along its -Z, +Y up, +X to the right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {

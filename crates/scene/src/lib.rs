@@ -26,7 +26,7 @@ mod solids;
 pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, CameraError, Projection};
 pub use cull::{BoundingSphere, Cone, CullTree, CullVolume, visible};
 pub use error::Error;
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};

@@ -85,6 +85,27 @@ impl Light {
         let candela = f64::from(self.intensity) * f64::from(self.color.max_element());
         Some(range.unwrap_or_else(|| (candela.max(0.0) / MIN_ILLUMINANCE_LX).sqrt()))
     }
+
+    /// Returns whether all values are as documented, but for the direction, whose length may be any above 0. A light that
+    /// is not usable lights nothing.
+    #[must_use]
+    pub fn is_usable(&self) -> bool {
+        let is_positive = |value: f64| value.is_finite() && value > 0.0;
+        let reaches = |range: Option<f64>| range.is_none_or(is_positive);
+        let shines = |value: f32| value.is_finite() && value >= 0.0;
+        let placed = match self.kind {
+            LightKind::Directional { direction } => direction.try_normalize().is_some(),
+            LightKind::Spot { position_world, direction, range, inner_angle, outer_angle } => {
+                position_world.is_finite()
+                    && direction.try_normalize().is_some()
+                    && reaches(range)
+                    && inner_angle.is_finite()
+                    && is_positive(outer_angle)
+            }
+            LightKind::Point { position_world, range } => position_world.is_finite() && reaches(range),
+        };
+        placed && shines(self.intensity) && self.color.to_array().into_iter().all(shines)
+    }
 }
 
 #[cfg(test)]
@@ -113,6 +134,34 @@ mod tests {
         // The brightest channel has 4 candela, which is 0.01 lux at 20 m.
         assert_eq!(light(kind).effective_range(), Some(20.0));
         assert_eq!(Light { intensity: 0.0, ..light(kind) }.effective_range(), Some(0.0));
+    }
+
+    #[test]
+    fn a_light_is_usable_if_every_number_of_it_is() {
+        let spot = |position_world, direction, range, outer_angle| LightKind::Spot {
+            position_world,
+            direction,
+            range,
+            inner_angle: 0.1,
+            outer_angle,
+        };
+        let point = |position_world, range| LightKind::Point { position_world, range };
+        let sun = |direction| LightKind::Directional { direction };
+        let usable = |kind| light(kind).is_usable();
+        assert!(usable(sun(DVec3::new(1.0, -3.0, 2.0))));
+        assert!(usable(spot(DVec3::ONE, DVec3::NEG_Y, None, 0.5)) && usable(point(DVec3::ONE, Some(2.0))));
+        assert!(!usable(sun(DVec3::ZERO)) && !usable(sun(DVec3::NAN)));
+        assert!(!usable(spot(DVec3::NAN, DVec3::NEG_Y, None, 0.5)));
+        assert!(!usable(spot(DVec3::ONE, DVec3::ZERO, None, 0.5)));
+        assert!(!usable(spot(DVec3::ONE, DVec3::NEG_Y, None, 0.0)));
+        for range in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(!usable(point(DVec3::ONE, Some(range))), "{range}");
+        }
+        for intensity in [-1.0, f32::NAN, f32::INFINITY] {
+            assert!(!Light { intensity, ..light(sun(DVec3::NEG_Y)) }.is_usable(), "{intensity}");
+        }
+        let color = Vec3::new(1.0, -0.1, 0.0);
+        assert!(!Light { color, ..light(sun(DVec3::NEG_Y)) }.is_usable());
     }
 
     #[test]

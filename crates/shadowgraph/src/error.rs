@@ -81,6 +81,9 @@ pub enum Error {
     /// The scene does not load or fit.
     #[error(transparent)]
     Scene(#[from] shadowgraph_scene::Error),
+    /// The camera sees nothing.
+    #[error(transparent)]
+    Camera(#[from] shadowgraph_scene::CameraError),
     /// The shadows cannot be planned.
     #[error(transparent)]
     Shadows(#[from] shadowgraph_shadows::Error),

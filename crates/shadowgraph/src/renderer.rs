@@ -198,7 +198,7 @@ impl Renderer {
     /// Draws a view and reads the picture back.
     ///
     /// # Errors
-    /// Settings out of range, a picture over the adapter's limits, or a failure of the GPU.
+    /// Settings out of range, a camera that sees nothing, a picture over the adapter's limits, or a failure of the GPU.
     pub fn draw(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<Drawn, Error> {
         self.draw_timed(gpu, options, None)
     }
@@ -315,8 +315,9 @@ impl Renderer {
     /// Compiles the frame of a view without drawing it. Any device will do, [`Gpu::noop`] too.
     ///
     /// # Errors
-    /// Settings out of range.
+    /// Settings out of range, or a camera that sees nothing.
     pub fn plan(&self, options: &ViewOptions) -> Result<(Arc<Plan>, Vec<Unshadowed>), Error> {
+        options.camera.check(options.aspect())?;
         let view = self.view(options, None);
         let mut frame = self.graph().frame();
         let output = pipelines::add(&mut frame, self, &view)?;
@@ -356,7 +357,9 @@ impl Renderer {
         Ok(())
     }
 
+    /// Checks the camera, and moves GPU space to it.
     pub(crate) fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
+        options.camera.check(options.aspect())?;
         let origin_world = origin_near(options.camera.position_world());
         if origin_world == self.casters.scene.origin_world() {
             return Ok(());

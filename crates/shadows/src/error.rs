@@ -24,12 +24,9 @@ pub enum Error {
         /// How many lights there are.
         count: usize,
     },
-    /// The picture's width over its height is not a positive number.
-    #[error("the picture's aspect ratio is {0}; it must be a number above 0")]
-    Aspect(f64),
-    /// The camera's position, direction or planes are not finite numbers.
-    #[error("the camera's {0} is not a finite number")]
-    Camera(&'static str),
+    /// The camera sees nothing.
+    #[error(transparent)]
+    Camera(#[from] shadowgraph_scene::CameraError),
     /// A technique that reads the picture's surfaces was not given them.
     #[error(
         "the technique `{technique}` reads the surfaces of the picture: draw them first and pass them to its `add_to`"

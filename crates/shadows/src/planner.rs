@@ -33,18 +33,9 @@ impl<'a> Planner<'a> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
         settings.validate()?;
         let own = rules::of_lights(settings, inputs.lights)?;
-        if !(aspect.is_finite() && aspect > 0.0) {
-            return Err(Error::Aspect(aspect));
-        }
-        if !camera.world_from_view.is_finite() {
-            return Err(Error::Camera("placement"));
-        }
+        camera.check(aspect)?;
         let distance_m = f64::from(settings.distance_m);
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
-        let corners = camera.slice_corners_view(aspect, camera.near(), distance_m);
-        if !corners.iter().all(|corner| corner.is_finite()) {
-            return Err(Error::Camera("projection"));
-        }
         let near_m = camera.near();
         // Not before the near plane, however small the scene.
         let fit_m = farthest_m(&inputs.casters.receivers(), camera).max(near_m * 1.01 + 1e-3).min(distance_m);

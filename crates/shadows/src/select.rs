@@ -127,10 +127,10 @@ pub(crate) fn candidate<'s>(
     own: Option<&'s LightShadows>,
     reach: &Reach<'_>,
 ) -> Result<Candidate<'s>, UnshadowedReason> {
-    let brightness = brightness(source);
-    if !brightness.is_finite() {
+    if !source.is_usable() {
         return Err(UnshadowedReason::Unusable);
     }
+    let brightness = brightness(source);
     if brightness <= 0.0 {
         return Err(UnshadowedReason::NoLight);
     }
@@ -150,24 +150,19 @@ pub(crate) fn candidate<'s>(
 
 fn shape(source: &Light) -> Result<Shape, UnshadowedReason> {
     let range_m = source.effective_range().unwrap_or(f64::INFINITY);
-    let reaches = range_m.is_finite() && range_m > 0.0;
-    match source.kind {
-        LightKind::Directional { direction } => {
-            let light_from_world = light_from_world(direction).ok_or(UnshadowedReason::Unusable)?;
-            Ok(Shape::Directional { light_from_world })
-        }
+    let rotation = |direction| light_from_world(direction).ok_or(UnshadowedReason::Unusable);
+    Ok(match source.kind {
+        LightKind::Directional { direction } => Shape::Directional { light_from_world: rotation(direction)? },
         LightKind::Spot { position_world, direction, outer_angle: half_angle, .. } => {
-            let light_from_world = light_from_world(direction).ok_or(UnshadowedReason::Unusable)?;
-            let usable = position_world.is_finite() && reaches && half_angle.is_finite() && half_angle > 0.0;
+            let light_from_world = rotation(direction)?;
             let direction = direction.normalize();
-            let cone = SpotCone { position_world, direction, half_angle, range_m };
-            usable.then_some(Shape::Spot { cone, light_from_world }).ok_or(UnshadowedReason::Unusable)
+            Shape::Spot {
+                cone: SpotCone { position_world, direction, half_angle, range_m },
+                light_from_world,
+            }
         }
-        LightKind::Point { position_world, .. } => {
-            let usable = position_world.is_finite() && reaches;
-            usable.then_some(Shape::Point { position_world, range_m }).ok_or(UnshadowedReason::Unusable)
-        }
-    }
+        LightKind::Point { position_world, .. } => Shape::Point { position_world, range_m },
+    })
 }
 
 /// How much of the view its light can fill, then how bright it is from the camera.

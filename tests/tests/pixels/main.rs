@@ -4,10 +4,12 @@
 mod analytic;
 mod aovs;
 mod casters;
+mod hostile;
 mod maps;
 mod measure;
 mod raytraced;
 mod rows;
 mod scenes;
+mod sheet;
 mod snapping;
 mod stage;

@@ -134,3 +134,35 @@ proptest! {
         prop_assert!(!volume.contains_point(point) || volume.intersects(&bounds));
     }
 }
+
+#[test]
+fn cameras_that_see_nothing_say_why() {
+    let angle = |fov_y, near, far| Projection::Perspective { fov_y, near, far };
+    let boxed =
+        |half_width, half_height, near, far| Projection::Orthographic { half_width, half_height, near, far };
+    for (projection, aspect, text) in [
+        (angle(0.0, 0.1, None), 1.0, "vertical angle is 0 radians"),
+        (angle(3.2, 0.1, None), 1.0, "vertical angle is 3.2 radians"),
+        (angle(f64::NAN, 0.1, None), 1.0, "vertical angle is NaN radians"),
+        (angle(1.0, 0.0, None), 1.0, "near plane is at 0 m"),
+        (angle(1.0, f64::INFINITY, None), 1.0, "near plane is at inf m"),
+        (angle(1.0, 2.0, Some(2.0)), 1.0, "far plane is at 2 m; it must be beyond its near plane, at 2 m"),
+        (angle(1.0, 2.0, Some(f64::NAN)), 1.0, "far plane is at NaN m"),
+        (boxed(0.0, 1.0, 0.0, 1.0), 1.0, "half a width of 0 m and half a height of 1 m"),
+        (boxed(1.0, 1.0, f64::NAN, 1.0), 1.0, "near plane is at NaN m"),
+        (boxed(1.0, 1.0, 1.0, -1.0), 1.0, "far plane is at -1 m"),
+        (angle(1.0, 0.1, None), f64::NAN, "width over its height is NaN"),
+        (angle(1.0, 0.1, None), 0.0, "width over its height is 0"),
+    ] {
+        let camera = Camera { projection, ..perspective(None) };
+        let error = camera.check(aspect).unwrap_err().to_string();
+        assert!(error.contains(text), "{error}");
+    }
+    let mut lost = perspective(None);
+    lost.world_from_view.translation.y = f64::INFINITY;
+    assert_eq!(lost.check(1.0), Err(CameraError::Placement));
+    assert_eq!(perspective(None).check(1.0), Ok(()));
+    // A box may begin behind the camera.
+    let behind = Camera { projection: boxed(1.0, 1.0, -5.0, 5.0), ..perspective(None) };
+    assert_eq!(behind.check(1.0), Ok(()));
+}

@@ -7,6 +7,7 @@ mod cascades;
 mod common;
 mod filter;
 mod layout;
+mod numbers;
 mod plan;
 mod settings;
 mod snapping;

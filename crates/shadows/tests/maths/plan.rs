@@ -1,7 +1,7 @@
 //! Which lights get which maps, tiles and casters.
 
 use glam::DVec3;
-use shadowgraph_scene::{Camera, Light, LightKind, Projection, origin_near};
+use shadowgraph_scene::{Camera, CameraError, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
     AtlasTiles, Error, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs, ShadowLight,
     ShadowPlan, ShadowSettings, ShadowView, TilePart, Unshadowed, UnshadowedReason, plan_shadows,
@@ -229,20 +229,22 @@ fn views_that_are_none_are_errors() {
         settings: &settings,
     };
     for aspect in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(plan_shadows(&ShadowInputs { aspect, ..inputs }), Err(Error::Aspect(_))));
+        let refused = plan_shadows(&ShadowInputs { aspect, ..inputs });
+        assert!(matches!(refused, Err(Error::Camera(CameraError::Aspect(_)))), "{refused:?}");
     }
     let mut lost = look();
     lost.world_from_view.translation.x = f64::NAN;
     assert_eq!(
-        plan_shadows(&ShadowInputs { view: 0, camera: &lost, ..inputs }),
-        Err(Error::Camera("placement"))
+        plan_shadows(&ShadowInputs { camera: &lost, ..inputs }),
+        Err(Error::Camera(CameraError::Placement))
     );
-    let projection = Projection::Perspective { fov_y: f64::NAN, near: 0.1, far: None };
-    let blind = Camera { projection, ..look() };
-    assert_eq!(
-        plan_shadows(&ShadowInputs { view: 0, camera: &blind, ..inputs }),
-        Err(Error::Camera("projection"))
-    );
+    for (near, far) in [(5.0, 5.0), (5.0, 1.0), (5.0, f64::NAN), (0.0, 1.0), (-1.0, 1.0), (f64::NAN, 1.0)] {
+        let flat = Projection::Perspective { fov_y: 1.0, near, far: Some(far) };
+        let refused =
+            plan_shadows(&ShadowInputs { camera: &Camera { projection: flat, ..look() }, ..inputs });
+        let allowed = matches!(refused, Err(Error::Camera(CameraError::Near(_) | CameraError::Far { .. })));
+        assert!(allowed, "{near} {far} {refused:?}");
+    }
     let wrong = ShadowSettings { distance_m: 0.0, ..ShadowSettings::default() };
     let error = plan_shadows(&ShadowInputs { settings: &wrong, ..inputs }).unwrap_err();
     assert!(error.to_string().contains("distance_m"));

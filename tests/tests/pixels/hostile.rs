@@ -1,0 +1,186 @@
+//! Inputs that nobody means: a clear error, or a picture as it should be.
+
+use crate::stage::{camera, cube_on_floor, draw, gpu, light, sun, sun_direction, view};
+use glam::DVec3;
+use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::scene::{Camera, Light, LightKind, Projection, Scene};
+use shadowgraph::shadows::{AtlasTiles, ShadowSettings, UnshadowedReason};
+use shadowgraph::{Drawn, Gpu, Method, Renderer, ViewOptions};
+
+fn eye() -> Camera {
+    camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0))
+}
+
+fn options() -> ViewOptions {
+    view(eye(), 20.0)
+}
+
+fn lit_by(lights: Vec<Light>) -> Scene {
+    Scene { lights, ..cube_on_floor(DVec3::ZERO) }
+}
+
+fn lamp(position_world: DVec3, direction: DVec3) -> Light {
+    let (range, inner_angle, outer_angle) = (Some(20.0), 0.3, 0.5);
+    light(LightKind::Spot { position_world, direction, range, inner_angle, outer_angle }, 2000.0)
+}
+
+/// Every technique and pipeline.
+struct Ways(Vec<Renderer>);
+
+impl Ways {
+    fn new(gpu: &Gpu) -> Self {
+        let ways: [Method; 5] = [
+            Technique::Pcf.into(),
+            Pipeline::ScreenShadows.into(),
+            Pipeline::Minimal.into(),
+            Technique::Raytraced.into(),
+            Technique::None.into(),
+        ];
+        let renderer = |way| Renderer::with(gpu, lit_by(Vec::new()), &eye(), Aov::Color, way).unwrap();
+        Self(ways.map(renderer).into())
+    }
+
+    fn draw(&mut self, gpu: &Gpu, lights: &[Light], options: &ViewOptions) -> Vec<Drawn> {
+        let draw = |renderer: &mut Renderer| {
+            renderer.set_lights(lights.to_vec()).unwrap();
+            renderer.draw(gpu, options).unwrap()
+        };
+        self.0.iter_mut().map(draw).collect()
+    }
+}
+
+/// How many pixels differ by more than a quarter of the way to white.
+fn different(a: &Drawn, b: &Drawn) -> usize {
+    let pixels = a.picture.rgba8.chunks_exact(4).zip(b.picture.rgba8.chunks_exact(4));
+    pixels.filter(|(a, b)| (0..3).any(|i| a[i].abs_diff(b[i]) > 64)).count()
+}
+
+/// All but the last are like ray tracing, that is like the one before the last.
+fn agree(drawn: &[Drawn]) {
+    let [others @ .., truth, _] = drawn else { panic!("five ways") };
+    for other in others {
+        let wrong = different(other, truth);
+        assert!(wrong < 600, "{wrong} of 57,600 pixels");
+    }
+}
+
+#[test]
+fn no_lights_are_a_picture_without_shadow_maps() {
+    let Some(gpu) = gpu() else { return };
+    let drawn = Ways::new(gpu).draw(gpu, &[], &options());
+    assert!(drawn.iter().all(|drawn| drawn.unshadowed.is_empty()));
+    assert!(drawn.iter().all(|other| other.picture == drawn[0].picture));
+    assert!(drawn[0].picture.rgba8.chunks_exact(4).any(|rgba| rgba[0] > 20), "all around there is light");
+}
+
+#[test]
+fn lights_at_the_camera_have_their_shadows_behind_what_is_seen() {
+    let Some(gpu) = gpu() else { return };
+    let at = eye().position_world();
+    let point = light(LightKind::Point { position_world: at, range: Some(30.0) }, 2000.0);
+    let mut ways = Ways::new(gpu);
+    for light in [lamp(at, eye().forward_world()), point] {
+        let drawn = ways.draw(gpu, &[light], &options());
+        agree(&drawn);
+        // No shadow can be seen from where its light is.
+        assert!(different(&drawn[0], &drawn[4]) < 600);
+        assert!(drawn[0].unshadowed.is_empty());
+    }
+}
+
+#[test]
+fn seventeen_spots_share_the_atlas_or_the_last_of_even_tiles_is_reported() {
+    let Some(gpu) = gpu() else { return };
+    let around = |i: u32| {
+        let angle = f64::from(i) * std::f64::consts::TAU / 17.0;
+        let position = DVec3::new(angle.cos() * 4.0, 4.0, angle.sin() * 4.0);
+        Light { intensity: 300.0, ..lamp(position, -position.normalize()) }
+    };
+    let lights: Vec<Light> = (0..17).map(around).collect();
+    let mut options = options();
+    let by_importance = Ways::new(gpu).draw(gpu, &lights, &options);
+    agree(&by_importance);
+    assert!(by_importance[0].unshadowed.is_empty());
+    options.shadows.atlas.tiles = AtlasTiles::Even;
+    let even = draw(gpu, lit_by(lights), Aov::Color, &options);
+    let reasons: Vec<_> = even.unshadowed.iter().map(|light| light.reason).collect();
+    assert_eq!(reasons, [UnshadowedReason::AtlasFull]);
+    assert!(different(&even, &by_importance[3]) < 2000);
+}
+
+#[test]
+fn lights_that_are_no_lights_add_nothing() {
+    let Some(gpu) = gpu() else { return };
+    let good = sun(sun_direction(40.0, 60.0));
+    let mut ways = Ways::new(gpu);
+    let alone = ways.draw(gpu, std::slice::from_ref(&good), &options());
+    let point = |range| LightKind::Point { position_world: DVec3::Y * 3.0, range };
+    let broken = [
+        sun(DVec3::ZERO),
+        sun(DVec3::NAN),
+        lamp(DVec3::Y * 3.0, DVec3::ZERO),
+        lamp(DVec3::NAN, DVec3::NEG_Y),
+        light(point(Some(f64::NAN)), 500.0),
+        light(point(Some(0.0)), 500.0),
+        light(point(Some(-1.0)), 500.0),
+        light(point(Some(9.0)), f32::NAN),
+    ];
+    for (index, broken) in broken.into_iter().enumerate() {
+        let together = ways.draw(gpu, &[broken, good.clone()], &options());
+        for (alone, together) in alone.iter().zip(&together) {
+            assert!(
+                alone.picture == together.picture,
+                "light {index}: {} pixels differ",
+                different(alone, together)
+            );
+        }
+        assert_eq!(together[0].unshadowed.len(), 1, "light {index}");
+    }
+}
+
+#[test]
+fn cameras_and_pictures_that_show_nothing_are_refused_by_name() {
+    let Some(gpu) = gpu() else { return };
+    let perspective = |near, far| Projection::Perspective { fov_y: 0.9, near, far: Some(far) };
+    for technique in [Technique::Pcf, Technique::Raytraced, Technique::None] {
+        let scene = lit_by(vec![sun(DVec3::NEG_Y)]);
+        let mut renderer = Renderer::with(gpu, scene, &eye(), Aov::Color, technique).unwrap();
+        let good = renderer.draw(gpu, &options()).unwrap().picture;
+        let mut refused = |options: &ViewOptions, part: &str| {
+            let error = renderer.draw(gpu, options).unwrap_err().to_string();
+            assert!(error.contains(part) && error.lines().count() == 1, "{error}");
+        };
+        for (near, far) in [(5.0, 5.0), (5.0, 1.0), (1.0, f64::NAN)] {
+            let camera = Camera { projection: perspective(near, far), ..eye() };
+            refused(&ViewOptions { camera, ..options() }, "beyond its near plane");
+        }
+        let mut lost = options();
+        lost.camera.world_from_view.translation = DVec3::NAN;
+        refused(&lost, "placement");
+        refused(&ViewOptions { size_px: [0, 0], ..options() }, "width over its height");
+        refused(&ViewOptions { size_px: [64, 0], ..options() }, "width over its height");
+        refused(&ViewOptions { size_px: [1 << 20, 64], ..options() }, "max_texture_dimension_2d");
+        // It draws on as before.
+        assert!(renderer.draw(gpu, &options()).unwrap().picture == good);
+    }
+}
+
+#[test]
+fn settings_out_of_range_are_refused_by_name_and_the_next_frame_is_drawn() {
+    let Some(gpu) = gpu() else { return };
+    let scene = lit_by(vec![sun(DVec3::NEG_Y)]);
+    let mut renderer = Renderer::new(gpu, scene, &eye(), Aov::Color).unwrap();
+    let good = renderer.draw(gpu, &options()).unwrap().picture;
+    let mut wrong = [(); 4].map(|()| ShadowSettings::default());
+    wrong[0].cascades.map_size_px = 0;
+    wrong[1].atlas.map_size_px = 0;
+    wrong[2].distance_m = f32::NAN;
+    wrong[3].bias.slope = f32::INFINITY;
+    let fields = ["cascades.map_size_px", "atlas.map_size_px", "distance_m", "bias.slope"];
+    for (field, shadows) in fields.into_iter().zip(wrong) {
+        let options = ViewOptions { shadows, ..options() };
+        let error = renderer.draw(gpu, &options).unwrap_err().to_string();
+        assert!(error.contains(field) && error.contains("allowed"), "{error}");
+        assert!(renderer.draw(gpu, &self::options()).unwrap().picture == good);
+    }
+}

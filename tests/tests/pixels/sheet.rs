@@ -1,0 +1,161 @@
+//! Every way to make shadows with every mix of lights and every kind of caster: a sheet of small pictures.
+
+use crate::stage::{camera, gpu, light, sun, view};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
+use image::{Rgba, RgbaImage};
+use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::scene::{
+    AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
+};
+use shadowgraph::{Gpu, Method, Picture, Renderer, ViewOptions};
+
+const CELL_PX: [u32; 2] = [320, 160];
+const GAP_PX: u32 = 4;
+const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
+
+/// The first is what the others are compared with.
+fn ways() -> [(&'static str, Method); 6] {
+    [
+        ("raytraced", Technique::Raytraced.into()),
+        ("pcf, forward", Technique::Pcf.into()),
+        ("pcf, minimal", Pipeline::Minimal.into()),
+        ("pcf, screen_shadows", Pipeline::ScreenShadows.into()),
+        ("pcf, 4 samples", Method { samples: 4, ..Method::default() }),
+        ("none", Technique::None.into()),
+    ]
+}
+
+#[test]
+fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
+    let Some(gpu) = gpu() else { return };
+    let mut sheet = Sheet::new();
+    let mut truth = Vec::new();
+    let mut wrong = Vec::new();
+    for (column, (way, method)) in ways().into_iter().enumerate() {
+        let pictures = pictures(gpu, method);
+        if column == 0 {
+            truth.clone_from(&pictures);
+        }
+        for (row, (picture, truth)) in pictures.iter().zip(&truth).enumerate() {
+            sheet.paste(picture, column, row);
+            let (darker, lighter) = differing(picture, truth);
+            // Without shadows there is too much light.
+            let wrong_part = if method.technique == Technique::None { darker } else { darker + lighter };
+            let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[row]);
+            println!("{line}");
+            if wrong_part > 0.03 {
+                wrong.push(line);
+            }
+        }
+    }
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("contact_sheet.png");
+    sheet.0.save(&file).unwrap();
+    println!("wrote {}", file.display());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// One for each mix of lights.
+fn pictures(gpu: &Gpu, method: Method) -> Vec<Picture> {
+    let mut scene = demo_scene();
+    add_panels(&mut scene);
+    let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
+    let options = ViewOptions { size_px: CELL_PX, ..view(camera, 80.0) };
+    let own = scene.lights.clone();
+    let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method).unwrap();
+    let mut picture = |mix: &&str| {
+        renderer.set_lights(lights(mix, &own)).unwrap();
+        renderer.draw(gpu, &options).unwrap().picture
+    };
+    MIXES.iter().map(&mut picture).collect()
+}
+
+/// `own` are the demo scene's, the sun first.
+fn lights(mix: &str, own: &[Light]) -> Vec<Light> {
+    let [warm, cool] = [Vec3::new(1.0, 0.8, 0.6), Vec3::new(0.6, 0.8, 1.0)];
+    let sun_of = |x: f64, z: f64, color| Light { color, ..sun(DVec3::new(x, -0.8, z).normalize()) };
+    let point = |x, z, color| {
+        let kind = LightKind::Point { position_world: DVec3::new(x, 3.0, z), range: Some(20.0) };
+        Light { color, ..light(kind, 500.0) }
+    };
+    let spot = |x, z, color| {
+        let position_world = DVec3::new(x, 4.0, z);
+        let direction = (DVec3::new(-5.7, 0.0, 10.0) - position_world).normalize();
+        let (range, inner_angle, outer_angle) = (Some(20.0), 0.5, 0.6);
+        let kind = LightKind::Spot { position_world, direction, range, inner_angle, outer_angle };
+        Light { color, ..light(kind, 9_000.0) }
+    };
+    match mix {
+        "sun" => own[..1].to_vec(),
+        "spots" => vec![spot(-9.0, 5.5, warm), spot(-1.5, 6.0, cool)],
+        "points" => vec![point(-8.6, 6.8, warm), point(-2.0, 7.4, cool)],
+        "several suns" => vec![sun_of(0.8, 0.3, warm), sun_of(-0.6, 0.6, cool), sun_of(0.1, 0.9, Vec3::ONE)],
+        _ => Vec::new(),
+    }
+}
+
+/// Panels 1.6 m wide and high, each of four stripes with alpha 1, 0.6, 0.4 and 0: opaque, clipped, dithered and blended.
+fn add_panels(scene: &mut Scene) {
+    let corners = [[-0.8, 0.0], [0.8, 0.0], [0.8, 1.6], [-0.8, 1.6]];
+    let vertex = |[x, y]: [f32; 2]| Vertex {
+        position: [x, y, 0.0],
+        normal: [0.0, 0.0, 1.0],
+        tangent: [1.0, 0.0, 0.0, 1.0],
+        uv0: [x / 1.6 + 0.5, y / 1.6],
+        uv1: [0.0; 2],
+        color: [255; 4],
+    };
+    let alpha = |x: u32| [255, 153, 102, 0][x as usize / 16];
+    let rgba8 = (0..64 * 64).flat_map(|i| [220, 60, 40, alpha(i % 64)]).collect();
+    let (mesh, image) = (scene.meshes.len(), scene.images.len());
+    scene.images.push(Image { name: "stripes".into(), width: 64, height: 64, rgba8 });
+    scene.meshes.push(Mesh::new("panel", corners.map(vertex).to_vec(), vec![0, 1, 2, 0, 2, 3]));
+    let kinds = [
+        (AlphaMode::Opaque, None),
+        (AlphaMode::Mask { cutoff: 0.5 }, None),
+        (AlphaMode::Mask { cutoff: 0.5 }, Some(CasterMode::Dither)),
+        (AlphaMode::Blend, None),
+    ];
+    for (x, (alpha, casts)) in [-9.0, -6.8, -4.6, -2.4].into_iter().zip(kinds) {
+        let material = scene.materials.len();
+        scene.materials.push(Material {
+            name: "panel".into(),
+            base_color: Vec4::ONE,
+            metallic: 0.0,
+            alpha,
+            casts,
+            double_sided: true,
+            base_color_texture: Some(TextureRef::new(image)),
+            ..Material::default()
+        });
+        let world_from_local =
+            DAffine3::from_translation(DVec3::new(x, 0.0, 9.5)) * DAffine3::from_rotation_y(0.3);
+        scene.instances.push(Instance { name: "panel".into(), mesh, material, world_from_local });
+    }
+}
+
+/// The parts of the pixels that are darker and lighter than the truth by more than a sixth of the way to white.
+fn differing(picture: &Picture, truth: &Picture) -> (f64, f64) {
+    let luma = |rgba: &[u8]| rgba[..3].iter().map(|&byte| i32::from(byte)).sum::<i32>() / 3;
+    let pairs = picture.rgba8.chunks_exact(4).zip(truth.rgba8.chunks_exact(4));
+    let by: Vec<i32> = pairs.map(|(a, b)| luma(a) - luma(b)).collect();
+    let part = |is: &dyn Fn(i32) -> bool| by.iter().filter(|by| is(**by)).count() as f64 / by.len() as f64;
+    (part(&|by| by < -42), part(&|by| by > 42))
+}
+
+struct Sheet(RgbaImage);
+
+impl Sheet {
+    fn new() -> Self {
+        let count = [ways().len() as u32, MIXES.len() as u32];
+        let [width, height] = [0, 1].map(|axis| count[axis] * (CELL_PX[axis] + GAP_PX));
+        Self(RgbaImage::from_pixel(width, height, Rgba([255; 4])))
+    }
+
+    fn paste(&mut self, picture: &Picture, column: usize, row: usize) {
+        let [left, top] = [column as u32 * (CELL_PX[0] + GAP_PX), row as u32 * (CELL_PX[1] + GAP_PX)];
+        for (x, y) in (0..CELL_PX[1]).flat_map(|y| (0..CELL_PX[0]).map(move |x| (x, y))) {
+            self.0.put_pixel(left + x, top + y, Rgba(picture.pixel(x, y).unwrap()));
+        }
+    }
+}
