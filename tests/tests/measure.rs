@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use shadowgraph::options::AdapterChoice;
-use shadowgraph::{Gpu, measure::report::Report};
+use shadowgraph::{Gpu, measure::report::CaseReport, measure::report::Report};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -73,6 +73,32 @@ fn a_folder_gets_a_page_with_pictures_and_a_report_that_reads_back() {
 }
 
 #[test]
+fn variants_of_settings_are_measured_beside_the_own_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let (cases, variants) = (small_case(folder.path()), folder.path().join("variants.ron"));
+    let text_of_variants = r#"(variants: [
+        (name: "same", settings: ()),
+        (name: "coarse", settings: (cascades: (count: 1, map_size_px: 256))),
+    ])"#;
+    std::fs::write(&variants, text_of_variants).unwrap();
+    let (variants, out) = (variants.to_str().unwrap(), folder.path().join("out"));
+    let arguments = ["--size", "160x90", "--cases", &cases, "--variants", variants, "-o"];
+    let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let json = std::fs::read_to_string(out.join("report.json")).unwrap();
+    let report: Report = serde_json::from_str(&json).unwrap();
+    let names: Vec<_> = report.cases.iter().map(|case| case.technique.as_str()).collect();
+    assert_eq!(names, ["pcf", "pcf: same", "pcf: coarse"]);
+    assert_eq!(report.variants.len(), 2);
+    let [own, same, coarse] = [0, 1, 2].map(|i| &report.cases[i]);
+    assert_eq!((&own.errors, &own.seam, &own.edges), (&same.errors, &same.seam, &same.edges));
+    let bytes = |case: &CaseReport| case.cost.as_ref().unwrap().texture_bytes;
+    assert!(bytes(coarse) * 100 < bytes(own));
+    assert!(coarse.errors.mean_error.total_percent > 2.0 * own.errors.mean_error.total_percent);
+    assert!(coarse.seam.is_none() && own.seam.is_some());
+}
+
+#[test]
 fn what_is_worse_than_its_bound_is_named_and_ends_with_1() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, bounds) = (small_case(folder.path()), folder.path().join("bounds.ron"));
@@ -98,11 +124,21 @@ fn wrong_input_is_told_in_one_line_before_anything_is_drawn() {
     };
     let bounds = file("bounds.ron", r#"(bounds: [(technique: "pcf", metric: "blur")])"#);
     let other = file("other.ron", r#"(bounds: [(technique: "evsm", metric: "seam", mean: 1)])"#);
+    let two = file("two.ron", r#"(bounds: [(technique: "pcf: two", metric: "seam", mean: 1)])"#);
+    let variants = r#"(variants: [(name: "a", settings: ()), (name: "b", settings: ())])"#;
+    let twice = file("twice.ron", &variants.replace("\"b\"", "\"a\""));
+    let variants = file("variants.ron", variants);
     let cases = file("cases.ron", r#"(cases: [(scene: Trial("castle"))])"#);
     for (arguments, code, expected) in [
         (vec!["--techniques", "pcf,soft"], 1, "--techniques: there is no technique `soft`"),
         (vec!["--check", &bounds], 1, "there is no metric `blur`"),
         (vec!["--check", &other], 1, "`evsm` is not among --techniques: pcf"),
+        (
+            vec!["--check", &two, "--variants", &variants],
+            1,
+            "`pcf: two` is not among --techniques: pcf; --variants: a, b",
+        ),
+        (vec!["--variants", &twice], 1, "there are two variants `a`"),
         (vec!["--cases", &cases], 1, "there is no trial `castle`"),
         (vec!["--cases", &cases, "--sun", "none"], 2, "--sun"),
         (vec!["--cases", "no/such.ron"], 1, "no/such.ron: cannot be read"),

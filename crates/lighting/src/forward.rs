@@ -38,8 +38,8 @@ pub enum Shows {
     /// The visibility of this light as grey, with alpha 0 where nothing is drawn or the surface faces away. What is
     /// blended is left out, here and in the following.
     Visibility(u32),
-    /// The technique's debug colours for this light.
-    Cascades(u32),
+    /// The technique's debug colours for the light that it names ([`ShadowOutputs::debug_light`]).
+    Debug,
     /// The shading normal, each axis from -1..1 to 0..1.
     Normal,
     /// Positions relative to the frame's origin, metres, and in `w` the geometric normal: 1 + 4096 x + y of the unfolded
@@ -55,15 +55,26 @@ pub struct Forward {
     recipe: Arc<Recipe>,
     /// The technique's modules in each of its variants.
     modules: Vec<Vec<ModuleSource>>,
-    /// Those variants that frames have asked for, with and without a prepass.
-    lit: Mutex<BTreeMap<(u32, bool), Arc<LitPipelines>>>,
+    /// Those that frames have asked for.
+    lit: Mutex<BTreeMap<LitKey, Arc<LitPipelines>>>,
+}
+
+/// What the pipelines of one lit pass differ in from those of another.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct LitKey {
+    /// Of the technique's modules.
+    variant: u32,
+    /// Whose debug colours are shown; 0 where none are.
+    debug_light: u32,
+    /// There is no prepass.
+    writes_depth: bool,
 }
 
 /// The pipelines that light with one variant of a technique: each is made when it is first asked for.
 pub struct LitPipelines {
     recipe: Arc<Recipe>,
     shader: wgpu::ShaderModule,
-    writes_depth: bool,
+    key: LitKey,
     /// By [`MaterialKey::index`].
     made: Vec<OnceLock<wgpu::RenderPipeline>>,
 }
@@ -71,7 +82,7 @@ pub struct LitPipelines {
 impl LitPipelines {
     /// Returns what draws of a key are drawn with.
     pub fn get(&self, key: MaterialKey) -> DrawWith<'_> {
-        let make = || self.recipe.pipeline(&self.shader, self.writes_depth, key);
+        let make = || self.recipe.pipeline(&self.shader, self.key, key);
         DrawWith { pipeline: self.made[key.index()].get_or_init(make), reads_material: true }
     }
 }
@@ -145,19 +156,23 @@ impl Forward {
     /// # Errors
     /// If the variant's WGSL does not compose.
     pub fn pipelines(&self, variant: u32, writes_depth: bool) -> Result<Arc<LitPipelines>, Error> {
+        self.pipelines_of(LitKey { variant, debug_light: 0, writes_depth })
+    }
+
+    fn pipelines_of(&self, key: LitKey) -> Result<Arc<LitPipelines>, Error> {
         let mut known = self.lit.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipelines) = known.get(&(variant, writes_depth)) {
+        if let Some(pipelines) = known.get(&key) {
             return Ok(pipelines.clone());
         }
-        let module = shadowgraph_shaders::compose("forward.wgsl", self.modules_of(variant))?;
+        let module = shadowgraph_shaders::compose("forward.wgsl", self.modules_of(key.variant))?;
         let shader = self.recipe.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("forward.wgsl"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
         let recipe = self.recipe.clone();
         let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
-        let pipelines = Arc::new(LitPipelines { recipe, shader, writes_depth, made });
-        known.insert((variant, writes_depth), pipelines.clone());
+        let pipelines = Arc::new(LitPipelines { recipe, shader, key, made });
+        known.insert(key, pipelines.clone());
         Ok(pipelines)
     }
 
@@ -242,8 +257,12 @@ impl Forward {
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         // Debug colours are not in every variant.
-        let variant = if let Shows::Cascades(_) = self.recipe.target.shows { 0 } else { shadows.variant };
-        let pipelines = self.pipelines(variant, matches!(depth, Depth::Own(_)))?;
+        let (variant, debug_light) = match self.recipe.target.shows {
+            Shows::Debug => (0, shadows.debug_light),
+            _ => (shadows.variant, 0),
+        };
+        let writes_depth = matches!(depth, Depth::Own(_));
+        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth })?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.recipe.target.shows {
             Shows::Surface => ("surfaces", "surfaces"),
@@ -294,16 +313,11 @@ enum Depth<'d> {
 }
 
 impl Recipe {
-    fn pipeline(
-        &self,
-        shader: &wgpu::ShaderModule,
-        writes_depth: bool,
-        key: MaterialKey,
-    ) -> wgpu::RenderPipeline {
+    fn pipeline(&self, shader: &wgpu::ShaderModule, lit: LitKey, key: MaterialKey) -> wgpu::RenderPipeline {
         let (aov, light) = match self.target.shows {
             Shows::Light => (0, 0),
             Shows::Visibility(light) => (1, light),
-            Shows::Cascades(light) => (2, light),
+            Shows::Debug => (2, lit.debug_light),
             Shows::Normal => (3, 0),
             Shows::Surface => (4, 0),
         };
@@ -323,7 +337,7 @@ impl Recipe {
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 // What is blended covers nothing.
-                depth_write_enabled: Some(writes_depth && key.alpha != AlphaKey::Blend),
+                depth_write_enabled: Some(lit.writes_depth && key.alpha != AlphaKey::Blend),
                 depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
                 stencil: Default::default(),
                 bias: Default::default(),

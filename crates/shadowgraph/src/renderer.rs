@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Timer};
 use shadowgraph_lighting::{Ambience, Forward, Key, LitTarget, Shows, Tonemap};
 use shadowgraph_scene::gpu::GpuScene;
-use shadowgraph_scene::{Camera, Light, LightKind, Scene, origin_near, visible};
+use shadowgraph_scene::{Camera, Light, Scene, origin_near, visible};
 use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Unshadowed};
 
 use crate::options::{Aov, Pipeline, ShadowDistance, Technique};
@@ -416,23 +416,10 @@ fn shows(aov: &Aov, lights: &[Light]) -> Result<(Shows, Format), Error> {
             return Err(Error::NoLight { light: *light, there_are });
         }
         Aov::Visibility(light) => (Shows::Visibility(*light), Format::Rgba8Unorm),
-        Aov::Cascade => (Shows::Cascades(main_light(lights)), Format::Rgba8Unorm),
+        Aov::Cascade => (Shows::Debug, Format::Rgba8Unorm),
         Aov::Normal => (Shows::Normal, Format::Rgba8Unorm),
         Aov::Color | Aov::Depth | Aov::Atlas | Aov::Texture(_) => (Shows::Light, Format::Rgba16Float),
     })
-}
-
-/// Of linear red, green and blue.
-const LUMINANCE: glam::Vec3 = glam::Vec3::new(0.2126, 0.7152, 0.0722);
-
-/// The brightest directional light that casts shadows, else the first light.
-fn main_light(lights: &[Light]) -> u32 {
-    let brightness = |light: &Light| light.color.dot(LUMINANCE) * light.intensity;
-    let is_sun = |light: &Light| light.casts_shadow && matches!(light.kind, LightKind::Directional { .. });
-    let suns = lights.iter().enumerate().filter(|(_, light)| is_sun(light));
-    // Of equals the first, as the shadow plan has it.
-    let brightest = suns.min_by(|a, b| brightness(b.1).total_cmp(&brightness(a.1)));
-    brightest.map_or(0, |(index, _)| index as u32)
 }
 
 #[cfg(test)]

@@ -28,8 +28,7 @@ impl SurfaceDrawer {
         depth: &Texture,
         geometry: Geometry<'f>,
     ) -> Result<Texture, Error> {
-        let none =
-            ShadowOutputs { variant: 0, bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() };
+        let none = ShadowOutputs::default();
         Ok(self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])?)
     }
 

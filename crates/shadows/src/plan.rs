@@ -182,6 +182,14 @@ impl ShadowPlan {
         }
     }
 
+    /// Returns the main light: the most important one with cascades, else the first in the atlas. `None` if nothing is
+    /// shadowed.
+    #[must_use]
+    pub fn main_light(&self) -> Option<u32> {
+        let mut tiles = self.cascades.iter().chain(&self.atlas).flat_map(|map| &map.tiles);
+        tiles.next().map(|tile| tile.light)
+    }
+
     /// Returns which variant of `pcf`'s WGSL has what this frame needs and the least beyond.
     #[must_use]
     pub fn variant(&self) -> PcfVariant {

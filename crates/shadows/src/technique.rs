@@ -70,10 +70,13 @@ pub struct Screen {
 }
 
 /// What a technique gives to the passes that light.
+#[derive(Default)]
 pub struct ShadowOutputs<'f> {
     /// Which variant of the technique's modules has all that this frame needs, and the least beyond; see
     /// [`ShadowTechnique::modules`].
     pub variant: u32,
+    /// The light whose `shadow_debug_color` tells most: the main one, 0 where there is none.
+    pub debug_light: u32,
     /// Bind group 1: its place in the list is the binding number.
     pub bindings: Vec<ShadowBinding<'f>>,
     /// Textures worth looking at, by name.

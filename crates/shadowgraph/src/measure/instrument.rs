@@ -212,7 +212,8 @@ fn visibility(rgba8: &[u8], n_dot_l: &mut [f32]) -> Vec<f32> {
         .collect()
 }
 
-fn texels(
+/// The texels of the maps that a view's settings ask for.
+pub(super) fn texels(
     renderer: &Renderer,
     options: &ViewOptions,
     surfaces: &Surfaces,

@@ -17,6 +17,7 @@ mod subject;
 mod surfaces;
 mod texels;
 mod truth;
+mod variants;
 mod views;
 
 pub use cases::{Case, CaseSet, CaseView, SceneSource, built_in_cases};
@@ -32,4 +33,5 @@ pub use subject::{DEFAULT_VIEWS, MAX_LIGHTS, Subject, SubjectLight};
 pub use surfaces::{SurfaceReader, Surfaces};
 pub use texels::{NO_VIEW, Texels};
 pub use truth::{RayLight, SCOUTS, Truth};
+pub use variants::{Variant, VariantSet};
 pub use views::automatic_views;

@@ -1,10 +1,11 @@
-//! Measuring: every technique in every view of every light of a scene.
+//! Measuring: every technique, with all settings, in every view of every light of a scene.
 
 use shadowgraph_shadows::ShadowSettings;
 
 use super::report::{CaseReport, Flicker};
 use super::{
-    Compared, Instrument, Probe, Subject, SubjectLight, ViewPictures, measure_flicker, measure_seam,
+    Compared, Ground, Instrument, Probe, Subject, SubjectLight, Variant, ViewPictures, measure_flicker,
+    measure_seam,
 };
 use crate::options::{Aov, ShadowDistance, Technique};
 use crate::{Error, Gpu, Picture, Renderer, ViewOptions};
@@ -16,10 +17,12 @@ pub struct Task {
     pub techniques: Vec<Technique>,
     /// Width and height of the pictures, pixels.
     pub size_px: [u32; 2],
-    /// The shadow settings.
+    /// The shadow settings. Their maps decide which pixels count, for all variants too.
     pub settings: ShadowSettings,
-    /// How far shadows reach; the settings' own distance is not looked at.
-    pub distance: ShadowDistance,
+    /// Further settings, that every technique is measured with.
+    pub variants: Vec<Variant>,
+    /// How far shadows reach, instead of the settings' own distance.
+    pub distance: Option<ShadowDistance>,
     /// How many rays a pixel find soft truth; 0: there is none, and edges are not measured.
     pub soft_rays: u32,
     /// Over how many frames flicker is measured; 0: it is not.
@@ -30,7 +33,7 @@ pub struct Task {
     pub pictures: bool,
 }
 
-/// One technique in one view of one light, as it was measured.
+/// One technique with one variant of settings in one view of one light, as it was measured.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// The numbers, without pictures.
@@ -130,37 +133,65 @@ impl<'a> Run<'a> {
         else {
             return Ok(Vec::new());
         };
-        let Task { size_px, settings, distance, soft_rays, .. } = self.task;
-        let options = ViewOptions { camera: camera.clone(), size_px: *size_px, shadows: settings.clone() };
-        let options = options.with_shadow_distance(*distance, &self.subject.scene);
+        let Task { size_px, settings, variants, distance, soft_rays, .. } = self.task;
+        let options = |settings: &ShadowSettings| {
+            let own = ViewOptions { camera: camera.clone(), size_px: *size_px, shadows: settings.clone() };
+            match distance {
+                Some(distance) => own.with_shadow_distance(*distance, &self.subject.scene),
+                None => own,
+            }
+        };
         let Some(first) = self.benches.first_mut() else { return Ok(Vec::new()) };
-        let ground = instrument.ground(&mut first.visibility, &options, *soft_rays)?;
-        let mut found = Vec::with_capacity(self.benches.len());
+        let ground = instrument.ground(&mut first.visibility, &options(settings), *soft_rays)?;
+        let mut found = Vec::with_capacity(self.benches.len() * (1 + variants.len()));
         for bench in &mut self.benches {
-            let Compared { errors, edges, pictures } =
-                instrument.compare(&mut bench.visibility, &options, &ground)?;
-            let (seam, cost) =
-                measure_seam(self.gpu, &bench.visibility, &bench.probe, &options, &ground, light.index)?;
-            let report = CaseReport {
-                scene: self.subject.name.clone(),
-                light: light.name.clone(),
-                view: name.clone(),
-                technique: bench.technique.name().to_owned(),
-                errors,
-                edges,
-                seam,
-                flicker: bench.flicker(self.gpu, &options, light.index, frames)?,
-                cost: Some(cost),
-                pictures: None,
-            };
-            let pictures = bench.pictures(self.gpu, &options, pictures)?;
-            found.push(Measured { report, pictures });
+            let named = variants.iter().map(|variant| (Some(&variant.name), &variant.settings));
+            for (variant, settings) in std::iter::once((None, settings)).chain(named) {
+                let mut measured =
+                    bench.measure(self.gpu, instrument, &ground, &options(settings), light.index, frames)?;
+                measured.report.scene.clone_from(&self.subject.name);
+                measured.report.light.clone_from(&light.name);
+                measured.report.view.clone_from(name);
+                if let Some(variant) = variant {
+                    measured.report.technique.push_str(": ");
+                    measured.report.technique.push_str(variant);
+                }
+                found.push(measured);
+            }
         }
         Ok(found)
     }
 }
 
 impl Bench {
+    /// Measures a view. The report's names of scene, light and view are left empty.
+    fn measure(
+        &mut self,
+        gpu: &Gpu,
+        instrument: &Instrument<'_>,
+        ground: &Ground,
+        options: &ViewOptions,
+        light: usize,
+        frames: u32,
+    ) -> Result<Measured, Error> {
+        let Compared { errors, edges, pictures } =
+            instrument.compare(&mut self.visibility, options, ground)?;
+        let (seam, cost) = measure_seam(gpu, &self.visibility, &self.probe, options, ground, light)?;
+        let report = CaseReport {
+            scene: String::new(),
+            light: String::new(),
+            view: String::new(),
+            technique: self.technique.name().to_owned(),
+            errors,
+            edges,
+            seam,
+            flicker: self.flicker(gpu, options, light, frames)?,
+            cost: Some(cost),
+            pictures: None,
+        };
+        Ok(Measured { report, pictures: self.pictures(gpu, options, pictures)? })
+    }
+
     fn flicker(
         &mut self,
         gpu: &Gpu,

@@ -1,5 +1,6 @@
 //! How much cascades differ where one ends and the next begins, and what they cost.
 
+use super::instrument::texels;
 use super::metrics::{RECEIVER_N_DOT_L, Summary, seam};
 use super::report::Cost;
 use super::texels::NO_VIEW;
@@ -29,15 +30,19 @@ pub fn measure_seam(
     };
     // The first compiles shaders on some drivers; the times are those of the second.
     let (own, coarser) = (ask(false)?, ask(true)?);
-    let border: Vec<usize> = (0..own.visibility.len()).filter(|&pixel| is_border(ground, pixel)).collect();
+    // Those of the ground are of other settings, if variants are compared.
+    let origin_world = renderer.casters().scene.origin_world();
+    let views = texels(renderer, options, &ground.surfaces, light, origin_world)?.views;
+    let is_border = |pixel: &usize| is_border(ground, &views, *pixel);
+    let border: Vec<usize> = (0..own.visibility.len()).filter(is_border).collect();
     let at = |values: &[f32]| border.iter().map(|&pixel| values[pixel]).collect::<Vec<_>>();
     let difference = seam(&at(&own.visibility), &at(&coarser.visibility))?;
     Ok(((difference.count > 0).then_some(difference), coarser.cost))
 }
 
 /// Whether a receiver lies near to one that a coarser cascade shades.
-fn is_border(ground: &Ground, pixel: usize) -> bool {
-    let (views, [width, height]) = (&ground.texels.views, ground.surfaces.size_px.map(|side| side as usize));
+fn is_border(ground: &Ground, views: &[u32], pixel: usize) -> bool {
+    let [width, height] = ground.surfaces.size_px.map(|side| side as usize);
     let own = views[pixel];
     let counts = ground.surfaces.is_drawn(pixel) && ground.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L;
     if !counts || own == NO_VIEW {

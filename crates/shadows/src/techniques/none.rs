@@ -46,7 +46,7 @@ impl ShadowTechnique for NoShadows {
         _inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        Ok(ShadowOutputs { variant: 0, bindings: Vec::new(), debug: Vec::new(), unshadowed: Vec::new() })
+        Ok(ShadowOutputs::default())
     }
 }
 

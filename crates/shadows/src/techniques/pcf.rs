@@ -227,6 +227,7 @@ impl ShadowTechnique for Pcf {
     ) -> Result<ShadowOutputs<'f>, Error> {
         let plan = self.plan(inputs)?;
         let variant = plan.variant().index();
+        let debug_light = plan.main_light().unwrap_or(0);
         let outputs = frame.node("shadows", |frame| {
             let (views, lights) = frame.node("set up views", |frame| {
                 let views = frame.upload_buffer("shadow views", plan.view_bytes());
@@ -237,6 +238,7 @@ impl ShadowTechnique for Pcf {
             let atlas = self.map(frame, "atlas", plan.atlas, of, inputs.casters);
             ShadowOutputs {
                 variant,
+                debug_light,
                 debug: vec![("cascades", cascades.clone()), ("atlas", atlas.clone())],
                 bindings: vec![
                     ShadowBinding::Buffer(views),

@@ -135,7 +135,7 @@ impl ShadowTechnique for Raytraced {
             bindings.push(ShadowBinding::Buffer(traced));
             bindings.push(ShadowBinding::TextureArray(mask.clone()));
             let debug = vec![("shadow mask", mask)];
-            ShadowOutputs { variant: 0, bindings, debug, unshadowed: Vec::new() }
+            ShadowOutputs { bindings, debug, ..ShadowOutputs::default() }
         }))
     }
 }

@@ -6,7 +6,8 @@ use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::shadows::{
-    CascadeBlend, CascadeFitting, CascadeSelection, MAP_ATLAS, MAP_CASCADES, ShadowSettings, SplitScheme,
+    CascadeBlend, CascadeFitting, CascadeSelection, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES,
+    ShadowSettings, SplitScheme,
 };
 use shadowgraph::{Picture, Renderer};
 
@@ -97,6 +98,28 @@ fn suns(number: u32) -> Vec<Light> {
             light(LightKind::Directional { direction }, 4000.0 - i as f32)
         })
         .collect()
+}
+
+#[test]
+fn row_13_the_cascades_of_the_light_that_matters_most_are_shown() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = pillars_in_sun();
+    // Brighter, but from straight above.
+    scene.add_light(Light { intensity: 50_000.0, ..sun(DVec3::NEG_Y) });
+    let camera = pillar_view(|_| ()).camera;
+    let mut renderer = Renderer::new(gpu, scene, &camera, Aov::Cascade).unwrap();
+    let mut cascades = |own: Vec<LightShadows>| {
+        let options = pillar_view(|settings| settings.lights = own);
+        renderer.draw(gpu, &options).unwrap().picture.rgba8
+    };
+    let of = |light| LightShadows::new(LightRef::Index(light));
+    let brightest = cascades(Vec::new());
+    assert!(cascades(vec![LightShadows { importance: 100.0, ..of(1) }]) == brightest);
+    let first = cascades(vec![LightShadows { importance: 100.0, ..of(0) }]);
+    assert!(first != brightest);
+    let only = cascades(vec![LightShadows { casts: false, ..of(1) }]);
+    let differ = first.chunks_exact(4).zip(only.chunks_exact(4)).filter(|(a, b)| a != b).count();
+    assert_eq!(differ, 0, "the first light is shown either way");
 }
 
 #[test]

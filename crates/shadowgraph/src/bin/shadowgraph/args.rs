@@ -96,7 +96,10 @@ pub(crate) struct MeasureArgs {
     /// Shadow settings in RON
     #[arg(long, value_name = "FILE")]
     pub(crate) settings: Option<PathBuf>,
-    /// How far shadows reach, metres. Default: what --settings says, else 150
+    /// Further shadow settings in RON, each with a name, to compare with those of --settings
+    #[arg(long, value_name = "FILE")]
+    pub(crate) variants: Option<PathBuf>,
+    /// How far shadows reach, metres. Default: what the settings say, else 150
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     pub(crate) shadow_distance: Option<String>,
     /// Size of the pictures, pixels. Default: 1280x720, with --quick 640x360

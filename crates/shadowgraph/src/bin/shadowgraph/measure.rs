@@ -9,10 +9,11 @@ use crate::failure::Failure;
 use crate::progress::Progress;
 use shadowgraph::measure::report::{Bound, Bounds, CaseReport, PictureFiles, Report, page, table};
 use shadowgraph::measure::{
-    Case, CasePictures, CaseSet, Measured, Subject, Task, automatic_views, built_in_cases, measure,
+    Case, CasePictures, CaseSet, Measured, Subject, Task, Variant, VariantSet, automatic_views,
+    built_in_cases, measure,
 };
 use shadowgraph::options::{
-    AdapterChoice, CameraChoice, OptionError, ShadowDistance, Size, SunChoice, Technique,
+    AdapterChoice, CameraChoice, OptionError, SettingsFile, Size, SunChoice, Technique,
 };
 use shadowgraph::output::{Pixels, write_png, write_text};
 use shadowgraph::scene::Camera;
@@ -46,6 +47,7 @@ pub(crate) fn measure_command(args: &MeasureArgs) -> Result<(), Failure> {
         adapter: gpu.adapter.name.clone(),
         size_px: plan.task.size_px,
         settings: plan.task.settings.clone(),
+        variants: plan.task.variants.clone(),
         cases: Vec::new(),
     };
     plan.work.each(args.quick, &mut |part, subject| {
@@ -69,7 +71,6 @@ pub(crate) fn measure_command(args: &MeasureArgs) -> Result<(), Failure> {
 }
 
 fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
-    let (settings, distance) = args.settings()?;
     let size: Size = match &args.size {
         Some(size) => size.parse()?,
         None if args.quick => "640x360".parse()?,
@@ -81,11 +82,13 @@ fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
         _ => (32, 16),
     };
     let techniques = args.techniques.iter().map(|name| technique(name)).collect::<Result<_, _>>()?;
+    let file = args.settings.as_deref().map(SettingsFile::load).transpose()?;
     let task = Task {
         techniques,
         size_px: [size.width_px, size.height_px],
-        settings,
-        distance,
+        settings: file.unwrap_or_default().settings,
+        variants: variants(args.variants.as_deref())?,
+        distance: args.shadow_distance.as_deref().map(str::parse).transpose()?,
         soft_rays,
         flicker_frames,
         flicker_everywhere: args.full,
@@ -93,7 +96,7 @@ fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
     };
     task.settings.validate().map_err(|error| Failure::from(Error::from(error)))?;
     let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
-    let bounds = bounds(args.check.as_deref(), &args.techniques)?;
+    let bounds = bounds(args.check.as_deref(), &args.techniques, &task.variants)?;
     Ok(Plan { task, adapter, work: work(args, size)?, bounds })
 }
 
@@ -169,14 +172,35 @@ impl Work {
     }
 }
 
-fn bounds(file: Option<&Path>, techniques: &[String]) -> Result<Option<(PathBuf, Bounds)>, Failure> {
+fn variants(file: Option<&Path>) -> Result<Vec<Variant>, Failure> {
+    let Some(file) = file else { return Ok(Vec::new()) };
+    Ok(VariantSet::parse(&read(file)?, file)?.variants)
+}
+
+fn bounds(
+    file: Option<&Path>,
+    techniques: &[String],
+    variants: &[Variant],
+) -> Result<Option<(PathBuf, Bounds)>, Failure> {
     let Some(file) = file else { return Ok(None) };
     let bounds = Bounds::parse(&read(file)?, file)?;
-    match bounds.bounds.iter().find(|bound| !techniques.contains(&bound.technique)) {
+    let is_measured = |bound: &Bound| {
+        let (technique, variant) = match bound.technique.split_once(": ") {
+            Some((technique, variant)) => (technique, Some(variant)),
+            None => (bound.technique.as_str(), None),
+        };
+        techniques.iter().any(|name| name == technique)
+            && variant.is_none_or(|variant| variants.iter().any(|known| known.name == variant))
+    };
+    match bounds.bounds.iter().find(|bound| !is_measured(bound)) {
         None => Ok(Some((file.to_owned(), bounds))),
         Some(Bound { technique, .. }) => {
-            let measured = techniques.join(", ");
-            let message = format!("{}: `{technique}` is not among --techniques: {measured}", file.display());
+            let mut measured = format!("--techniques: {}", techniques.join(", "));
+            if !variants.is_empty() {
+                let names: Vec<&str> = variants.iter().map(|variant| variant.name.as_str()).collect();
+                measured = format!("{measured}; --variants: {}", names.join(", "));
+            }
+            let message = format!("{}: `{technique}` is not among {measured}", file.display());
             Err(Failure { code: Failure::INPUT, message })
         }
     }
@@ -275,17 +299,6 @@ impl Output {
 fn file_name(name: &str) -> String {
     let kept = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
     kept.take(40).collect::<String>().trim_matches('_').to_owned()
-}
-
-impl MeasureArgs {
-    /// The shadow settings, and how far shadows reach.
-    fn settings(&self) -> Result<(shadowgraph::shadows::ShadowSettings, ShadowDistance), Failure> {
-        let file = self.settings.as_deref().map(shadowgraph::options::SettingsFile::load).transpose()?;
-        let settings = file.unwrap_or_default().settings;
-        let own = ShadowDistance::Metres(settings.distance_m.into());
-        let distance = self.shadow_distance.as_deref().map_or(Ok(own), str::parse)?;
-        Ok((settings, distance))
-    }
 }
 
 #[cfg(test)]

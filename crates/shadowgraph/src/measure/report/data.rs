@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use shadowgraph_shadows::ShadowSettings;
 
-use crate::measure::ViewErrors;
 use crate::measure::metrics::{EdgeError, Summary};
+use crate::measure::{Variant, ViewErrors};
 
 /// Everything that was measured: what its table, its page and its check against bounds are made of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,7 +17,10 @@ pub struct Report {
     pub size_px: [u32; 2],
     /// The shadow settings that all techniques got.
     pub settings: ShadowSettings,
-    /// One for each technique in each view of each light.
+    /// Further settings that they got.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<Variant>,
+    /// One for each technique, with each settings, in each view of each light.
     pub cases: Vec<CaseReport>,
 }
 
@@ -35,7 +38,7 @@ pub struct CaseReport {
     pub light: String,
     /// The view's name.
     pub view: String,
-    /// The technique's name.
+    /// The technique's name; with a variant of settings `NAME: VARIANT`.
     pub technique: String,
     /// How its shadows differ from hard truth.
     pub errors: ViewErrors,

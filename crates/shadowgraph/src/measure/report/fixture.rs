@@ -14,6 +14,7 @@ pub(super) fn report(cases: &[(&str, f64)]) -> Report {
         adapter: "llvmpipe".into(),
         size_px: [640, 360],
         settings: ShadowSettings::default(),
+        variants: Vec::new(),
         cases: cases.iter().enumerate().map(|(index, &(name, wrong))| case(index, name, wrong)).collect(),
     }
 }
