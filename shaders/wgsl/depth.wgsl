@@ -9,9 +9,11 @@
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
 #import shadowgraph::material::{TextureCoordinates, base_color, hole_cutoff}
 
-// The head of a View, and of a ShadowView: bound at a dynamic offset.
+// What is read of a ShadowView, or of a View where nothing is dithered: bound at a dynamic offset.
 struct DepthView {
     clip_from_world: mat4x4f,
+    @size(168) of_shadows: vec4f,
+    noise_px: vec2u,
 }
 
 @group(0) @binding(0) var<storage, read> depth_view: DepthView;
@@ -55,7 +57,9 @@ fn covers(in: DepthVertex) -> bool {
 
 // As many pixels as alpha says, by interleaved gradient noise (Jimenez 2014).
 fn covers_by_chance(in: DepthVertex) -> bool {
-    let noise = fract(52.9829189 * fract(dot(floor(in.position.xy), vec2f(0.06711056, 0.00583715))));
+    // Texels of the world: the pattern stays where it is while the tile moves.
+    let texel = vec2f((vec2u(in.position.xy) + depth_view.noise_px) & vec2u(1023u));
+    let noise = fract(52.9829189 * fract(dot(texel, vec2f(0.06711056, 0.00583715))));
     return alpha_of(in) > noise;
 }
 

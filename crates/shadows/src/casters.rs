@@ -71,19 +71,20 @@ pub struct CasterView {
     pub texel_world: f32,
 }
 
-/// Returns the layout of bind group 0 of pipelines that draw casters: at binding 0 a storage buffer, read by
-/// vertices, at a dynamic offset, that begins with the matrix `clip_from_world` (64 bytes).
+/// Returns the layout of bind group 0 of pipelines that draw casters: at binding 0 a storage buffer, read by vertices
+/// and fragments at a dynamic offset, that is a [`ShadowView`](crate::ShadowView) and so begins with the matrix
+/// `clip_from_world`.
 #[must_use]
 pub fn caster_view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("depth view"),
         entries: &[wgpu::BindGroupLayoutEntry {
             binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: true },
                 has_dynamic_offset: true,
-                min_binding_size: std::num::NonZeroU64::new(64),
+                min_binding_size: std::num::NonZeroU64::new(size_of::<crate::ShadowView>() as u64),
             },
             count: None,
         }],

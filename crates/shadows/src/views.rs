@@ -1,7 +1,7 @@
 //! The view and light records that shaders read: `ShadowView` and `ShadowLight` of `shadowgraph::shadows::types`.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadowgraph_scene::BoundingSphere;
 
 use crate::rules::LightRules;
@@ -48,8 +48,9 @@ pub struct ShadowView {
     pub bias_scale: f32,
     /// How far apart two depths are that the map can tell apart.
     pub depth_step: f32,
-    /// Zero.
-    pub unused: [u32; 2],
+    /// What is added to a pixel of the map to get its texel in the world, modulo 1024: by it noise stays where it is, while
+    /// the tile moves over the world, or is moved in its map.
+    pub noise_px: [u32; 2],
     /// Zero.
     pub reserved: [u32; 4],
 }
@@ -149,6 +150,7 @@ impl ShadowView {
             depth_per_texel: (fit.texel_m / fit.depth_range_m()) as f32,
             axis_scale: fit.half_extent_m() as f32,
             depth_range_m: fit.depth_range_m() as f32,
+            noise_px: noise_px(tile, DVec2::new(fit.center_texels.x, -fit.center_texels.y)),
             ..Self::tile(&fit.clip_from_world(origin_world), tile)
         }
         .around(fit.sphere, origin_world)
@@ -165,6 +167,7 @@ impl ShadowView {
             axis_scale: fit.tan_half as f32,
             depth_range_m: (fit.far_m - fit.near_m) as f32,
             near_m: fit.near_m as f32,
+            noise_px: noise_px(tile, DVec2::ZERO),
             ..Self::tile(&fit.clip_from_world(origin_world), tile)
         }
         .around(sphere, origin_world)
@@ -190,6 +193,14 @@ impl ShadowView {
         let center = (sphere.center_world - origin_world).as_vec3();
         Self { center, radius: sphere.radius_m as f32, ..self }
     }
+}
+
+/// See [`ShadowView::noise_px`]; `center_texels` is what the tile's centre shows, y down.
+fn noise_px(tile: &TilePlace, center_texels: DVec2) -> [u32; 2] {
+    let TileRect { x, y, width, height, .. } = tile.rect;
+    let center_px = DVec2::new(f64::from(x + width / 2), f64::from(y + height / 2));
+    let offset = (center_texels - center_px).rem_euclid(DVec2::splat(1024.0));
+    [offset.x as u32, offset.y as u32]
 }
 
 /// Where a view's tile is, and in which map.

@@ -15,8 +15,9 @@ struct Lookup {
     // In parts of the map.
     uv: vec2f,
     plane: TentPlane,
-    // The most and the least that a texel's worth of slope can be, in depth; for biases by a gradient.
-    depth_per_texel: f32,
+    // For biases by a gradient: the steepest that is followed, in depth a texel, and what it is multiplied by.
+    steepest: f32,
+    gradient_bias: f32,
 }
 
 fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> Lookup {
@@ -37,13 +38,14 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     lookup.uv = position.xy / position.w;
     var depth = position.z / position.w;
     let depth_per_texel = shadow_view.depth_per_texel / position.w;
-    lookup.depth_per_texel = depth_per_texel;
     // On a plane, depth is linear in the map, for both kinds of light: its change per texel follows from where
     // the normal lies between the light's axes and the way to the light.
     let across = (shadow_view.clip_from_world * vec4f(normal, 0.0)).xy * shadow_view.axis_scale;
     let facing = max(dot(normal, to_light), EDGE_ON);
     var slope = vec2f(-across.x, across.y) * shadow_view.depth_per_texel / facing;
     let steepest = light.max_slope * depth_per_texel;
+    lookup.steepest = steepest;
+    lookup.gradient_bias = scale * light.slope_bias;
     slope *= scale * light.slope_bias * steepest / max(length(slope), steepest);
     // Where the receiver's own surroundings are clamped to the near plane, they would be taken for blockers.
     let rise = f32(light.filter_taps) * (abs(slope.x) + abs(slope.y));

@@ -104,7 +104,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
         } else {
             gradient = stored_gradient(atlas_map, lookup.uv);
         }
-        plane.depth += light.slope_bias * min(gradient, light.max_slope * lookup.depth_per_texel);
+        plane.depth += lookup.gradient_bias * min(gradient, lookup.steepest);
     }
     let taps = select(FILTER_TAPS, light.filter_taps, FILTER_TAPS == 0u);
     let half = max(light.filter_half - light.filter_falloff * receiver.view_depth, 0.5);

@@ -37,7 +37,8 @@ struct ShadowView {
     bias_scale: f32,
     // How far apart two depths are that the map can tell apart.
     depth_step: f32,
-    unused: vec2u,
+    // What is added to a pixel of the map to get its texel in the world, modulo 1024.
+    noise_px: vec2u,
     reserved: vec4u,
 }
 

@@ -261,11 +261,12 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         label: Some("depth view"),
         entries: &[wgpu::BindGroupLayoutEntry {
             binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: true },
                 has_dynamic_offset: true,
-                min_binding_size: NonZeroU64::new(64),
+                // A camera's record, or a shadow view's: they are as long.
+                min_binding_size: NonZeroU64::new(256),
             },
             count: None,
         }],

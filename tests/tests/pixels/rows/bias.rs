@@ -67,9 +67,9 @@ fn row_31_each_cascade_has_a_bias_of_its_own() {
     let mut scene = pillars(12);
     scene.add_light(sun(sun_direction(35.0, 60.0)));
     // Without any bias in the first cascade, acne is near the camera only, in the lower part of the picture.
-    let dark = |scales: Vec<f32>| {
+    let dark = |method, scales: Vec<f32>| {
         let options = pillar_view(|settings| {
-            settings.bias = BiasSettings { slope: 1.5, depth_texels: 1.0, ..NO_BIAS };
+            settings.bias = BiasSettings { method, slope: 1.5, depth_texels: 1.0, ..NO_BIAS };
             settings.cascades.bias_scales = scales;
             settings.cascades.select = shadowgraph::shadows::CascadeSelection::Depth;
             settings.cascades.split = shadowgraph::shadows::SplitScheme::Metres(vec![12.0, 20.0, 30.0]);
@@ -81,9 +81,11 @@ fn row_31_each_cascade_has_a_bias_of_its_own() {
         };
         [floor(80..105), floor(115..180)].map(|part| count(&part, |grey| grey < 200))
     };
-    let (even, first) = (dark(vec![]), dark(vec![0.0]));
-    assert!(first[1] > even[1] + even[1] / 4, "near: {even:?} {first:?}");
-    assert!(first[0] <= even[0] + even[0] / 50, "far: {even:?} {first:?}");
+    for method in [NO_BIAS.method, BiasMethod::Gradient] {
+        let (even, first) = (dark(method, vec![]), dark(method, vec![0.0]));
+        assert!(first[1] > even[1] + even[1] / 4, "{method:?}, near: {even:?} {first:?}");
+        assert!(first[0] <= even[0] + even[0] / 50, "{method:?}, far: {even:?} {first:?}");
+    }
 }
 
 #[test]

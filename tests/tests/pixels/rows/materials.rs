@@ -3,7 +3,9 @@
 use super::{Greys, count, cube_view, greys, plan};
 use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, sun};
 use glam::{DVec3, Vec4};
-use shadowgraph::options::Technique;
+use shadowgraph::Renderer;
+use shadowgraph::measure::{Instrument, Points, Probe, Question};
+use shadowgraph::options::{Aov, Technique};
 use shadowgraph::scene::{AlphaMode, CasterMode, Material, Scene};
 use shadowgraph::shadows::ShadowFilter;
 
@@ -48,6 +50,35 @@ fn row_24_casters_are_solid_clipped_dithered_or_none() {
         sheet.base_color.w = 0.4;
     }));
     assert_eq!(count(&thin.unwrap(), |grey| grey < 255), 0, "clipped away");
+}
+
+#[test]
+fn row_24_dithered_shadows_stand_still_when_the_camera_moves() {
+    let Some(gpu) = gpu() else { return };
+    let scene = sheet(|sheet| sheet.casts = Some(CasterMode::Dither));
+    // Few texels that are hard to overlook.
+    let mut options = cube_view(|settings| {
+        settings.cascades.filter = ShadowFilter::Tent2;
+        settings.cascades.map_size_px = 256;
+    });
+    options.camera = crate::stage::camera(DVec3::new(0.0, 0.8, 3.5), DVec3::new(0.0, 0.0, 0.0));
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
+    let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, &options, 0).unwrap();
+    let (points, probe) = (Points::new(gpu, &ground.surfaces), Probe::new(gpu, &renderer).unwrap());
+    let question = Question { light: 0, coarser: false };
+    let mut seen = Vec::new();
+    for step in 0..6 {
+        // Past several texels.
+        options.camera.world_from_view.translation += DVec3::new(0.07, 0.0, 0.03) * f64::from(step);
+        seen.push(probe.ask(gpu, &renderer, &options, &points, question).unwrap().visibility);
+    }
+    let (dark, lit) =
+        (seen[0].iter().filter(|v| **v < 0.1).count(), seen[0].iter().filter(|v| **v > 0.9).count());
+    assert!(dark > 1000 && lit > 1000, "{dark} {lit}");
+    for later in &seen[1..] {
+        let changed = seen[0].iter().zip(later).filter(|(a, b)| (**a - **b).abs() > 0.02).count();
+        assert!(changed < 200, "{changed} of {}", later.len());
+    }
 }
 
 #[test]
