@@ -11,7 +11,8 @@ use crate::progress::Progress;
 use crate::report;
 use shadowgraph::bench::{Comparison, FrameTime, Spread, compare, pass_times};
 use shadowgraph::core::PassTime;
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::options::Options;
+use shadowgraph::{Gpu, Method, Renderer, ViewOptions};
 
 /// Frames on a real GPU, of which each is waited for.
 const GPU_FRAMES: u32 = 20;
@@ -32,14 +33,26 @@ pub(crate) fn bench(args: &BenchArgs) -> Result<(), Failure> {
     };
     console::print(&heading(args, &input))?;
     let measuring = Progress::if_slow("measuring");
-    let comparison = compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?;
+    let comparison = match method(&input) == Method::default() {
+        true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
+        false => {
+            "Only the pipeline forward with pcf and one sample is compared with passes encoded by hand.\n"
+                .into()
+        }
+    };
     let passes = passes(gpu.as_ref().unwrap_or(&noop), &input, &view, args.frames.min(GPU_FRAMES))?;
     drop(measuring);
-    console::print(&format!("{}\n{passes}", table(&comparison)))
+    console::print(&format!("{comparison}\n{passes}"))
+}
+
+fn method(input: &Input) -> Method {
+    let Options { technique, pipeline, samples, .. } = input.options;
+    Method { technique, pipeline, samples }
 }
 
 fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
-    Ok(Renderer::new(gpu, input.scene.clone(), &input.camera, input.options.aov.clone())?)
+    let (scene, aov) = (input.scene.clone(), input.options.aov.clone());
+    Ok(Renderer::with(gpu, scene, &input.camera, aov, method(input))?)
 }
 
 fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
