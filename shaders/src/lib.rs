@@ -6,7 +6,7 @@
 //! for a file of the caller's own. What comes out is a validated [`naga::Module`] (for wgpu,
 //! `ShaderSource::Naga`).
 //!
-//! The module `shadowgraph::technique` is the caller's to pass: [`PCF`], [`RAYTRACED`], [`NONE`] or that of another technique.
+//! The module `shadowgraph::technique` is the caller's to pass: [`MAPPED`], [`RAYTRACED`], [`NONE`] or that of another technique.
 //! It defines `shadow_visibility` and `shadow_debug_color`; `shadows/none.wgsl` shows their signatures.
 //!
 //! ```
@@ -30,4 +30,4 @@ mod source;
 pub use compose::{compose, compose_source};
 pub use error::Error;
 pub use naga;
-pub use source::{MASK_ONLY, ModuleSource, NONE, PCF, RAYTRACED, SCREEN, builtin, builtin_files};
+pub use source::{MAPPED, MASK_ONLY, ModuleSource, NONE, RAYTRACED, SCREEN, builtin, builtin_files};

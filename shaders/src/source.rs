@@ -31,8 +31,9 @@ macro_rules! file {
 /// The technique `none`: no shadows, no bindings.
 pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 
-/// The technique `pcf`: cascades and an atlas, filtered with a tent.
-pub const PCF: ModuleSource = file!("shadows/pcf.wgsl");
+/// The techniques of shadow maps: it finds the tiles that a point is read from. What they say is found by the function
+/// `filtered` of the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
+pub const MAPPED: ModuleSource = file!("shadows/mapped.wgsl");
 
 /// The technique `screen`: what another technique says of all that the picture shows, in a screen mask. Its bindings follow
 /// those of the other: `MASK` and `LAYERS` stand for their numbers, and the other's import path is `shadowgraph::collected`.
@@ -54,7 +55,9 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("receiver.wgsl"),
     file!("shadows/layers.wgsl"),
     file!("shadows/lookup.wgsl"),
+    file!("shadows/pcf.wgsl"),
     file!("shadows/tent.wgsl"),
+    file!("shadows/tiles.wgsl"),
     file!("shadows/traced.wgsl"),
     file!("shadows/types.wgsl"),
     file!("shadows/variant.wgsl"),
@@ -63,7 +66,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
 ];
 
 /// The modules of which the caller passes one, as all have the import path [`TECHNIQUE`].
-pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, PCF, RAYTRACED];
+pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED];
 
 /// The files with entry points.
 pub(crate) const ENTRIES: &[ModuleSource] = &[

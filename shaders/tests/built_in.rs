@@ -5,7 +5,7 @@ use naga::{
     BuiltIn, ShaderStage,
     valid::{Capabilities, ValidationFlags, Validator},
 };
-use shadowgraph_shaders::{ModuleSource, NONE, PCF, RAYTRACED, builtin, builtin_files, compose, layout};
+use shadowgraph_shaders::{MAPPED, ModuleSource, NONE, RAYTRACED, builtin, builtin_files, compose, layout};
 
 const ENTRIES: [&str; 8] = [
     "blur.wgsl",
@@ -44,7 +44,7 @@ fn bindings(module: &naga::Module) -> Vec<String> {
 
 #[test]
 fn every_entry_is_valid_with_every_technique() {
-    assert_eq!(techniques(), [NONE, PCF, RAYTRACED]);
+    assert_eq!(techniques(), [NONE, MAPPED, RAYTRACED]);
     for entry in ENTRIES {
         for technique in techniques() {
             let name = format!("{entry} with {}", technique.file);
@@ -168,7 +168,9 @@ fn structs_lie_in_memory_as_agreed() {
         ("uv_transforms", 64),
     ];
     layout::check(&forward, "Material", 224, &material).unwrap();
-    layout::check(&composed("depth.wgsl"), "DepthView", 64, &[("clip_from_world", 0)]).unwrap();
+    // What it reads of a ShadowView.
+    let of_shadows = [("clip_from_world", 0), ("of_shadows", 64), ("noise_px", 232)];
+    layout::check(&composed("depth.wgsl"), "DepthView", 240, &of_shadows).unwrap();
 }
 
 /// How a vertex stage arrives at its position: the functions it calls, by name, in order.

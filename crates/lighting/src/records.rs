@@ -166,12 +166,12 @@ impl GpuLight {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
-    use shadowgraph_shaders::{PCF, compose, layout};
+    use shadowgraph_shaders::{MAPPED, compose, layout};
     use std::mem::offset_of;
 
     #[test]
     fn records_have_the_layout_of_the_wgsl() {
-        let module = compose("forward.wgsl", &[PCF]).unwrap();
+        let module = compose("forward.wgsl", &[MAPPED]).unwrap();
         let view = [
             ("clip_from_world", offset_of!(GpuView, clip_from_world)),
             ("world_from_clip", offset_of!(GpuView, world_from_clip)),

@@ -104,7 +104,7 @@ pub(crate) fn point_face(position_world: DVec3, range_m: f64, face: usize) -> (S
     (SpotCone { position_world, direction, half_angle: FRAC_PI_4, range_m }, rotation)
 }
 
-/// Which way the six tiles of a point light look, in their order: `cube_face` of `pcf.wgsl`.
+/// Which way the six tiles of a point light look, in their order: `cube_face` of `tiles.wgsl`.
 const POINT_FACES: [DVec3; 6] = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
 
 impl Candidate<'_> {

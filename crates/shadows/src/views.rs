@@ -269,7 +269,7 @@ impl ShadowLight {
     }
 
     /// Returns how much of the shadow is left at a view depth: 1 before the fade begins, 0 from its end on.
-    /// The twin of `pcf.wgsl`.
+    /// The twin of `tiles.wgsl`.
     #[must_use]
     pub fn fade(&self, view_depth_m: f32) -> f32 {
         ((self.fade_end_m - view_depth_m) * self.fade_per_m).clamp(0.0, 1.0)

@@ -7,6 +7,13 @@ pub(super) const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
     min_binding_size: None,
 };
 
+/// A map of depths.
+pub(super) const DEPTH_MAP: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Depth,
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
 /// Makes a layout with these bindings, from 0, for those who light and who compute. What is written is only computed.
 pub(super) fn layout(
     device: &wgpu::Device,

@@ -1,6 +1,5 @@
 //! The techniques that come with Shadowgraph, a room each.
 
-mod cache;
 mod layout;
 mod mask;
 mod none;

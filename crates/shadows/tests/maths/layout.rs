@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use shadowgraph_shaders::{ModuleSource, builtin, compose, compose_source, layout};
+use shadowgraph_shaders::{MAPPED, ModuleSource, builtin, compose, compose_source, layout};
 use shadowgraph_shadows::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
     NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,
@@ -30,7 +30,8 @@ fn records_lie_in_wgsl_as_in_rust() {
         bias_scale, depth_step, noise_px, reserved);
     layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
     assert_eq!(size_of::<ShadowView>(), 256);
-    assert_eq!(offset_of!(ShadowView, clip_from_world), 0);
+    // `depth.wgsl` reads these two where they are.
+    assert_eq!((offset_of!(ShadowView, clip_from_world), offset_of!(ShadowView, noise_px)), (0, 232));
     let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
         normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
         fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff);
@@ -61,7 +62,7 @@ fn constants_are_the_same_in_wgsl_and_rust() {
 
 #[test]
 fn technique_composes_into_the_lit_pass_and_into_compute() {
-    let technique = builtin("shadows/pcf.wgsl").unwrap();
+    let technique = MAPPED;
     compose("forward.wgsl", std::slice::from_ref(&technique)).unwrap();
     // Called from compute, implicit derivatives would be refused.
     let entry = "

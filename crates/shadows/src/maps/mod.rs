@@ -1,0 +1,127 @@
+//! The shadow maps of a frame: planned after those of the last one, drawn, and kept where that is asked for.
+
+mod cache;
+mod draw;
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use cache::CachedMap;
+use shadowgraph_core::{Buffer, Frame, Texture};
+
+use crate::technique::ShadowBinding;
+use crate::{
+    Allotment, Error, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TileRect, Unshadowed,
+    caster_view_layout, plan_shadows_after,
+};
+
+/// What techniques of shadow maps have in common: it plans the maps of each frame, and draws casters into their tiles.
+///
+/// A technique adds what it makes of them, and its own way to read them: the modules [`MAPPED`](shadowgraph_shaders::MAPPED)
+/// and, as `shadowgraph::shadows::filter`, its own with the function `filtered`.
+pub struct ShadowMaps {
+    /// Group 0 of the passes that draw casters.
+    view_layout: wgpu::BindGroupLayout,
+    /// One texel that means lit, where there is no map.
+    lit: wgpu::Texture,
+    device: wgpu::Device,
+    /// The tiles that lights had in the last frame, of each view.
+    allotments: Mutex<BTreeMap<u32, Allotment>>,
+    /// The maps that are kept, by view and name.
+    cached: Mutex<BTreeMap<(u32, &'static str), Arc<CachedMap>>>,
+}
+
+/// The maps of one view in a frame.
+pub struct DrawnMaps {
+    /// The plan's [`ShadowView`]s.
+    pub views: Buffer,
+    /// The plan's [`ShadowLight`](crate::ShadowLight)s.
+    pub lights: Buffer,
+    /// The map of cascades; where there is none, one texel that means lit.
+    pub cascades: DrawnMap,
+    /// The map of other lights; likewise.
+    pub atlas: DrawnMap,
+    /// What `pcf` needs of its shader for them.
+    pub variant: PcfVariant,
+    /// See [`ShadowPlan::main_light`]; 0 if there is none.
+    pub main_light: u32,
+    /// The lights that are to cast shadows but have none, and why.
+    pub unshadowed: Vec<Unshadowed>,
+}
+
+/// A map in a frame.
+pub struct DrawnMap {
+    /// Depth: 1 nearest to the light, 0 farthest, and where nothing is.
+    pub texture: Texture,
+    /// Its tiles and the indices of their views; none where there is no map.
+    pub tiles: Vec<(TileRect, u32)>,
+}
+
+impl ShadowMaps {
+    /// Creates what stays the same for all frames.
+    pub fn new(device: &wgpu::Device) -> Self {
+        Self {
+            view_layout: caster_view_layout(device),
+            // wgpu fills a new texture with zeros: the far end of reversed depth, in front of which all is lit.
+            lit: device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("no shadows"),
+                size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Depth32Float,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
+            }),
+            device: device.clone(),
+            allotments: Mutex::default(),
+            cached: Mutex::default(),
+        }
+    }
+
+    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass.
+    ///
+    /// # Errors
+    /// As [`plan_shadows`](crate::plan_shadows).
+    pub fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+    ) -> Result<DrawnMaps, Error> {
+        let plan = self.plan(inputs)?;
+        let (views, lights) = frame.node("set up views", |frame| {
+            let views = frame.upload_buffer("shadow views", plan.view_bytes());
+            (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
+        });
+        let (variant, main_light) = (plan.variant(), plan.main_light().unwrap_or(0));
+        let of = (inputs.view, (&views, &plan.views[..]));
+        let cascades = self.map(frame, "cascades", plan.cascades, of, inputs.casters);
+        let atlas = self.map(frame, "atlas", plan.atlas, of, inputs.casters);
+        Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, unshadowed: plan.unshadowed })
+    }
+
+    /// Plans a frame after the last one of the same view.
+    fn plan(&self, inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
+        let mut allotments = self.allotments.lock().unwrap_or_else(PoisonError::into_inner);
+        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view))?;
+        allotments.insert(inputs.view, plan.allotment.clone());
+        Ok(plan)
+    }
+}
+
+impl DrawnMaps {
+    /// Returns the first four bindings of group 1, as `tiles.wgsl` and the filter of `pcf` have them: views, lights, and the two
+    /// maps of depths.
+    #[must_use]
+    pub fn bindings<'f>(&self) -> Vec<ShadowBinding<'f>> {
+        vec![
+            ShadowBinding::Buffer(self.views.clone()),
+            ShadowBinding::Buffer(self.lights.clone()),
+            ShadowBinding::Texture(self.cascades.texture.clone()),
+            ShadowBinding::Texture(self.atlas.texture.clone()),
+        ]
+    }
+}
+
+/// The buffer of a frame's views, and the views.
+type Views<'v> = (&'v Buffer, &'v [ShadowView]);

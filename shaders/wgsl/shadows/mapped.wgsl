@@ -1,0 +1,69 @@
+// Techniques of shadow maps: finds the tiles of a point, and asks the technique's filter what they say. The filter is the module
+// shadowgraph::shadows::filter; it has the bindings from 2 on.
+#define_import_path shadowgraph::technique
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::shadows::filter::filtered
+#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, blend_at, shadow_fade, edge_fade}
+#import shadowgraph::shadows::types::ShadowLight
+#import shadowgraph::shadows::variant::SHADOWED
+
+fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
+    if !SHADOWED || light >= arrayLength(&shadow_lights) {
+        return vec3f(1.0);
+    }
+    let shadow = shadow_lights[light];
+    let strength = shadow_fade(shadow, receiver.view_depth);
+    if shadow.view_count == 0u || strength <= 0.0 {
+        return vec3f(1.0);
+    }
+    let blend = blend_at(shadow, receiver);
+    if !blend.first.covered {
+        return vec3f(1.0);
+    }
+    var lit = 0.0;
+    var lookup = blend.first;
+    var weight = blend.weight;
+    for (var i = 0u; i < 2u; i++) {
+        if weight > 0.0 {
+            lit += weight * filtered(shadow, receiver, lookup);
+        }
+        lookup = blend.next;
+        weight = 1.0 - blend.weight;
+    }
+    return vec3f(mix(1.0, lit, strength * edge_fade(shadow, receiver, blend.first)));
+}
+
+fn cascade_tint(cascade: u32) -> vec3f {
+    switch cascade {
+        case 0u: { return vec3f(1.0, 0.35, 0.3); }
+        case 1u: { return vec3f(0.4, 0.9, 0.35); }
+        case 2u: { return vec3f(0.35, 0.55, 1.0); }
+        case 3u: { return vec3f(1.0, 0.85, 0.3); }
+        case 4u: { return vec3f(0.3, 0.9, 0.9); }
+        case 5u: { return vec3f(1.0, 0.6, 0.25); }
+        case 6u: { return vec3f(0.6, 0.6, 0.6); }
+        case 7u: { return vec3f(1.0, 0.5, 0.8); }
+        default: { return vec3f(0.85, 0.5, 0.95); }
+    }
+}
+
+// The colour of the cascade that is read, paler as the shadows fade, mixed where cascades blend; violet in the atlas; white
+// without shadows.
+fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
+    if light >= arrayLength(&shadow_lights) || shadow_lights[light].view_count == 0u {
+        return vec3f(1.0);
+    }
+    let shadow = shadow_lights[light];
+    let blend = blend_at(shadow, receiver);
+    if !blend.first.covered {
+        return vec3f(1.0);
+    }
+    let color = mix(view_tint(shadow, blend.next), view_tint(shadow, blend.first), blend.weight);
+    let fade = shadow_fade(shadow, receiver.view_depth) * edge_fade(shadow, receiver, blend.first);
+    return mix(vec3f(1.0), color, fade);
+}
+
+fn view_tint(light: ShadowLight, lookup: Lookup) -> vec3f {
+    return cascade_tint(shadow_views[light.first_view + lookup.view].cascade);
+}

@@ -1,0 +1,142 @@
+// Finds the tiles of shadow maps that a point is read from, and how much each of them counts.
+#define_import_path shadowgraph::shadows::tiles
+#import shadowgraph::receiver::{Receiver, RECEIVER_COARSER}
+#import shadowgraph::shadows::lookup::{Lookup, look_up}
+#import shadowgraph::shadows::types::{
+    ShadowView, ShadowLight, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
+}
+
+@group(1) @binding(0) var<storage, read> shadow_views: array<ShadowView>;
+@group(1) @binding(1) var<storage, read> shadow_lights: array<ShadowLight>;
+
+// +X, -X, +Y, -Y, +Z, -Z.
+fn cube_face(way: vec3f) -> u32 {
+    let size = abs(way);
+    if size.x >= size.y && size.x >= size.z {
+        return select(0u, 1u, way.x < 0.0);
+    }
+    if size.y >= size.z {
+        return select(2u, 3u, way.y < 0.0);
+    }
+    return select(4u, 5u, way.z < 0.0);
+}
+
+// Which of the light's views, from `first` on, a point is read from; view_count, the view of nothing, where none is.
+fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
+    var chosen = light.view_count;
+    if light.select == SELECT_FACE {
+        return cube_face(receiver.position - shadow_views[light.first_view].light.xyz);
+    }
+    if light.select == SELECT_SPHERE {
+        for (var i = light.view_count; i > first; i--) {
+            let shadow_view = shadow_views[light.first_view + i - 1u];
+            let offset = receiver.position - shadow_view.center;
+            let inside = dot(offset, offset) < shadow_view.radius * shadow_view.radius;
+            chosen = select(chosen, i - 1u, inside);
+        }
+        return chosen;
+    }
+    // As many views as end before the point.
+    chosen = 0u;
+    for (var i = 0u; i < light.view_count; i++) {
+        chosen += select(0u, 1u, receiver.view_depth >= shadow_views[light.first_view + i].end_m);
+    }
+    return max(chosen, first);
+}
+
+// How the point is looked up in one of the light's views, from `first` on.
+fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
+    var lookup: Lookup;
+    var begin = first;
+    var end = light.view_count;
+    if light.select != SELECT_MAP {
+        begin = select_view(light, receiver, first);
+        end = begin + 1u;
+    }
+    // The first that covers the point has the finest texels.
+    for (var i = begin; i < end; i++) {
+        lookup = look_up(shadow_views[light.first_view + i], light, receiver);
+        lookup.view = i;
+        if lookup.covered {
+            break;
+        }
+    }
+    return lookup;
+}
+
+// 1 within a view, falling to 0 over the outer `fraction` of it.
+fn inner_part(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction: f32) -> f32 {
+    let shadow_view = shadow_views[light.first_view + lookup.view];
+    if light.select == SELECT_SPHERE {
+        let offset = receiver.position - shadow_view.center;
+        let relative = dot(offset, offset) / (shadow_view.radius * shadow_view.radius);
+        return saturate((1.0 - relative) / (1.0 - (1.0 - fraction) * (1.0 - fraction)));
+    }
+    if light.select == SELECT_DEPTH {
+        let length_m = shadow_view.end_m - shadow_view.begin_m;
+        return saturate((shadow_view.end_m - receiver.view_depth) / (fraction * length_m));
+    }
+    let size = shadow_view.uv_max - shadow_view.uv_min;
+    let to_edge = min(lookup.uv - shadow_view.uv_min, shadow_view.uv_max - lookup.uv) / size;
+    let depth = lookup.plane.depth;
+    return saturate(2.0 * min(min(to_edge.x, to_edge.y), min(depth, 1.0 - depth)) / fraction);
+}
+
+// Interleaved gradient noise, 0 up to 1: Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014.
+fn pixel_noise(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+}
+
+// How much of the shadows is left at this distance: all of it before the fade begins, nothing at its end.
+fn shadow_fade(light: ShadowLight, view_depth: f32) -> f32 {
+    return light.strength * saturate((light.fade_end_m - view_depth) * light.fade_per_m);
+}
+
+// What is left of the shadows at the outer edge of the last view.
+fn edge_fade(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    if light.edge_fade <= 0.0 || lookup.view + 1u != light.view_count {
+        return 1.0;
+    }
+    return inner_part(light, receiver, lookup, light.edge_fade);
+}
+
+// How much what one view says counts where the next one covers the point too: less in its outer part.
+fn blend_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    if (receiver.flags & RECEIVER_COARSER) != 0u {
+        return 0.0;
+    }
+    let inner = inner_part(light, receiver, lookup, light.blend_fraction);
+    if light.blend == BLEND_DITHER {
+        return select(0.0, 1.0, pixel_noise(receiver.pixel) < inner);
+    }
+    return inner;
+}
+
+// The view that a point is read from, the next one, and how much the first counts: all, where there is no next one.
+struct Blend {
+    first: Lookup,
+    next: Lookup,
+    weight: f32,
+}
+
+fn blend_at(light: ShadowLight, receiver: Receiver) -> Blend {
+    var blend: Blend;
+    blend.weight = 1.0;
+    let blends = light.blend != BLEND_HARD || (receiver.flags & RECEIVER_COARSER) != 0u;
+    var begin = 0u;
+    for (var i = 0u; i < 2u && begin < light.view_count; i++) {
+        let lookup = find(light, receiver, begin);
+        if !lookup.covered {
+            break;
+        }
+        if i == 1u {
+            // Its biases are in its own texels.
+            blend.next = lookup;
+            blend.weight = blend_weight(light, receiver, blend.first);
+        } else {
+            blend.first = lookup;
+            begin = select(light.view_count, lookup.view + 1u, blends);
+        }
+    }
+    return blend;
+}
