@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// Pictures cannot be drawn with this many samples a pixel.
-    #[error("pictures cannot be drawn with {samples} samples a pixel; allowed: 1 and 4")]
+    #[error("--samples {samples}: pictures have 1 or 4 samples a pixel")]
     Samples {
         /// How many were asked for.
         samples: u32,

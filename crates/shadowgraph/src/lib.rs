@@ -17,6 +17,29 @@
 //! println!("{}", frame.compile()?.plan().to_text());
 //! # Ok::<(), shadowgraph::core::Error>(())
 //! ```
+//!
+//! A picture of a scene; `Gpu::open` takes a real device:
+//!
+//! ```
+//! use shadowgraph::glam::DVec3;
+//! use shadowgraph::options::{AdapterChoice, Aov};
+//! use shadowgraph::output::{Pixels, write_png};
+//! use shadowgraph::scene::{Camera, Projection, demo::demo_scene};
+//! use shadowgraph::shadows::ShadowSettings;
+//! use shadowgraph::{Gpu, Renderer, ViewOptions};
+//!
+//! # fn example() -> Result<(), Box<dyn std::error::Error>> {
+//! let gpu = Gpu::open(&AdapterChoice::Auto)?;
+//! let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
+//! let camera = Camera::look_at(DVec3::new(8.0, 4.0, 16.0), DVec3::Y, DVec3::Y, projection);
+//! let mut renderer = Renderer::new(&gpu, demo_scene(), &camera, Aov::Color)?;
+//! let shadows = ShadowSettings { distance_m: 80.0, ..ShadowSettings::default() };
+//! let options = ViewOptions { camera, size_px: [640, 360], shadows };
+//! let picture = renderer.draw(&gpu, &options)?.picture;
+//! write_png("out.png".as_ref(), 640, 360, Pixels::Rgba, &picture.rgba8)?;
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod bench;
 mod casters;
@@ -43,6 +66,7 @@ pub use picture::{Drawn, Picture};
 pub use renderer::{Method, Renderer, ViewOptions};
 pub use show::Show;
 
+pub use glam;
 pub use shadowgraph_core as core;
 pub use shadowgraph_core::wgpu;
 pub use shadowgraph_lighting as lighting;

@@ -40,8 +40,10 @@ impl SurfaceDrawer {
         view: &ViewBuffers,
         geometry: Geometry<'f>,
     ) -> Result<Screen, Error> {
-        let depth = self.forward.prepass(frame, view, geometry);
-        self.screen(frame, view, &depth, geometry)
+        frame.node("one sample", |frame| {
+            let depth = self.forward.prepass(frame, view, geometry);
+            self.screen(frame, view, &depth, geometry)
+        })
     }
 
     /// Adds the pass for a technique that reads surfaces.

@@ -16,13 +16,19 @@ pub enum Error {
     },
     /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) names a light that the scene does not have.
     #[error(
-        "shadow setting `lights.light` is {light}; the scene has {count} lights, numbered from 0, and none of that name or number"
+        "shadow setting `lights.light` is {light}; the scene has no light of that name or number, but {count}, numbered from 0"
     )]
     NoSuchLight {
         /// Its number, or its name in quotes.
         light: String,
         /// How many lights there are.
         count: usize,
+    },
+    /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) says two things of one light.
+    #[error("shadow setting `lights` has two entries for light {light}; allowed: one for each light")]
+    LightTwice {
+        /// Its number.
+        light: usize,
     },
     /// The camera sees nothing.
     #[error(transparent)]

@@ -72,11 +72,13 @@ pub(crate) fn of_lights<'s>(
             LightRef::Index(index) => Some(*index as usize),
             LightRef::Name(name) => lights.iter().position(|light| light.name.as_ref() == Some(name)),
         };
-        let slot = index.and_then(|index| of_lights.get_mut(index));
-        let Some(slot) = slot else {
+        let slot = index.and_then(|index| Some((index, of_lights.get_mut(index)?)));
+        let Some((light, slot)) = slot else {
             return Err(Error::NoSuchLight { light: own.light.to_string(), count: lights.len() });
         };
-        *slot = Some(own);
+        if slot.replace(own).is_some() {
+            return Err(Error::LightTwice { light });
+        }
     }
     Ok(of_lights)
 }

@@ -23,7 +23,7 @@ const SPAN: f64 = 100.0;
 /// let chosen = ShadowSettings::default();
 /// let mut controller = QualityController::new(BudgetRules { budget_ms: 1.5, ..BudgetRules::default() })?;
 /// let mut settings = chosen.clone();
-/// // Once a frame, with the time of the newest frame that the GPU has finished:
+/// // Once a frame, with the time that the shadow passes of the newest frame took that the GPU has finished:
 /// for measured_ms in [1.8; 12] {
 ///     if controller.update(measured_ms) {
 ///         settings = controller.apply(&chosen);

@@ -29,8 +29,8 @@ pub struct LightShadows {
     /// Its normal bias, texels, 0 to 4. Left out: [`BiasSettings::normal_texels`](super::BiasSettings::normal_texels).
     #[serde(default)]
     pub normal_texels: Option<f32>,
-    /// Where its depth range begins: for spot and point lights metres from the light, 0.0001 to 100; for directional
-    /// lights metres before where it would begin otherwise, up to 10,000. Left out: as its map's.
+    /// Where its depth range begins: for spot and point lights metres from the light, 0.0001 to 10,000, at most half of
+    /// its range; for directional lights metres before where it would begin otherwise. Left out: as its map's.
     #[serde(default)]
     pub near_m: Option<f32>,
     /// How much more important than by its size on screen it is, 0 to 100.
@@ -40,7 +40,7 @@ pub struct LightShadows {
 
 /// A light of the scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "`light` must be a light's number from 0, or its name in quotes")]
 pub enum LightRef {
     /// Its place in the scene's list.
     Index(u32),

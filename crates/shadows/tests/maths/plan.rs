@@ -3,9 +3,9 @@
 use glam::DVec3;
 use shadowgraph_scene::{Camera, CameraError, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
-    AtlasTiles, Error, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs, ShadowLight,
-    ShadowPlan, ShadowSettings, ShadowView, TilePart, Unshadowed, UnshadowedReason, plan_shadows,
-    plan_shadows_after,
+    AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs,
+    ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TilePart, Unshadowed, UnshadowedReason,
+    plan_shadows, plan_shadows_after,
 };
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
@@ -248,6 +248,14 @@ fn views_that_are_none_are_errors() {
     let wrong = ShadowSettings { distance_m: 0.0, ..ShadowSettings::default() };
     let error = plan_shadows(&ShadowInputs { settings: &wrong, ..inputs }).unwrap_err();
     assert!(error.to_string().contains("distance_m"));
+}
+
+#[test]
+fn a_light_with_two_entries_is_an_error() {
+    let entry = || LightShadows::new(LightRef::Index(0));
+    let settings = ShadowSettings { lights: vec![entry(), entry()], ..ShadowSettings::default() };
+    let refused = try_plan(&look(), &[sun(DOWN, 1.0)], &Boxes(Vec::new()), &settings).unwrap_err();
+    assert_eq!(refused, Error::LightTwice { light: 0 });
 }
 
 #[test]

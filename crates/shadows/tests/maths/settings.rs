@@ -148,6 +148,15 @@ fn a_value_out_of_range_is_named_with_field_and_range() {
 }
 
 #[test]
+fn a_light_is_named_by_its_number_or_its_name() {
+    read("(lights: [(light: 3), (light: \"lamp\")])").unwrap();
+    for text in ["(lights: [(light: -1)])", "(lights: [(light: 0.5)])"] {
+        let error = read(text).unwrap_err();
+        assert!(error.contains("`light` must be a light's number from 0, or its name in quotes"), "{error}");
+    }
+}
+
+#[test]
 fn ratios_must_fit_the_number_of_cascades() {
     assert!(read("(cascades: (count: 1, split: Ratios([])))").is_ok());
     for text in ["Ratios([])", "Ratios([0.1, 0.2])", "Ratios([0.1, 0.2, 1.0])", "Ratios([0.0, 0.2, 0.3])"] {

@@ -2,9 +2,11 @@
 
 use super::{count, greys, pillar_view, pillars, plan};
 use crate::stage::{gpu, sun, sun_direction};
-use shadowgraph::ViewOptions;
+use shadowgraph::core::Timer;
+use shadowgraph::options::{Aov, Technique};
 use shadowgraph::scene::Scene;
 use shadowgraph::shadows::{BudgetRules, QualityController, TilePlan};
+use shadowgraph::{Renderer, ViewOptions};
 
 /// What a made-up GPU takes for the maps of a view, milliseconds: 1 ns for each pixel that is cleared, 5 us for each draw.
 fn time_ms(scene: &Scene, options: &ViewOptions) -> f64 {
@@ -40,4 +42,25 @@ fn row_28_a_controller_keeps_shadows_within_a_budget_of_time() {
     // What is left are shadows.
     let dark = [&best, &options].map(|options| count(&greys(gpu, &scene, 0, options), |grey| grey < 128));
     assert!(dark[1] * 2 > dark[0] && dark[1] < dark[0] * 2, "{dark:?}");
+}
+
+#[test]
+fn row_28_the_time_of_the_shadow_passes_is_told() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = pillars(2);
+    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    let options = pillar_view(|_| ());
+    let shadow_ms = |technique, timer: Option<&mut Timer>| {
+        let mut renderer =
+            Renderer::with(gpu, scene.clone(), &options.camera, Aov::Color, technique).unwrap();
+        let drawn = renderer.draw_timed(gpu, &options, timer).unwrap();
+        let all: Option<f64> = drawn.times.iter().map(|time| time.gpu_ms).sum();
+        (drawn.shadow_ms(), all)
+    };
+    assert_eq!(shadow_ms(Technique::Pcf, None), (None, Some(0.0)));
+    let (Some(shadows), Some(all)) = shadow_ms(Technique::Pcf, Some(&mut Timer::new())) else {
+        return shadowgraph_tests::skip("shadow_ms", "the device has no timestamps");
+    };
+    assert!(shadows > 0.0 && shadows < all, "{shadows} of {all}");
+    assert_eq!(shadow_ms(Technique::None, Some(&mut Timer::new())).0, Some(0.0));
 }

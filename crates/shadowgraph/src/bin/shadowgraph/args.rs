@@ -139,7 +139,7 @@ pub(crate) struct DrawArgs {
     /// A glTF or GLB file; without it the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
     /// The pipeline: forward, screen_shadows or minimal
-    #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
+    #[arg(long, value_name = "NAME", default_value = "forward")]
     pipeline: String,
     /// The shadow technique: pcf, raytraced or none
     #[arg(long, value_name = "NAME", default_value = "pcf")]

@@ -64,7 +64,8 @@ fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<S
 fn heading(args: &BenchArgs, input: &Input) -> String {
     let scene = args.draw.scene.as_ref().map_or("the demo scene".into(), |file| file.display().to_string());
     let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
-    format!("{scene}, {size}, pipeline {pipeline}, technique {}\n", input.options.technique.name())
+    let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
+    format!("{scene}, {size}, pipeline {pipeline}, technique {}{samples}\n", input.options.technique.name())
 }
 
 /// One side's time of a step, or of several.
