@@ -148,7 +148,7 @@ pub enum TilePart {
 ///
 /// # Errors
 ///
-/// [`Error::Setting`] for a setting out of range, [`Error::Aspect`] and [`Error::Camera`] for a view that is
+/// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for a view that is
 /// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
 pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
     plan_shadows_after(inputs, None)
