@@ -61,7 +61,7 @@ fn draw_depth(
         usage: wgpu::BufferUsages::STORAGE,
         mapped_at_creation: false,
     });
-    let binding = wgpu::BufferBinding { buffer: &views, offset: 0, size: std::num::NonZeroU64::new(64) };
+    let binding = wgpu::BufferBinding { buffer: &views, offset: 0, size: std::num::NonZeroU64::new(256) };
     let view_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("view"),
         layout: pipelines.view_layout(),

@@ -81,7 +81,7 @@ mod tests {
             ("(variants: [])", "there is no variant"),
             (r#"(variants: [(name: " ", settings: ())])"#, "a variant has no name"),
             (r#"(variants: [(name: "a", settings: ()), (name: "a", settings: ())])"#, "two variants `a`"),
-            (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, "`a`: distance_m"),
+            (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, "`a`: shadow setting `distance_m`"),
             (r#"(variants: [(name: "a", settings: (distance: 1.0))])"#, "distance"),
         ] {
             let error = error_of(text);

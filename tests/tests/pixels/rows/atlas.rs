@@ -107,7 +107,7 @@ fn row_05_a_light_can_be_named_and_a_name_that_is_not_there_is_an_error() {
     let renderer =
         Renderer::new(&shadowgraph::Gpu::noop().unwrap(), scene, &wrong.camera, Aov::Color).unwrap();
     let error = renderer.plan(&wrong).unwrap_err().to_string();
-    assert!(error.contains("\"lmap\"") && error.contains("1 light"), "{error}");
+    assert!(error.contains("\"lmap\"") && error.contains("but 1, numbered from 0"), "{error}");
 }
 
 #[test]

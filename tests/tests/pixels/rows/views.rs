@@ -54,7 +54,7 @@ fn row_40_other_numbers_of_samples_are_refused() {
         let camera = pillar_view(|_| ()).camera;
         let made = Renderer::with(&Gpu::noop().unwrap(), pillars_in_sun(), &camera, Aov::Color, method);
         let error = made.err().map(|error| (matches!(error, Error::Samples { .. }), error.to_string()));
-        assert!(error.is_some_and(|(known, text)| known && text.contains("1 and 4")));
+        assert!(error.is_some_and(|(known, text)| known && text.contains("1 or 4")));
     }
 }
 
