@@ -30,4 +30,4 @@ mod source;
 pub use compose::{compose, compose_source};
 pub use error::Error;
 pub use naga;
-pub use source::{MAPPED, MASK_ONLY, ModuleSource, NONE, RAYTRACED, SCREEN, builtin, builtin_files};
+pub use source::{MAPPED, MASK_ONLY, ModuleSource, NONE, PCSS, RAYTRACED, SCREEN, builtin, builtin_files};

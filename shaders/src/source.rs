@@ -35,6 +35,9 @@ pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 /// `filtered` of the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
 pub const MAPPED: ModuleSource = file!("shadows/mapped.wgsl");
 
+/// The filter of the technique `pcss`, for [`MAPPED`].
+pub const PCSS: ModuleSource = file!("shadows/pcss.wgsl");
+
 /// The technique `screen`: what another technique says of all that the picture shows, in a screen mask. Its bindings follow
 /// those of the other: `MASK` and `LAYERS` stand for their numbers, and the other's import path is `shadowgraph::collected`.
 pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");

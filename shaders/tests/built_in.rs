@@ -5,7 +5,9 @@ use naga::{
     BuiltIn, ShaderStage,
     valid::{Capabilities, ValidationFlags, Validator},
 };
-use shadowgraph_shaders::{MAPPED, ModuleSource, NONE, RAYTRACED, builtin, builtin_files, compose, layout};
+use shadowgraph_shaders::{
+    MAPPED, ModuleSource, NONE, PCSS, RAYTRACED, builtin, builtin_files, compose, layout,
+};
 
 const ENTRIES: [&str; 8] = [
     "blur.wgsl",
@@ -52,6 +54,15 @@ fn every_entry_is_valid_with_every_technique() {
             let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
             validator.validate(&module).unwrap_or_else(|error| panic!("{name}: {error:?}"));
         }
+    }
+}
+
+#[test]
+fn every_entry_is_valid_with_the_filter_of_soft_edges() {
+    for entry in ENTRIES {
+        let module = compose(entry, &[MAPPED, PCSS]).unwrap_or_else(|error| panic!("{entry}: {error}"));
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
+        validator.validate(&module).unwrap_or_else(|error| panic!("{entry}: {error:?}"));
     }
 }
 

@@ -73,6 +73,19 @@ fn a_folder_gets_a_page_with_pictures_and_a_report_that_reads_back() {
 }
 
 #[test]
+fn edges_of_pcss_are_nearer_to_soft_truth_than_those_of_pcf() {
+    let folder = tempfile::tempdir().unwrap();
+    let (cases, out) = (small_case(folder.path()), folder.path().join("out"));
+    let arguments = ["--quick", "--size", "320x180", "--techniques", "pcf,pcss", "--cases", &cases, "-o"];
+    let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let json = std::fs::read_to_string(out.join("report.json")).unwrap();
+    let report: Report = serde_json::from_str(&json).unwrap();
+    let [pcf, pcss] = [0, 1].map(|i| report.cases[i].edges.as_ref().unwrap().rmse);
+    assert!(pcss < 0.8 * pcf, "{pcss} {pcf}");
+}
+
+#[test]
 fn variants_of_settings_are_measured_beside_the_own_ones() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, variants) = (small_case(folder.path()), folder.path().join("variants.ron"));

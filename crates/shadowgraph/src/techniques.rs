@@ -3,7 +3,7 @@
 use glam::DVec3;
 use shadowgraph_scene::Scene;
 use shadowgraph_shadows::rays::GpuRayScene;
-use shadowgraph_shadows::{NoShadows, Pcf, Raytraced, ScreenShadows, ShadowTechnique};
+use shadowgraph_shadows::{NoShadows, Pcf, Pcss, Raytraced, ScreenShadows, ShadowTechnique};
 
 use crate::options::{Pipeline, Technique};
 use crate::{Error, Gpu, Method, ray_scene};
@@ -18,6 +18,7 @@ pub(crate) fn make(
     let device = &gpu.device;
     let technique: Box<dyn ShadowTechnique> = match method.technique {
         Technique::Pcf => Box::new(Pcf::new(device)),
+        Technique::Pcss => Box::new(Pcss::new(device)),
         Technique::None => Box::new(NoShadows::new(device)),
         Technique::Raytraced => {
             let limit = device.limits().max_storage_buffer_binding_size;

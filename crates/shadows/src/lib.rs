@@ -50,11 +50,11 @@ pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
     CascadeSettings, CullSettings, DepthFormat, LightRef, LightShadows, MAX_CASCADE_LIGHTS, MAX_CASCADES,
-    NormalBias, ScreenSettings, ShadowSettings, SplitScheme,
+    NormalBias, PcssSettings, ScreenSettings, ShadowSettings, SplitScheme,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
-pub use techniques::{MAX_MASK_LAYERS, NoShadows, Pcf, PcfVariant, Raytraced, ScreenShadows};
+pub use techniques::{MAX_MASK_LAYERS, NoShadows, Pcf, PcfVariant, Pcss, Raytraced, ScreenShadows};
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
     NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView, TilePlace,

@@ -151,11 +151,12 @@ pub enum TilePart {
 /// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for a view that is
 /// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
 pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
-    plan_shadows_after(inputs, None)
+    plan_shadows_after(inputs, None, 0.0)
 }
 
 /// Plans the shadows of a frame that follows another one: lights keep the size and the place of their tiles
-/// ([`ShadowPlan::allotment`]) as far as they can.
+/// ([`ShadowPlan::allotment`]) as far as they can. `kernel_texels`, 0 to 24, is how far around a point the technique reads, if
+/// that is farther than the settings' filter: borders of tiles are as wide.
 ///
 /// # Errors
 ///
@@ -163,8 +164,9 @@ pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
 pub fn plan_shadows_after(
     inputs: &ShadowInputs<'_>,
     before: Option<&Allotment>,
+    kernel_texels: f32,
 ) -> Result<ShadowPlan, Error> {
-    Ok(Planner::new(inputs, before)?.plan())
+    Ok(Planner::new(inputs, before, kernel_texels)?.plan())
 }
 
 impl ShadowPlan {

@@ -24,12 +24,18 @@ pub(crate) struct Planner<'a> {
     own: Vec<Option<&'a LightShadows>>,
     /// The tiles of the last frame.
     before: Option<&'a Allotment>,
+    /// How far the technique reads at least, texels.
+    reach_texels: f32,
     plan: ShadowPlan,
 }
 
 impl<'a> Planner<'a> {
     /// Checks the inputs.
-    pub(crate) fn new(inputs: &ShadowInputs<'a>, before: Option<&'a Allotment>) -> Result<Self, Error> {
+    pub(crate) fn new(
+        inputs: &ShadowInputs<'a>,
+        before: Option<&'a Allotment>,
+        reach_texels: f32,
+    ) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
         settings.validate()?;
         let own = rules::of_lights(settings, inputs.lights)?;
@@ -42,7 +48,7 @@ impl<'a> Planner<'a> {
         let reach = Reach { camera, aspect, near_m, distance_m, fit_m };
         let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
         let seen = Seen::new(inputs, &reach);
-        Ok(Self { inputs: *inputs, reach, seen, own, before, plan })
+        Ok(Self { inputs: *inputs, reach, seen, own, before, reach_texels, plan })
     }
 
     /// Makes the plan.
@@ -83,7 +89,7 @@ impl<'a> Planner<'a> {
     }
 
     fn rules(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightRules {
-        LightRules::new(self.inputs.settings, candidate.own, has_cascades)
+        LightRules::new(self.inputs.settings, candidate.own, has_cascades).reaching(self.reach_texels)
     }
 
     fn cull(&self, volume: &CullVolume) -> Vec<u32> {
@@ -108,7 +114,7 @@ impl<'a> Planner<'a> {
 
 /// Where a tile is.
 fn place(rect: TileRect, map_size_px: [u32; 2], rules: &LightRules, depth_step: f32) -> TilePlace {
-    TilePlace { rect, map_size_px, border_px: rules.filter.border_px(), depth_step }
+    TilePlace { rect, map_size_px, border_px: rules.border_px(), depth_step }
 }
 
 /// How far it is from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per factor

@@ -9,6 +9,8 @@ use crate::{BiasSettings, Error, LightRef, LightShadows, NormalBias, ShadowFilte
 pub(crate) struct LightRules {
     pub(crate) bias: BiasSettings,
     pub(crate) filter: ShadowFilter,
+    /// How far from the point it is asked for the technique reads, texels.
+    pub(crate) reach_texels: f32,
     pub(crate) strength: f32,
     pub(crate) fade_fraction: f32,
     pub(crate) near_m: Option<f64>,
@@ -22,7 +24,15 @@ impl LightRules {
         let bias = settings.bias.clone();
         let fade_fraction = settings.fade_fraction;
         let Some(own) = own else {
-            return Self { bias, filter, strength: 1.0, fade_fraction, near_m: None, importance: 1.0 };
+            return Self {
+                bias,
+                filter,
+                reach_texels: filter.reach_texels(),
+                strength: 1.0,
+                fade_fraction,
+                near_m: None,
+                importance: 1.0,
+            };
         };
         let bias = BiasSettings {
             depth_texels: own.depth_texels.unwrap_or(bias.depth_texels),
@@ -30,14 +40,26 @@ impl LightRules {
             normal_texels: own.normal_texels.unwrap_or(bias.normal_texels),
             ..bias
         };
+        let filter = own.filter.unwrap_or(filter);
         Self {
             bias,
-            filter: own.filter.unwrap_or(filter),
+            filter,
+            reach_texels: filter.reach_texels(),
             strength: own.strength,
             fade_fraction,
             near_m: own.near_m.map(f64::from),
             importance: f64::from(own.importance),
         }
+    }
+
+    /// For a technique that reads at least this far.
+    pub(crate) fn reaching(self, texels: f32) -> Self {
+        Self { reach_texels: self.reach_texels.max(texels), ..self }
+    }
+
+    /// The border on each side of a tile, pixels: as wide as is read.
+    pub(crate) fn border_px(&self) -> u32 {
+        self.reach_texels.ceil() as u32
     }
 
     pub(crate) fn normal_sine(&self) -> bool {
@@ -54,7 +76,7 @@ impl LightRules {
     /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that snapping
     /// can be off.
     pub(crate) fn margin_px(&self, bias_scale: f32) -> f64 {
-        f64::from(self.filter.reach_texels() + self.normal_texels() * bias_scale.max(1.0)) + 1.0
+        f64::from(self.reach_texels + self.normal_texels() * bias_scale.max(1.0)) + 1.0
     }
 }
 

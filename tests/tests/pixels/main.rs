@@ -12,4 +12,5 @@ mod rows;
 mod scenes;
 mod sheet;
 mod snapping;
+mod soft;
 mod stage;

@@ -15,13 +15,14 @@ const GAP_PX: u32 = 4;
 const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
 
 /// The first is what the others are compared with.
-fn ways() -> [(&'static str, Method); 6] {
+fn ways() -> [(&'static str, Method); 7] {
     [
         ("raytraced", Technique::Raytraced.into()),
         ("pcf, forward", Technique::Pcf.into()),
         ("pcf, minimal", Pipeline::Minimal.into()),
         ("pcf, screen_shadows", Pipeline::ScreenShadows.into()),
         ("pcf, 4 samples", Method { samples: 4, ..Method::default() }),
+        ("pcss", Technique::Pcss.into()),
         ("none", Technique::None.into()),
     ]
 }

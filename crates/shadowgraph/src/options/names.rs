@@ -4,7 +4,7 @@ use super::OptionError;
 use std::str::FromStr;
 
 /// The names of the sun's shadow techniques, the default first.
-pub const TECHNIQUES: &[&str] = &["pcf", "raytraced", "none"];
+pub const TECHNIQUES: &[&str] = &["pcf", "pcss", "raytraced", "none"];
 
 /// The names of the built-in pipelines, the default first.
 pub const PIPELINES: &[&str] = &["forward", "screen_shadows", "minimal"];
@@ -15,6 +15,8 @@ pub enum Technique {
     /// `pcf`: shadow maps, [`Pcf`](shadowgraph_shadows::Pcf).
     #[default]
     Pcf,
+    /// `pcss`: shadow maps with edges that get softer with distance, [`Pcss`](shadowgraph_shadows::Pcss).
+    Pcss,
     /// `raytraced`: a ray a pixel, [`Raytraced`](shadowgraph_shadows::Raytraced).
     Raytraced,
     /// `none`: everything is lit, [`NoShadows`](shadowgraph_shadows::NoShadows).
@@ -39,6 +41,7 @@ impl Technique {
     pub fn name(self) -> &'static str {
         match self {
             Self::Pcf => "pcf",
+            Self::Pcss => "pcss",
             Self::Raytraced => "raytraced",
             Self::None => "none",
         }
@@ -64,10 +67,10 @@ impl FromStr for Technique {
     /// use shadowgraph::options::Technique;
     /// assert_eq!("pcf".parse(), Ok(Technique::default()));
     /// let error = "soft".parse::<Technique>().unwrap_err();
-    /// assert_eq!(error.to_string(), "--technique: there is no technique `soft`; there is: pcf, raytraced, none");
+    /// assert_eq!(error.to_string(), "--technique: there is no technique `soft`; there is: pcf, pcss, raytraced, none");
     /// ```
     fn from_str(text: &str) -> Result<Self, OptionError> {
-        let all = [Self::Pcf, Self::Raytraced, Self::None];
+        let all = [Self::Pcf, Self::Pcss, Self::Raytraced, Self::None];
         let name = known("--technique", "technique", text, TECHNIQUES)?;
         Ok(all.into_iter().find(|technique| technique.name() == name).unwrap_or_default())
     }

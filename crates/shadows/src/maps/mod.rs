@@ -79,7 +79,8 @@ impl ShadowMaps {
         }
     }
 
-    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass.
+    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass. `kernel_texels`, 0 to
+    /// 24, is how far around a point the technique reads, if that is farther than the settings' filter.
     ///
     /// # Errors
     /// As [`plan_shadows`](crate::plan_shadows).
@@ -87,8 +88,9 @@ impl ShadowMaps {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
+        kernel_texels: f32,
     ) -> Result<DrawnMaps, Error> {
-        let plan = self.plan(inputs)?;
+        let plan = self.plan(inputs, kernel_texels)?;
         let (views, lights) = frame.node("set up views", |frame| {
             let views = frame.upload_buffer("shadow views", plan.view_bytes());
             (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
@@ -101,9 +103,9 @@ impl ShadowMaps {
     }
 
     /// Plans a frame after the last one of the same view.
-    fn plan(&self, inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
+    fn plan(&self, inputs: &ShadowInputs<'_>, kernel_texels: f32) -> Result<ShadowPlan, Error> {
         let mut allotments = self.allotments.lock().unwrap_or_else(PoisonError::into_inner);
-        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view))?;
+        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view), kernel_texels)?;
         allotments.insert(inputs.view, plan.allotment.clone());
         Ok(plan)
     }

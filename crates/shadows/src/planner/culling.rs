@@ -140,8 +140,8 @@ impl Planner<'_> {
 fn inner_box(fit: &OrthoFit, rules: &LightRules, slack_m: f64, blend: f64, scale: f64) -> Aabb {
     let center = fit.center_texels * fit.texel_m;
     let half = fit.half_extent_m();
-    let inner = (half - f64::from(rules.filter.border_px()) * fit.texel_m) * (1.0 - blend) - slack_m;
-    let steepest = f64::from(rules.filter.reach_texels() * rules.bias.slope * rules.bias.max_slope) * scale;
+    let inner = (half - f64::from(rules.border_px()) * fit.texel_m) * (1.0 - blend) - slack_m;
+    let steepest = f64::from(rules.reach_texels * rules.bias.slope * rules.bias.max_slope) * scale;
     let rise_m = std::f64::consts::SQRT_2 * steepest * fit.texel_m;
     let depth_m = fit.depth_range_m();
     let faded_m = 0.5 * blend * depth_m + slack_m + 1e-5 * depth_m;

@@ -7,6 +7,7 @@ mod check;
 mod cull;
 mod depth;
 mod lights;
+mod pcss;
 mod screen;
 
 pub use atlas::{AtlasSettings, AtlasTiles};
@@ -18,6 +19,7 @@ pub use cascades::{
 pub use cull::CullSettings;
 pub use depth::DepthFormat;
 pub use lights::{LightRef, LightShadows};
+pub use pcss::PcssSettings;
 pub use screen::ScreenSettings;
 
 use serde::{Deserialize, Serialize};
@@ -26,7 +28,7 @@ use crate::Error;
 use check::in_range;
 pub(crate) use check::setting;
 
-/// All settings of the `pcf` technique. Files may leave out what they do not change.
+/// All settings of the techniques of shadow maps. Files may leave out what they do not change.
 ///
 /// ```
 /// use shadowgraph_shadows::ShadowSettings;
@@ -51,6 +53,8 @@ pub struct ShadowSettings {
     pub bias: BiasSettings,
     /// Shadows that are collected in a screen mask.
     pub screen: ScreenSettings,
+    /// How `pcss` softens edges.
+    pub pcss: PcssSettings,
     /// Which casters are left out.
     pub cull: CullSettings,
     /// What is different for single lights.
@@ -66,6 +70,7 @@ impl Default for ShadowSettings {
             atlas: AtlasSettings::default(),
             bias: BiasSettings::default(),
             screen: ScreenSettings::default(),
+            pcss: PcssSettings::default(),
             cull: CullSettings::default(),
             lights: Vec::new(),
         }
@@ -85,6 +90,7 @@ impl ShadowSettings {
         self.atlas.validate()?;
         self.bias.validate()?;
         self.screen.validate()?;
+        self.pcss.validate()?;
         self.lights.iter().try_for_each(LightShadows::validate)
     }
 }

@@ -14,6 +14,24 @@ pub(super) const DEPTH_MAP: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
+/// A uniform block.
+pub(super) const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Uniform,
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+/// Mixes four comparisons: lit where the point is at least as near to the light as what a map has.
+pub(super) fn comparison_sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("shadow comparison"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(wgpu::CompareFunction::GreaterEqual),
+        ..Default::default()
+    })
+}
+
 /// Makes a layout with these bindings, from 0, for those who light and who compute. What is written is only computed.
 pub(super) fn layout(
     device: &wgpu::Device,

@@ -3,7 +3,7 @@
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{MAPPED, ModuleSource};
 
-use super::layout::{DEPTH_MAP, STORAGE, layout};
+use super::layout::{DEPTH_MAP, STORAGE, comparison_sampler, layout};
 use super::variant::PcfVariant;
 use crate::plan;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
@@ -31,13 +31,7 @@ impl Pcf {
         Self {
             layout: layout(device, "pcf shadows", &BINDINGS),
             maps: ShadowMaps::new(device),
-            sampler: device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("shadow comparison"),
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                compare: Some(wgpu::CompareFunction::GreaterEqual),
-                ..Default::default()
-            }),
+            sampler: comparison_sampler(device),
         }
     }
 }
@@ -73,7 +67,7 @@ impl ShadowTechnique for Pcf {
         inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs))?;
+        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, 0.0))?;
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Sampler(&self.sampler));
         Ok(ShadowOutputs {

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN, compose};
 
-use super::layout::{STORAGE, layout};
+use super::layout::{STORAGE, UNIFORM, layout};
 use super::mask::{MASK, MASK_FORMAT, SURFACES, TARGET, WORKGROUP_PX, masked_lights, no_mask};
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ScreenSettings, ShadowInputs};
@@ -216,12 +216,6 @@ impl ShadowTechnique for ScreenShadows {
         Ok(outputs)
     }
 }
-
-const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
 
 /// A `MaskLayers` of `layers.wgsl`.
 fn record(lights: &[u32], settings: &ScreenSettings) -> Vec<u8> {

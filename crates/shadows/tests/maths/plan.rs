@@ -372,7 +372,7 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
             origin_world: DVec3::ZERO,
             settings: &settings,
         };
-        plan_shadows_after(&inputs, before).unwrap()
+        plan_shadows_after(&inputs, before, 0.0).unwrap()
     };
     let rects = |plan: &ShadowPlan| plan.allotment.rects.clone();
     let (mut changed, mut changed_without) = (0, 0);

@@ -76,7 +76,7 @@ pub(crate) struct MeasureArgs {
     /// A glTF or GLB file; without it the built-in cases
     #[arg(conflicts_with = "cases")]
     pub(crate) scene: Option<PathBuf>,
-    /// The shadow techniques, with commas between: pcf, raytraced, none
+    /// The shadow techniques, with commas between: pcf, pcss, raytraced, none
     #[arg(long, value_name = "A,B,...", value_delimiter = ',', default_value = "pcf")]
     pub(crate) techniques: Vec<String>,
     /// Scenes, suns and views in RON
@@ -141,7 +141,7 @@ pub(crate) struct DrawArgs {
     /// The pipeline: forward, screen_shadows or minimal
     #[arg(long, value_name = "NAME", default_value = "forward")]
     pipeline: String,
-    /// The shadow technique: pcf, raytraced or none
+    /// The shadow technique: pcf, pcss, raytraced or none
     #[arg(long, value_name = "NAME", default_value = "pcf")]
     technique: String,
     /// Samples a pixel while colours are drawn: 1 or 4
@@ -252,7 +252,10 @@ mod tests {
     #[test]
     fn a_wrong_value_is_one_line_with_the_option() {
         for (line, start) in [
-            ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf, raytraced, none"),
+            (
+                "--technique;soft",
+                "--technique: there is no technique `soft`; there is: pcf, pcss, raytraced, none",
+            ),
             ("--pipeline;my.ron", "--pipeline: there is no pipeline `my.ron`; there is: forward"),
             ("--size;0x4", "--size: the width 0"),
             ("--sun;dir=0,0,0", "--sun: dir has no length"),

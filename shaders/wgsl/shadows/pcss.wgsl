@@ -1,0 +1,109 @@
+// The filter of the technique `pcss`: edges as wide as the light's size makes them (Fernando, "Percentage-Closer Soft Shadows",
+// 2005). Taps lie on a Vogel spiral that is turned from pixel to pixel.
+#define_import_path shadowgraph::shadows::filter
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::tent::tent_depth
+#import shadowgraph::shadows::tiles::{shadow_views, pixel_noise}
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
+
+// 20 bytes.
+struct SoftLights {
+    // Of directional lights: the tangent of half the angle they take up in the sky.
+    sun_radius: f32,
+    // Of others, metres.
+    lamp_radius: f32,
+    // The most that an edge is softened to either side.
+    most_texels: f32,
+    blocker_taps: u32,
+    filter_taps: u32,
+}
+
+@group(1) @binding(2) var cascade_map: texture_depth_2d;
+@group(1) @binding(3) var atlas_map: texture_depth_2d;
+// Linear, GreaterEqual: lit where the point is at least as near to the light as what the map has.
+@group(1) @binding(4) var shadow_sampler: sampler_comparison;
+@group(1) @binding(5) var<uniform> soft_lights: SoftLights;
+
+const GOLDEN_ANGLE: f32 = 2.39996323;
+const TURN: f32 = 6.28318531;
+// An edge in a map is never sharper than its texels.
+const LEAST_TEXELS: f32 = 0.7;
+
+// Within a circle of radius 1.
+fn spiral(tap: u32, count: u32, turn: f32) -> vec2f {
+    let angle = f32(tap) * GOLDEN_ANGLE + turn;
+    return sqrt((f32(tap) + 0.5) / f32(count)) * vec2f(cos(angle), sin(angle));
+}
+
+// Metres from a spot or point light along the tile's axis.
+fn axis_distance(shadow_view: ShadowView, depth: f32) -> f32 {
+    let far = shadow_view.near_m + shadow_view.depth_range_m;
+    return shadow_view.near_m * far / (shadow_view.near_m + depth * shadow_view.depth_range_m);
+}
+
+// How wide an edge is to either side, texels, if what casts it has this depth.
+fn edge_texels(shadow_view: ShadowView, point: f32, blocker: f32) -> f32 {
+    if shadow_view.light.w == 0.0 {
+        let way_m = (blocker - point) * shadow_view.depth_range_m;
+        return soft_lights.sun_radius * way_m / shadow_view.texel_world;
+    }
+    let near_m = axis_distance(shadow_view, blocker);
+    let far_m = axis_distance(shadow_view, point);
+    return soft_lights.lamp_radius * (far_m - near_m) / (near_m * far_m * shadow_view.texel_world);
+}
+
+// The depth that a tap so many texels beside the point is compared with: the nearest of the texels that it reads.
+fn tap_depth(lookup: Lookup, tap: vec2f) -> f32 {
+    let slope = lookup.plane.slope;
+    return tent_depth(lookup.plane, abs(dot(slope, tap)) + 0.5 * (abs(slope.x) + abs(slope.y)), tap);
+}
+
+// How much of the light is seen from a point: 0 (in shadow) to 1.
+fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    let in_cascades = light.map == MAP_CASCADES;
+    let shadow_view = shadow_views[light.first_view + lookup.view];
+    var size_px = vec2f(textureDimensions(atlas_map));
+    if in_cascades {
+        size_px = vec2f(textureDimensions(cascade_map));
+    }
+    let at = lookup.uv * size_px;
+    let turn = TURN * pixel_noise(receiver.pixel);
+
+    // What is in the way, and how far from the point it is on average.
+    let widest = clamp(edge_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, soft_lights.most_texels);
+    var blockers = 0.0;
+    var depths = 0.0;
+    for (var i = 0u; i < soft_lights.blocker_taps; i++) {
+        let tap = widest * spiral(i, soft_lights.blocker_taps, turn);
+        let texel = vec2i(floor(at + tap));
+        var stored = 0.0;
+        if in_cascades {
+            stored = textureLoad(cascade_map, texel, 0);
+        } else {
+            stored = textureLoad(atlas_map, texel, 0);
+        }
+        if stored > tap_depth(lookup, tap) {
+            blockers += 1.0;
+            depths += stored;
+        }
+    }
+    if blockers == 0.0 {
+        return 1.0;
+    }
+
+    let edge = edge_texels(shadow_view, lookup.plane.depth, depths / blockers);
+    let radius = clamp(edge, LEAST_TEXELS, soft_lights.most_texels);
+    var lit = 0.0;
+    for (var i = 0u; i < soft_lights.filter_taps; i++) {
+        let tap = radius * spiral(i, soft_lights.filter_taps, turn);
+        let uv = (at + tap) / size_px;
+        let depth = tap_depth(lookup, tap);
+        if in_cascades {
+            lit += textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
+        } else {
+            lit += textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
+        }
+    }
+    return lit / f32(soft_lights.filter_taps);
+}

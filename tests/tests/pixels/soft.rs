@@ -1,0 +1,82 @@
+//! `pcss`: edges as soft as the light's size makes them.
+
+use crate::stage::{add_instance, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
+use glam::DVec3;
+use shadowgraph::measure::Instrument;
+use shadowgraph::options::{Aov, Technique};
+use shadowgraph::scene::{Light, LightKind, Scene};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+/// A plate over a floor, its edge over x = 0, under a light.
+fn plate(height_m: f64, light: Light) -> Scene {
+    let plate = box_mesh(DVec3::new(0.0, height_m, -3.0), DVec3::new(6.0, height_m + 0.02, 3.0));
+    let mut scene =
+        Scene { meshes: vec![floor_mesh(10.0), plate], materials: vec![material()], ..Scene::default() };
+    add_instance(&mut scene, 0, 0, DVec3::ZERO);
+    add_instance(&mut scene, 1, 0, DVec3::ZERO);
+    scene.add_light(light);
+    scene
+}
+
+/// Looks at the floor below the edge.
+fn options() -> ViewOptions {
+    let mut options = view(camera(DVec3::new(-0.5, 0.4, 0.0), DVec3::ZERO), 20.0);
+    // Texels of millimetres, of which the widest edges are twenty.
+    options.shadows.cascades.map_size_px = 1024;
+    options.shadows.atlas.map_size_px = 1024;
+    options.shadows.pcss.filter_taps = 64;
+    options.shadows.pcss.blocker_taps = 64;
+    options.shadows.pcss.most_texels = 24.0;
+    options
+}
+
+/// How wide the edge is on the floor, from a tenth to nine tenths of the light, metres.
+fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
+    let aov = Aov::Visibility(0);
+    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, Technique::Pcss).unwrap();
+    let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, options, 0).unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().picture;
+    let pixels = ground.surfaces.positions.iter().zip(picture.rgba8.chunks_exact(4));
+    let between = pixels.filter(|(_, rgba)| rgba[3] == 255 && (26..=229).contains(&rgba[0]));
+    let mut between: Vec<f32> = between.map(|(position, _)| position.x).collect();
+    between.sort_by(f32::total_cmp);
+    assert!(between.len() > 100, "{}", between.len());
+    // Noise moves some pixels beyond the ends.
+    let at = |part: usize| f64::from(between[between.len() * part / 100]);
+    at(98) - at(2)
+}
+
+#[test]
+fn under_a_sun_edges_are_as_wide_as_its_angle_makes_them() {
+    let Some(gpu) = gpu() else { return };
+    let mut options = options();
+    options.shadows.pcss.sun_radius_rad = 0.05;
+    for height_m in [0.5, 1.0, 1.5] {
+        let width = width_m(gpu, &plate(height_m, sun(DVec3::NEG_Y)), &options);
+        // Of a disc that comes out from behind a straight edge, the middle eight tenths take 0.687 of the way.
+        let right = 2.0 * height_m * 0.05f64.tan() * 0.687;
+        assert!((width / right - 1.0).abs() < 0.25, "{height_m} m: {width} instead of {right}");
+    }
+}
+
+#[test]
+fn under_a_lamp_edges_widen_with_the_way_behind_what_casts_them() {
+    let Some(gpu) = gpu() else { return };
+    let mut options = options();
+    options.shadows.pcss.lamp_radius_m = 0.1;
+    let lamp = || {
+        let kind = LightKind::Spot {
+            position_world: DVec3::new(0.0, 4.0, 0.0),
+            direction: DVec3::NEG_Y,
+            range: Some(10.0),
+            inner_angle: 0.4,
+            outer_angle: 0.5,
+        };
+        light(kind, 2000.0)
+    };
+    for height_m in [1.0, 1.8] {
+        let width = width_m(gpu, &plate(height_m, lamp()), &options);
+        let right = 2.0 * 0.1 * height_m / (4.0 - height_m) * 0.687;
+        assert!((width / right - 1.0).abs() < 0.25, "{height_m} m: {width} instead of {right}");
+    }
+}
