@@ -74,7 +74,9 @@ pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED];
 /// The files with entry points.
 pub(crate) const ENTRIES: &[ModuleSource] = &[
     file!("blur.wgsl"),
+    file!("check.wgsl"),
     file!("collect.wgsl"),
+    file!("contact.wgsl"),
     file!("depth.wgsl"),
     file!("forward.wgsl"),
     file!("probe.wgsl"),

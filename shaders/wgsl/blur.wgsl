@@ -3,12 +3,20 @@
 // 2005).
 #import shadowgraph::view::{view, view_depth_of}
 #import shadowgraph::surface::unpack_normal
-#import shadowgraph::shadows::layers::MaskLayers
+
+// 16 bytes.
+struct Blur {
+    // How soft shadows' edges are blurred: the radius in metres, and at most in pixels.
+    radius_world: f32,
+    most_px: f32,
+    // How far apart two surfaces are, in parts of their view depth, that are not blurred over each other.
+    depth_threshold: f32,
+}
 
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
 @group(1) @binding(1) var collected: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
-@group(1) @binding(3) var<uniform> layers: MaskLayers;
+@group(1) @binding(4) var<uniform> blur: Blur;
 
 const TAPS: u32 = 16u;
 // Points of the unit disc, each at least 0.49 from the others.
@@ -39,8 +47,8 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
     var count = 1.0;
     if any(normal != vec3f(0.0)) {
         let depth = view_depth_of(surface.xyz);
-        let radius_px = min(layers.blur_world * pixels_per_metre(depth), layers.blur_max_px);
-        let apart = layers.depth_threshold * depth;
+        let radius_px = min(blur.radius_world * pixels_per_metre(depth), blur.most_px);
+        let apart = blur.depth_threshold * depth;
         // Interleaved gradient noise (Jimenez 2014).
         let pixel = vec2f(id.xy);
         let angle = 6.2831853 * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));

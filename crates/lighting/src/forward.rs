@@ -9,7 +9,7 @@ use shadowgraph_scene::gpu::{
     AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, DrawWith, GpuScene, MaterialKey, MaterialLayouts,
     vertex_layout,
 };
-use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
+use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 
 use shadowgraph_shaders::ModuleSource;
 
@@ -118,7 +118,7 @@ impl Forward {
         target: LitTarget,
     ) -> Result<Self, Error> {
         let view_layout = view_layout(device);
-        let shadow_layout = technique.bind_group_layout().clone();
+        let shadow_layout = shadow_layout(device, technique);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("forward"),
             bind_group_layouts: &[
@@ -179,6 +179,11 @@ impl Forward {
     /// Returns the pipelines of the prepass, for one that is recorded without the graph.
     pub fn depth_pipelines(&self) -> &DepthPipelines {
         &self.prepass
+    }
+
+    /// Returns the layout of group 1 of the lit pass: the technique's.
+    pub fn shadow_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.shadow_layout
     }
 
     /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.

@@ -4,7 +4,7 @@
 //!
 //! 1. [`ViewRecords::upload`] writes the camera and the lights;
 //! 2. [`Forward::prepass`] draws depth;
-//! 3. the shadow technique adds its maps (`shadowgraph_shadows::ShadowTechnique::add_to`);
+//! 3. the shadow technique adds its maps (`shadowgraph_shadows::add_shadows`);
 //! 4. [`Forward::lit`] draws the scene, every light and material, asking `shadow_visibility` for each light;
 //! 5. [`Tonemap::add_to`] makes a picture of it.
 //!

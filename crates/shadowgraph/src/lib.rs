@@ -52,6 +52,7 @@ pub mod output;
 mod permutations;
 mod picture;
 pub mod pipelines;
+pub mod program;
 mod renderer;
 mod show;
 mod surfaces;

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec2, Vec3};
 use shadowgraph_scene::{AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap};
 use shadowgraph_shadows::rays::{self, AlphaTexture, Cut, Occluder, RayScene};
 
-use crate::Error;
+use shadowgraph_shadows::Error;
 
 /// Blended surfaces stop light where they are more than half opaque, as they do in shadow maps.
 const BLEND_CUTOFF: f32 = 0.5;
@@ -34,7 +34,7 @@ pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> 
             occluders.push(Occluder { corners, cut: holes.as_ref().map(|holes| holes.cut([a, b, c])) });
         }
     }
-    Ok(RayScene::new(&occluders, textures.all).map_err(shadowgraph_shadows::Error::from)?)
+    Ok(RayScene::new(&occluders, textures.all)?)
 }
 
 fn position(instance: &Instance, vertex: &Vertex, origin_world: DVec3) -> Vec3 {

@@ -3,7 +3,9 @@
 use glam::DVec3;
 use shadowgraph_scene::Scene;
 
-use crate::options::{Pipeline, Technique};
+use shadowgraph_shadows::Technique;
+
+use crate::options::Pipeline;
 use crate::{Error, Gpu, Method, techniques};
 
 /// How many variants of the lit shader a technique can make a frame ask for. Each of them is compiled for those of the

@@ -6,9 +6,9 @@ use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Tim
 use shadowgraph_lighting::{Ambience, Forward, Key, LitTarget, Shows, Tonemap};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near, visible};
-use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Unshadowed};
+use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Technique, TechniqueKind, Unshadowed};
 
-use crate::options::{Aov, Pipeline, ShadowDistance, Technique};
+use crate::options::{Aov, Pipeline, ShadowDistance};
 use crate::picture::{Drawn, Picture};
 use crate::pipelines::{self, Target, View};
 use crate::surfaces::SurfaceDrawer;
@@ -72,6 +72,12 @@ impl Default for Method {
 impl From<Technique> for Method {
     fn from(technique: Technique) -> Self {
         Self { technique, ..Self::default() }
+    }
+}
+
+impl From<TechniqueKind> for Method {
+    fn from(kind: TechniqueKind) -> Self {
+        Technique::from(kind).into()
     }
 }
 

@@ -14,9 +14,8 @@ pub(crate) struct SurfaceDrawer {
 
 impl SurfaceDrawer {
     pub(crate) fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
-        let technique = NoShadows::new(device);
         let target = LitTarget { format: Format::Rgba32Float, shows: Shows::Surface, samples: 1 };
-        let forward = Forward::new(device, layouts, &technique, target)?;
+        let forward = Forward::new(device, layouts, &NoShadows, target)?;
         Ok(Self { forward })
     }
 

@@ -39,7 +39,23 @@ pub enum Error {
     )]
     NoSurfaces {
         /// The technique's name.
-        technique: &'static str,
+        technique: String,
+    },
+    /// A technique is not what it says, or has settings that it cannot have.
+    #[error("technique `{technique}`: {fault}")]
+    Technique {
+        /// Its name.
+        technique: String,
+        /// What is wrong with it.
+        fault: String,
+    },
+    /// There is no technique of this name.
+    #[error("there is no technique `{name}`; there is: {known}")]
+    NoTechnique {
+        /// What was asked for.
+        name: String,
+        /// The names there are.
+        known: String,
     },
     /// A shader does not compose.
     #[error(transparent)]

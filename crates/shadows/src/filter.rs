@@ -96,17 +96,20 @@ fn tent_integral(x: f64, half: f64) -> f64 {
 
 /// What shared services must know about a technique: how wide it reads, how it moves its lookups, and how far
 /// from a receiver it looks for things that block light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Needs {
-    /// Texels around the point that the filter reads.
+    /// Texels around the point that the filter reads, 0 to 24: borders of tiles are as wide.
     pub kernel_radius_texels: f32,
     /// The longest way that a lookup is moved sideways in its tile, texels.
     pub bias_texels: f32,
-    /// How far beside a receiver a blocker can be and still matter, metres, beyond the kernel.
+    /// How far beside a receiver a blocker can be and still matter, metres, beyond the kernel: casters that are nearer are drawn.
     pub blocker_reach_m: f32,
 }
 
 impl Needs {
+    /// Those of a technique without maps.
+    pub const NONE: Self = Self { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 };
+
     /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that
     /// snapping can be off.
     #[must_use]

@@ -7,6 +7,8 @@
 //! - *Cascades*: up to eight tiles for each of the brightest directional lights, each around a slice of the view.
 //! - *Atlas*: tiles for spot and point lights and further directional lights.
 //!
+//! A [`ShadowTechnique`] makes nodes and WGSL of it; [`Techniques`] knows them by name, those of other crates too.
+//!
 //! [`QualityController`] lowers the settings while the passes take longer than they may.
 //!
 //! Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0). Directional tiles move through the
@@ -26,6 +28,7 @@ mod ortho;
 mod plan;
 mod planner;
 pub mod rays;
+mod registry;
 mod rules;
 mod select;
 mod settings;
@@ -46,15 +49,22 @@ pub use filter::{Needs, ShadowFilter, filter_taps};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
 pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows, plan_shadows_after};
+pub use registry::{NONE, PCF, PCSS, RAYTRACED, Technique, TechniqueContext, TechniqueKind, Techniques};
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
     CascadeSettings, CullSettings, DepthFormat, LightRef, LightShadows, MAX_CASCADE_LIGHTS, MAX_CASCADES,
-    NormalBias, PcssSettings, ScreenSettings, ShadowSettings, SplitScheme,
+    NormalBias, OwnSettings, ShadowSettings, SplitScheme, TechniqueSettings,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
-pub use technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens};
-pub use techniques::{MAX_MASK_LAYERS, NoShadows, Pcf, PcfVariant, Pcss, Raytraced, ScreenShadows};
+pub use technique::{
+    Record, Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens, add_shadows, binding,
+    shadow_layout,
+};
+pub use techniques::{
+    ContactSettings, MAX_MASK_LAYERS, NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced,
+    ScreenSettings, ScreenShadows, masked_lights,
+};
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
     NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView, TilePlace,

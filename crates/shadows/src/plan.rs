@@ -151,12 +151,12 @@ pub enum TilePart {
 /// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for a view that is
 /// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
 pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
-    plan_shadows_after(inputs, None, 0.0)
+    plan_shadows_after(inputs, None, &Needs::NONE)
 }
 
 /// Plans the shadows of a frame that follows another one: lights keep the size and the place of their tiles
-/// ([`ShadowPlan::allotment`]) as far as they can. `kernel_texels`, 0 to 24, is how far around a point the technique reads, if
-/// that is farther than the settings' filter: borders of tiles are as wide.
+/// ([`ShadowPlan::allotment`]) as far as they can. `needs` are the technique's, where they are more than those of the settings'
+/// filter.
 ///
 /// # Errors
 ///
@@ -164,9 +164,9 @@ pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
 pub fn plan_shadows_after(
     inputs: &ShadowInputs<'_>,
     before: Option<&Allotment>,
-    kernel_texels: f32,
+    needs: &Needs,
 ) -> Result<ShadowPlan, Error> {
-    Ok(Planner::new(inputs, before, kernel_texels)?.plan())
+    Ok(Planner::new(inputs, before, needs)?.plan())
 }
 
 impl ShadowPlan {
@@ -222,8 +222,7 @@ pub(crate) fn needs(settings: &ShadowSettings) -> Needs {
         let owns = settings.lights.iter().map(Some).chain([None]);
         owns.map(move |own| LightRules::new(settings, own, has_cascades))
     });
-    let none = Needs { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 };
-    all.fold(none, |most, rules| Needs {
+    all.fold(Needs::NONE, |most, rules| Needs {
         kernel_radius_texels: most.kernel_radius_texels.max(rules.filter.reach_texels()),
         bias_texels: most.bias_texels.max(rules.normal_texels()),
         ..most

@@ -11,8 +11,8 @@ use culling::Seen;
 use crate::rules::{self, LightRules};
 use crate::select::{Candidate, Reach, Shape, candidate};
 use crate::{
-    Allotment, Error, LightShadows, ShadowInputs, ShadowLight, ShadowPlan, TilePlace, TileRect, Unshadowed,
-    UnshadowedReason,
+    Allotment, Error, LightShadows, Needs, ShadowInputs, ShadowLight, ShadowPlan, TilePlace, TileRect,
+    Unshadowed, UnshadowedReason,
 };
 
 /// A plan in the making.
@@ -24,8 +24,8 @@ pub(crate) struct Planner<'a> {
     own: Vec<Option<&'a LightShadows>>,
     /// The tiles of the last frame.
     before: Option<&'a Allotment>,
-    /// How far the technique reads at least, texels.
-    reach_texels: f32,
+    /// What the technique needs beyond what the settings do.
+    needs: Needs,
     plan: ShadowPlan,
 }
 
@@ -34,7 +34,7 @@ impl<'a> Planner<'a> {
     pub(crate) fn new(
         inputs: &ShadowInputs<'a>,
         before: Option<&'a Allotment>,
-        reach_texels: f32,
+        needs: &Needs,
     ) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
         settings.validate()?;
@@ -48,7 +48,7 @@ impl<'a> Planner<'a> {
         let reach = Reach { camera, aspect, near_m, distance_m, fit_m };
         let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
         let seen = Seen::new(inputs, &reach);
-        Ok(Self { inputs: *inputs, reach, seen, own, before, reach_texels, plan })
+        Ok(Self { inputs: *inputs, reach, seen, own, before, needs: *needs, plan })
     }
 
     /// Makes the plan.
@@ -89,7 +89,7 @@ impl<'a> Planner<'a> {
     }
 
     fn rules(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightRules {
-        LightRules::new(self.inputs.settings, candidate.own, has_cascades).reaching(self.reach_texels)
+        LightRules::new(self.inputs.settings, candidate.own, has_cascades).needing(&self.needs)
     }
 
     fn cull(&self, volume: &CullVolume) -> Vec<u32> {

@@ -2,7 +2,7 @@
 
 use shadowgraph_scene::Light;
 
-use crate::{BiasSettings, Error, LightRef, LightShadows, NormalBias, ShadowFilter, ShadowSettings};
+use crate::{BiasSettings, Error, LightRef, LightShadows, Needs, NormalBias, ShadowFilter, ShadowSettings};
 
 /// How one light's shadows are made and read.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,8 @@ pub(crate) struct LightRules {
     pub(crate) filter: ShadowFilter,
     /// How far from the point it is asked for the technique reads, texels.
     pub(crate) reach_texels: f32,
+    /// How far beyond that a blocker can be and still matter, metres.
+    pub(crate) blocker_reach_m: f64,
     pub(crate) strength: f32,
     pub(crate) fade_fraction: f32,
     pub(crate) near_m: Option<f64>,
@@ -28,6 +30,7 @@ impl LightRules {
                 bias,
                 filter,
                 reach_texels: filter.reach_texels(),
+                blocker_reach_m: 0.0,
                 strength: 1.0,
                 fade_fraction,
                 near_m: None,
@@ -45,6 +48,7 @@ impl LightRules {
             bias,
             filter,
             reach_texels: filter.reach_texels(),
+            blocker_reach_m: 0.0,
             strength: own.strength,
             fade_fraction,
             near_m: own.near_m.map(f64::from),
@@ -52,9 +56,15 @@ impl LightRules {
         }
     }
 
-    /// For a technique that reads at least this far.
-    pub(crate) fn reaching(self, texels: f32) -> Self {
-        Self { reach_texels: self.reach_texels.max(texels), ..self }
+    /// For a technique that needs more than the settings do.
+    pub(crate) fn needing(self, needs: &Needs) -> Self {
+        let reach_texels = self.reach_texels.max(needs.kernel_radius_texels);
+        Self { reach_texels, blocker_reach_m: f64::from(needs.blocker_reach_m), ..self }
+    }
+
+    /// How far beside a point things matter, metres, where a texel is `texel_m` wide.
+    pub(crate) fn reach_m(&self, texel_m: f64, bias_scale: f32) -> f64 {
+        self.margin_px(bias_scale) * texel_m + self.blocker_reach_m
     }
 
     /// The border on each side of a tile, pixels: as wide as is read.

@@ -4,11 +4,6 @@
 // 80 bytes.
 struct MaskLayers {
     count: u32,
-    // How soft shadows' edges are blurred: the radius in metres, and at most in pixels.
-    blur_world: f32,
-    blur_max_px: f32,
-    // How far apart two surfaces are, in parts of their view depth, that are not blurred over each other.
-    depth_threshold: f32,
     // The light of each layer.
     light: array<vec4u, 4>,
 }

@@ -2,9 +2,9 @@
 
 use crate::stage::{camera, cube_on_floor, draw, gpu, light, sun, sun_direction, view};
 use glam::DVec3;
-use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::options::{Aov, Pipeline};
 use shadowgraph::scene::{Camera, Light, LightKind, Projection, Scene};
-use shadowgraph::shadows::{AtlasTiles, ShadowSettings, UnshadowedReason};
+use shadowgraph::shadows::{AtlasTiles, NONE, PCF, RAYTRACED, ShadowSettings, UnshadowedReason};
 use shadowgraph::{Drawn, Gpu, Method, Renderer, ViewOptions};
 
 fn eye() -> Camera {
@@ -30,11 +30,11 @@ struct Ways(Vec<Renderer>);
 impl Ways {
     fn new(gpu: &Gpu) -> Self {
         let ways: [Method; 5] = [
-            Technique::Pcf.into(),
+            PCF.into(),
             Pipeline::ScreenShadows.into(),
             Pipeline::Minimal.into(),
-            Technique::Raytraced.into(),
-            Technique::None.into(),
+            RAYTRACED.into(),
+            NONE.into(),
         ];
         let renderer = |way| Renderer::with(gpu, lit_by(Vec::new()), &eye(), Aov::Color, way).unwrap();
         Self(ways.map(renderer).into())
@@ -142,7 +142,7 @@ fn lights_that_are_no_lights_add_nothing() {
 fn cameras_and_pictures_that_show_nothing_are_refused_by_name() {
     let Some(gpu) = gpu() else { return };
     let perspective = |near, far| Projection::Perspective { fov_y: 0.9, near, far: Some(far) };
-    for technique in [Technique::Pcf, Technique::Raytraced, Technique::None] {
+    for technique in [PCF, RAYTRACED, NONE] {
         let scene = lit_by(vec![sun(DVec3::NEG_Y)]);
         let mut renderer = Renderer::with(gpu, scene, &eye(), Aov::Color, technique).unwrap();
         let good = renderer.draw(gpu, &options()).unwrap().picture;

@@ -7,9 +7,9 @@ use shadowgraph::measure::report::Motion;
 use shadowgraph::measure::{
     Instrument, Points, Probe, Question, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
 };
-use shadowgraph::options::{Aov, Technique};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::trials::trial;
-use shadowgraph::shadows::{BiasSettings, ShadowSettings, SplitScheme};
+use shadowgraph::shadows::{BiasSettings, PCF, ShadowSettings, SplitScheme};
 use shadowgraph::{Renderer, ViewOptions};
 
 /// Measures a trial under the sun of 30 degrees, from near.
@@ -117,7 +117,7 @@ fn texels_that_slide_under_a_scene_are_seen_as_flicker_and_fixed_ones_are_not() 
     let camera = case.views[0].camera();
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
-    let found = measure_flicker(gpu, &mut renderer, Technique::Pcf, &options, 0, 4).unwrap();
+    let found = measure_flicker(gpu, &mut renderer, PCF.into(), &options, 0, 4).unwrap();
     assert_eq!(found.len(), 6);
     for flicker in found.iter().filter(|flicker| flicker.motion != Motion::Zoom) {
         assert!(flicker.change.count > 50_000 && flicker.change.p99 <= 1.0 / 255.0, "{flicker:?}");

@@ -3,9 +3,10 @@
 use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
 use glam::{DVec3, Vec4};
 use shadowgraph::measure::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases};
-use shadowgraph::options::{Aov, SunChoice, Technique};
+use shadowgraph::options::{Aov, SunChoice};
 use shadowgraph::scene::trials::trial;
 use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene, TextureRef};
+use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 
@@ -21,7 +22,7 @@ struct Traced {
 fn traced(gpu: &Gpu, scene: &Scene, camera: &Camera, light: usize) -> Traced {
     let options = ViewOptions { camera: camera.clone(), size_px: SIZE_PX, shadows: Default::default() };
     let aov = Aov::Visibility(light as u32);
-    let mut renderer = Renderer::with(gpu, scene.clone(), camera, aov, Technique::Raytraced).unwrap();
+    let mut renderer = Renderer::with(gpu, scene.clone(), camera, aov, RAYTRACED).unwrap();
     let picture = renderer.draw(gpu, &options).unwrap().picture;
     let surfaces = SurfaceReader::new(gpu, &renderer).unwrap().read(gpu, &mut renderer, &options).unwrap();
     let origin_world = renderer.casters().scene.origin_world();

@@ -3,11 +3,12 @@
 use crate::stage::{camera, gpu, light, sun, view};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use image::{Rgba, RgbaImage};
-use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::options::{Aov, Pipeline};
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{
     AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
 };
+use shadowgraph::shadows::{NONE, PCF, PCSS, RAYTRACED};
 use shadowgraph::{Gpu, Method, Picture, Renderer, ViewOptions};
 
 const CELL_PX: [u32; 2] = [320, 160];
@@ -17,13 +18,13 @@ const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
 /// The first is what the others are compared with.
 fn ways() -> [(&'static str, Method); 7] {
     [
-        ("raytraced", Technique::Raytraced.into()),
-        ("pcf, forward", Technique::Pcf.into()),
+        ("raytraced", RAYTRACED.into()),
+        ("pcf, forward", PCF.into()),
         ("pcf, minimal", Pipeline::Minimal.into()),
         ("pcf, screen_shadows", Pipeline::ScreenShadows.into()),
         ("pcf, 4 samples", Method { samples: 4, ..Method::default() }),
-        ("pcss", Technique::Pcss.into()),
-        ("none", Technique::None.into()),
+        ("pcss", PCSS.into()),
+        ("none", NONE.into()),
     ]
 }
 
@@ -42,11 +43,11 @@ fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
             sheet.paste(picture, column, row);
             let (darker, lighter) = differing(picture, truth);
             // Without shadows there is too much light.
-            let wrong_part = if method.technique == Technique::None { darker } else { darker + lighter };
+            let wrong_part = if method.technique == NONE { darker } else { darker + lighter };
             let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[row]);
             println!("{line}");
             let has_shadows = MIXES[row] != "no light";
-            let shows_none = method.technique == Technique::None && has_shadows && lighter < 0.05;
+            let shows_none = method.technique == NONE && has_shadows && lighter < 0.05;
             if wrong_part > 0.03 || shows_none {
                 wrong.push(line);
             }

@@ -3,8 +3,9 @@
 use crate::stage::{add_instance, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
 use glam::DVec3;
 use shadowgraph::measure::Instrument;
-use shadowgraph::options::{Aov, Technique};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
+use shadowgraph::shadows::{PCSS, PcssSettings};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 /// A plate over a floor, its edge over x = 0, under a light.
@@ -24,16 +25,18 @@ fn options() -> ViewOptions {
     // Texels of millimetres, of which the widest edges are twenty.
     options.shadows.cascades.map_size_px = 1024;
     options.shadows.atlas.map_size_px = 1024;
-    options.shadows.pcss.filter_taps = 64;
-    options.shadows.pcss.blocker_taps = 64;
-    options.shadows.pcss.most_texels = 24.0;
     options
+}
+
+/// Many taps, so that noise is small.
+fn fine() -> PcssSettings {
+    PcssSettings { filter_taps: 64, blocker_taps: 64, most_texels: 24.0, ..PcssSettings::default() }
 }
 
 /// How wide the edge is on the floor, from a tenth to nine tenths of the light, metres.
 fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
     let aov = Aov::Visibility(0);
-    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, Technique::Pcss).unwrap();
+    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
     let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, options, 0).unwrap();
     let picture = renderer.draw(gpu, options).unwrap().picture;
     let pixels = ground.surfaces.positions.iter().zip(picture.rgba8.chunks_exact(4));
@@ -50,7 +53,7 @@ fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
 fn under_a_sun_edges_are_as_wide_as_its_angle_makes_them() {
     let Some(gpu) = gpu() else { return };
     let mut options = options();
-    options.shadows.pcss.sun_radius_rad = 0.05;
+    options.shadows.techniques.set(&PcssSettings { sun_radius_rad: 0.05, ..fine() }).unwrap();
     for height_m in [0.5, 1.0, 1.5] {
         let width = width_m(gpu, &plate(height_m, sun(DVec3::NEG_Y)), &options);
         // Of a disc that comes out from behind a straight edge, the middle eight tenths take 0.687 of the way.
@@ -63,7 +66,7 @@ fn under_a_sun_edges_are_as_wide_as_its_angle_makes_them() {
 fn under_a_lamp_edges_widen_with_the_way_behind_what_casts_them() {
     let Some(gpu) = gpu() else { return };
     let mut options = options();
-    options.shadows.pcss.lamp_radius_m = 0.1;
+    options.shadows.techniques.set(&PcssSettings { lamp_radius_m: 0.1, ..fine() }).unwrap();
     let lamp = || {
         let kind = LightKind::Spot {
             position_world: DVec3::new(0.0, 4.0, 0.0),

@@ -173,7 +173,7 @@ impl Groups {
         maps: &[Option<wgpu::TextureView>; 2],
         lit: &wgpu::TextureView,
     ) -> Self {
-        let Renderer { forward, technique, .. } = renderer;
+        let Renderer { forward, .. } = renderer;
         let depth_layout = forward.depth_pipelines().view_layout();
         // wgpu fills it with zeros, which mean lit.
         let no_map = attachment(device, [1, 1], DEPTH, TextureUsages::TEXTURE_BINDING);
@@ -193,7 +193,7 @@ impl Groups {
             casters: group(device, depth_layout, [range(shadow_views, VIEW_BYTES)]),
             prepass: group(device, depth_layout, [range(view_buffer, size_of::<GpuView>() as u32)]),
             view: group(device, forward.view_layout(), view_and_lights),
-            shadows: group(device, technique.bind_group_layout(), shadows),
+            shadows: group(device, forward.shadow_layout(), shadows),
             tonemap: group(device, view.target.tonemap.layout(), light),
         }
     }

@@ -3,8 +3,10 @@
 use super::metrics::{RECEIVER_N_DOT_L, flicker};
 use super::motion::{FAR_OUT_M, camera_at, moved};
 use super::report::{Flicker, Motion};
+use shadowgraph_shadows::Technique;
+
 use super::{Ground, Instrument, Points, Probe, Question};
-use crate::options::{Aov, Technique};
+use crate::options::Aov;
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// The size of the picture whose surfaces are the points that are asked at, pixels.

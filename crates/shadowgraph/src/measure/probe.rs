@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Graph, Part, Plan, ResourceDesc, TextureDesc, Timer};
 use shadowgraph_lighting::{Geometry, ViewRecords};
-use shadowgraph_shadows::{CullSettings, ShadowInputs};
+use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
 
 use super::Surfaces;
 use super::counting::CountingCasters;
@@ -26,6 +26,7 @@ const TECHNIQUE: &str = "technique";
 /// Asks a renderer's technique by a compute pass, through the point function of the technique contract.
 pub struct Probe {
     view_layout: wgpu::BindGroupLayout,
+    shadow_layout: wgpu::BindGroupLayout,
     points_layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
 }
@@ -94,10 +95,10 @@ impl Probe {
         });
         let view_layout = layout(device, &[STORAGE, STORAGE]);
         let points_layout = layout(device, &[UNIFORM, POINTS, ANSWERS]);
-        let technique_layout = renderer.technique.bind_group_layout();
+        let shadow_layout = shadow_layout(device, renderer.technique.as_ref());
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("probe"),
-            bind_group_layouts: &[Some(&view_layout), Some(technique_layout), Some(&points_layout)],
+            bind_group_layouts: &[Some(&view_layout), Some(&shadow_layout), Some(&points_layout)],
             immediate_size: 0,
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -108,7 +109,7 @@ impl Probe {
             compilation_options: Default::default(),
             cache: None,
         });
-        Ok(Self { view_layout, points_layout, pipeline })
+        Ok(Self { view_layout, shadow_layout, points_layout, pipeline })
     }
 
     /// Draws the shadows of a view, and asks at all points.
@@ -173,7 +174,8 @@ impl Probe {
             origin_world,
             settings: &options.shadows,
         };
-        let add = |frame: &mut Frame<'f>| renderer.technique.add_to(frame, &inputs, screen.as_ref());
+        let add =
+            |frame: &mut Frame<'f>| add_shadows(renderer.technique.as_ref(), frame, &inputs, screen.as_ref());
         let shadows = frame.node(TECHNIQUE, add)?;
 
         let block = Question::block(question, pixel_m_at_1m(&options.camera, options.size_px[1]));
@@ -188,7 +190,7 @@ impl Probe {
         let target = pass.storage_texture_mut(&mut answers, Contents::Cover);
         pass.body(move |ctx| {
             let eye = ctx.bind_group(&self.view_layout, &[Bind::Buffer(eye), Bind::Buffer(lights)])?;
-            let shadows = shadows.bind_group(ctx, renderer.technique.bind_group_layout())?;
+            let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
             let own = [Bind::Uniform(block), Bind::Texture(stored), Bind::Texture(target)];
             let own = ctx.bind_group(&self.points_layout, &own)?;
             ctx.pass.set_pipeline(&self.pipeline);

@@ -1,13 +1,13 @@
 //! Measuring: every technique, with all settings, in every view of every light of a scene.
 
-use shadowgraph_shadows::ShadowSettings;
+use shadowgraph_shadows::{ShadowSettings, Technique};
 
 use super::report::{CaseReport, Flicker};
 use super::{
     Compared, Ground, Instrument, Probe, Subject, SubjectLight, Variant, ViewPictures, measure_flicker,
     measure_seam,
 };
-use crate::options::{Aov, ShadowDistance, Technique};
+use crate::options::{Aov, ShadowDistance};
 use crate::{Error, Gpu, Picture, Renderer, ViewOptions};
 
 /// How a scene is measured.
@@ -181,7 +181,7 @@ impl Bench {
             scene: String::new(),
             light: String::new(),
             view: String::new(),
-            technique: self.technique.name().to_owned(),
+            technique: self.technique.name(),
             errors,
             edges,
             seam,

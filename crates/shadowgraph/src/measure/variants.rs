@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use shadowgraph_shadows::ShadowSettings;
+use shadowgraph_shadows::{ShadowSettings, Techniques};
 
 use crate::Error;
 
@@ -31,7 +31,7 @@ impl VariantSet {
     ///
     /// # Errors
     /// [`Error::Cases`] with line and column, or the variant and what is wrong with it.
-    pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
+    pub fn parse(text: &str, place: &Path, techniques: &Techniques) -> Result<Self, Error> {
         let failed = |reason: String| Error::Cases { place: place.display().to_string(), reason };
         let set: Self = ron::from_str(text).map_err(|error| failed(error.to_string()))?;
         if set.variants.is_empty() {
@@ -45,7 +45,7 @@ impl VariantSet {
             if !names.insert(name) {
                 return Err(failed(format!("there are two variants `{name}`")));
             }
-            settings.validate().map_err(|error| failed(format!("`{name}`: {error}")))?;
+            techniques.check(settings).map_err(|error| failed(format!("`{name}`: {error}")))?;
         }
         Ok(set)
     }
@@ -57,13 +57,13 @@ mod tests {
     use super::*;
 
     fn error_of(text: &str) -> String {
-        VariantSet::parse(text, Path::new("mine.ron")).unwrap_err().to_string()
+        VariantSet::parse(text, Path::new("mine.ron"), &Techniques::built_in()).unwrap_err().to_string()
     }
 
     #[test]
     fn what_a_variant_leaves_out_has_its_default_value() {
         let text = r#"(variants: [(name: "one cascade", settings: (cascades: (count: 1)))])"#;
-        let set = VariantSet::parse(text, Path::new("mine.ron")).unwrap();
+        let set = VariantSet::parse(text, Path::new("mine.ron"), &Techniques::built_in()).unwrap();
         let mut one = ShadowSettings::default();
         one.cascades.count = 1;
         assert_eq!(set.variants, [Variant { name: "one cascade".into(), settings: one }]);
@@ -72,7 +72,13 @@ mod tests {
     #[test]
     fn the_file_in_the_documents_is_valid() {
         let text = include_str!("../../../../docs/variants.ron");
-        assert!(VariantSet::parse(text, Path::new("docs/variants.ron")).unwrap().variants.len() > 20);
+        assert!(
+            VariantSet::parse(text, Path::new("docs/variants.ron"), &Techniques::built_in())
+                .unwrap()
+                .variants
+                .len()
+                > 20
+        );
     }
 
     #[test]

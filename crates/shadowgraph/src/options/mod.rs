@@ -30,12 +30,12 @@ pub use aov::Aov;
 pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
 pub use error::OptionError;
-pub use names::{PIPELINES, Pipeline, TECHNIQUES, Technique};
+pub use names::{PIPELINES, Pipeline};
 pub use settings::SettingsFile;
 pub use size::Size;
 pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
 
-use shadowgraph_shadows::ShadowSettings;
+use shadowgraph_shadows::{ShadowSettings, Technique};
 
 /// Everything that the options of a drawing command say, without the scene's file and the output's.
 #[derive(Clone, Debug, PartialEq)]

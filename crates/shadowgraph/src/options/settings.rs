@@ -2,7 +2,7 @@
 
 use super::OptionError;
 use serde::Deserialize;
-use shadowgraph_shadows::ShadowSettings;
+use shadowgraph_shadows::{ShadowSettings, Techniques};
 use std::path::Path;
 
 const OPTION: &str = "--settings";
@@ -17,17 +17,17 @@ pub struct SettingsFile {
 }
 
 impl SettingsFile {
-    /// Reads a RON file and checks every value.
+    /// Reads a RON file and checks every value, those of `techniques` too.
     ///
     /// # Errors
     /// When the file cannot be read, does not parse, has an unknown field, or a value is out of range: one
     /// line with the file, the place, and the field.
-    pub fn load(file: &Path) -> Result<Self, OptionError> {
+    pub fn load(file: &Path, techniques: &Techniques) -> Result<Self, OptionError> {
         let refused = |reason: String| OptionError::new(OPTION, format!("{}: {reason}", file.display()));
         let text =
             std::fs::read_to_string(file).map_err(|error| refused(format!("cannot be read: {error}")))?;
         let settings: ShadowSettings = ron::from_str(&text).map_err(|error| refused(error.to_string()))?;
-        settings.validate().map_err(|error| refused(error.to_string()))?;
+        techniques.check(&settings).map_err(|error| refused(error.to_string()))?;
         Ok(Self { settings, has_distance: has_distance(&text) })
     }
 }
@@ -49,12 +49,13 @@ fn has_distance(text: &str) -> bool {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
+    use std::collections::BTreeMap;
 
     fn load(text: &str) -> Result<SettingsFile, String> {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("settings.ron");
         std::fs::write(&file, text).unwrap();
-        SettingsFile::load(&file).map_err(|error| error.to_string())
+        SettingsFile::load(&file, &Techniques::built_in()).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -87,7 +88,9 @@ mod tests {
 
     #[test]
     fn a_file_that_is_not_there_is_named() {
-        let error = SettingsFile::load(Path::new("no/such/file.ron")).unwrap_err().to_string();
+        let error = SettingsFile::load(Path::new("no/such/file.ron"), &Techniques::built_in())
+            .unwrap_err()
+            .to_string();
         assert!(error.starts_with("--settings: no/such/file.ron: cannot be read"), "{error}");
     }
 
@@ -113,5 +116,19 @@ mod tests {
         for field in fields.filter(|name| !name.is_empty()) {
             assert!(all.contains(&format!("{field}:")), "{field} is missing");
         }
+        // And one has the settings of all techniques, at theirs.
+        let own = files.iter().find(|file| file.contains("techniques: {\n")).unwrap();
+        let own: TechniquesOnly = ron::from_str(own).unwrap();
+        let techniques = Techniques::built_in();
+        let kinds = techniques.kinds().iter().filter_map(|kind| Some((kind.name, kind.default_settings()?)));
+        let tops = Techniques::combinations().map(|(name, _, defaults)| (name, defaults));
+        let defaults: BTreeMap<String, ron::Value> =
+            kinds.chain(tops).map(|(name, text)| (name.into(), ron::from_str(&text).unwrap())).collect();
+        assert_eq!(own.techniques, defaults);
+    }
+
+    #[derive(Deserialize)]
+    struct TechniquesOnly {
+        techniques: BTreeMap<String, ron::Value>,
     }
 }

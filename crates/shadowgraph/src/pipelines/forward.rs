@@ -3,6 +3,7 @@
 //! `screen_shadows` is the same with a technique that collects its shadows in a screen mask.
 
 use shadowgraph_core::Frame;
+use shadowgraph_shadows::add_shadows;
 
 use super::{Output, View, background, geometry, inputs, picture, records};
 use crate::{Error, Renderer};
@@ -33,7 +34,7 @@ pub fn forward<'f>(
     })?;
 
     // Shadows, by whatever technique.
-    let shadows = technique.add_to(frame, &inputs(renderer, view), screen.as_ref())?;
+    let shadows = add_shadows(technique.as_ref(), frame, &inputs(renderer, view), screen.as_ref())?;
 
     // The lit scene.
     let background = background(renderer, view);

@@ -1,6 +1,7 @@
 //! `minimal`: shadows, one lit pass without a depth prepass, a tonemap.
 
 use shadowgraph_core::Frame;
+use shadowgraph_shadows::add_shadows;
 
 use super::{Output, View, background, geometry, inputs, picture, records};
 use crate::{Error, Renderer};
@@ -23,7 +24,7 @@ pub fn minimal<'f>(
     let screen = screen.transpose()?;
 
     // Shadows, by whatever technique.
-    let shadows = technique.add_to(frame, &inputs(renderer, view), screen.as_ref())?;
+    let shadows = add_shadows(technique.as_ref(), frame, &inputs(renderer, view), screen.as_ref())?;
 
     // The lit scene.
     let background = background(renderer, view);

@@ -11,7 +11,7 @@ use shadowgraph_core::{Buffer, Frame, Texture};
 
 use crate::technique::ShadowBinding;
 use crate::{
-    Allotment, Error, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TileRect, Unshadowed,
+    Allotment, Error, Needs, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TileRect, Unshadowed,
     caster_view_layout, plan_shadows_after,
 };
 
@@ -79,8 +79,8 @@ impl ShadowMaps {
         }
     }
 
-    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass. `kernel_texels`, 0 to
-    /// 24, is how far around a point the technique reads, if that is farther than the settings' filter.
+    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass. `needs` are the
+    /// technique's.
     ///
     /// # Errors
     /// As [`plan_shadows`](crate::plan_shadows).
@@ -88,9 +88,9 @@ impl ShadowMaps {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        kernel_texels: f32,
+        needs: &Needs,
     ) -> Result<DrawnMaps, Error> {
-        let plan = self.plan(inputs, kernel_texels)?;
+        let plan = self.plan(inputs, needs)?;
         let (views, lights) = frame.node("set up views", |frame| {
             let views = frame.upload_buffer("shadow views", plan.view_bytes());
             (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
@@ -103,9 +103,9 @@ impl ShadowMaps {
     }
 
     /// Plans a frame after the last one of the same view.
-    fn plan(&self, inputs: &ShadowInputs<'_>, kernel_texels: f32) -> Result<ShadowPlan, Error> {
+    fn plan(&self, inputs: &ShadowInputs<'_>, needs: &Needs) -> Result<ShadowPlan, Error> {
         let mut allotments = self.allotments.lock().unwrap_or_else(PoisonError::into_inner);
-        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view), kernel_texels)?;
+        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view), needs)?;
         allotments.insert(inputs.view, plan.allotment.clone());
         Ok(plan)
     }
@@ -127,3 +127,14 @@ impl DrawnMaps {
 
 /// The buffer of a frame's views, and the views.
 type Views<'v> = (&'v Buffer, &'v [ShadowView]);
+
+/// Mixes four comparisons: lit where the point is at least as near to the light as what a map has.
+pub(crate) fn comparison_sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("shadow comparison"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(wgpu::CompareFunction::GreaterEqual),
+        ..Default::default()
+    })
+}

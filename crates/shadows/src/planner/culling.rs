@@ -54,7 +54,7 @@ impl Planner<'_> {
         let mut planes = fit.cull_volume();
         if self.inputs.settings.cull.unseen {
             let to_light = fit.light_from_world.transpose().z_axis;
-            planes.planes.extend(self.seen.towards(to_light, rules.margin_px(1.0) * fit.texel_m).planes);
+            planes.planes.extend(self.seen.towards(to_light, rules.reach_m(fit.texel_m, 1.0)).planes);
         }
         self.cull(&planes.into())
     }
@@ -64,7 +64,7 @@ impl Planner<'_> {
         let mut planes = fit.cull_volume();
         let cone = fit.cone;
         if self.inputs.settings.cull.unseen && !self.inputs.settings.atlas.cache {
-            let pad_m = rules.margin_px(1.0) * fit.texel_per_m() * fit.far_m;
+            let pad_m = rules.reach_m(fit.texel_per_m() * fit.far_m, 1.0);
             planes.planes.extend(self.seen.around(cone.position_world, pad_m).planes);
         }
         // The pyramid around the cone has corners that the light does not reach, but its filter can.
@@ -98,7 +98,7 @@ impl Planner<'_> {
         let served = self.served(fits, rules, &receivers);
         let axes = glam::DAffine3::from_mat3(light_from_world);
         for (cascade, (fit, casters)) in fits.iter().zip(&mut casters).enumerate().skip(1) {
-            let reach_m = rules.margin_px(largest_scale(&self.inputs.settings.cascades)) * fit.fit.texel_m;
+            let reach_m = rules.reach_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
             let query = ServedCasters::new(&view, &served[..cascade], reach_m + self.seen.precision_m);
             let bounds_of = |caster| self.inputs.casters.bounds_of(caster).transformed(&axes);
             casters.retain(|&caster| !query.is_served(&bounds_of(caster)));

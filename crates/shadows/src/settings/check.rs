@@ -7,7 +7,7 @@ pub(crate) fn setting(field: &'static str, value: impl ToString, allowed: &'stat
 }
 
 /// Refuses NaN too.
-pub(super) fn in_range(
+pub(crate) fn in_range(
     field: &'static str,
     value: f32,
     min: f32,

@@ -7,8 +7,7 @@ mod check;
 mod cull;
 mod depth;
 mod lights;
-mod pcss;
-mod screen;
+mod own;
 
 pub use atlas::{AtlasSettings, AtlasTiles};
 pub use bias::{BiasMethod, BiasSettings, NormalBias};
@@ -19,16 +18,15 @@ pub use cascades::{
 pub use cull::CullSettings;
 pub use depth::DepthFormat;
 pub use lights::{LightRef, LightShadows};
-pub use pcss::PcssSettings;
-pub use screen::ScreenSettings;
+pub use own::{OwnSettings, TechniqueSettings};
 
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use check::in_range;
-pub(crate) use check::setting;
+pub(crate) use check::{in_range, setting};
 
-/// All settings of the techniques of shadow maps. Files may leave out what they do not change.
+/// All settings of shadows: those of the shadow maps, and those that single techniques add. Files may leave out what they do
+/// not change.
 ///
 /// ```
 /// use shadowgraph_shadows::ShadowSettings;
@@ -51,10 +49,8 @@ pub struct ShadowSettings {
     pub atlas: AtlasSettings,
     /// What keeps surfaces from shadowing themselves.
     pub bias: BiasSettings,
-    /// Shadows that are collected in a screen mask.
-    pub screen: ScreenSettings,
-    /// How `pcss` softens edges.
-    pub pcss: PcssSettings,
+    /// What single techniques have to choose, by their names.
+    pub techniques: OwnSettings,
     /// Which casters are left out.
     pub cull: CullSettings,
     /// What is different for single lights.
@@ -69,8 +65,7 @@ impl Default for ShadowSettings {
             cascades: CascadeSettings::default(),
             atlas: AtlasSettings::default(),
             bias: BiasSettings::default(),
-            screen: ScreenSettings::default(),
-            pcss: PcssSettings::default(),
+            techniques: OwnSettings::default(),
             cull: CullSettings::default(),
             lights: Vec::new(),
         }
@@ -78,7 +73,8 @@ impl Default for ShadowSettings {
 }
 
 impl ShadowSettings {
-    /// Checks every value.
+    /// Checks every value but those of [`techniques`](Self::techniques), which [`Techniques::check`](crate::Techniques::check)
+    /// knows.
     ///
     /// # Errors
     ///
@@ -89,8 +85,6 @@ impl ShadowSettings {
         self.cascades.validate()?;
         self.atlas.validate()?;
         self.bias.validate()?;
-        self.screen.validate()?;
-        self.pcss.validate()?;
         self.lights.iter().try_for_each(LightShadows::validate)
     }
 }

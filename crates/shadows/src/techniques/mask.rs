@@ -4,7 +4,7 @@ use shadowgraph_core::Format;
 use shadowgraph_scene::Light;
 
 /// The format of a screen mask: visibility in red, green and blue.
-pub(super) const MASK_FORMAT: Format = Format::Rgba8Unorm;
+pub(crate) const MASK_FORMAT: Format = Format::Rgba8Unorm;
 
 /// The most lights that get a layer of a screen mask; for others shadows are found where they are asked for.
 pub const MAX_MASK_LAYERS: usize = 16;
@@ -26,16 +26,10 @@ pub(super) const TARGET: wgpu::BindingType = wgpu::BindingType::StorageTexture {
     view_dimension: wgpu::TextureViewDimension::D2Array,
 };
 
-/// A picture of surfaces.
-pub(super) const SURFACES: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-    view_dimension: wgpu::TextureViewDimension::D2,
-    multisampled: false,
-};
-
 /// The lights that have a layer, in the order of the layers: those that cast shadows, in the scene's order (directional
-/// lights come first), until there are no more layers.
-pub(super) fn masked_lights(lights: &[Light]) -> Vec<u32> {
+/// lights come first), until there are [no more layers](MAX_MASK_LAYERS).
+#[must_use]
+pub fn masked_lights(lights: &[Light]) -> Vec<u32> {
     let casting = (0u32..).zip(lights).filter(|(_, light)| light.casts_shadow);
     casting.map(|(index, _)| index).take(MAX_MASK_LAYERS).collect()
 }

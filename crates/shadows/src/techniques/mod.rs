@@ -1,6 +1,5 @@
 //! The techniques that come with Shadowgraph, a room each.
 
-mod layout;
 mod mask;
 mod none;
 mod pcf;
@@ -9,10 +8,11 @@ mod raytraced;
 mod screen;
 mod variant;
 
-pub use mask::MAX_MASK_LAYERS;
+pub(crate) use mask::MASK_FORMAT;
+pub use mask::{MAX_MASK_LAYERS, masked_lights};
 pub use none::NoShadows;
 pub use pcf::Pcf;
-pub use pcss::Pcss;
+pub use pcss::{Pcss, PcssSettings};
 pub use raytraced::Raytraced;
-pub use screen::ScreenShadows;
+pub use screen::{ContactSettings, ScreenSettings, ScreenShadows};
 pub use variant::PcfVariant;

@@ -3,29 +3,19 @@
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{ModuleSource, NONE};
 
-use super::layout::layout;
 use crate::technique::{Screen, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs};
 
 /// The technique without shadows.
-pub struct NoShadows {
-    layout: wgpu::BindGroupLayout,
-}
-
-impl NoShadows {
-    /// Creates what stays the same for all frames.
-    pub fn new(device: &wgpu::Device) -> Self {
-        Self { layout: layout(device, "no shadows", &[]) }
-    }
-}
+pub struct NoShadows;
 
 impl ShadowTechnique for NoShadows {
     fn name(&self) -> &str {
         "none"
     }
 
-    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Needs {
-        Needs { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 }
+    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        Ok(Needs::NONE)
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
@@ -34,10 +24,6 @@ impl ShadowTechnique for NoShadows {
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
         Vec::new()
-    }
-
-    fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.layout
     }
 
     fn add_to<'f>(
@@ -69,8 +55,6 @@ mod tests {
 
     #[test]
     fn no_shadows_add_no_pass_and_bind_nothing() {
-        let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
-        let technique = NoShadows::new(&device);
         let inputs = ShadowInputs {
             view: 0,
             camera: &Camera::framing(&Aabb::EMPTY, 1.0),
@@ -81,7 +65,7 @@ mod tests {
             settings: &ShadowSettings::default(),
         };
         let mut frame = Frame::new();
-        let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
+        let outputs = NoShadows.add_to(&mut frame, &inputs, None).unwrap();
         assert!(outputs.bindings.is_empty() && outputs.debug.is_empty());
         assert_eq!(frame.compile().unwrap().plan().pass_count(), 0);
     }

@@ -3,36 +3,23 @@
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{MAPPED, ModuleSource};
 
-use super::layout::{DEPTH_MAP, STORAGE, comparison_sampler, layout};
 use super::variant::PcfVariant;
+use crate::maps::comparison_sampler;
 use crate::plan;
+use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs, ShadowMaps};
 
 /// The default technique; see the modules `shadows/tiles.wgsl` and `shadows/pcf.wgsl` for how its maps are read.
 pub struct Pcf {
-    layout: wgpu::BindGroupLayout,
     maps: ShadowMaps,
     sampler: wgpu::Sampler,
 }
 
-/// What each binding of group 1 is: `tiles.wgsl` and `pcf.wgsl`.
-const BINDINGS: [wgpu::BindingType; 5] = [
-    STORAGE,
-    STORAGE,
-    DEPTH_MAP,
-    DEPTH_MAP,
-    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
-];
-
 impl Pcf {
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {
-        Self {
-            layout: layout(device, "pcf shadows", &BINDINGS),
-            maps: ShadowMaps::new(device),
-            sampler: comparison_sampler(device),
-        }
+        Self { maps: ShadowMaps::new(device), sampler: comparison_sampler(device) }
     }
 }
 
@@ -41,8 +28,8 @@ impl ShadowTechnique for Pcf {
         "pcf"
     }
 
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Needs {
-        plan::needs(inputs.settings)
+    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        Ok(plan::needs(inputs.settings))
     }
 
     fn variant_count(&self) -> u32 {
@@ -54,11 +41,8 @@ impl ShadowTechnique for Pcf {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        BINDINGS.into()
-    }
-
-    fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.layout
+        // `tiles.wgsl` and `pcf.wgsl`.
+        vec![STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, COMPARISON_SAMPLER]
     }
 
     fn add_to<'f>(
@@ -67,12 +51,13 @@ impl ShadowTechnique for Pcf {
         inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, 0.0))?;
+        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, &Needs::NONE))?;
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Sampler(&self.sampler));
         Ok(ShadowOutputs {
             variant: maps.variant.index(),
             debug_light: maps.main_light,
+            mask: None,
             debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
             bindings,
             unshadowed: maps.unshadowed,

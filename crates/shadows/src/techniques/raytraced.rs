@@ -7,9 +7,10 @@ use shadowgraph_scene::Light;
 use shadowgraph_shaders::{ModuleSource, RAYTRACED};
 use wgpu::util::DeviceExt as _;
 
-use super::layout::{STORAGE, layout};
-use super::mask::{MASK, MASK_FORMAT, SURFACES, TARGET, WORKGROUP_PX, masked_lights, no_mask};
+use super::mask::{MASK, MASK_FORMAT, TARGET, WORKGROUP_PX, masked_lights, no_mask};
 use crate::rays::GpuRayScene;
+use crate::technique::binding::{FLOAT_MAP, STORAGE};
+use crate::technique::layout;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs};
 
@@ -25,8 +26,6 @@ const LIT: u32 = u32::MAX;
 /// What the picture shows is traced by a compute pass into a screen mask, a layer a light, the first
 /// [`MAX_MASK_LAYERS`](super::MAX_MASK_LAYERS) of them; blended surfaces and points elsewhere are traced where they are asked for.
 pub struct Raytraced {
-    /// Group 1 of who asks.
-    layout: wgpu::BindGroupLayout,
     trace: Trace,
     /// The bindings of `rays.wgsl`.
     rays: [wgpu::Buffer; 5],
@@ -54,7 +53,6 @@ impl Raytraced {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
         };
         Ok(Self {
-            layout: layout(device, "raytraced shadows", &binding_types()),
             trace: Trace::new(device)?,
             rays: scene.buffers().map(buffer),
             reach_m: scene.reach_m,
@@ -96,8 +94,8 @@ impl ShadowTechnique for Raytraced {
         "raytraced"
     }
 
-    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Needs {
-        Needs { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 }
+    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        Ok(Needs::NONE)
     }
 
     fn reads_surfaces(&self) -> bool {
@@ -109,11 +107,8 @@ impl ShadowTechnique for Raytraced {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        binding_types().into()
-    }
-
-    fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.layout
+        // `rays.wgsl`, `traced.wgsl`, `raytraced.wgsl`.
+        vec![STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, MASK]
     }
 
     fn add_to<'f>(
@@ -122,20 +117,18 @@ impl ShadowTechnique for Raytraced {
         inputs: &ShadowInputs<'f>,
         screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or(Error::NoSurfaces { technique: "raytraced" })?;
+        let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name().into() })?;
         let layers = mask_layers(inputs.lights);
         let count = layers.iter().filter(|&&layer| layer < UNMASKED).count() as u32;
         Ok(frame.node("shadows", |frame| {
             let traced = frame.upload_buffer("traced lights", record(self.reach_m, &layers));
-            let mask = match count {
-                0 => frame.import_texture("no shadow mask", &self.no_mask, true),
-                count => self.mask(frame, screen, &traced, count),
-            };
+            let mask = (count > 0).then(|| self.mask(frame, screen, &traced, count));
+            let bound =
+                mask.clone().unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
             let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::OwnBuffer).collect();
             bindings.push(ShadowBinding::Buffer(traced));
-            bindings.push(ShadowBinding::TextureArray(mask.clone()));
-            let debug = vec![("shadow mask", mask)];
-            ShadowOutputs { bindings, debug, ..ShadowOutputs::default() }
+            bindings.push(ShadowBinding::TextureArray(bound.clone()));
+            ShadowOutputs { bindings, mask, debug: vec![("shadow mask", bound)], ..ShadowOutputs::default() }
         }))
     }
 }
@@ -148,11 +141,6 @@ fn mask_layers(lights: &[Light]) -> Vec<u32> {
         layers[light as usize] = layer;
     }
     layers
-}
-
-/// What each binding of group 1 is: `rays.wgsl`, `traced.wgsl`, `raytraced.wgsl`.
-fn binding_types() -> [wgpu::BindingType; 7] {
-    [STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, MASK]
 }
 
 /// A `Traced` of `traced.wgsl`.
@@ -171,7 +159,7 @@ impl Trace {
         });
         let view_layout = layout(device, "view", &[STORAGE; 2]);
         let rays_layout = layout(device, "rays", &[STORAGE; 6]);
-        let screen_layout = layout(device, "screen", &[SURFACES, TARGET]);
+        let screen_layout = layout(device, "screen", &[FLOAT_MAP, TARGET]);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("raytrace"),
             bind_group_layouts: &[Some(&view_layout), Some(&rays_layout), Some(&screen_layout)],

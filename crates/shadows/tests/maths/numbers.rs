@@ -3,7 +3,8 @@
 use glam::DVec3;
 use shadowgraph_scene::{LightKind, origin_near};
 use shadowgraph_shadows::{
-    Error, LightRef, LightShadows, ShadowInputs, ShadowSettings, ShadowView, SplitScheme, plan_shadows,
+    ContactSettings, Error, LightRef, LightShadows, PcssSettings, ScreenSettings, ShadowInputs,
+    ShadowSettings, ShadowView, SplitScheme, Techniques, plan_shadows,
 };
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
@@ -66,6 +67,10 @@ fn no_number_of_a_settings_file_makes_a_plan_that_is_not_finite() {
     };
     let mut settings = ShadowSettings { lights: vec![own], ..ShadowSettings::default() };
     settings.cascades.bias_scales = vec![1.0, 2.0];
+    settings.techniques.set(&PcssSettings::default()).unwrap();
+    settings.techniques.set(&ScreenSettings::default()).unwrap();
+    settings.techniques.set(&ContactSettings::default()).unwrap();
+    let techniques = Techniques::built_in();
     let splits = [
         SplitScheme::Ratios(vec![0.1, 0.2, 0.4]),
         SplitScheme::Metres(vec![10.0, 20.0, 40.0]),
@@ -82,7 +87,7 @@ fn no_number_of_a_settings_file_makes_a_plan_that_is_not_finite() {
                 let text = [&text[..begin], number, &text[end..]].concat();
                 let read = ron::from_str::<ShadowSettings>(&text).map_err(|error| error.to_string());
                 let checked = read.and_then(|settings| {
-                    settings.validate().map_err(|error| error.to_string())?;
+                    techniques.check(&settings).map_err(|error| error.to_string())?;
                     Ok(settings)
                 });
                 match checked {

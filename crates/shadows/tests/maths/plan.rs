@@ -3,7 +3,7 @@
 use glam::DVec3;
 use shadowgraph_scene::{Camera, CameraError, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
-    AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, ShadowInputs,
+    AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, Needs, ShadowInputs,
     ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TilePart, Unshadowed, UnshadowedReason,
     plan_shadows, plan_shadows_after,
 };
@@ -372,7 +372,7 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
             origin_world: DVec3::ZERO,
             settings: &settings,
         };
-        plan_shadows_after(&inputs, before, 0.0).unwrap()
+        plan_shadows_after(&inputs, before, &Needs::NONE).unwrap()
     };
     let rects = |plan: &ShadowPlan| plan.allotment.rects.clone();
     let (mut changed, mut changed_without) = (0, 0);
@@ -387,4 +387,27 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
         before = next;
     }
     assert!(changed <= 1, "{changed} of 39, {changed_without} without memory");
+}
+
+#[test]
+fn casters_beside_the_view_are_drawn_as_far_as_a_technique_looks_for_them() {
+    // Beside what the camera sees, in the light of nothing that it sees.
+    let casters = Boxes(vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(9.0, 0.0, 3.0), 1.0)]);
+    let settings = ShadowSettings { distance_m: 20.0, ..ShadowSettings::default() };
+    let camera = look();
+    let inputs = ShadowInputs {
+        view: 0,
+        camera: &camera,
+        aspect: 1.5,
+        lights: &[sun(DVec3::NEG_Y, 1.0)],
+        casters: &casters,
+        origin_world: origin_near(camera.position_world()),
+        settings: &settings,
+    };
+    let drawn = |blocker_reach_m| {
+        let needs = Needs { blocker_reach_m, ..Needs::NONE };
+        let plan = plan_shadows_after(&inputs, None, &needs).unwrap();
+        plan.cascades.unwrap().tiles.iter().any(|tile| tile.casters.contains(&1))
+    };
+    assert!(!drawn(0.0) && drawn(10.0));
 }

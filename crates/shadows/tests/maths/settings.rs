@@ -123,12 +123,6 @@ fn a_value_out_of_range_is_named_with_field_and_range() {
             "shadow setting `cascades.split.lambda` is 2; allowed: 0 to 1 (0: equal lengths)",
         ),
         (
-            "(pcss: (sun_radius_rad: 0.3))",
-            "shadow setting `pcss.sun_radius_rad` is 0.3; allowed: 0 to 0.2 (radians)",
-        ),
-        ("(pcss: (most_texels: 25.0))", "shadow setting `pcss.most_texels` is 25; allowed: 1 to 24 (texels)"),
-        ("(pcss: (filter_taps: 0))", "shadow setting `pcss.filter_taps` is 0; allowed: 1 to 64"),
-        (
             "(bias: (normal_texels: 9.0))",
             "shadow setting `bias.normal_texels` is 9; allowed: 0 to 4 (texels)",
         ),

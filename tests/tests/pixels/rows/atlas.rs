@@ -3,9 +3,9 @@
 use super::{count, cube_under_spot, cube_view, dark_and_between, different, greys, plan, spot, wrong};
 use crate::stage::{SIZE_PX, add_instance, box_mesh, cube_on_floor, gpu, sun, sun_direction, view};
 use glam::{DVec3, Vec3};
-use shadowgraph::options::{Aov, Technique};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
-use shadowgraph::shadows::{DepthFormat, LightShadows, Pcf, ShadowFilter};
+use shadowgraph::shadows::{DepthFormat, LightShadows, PCF, Pcf, ShadowFilter};
 use shadowgraph::{Renderer, SceneCasters};
 
 #[test]
@@ -178,14 +178,9 @@ fn row_17_without_shadows_maps_are_one_texel() {
         scene
     };
     let largest = [scene, with_sun].map(|scene| {
-        let renderer = Renderer::with(
-            &shadowgraph::Gpu::noop().unwrap(),
-            scene,
-            &options.camera,
-            Aov::Color,
-            Technique::Pcf,
-        )
-        .unwrap();
+        let renderer =
+            Renderer::with(&shadowgraph::Gpu::noop().unwrap(), scene, &options.camera, Aov::Color, PCF)
+                .unwrap();
         let (plan, _) = renderer.plan(&options).unwrap();
         let text = plan.to_text();
         (text.contains("no cascades"), text.contains("4096x4096"))

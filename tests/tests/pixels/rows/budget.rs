@@ -3,9 +3,9 @@
 use super::{count, greys, pillar_view, pillars, plan};
 use crate::stage::{gpu, sun, sun_direction};
 use shadowgraph::core::Timer;
-use shadowgraph::options::{Aov, Technique};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::Scene;
-use shadowgraph::shadows::{BudgetRules, QualityController, TilePlan};
+use shadowgraph::shadows::{BudgetRules, NONE, PCF, QualityController, TilePlan};
 use shadowgraph::{Renderer, ViewOptions};
 
 /// What a made-up GPU takes for the maps of a view, milliseconds: 1 ns for each pixel that is cleared, 5 us for each draw.
@@ -57,10 +57,10 @@ fn row_28_the_time_of_the_shadow_passes_is_told() {
         let all: Option<f64> = drawn.times.iter().map(|time| time.gpu_ms).sum();
         (drawn.shadow_ms(), all)
     };
-    assert_eq!(shadow_ms(Technique::Pcf, None), (None, Some(0.0)));
-    let (Some(shadows), Some(all)) = shadow_ms(Technique::Pcf, Some(&mut Timer::new())) else {
+    assert_eq!(shadow_ms(PCF, None), (None, Some(0.0)));
+    let (Some(shadows), Some(all)) = shadow_ms(PCF, Some(&mut Timer::new())) else {
         return shadowgraph_tests::skip("shadow_ms", "the device has no timestamps");
     };
     assert!(shadows > 0.0 && shadows < all, "{shadows} of {all}");
-    assert_eq!(shadow_ms(Technique::None, Some(&mut Timer::new())).0, Some(0.0));
+    assert_eq!(shadow_ms(NONE, Some(&mut Timer::new())).0, Some(0.0));
 }

@@ -4,10 +4,9 @@ use super::{greys, pillar_view, pillars, plan};
 use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, floor_mesh, gpu, material, sun, view};
 use glam::DVec3;
 use shadowgraph::ViewOptions;
-use shadowgraph::options::Technique;
 use shadowgraph::scene::{LightKind, Scene};
 use shadowgraph::shadows::{
-    CascadeBlend, CascadeFitting, CascadeSelection, CullSettings, MapPlan, ShadowPlan, SplitScheme,
+    CascadeBlend, CascadeFitting, CascadeSelection, CullSettings, MapPlan, PCF, ShadowPlan, SplitScheme,
 };
 
 /// Numbers from 0 to 1 that look random.
@@ -126,7 +125,7 @@ fn row_33_a_cascade_that_nobody_needs_costs_nothing() {
     assert!(tiles[0].casters.is_empty() && !tiles[2].casters.is_empty(), "{tiles:?}");
     let gpu = shadowgraph::Gpu::noop().unwrap();
     let aov = shadowgraph::options::Aov::Color;
-    let renderer = shadowgraph::Renderer::with(&gpu, scene, &options.camera, aov, Technique::Pcf).unwrap();
+    let renderer = shadowgraph::Renderer::with(&gpu, scene, &options.camera, aov, PCF).unwrap();
     let text = renderer.plan(&options).unwrap().0.to_text();
     assert!(text.contains("cascade 2") && !text.contains("cascade 0"), "{text}");
 }

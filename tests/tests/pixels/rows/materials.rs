@@ -5,9 +5,9 @@ use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, sun};
 use glam::{DVec3, Vec4};
 use shadowgraph::Renderer;
 use shadowgraph::measure::{Instrument, Points, Probe, Question};
-use shadowgraph::options::{Aov, Technique};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, CasterMode, Material, Scene};
-use shadowgraph::shadows::ShadowFilter;
+use shadowgraph::shadows::{RAYTRACED, ShadowFilter};
 
 /// A sheet of a material, 1.5 m over a floor, under a sun straight above. Its alpha is 0.6.
 fn sheet(change: impl FnOnce(&mut Material)) -> Scene {
@@ -109,10 +109,8 @@ fn row_24_rays_see_casters_as_maps_do() {
     for mode in [CasterMode::On, CasterMode::Clip, CasterMode::Off] {
         let scene = sheet(|sheet| sheet.casts = Some(mode));
         let options = cube_view(|_| ());
-        let (mapped, traced) = (
-            greys(gpu, &scene, 0, &options),
-            super::greys_with(gpu, &scene, 0, &options, Technique::Raytraced),
-        );
+        let (mapped, traced) =
+            (greys(gpu, &scene, 0, &options), super::greys_with(gpu, &scene, 0, &options, RAYTRACED));
         let dark = |greys: &Greys| count(greys, |grey| grey < 128);
         assert!(dark(&mapped).abs_diff(dark(&traced)) < 100, "{mode:?}: {} {}", dark(&mapped), dark(&traced));
     }

@@ -15,15 +15,23 @@ mod views;
 
 use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, cube_on_floor, floor_mesh, material, view};
 use glam::DVec3;
-use shadowgraph::options::{Aov, Technique};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::{Camera, Light, LightKind, Scene};
-use shadowgraph::shadows::{ShadowInputs, ShadowPlan, ShadowSettings, plan_shadows};
+use shadowgraph::shadows::{
+    PCF, RAYTRACED, ShadowInputs, ShadowPlan, ShadowSettings, TechniqueKind, plan_shadows,
+};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 /// The visibility of a light in each pixel, 255 lit; `None` where nothing is drawn or the surface faces away.
 type Greys = Vec<Option<u8>>;
 
-fn greys_with(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions, technique: Technique) -> Greys {
+fn greys_with(
+    gpu: &Gpu,
+    scene: &Scene,
+    light: u32,
+    options: &ViewOptions,
+    technique: TechniqueKind,
+) -> Greys {
     let aov = Aov::Visibility(light);
     let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
     let picture = renderer.draw(gpu, options).unwrap().picture;
@@ -31,12 +39,12 @@ fn greys_with(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions, techn
 }
 
 fn greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
-    greys_with(gpu, scene, light, options, Technique::Pcf)
+    greys_with(gpu, scene, light, options, PCF)
 }
 
 /// How many pixels differ by more than one half from rays.
 fn wrong(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> usize {
-    let truth = greys_with(gpu, scene, light, options, Technique::Raytraced);
+    let truth = greys_with(gpu, scene, light, options, RAYTRACED);
     different(&greys(gpu, scene, light, options), &truth, 127)
 }
 

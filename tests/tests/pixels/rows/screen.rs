@@ -7,7 +7,7 @@ use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
 use shadowgraph::options::{Aov, Pipeline};
 use shadowgraph::scene::{AlphaMode, Scene};
 use shadowgraph::shadows::{
-    CascadeSelection, Pcf, Screen, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
+    CascadeSelection, Pcf, Screen, ScreenSettings, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
 };
 use shadowgraph::{Gpu, Picture, Renderer, ViewOptions, wgpu};
 
@@ -72,8 +72,8 @@ fn row_35_blurring_widens_edges_nearby_and_leaves_out_other_surfaces() {
     let draw = |blur_m, depth_threshold| {
         let options = cube_view(|settings| {
             settings.cascades.filter = ShadowFilter::Tent2;
-            settings.screen.blur_m = blur_m;
-            settings.screen.depth_threshold = depth_threshold;
+            let own = ScreenSettings { blur_m, depth_threshold, ..ScreenSettings::default() };
+            settings.techniques.set(&own).unwrap();
         });
         screen_greys(gpu, &scene, 0, &options)
     };
@@ -90,15 +90,15 @@ fn row_35_blurring_widens_edges_nearby_and_leaves_out_other_surfaces() {
     // Farther away the same radius is fewer pixels.
     let mut far = cube_view(|settings| {
         settings.cascades.filter = ShadowFilter::Tent2;
-        settings.screen.blur_m = 0.15;
+        settings.techniques.set(&ScreenSettings { blur_m: 0.15, ..ScreenSettings::default() }).unwrap();
         settings.distance_m = 90.0;
     });
     far.camera = crate::stage::camera(DVec3::new(10.0, 15.0, 20.0), DVec3::new(0.0, 0.3, 0.0));
     let share = |greys: &Greys| between(greys) as f64 / count(greys, |grey| grey < 253) as f64;
     let near = cube_view(|settings| {
         settings.cascades.filter = ShadowFilter::Tent2;
-        settings.screen.blur_m = 0.15;
-        settings.screen.blur_max_px = 32.0;
+        let own = ScreenSettings { blur_m: 0.15, blur_max_px: 32.0, ..ScreenSettings::default() };
+        settings.techniques.set(&own).unwrap();
     });
     let widths = [&near, &far].map(|options| between(&screen_greys(gpu, &scene, 0, options)));
     assert!(widths[1] * 4 < widths[0], "{widths:?} {}", share(&blurred));

@@ -3,8 +3,9 @@
 use super::{pillar_view, pillars};
 use crate::stage::{SIZE_PX, gpu, sun, sun_direction};
 use glam::DVec3;
-use shadowgraph::options::{Aov, Pipeline, Technique};
+use shadowgraph::options::{Aov, Pipeline};
 use shadowgraph::scene::Scene;
+use shadowgraph::shadows::PCF;
 use shadowgraph::{Error, Gpu, Method, Renderer};
 
 fn pillars_in_sun() -> Scene {
@@ -85,8 +86,7 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
         assert_eq!(first.len(), 1);
         assert_eq!(second.pipeline(), pipeline);
     }
-    let none = Renderer::with(gpu, pillars_in_sun(), &left.camera, Aov::Color, Technique::Pcf)
-        .unwrap()
-        .draw_views(gpu, &[]);
+    let none =
+        Renderer::with(gpu, pillars_in_sun(), &left.camera, Aov::Color, PCF).unwrap().draw_views(gpu, &[]);
     assert!(none.unwrap().is_empty());
 }

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use crate::commands::Planned;
-use crate::failure::Failure;
+use super::commands::Planned;
+use super::failure::Failure;
+use crate::core::PassTime;
+use crate::scene::{Light, LightKind};
+use crate::shadows::Unshadowed;
+use crate::wgpu::AdapterInfo;
 use serde_json::{Value, json};
-use shadowgraph::core::PassTime;
-use shadowgraph::scene::{Light, LightKind};
-use shadowgraph::shadows::Unshadowed;
-use shadowgraph::wgpu::AdapterInfo;
 
 /// The plan as text, with the scene's lights.
 pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
@@ -142,7 +142,7 @@ mod tests {
         };
         let list = [time("a/x", "a", Some(2.0)), time("y", "", None), time("a/z", "a", Some(0.5))];
         let table = columns(3.0, Some(2.5));
-        let adapter = shadowgraph::Gpu::noop().unwrap().adapter;
+        let adapter = crate::Gpu::noop().unwrap().adapter;
         let text = times(&list, &adapter);
         assert!(text.contains(&table), "{text}");
         let (a, z, none) = (text.find("  a\n"), text.find("    z"), text.find("(no node)"));
@@ -160,7 +160,7 @@ mod tests {
         };
         let merged = ["clear", "first", "second"].map(|pass| time(pass, Some(6.0), 3));
         let list = [merged.as_slice(), &[time("alone", Some(0.5), 1), time("unknown", None, 3)]].concat();
-        let text = times(&list, &shadowgraph::Gpu::noop().unwrap().adapter);
+        let text = times(&list, &crate::Gpu::noop().unwrap().adapter);
         assert_eq!(text.matches("6.000  all 3 merged").count(), 3, "{text}");
         assert_eq!(text.matches("merged").count(), 3, "{text}");
         assert!(text.ends_with(&format!("{}\n", columns(5.0, Some(6.5)))), "{text}");

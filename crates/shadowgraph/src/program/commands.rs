@@ -3,18 +3,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::args::{DrawArgs, DumpArgs, Format, RenderArgs};
-use crate::console;
-use crate::failure::Failure;
-use crate::progress::Progress;
-use crate::report;
-use shadowgraph::core::{PassTime, Plan, Timer};
-use shadowgraph::options::{Aov, Options};
-use shadowgraph::output::{Pixels, write_png, write_text};
-use shadowgraph::scene::gltf::Progress as LoadProgress;
-use shadowgraph::scene::{Camera, Scene};
-use shadowgraph::shadows::Unshadowed;
-use shadowgraph::{Drawn, Gpu, Method, Picture, Renderer, ViewOptions};
+use super::args::{DrawArgs, DumpArgs, Format, RenderArgs};
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::report;
+use crate::core::{PassTime, Plan, Timer};
+use crate::options::{Aov, Options};
+use crate::output::{Pixels, write_png, write_text};
+use crate::scene::gltf::Progress as LoadProgress;
+use crate::scene::{Camera, Scene};
+use crate::shadows::{Techniques, Unshadowed};
+use crate::{Drawn, Gpu, Method, Picture, Renderer, ViewOptions};
 
 /// What every drawing command starts from.
 pub(crate) struct Input {
@@ -24,9 +24,9 @@ pub(crate) struct Input {
 }
 
 /// `shadowgraph render`
-pub(crate) fn render(args: &RenderArgs) -> Result<(), Failure> {
+pub(crate) fn render(args: &RenderArgs, techniques: &Techniques) -> Result<(), Failure> {
     check_output(&args.output)?;
-    let input = input(&args.draw)?;
+    let input = input(&args.draw, techniques)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let drawn = draw(&gpu, input)?;
     let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
@@ -70,8 +70,8 @@ fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
 }
 
 /// `shadowgraph dump`
-pub(crate) fn dump(args: &DumpArgs) -> Result<(), Failure> {
-    let input = input(&args.draw)?;
+pub(crate) fn dump(args: &DumpArgs, techniques: &Techniques) -> Result<(), Failure> {
+    let input = input(&args.draw, techniques)?;
     let lights = input.scene.lights.clone();
     let (gpu, drawn) = planned(&args.draw, input)?;
     let text = match args.format {
@@ -126,8 +126,8 @@ fn check_output(file: &Path) -> Result<(), Failure> {
 }
 
 /// Parses the options, loads the scene and applies the options to it.
-pub(crate) fn input(args: &DrawArgs) -> Result<Input, Failure> {
-    let options = args.options()?;
+pub(crate) fn input(args: &DrawArgs, techniques: &Techniques) -> Result<Input, Failure> {
+    let options = args.options(techniques)?;
     let mut scene = load(args.scene.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
     if let Some(note) = options.sun.apply(&mut scene) {
@@ -143,9 +143,9 @@ pub(crate) fn load(file: Option<&Path>) -> Result<Scene, Failure> {
         Some(file) => {
             let loading = Progress::now(&format!("loading {}", file.display()));
             let told = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
-            Ok(shadowgraph::scene::gltf::load_with_progress(file, told)?)
+            Ok(crate::scene::gltf::load_with_progress(file, told)?)
         }
-        None => Ok(shadowgraph::scene::demo::demo_scene()),
+        None => Ok(crate::scene::demo::demo_scene()),
     }
 }
 

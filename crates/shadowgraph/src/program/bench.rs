@@ -3,23 +3,24 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use crate::args::BenchArgs;
-use crate::commands::{self, Input};
-use crate::console;
-use crate::failure::Failure;
-use crate::progress::Progress;
-use crate::report;
-use shadowgraph::bench::{Comparison, FrameTime, Spread, compare, pass_times};
-use shadowgraph::core::PassTime;
-use shadowgraph::options::Options;
-use shadowgraph::{Gpu, Method, Renderer, ViewOptions};
+use super::args::BenchArgs;
+use super::commands::{self, Input};
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::report;
+use crate::bench::{Comparison, FrameTime, Spread, compare, pass_times};
+use crate::core::PassTime;
+use crate::options::Options;
+use crate::shadows::Techniques;
+use crate::{Gpu, Method, Renderer, ViewOptions};
 
 /// Frames on a real GPU, of which each is waited for.
 const GPU_FRAMES: u32 = 20;
 
 /// Measures and prints, a table at a time.
-pub(crate) fn bench(args: &BenchArgs) -> Result<(), Failure> {
-    let input = commands::input(&args.draw)?;
+pub(crate) fn bench(args: &BenchArgs, techniques: &Techniques) -> Result<(), Failure> {
+    let input = commands::input(&args.draw, techniques)?;
     let view = commands::view_options(&input);
     if cfg!(debug_assertions) {
         console::warning(
@@ -145,7 +146,7 @@ fn pass_table(passes: &[PassTime]) -> String {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
-    use shadowgraph::bench::Counts;
+    use crate::bench::Counts;
 
     fn comparison(micros: u64) -> Comparison {
         let step = Duration::from_micros(micros);

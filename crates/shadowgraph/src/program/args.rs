@@ -1,9 +1,10 @@
 //! The command line.
 
-use crate::failure::Failure;
+use super::failure::Failure;
+use crate::options::{OptionError, Options, SettingsFile, ShadowDistance};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use shadowgraph::options::{OptionError, Options, SettingsFile, ShadowDistance};
-use std::path::PathBuf;
+use shadowgraph_shadows::{Technique, Techniques};
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 const USEFUL: &str = "\
@@ -76,7 +77,7 @@ pub(crate) struct MeasureArgs {
     /// A glTF or GLB file; without it the built-in cases
     #[arg(conflicts_with = "cases")]
     pub(crate) scene: Option<PathBuf>,
-    /// The shadow techniques, with commas between: pcf, pcss, raytraced, none
+    /// The shadow techniques, with commas between, or all: those that `nodes` lists
     #[arg(long, value_name = "A,B,...", value_delimiter = ',', default_value = "pcf")]
     pub(crate) techniques: Vec<String>,
     /// Scenes, suns and views in RON
@@ -141,7 +142,7 @@ pub(crate) struct DrawArgs {
     /// The pipeline: forward, screen_shadows or minimal
     #[arg(long, value_name = "NAME", default_value = "forward")]
     pipeline: String,
-    /// The shadow technique: pcf, pcss, raytraced or none
+    /// The shadow technique, one of those that `nodes` lists, such as pcf, or pcf+contact
     #[arg(long, value_name = "NAME", default_value = "pcf")]
     technique: String,
     /// Samples a pixel while colours are drawn: 1 or 4
@@ -186,15 +187,15 @@ impl DrawArgs {
     ///
     /// # Errors
     /// One line with the option and what is wrong with its value.
-    pub(crate) fn options(&self) -> Result<Options, Failure> {
-        let file = self.settings.as_deref().map(SettingsFile::load).transpose()?.unwrap_or_default();
+    pub(crate) fn options(&self, techniques: &Techniques) -> Result<Options, Failure> {
+        let file = settings_file(self.settings.as_deref(), techniques)?;
         let shadow_distance = match &self.shadow_distance {
             None if file.has_distance => ShadowDistance::Metres(file.settings.distance_m.into()),
             given => or_default(given.as_deref())?,
         };
         Ok(Options {
             pipeline: self.pipeline.parse()?,
-            technique: self.technique.parse()?,
+            technique: technique("--technique", &self.technique, techniques)?,
             samples: self.samples,
             settings: file.settings,
             size: self.size.parse()?,
@@ -208,6 +209,29 @@ impl DrawArgs {
     }
 }
 
+/// Reads `--settings`, if there are any.
+///
+/// # Errors
+/// One line with the file and what is wrong in it.
+pub(crate) fn settings_file(
+    file: Option<&Path>,
+    techniques: &Techniques,
+) -> Result<SettingsFile, OptionError> {
+    file.map_or_else(|| Ok(SettingsFile::default()), |file| SettingsFile::load(file, techniques))
+}
+
+/// Finds a technique that an option names.
+///
+/// # Errors
+/// One line with the option and the names there are.
+pub(crate) fn technique(
+    option: &'static str,
+    name: &str,
+    techniques: &Techniques,
+) -> Result<Technique, OptionError> {
+    techniques.find(name).map_err(|error| OptionError::new(option, error.to_string()))
+}
+
 fn or_default<T: FromStr<Err = OptionError> + Default>(text: Option<&str>) -> Result<T, OptionError> {
     text.map_or_else(|| Ok(T::default()), str::parse)
 }
@@ -216,15 +240,15 @@ fn or_default<T: FromStr<Err = OptionError> + Default>(text: Option<&str>) -> Re
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
+    use crate::options::{AdapterChoice, Aov};
     use clap::CommandFactory;
-    use shadowgraph::options::{AdapterChoice, Aov};
 
     fn options(line: &str) -> Result<Options, String> {
         let words =
             ["shadowgraph", "render"].into_iter().chain(line.split(';').filter(|word| !word.is_empty()));
         let cli = Cli::try_parse_from(words).map_err(|error| error.to_string())?;
         let Some(Command::Render(args)) = cli.command else { panic!("{cli:?}") };
-        args.draw.options().map_err(|failure| failure.message)
+        args.draw.options(&Techniques::built_in()).map_err(|failure| failure.message)
     }
 
     #[test]
@@ -252,10 +276,7 @@ mod tests {
     #[test]
     fn a_wrong_value_is_one_line_with_the_option() {
         for (line, start) in [
-            (
-                "--technique;soft",
-                "--technique: there is no technique `soft`; there is: pcf, pcss, raytraced, none",
-            ),
+            ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf, pcss, "),
             ("--pipeline;my.ron", "--pipeline: there is no pipeline `my.ron`; there is: forward"),
             ("--size;0x4", "--size: the width 0"),
             ("--sun;dir=0,0,0", "--sun: dir has no length"),
@@ -296,14 +317,14 @@ mod tests {
     fn bench_measures_a_thousand_frames_without_a_gpu_by_default() {
         let args = bench("").unwrap();
         assert_eq!((args.frames, args.draw.names_adapter()), (1000, false));
-        assert_eq!(args.draw.options().ok(), Some(Options::default()));
+        assert_eq!(args.draw.options(&Techniques::built_in()).ok(), Some(Options::default()));
     }
 
     #[test]
     fn bench_takes_the_options_of_drawing_and_a_number_of_frames() {
         let args = bench("hall.glb --frames 20 --adapter cpu --size 64x36").unwrap();
         assert_eq!((args.frames, args.draw.names_adapter()), (20, true));
-        let Ok(options) = args.draw.options() else { panic!("{args:?}") };
+        let Ok(options) = args.draw.options(&Techniques::built_in()) else { panic!("{args:?}") };
         assert_eq!((options.adapter, options.size.width_px), (AdapterChoice::Cpu, 64));
         assert_eq!(args.draw.scene, Some(PathBuf::from("hall.glb")));
     }

@@ -1,10 +1,9 @@
-//! Shadows whose edges get softer away from what casts them.
+//! What users choose of `pcss`.
 
 use serde::{Deserialize, Serialize};
 
-use super::check::in_range;
-use crate::Error;
-use crate::settings::setting;
+use crate::settings::{in_range, setting};
+use crate::{Error, TechniqueSettings};
 
 /// Settings of the technique `pcss`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,12 +33,14 @@ impl Default for PcssSettings {
     }
 }
 
-impl PcssSettings {
-    pub(super) fn validate(&self) -> Result<(), Error> {
-        in_range("pcss.sun_radius_rad", self.sun_radius_rad, 0.0, 0.2, "0 to 0.2 (radians)")?;
-        in_range("pcss.lamp_radius_m", self.lamp_radius_m, 0.0, 10.0, "0 to 10 (metres)")?;
-        in_range("pcss.most_texels", self.most_texels, 1.0, 24.0, "1 to 24 (texels)")?;
-        let taps = [("pcss.blocker_taps", self.blocker_taps), ("pcss.filter_taps", self.filter_taps)];
+impl TechniqueSettings for PcssSettings {
+    const NAME: &'static str = "pcss";
+
+    fn validate(&self) -> Result<(), Error> {
+        in_range("sun_radius_rad", self.sun_radius_rad, 0.0, 0.2, "0 to 0.2 (radians)")?;
+        in_range("lamp_radius_m", self.lamp_radius_m, 0.0, 10.0, "0 to 10 (metres)")?;
+        in_range("most_texels", self.most_texels, 1.0, 24.0, "1 to 24 (texels)")?;
+        let taps = [("blocker_taps", self.blocker_taps), ("filter_taps", self.filter_taps)];
         taps.into_iter().try_for_each(|(field, taps)| match taps {
             1..=64 => Ok(()),
             _ => Err(setting(field, taps, "1 to 64")),

@@ -18,7 +18,7 @@ impl Failure {
     const NO_ADAPTER: u8 = 3;
 
     /// No device could be opened.
-    pub(crate) fn no_device(error: shadowgraph::Error) -> Self {
+    pub(crate) fn no_device(error: crate::Error) -> Self {
         Self { code: Self::NO_ADAPTER, message: error.to_string() }
     }
 }

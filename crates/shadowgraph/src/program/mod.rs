@@ -1,4 +1,4 @@
-//! The `shadowgraph` program.
+//! The `shadowgraph` program, for those who add techniques of their own to it.
 //!
 //! Exit codes: 0 done, 1 the input or a setting is wrong, 2 usage, 3 no usable adapter. Whatever is wrong
 //! is told in one line on standard error that starts with `error:`.
@@ -16,20 +16,34 @@ mod report;
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
 use failure::Failure;
+use shadowgraph_shadows::Techniques;
 #[cfg(unix)]
 use std::process::Command as Process;
 use std::process::ExitCode;
 
-fn main() -> ExitCode {
+/// Does what the command line says, with these techniques to choose from: the whole `main` of a program.
+///
+/// ```no_run
+/// use shadowgraph::shadows::{NoShadows, TechniqueKind, Techniques};
+///
+/// const MINE: TechniqueKind =
+///     TechniqueKind::new("mine", "everything is lit", |_context| Ok(Box::new(NoShadows)));
+///
+/// let mut techniques = Techniques::built_in();
+/// techniques.register(MINE)?;
+/// shadowgraph::program::run(&techniques);
+/// # Ok::<(), shadowgraph::shadows::Error>(())
+/// ```
+pub fn run(techniques: &Techniques) -> ExitCode {
     #[cfg(unix)]
     runtime_folder();
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
-        Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args),
-        Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args),
-        Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args),
-        Ok(Cli { command: Some(Command::Nodes) }) => nodes::nodes(),
-        Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args),
+        Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, techniques),
+        Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args, techniques),
+        Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, techniques),
+        Ok(Cli { command: Some(Command::Nodes) }) => nodes::nodes(techniques),
+        Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, techniques),
         Err(usage) => return tell_usage(&usage),
     };
     match done {

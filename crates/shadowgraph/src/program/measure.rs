@@ -2,22 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::args::MeasureArgs;
-use crate::commands;
-use crate::console;
-use crate::failure::Failure;
-use crate::progress::Progress;
-use shadowgraph::measure::report::{Bound, Bounds, CaseReport, PictureFiles, Report, page, table};
-use shadowgraph::measure::{
+use super::args::{MeasureArgs, settings_file, technique};
+use super::commands;
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use crate::Gpu;
+use crate::measure::report::{Bound, Bounds, CaseReport, PictureFiles, Report, page, table};
+use crate::measure::{
     Case, CasePictures, CaseSet, Measured, Subject, Task, Variant, VariantSet, automatic_views,
     built_in_cases, measure,
 };
-use shadowgraph::options::{
-    AdapterChoice, CameraChoice, OptionError, SettingsFile, Size, SunChoice, Technique,
-};
-use shadowgraph::output::{Pixels, write_png, write_text};
-use shadowgraph::scene::Camera;
-use shadowgraph::{Error, Gpu};
+use crate::options::{AdapterChoice, CameraChoice, OptionError, Size, SunChoice};
+use crate::output::{Pixels, write_png, write_text};
+use crate::scene::Camera;
+use crate::shadows::{Technique, Techniques};
 
 /// The folder of the pictures, in the output's folder.
 const PICTURES: &str = "pictures";
@@ -37,8 +36,8 @@ enum Work {
 }
 
 /// Measures, prints the table, writes the files, and checks the bounds.
-pub(crate) fn measure_command(args: &MeasureArgs) -> Result<(), Failure> {
-    let plan = plan(args)?;
+pub(crate) fn measure_command(args: &MeasureArgs, techniques: &Techniques) -> Result<(), Failure> {
+    let plan = plan(args, techniques)?;
     let gpu = Gpu::open(&plan.adapter).map_err(Failure::no_device)?;
     let output = args.output.as_deref().map(Output::new).transpose()?;
     let progress = Progress::if_slow("measuring");
@@ -70,7 +69,7 @@ pub(crate) fn measure_command(args: &MeasureArgs) -> Result<(), Failure> {
     check(&report, plan.bounds.as_ref())
 }
 
-fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
+fn plan(args: &MeasureArgs, known: &Techniques) -> Result<Plan, Failure> {
     let size: Size = match &args.size {
         Some(size) => size.parse()?,
         None if args.quick => "640x360".parse()?,
@@ -81,31 +80,36 @@ fn plan(args: &MeasureArgs) -> Result<Plan, Failure> {
         (_, true) => (64, 64),
         _ => (32, 16),
     };
-    let techniques = args.techniques.iter().map(|name| technique(name)).collect::<Result<_, _>>()?;
-    let file = args.settings.as_deref().map(SettingsFile::load).transpose()?;
+    let techniques = chosen(&args.techniques, known)?;
     let task = Task {
         techniques,
         size_px: [size.width_px, size.height_px],
-        settings: file.unwrap_or_default().settings,
-        variants: variants(args.variants.as_deref())?,
+        settings: settings_file(args.settings.as_deref(), known)?.settings,
+        variants: variants(args.variants.as_deref(), known)?,
         distance: args.shadow_distance.as_deref().map(str::parse).transpose()?,
         soft_rays,
         flicker_frames,
         flicker_everywhere: args.full,
         pictures: args.output.is_some(),
     };
-    task.settings.validate().map_err(|error| Failure::from(Error::from(error)))?;
     let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
-    let bounds = bounds(args.check.as_deref(), &args.techniques, &task.variants)?;
+    let names: Vec<_> = task.techniques.iter().map(Technique::name).collect();
+    let bounds = bounds(args.check.as_deref(), &names, &task.variants)?;
     Ok(Plan { task, adapter, work: work(args, size)?, bounds })
 }
 
-fn technique(name: &str) -> Result<Technique, Failure> {
-    let failed = |error: OptionError| Failure {
-        code: Failure::INPUT,
-        message: error.to_string().replacen("--technique", "--techniques", 1),
-    };
-    name.parse().map_err(failed)
+/// What `--techniques` names; `all` is every technique, and every kind of collection of the default one.
+fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, OptionError> {
+    let mut chosen = Vec::new();
+    for name in names {
+        if name == "all" {
+            chosen.extend(known.kinds().iter().map(|&kind| Technique::from(kind)));
+            chosen.extend([Technique::default().collected(), Technique::default().with_contact()]);
+        } else {
+            chosen.push(technique("--techniques", name, known)?);
+        }
+    }
+    Ok(chosen)
 }
 
 fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
@@ -172,9 +176,9 @@ impl Work {
     }
 }
 
-fn variants(file: Option<&Path>) -> Result<Vec<Variant>, Failure> {
+fn variants(file: Option<&Path>, techniques: &Techniques) -> Result<Vec<Variant>, Failure> {
     let Some(file) = file else { return Ok(Vec::new()) };
-    Ok(VariantSet::parse(&read(file)?, file)?.variants)
+    Ok(VariantSet::parse(&read(file)?, file, techniques)?.variants)
 }
 
 fn bounds(

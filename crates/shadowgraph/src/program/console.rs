@@ -1,6 +1,6 @@
 //! Standard output and standard error, without a panic when nobody reads them.
 
-use crate::failure::Failure;
+use super::failure::Failure;
 use std::io::{ErrorKind, Write};
 
 /// Prints to standard output. A reader that has gone (`| head`) is no failure.

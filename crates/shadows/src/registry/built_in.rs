@@ -1,0 +1,33 @@
+//! The techniques that come with Shadowgraph.
+
+use super::TechniqueKind;
+use crate::techniques::{NoShadows, Pcf, Pcss, PcssSettings, Raytraced};
+
+/// `pcf`: the default.
+pub const PCF: TechniqueKind = TechniqueKind::new(
+    "pcf",
+    "shadow maps: cascades for suns, an atlas for lamps, evenly soft edges",
+    |context| Ok(Box::new(Pcf::new(context.device))),
+);
+
+/// `pcss`: [`Pcss`].
+pub const PCSS: TechniqueKind = TechniqueKind::new(
+    "pcss",
+    "shadow maps with edges that get softer away from what casts them",
+    |context| Ok(Box::new(Pcss::new(context.device))),
+)
+.with_settings::<PcssSettings>();
+
+/// `raytraced`: [`Raytraced`].
+pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
+    "raytraced",
+    "a ray a pixel through the scene's triangles: what the others are measured against",
+    |context| Ok(Box::new(Raytraced::new(context.device, &context.rays()?)?)),
+);
+
+/// `none`: [`NoShadows`].
+pub const NONE: TechniqueKind =
+    TechniqueKind::new("none", "everything is lit: the floor of cost", |_| Ok(Box::new(NoShadows)));
+
+/// The default first.
+pub(super) const ALL: [TechniqueKind; 4] = [PCF, PCSS, RAYTRACED, NONE];

@@ -1,0 +1,118 @@
+//! Whether a technique is what it says, found out without a GPU.
+
+use std::borrow::Cow;
+
+use shadowgraph_shaders::{compose, naga};
+
+use super::{TechniqueContext, TechniqueKind};
+use crate::ShadowSettings;
+use crate::technique::binding::STORAGE;
+use crate::technique::{ShadowTechnique, layout, shadow_layout};
+
+/// Checks a name, and that no other has it.
+pub(super) fn name(name: &str, mut taken: impl Iterator<Item = &'static str>) -> Result<(), String> {
+    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if name.is_empty() || !name.chars().all(fits) {
+        return Err("a name has small letters, digits and `_`".into());
+    }
+    if taken.any(|known| known == name) {
+        return Err("there is a technique of this name already".into());
+    }
+    Ok(())
+}
+
+/// Makes one on wgpu's noop device, and checks all that can be checked before a frame is drawn.
+pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
+    let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let technique = caught(&device, || kind.make(&TechniqueContext::new(&device)))?.map_err(one_line)?;
+    if technique.name() != kind.name {
+        return Err(format!("what it makes is called `{}`", technique.name()));
+    }
+    if let Some(settings) = kind.settings {
+        if settings.name != kind.name {
+            return Err(format!("its settings are those of `{}`", settings.name));
+        }
+        (settings.check)(&ShadowSettings::default()).map_err(|error| format!("by default: {error}"))?;
+    }
+    limits(&technique.binding_types())?;
+    if technique.variant_count() == 0 {
+        return Err("it has no variant: `variant_count` is at least 1".into());
+    }
+    (0..technique.variant_count()).try_for_each(|variant| {
+        let module = compose("check.wgsl", &technique.modules(variant)).map_err(one_line)?;
+        // Structs may be left out of variants that do not read them.
+        if variant == 0 {
+            technique.records().iter().try_for_each(|record| record.check(&module)).map_err(one_line)?;
+        }
+        check_bindings(&device, technique.as_ref(), module)
+    })
+}
+
+/// What a stage of a lit pass leaves of wgpu's default limits: it reads the view and the lights, a block, five textures and five
+/// samplers of materials besides. The mask of `+screen` takes a texture and a block more.
+const ROOM: [(&str, usize); 4] =
+    [("storage buffers", 6), ("textures", 10), ("samplers", 11), ("uniform blocks", 10)];
+
+pub(super) fn limits(types: &[wgpu::BindingType]) -> Result<(), String> {
+    use wgpu::{BindingType, BufferBindingType};
+    let mut counts = [0; 4];
+    for (number, ty) in types.iter().enumerate() {
+        let class = match ty {
+            BindingType::Buffer { ty: BufferBindingType::Storage { read_only: true }, .. } => 0,
+            BindingType::Texture { .. } => 1,
+            BindingType::Sampler(_) => 2,
+            BindingType::Buffer { ty: BufferBindingType::Uniform, .. } => 3,
+            other => return Err(format!("binding {number} is {other:?}: lit passes only read")),
+        };
+        counts[class] += 1;
+    }
+    let over = counts.into_iter().zip(ROOM).find(|(count, (_, room))| count > room);
+    over.map_or(Ok(()), |(count, (what, room))| {
+        Err(format!("it binds {count} {what}; group 1 has room for {room} with wgpu's default limits"))
+    })
+}
+
+/// Whether what the WGSL reads of group 1 is what `binding_types` says: wgpu compares them when a pipeline is made.
+fn check_bindings(
+    device: &wgpu::Device,
+    technique: &dyn ShadowTechnique,
+    module: naga::Module,
+) -> Result<(), String> {
+    caught(device, || {
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("check.wgsl"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
+        let view_layout = layout(device, "view", &[STORAGE; 2]);
+        let shadow_layout = shadow_layout(device, technique);
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&view_layout), Some(&shadow_layout)],
+            immediate_size: 0,
+        });
+        let _pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: None,
+            layout: Some(&pipeline_layout),
+            module: &shader,
+            entry_point: Some("cs_check"),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+    })
+}
+
+/// Runs `work`, and returns what the device found wrong with it: by default wgpu ends the program.
+fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let done = work();
+    match pollster::block_on(scope.pop()) {
+        None => Ok(done),
+        Some(error) => Err(one_line(error)),
+    }
+}
+
+fn one_line(error: impl std::fmt::Display) -> String {
+    let text = error.to_string();
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join("; ")
+}

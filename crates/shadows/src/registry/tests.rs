@@ -1,0 +1,229 @@
+#![allow(clippy::unwrap_used, reason = "tests")]
+use serde::{Deserialize, Serialize};
+use shadowgraph_core::Frame;
+use shadowgraph_shaders::ModuleSource;
+
+use super::*;
+use crate::technique::binding::{FILTERED_MAP, SAMPLER, STORAGE, UNIFORM};
+use crate::technique::{Record, Screen, ShadowOutputs, ShadowTechnique};
+use crate::{Needs, ShadowInputs, TechniqueSettings, record};
+
+const HEAD: &str = "#define_import_path shadowgraph::technique\n#import shadowgraph::receiver::Receiver\n";
+const COLOR: &str = "fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f { return vec3f(1.0); }\n";
+
+/// What it says of itself is not always so.
+#[derive(Default)]
+struct Liar {
+    name: &'static str,
+    wgsl: &'static str,
+    types: Vec<wgpu::BindingType>,
+    records: Vec<Record>,
+}
+
+impl ShadowTechnique for Liar {
+    fn name(&self) -> &str {
+        self.name
+    }
+
+    fn needs(&self, _: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        Ok(Needs::NONE)
+    }
+
+    fn modules(&self, _: u32) -> Vec<ModuleSource> {
+        vec![ModuleSource::new("mine.wgsl", [HEAD, self.wgsl, COLOR].concat())]
+    }
+
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        self.types.clone()
+    }
+
+    fn records(&self) -> Vec<Record> {
+        self.records.clone()
+    }
+
+    fn add_to<'f>(
+        &'f self,
+        _: &mut Frame<'f>,
+        _: &ShadowInputs<'f>,
+        _: Option<&Screen>,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        Ok(ShadowOutputs::default())
+    }
+}
+
+const LIT: &str = "fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f { return vec3f(1.0); }\n";
+const BOUND: &str = "struct Mine { strength: f32, far: f32 }
+    @group(1) @binding(0) var<uniform> mine: Mine;
+    fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f { return vec3f(mine.strength); }\n";
+
+fn refused(make: fn(&TechniqueContext<'_>) -> Result<Box<dyn ShadowTechnique>, Error>) -> String {
+    refused_kind(TechniqueKind::new("mine", "", make))
+}
+
+fn refused_kind(kind: TechniqueKind) -> String {
+    let mut techniques = Techniques::built_in();
+    let error = techniques.register(kind).unwrap_err().to_string();
+    assert_eq!(techniques.kinds().len(), Techniques::built_in().kinds().len());
+    assert!(
+        error.starts_with(&format!("technique `{}`: ", kind.name)) && error.lines().count() == 1,
+        "{error}"
+    );
+    error
+}
+
+#[test]
+fn every_built_in_technique_is_what_it_says() {
+    for kind in Techniques::built_in().kinds() {
+        assert_eq!(check::kind(kind), Ok(()), "{}", kind.name);
+        assert!(!kind.summary.is_empty());
+    }
+}
+
+#[test]
+fn a_technique_of_another_crate_is_found_by_its_name() {
+    let mut techniques = Techniques::built_in();
+    let mine = TechniqueKind::new("mine", "everything is lit", |_| {
+        Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() }))
+    });
+    techniques.register(mine).unwrap();
+    assert_eq!(techniques.find("mine").unwrap(), mine);
+    assert_eq!(techniques.find("mine+screen").unwrap(), Technique::from(mine).collected());
+    assert_eq!(techniques.find("screen").unwrap().name(), "pcf+screen");
+    assert_eq!(techniques.find("pcf+screen+contact").unwrap().name(), "pcf+contact");
+}
+
+#[test]
+fn what_is_no_technique_is_refused_with_what_there_is() {
+    let techniques = Techniques::built_in();
+    for name in ["", "soft", "pcf+soft", "pcf+pcss", "pcf+", "+", "PCF"] {
+        let error = techniques.find(name).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("there is no technique `{name}`; there is: pcf, ")), "{error}");
+    }
+}
+
+#[test]
+fn a_name_that_is_taken_or_cannot_be_typed_is_refused() {
+    for (name, part) in
+        [("pcf", "already"), ("screen", "already"), ("Mine", "small letters"), ("", "small letters")]
+    {
+        let kind = TechniqueKind::new(name, "", |_| Ok(Box::new(Liar { wgsl: LIT, ..Liar::default() })));
+        assert!(refused_kind(kind).contains(part), "{name}");
+    }
+    let other = refused(|_| Ok(Box::new(Liar { name: "other", wgsl: LIT, ..Liar::default() })));
+    assert!(other.contains("what it makes is called `other`"), "{other}");
+}
+
+#[test]
+fn a_function_that_is_missing_or_returns_something_else_is_told() {
+    let missing = refused(|_| Ok(Box::new(Liar { name: "mine", ..Liar::default() })));
+    assert!(missing.contains("shadow_visibility"), "{missing}");
+    let grey = refused(|_| {
+        let wgsl = "fn shadow_visibility(light: u32, receiver: Receiver) -> f32 { return 1.0; }\n";
+        Ok(Box::new(Liar { name: "mine", wgsl, ..Liar::default() }))
+    });
+    assert!(grey.contains("shadow_visibility") && grey.contains("vec3"), "{grey}");
+}
+
+#[test]
+fn wrong_wgsl_is_told_with_file_and_line() {
+    let error = refused(|_| {
+        let wgsl =
+            "fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {\n    return nothing;\n}\n";
+        Ok(Box::new(Liar { name: "mine", wgsl, ..Liar::default() }))
+    });
+    assert!(error.contains("mine.wgsl:4: ") && error.contains("nothing"), "{error}");
+}
+
+#[test]
+fn bindings_that_are_not_as_said_are_told() {
+    let none = refused(|_| Ok(Box::new(Liar { name: "mine", wgsl: BOUND, ..Liar::default() })));
+    assert!(none.contains("group: 1, binding: 0"), "{none}");
+    let other = refused(|_| {
+        Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![STORAGE], ..Liar::default() }))
+    });
+    assert!(other.contains("group: 1, binding: 0"), "{other}");
+}
+
+#[test]
+fn more_bindings_than_a_lit_pass_has_room_for_are_told() {
+    for (ty, count, what) in [
+        (STORAGE, 7, "storage buffers"),
+        (FILTERED_MAP, 11, "textures"),
+        (SAMPLER, 12, "samplers"),
+        (UNIFORM, 11, "blocks"),
+    ] {
+        assert!(check::limits(&vec![ty; count - 1]).is_ok());
+        let error = check::limits(&vec![ty; count]).unwrap_err();
+        assert!(error.starts_with(&format!("it binds {count} ")) && error.contains(what), "{error}");
+    }
+}
+
+#[test]
+fn structs_that_lie_otherwise_in_rust_are_told() {
+    #[repr(C)]
+    struct Mine {
+        far: f32,
+        strength: f32,
+    }
+    let error = refused(|_| {
+        let records = vec![record!(Mine { far, strength })];
+        Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![UNIFORM], records }))
+    });
+    assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, not 0"), "{error}");
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(default)]
+struct Strength {
+    strength: f32,
+}
+
+impl Default for Strength {
+    fn default() -> Self {
+        Self { strength: f32::NAN }
+    }
+}
+
+impl TechniqueSettings for Strength {
+    const NAME: &'static str = "mine";
+
+    fn validate(&self) -> Result<(), Error> {
+        crate::settings::in_range("strength", self.strength, 0.0, 1.0, "0 to 1")
+    }
+}
+
+#[test]
+fn settings_that_are_wrong_by_default_are_told() {
+    let kind =
+        TechniqueKind::new("mine", "", |_| Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() })));
+    let error = refused_kind(kind.with_settings::<Strength>());
+    assert!(error.contains("by default") && error.contains("`strength` is NaN"), "{error}");
+}
+
+#[test]
+fn settings_of_another_technique_are_told() {
+    let kind =
+        TechniqueKind::new("mine", "", |_| Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() })));
+    let error = refused_kind(kind.with_settings::<crate::PcssSettings>());
+    assert!(error.contains("its settings are those of `pcss`"), "{error}");
+}
+
+#[test]
+fn settings_of_techniques_are_checked_with_the_others() {
+    let techniques = Techniques::built_in();
+    let error = |text: &str| {
+        let settings: ShadowSettings = ron::from_str(text).unwrap();
+        techniques.check(&settings).map_err(|error| error.to_string()).unwrap_err()
+    };
+    assert!(error("(distance_m: 0.0)").starts_with("shadow setting `distance_m`"));
+    let out_of_range = error(r#"(techniques: {"pcss": (filter_taps: 0)})"#);
+    assert!(
+        out_of_range.contains("technique `pcss`") && out_of_range.contains("`filter_taps` is 0"),
+        "{out_of_range}"
+    );
+    assert!(error(r#"(techniques: {"contact": (steps: 99)})"#).contains("1 to 64"));
+    assert!(error(r#"(techniques: {"none": ()})"#).contains("no settings of its own"));
+    assert!(error(r#"(techniques: {"soft": ()})"#).starts_with("there is no technique `soft`"));
+    let kind = error(r#"(techniques: {"pcss": (filter_taps: 2.5)})"#);
+    assert!(kind.starts_with("technique `pcss`: its settings: ") && kind.lines().count() == 1, "{kind}");
+}

@@ -1,0 +1,85 @@
+//! Asking a technique for everything that the picture shows.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use shadowgraph_core::{Bind, Contents, Frame, Texture};
+use shadowgraph_shaders::compose;
+
+use super::pass::{Layers, dispatch, mask_texture, pipeline};
+use crate::Error;
+use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
+use crate::technique::{Screen, ShadowOutputs, ShadowTechnique, layout, shadow_layout};
+use crate::techniques::mask::TARGET;
+
+/// The pass that writes a screen mask.
+pub(super) struct Collect {
+    device: wgpu::Device,
+    view_layout: wgpu::BindGroupLayout,
+    shadow_layout: wgpu::BindGroupLayout,
+    layout: wgpu::BindGroupLayout,
+    /// For each of the technique's variants that frames have asked for.
+    pipelines: Mutex<BTreeMap<u32, Arc<wgpu::ComputePipeline>>>,
+}
+
+impl Collect {
+    pub(super) fn new(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> Result<Self, Error> {
+        let collect = Self {
+            device: device.clone(),
+            view_layout: layout(device, "view", &[STORAGE; 2]),
+            shadow_layout: shadow_layout(device, technique),
+            layout: layout(device, "collect", &[FLOAT_MAP, TARGET, UNIFORM]),
+            pipelines: Mutex::default(),
+        };
+        // What does not compose is told now, not in some frame.
+        collect.pipeline(technique, 0)?;
+        Ok(collect)
+    }
+
+    /// The pipeline that asks the technique in one of its variants.
+    fn pipeline(
+        &self,
+        technique: &dyn ShadowTechnique,
+        variant: u32,
+    ) -> Result<Arc<wgpu::ComputePipeline>, Error> {
+        let mut known = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = known.get(&variant) {
+            return Ok(pipeline.clone());
+        }
+        let module = compose("collect.wgsl", &technique.modules(variant))?;
+        let layouts = [&self.view_layout, &self.shadow_layout, &self.layout];
+        let pipeline = Arc::new(pipeline(&self.device, module, "cs_collect", &layouts));
+        known.insert(variant, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    /// Adds the pass that asks for everything that the picture shows.
+    pub(super) fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        technique: &'f dyn ShadowTechnique,
+        screen: &Screen,
+        shadows: &ShadowOutputs<'f>,
+        layers: Layers,
+    ) -> Result<Texture, Error> {
+        let pipeline = self.pipeline(technique, shadows.variant)?;
+        let mut mask = mask_texture(frame, "shadow mask", screen, layers);
+        let mut pass = frame.compute_pass("collect");
+        let shadows = shadows.read_in(&mut pass);
+        let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
+        let surfaces = pass.sample(&screen.surfaces);
+        let target = pass.storage_texture_mut(&mut mask, Contents::Cover);
+        let size_px = screen.size_px;
+        pass.body(move |ctx| {
+            let own = [Bind::Texture(surfaces), Bind::TextureArray(target), Bind::Uniform(layers.record)];
+            let groups = [
+                ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
+                shadows.bind_group(ctx, &self.shadow_layout)?,
+                ctx.bind_group(&self.layout, &own)?,
+            ];
+            dispatch(&mut ctx.pass, &pipeline, &groups, size_px, layers);
+            Ok(())
+        });
+        Ok(mask)
+    }
+}

@@ -1,0 +1,193 @@
+//! `screen`: shadows of another technique, collected in a screen mask before anything is lit; and `contact`, which adds short
+//! shadows to such a mask.
+
+mod collect;
+mod pass;
+mod settings;
+
+pub use settings::{ContactSettings, ScreenSettings};
+
+use shadowgraph_core::{Frame, Texture, Uniform};
+use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
+
+use super::mask::{MASK, masked_lights, no_mask};
+use crate::technique::binding::UNIFORM;
+use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, add_shadows};
+use crate::{Error, Needs, Record, ShadowInputs, ShadowSettings, TechniqueSettings};
+use collect::Collect;
+use pass::{Layers, MaskPass};
+
+/// Asks another technique once for each pixel and light, in a compute pass, and blurs what it says; a technique that gives a
+/// mask itself is not asked. Whoever lights reads one texel: its shaders know nothing of the other technique, unless something
+/// is blended or there are more lights than layers.
+///
+/// After Engel, "Cascaded Shadow Maps" (ShaderX5, 2006), *shadow prepass*, and Pranckevičius, "Deferred Cascaded Shadow
+/// Maps" (2009).
+pub struct ScreenShadows {
+    name: String,
+    inner: Box<dyn ShadowTechnique>,
+    collect: Collect,
+    blur: MaskPass,
+    contact: Option<MaskPass>,
+    no_mask: wgpu::Texture,
+}
+
+impl ScreenShadows {
+    /// Collects the shadows of `inner`.
+    ///
+    /// # Errors
+    /// If a shader does not compose.
+    pub fn new(device: &wgpu::Device, inner: Box<dyn ShadowTechnique>) -> Result<Self, Error> {
+        Ok(Self {
+            name: format!("{}+{}", inner.name(), ScreenSettings::NAME),
+            collect: Collect::new(device, inner.as_ref())?,
+            blur: MaskPass::new(device, "blur", "blur.wgsl", "cs_blur")?,
+            contact: None,
+            no_mask: no_mask(device),
+            inner,
+        })
+    }
+
+    /// Collects the shadows of `inner`, and adds short ones that maps are too coarse for: a march over the picture from each
+    /// surface towards each light ([`ContactSettings`]).
+    ///
+    /// # Errors
+    /// If a shader does not compose.
+    pub fn with_contact(device: &wgpu::Device, inner: Box<dyn ShadowTechnique>) -> Result<Self, Error> {
+        let screen = Self::new(device, inner)?;
+        let contact = MaskPass::new(device, "contact", "contact.wgsl", "cs_contact")?;
+        Ok(Self {
+            name: format!("{}+{}", screen.inner.name(), ContactSettings::NAME),
+            contact: Some(contact),
+            ..screen
+        })
+    }
+
+    /// The variant without any of the inner technique.
+    fn mask_only(&self) -> u32 {
+        self.inner.variant_count()
+    }
+
+    /// Adds the passes over a mask that the settings ask for.
+    fn passes<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        settings: &ShadowSettings,
+        screen: &Screen,
+        mut mask: Texture,
+        layers: Layers,
+    ) -> Result<Texture, Error> {
+        let blur: ScreenSettings = settings.techniques.get()?;
+        if blur.blur_m > 0.0 {
+            let own = frame.uniform(bytemuck::cast_slice(&[
+                blur.blur_m,
+                blur.blur_max_px,
+                blur.depth_threshold,
+                0.0,
+            ]));
+            mask = self.blur.add_to(frame, screen, &mask, layers, own);
+        }
+        if let Some(contact) = &self.contact {
+            let settings: ContactSettings = settings.techniques.get()?;
+            let own = contact_block(frame, &settings);
+            mask = contact.add_to(frame, screen, &mask, layers, own);
+        }
+        Ok(mask)
+    }
+}
+
+impl ShadowTechnique for ScreenShadows {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        self.inner.needs(inputs)
+    }
+
+    fn reads_surfaces(&self) -> bool {
+        true
+    }
+
+    fn variant_count(&self) -> u32 {
+        self.mask_only() + 1
+    }
+
+    fn modules(&self, variant: u32) -> Vec<ModuleSource> {
+        let first = self.inner.binding_types().len();
+        let numbered = |module: ModuleSource| {
+            let source = module.source.replace("@binding(MASK)", &format!("@binding({first})"));
+            let source = source.replace("@binding(LAYERS)", &format!("@binding({})", first + 1));
+            ModuleSource::new(module.file, source)
+        };
+        if variant >= self.mask_only() {
+            return vec![numbered(MASK_ONLY)];
+        }
+        let mut modules = self.inner.modules(variant);
+        if let Some(module) = modules.first_mut() {
+            let path = "#define_import_path shadowgraph::";
+            let source = module.source.replace(&format!("{path}technique"), &format!("{path}collected"));
+            *module = ModuleSource::new(module.file.clone(), source);
+        }
+        modules.insert(0, numbered(SCREEN));
+        modules
+    }
+
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        let mut types = self.inner.binding_types();
+        types.extend([MASK, UNIFORM]);
+        types
+    }
+
+    fn records(&self) -> Vec<Record> {
+        self.inner.records()
+    }
+
+    fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+        screen: Option<&Screen>,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name.clone() })?;
+        let inner = self.inner.as_ref();
+        let mut outputs = add_shadows(inner, frame, inputs, Some(screen))?;
+        let lights = masked_lights(inputs.lights);
+        let layers = Layers { record: frame.uniform(&layers_record(&lights)), count: lights.len() as u32 };
+        outputs.mask = frame.node("collected shadows", |frame| {
+            if layers.count == 0 {
+                return Ok(None);
+            }
+            let mask = match outputs.mask.take() {
+                Some(mask) => mask,
+                None => self.collect.add_to(frame, inner, screen, &outputs, layers)?,
+            };
+            self.passes(frame, inputs.settings, screen, mask, layers).map(Some)
+        })?;
+        let bound = outputs.mask.clone();
+        let bound = bound.unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
+        outputs
+            .bindings
+            .extend([ShadowBinding::TextureArray(bound.clone()), ShadowBinding::Uniform(layers.record)]);
+        outputs.debug.push(("shadow mask", bound));
+        let casting = inputs.lights.iter().filter(|light| light.casts_shadow).count();
+        if casting == lights.len() && !screen.has_blended {
+            outputs.variant = self.mask_only();
+        }
+        Ok(outputs)
+    }
+}
+
+/// A `MaskLayers` of `layers.wgsl`.
+fn layers_record(lights: &[u32]) -> Vec<u8> {
+    let mut of_layers = [u32::MAX; super::MAX_MASK_LAYERS];
+    of_layers[..lights.len()].copy_from_slice(lights);
+    let head = [lights.len() as u32, 0, 0, 0];
+    [bytemuck::cast_slice(&head), bytemuck::cast_slice(&of_layers)].concat()
+}
+
+/// A `Contact` of `contact.wgsl`.
+fn contact_block(frame: &mut Frame<'_>, settings: &ContactSettings) -> Uniform {
+    let ContactSettings { length_m, thickness_m, steps } = *settings;
+    frame.uniform(bytemuck::cast_slice(&[length_m.to_bits(), thickness_m.to_bits(), steps, 0]))
+}

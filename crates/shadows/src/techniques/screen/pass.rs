@@ -1,0 +1,132 @@
+//! Passes over a screen mask.
+
+use std::borrow::Cow;
+
+use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc, Uniform};
+use shadowgraph_shaders::{compose, naga};
+
+use crate::Error;
+use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
+use crate::technique::{Screen, layout};
+use crate::techniques::mask::{MASK, MASK_FORMAT, TARGET, WORKGROUP_PX};
+
+/// The lights of a mask.
+#[derive(Clone, Copy)]
+pub(super) struct Layers {
+    /// `MaskLayers` of `layers.wgsl`.
+    pub(super) record: Uniform,
+    /// How many there are.
+    pub(super) count: u32,
+}
+
+/// A compute pass that makes one screen mask of another: what it knows besides are the surfaces that the picture shows, the
+/// camera, the lights, and a block of its own.
+pub(super) struct MaskPass {
+    name: &'static str,
+    view_layout: wgpu::BindGroupLayout,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl MaskPass {
+    /// Makes the pipeline of a built-in file with this entry point.
+    pub(super) fn new(
+        device: &wgpu::Device,
+        name: &'static str,
+        file: &str,
+        entry: &str,
+    ) -> Result<Self, Error> {
+        let view_layout = layout(device, "view", &[STORAGE; 2]);
+        let own_layout = layout(device, name, &[FLOAT_MAP, MASK, TARGET, UNIFORM, UNIFORM]);
+        let module = compose(file, &[])?;
+        let pipeline = pipeline(device, module, entry, &[&view_layout, &own_layout]);
+        Ok(Self { name, view_layout, layout: own_layout, pipeline })
+    }
+
+    /// Adds the pass, and returns what it makes of `mask`.
+    pub(super) fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        screen: &Screen,
+        mask: &Texture,
+        layers: Layers,
+        own: Uniform,
+    ) -> Texture {
+        let mut made = mask_texture(frame, format_args!("shadow mask, {}", self.name), screen, layers);
+        let mut pass = frame.compute_pass(self.name);
+        let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
+        let (surfaces, mask) = (pass.sample(&screen.surfaces), pass.sample(mask));
+        let target = pass.storage_texture_mut(&mut made, Contents::Cover);
+        let size_px = screen.size_px;
+        pass.body(move |ctx| {
+            let own = [
+                Bind::Texture(surfaces),
+                Bind::TextureArray(mask),
+                Bind::TextureArray(target),
+                Bind::Uniform(layers.record),
+                Bind::Uniform(own),
+            ];
+            let groups = [
+                ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
+                ctx.bind_group(&self.layout, &own)?,
+            ];
+            dispatch(&mut ctx.pass, &self.pipeline, &groups, size_px, layers);
+            Ok(())
+        });
+        made
+    }
+}
+
+/// A mask of the frame.
+pub(super) fn mask_texture(
+    frame: &mut Frame<'_>,
+    name: impl shadowgraph_core::Name,
+    screen: &Screen,
+    layers: Layers,
+) -> Texture {
+    let [width, height] = screen.size_px;
+    frame.create_texture(name, TextureDesc::d2(width, height, MASK_FORMAT).layers(layers.count))
+}
+
+/// A pipeline that computes masks.
+pub(super) fn pipeline(
+    device: &wgpu::Device,
+    module: naga::Module,
+    entry: &str,
+    layouts: &[&wgpu::BindGroupLayout],
+) -> wgpu::ComputePipeline {
+    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(entry),
+        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+    });
+    let layouts: Vec<_> = layouts.iter().copied().map(Some).collect();
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(entry),
+        bind_group_layouts: &layouts,
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&pipeline_layout),
+        module: &shader,
+        entry_point: Some(entry),
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
+
+/// Computes each pixel of each layer.
+pub(super) fn dispatch(
+    pass: &mut wgpu::ComputePass<'_>,
+    pipeline: &wgpu::ComputePipeline,
+    groups: &[wgpu::BindGroup],
+    [width, height]: [u32; 2],
+    layers: Layers,
+) {
+    pass.set_pipeline(pipeline);
+    for (index, group) in (0..).zip(groups) {
+        pass.set_bind_group(index, group, &[]);
+    }
+    let [x, y] = [width, height].map(|side| side.div_ceil(WORKGROUP_PX));
+    pass.dispatch_workgroups(x, y, layers.count);
+}

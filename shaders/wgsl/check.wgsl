@@ -1,0 +1,10 @@
+// Asks a technique all that can be asked: whether its functions are there and fit is found out when this is compiled.
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
+
+@compute @workgroup_size(1)
+fn cs_check() {
+    let receiver = Receiver();
+    let visibility: vec3f = shadow_visibility(0u, receiver);
+    let color: vec3f = shadow_debug_color(0u, receiver);
+}

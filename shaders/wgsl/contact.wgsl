@@ -1,0 +1,83 @@
+// Short shadows that maps are too coarse for: from each surface a march over the picture towards the light, until something that
+// the picture shows is in the way. After Sousa, "Secrets of CryENGINE 3 Graphics Technology" (SIGGRAPH 2011), *screen space
+// self-shadowing*.
+#import shadowgraph::view::{view, lights, view_depth_of, LIGHT_DIRECTIONAL}
+#import shadowgraph::surface::unpack_normal
+#import shadowgraph::shadows::layers::MaskLayers
+
+// 16 bytes.
+struct Contact {
+    // How far the march goes.
+    length_world: f32,
+    // How thick surfaces are taken to be: what passes farther behind them is not in their shadow.
+    thickness_world: f32,
+    steps: u32,
+}
+
+@group(1) @binding(0) var surfaces: texture_2d<f32>;
+@group(1) @binding(1) var collected: texture_2d_array<f32>;
+@group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
+@group(1) @binding(3) var<uniform> layers: MaskLayers;
+@group(1) @binding(4) var<uniform> contact: Contact;
+
+// The last part of the march: what is met there counts less and less, as maps take over.
+const FADE: f32 = 0.25;
+// The height over a surface's plane, in parts of its view depth, below which things are part of the surface.
+const FLAT: f32 = 0.0005;
+
+// 1: nothing is in the way.
+fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) -> f32 {
+    var to_light = -lights[light].direction;
+    var length_world = contact.length_world;
+    if lights[light].kind != LIGHT_DIRECTIONAL {
+        let offset = lights[light].position - position;
+        let distance = length(offset);
+        to_light = offset / max(distance, 1e-6);
+        length_world = min(length_world, 0.9 * distance);
+    }
+    if dot(normal, to_light) <= 0.0 {
+        return 1.0;
+    }
+    let size = vec2f(textureDimensions(surfaces));
+    let height = FLAT * view_depth_of(position);
+    // Interleaved gradient noise (Jimenez 2014): steps that are missed here are hit next door.
+    let noise = fract(52.9829189 * fract(dot(vec2f(pixel), vec2f(0.06711056, 0.00583715))));
+    for (var step = 0u; step < contact.steps; step++) {
+        let part = (f32(step) + 0.5 + 0.5 * noise) / f32(contact.steps);
+        let point = position + to_light * (part * length_world);
+        let clip = view.clip_from_world * vec4f(point, 1.0);
+        if clip.w <= 0.0 {
+            break;
+        }
+        let at = (clip.xy / clip.w * vec2f(0.5, -0.5) + 0.5) * size;
+        if any(at < vec2f(0.0)) || any(at >= size) {
+            break;
+        }
+        let other = textureLoad(surfaces, vec2u(at), 0);
+        if other.w < 1.0 {
+            continue;
+        }
+        // Only what stands out from the surface's own plane can be in its light.
+        let stands_out = dot(other.xyz - position, normal) > height;
+        let behind = view_depth_of(point) - view_depth_of(other.xyz);
+        if stands_out && behind > 0.0 && behind < contact.thickness_world {
+            return saturate((part - 1.0) / FADE + 1.0);
+        }
+    }
+    return 1.0;
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_contact(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= textureDimensions(surfaces)) {
+        return;
+    }
+    let surface = textureLoad(surfaces, id.xy, 0);
+    let normal = unpack_normal(surface.w);
+    var visibility = textureLoad(collected, id.xy, id.z, 0).rgb;
+    if any(normal != vec3f(0.0)) && any(visibility > vec3f(0.0)) {
+        let light = layers.light[id.z / 4u][id.z % 4u];
+        visibility = min(visibility, vec3f(contact_visibility(surface.xyz, normal, light, id.xy)));
+    }
+    textureStore(mask, id.xy, id.z, vec4f(visibility, 1.0));
+}
