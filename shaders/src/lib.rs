@@ -30,4 +30,7 @@ mod source;
 pub use compose::{compose, compose_source};
 pub use error::Error;
 pub use naga;
-pub use source::{MAPPED, MASK_ONLY, ModuleSource, NONE, PCSS, RAYTRACED, SCREEN, builtin, builtin_files};
+pub use source::{
+    EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, PCSS, PREFILTER, RAYTRACED, SCREEN, builtin,
+    builtin_files,
+};

@@ -38,6 +38,19 @@ pub const MAPPED: ModuleSource = file!("shadows/mapped.wgsl");
 /// The filter of the technique `pcss`, for [`MAPPED`].
 pub const PCSS: ModuleSource = file!("shadows/pcss.wgsl");
 
+/// The filter of techniques whose maps hold moments of depth, for [`MAPPED`]; what the moments are is the module
+/// `shadowgraph::shadows::encoding`.
+pub const MOMENTS: ModuleSource = file!("shadows/moments.wgsl");
+
+/// The moments of the technique `evsm`, for [`MOMENTS`].
+pub const EVSM: ModuleSource = file!("shadows/evsm.wgsl");
+
+/// The moments of the technique `msm`, for [`MOMENTS`].
+pub const MSM: ModuleSource = file!("shadows/msm.wgsl");
+
+/// The passes that make maps of moments, for [`EVSM`] or [`MSM`]: `FORMAT` stands for that of a texel.
+pub const PREFILTER: ModuleSource = file!("prefilter.wgsl");
+
 /// The technique `screen`: what another technique says of all that the picture shows, in a screen mask. Its bindings follow
 /// those of the other: `MASK` and `LAYERS` stand for their numbers, and the other's import path is `shadowgraph::collected`.
 pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");
@@ -56,8 +69,10 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("material.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
+    file!("shadows/evsm_layout.wgsl"),
     file!("shadows/layers.wgsl"),
     file!("shadows/lookup.wgsl"),
+    file!("shadows/moment_rules.wgsl"),
     file!("shadows/pcf.wgsl"),
     file!("shadows/tent.wgsl"),
     file!("shadows/tiles.wgsl"),

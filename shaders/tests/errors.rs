@@ -103,8 +103,8 @@ fn an_unknown_entry_file_says_which_there_are() {
     let text = compose("foward.wgsl", &[]).unwrap_err().to_string();
     assert_eq!(
         text,
-        "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, collect.wgsl, depth.wgsl, forward.wgsl, probe.wgsl, \
-         raytrace.wgsl, show.wgsl, tonemap.wgsl"
+        "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, check.wgsl, collect.wgsl, contact.wgsl, \
+         depth.wgsl, forward.wgsl, probe.wgsl, raytrace.wgsl, show.wgsl, tonemap.wgsl"
     );
     // A module is no entry file.
     assert!(compose("view.wgsl", &[]).is_err());

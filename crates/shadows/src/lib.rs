@@ -49,7 +49,9 @@ pub use filter::{Needs, ShadowFilter, filter_taps};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
 pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows, plan_shadows_after};
-pub use registry::{NONE, PCF, PCSS, RAYTRACED, Technique, TechniqueContext, TechniqueKind, Techniques};
+pub use registry::{
+    EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, Technique, TechniqueContext, TechniqueKind, Techniques,
+};
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
@@ -62,8 +64,8 @@ pub use technique::{
     shadow_layout,
 };
 pub use techniques::{
-    ContactSettings, MAX_MASK_LAYERS, NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced,
-    ScreenSettings, ScreenShadows, masked_lights,
+    ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, MAX_MASK_LAYERS, Msm, MsmSettings,
+    NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced, ScreenSettings, ScreenShadows, masked_lights,
 };
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,

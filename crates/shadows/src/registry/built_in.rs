@@ -1,7 +1,9 @@
 //! The techniques that come with Shadowgraph.
 
 use super::TechniqueKind;
-use crate::techniques::{NoShadows, Pcf, Pcss, PcssSettings, Raytraced};
+use crate::techniques::{
+    Evsm, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss, PcssSettings, Raytraced,
+};
 
 /// `pcf`: the default.
 pub const PCF: TechniqueKind = TechniqueKind::new(
@@ -18,6 +20,21 @@ pub const PCSS: TechniqueKind = TechniqueKind::new(
 )
 .with_settings::<PcssSettings>();
 
+/// `evsm`: [`Evsm`].
+pub const EVSM: TechniqueKind = TechniqueKind::new(
+    "evsm",
+    "exponential variance shadow maps: evenly soft edges that cost the same however soft",
+    |context| Ok(Box::new(Evsm::new(context.device)?)),
+)
+.with_settings::<EvsmSettings>();
+
+/// `msm`: [`Msm`].
+pub const MSM: TechniqueKind =
+    TechniqueKind::new("msm", "moment shadow maps: as evsm, in 64 bits a texel", |context| {
+        Ok(Box::new(Msm::new(context.device)?))
+    })
+    .with_settings::<MsmSettings>();
+
 /// `raytraced`: [`Raytraced`].
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
@@ -30,4 +47,4 @@ pub const NONE: TechniqueKind =
     TechniqueKind::new("none", "everything is lit: the floor of cost", |_| Ok(Box::new(NoShadows)));
 
 /// The default first.
-pub(super) const ALL: [TechniqueKind; 4] = [PCF, PCSS, RAYTRACED, NONE];
+pub(super) const ALL: [TechniqueKind; 6] = [PCF, PCSS, EVSM, MSM, RAYTRACED, NONE];

@@ -1,6 +1,7 @@
 //! The techniques that come with Shadowgraph, a room each.
 
 mod mask;
+mod moments;
 mod none;
 mod pcf;
 mod pcss;
@@ -10,6 +11,7 @@ mod variant;
 
 pub(crate) use mask::MASK_FORMAT;
 pub use mask::{MAX_MASK_LAYERS, masked_lights};
+pub use moments::{Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings};
 pub use none::NoShadows;
 pub use pcf::Pcf;
 pub use pcss::{Pcss, PcssSettings};

@@ -1,0 +1,170 @@
+//! `evsm` and `msm`: maps of moments of depth, which can be blurred and halved as colours can.
+//!
+//! The maps of depths are drawn as for [`Pcf`](crate::Pcf). Passes then turn them into moments (`prefilter.wgsl`), and whoever
+//! lights reads four texels and bounds from them how much of the light is blocked (`shadows/moments.wgsl`).
+
+mod evsm;
+mod msm;
+mod prefilter;
+
+pub use evsm::{EvsmMoments, EvsmPrecision, EvsmSettings};
+pub use msm::MsmSettings;
+
+use bytemuck::{Pod, Zeroable};
+use shadowgraph_core::{Format, Frame};
+use shadowgraph_shaders::{MAPPED, MOMENTS, ModuleSource};
+
+use crate::settings::in_range;
+use crate::technique::binding::{STORAGE, UNIFORM};
+use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
+use crate::{Error, Needs, Record, ShadowInputs, ShadowMaps, TechniqueSettings, plan, record};
+use prefilter::Prefilter;
+
+/// `evsm`: two or four exponentially warped moments (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008).
+pub type Evsm = MomentShadows<EvsmSettings>;
+
+/// `msm`: four moments in 16 bits each (Peters and Klein, "Moment Shadow Mapping", 2015).
+pub type Msm = MomentShadows<MsmSettings>;
+
+/// A technique of maps that hold moments of depth; which, its settings say.
+pub struct MomentShadows<S> {
+    maps: ShadowMaps,
+    prefilter: Prefilter,
+    settings: std::marker::PhantomData<fn() -> S>,
+}
+
+/// What techniques of moments differ in.
+pub trait Moments: TechniqueSettings {
+    /// In how many forms they can be stored.
+    const LAYOUTS: u32;
+
+    /// Returns the modules of a form: `shadowgraph::shadows::encoding`, and those that take the place of built-in ones.
+    fn modules(layout: u32) -> Vec<ModuleSource>;
+
+    /// Returns what a texel of a form is: one, two or four whole numbers of 32 bits.
+    fn format(layout: u32) -> Format;
+
+    /// Returns which form these settings ask for, below [`LAYOUTS`](Self::LAYOUTS).
+    fn layout(&self) -> u32;
+
+    /// Returns what shaders read of them.
+    fn rules(&self) -> MomentRules;
+}
+
+/// `MomentRules` of `moment_rules.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct MomentRules {
+    /// By how much depths are warped towards the light and away from it; 0 without a warp.
+    pub exponents: [f32; 2],
+    /// The part of the light behind a blocker that is taken for light that leaks there.
+    pub bleed: f32,
+    /// How far apart depths count as one, in parts of the tile's range, or how far moments are moved to those of any depth.
+    pub bias: f32,
+    /// How many texels of the map of depths a texel of moments stands for along each axis.
+    pub downscale: u32,
+    /// How many texels of moments are blurred over to either side.
+    pub radius: u32,
+    /// How many times the map is halved, and once.
+    pub mips: u32,
+    /// Zero.
+    pub unused: u32,
+}
+
+impl MomentRules {
+    /// How far around a point the map of depths is read, texels.
+    fn reach_texels(&self) -> f32 {
+        let coarsest = 1 << (self.mips - 1);
+        self.downscale as f32 * (self.radius as f32 + 1.5 * coarsest as f32)
+    }
+
+    /// Checks what all settings of moments have in common.
+    fn validate(&self) -> Result<(), Error> {
+        in_range("bleed", self.bleed, 0.0, 0.95, "0 to 0.95 (part of the light)")?;
+        let whole = |field, value: u32, allowed: &'static [u32], words| match allowed.contains(&value) {
+            true => Ok(()),
+            false => Err(crate::settings::setting(field, value, words)),
+        };
+        whole("downscale", self.downscale, &[1, 2, 4], "1, 2 or 4 (texels)")?;
+        whole("blur_texels", self.radius, &[0, 1, 2, 3, 4], "0 to 4 (texels)")?;
+        whole("mips", self.mips, &[1, 2, 3], "1 to 3")?;
+        if self.reach_texels() > 24.0 {
+            let words = "so few that downscale x (blur_texels + 1.5 x 2^(mips - 1)) is at most 24";
+            return Err(crate::settings::setting("blur_texels", self.radius, words));
+        }
+        Ok(())
+    }
+}
+
+impl<S: Moments> MomentShadows<S> {
+    /// Creates what stays the same for all frames.
+    ///
+    /// # Errors
+    /// If a shader does not compose.
+    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let prefilter = Prefilter::new::<S>(device)?;
+        Ok(Self { maps: ShadowMaps::new(device), prefilter, settings: std::marker::PhantomData })
+    }
+}
+
+impl<S: Moments> ShadowTechnique for MomentShadows<S> {
+    fn name(&self) -> &str {
+        S::NAME
+    }
+
+    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        let needs = plan::needs(inputs.settings);
+        let own: S = inputs.settings.techniques.get()?;
+        let reach = own.rules().reach_texels();
+        Ok(Needs { kernel_radius_texels: needs.kernel_radius_texels.max(reach), ..needs })
+    }
+
+    fn variant_count(&self) -> u32 {
+        S::LAYOUTS
+    }
+
+    fn modules(&self, variant: u32) -> Vec<ModuleSource> {
+        [vec![MAPPED, MOMENTS], S::modules(variant)].concat()
+    }
+
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        // `tiles.wgsl` and `moments.wgsl`.
+        vec![STORAGE, STORAGE, prefilter::MOMENT_MAP, prefilter::MOMENT_MAP, UNIFORM]
+    }
+
+    fn records(&self) -> Vec<Record> {
+        vec![record!(MomentRules { exponents, bleed, bias, downscale, radius, mips })]
+    }
+
+    fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+        _screen: Option<&Screen>,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        let (needs, own) = (self.needs(inputs)?, inputs.settings.techniques.get::<S>()?);
+        let (layout, rules) = (own.layout(), own.rules());
+        frame.node("shadows", |frame| {
+            let maps = self.maps.add_to(frame, inputs, &needs)?;
+            let block = frame.uniform(bytemuck::bytes_of(&rules));
+            let mut of =
+                |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &rules, block));
+            let cascades = of("cascade moments", &maps.cascades);
+            let atlas = of("atlas moments", &maps.atlas);
+            Ok(ShadowOutputs {
+                variant: layout,
+                debug_light: maps.main_light,
+                bindings: vec![
+                    ShadowBinding::Buffer(maps.views),
+                    ShadowBinding::Buffer(maps.lights),
+                    ShadowBinding::Texture(cascades),
+                    ShadowBinding::Texture(atlas),
+                    ShadowBinding::Uniform(block),
+                ],
+                mask: None,
+                debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
+                unshadowed: maps.unshadowed,
+            })
+        })
+    }
+}

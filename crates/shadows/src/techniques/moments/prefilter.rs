@@ -1,0 +1,197 @@
+//! The passes that turn maps of depths into maps of moments.
+
+use std::borrow::Cow;
+
+use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc, Uniform};
+use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
+
+use super::{MomentRules, Moments};
+use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
+use crate::technique::layout;
+use crate::{DrawnMap, Error};
+
+/// A map of moments, as it is read: whole numbers that are unpacked.
+pub(super) const MOMENT_MAP: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Uint,
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// What moments are before they are packed.
+const UNPACKED: Format = Format::Rgba32Float;
+
+/// The side of a workgroup, texels.
+const WORKGROUP: u32 = 8;
+
+/// The passes, for each form that moments are stored in.
+pub(super) struct Prefilter {
+    map_layout: wgpu::BindGroupLayout,
+    forms: Vec<Form>,
+    /// Bound where there is no map.
+    no_moments: wgpu::Texture,
+}
+
+struct Form {
+    format: Format,
+    resolve: Step,
+    across: Step,
+    down: Step,
+    halve: Step,
+}
+
+/// A pass's own bindings, and its pipeline.
+struct Step {
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl Prefilter {
+    pub(super) fn new<S: Moments>(device: &wgpu::Device) -> Result<Self, Error> {
+        let map_layout = layout(device, "moments of a map", &[STORAGE, STORAGE, UNIFORM]);
+        let forms = (0..S::LAYOUTS)
+            .map(|form| Form::new::<S>(device, &map_layout, form))
+            .collect::<Result<_, _>>()?;
+        let no_moments = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("no moments"),
+            size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: Format::R32Uint,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        Ok(Self { map_layout, forms, no_moments })
+    }
+
+    /// Adds the passes that make moments of a map's depths, and returns the moments, with their mips.
+    pub(super) fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        name: &'static str,
+        map: &DrawnMap,
+        views: &Buffer,
+        (form, rules, block): (u32, &MomentRules, Uniform),
+    ) -> Texture {
+        let (Some(form), Some(desc)) = (self.forms.get(form as usize), frame.texture_desc(&map.texture))
+        else {
+            return frame.import_texture("no moments", &self.no_moments, true);
+        };
+        if map.tiles.is_empty() {
+            return frame.import_texture("no moments", &self.no_moments, true);
+        }
+        let [width, height] = [desc.size.width, desc.size.height].map(|side| side / rules.downscale);
+        frame.node(name, |frame| {
+            let tiles: Vec<u32> = map.tiles.iter().map(|(_, view)| *view).collect();
+            let tiles = frame.upload_buffer("tiles", bytemuck::cast_slice(&tiles).to_vec());
+            let of = (views, &tiles, block);
+            let unpacked = TextureDesc::d2(width, height, UNPACKED);
+            let mut resolved = frame.create_texture("resolved", unpacked);
+            self.step(frame, ("resolve", &form.resolve), of, (&map.texture, 0), (&mut resolved, 0));
+            let mut across = frame.create_texture("blurred across", unpacked);
+            self.step(frame, ("across", &form.across), of, (&resolved, 0), (&mut across, 0));
+            let moments =
+                TextureDesc { mip_levels: rules.mips, ..TextureDesc::d2(width, height, form.format) };
+            let mut moments = frame.create_texture("moments", moments);
+            self.step(frame, ("down", &form.down), of, (&across, 0), (&mut moments, 0));
+            for mip in 1..rules.mips {
+                let finer = moments.clone();
+                self.step(frame, ("halve", &form.halve), of, (&finer, mip - 1), (&mut moments, mip));
+            }
+            moments
+        })
+    }
+
+    /// Adds a pass that makes a mip of one texture of a mip of another.
+    fn step<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        (name, step): (&'static str, &'f Step),
+        (views, tiles, block): (&Buffer, &Buffer, Uniform),
+        (from, from_mip): (&Texture, u32),
+        (to, to_mip): (&mut Texture, u32),
+    ) {
+        let size = frame.texture_desc(to).map_or([0; 2], |desc| [desc.size.width, desc.size.height]);
+        let [x, y] = size.map(|side| (side >> to_mip).div_ceil(WORKGROUP));
+        let mut pass = frame.compute_pass(name);
+        let (views, tiles) = (pass.storage_buffer(views), pass.storage_buffer(tiles));
+        let from = pass.on(Part::WHOLE.mip(from_mip)).sample(from);
+        let to = pass.on(Part::WHOLE.mip(to_mip)).storage_texture_mut(to, Contents::Cover);
+        pass.body(move |ctx| {
+            let map = [Bind::Buffer(views), Bind::Buffer(tiles), Bind::Uniform(block)];
+            let groups = [
+                ctx.bind_group(&self.map_layout, &map)?,
+                ctx.bind_group(&step.layout, &[Bind::Texture(from), Bind::Texture(to)])?,
+            ];
+            ctx.pass.set_pipeline(&step.pipeline);
+            for (index, group) in (0..).zip(&groups) {
+                ctx.pass.set_bind_group(index, group, &[]);
+            }
+            ctx.pass.dispatch_workgroups(x, y, 1);
+            Ok(())
+        });
+    }
+}
+
+impl Form {
+    fn new<S: Moments>(
+        device: &wgpu::Device,
+        map_layout: &wgpu::BindGroupLayout,
+        form: u32,
+    ) -> Result<Self, Error> {
+        let format = S::format(form);
+        let word = match format {
+            Format::R32Uint => "r32uint",
+            Format::Rg32Uint => "rg32uint",
+            _ => "rgba32uint",
+        };
+        let source = PREFILTER.source.replace("FORMAT, write", &format!("{word}, write"));
+        let module = compose_source(&ModuleSource::new(PREFILTER.file, source), &S::modules(form))?;
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("prefilter.wgsl"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
+        let step = |entry, from, to| Step::new(device, &shader, entry, map_layout, [from, written(to)]);
+        Ok(Self {
+            format,
+            resolve: step("cs_resolve", DEPTH_MAP, UNPACKED),
+            across: step("cs_across", FLOAT_MAP, UNPACKED),
+            down: step("cs_down", FLOAT_MAP, format),
+            halve: step("cs_halve", MOMENT_MAP, format),
+        })
+    }
+}
+
+impl Step {
+    fn new(
+        device: &wgpu::Device,
+        shader: &wgpu::ShaderModule,
+        entry: &str,
+        map_layout: &wgpu::BindGroupLayout,
+        types: [wgpu::BindingType; 2],
+    ) -> Self {
+        let layout = layout(device, entry, &types);
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(entry),
+            bind_group_layouts: &[Some(map_layout), Some(&layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
+            layout: Some(&pipeline_layout),
+            module: shader,
+            entry_point: Some(entry),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Self { layout, pipeline }
+    }
+}
+
+fn written(format: Format) -> wgpu::BindingType {
+    wgpu::BindingType::StorageTexture {
+        access: wgpu::StorageTextureAccess::WriteOnly,
+        format,
+        view_dimension: wgpu::TextureViewDimension::D2,
+    }
+}

@@ -1,0 +1,56 @@
+// The moments of the technique `evsm`: depth and its square, each warped by exponentials, one that grows away from the light and
+// one that grows towards it (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008; Annen et al., "Exponential Shadow Maps",
+// 2008). A tail of Chebyshev's inequality bounds how much of what lies around a point is farther away than the point.
+#define_import_path shadowgraph::shadows::encoding
+#import shadowgraph::shadows::moment_rules::MomentRules
+#import shadowgraph::shadows::evsm_layout::{FOUR, HALF}
+
+// `depth`: 0 nearest to the light, 1 farthest.
+fn warped(rules: MomentRules, depth: f32) -> vec2f {
+    let centred = 2.0 * saturate(depth) - 1.0;
+    return vec2f(exp(rules.exponents.x * centred), -exp(-rules.exponents.y * centred));
+}
+
+fn moments_of(rules: MomentRules, depth: f32) -> vec4f {
+    let warp = warped(rules, depth);
+    return vec4f(warp, warp * warp).xzyw;
+}
+
+// As a texel holds them.
+fn packed(moments: vec4f) -> vec4u {
+    if HALF {
+        // Half floats end at 65504.
+        let kept = clamp(moments, vec4f(-65504.0), vec4f(65504.0));
+        return vec4u(pack2x16float(kept.xy), pack2x16float(kept.zw), 0u, 0u);
+    }
+    return bitcast<vec4u>(moments);
+}
+
+fn unpacked(texel: vec4u) -> vec4f {
+    if HALF {
+        return vec4f(unpack2x16float(texel.x), unpack2x16float(texel.y));
+    }
+    return bitcast<vec4f>(texel);
+}
+
+fn chebyshev(moments: vec2f, depth: f32, least_variance: f32, bleed: f32) -> f32 {
+    if depth <= moments.x {
+        return 1.0;
+    }
+    let variance = max(moments.y - moments.x * moments.x, least_variance);
+    let offset = depth - moments.x;
+    let bound = variance / (variance + offset * offset);
+    return saturate((bound - bleed) / (1.0 - bleed));
+}
+
+fn lit_of(rules: MomentRules, moments: vec4f, depth: f32) -> f32 {
+    let warp = warped(rules, depth);
+    // Depths that are this close count as one, on the curve of each warp.
+    let close = rules.bias * rules.exponents * warp;
+    let least = close * close;
+    let lit = chebyshev(moments.xy, warp.x, least.x, rules.bleed);
+    if FOUR {
+        return min(lit, chebyshev(moments.zw, warp.y, least.y, rules.bleed));
+    }
+    return lit;
+}

@@ -1,0 +1,67 @@
+// The filter of techniques whose maps hold moments of depth: how much of the light gets to a point follows from the mean of
+// moments around it. What the moments are, and what follows from them, is the module shadowgraph::shadows::encoding.
+#define_import_path shadowgraph::shadows::filter
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::shadows::encoding::{unpacked, lit_of}
+#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::moment_rules::{MomentRules, linear_depth}
+#import shadowgraph::shadows::tiles::shadow_views
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
+
+@group(1) @binding(2) var cascade_moments: texture_2d<u32>;
+@group(1) @binding(3) var atlas_moments: texture_2d<u32>;
+@group(1) @binding(4) var<uniform> rules: MomentRules;
+
+fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
+    if map == MAP_CASCADES {
+        return unpacked(textureLoad(cascade_moments, texel, mip));
+    }
+    return unpacked(textureLoad(atlas_moments, texel, mip));
+}
+
+// Of the finest size, whose sides are powers of two: some drivers ask one pixel of many which mip is meant.
+fn size_of(map: u32, mip: u32) -> vec2f {
+    if map == MAP_CASCADES {
+        return vec2f(textureDimensions(cascade_moments) >> vec2u(mip));
+    }
+    return vec2f(textureDimensions(atlas_moments) >> vec2u(mip));
+}
+
+// Mixed between four texels. Points that a tile covers are at least a texel away from its edge.
+fn mixed(map: u32, uv: vec2f, mip: u32) -> vec4f {
+    let at = uv * size_of(map, mip) - 0.5;
+    let base = floor(at);
+    let part = at - base;
+    let texel = vec2i(base);
+    let top = mix(stored(map, texel, mip), stored(map, texel + vec2i(1, 0), mip), part.x);
+    let bottom = mix(stored(map, texel + vec2i(0, 1), mip), stored(map, texel + vec2i(1, 1), mip), part.x);
+    return mix(top, bottom, part.y);
+}
+
+// How many texels of moments lie across a pixel of the picture.
+fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
+    var distance = 1.0;
+    if shadow_view.light.w != 0.0 {
+        distance = length(shadow_view.light.xyz - receiver.position);
+    }
+    let texel_world = shadow_view.texel_world * distance * f32(rules.downscale);
+    return max(length(receiver.ddx_position), length(receiver.ddy_position)) / max(texel_world, 1e-9);
+}
+
+// How much of the light gets to a point: 0 (in shadow) to 1.
+fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let across = texels_across(shadow_view, receiver);
+    // Derivatives at the edges of triangles can be no numbers at all.
+    let level = select(0.0, min(log2(across), f32(rules.mips - 1u)), across > 1.0);
+    let mip = u32(level);
+    var moments = mixed(light.map, lookup.uv, mip);
+    if level > f32(mip) {
+        moments = mix(moments, mixed(light.map, lookup.uv, mip + 1u), level - f32(mip));
+    }
+    let reach = 0.5 * f32(rules.downscale * (rules.radius + 1u)) * exp2(level);
+    let slope = lookup.plane.slope;
+    let rise = reach * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
+    let depth = min(lookup.plane.depth + rise, 1.0);
+    return lit_of(rules, moments, linear_depth(shadow_view, depth));
+}
