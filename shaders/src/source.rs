@@ -92,6 +92,7 @@ pub(crate) const ENTRIES: &[ModuleSource] = &[
     file!("check.wgsl"),
     file!("collect.wgsl"),
     file!("contact.wgsl"),
+    file!("denoise.wgsl"),
     file!("depth.wgsl"),
     file!("forward.wgsl"),
     file!("probe.wgsl"),

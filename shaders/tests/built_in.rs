@@ -10,11 +10,12 @@ use shadowgraph_shaders::{
     builtin_files, compose, layout,
 };
 
-const ENTRIES: [&str; 10] = [
+const ENTRIES: [&str; 11] = [
     "blur.wgsl",
     "check.wgsl",
     "collect.wgsl",
     "contact.wgsl",
+    "denoise.wgsl",
     "depth.wgsl",
     "forward.wgsl",
     "probe.wgsl",

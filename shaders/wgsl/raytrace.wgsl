@@ -1,4 +1,4 @@
-// Writes the screen mask of the technique `raytraced`: for each light and pixel whether the surface sees the light.
+// Writes the screen mask of the technique `raytraced`: for each light and pixel how much of the light the surface sees.
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::traced::{traced, traced_visibility}
 
@@ -14,7 +14,7 @@ fn cs_raytrace(@builtin(global_invocation_id) id: vec3u) {
     let normal = unpack_normal(surface.w);
     var lit = 1.0;
     if any(normal != vec3f(0.0)) {
-        lit = traced_visibility(light_of(id.z), surface.xyz, normal);
+        lit = traced_visibility(light_of(id.z), surface.xyz, normal, vec2f(id.xy) + 0.5);
     }
     textureStore(mask, id.xy, id.z, vec4f(vec3f(lit), 1.0));
 }

@@ -65,7 +65,8 @@ pub use technique::{
 };
 pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, MAX_MASK_LAYERS, Msm, MsmSettings,
-    NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced, ScreenSettings, ScreenShadows, masked_lights,
+    NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced, RaytracedSettings, ScreenSettings,
+    ScreenShadows, masked_lights,
 };
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,

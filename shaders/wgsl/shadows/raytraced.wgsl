@@ -1,4 +1,4 @@
-// The technique `raytraced`: hard shadows by a ray through the scene's triangles. What the picture shows is looked up
+// The technique `raytraced`: shadows by rays through the scene's triangles. What the picture shows is looked up
 // in a screen mask that raytrace.wgsl has written, everything else is traced in place.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN}
@@ -16,7 +16,7 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     if on_mask && layer != TRACED_UNMASKED {
         return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;
     }
-    return vec3f(traced_visibility(light, receiver.position, receiver.geometric_normal));
+    return vec3f(traced_visibility(light, receiver.position, receiver.geometric_normal, receiver.pixel));
 }
 
 fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {

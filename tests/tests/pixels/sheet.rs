@@ -1,6 +1,6 @@
 //! Every way to make shadows with every mix of lights and every kind of caster: a sheet of small pictures.
 
-use crate::stage::{camera, gpu, light, sun, view};
+use crate::stage::{camera, gpu, hard, light, sun, view};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use image::{Rgba, RgbaImage};
 use shadowgraph::options::{Aov, Pipeline};
@@ -8,24 +8,31 @@ use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{
     AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
 };
-use shadowgraph::shadows::{NONE, PCF, PCSS, RAYTRACED};
+use shadowgraph::shadows::{EVSM, NONE, PCF, PCSS, RAYTRACED, Technique, Techniques};
 use shadowgraph::{Gpu, Method, Picture, Renderer, ViewOptions};
 
 const CELL_PX: [u32; 2] = [320, 160];
 const GAP_PX: u32 = 4;
 const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
 
-/// The first is what the others are compared with.
-fn ways() -> [(&'static str, Method); 7] {
-    [
-        ("raytraced", RAYTRACED.into()),
-        ("pcf, forward", PCF.into()),
-        ("pcf, minimal", Pipeline::Minimal.into()),
-        ("pcf, screen_shadows", Pipeline::ScreenShadows.into()),
-        ("pcf, 4 samples", Method { samples: 4, ..Method::default() }),
-        ("pcss", PCSS.into()),
-        ("none", NONE.into()),
-    ]
+/// The first is what the others are compared with. All techniques that there are come, as do the other pipelines, and what goes
+/// on top of techniques.
+fn ways() -> Vec<(String, Method)> {
+    let mut ways: Vec<(String, Method)> = vec![("truth".into(), RAYTRACED.into())];
+    ways.extend(Techniques::built_in().kinds().iter().map(|&kind| (kind.name.into(), kind.into())));
+    ways.extend([
+        ("pcf, minimal".into(), Pipeline::Minimal.into()),
+        ("pcf, screen_shadows".into(), Pipeline::ScreenShadows.into()),
+        ("pcf, 4 samples".into(), Method { samples: 4, ..Method::default() }),
+    ]);
+    let on_top = [
+        Technique::from(PCF).with_contact(),
+        Technique::from(PCSS).collected(),
+        Technique::from(EVSM).with_contact(),
+        Technique::from(RAYTRACED).with_contact(),
+    ];
+    ways.extend(on_top.map(|technique| (technique.name(), technique.into())));
+    ways
 }
 
 #[test]
@@ -35,7 +42,7 @@ fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
     for (column, (way, method)) in ways().into_iter().enumerate() {
-        let pictures = pictures(gpu, method);
+        let pictures = pictures(gpu, method, column == 0);
         if column == 0 {
             truth.clone_from(&pictures);
         }
@@ -60,11 +67,12 @@ fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
 }
 
 /// One for each mix of lights.
-fn pictures(gpu: &Gpu, method: Method) -> Vec<Picture> {
+fn pictures(gpu: &Gpu, method: Method, is_truth: bool) -> Vec<Picture> {
     let mut scene = demo_scene();
     add_panels(&mut scene);
     let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
     let options = ViewOptions { size_px: CELL_PX, ..view(camera, 80.0) };
+    let options = if is_truth { hard(&options) } else { options };
     let own = scene.lights.clone();
     let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method).unwrap();
     let mut picture = |mix: &&str| {

@@ -5,7 +5,7 @@ use shadowgraph::options::{AdapterChoice, Aov};
 use shadowgraph::scene::{
     AlphaMode, Camera, Instance, Light, LightKind, Material, Mesh, Projection, Scene, Vertex,
 };
-use shadowgraph::shadows::ShadowSettings;
+use shadowgraph::shadows::{RaytracedSettings, ShadowSettings};
 use shadowgraph::{Drawn, Gpu, Renderer, ViewOptions};
 use std::sync::OnceLock;
 
@@ -21,6 +21,13 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
             None
         }
     }
+}
+
+/// With a ray a pixel where shadows are traced: what is compared with hard truth.
+pub(crate) fn hard(options: &ViewOptions) -> ViewOptions {
+    let mut options = options.clone();
+    options.shadows.techniques.set(&RaytracedSettings::hard()).unwrap();
+    options
 }
 
 /// A box from `min` to `max`, faces outwards.

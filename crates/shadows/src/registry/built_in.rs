@@ -2,7 +2,7 @@
 
 use super::TechniqueKind;
 use crate::techniques::{
-    Evsm, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss, PcssSettings, Raytraced,
+    Evsm, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss, PcssSettings, Raytraced, RaytracedSettings,
 };
 
 /// `pcf`: the default.
@@ -38,9 +38,10 @@ pub const MSM: TechniqueKind =
 /// `raytraced`: [`Raytraced`].
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
-    "a ray a pixel through the scene's triangles: what the others are measured against",
+    "rays through the scene's triangles, hard or soft: what the others are measured against",
     |context| Ok(Box::new(Raytraced::new(context.device, &context.rays()?)?)),
-);
+)
+.with_settings::<RaytracedSettings>();
 
 /// `none`: [`NoShadows`].
 pub const NONE: TechniqueKind =

@@ -15,6 +15,6 @@ pub use moments::{Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettin
 pub use none::NoShadows;
 pub use pcf::Pcf;
 pub use pcss::{Pcss, PcssSettings};
-pub use raytraced::Raytraced;
+pub use raytraced::{Raytraced, RaytracedSettings};
 pub use screen::{ContactSettings, ScreenSettings, ScreenShadows};
 pub use variant::PcfVariant;

@@ -34,7 +34,7 @@ fn greys_with(
 ) -> Greys {
     let aov = Aov::Visibility(light);
     let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().picture;
+    let picture = renderer.draw(gpu, &crate::stage::hard(options)).unwrap().picture;
     picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 

@@ -6,11 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use shadowgraph_core::{Bind, Contents, Frame, Texture};
 use shadowgraph_shaders::compose;
 
-use super::pass::{Layers, dispatch, mask_texture, pipeline};
 use crate::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{Screen, ShadowOutputs, ShadowTechnique, layout, shadow_layout};
 use crate::techniques::mask::TARGET;
+use crate::techniques::mask::pass::{Layers, dispatch, mask_texture, pipeline};
 
 /// The pass that writes a screen mask.
 pub(super) struct Collect {

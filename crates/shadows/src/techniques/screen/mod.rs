@@ -2,7 +2,6 @@
 //! shadows to such a mask.
 
 mod collect;
-mod pass;
 mod settings;
 
 pub use settings::{ContactSettings, ScreenSettings};
@@ -10,12 +9,12 @@ pub use settings::{ContactSettings, ScreenSettings};
 use shadowgraph_core::{Frame, Texture, Uniform};
 use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
 
-use super::mask::{MASK, masked_lights, no_mask};
+use super::mask::pass::{Layers, MaskPass};
+use super::mask::{MASK, no_mask};
 use crate::technique::binding::UNIFORM;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, add_shadows};
 use crate::{Error, Needs, Record, ShadowInputs, ShadowSettings, TechniqueSettings};
 use collect::Collect;
-use pass::{Layers, MaskPass};
 
 /// Asks another technique once for each pixel and light, in a compute pass, and blurs what it says; a technique that gives a
 /// mask itself is not asked. Whoever lights reads one texel: its shaders know nothing of the other technique, unless something
@@ -152,8 +151,7 @@ impl ShadowTechnique for ScreenShadows {
         let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name.clone() })?;
         let inner = self.inner.as_ref();
         let mut outputs = add_shadows(inner, frame, inputs, Some(screen))?;
-        let lights = masked_lights(inputs.lights);
-        let layers = Layers { record: frame.uniform(&layers_record(&lights)), count: lights.len() as u32 };
+        let layers = Layers::new(frame, inputs.lights);
         outputs.mask = frame.node("collected shadows", |frame| {
             if layers.count == 0 {
                 return Ok(None);
@@ -171,19 +169,11 @@ impl ShadowTechnique for ScreenShadows {
             .extend([ShadowBinding::TextureArray(bound.clone()), ShadowBinding::Uniform(layers.record)]);
         outputs.debug.push(("shadow mask", bound));
         let casting = inputs.lights.iter().filter(|light| light.casts_shadow).count();
-        if casting == lights.len() && !screen.has_blended {
+        if casting == layers.count as usize && !screen.has_blended {
             outputs.variant = self.mask_only();
         }
         Ok(outputs)
     }
-}
-
-/// A `MaskLayers` of `layers.wgsl`.
-fn layers_record(lights: &[u32]) -> Vec<u8> {
-    let mut of_layers = [u32::MAX; super::MAX_MASK_LAYERS];
-    of_layers[..lights.len()].copy_from_slice(lights);
-    let head = [lights.len() as u32, 0, 0, 0];
-    [bytemuck::cast_slice(&head), bytemuck::cast_slice(&of_layers)].concat()
 }
 
 /// A `Contact` of `contact.wgsl`.

@@ -1,5 +1,7 @@
 //! Screen masks: a picture of shadows, a layer a light.
 
+pub(super) mod pass;
+
 use shadowgraph_core::Format;
 use shadowgraph_scene::Light;
 

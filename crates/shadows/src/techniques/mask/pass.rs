@@ -3,25 +3,38 @@
 use std::borrow::Cow;
 
 use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc, Uniform};
+use shadowgraph_scene::Light;
 use shadowgraph_shaders::{compose, naga};
 
+use super::{MASK, MASK_FORMAT, MAX_MASK_LAYERS, TARGET, WORKGROUP_PX, masked_lights};
 use crate::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{Screen, layout};
-use crate::techniques::mask::{MASK, MASK_FORMAT, TARGET, WORKGROUP_PX};
 
 /// The lights of a mask.
 #[derive(Clone, Copy)]
-pub(super) struct Layers {
+pub(in crate::techniques) struct Layers {
     /// `MaskLayers` of `layers.wgsl`.
-    pub(super) record: Uniform,
+    pub(in crate::techniques) record: Uniform,
     /// How many there are.
-    pub(super) count: u32,
+    pub(in crate::techniques) count: u32,
+}
+
+impl Layers {
+    /// Those of the [masked lights](masked_lights).
+    pub(in crate::techniques) fn new(frame: &mut Frame<'_>, lights: &[Light]) -> Self {
+        let lights = masked_lights(lights);
+        let mut of_layers = [u32::MAX; MAX_MASK_LAYERS];
+        of_layers[..lights.len()].copy_from_slice(&lights);
+        let count = lights.len() as u32;
+        let record = [bytemuck::bytes_of(&[count, 0, 0, 0]), bytemuck::bytes_of(&of_layers)].concat();
+        Self { record: frame.uniform(&record), count }
+    }
 }
 
 /// A compute pass that makes one screen mask of another: what it knows besides are the surfaces that the picture shows, the
 /// camera, the lights, and a block of its own.
-pub(super) struct MaskPass {
+pub(in crate::techniques) struct MaskPass {
     name: &'static str,
     view_layout: wgpu::BindGroupLayout,
     layout: wgpu::BindGroupLayout,
@@ -30,7 +43,7 @@ pub(super) struct MaskPass {
 
 impl MaskPass {
     /// Makes the pipeline of a built-in file with this entry point.
-    pub(super) fn new(
+    pub(in crate::techniques) fn new(
         device: &wgpu::Device,
         name: &'static str,
         file: &str,
@@ -44,7 +57,7 @@ impl MaskPass {
     }
 
     /// Adds the pass, and returns what it makes of `mask`.
-    pub(super) fn add_to<'f>(
+    pub(in crate::techniques) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         screen: &Screen,
@@ -78,7 +91,7 @@ impl MaskPass {
 }
 
 /// A mask of the frame.
-pub(super) fn mask_texture(
+pub(in crate::techniques) fn mask_texture(
     frame: &mut Frame<'_>,
     name: impl shadowgraph_core::Name,
     screen: &Screen,
@@ -89,7 +102,7 @@ pub(super) fn mask_texture(
 }
 
 /// A pipeline that computes masks.
-pub(super) fn pipeline(
+pub(in crate::techniques) fn pipeline(
     device: &wgpu::Device,
     module: naga::Module,
     entry: &str,
@@ -116,7 +129,7 @@ pub(super) fn pipeline(
 }
 
 /// Computes each pixel of each layer.
-pub(super) fn dispatch(
+pub(in crate::techniques) fn dispatch(
     pass: &mut wgpu::ComputePass<'_>,
     pipeline: &wgpu::ComputePipeline,
     groups: &[wgpu::BindGroup],

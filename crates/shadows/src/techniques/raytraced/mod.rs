@@ -1,18 +1,21 @@
-//! `raytraced`: hard shadows by a ray a pixel through the scene's triangles.
+//! `raytraced`: shadows by rays through the scene's triangles.
 
-use std::borrow::Cow;
+mod settings;
 
-use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture, TextureDesc};
+pub use settings::RaytracedSettings;
+
+use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture};
 use shadowgraph_scene::Light;
 use shadowgraph_shaders::{ModuleSource, RAYTRACED};
 use wgpu::util::DeviceExt as _;
 
-use super::mask::{MASK, MASK_FORMAT, TARGET, WORKGROUP_PX, masked_lights, no_mask};
+use super::mask::pass::{Layers, MaskPass, dispatch, mask_texture, pipeline};
+use super::mask::{MASK, TARGET, masked_lights, no_mask};
 use crate::rays::GpuRayScene;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
 use crate::technique::layout;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, ShadowInputs};
+use crate::{Error, Needs, ShadowInputs, TechniqueSettings};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;
@@ -20,13 +23,15 @@ const UNMASKED: u32 = u32::MAX - 1;
 /// `TRACED_LIT` of `traced.wgsl`.
 const LIT: u32 = u32::MAX;
 
-/// The technique that other techniques are measured against: every light that casts shadows sees or does not see a
-/// surface, at any distance. No other setting changes it.
+/// Every light that casts shadows sees a surface or does not, at any distance: with one ray to the middle of each light, other
+/// techniques are measured against it ([`RaytracedSettings::hard`]); with several, over the light's disc, edges are soft. Noise is
+/// averaged over a few pixels of the same surface. No other settings change it.
 ///
 /// What the picture shows is traced by a compute pass into a screen mask, a layer a light, the first
 /// [`MAX_MASK_LAYERS`](super::MAX_MASK_LAYERS) of them; blended surfaces and points elsewhere are traced where they are asked for.
 pub struct Raytraced {
     trace: Trace,
+    denoise: MaskPass,
     /// The bindings of `rays.wgsl`.
     rays: [wgpu::Buffer; 5],
     reach_m: f32,
@@ -54,6 +59,7 @@ impl Raytraced {
         };
         Ok(Self {
             trace: Trace::new(device)?,
+            denoise: MaskPass::new(device, "denoise", "denoise.wgsl", "cs_denoise")?,
             rays: scene.buffers().map(buffer),
             reach_m: scene.reach_m,
             no_mask: no_mask(device),
@@ -61,14 +67,19 @@ impl Raytraced {
     }
 
     /// Adds the pass that traces all that the picture shows.
-    fn mask<'f>(&'f self, frame: &mut Frame<'f>, screen: &Screen, traced: &Buffer, layers: u32) -> Texture {
-        let [width, height] = screen.size_px;
-        let desc = TextureDesc::d2(width, height, MASK_FORMAT).layers(layers);
-        let mut mask = frame.create_texture("shadow mask", desc);
+    fn trace<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        screen: &Screen,
+        traced: &Buffer,
+        layers: Layers,
+    ) -> Texture {
+        let mut mask = mask_texture(frame, "shadow mask", screen, layers);
         let mut pass = frame.compute_pass("trace");
         let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
         let (traced, surfaces) = (pass.storage_buffer(traced), pass.sample(&screen.surfaces));
         let target = pass.storage_texture_mut(&mut mask, Contents::Cover);
+        let size_px = screen.size_px;
         pass.body(move |ctx| {
             let Trace { view_layout, rays_layout, screen_layout, pipeline } = &self.trace;
             let mut rays: Vec<_> = self.rays.iter().map(Bind::OwnBuffer).collect();
@@ -78,20 +89,36 @@ impl Raytraced {
                 ctx.bind_group(rays_layout, &rays)?,
                 ctx.bind_group(screen_layout, &[Bind::Texture(surfaces), Bind::TextureArray(target)])?,
             ];
-            ctx.pass.set_pipeline(pipeline);
-            for (index, group) in (0..).zip(&groups) {
-                ctx.pass.set_bind_group(index, group, &[]);
-            }
-            ctx.pass.dispatch_workgroups(width.div_ceil(WORKGROUP_PX), height.div_ceil(WORKGROUP_PX), layers);
+            dispatch(&mut ctx.pass, pipeline, &groups, size_px, layers);
             Ok(())
         });
         mask
+    }
+
+    /// Adds the passes that make the mask; `None` if no light has a layer.
+    fn mask<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        screen: &Screen,
+        traced: &Buffer,
+        (lights, settings): (&[Light], &RaytracedSettings),
+    ) -> Option<Texture> {
+        let layers = Layers::new(frame, lights);
+        if layers.count == 0 {
+            return None;
+        }
+        let mask = self.trace(frame, screen, traced, layers);
+        if settings.rays == 1 || settings.denoise_px == 0 {
+            return Some(mask);
+        }
+        let own = frame.uniform(bytemuck::bytes_of(&[settings.denoise_px, 0, 0, 0]));
+        Some(self.denoise.add_to(frame, screen, &mask, layers, own))
     }
 }
 
 impl ShadowTechnique for Raytraced {
     fn name(&self) -> &str {
-        "raytraced"
+        RaytracedSettings::NAME
     }
 
     fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
@@ -118,11 +145,11 @@ impl ShadowTechnique for Raytraced {
         screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name().into() })?;
+        let settings: RaytracedSettings = inputs.settings.techniques.get()?;
         let layers = mask_layers(inputs.lights);
-        let count = layers.iter().filter(|&&layer| layer < UNMASKED).count() as u32;
         Ok(frame.node("shadows", |frame| {
-            let traced = frame.upload_buffer("traced lights", record(self.reach_m, &layers));
-            let mask = (count > 0).then(|| self.mask(frame, screen, &traced, count));
+            let traced = frame.upload_buffer("traced lights", record(self.reach_m, &settings, &layers));
+            let mask = self.mask(frame, screen, &traced, (inputs.lights, &settings));
             let bound =
                 mask.clone().unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
             let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::OwnBuffer).collect();
@@ -144,35 +171,21 @@ fn mask_layers(lights: &[Light]) -> Vec<u32> {
 }
 
 /// A `Traced` of `traced.wgsl`.
-fn record(reach_m: f32, layers: &[u32]) -> Vec<u8> {
+fn record(reach_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8> {
     let none = [LIT];
     let layers = if layers.is_empty() { &none } else { layers };
-    [bytemuck::bytes_of(&reach_m), bytemuck::cast_slice(layers)].concat()
+    let sizes = [settings.sun_radius_rad.tan(), settings.lamp_radius_m];
+    let head = [reach_m.to_bits(), settings.rays, sizes[0].to_bits(), sizes[1].to_bits()];
+    [bytemuck::bytes_of(&head), bytemuck::cast_slice(layers)].concat()
 }
 
 impl Trace {
     fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let module = shadowgraph_shaders::compose("raytrace.wgsl", &[])?;
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("raytrace.wgsl"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
         let view_layout = layout(device, "view", &[STORAGE; 2]);
         let rays_layout = layout(device, "rays", &[STORAGE; 6]);
         let screen_layout = layout(device, "screen", &[FLOAT_MAP, TARGET]);
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("raytrace"),
-            bind_group_layouts: &[Some(&view_layout), Some(&rays_layout), Some(&screen_layout)],
-            immediate_size: 0,
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("raytrace"),
-            layout: Some(&pipeline_layout),
-            module: &shader,
-            entry_point: Some("cs_raytrace"),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let pipeline = pipeline(device, module, "cs_raytrace", &[&view_layout, &rays_layout, &screen_layout]);
         Ok(Self { view_layout, rays_layout, screen_layout, pipeline })
     }
 }
@@ -199,7 +212,9 @@ mod tests {
 
     #[test]
     fn the_record_of_no_light_is_not_empty() {
-        assert_eq!(record(2.5, &[]), [2.5f32.to_le_bytes(), [255; 4]].concat());
-        assert_eq!(record(0.0, &[0, 1]).len(), 12);
+        let hard = RaytracedSettings::hard();
+        let empty = record(2.5, &hard, &[]);
+        assert_eq!((empty.len(), &empty[..4], &empty[16..]), (20, &2.5f32.to_le_bytes()[..], &[255; 4][..]));
+        assert_eq!(record(0.0, &hard, &[0, 1]).len(), 24);
     }
 }

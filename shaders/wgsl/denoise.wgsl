@@ -1,0 +1,44 @@
+// Averages the noise of a screen mask over a few pixels, on the same surface only: neighbours whose turns of the noise differ stand
+// for as many more rays.
+#import shadowgraph::view::view_depth_of
+#import shadowgraph::surface::unpack_normal
+
+@group(1) @binding(0) var surfaces: texture_2d<f32>;
+@group(1) @binding(1) var collected: texture_2d_array<f32>;
+@group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
+// x: how many pixels to either side.
+@group(1) @binding(4) var<uniform> radius_px: vec4u;
+
+// How far off a surface's plane, in parts of its view depth, things are another surface.
+const APART: f32 = 0.002;
+
+@compute @workgroup_size(8, 8)
+fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
+    let size = vec2i(textureDimensions(surfaces));
+    let pixel = vec2i(id.xy);
+    if any(pixel >= size) {
+        return;
+    }
+    let surface = textureLoad(surfaces, pixel, 0);
+    let normal = unpack_normal(surface.w);
+    var sum = textureLoad(collected, pixel, id.z, 0).rgb;
+    var count = 1.0;
+    if any(normal != vec3f(0.0)) {
+        let apart = APART * view_depth_of(surface.xyz);
+        let radius = i32(radius_px.x);
+        for (var y = -radius; y <= radius; y++) {
+            for (var x = -radius; x <= radius; x++) {
+                let at = pixel + vec2i(x, y);
+                if (x == 0 && y == 0) || any(at < vec2i(0)) || any(at >= size) {
+                    continue;
+                }
+                let other = textureLoad(surfaces, at, 0);
+                if other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < apart {
+                    sum += textureLoad(collected, at, id.z, 0).rgb;
+                    count += 1.0;
+                }
+            }
+        }
+    }
+    textureStore(mask, id.xy, id.z, vec4f(sum / count, 1.0));
+}
