@@ -97,6 +97,7 @@ pub(crate) const ENTRIES: &[ModuleSource] = &[
     file!("forward.wgsl"),
     file!("probe.wgsl"),
     file!("raytrace.wgsl"),
+    file!("sdsm.wgsl"),
     file!("show.wgsl"),
     file!("tonemap.wgsl"),
 ];

@@ -10,7 +10,7 @@ use shadowgraph_shaders::{
     builtin_files, compose, layout,
 };
 
-const ENTRIES: [&str; 11] = [
+const ENTRIES: [&str; 12] = [
     "blur.wgsl",
     "check.wgsl",
     "collect.wgsl",
@@ -20,6 +20,7 @@ const ENTRIES: [&str; 11] = [
     "forward.wgsl",
     "probe.wgsl",
     "raytrace.wgsl",
+    "sdsm.wgsl",
     "show.wgsl",
     "tonemap.wgsl",
 ];

@@ -104,7 +104,7 @@ fn an_unknown_entry_file_says_which_there_are() {
     assert_eq!(
         text,
         "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, check.wgsl, collect.wgsl, contact.wgsl, \
-         denoise.wgsl, depth.wgsl, forward.wgsl, probe.wgsl, raytrace.wgsl, show.wgsl, tonemap.wgsl"
+         denoise.wgsl, depth.wgsl, forward.wgsl, probe.wgsl, raytrace.wgsl, sdsm.wgsl, show.wgsl, tonemap.wgsl"
     );
     // A module is no entry file.
     assert!(compose("view.wgsl", &[]).is_err());

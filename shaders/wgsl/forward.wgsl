@@ -1,5 +1,5 @@
 // The forward lit pass: every light, every material, whatever the shadow technique.
-#import shadowgraph::view::{view, lights, view_depth_of, direction_to_camera}
+#import shadowgraph::view::{view, lights, view_depth_of, direction_to_camera, to_neighbour}
 #import shadowgraph::draw::{
     Vertex, world_position, world_normal, world_direction, handedness, clip_position,
 }
@@ -155,15 +155,17 @@ fn fs_forward(in: ForwardVertex, @builtin(front_facing) front_facing: bool) -> @
     }
     let blended = material_has(MATERIAL_BLEND);
     let position = in.from_camera + view.position;
+    let view_depth = view_depth_of(position);
+    let flat_normal = geometric_normal(ddx_position, ddy_position, to_camera, normal);
     let receiver = Receiver(
         position,
-        view_depth_of(position),
-        geometric_normal(ddx_position, ddy_position, to_camera, normal),
+        view_depth,
+        flat_normal,
         select(0u, RECEIVER_TRANSPARENT, blended) | select(RECEIVER_BACK_FACE, 0u, front_facing),
         normal,
         in.position.xy,
-        ddx_position,
-        ddy_position,
+        to_neighbour(position, flat_normal, view_depth, 0),
+        -to_neighbour(position, flat_normal, view_depth, 1),
     );
     if AOV == AOV_VISIBILITY {
         return visibility_aov(receiver);

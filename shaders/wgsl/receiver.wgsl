@@ -23,7 +23,7 @@ struct Receiver {
     shading_normal: vec3f,
     // Pixel centre in the target: (0.5, 0.5) is the first.
     pixel: vec2f,
-    // How the position changes to the next pixel right and down, metres.
+    // How the position changes to the next pixel right and down on the surface's plane, metres.
     ddx_position: vec3f,
     ddy_position: vec3f,
 }

@@ -104,11 +104,15 @@ pub struct Needs {
     pub bias_texels: f32,
     /// How far beside a receiver a blocker can be and still matter, metres, beyond the kernel: casters that are nearer are drawn.
     pub blocker_reach_m: f32,
+    /// Whether passes fit the cascades: each then has all casters that matter to the view, the last one covers the whole view, the
+    /// first view that covers a point is read, and no cascade is kept from frame to frame.
+    pub fits_on_gpu: bool,
 }
 
 impl Needs {
     /// Those of a technique without maps.
-    pub const NONE: Self = Self { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0 };
+    pub const NONE: Self =
+        Self { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0, fits_on_gpu: false };
 
     /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that
     /// snapping can be off.

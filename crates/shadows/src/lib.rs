@@ -50,7 +50,7 @@ pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
 pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows, plan_shadows_after};
 pub use registry::{
-    EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, Technique, TechniqueContext, TechniqueKind, Techniques,
+    EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind, Techniques,
 };
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
@@ -66,7 +66,7 @@ pub use technique::{
 pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, MAX_MASK_LAYERS, Msm, MsmSettings,
     NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced, RaytracedSettings, ScreenSettings,
-    ScreenShadows, masked_lights,
+    ScreenShadows, Sdsm, SdsmSettings, masked_lights,
 };
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,

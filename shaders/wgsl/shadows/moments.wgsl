@@ -52,7 +52,6 @@ fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let across = texels_across(shadow_view, receiver);
-    // Derivatives at the edges of triangles can be no numbers at all.
     let level = select(0.0, min(log2(across), f32(rules.mips - 1u)), across > 1.0);
     let mip = u32(level);
     var moments = mixed(light.map, lookup.uv, mip);

@@ -14,3 +14,4 @@ mod sheet;
 mod snapping;
 mod soft;
 mod stage;
+mod techniques;

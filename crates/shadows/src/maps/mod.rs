@@ -90,11 +90,27 @@ impl ShadowMaps {
         inputs: &ShadowInputs<'f>,
         needs: &Needs,
     ) -> Result<DrawnMaps, Error> {
+        self.add_fitted(frame, inputs, needs, |_, _, views, _| views.clone())
+    }
+
+    /// Adds the passes as [`add_to`](Self::add_to) does, with views that passes write: `fit` gets the plan and the buffers of its views
+    /// and lights, and returns the buffer of views to draw and read by. Needs are to say so ([`Needs::fits_on_gpu`]).
+    ///
+    /// # Errors
+    /// As `add_to`.
+    pub fn add_fitted<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+        needs: &Needs,
+        fit: impl FnOnce(&mut Frame<'f>, &ShadowPlan, &Buffer, &Buffer) -> Buffer,
+    ) -> Result<DrawnMaps, Error> {
         let plan = self.plan(inputs, needs)?;
         let (views, lights) = frame.node("set up views", |frame| {
             let views = frame.upload_buffer("shadow views", plan.view_bytes());
             (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
         });
+        let views = fit(frame, &plan, &views, &lights);
         let (variant, main_light) = (plan.variant(), plan.main_light().unwrap_or(0));
         let of = (inputs.view, (&views, &plan.views[..]));
         let cascades = self.map(frame, "cascades", plan.cascades, of, inputs.casters);

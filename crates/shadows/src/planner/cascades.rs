@@ -44,7 +44,7 @@ impl<'a> Planner<'a> {
         let mut map = MapPlan {
             size_px: layout.size_px,
             depth: settings.depth,
-            cache: settings.cache,
+            cache: settings.cache && !self.needs.fits_on_gpu,
             tiles: Vec::new(),
         };
         for (cascades, rects) in planned.into_iter().zip(layout.tiles.chunks(settings.count as usize)) {
@@ -61,7 +61,13 @@ impl<'a> Planner<'a> {
         };
         let rules = self.rules(&candidate, true);
         let fits = self.fit_cascades(light_from_world, tile_px, &rules);
-        let casters = self.cull_cascades(&fits, &rules);
+        let mut casters = self.cull_cascades(&fits, &rules);
+        if self.needs.fits_on_gpu {
+            let mut all = casters.concat();
+            all.sort_unstable();
+            all.dedup();
+            casters.fill(all);
+        }
         Cascades { candidate, rules, fits, casters }
     }
 
@@ -71,8 +77,14 @@ impl<'a> Planner<'a> {
         let ends = split_distances(&settings.split, settings.count, reach.near_m, reach.fit_m);
         let largest_scale = settings.bias_scales.iter().copied().fold(1.0, f32::max);
         let tile = (tile_px, rules.margin_px(largest_scale));
-        fit_cascades(reach.camera, reach.aspect, &ends, light_from_world, tile, settings)
-            .into_iter()
+        let fit =
+            |ends: &[f64]| fit_cascades(reach.camera, reach.aspect, ends, light_from_world, tile, settings);
+        let mut fits = fit(&ends);
+        if let Some(last) = fits.last_mut().filter(|_| self.needs.fits_on_gpu) {
+            // All of the view.
+            *last = fit(&[reach.fit_m])[0];
+        }
+        fits.into_iter()
             .map(|cascade| match rules.near_m {
                 Some(offset_m) => CascadeFit { fit: cascade.fit.with_near_offset(offset_m), ..cascade },
                 None => cascade,
@@ -83,7 +95,10 @@ impl<'a> Planner<'a> {
     /// Adds a light's views, and returns its tiles.
     fn add_light(&mut self, cascades: Cascades<'_>, layout: TileLayout) -> Vec<TilePlan> {
         let Cascades { candidate, rules, fits, casters } = cascades;
-        let settings = &self.inputs.settings.cascades;
+        let mut settings = self.inputs.settings.cascades.clone();
+        if self.needs.fits_on_gpu {
+            settings.select = CascadeSelection::Map;
+        }
         let first_view = self.plan.views.len() as u32;
         let mut begin_m = self.reach.near_m;
         let mut tiles = Vec::new();
@@ -105,7 +120,7 @@ impl<'a> Planner<'a> {
         }
         let views = (MAP_CASCADES, first_view, tiles.len() as u32);
         let record = self.set_light(candidate.light, &rules, views);
-        *record = record.with_cascades(settings);
+        *record = record.with_cascades(&settings);
         tiles
     }
 }

@@ -3,6 +3,7 @@
 use super::TechniqueKind;
 use crate::techniques::{
     Evsm, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss, PcssSettings, Raytraced, RaytracedSettings,
+    Sdsm, SdsmSettings,
 };
 
 /// `pcf`: the default.
@@ -35,6 +36,14 @@ pub const MSM: TechniqueKind =
     })
     .with_settings::<MsmSettings>();
 
+/// `sdsm`: [`Sdsm`].
+pub const SDSM: TechniqueKind = TechniqueKind::new(
+    "sdsm",
+    "shadow maps whose cascades the GPU fits to the surfaces that are seen",
+    |context| Ok(Box::new(Sdsm::new(context.device)?)),
+)
+.with_settings::<SdsmSettings>();
+
 /// `raytraced`: [`Raytraced`].
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
@@ -48,4 +57,4 @@ pub const NONE: TechniqueKind =
     TechniqueKind::new("none", "everything is lit: the floor of cost", |_| Ok(Box::new(NoShadows)));
 
 /// The default first.
-pub(super) const ALL: [TechniqueKind; 6] = [PCF, PCSS, EVSM, MSM, RAYTRACED, NONE];
+pub(super) const ALL: [TechniqueKind; 7] = [PCF, PCSS, EVSM, MSM, SDSM, RAYTRACED, NONE];

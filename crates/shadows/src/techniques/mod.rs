@@ -7,6 +7,7 @@ mod pcf;
 mod pcss;
 mod raytraced;
 mod screen;
+mod sdsm;
 mod variant;
 
 pub(crate) use mask::MASK_FORMAT;
@@ -17,4 +18,5 @@ pub use pcf::Pcf;
 pub use pcss::{Pcss, PcssSettings};
 pub use raytraced::{Raytraced, RaytracedSettings};
 pub use screen::{ContactSettings, ScreenSettings, ScreenShadows};
+pub use sdsm::{Sdsm, SdsmSettings};
 pub use variant::PcfVariant;

@@ -1,6 +1,6 @@
 //! `pcf`: cascades for the brightest directional lights, an atlas for the others, percentage-closer filtering.
 
-use shadowgraph_core::Frame;
+use shadowgraph_core::{Buffer, Frame};
 use shadowgraph_shaders::{MAPPED, ModuleSource};
 
 use super::variant::PcfVariant;
@@ -8,7 +8,7 @@ use crate::maps::comparison_sampler;
 use crate::plan;
 use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, ShadowInputs, ShadowMaps};
+use crate::{Error, Needs, ShadowInputs, ShadowMaps, ShadowPlan};
 
 /// The default technique; see the modules `shadows/tiles.wgsl` and `shadows/pcf.wgsl` for how its maps are read.
 pub struct Pcf {
@@ -17,6 +17,27 @@ pub struct Pcf {
 }
 
 impl Pcf {
+    /// Adds the passes as `add_to` does, with views that `fit` may put in the place of the plan's.
+    pub(super) fn add_fitted<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+        needs: &Needs,
+        fit: impl FnOnce(&mut Frame<'f>, &ShadowPlan, &Buffer, &Buffer) -> Buffer,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        let maps = frame.node("shadows", |frame| self.maps.add_fitted(frame, inputs, needs, fit))?;
+        let mut bindings = maps.bindings();
+        bindings.push(ShadowBinding::Sampler(&self.sampler));
+        Ok(ShadowOutputs {
+            variant: maps.variant.index(),
+            debug_light: maps.main_light,
+            mask: None,
+            debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
+            bindings,
+            unshadowed: maps.unshadowed,
+        })
+    }
+
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {
         Self { maps: ShadowMaps::new(device), sampler: comparison_sampler(device) }
@@ -51,16 +72,6 @@ impl ShadowTechnique for Pcf {
         inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, &Needs::NONE))?;
-        let mut bindings = maps.bindings();
-        bindings.push(ShadowBinding::Sampler(&self.sampler));
-        Ok(ShadowOutputs {
-            variant: maps.variant.index(),
-            debug_light: maps.main_light,
-            mask: None,
-            debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
-            bindings,
-            unshadowed: maps.unshadowed,
-        })
+        self.add_fitted(frame, inputs, &Needs::NONE, |_, _, views, _| views.clone())
     }
 }

@@ -1,0 +1,178 @@
+//! The passes that fit cascades.
+
+use bytemuck::{Pod, Zeroable};
+use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Frame, Uniform};
+use shadowgraph_shaders::compose;
+
+use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
+use crate::technique::{Screen, layout};
+use crate::techniques::mask::pass::pipeline;
+use crate::{Error, ShadowInputs, ShadowPlan};
+
+/// The side of a workgroup of the passes over the picture, pixels.
+const WORKGROUP_PX: u32 = 8;
+
+/// The views that a workgroup of the last pass writes.
+const WORKGROUP_VIEWS: u32 = 64;
+
+/// A storage buffer that is written.
+const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: false },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+/// `Fit` of `sdsm.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Fit {
+    views: u32,
+    cascades: u32,
+    lights: u32,
+    lambda: f32,
+    map_size_px: [f32; 2],
+    nearest: f32,
+    farthest: f32,
+}
+
+/// The passes and their bindings.
+pub(super) struct GpuFit {
+    view_layout: wgpu::BindGroupLayout,
+    layout: wgpu::BindGroupLayout,
+    views_layout: wgpu::BindGroupLayout,
+    depths: wgpu::ComputePipeline,
+    bounds: wgpu::ComputePipeline,
+    fit: wgpu::ComputePipeline,
+}
+
+impl GpuFit {
+    pub(super) fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let view_layout = layout(device, "view", &[STORAGE; 2]);
+        let types = [FLOAT_MAP, STORAGE, STORAGE, UNIFORM, WRITTEN, WRITTEN];
+        let own_layout = layout(device, "fit cascades", &types);
+        let views_layout = layout(device, "fitted views", &[WRITTEN]);
+        let layouts = [&view_layout, &own_layout, &views_layout];
+        let make = |entry, groups| {
+            Ok::<_, Error>(pipeline(device, compose("sdsm.wgsl", &[])?, entry, &layouts[..groups]))
+        };
+        Ok(Self {
+            depths: make("cs_depths", 2)?,
+            bounds: make("cs_bounds", 2)?,
+            fit: make("cs_fit", 3)?,
+            layout: own_layout,
+            view_layout,
+            views_layout,
+        })
+    }
+
+    /// Adds the passes, and returns the buffer of fitted views; that of the plan, where there is nothing to fit.
+    pub(super) fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'_>,
+        (screen, lambda): (&Screen, f32),
+        plan: &ShadowPlan,
+        [views, lights]: [&Buffer; 2],
+    ) -> Buffer {
+        let count = inputs.settings.cascades.count;
+        let Some(map) = plan.cascades.as_ref().filter(|_| count > 1) else {
+            return views.clone();
+        };
+        let fit = Fit {
+            views: plan.views.len() as u32,
+            cascades: count,
+            lights: map.tiles.len() as u32 / count,
+            lambda,
+            map_size_px: map.size_px.map(|side| side as f32),
+            nearest: inputs.camera.near() as f32,
+            farthest: plan.lights.iter().map(|light| light.fade_end_m).fold(0.0, f32::max),
+        };
+        // Least and greatest, as nothing has changed them yet.
+        let no_depths = vec![[u32::MAX, 0]];
+        let no_bounds = vec![[u32::MAX, u32::MAX, u32::MAX, 0, 0, 0]; map.tiles.len()];
+        frame.node("fit cascades", |frame| {
+            let depths = frame.upload_buffer("view depths", bytemuck::cast_slice(&no_depths).to_vec());
+            let bounds = frame.upload_buffer("cascade bounds", bytemuck::cast_slice(&no_bounds).to_vec());
+            let block = frame.uniform(bytemuck::bytes_of(&fit));
+            let mut steps = Steps { screen, views, lights, block, depths, bounds };
+            let [width, height] = screen.size_px.map(|side| side.div_ceil(WORKGROUP_PX));
+            self.step(frame, &mut steps, ("depths", &self.depths), [width, height], None);
+            self.step(frame, &mut steps, ("bounds", &self.bounds), [width, height], None);
+            let bytes = BufferDesc::new(plan.view_bytes().len() as u64);
+            let mut fitted = frame.create_buffer("fitted shadow views", bytes);
+            let groups = [fit.views.div_ceil(WORKGROUP_VIEWS), 1];
+            self.step(frame, &mut steps, ("fit", &self.fit), groups, Some(&mut fitted));
+            fitted
+        })
+    }
+
+    fn step<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        steps: &mut Steps<'_>,
+        (name, pipeline): (&'static str, &'f wgpu::ComputePipeline),
+        [x, y]: [u32; 2],
+        fitted: Option<&mut Buffer>,
+    ) {
+        let mut pass = frame.compute_pass(name);
+        let eye = [&steps.screen.view, &steps.screen.lights].map(|buffer| pass.storage_buffer(buffer));
+        let surfaces = pass.sample(&steps.screen.surfaces);
+        let planned = [steps.views, steps.lights].map(|buffer| pass.storage_buffer(buffer));
+        let found = [&mut steps.depths, &mut steps.bounds]
+            .map(|buffer| pass.storage_buffer_mut(buffer, Contents::Preserve));
+        let fitted = fitted.map(|fitted| pass.storage_buffer_mut(fitted, Contents::Cover));
+        let block = steps.block;
+        pass.body(move |ctx| {
+            let mut own = vec![Bind::Texture(surfaces)];
+            own.extend(planned.map(Bind::Buffer));
+            own.push(Bind::Uniform(block));
+            own.extend(found.map(Bind::Buffer));
+            let mut groups = vec![
+                ctx.bind_group(&self.view_layout, &eye.map(Bind::Buffer))?,
+                ctx.bind_group(&self.layout, &own)?,
+            ];
+            if let Some(fitted) = fitted {
+                groups.push(ctx.bind_group(&self.views_layout, &[Bind::Buffer(fitted)])?);
+            }
+            ctx.pass.set_pipeline(pipeline);
+            for (index, group) in (0..).zip(&groups) {
+                ctx.pass.set_bind_group(index, group, &[]);
+            }
+            ctx.pass.dispatch_workgroups(x, y, 1);
+            Ok(())
+        });
+    }
+}
+
+/// What all steps of a frame read and write.
+struct Steps<'s> {
+    screen: &'s Screen,
+    views: &'s Buffer,
+    lights: &'s Buffer,
+    block: Uniform,
+    depths: Buffer,
+    bounds: Buffer,
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use shadowgraph_shaders::layout;
+    use std::mem::offset_of;
+
+    #[test]
+    fn the_block_lies_in_wgsl_as_in_rust() {
+        let module = compose("sdsm.wgsl", &[]).unwrap();
+        let fields = [
+            ("views", offset_of!(Fit, views)),
+            ("cascades", offset_of!(Fit, cascades)),
+            ("lights", offset_of!(Fit, lights)),
+            ("lambda", offset_of!(Fit, lambda)),
+            ("map_size_px", offset_of!(Fit, map_size_px)),
+            ("nearest", offset_of!(Fit, nearest)),
+            ("farthest", offset_of!(Fit, farthest)),
+        ];
+        layout::check(&module, "Fit", size_of::<Fit>(), &fields).unwrap();
+    }
+}

@@ -1,0 +1,103 @@
+//! Exponential shadow maps, after Annen et al. (2008): light falls off exponentially with the way behind what blocks it, so edges
+//! are smooth however few texels are read.
+
+use bytemuck::{Pod, Zeroable};
+use serde::{Deserialize, Serialize};
+use shadowgraph::core::Frame;
+use shadowgraph::shaders::{MAPPED, ModuleSource};
+use shadowgraph::shadows::binding::{DEPTH_MAP, STORAGE, UNIFORM};
+use shadowgraph::shadows::{
+    Error, Needs, Record, Screen, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs, ShadowTechnique,
+    TechniqueKind, TechniqueSettings, record,
+};
+
+/// What the registry knows: a name, a line about it, how one is made, and its settings.
+pub const ESM: TechniqueKind =
+    TechniqueKind::new("esm", "exponential shadow maps: smooth edges from four texels", |context| {
+        Ok(Box::new(Esm { maps: ShadowMaps::new(context.device) }))
+    })
+    .with_settings::<EsmSettings>();
+
+/// What users write in a settings file: `(techniques: {"esm": (falloff_m: 0.1)})`.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EsmSettings {
+    /// How far behind a blocker light has fallen to a third, metres, 0.001 to 10.
+    pub falloff_m: f32,
+}
+
+impl Default for EsmSettings {
+    fn default() -> Self {
+        Self { falloff_m: 0.05 }
+    }
+}
+
+impl TechniqueSettings for EsmSettings {
+    const NAME: &'static str = "esm";
+
+    fn validate(&self) -> Result<(), Error> {
+        if (0.001..=10.0).contains(&self.falloff_m) {
+            return Ok(());
+        }
+        let (value, allowed) = (self.falloff_m.to_string(), "0.001 to 10 (metres)");
+        Err(Error::Setting { field: "falloff_m", value, allowed })
+    }
+}
+
+/// `Falloff` of `esm.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Falloff {
+    per_metre: f32,
+}
+
+/// Plans, draws and keeps maps; what is ours is how they are read.
+struct Esm {
+    maps: ShadowMaps,
+}
+
+impl ShadowTechnique for Esm {
+    fn name(&self) -> &str {
+        EsmSettings::NAME
+    }
+
+    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+        // Four texels around a point: tiles get a border of two.
+        Ok(Needs { kernel_radius_texels: 2.0, ..Needs::NONE })
+    }
+
+    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
+        // MAPPED finds the tiles of a point and asks the filter, which is our file.
+        vec![MAPPED, ModuleSource::new("esm.wgsl", include_str!("esm.wgsl"))]
+    }
+
+    fn binding_types(&self) -> Vec<shadowgraph::wgpu::BindingType> {
+        // The first four are those of the maps.
+        vec![STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, UNIFORM]
+    }
+
+    fn records(&self) -> Vec<Record> {
+        vec![record!(Falloff { per_metre })]
+    }
+
+    fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+        _screen: Option<&Screen>,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        let settings: EsmSettings = inputs.settings.techniques.get()?;
+        let needs = self.needs(inputs)?;
+        let maps = frame.node("esm", |frame| self.maps.add_to(frame, inputs, &needs))?;
+        let falloff = Falloff { per_metre: 1.0 / settings.falloff_m };
+        let mut bindings = maps.bindings();
+        bindings.push(ShadowBinding::Uniform(frame.uniform(bytemuck::bytes_of(&falloff))));
+        Ok(ShadowOutputs {
+            bindings,
+            debug_light: maps.main_light,
+            debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
+            unshadowed: maps.unshadowed,
+            ..ShadowOutputs::default()
+        })
+    }
+}

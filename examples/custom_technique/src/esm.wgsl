@@ -1,0 +1,50 @@
+#define_import_path shadowgraph::shadows::filter
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::tiles::shadow_views
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
+
+struct Falloff {
+    per_metre: f32,
+}
+
+@group(1) @binding(2) var cascade_map: texture_depth_2d;
+@group(1) @binding(3) var atlas_map: texture_depth_2d;
+@group(1) @binding(4) var<uniform> falloff: Falloff;
+
+// Metres from where the tile's depth begins; depth is reversed, 1 at the light.
+fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
+    if shadow_view.light.w == 0.0 {
+        return (1.0 - depth) * shadow_view.depth_range_m;
+    }
+    let far = shadow_view.near_m + shadow_view.depth_range_m;
+    return shadow_view.near_m * far / (shadow_view.near_m + depth * shadow_view.depth_range_m);
+}
+
+// How much of the light gets to a point: 0 to 1.
+fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let point = metres(shadow_view, lookup.plane.depth);
+    let in_cascades = light.map == MAP_CASCADES;
+    var size = vec2f(textureDimensions(atlas_map));
+    if in_cascades {
+        size = vec2f(textureDimensions(cascade_map));
+    }
+    let at = lookup.uv * size - 0.5;
+    let part = fract(at);
+    var lit = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let corner = vec2u(i & 1u, i >> 1u);
+        let texel = vec2i(floor(at)) + vec2i(corner);
+        var stored = 0.0;
+        if in_cascades {
+            stored = textureLoad(cascade_map, texel, 0);
+        } else {
+            stored = textureLoad(atlas_map, texel, 0);
+        }
+        let behind = max(point - metres(shadow_view, stored), 0.0);
+        let weight = select(1.0 - part, part, corner == vec2u(1u));
+        lit += weight.x * weight.y * exp(-behind * falloff.per_metre);
+    }
+    return lit;
+}

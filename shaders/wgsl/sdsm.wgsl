@@ -1,0 +1,213 @@
+// Fits cascades to the surfaces that the picture shows (Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011): finds
+// how far away they are, splits that range, and puts each cascade around the surfaces of its part. Nothing is read back.
+#import shadowgraph::view::{view, view_depth_of}
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight, NOT_A_CASCADE}
+
+// 32 bytes.
+struct Fit {
+    // How many views there are; those of cascades come first.
+    views: u32,
+    // How many cascades each light has that has any. The last of them covers the whole view and stays as it is.
+    cascades: u32,
+    // How many lights have cascades.
+    lights: u32,
+    // 0: splits at equal distances, 1: at equal ratios.
+    lambda: f32,
+    map_size_px: vec2f,
+    // View depths where shadows begin and end, metres.
+    nearest: f32,
+    farthest: f32,
+}
+
+// Of surfaces in a cascade, on the light's axes; coded so that whole numbers have the order of the floats.
+struct Bounds {
+    lowest: array<atomic<u32>, 3>,
+    highest: array<atomic<u32>, 3>,
+}
+
+@group(1) @binding(0) var surfaces: texture_2d<f32>;
+@group(1) @binding(1) var<storage, read> planned: array<ShadowView>;
+@group(1) @binding(2) var<storage, read> shadow_lights: array<ShadowLight>;
+@group(1) @binding(3) var<uniform> fit: Fit;
+// The bits of the least and the greatest view depth.
+@group(1) @binding(4) var<storage, read_write> depths: array<atomic<u32>, 2>;
+// One for each view of a cascade.
+@group(1) @binding(5) var<storage, read_write> bounds: array<Bounds>;
+
+@group(2) @binding(0) var<storage, read_write> fitted: array<ShadowView>;
+
+const MOST_VIEWS: u32 = 32u;
+const EDGE: u32 = 8u;
+
+var<workgroup> group_depths: array<atomic<u32>, 2>;
+var<workgroup> group_bounds: array<atomic<u32>, 192>;
+
+fn coded(x: f32) -> u32 {
+    let bits = bitcast<u32>(x);
+    return select(bits | 0x80000000u, ~bits, (bits >> 31u) == 1u);
+}
+
+fn decoded(code: u32) -> f32 {
+    return bitcast<f32>(select(~code, code & 0x7fffffffu, (code >> 31u) == 1u));
+}
+
+// The view depth of a pixel's surface; 0 where there is none in reach of shadows.
+fn depth_at(pixel: vec2u) -> f32 {
+    if any(pixel >= textureDimensions(surfaces)) {
+        return 0.0;
+    }
+    let surface = textureLoad(surfaces, pixel, 0);
+    let depth = view_depth_of(surface.xyz);
+    return select(0.0, max(depth, fit.nearest), surface.w >= 1.0 && depth < fit.farthest);
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_depths(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) local: u32) {
+    if local == 0u {
+        atomicStore(&group_depths[0], 0xffffffffu);
+        atomicStore(&group_depths[1], 0u);
+    }
+    workgroupBarrier();
+    let depth = depth_at(id.xy);
+    if depth > 0.0 {
+        atomicMin(&group_depths[0], bitcast<u32>(depth));
+        atomicMax(&group_depths[1], bitcast<u32>(depth));
+    }
+    workgroupBarrier();
+    if local == 0u {
+        atomicMin(&depths[0], atomicLoad(&group_depths[0]));
+        atomicMax(&depths[1], atomicLoad(&group_depths[1]));
+    }
+}
+
+// Where cascade `index` ends, if it is fitted.
+fn split(index: u32) -> f32 {
+    let first = bitcast<f32>(atomicLoad(&depths[0]));
+    let last = bitcast<f32>(atomicLoad(&depths[1])) * 1.0001;
+    let part = f32(index + 1u) / f32(fit.cascades - 1u);
+    let by_ratio = first * pow(last / first, part);
+    return mix(mix(first, last, part), by_ratio, fit.lambda);
+}
+
+// The light's axes in the world.
+fn axes(shadow_view: ShadowView) -> mat3x3f {
+    let m = shadow_view.clip_from_world;
+    let right = vec3f(m[0].x, m[1].x, m[2].x) * shadow_view.axis_scale;
+    let up = vec3f(m[0].y, m[1].y, m[2].y) * shadow_view.axis_scale;
+    return mat3x3f(right, up, shadow_view.light.xyz);
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) local: u32) {
+    let slots = 6u * min(fit.cascades * fit.lights, MOST_VIEWS);
+    for (var slot = local; slot < slots; slot += EDGE * EDGE) {
+        atomicStore(&group_bounds[slot], select(0u, 0xffffffffu, slot % 6u < 3u));
+    }
+    workgroupBarrier();
+    let depth = depth_at(id.xy);
+    if depth > 0.0 {
+        let position = textureLoad(surfaces, id.xy, 0).xyz;
+        var cascade = 0u;
+        while cascade + 2u < fit.cascades && depth >= split(cascade) {
+            cascade++;
+        }
+        for (var light = 0u; light < fit.lights; light++) {
+            let index = light * fit.cascades + cascade;
+            let at = position * axes(planned[index]);
+            for (var axis = 0u; axis < 3u; axis++) {
+                let code = coded(at[axis]);
+                atomicMin(&group_bounds[6u * index + axis], code);
+                atomicMax(&group_bounds[6u * index + 3u + axis], code);
+            }
+        }
+    }
+    workgroupBarrier();
+    for (var slot = local; slot < slots; slot += EDGE * EDGE) {
+        let code = atomicLoad(&group_bounds[slot]);
+        if slot % 6u < 3u {
+            atomicMin(&bounds[slot / 6u].lowest[slot % 3u], code);
+        } else {
+            atomicMax(&bounds[slot / 6u].highest[slot % 3u], code);
+        }
+    }
+}
+
+// The next of 32 equal steps per factor of two that is not below x: a small change of the view changes no texel.
+fn rounded_up(x: f32) -> f32 {
+    let step = exp2(floor(log2(x))) / 32.0;
+    return ceil(x / step) * step;
+}
+
+fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
+    var lowest: vec3f;
+    var highest: vec3f;
+    for (var axis = 0u; axis < 3u; axis++) {
+        lowest[axis] = decoded(atomicLoad(&bounds[index].lowest[axis]));
+        highest[axis] = decoded(atomicLoad(&bounds[index].highest[axis]));
+    }
+    var made = old;
+    made.end_m = split(cascade);
+    made.begin_m = fit.nearest;
+    if cascade > 0u {
+        made.begin_m = split(cascade - 1u);
+    }
+    // Surfaces go on for a pixel around where they were found.
+    let c = view.clip_from_world;
+    let scale = length(vec3f(c[0].y, c[1].y, c[2].y));
+    let pixel = 2.0 / (scale * view.size_px.y) * select(made.end_m, 1.0, view.orthographic == 1u);
+    let half = 0.5 * (highest - lowest) + 2.0 * pixel;
+    let center = 0.5 * (highest + lowest);
+
+    let tile = vec4f(old.tile_px);
+    let border = old.uv_min.x * fit.map_size_px.x - tile.x;
+    var margin = 2.0 + border;
+    for (var light = 0u; light < arrayLength(&shadow_lights); light++) {
+        let first = shadow_lights[light].first_view;
+        if shadow_lights[light].view_count > 0u && index >= first && index < first + shadow_lights[light].view_count {
+            margin += shadow_lights[light].normal_bias_texels * max(old.bias_scale, 1.0);
+        }
+    }
+    let texel = rounded_up(2.0 * max(half.x, half.y) / (tile.z - 2.0 * margin));
+    let extent = 0.5 * texel * tile.z;
+    let snapped = round(center.xy / texel);
+    // Towards the light there is room for what slopes up steeply around a point.
+    let far = center.z - half.z - 8.0 * texel;
+    let range = rounded_up(2.0 * half.z + 128.0 * texel);
+
+    let axes = axes(old);
+    let x = vec4f(axes[0], -snapped.x * texel) / extent;
+    let y = vec4f(axes[1], -snapped.y * texel) / extent;
+    let z = vec4f(axes[2], -far) / range;
+    made.clip_from_world = transpose(mat4x4f(x, y, z, vec4f(0.0, 0.0, 0.0, 1.0)));
+    let u = (0.5 * tile.z * x + vec4f(0.0, 0.0, 0.0, tile.x + 0.5 * tile.z)) / fit.map_size_px.x;
+    let v = (-0.5 * tile.w * y + vec4f(0.0, 0.0, 0.0, tile.y + 0.5 * tile.w)) / fit.map_size_px.y;
+    made.map_from_world = transpose(mat4x4f(u, v, z, vec4f(0.0, 0.0, 0.0, 1.0)));
+    made.center = axes * vec3f(snapped * texel, center.z);
+    made.radius = length(half);
+    made.texel_world = texel;
+    made.depth_per_texel = texel / range;
+    made.axis_scale = extent;
+    made.depth_range_m = range;
+    let moved = vec2f(snapped.x, -snapped.y) - tile.xy - 0.5 * tile.zw;
+    made.noise_px = vec2u(moved - 1024.0 * floor(moved / 1024.0));
+    return made;
+}
+
+@compute @workgroup_size(64)
+fn cs_fit(@builtin(global_invocation_id) id: vec3u) {
+    let index = id.x;
+    if index >= fit.views {
+        return;
+    }
+    let old = planned[index];
+    let cascade = old.cascade;
+    let is_fitted = cascade != NOT_A_CASCADE && cascade + 1u < fit.cascades;
+    if is_fitted && index < fit.cascades * fit.lights {
+        // Where no surface is in a cascade's part it stays as planned.
+        if atomicLoad(&bounds[index].highest[0]) != 0u {
+            fitted[index] = fitted_view(old, index, cascade);
+            return;
+        }
+    }
+    fitted[index] = old;
+}

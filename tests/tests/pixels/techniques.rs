@@ -1,0 +1,172 @@
+//! What techniques have in common, and what they are chosen for.
+
+use crate::stage::{
+    add_instance, box_mesh, camera, cube_on_floor, gpu, hard, material, sun, sun_direction, view,
+};
+use glam::DVec3;
+use shadowgraph::options::Aov;
+use shadowgraph::scene::Scene;
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::shadows::{
+    ContactSettings, EVSM, EvsmMoments, EvsmPrecision, EvsmSettings, MSM, PCF, PCSS, RAYTRACED, SDSM,
+    Technique, TechniqueKind,
+};
+use shadowgraph::{Gpu, Method, Renderer, ViewOptions};
+
+/// The visibility of light 0 in each pixel; `None` where nothing is drawn or the surface faces away.
+fn greys(gpu: &Gpu, scene: &Scene, options: &ViewOptions, method: impl Into<Method>) -> Vec<Option<u8>> {
+    let mut renderer =
+        Renderer::with(gpu, scene.clone(), &options.camera, Aov::Visibility(0), method).unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().picture;
+    picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
+}
+
+fn truth(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<Option<u8>> {
+    greys(gpu, scene, &hard(options), RAYTRACED)
+}
+
+/// The part of the pixels in which two pictures differ by more than `by`.
+fn differing(a: &[Option<u8>], b: &[Option<u8>], by: u8) -> f64 {
+    let pairs: Vec<_> = a.iter().zip(b).filter_map(|(a, b)| a.zip(*b)).collect();
+    assert!(pairs.len() > a.len() / 4, "{}", pairs.len());
+    pairs.iter().filter(|(a, b)| a.abs_diff(*b) > by).count() as f64 / pairs.len() as f64
+}
+
+/// The courtyard of the demo scene, in small maps.
+fn demo() -> (Scene, ViewOptions) {
+    let mut options = view(camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4)), 60.0);
+    options.shadows.cascades.map_size_px = 1024;
+    options.shadows.atlas.map_size_px = 512;
+    (demo_scene(), options)
+}
+
+#[test]
+fn what_is_collected_is_what_each_pixel_asks_for_with_every_technique_of_maps() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, options) = demo();
+    for kind in [PCF, PCSS, EVSM, MSM, SDSM] {
+        let asked = greys(gpu, &scene, &options, kind);
+        let collected = greys(gpu, &scene, &options, Technique::from(kind).collected());
+        let part = differing(&asked, &collected, 2);
+        println!("{}: {:.3} % of the pixels differ", kind.name, 100.0 * part);
+        assert!(part < 0.001, "{}: {part}", kind.name);
+        assert!(asked.iter().flatten().any(|grey| *grey < 3), "{}", kind.name);
+    }
+}
+
+/// How many pixels are dark among lit ones or lit among dark ones: none of the eight around them, nor they themselves, are so in
+/// truth.
+fn specks(greys: &[Option<u8>], truth: &[Option<u8>], width: usize) -> usize {
+    let around = |pixel: usize| {
+        [-1, 0, 1].into_iter().flat_map(move |y: isize| {
+            [-1, 0, 1].into_iter().map(move |x: isize| pixel as isize + y * width as isize + x)
+        })
+    };
+    let is_speck = |&pixel: &usize| {
+        let Some(grey) = greys[pixel] else { return false };
+        let mut neighbours = around(pixel).map(|at| truth.get(at as usize).copied().flatten());
+        match grey {
+            0..64 => neighbours.all(|grey| grey == Some(255)),
+            192.. => neighbours.all(|grey| grey == Some(0)),
+            _ => false,
+        }
+    };
+    (0..greys.len()).filter(is_speck).count()
+}
+
+#[test]
+fn maps_of_moments_have_no_holes_and_no_bright_squares_in_any_form() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    // A second storey of shadows: light leaks where they overlap.
+    let plate = box_mesh(DVec3::new(-2.0, 1.6, -0.2), DVec3::new(2.0, 1.7, 0.2));
+    scene.meshes.push(plate);
+    add_instance(&mut scene, 2, 0, DVec3::ZERO);
+    scene.add_light(sun(sun_direction(40.0, 130.0)));
+    let mut options = view(camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
+    options.shadows.cascades.map_size_px = 2048;
+    let truth = truth(gpu, &scene, &options);
+    let check = |name: &str, kind: TechniqueKind, options: &ViewOptions| {
+        let greys = greys(gpu, &scene, options, kind);
+        let (specks, wrong) =
+            (specks(&greys, &truth, options.size_px[0] as usize), differing(&greys, &truth, 127));
+        println!("{name}: {specks} specks, {:.2} % wrong", 100.0 * wrong);
+        assert!(specks == 0 && wrong < 0.01, "{name}: {specks} {wrong}");
+    };
+    for (moments, precision) in [
+        (EvsmMoments::Two, EvsmPrecision::Half),
+        (EvsmMoments::Two, EvsmPrecision::Full),
+        (EvsmMoments::Four, EvsmPrecision::Half),
+        (EvsmMoments::Four, EvsmPrecision::Full),
+    ] {
+        let exponents = if precision == EvsmPrecision::Half { [5.54, 5.54] } else { [40.0, 5.0] };
+        let own = EvsmSettings {
+            moments,
+            precision,
+            away: exponents[0],
+            towards: exponents[1],
+            ..EvsmSettings::default()
+        };
+        options.shadows.techniques.set(&own).unwrap();
+        check(&format!("evsm {moments:?} {precision:?}"), EVSM, &options);
+    }
+    check("msm", MSM, &options);
+}
+
+#[test]
+fn contact_shadows_darken_what_maps_are_too_coarse_for() {
+    let Some(gpu) = gpu() else { return };
+    // Pebbles of 3 cm, under maps of 10 cm texels.
+    let mut scene = cube_on_floor(DVec3::new(0.0, 0.0, -3.0));
+    scene.meshes.push(box_mesh(DVec3::new(-0.03, 0.0, -0.03), DVec3::new(0.03, 0.06, 0.03)));
+    for i in 0..25 {
+        add_instance(
+            &mut scene,
+            2,
+            0,
+            DVec3::new(f64::from(i % 5) * 0.2 - 0.4, 0.0, f64::from(i / 5) * 0.2 - 0.4),
+        );
+    }
+    scene.materials = vec![material()];
+    scene.add_light(sun(sun_direction(40.0, 100.0)));
+    let mut options = view(camera(DVec3::new(0.2, 0.7, 1.2), DVec3::ZERO), 20.0);
+    options.shadows.cascades.map_size_px = 256;
+    options.shadows.cascades.count = 1;
+    let truth = truth(gpu, &scene, &options);
+    let alone = differing(&greys(gpu, &scene, &options, PCF), &truth, 127);
+    let with = differing(&greys(gpu, &scene, &options, Technique::from(PCF).with_contact()), &truth, 127);
+    println!("wrong without {alone:.4}, with contact shadows {with:.4}");
+    assert!(with < 0.7 * alone, "{with} {alone}");
+    // A march of a millimetre finds nothing.
+    let short = ContactSettings { length_m: 0.001, ..ContactSettings::default() };
+    options.shadows.techniques.set(&short).unwrap();
+    let short = differing(&greys(gpu, &scene, &options, Technique::from(PCF).with_contact()), &truth, 127);
+    assert!((short - alone).abs() < 0.1 * alone, "{short} {alone}");
+}
+
+#[test]
+fn cascades_fitted_to_what_is_seen_have_finer_texels() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, mut options) = demo();
+    // All that is seen is about as far away.
+    options.camera = camera(DVec3::new(-4.0, 16.0, 22.0), DVec3::new(-4.0, 0.0, 8.0));
+    options.shadows.cascades.map_size_px = 512;
+    let truth = truth(gpu, &scene, &options);
+    let [fixed, fitted] = [PCF, SDSM].map(|kind| differing(&greys(gpu, &scene, &options, kind), &truth, 127));
+    println!("wrong with fixed splits {fixed:.4}, fitted {fitted:.4}");
+    assert!(fitted < 0.8 * fixed, "{fitted} {fixed}");
+    // One cascade covers the whole view; there is nothing to fit.
+    options.shadows.cascades.count = 1;
+    let [fixed, fitted] = [PCF, SDSM].map(|kind| greys(gpu, &scene, &options, kind));
+    assert!(differing(&fixed, &fitted, 2) < 0.02);
+}
+
+#[test]
+fn fitted_cascades_have_every_caster_that_the_view_needs() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, mut options) = demo();
+    options.camera = camera(DVec3::new(8.0, 4.0, 16.0), DVec3::new(0.0, 1.0, 0.0));
+    let truth = truth(gpu, &scene, &options);
+    let fitted = greys(gpu, &scene, &options, SDSM);
+    assert!(differing(&fitted, &truth, 127) < 0.02, "{}", differing(&fitted, &truth, 127));
+}
