@@ -1,5 +1,5 @@
 // Averages the noise of a screen mask over a few pixels, on the same surface only: neighbours whose turns of the noise differ stand
-// for as many more rays.
+// for as many more rays. Pixels whose rays all agree are beside soft edges: they stay as they are, and are not mixed in.
 #import shadowgraph::view::view_depth_of
 #import shadowgraph::surface::unpack_normal
 
@@ -23,7 +23,7 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
     let normal = unpack_normal(surface.w);
     var sum = textureLoad(collected, pixel, id.z, 0).rgb;
     var count = 1.0;
-    if any(normal != vec3f(0.0)) {
+    if any(normal != vec3f(0.0)) && any(sum > vec3f(0.0)) && any(sum < vec3f(1.0)) {
         let apart = APART * view_depth_of(surface.xyz);
         let radius = i32(radius_px.x);
         for (var y = -radius; y <= radius; y++) {
@@ -33,8 +33,10 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
                     continue;
                 }
                 let other = textureLoad(surfaces, at, 0);
-                if other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < apart {
-                    sum += textureLoad(collected, at, id.z, 0).rgb;
+                let visibility = textureLoad(collected, at, id.z, 0).rgb;
+                let is_edge = any(visibility > vec3f(0.0)) && any(visibility < vec3f(1.0));
+                if is_edge && other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < apart {
+                    sum += visibility;
                     count += 1.0;
                 }
             }

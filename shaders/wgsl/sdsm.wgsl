@@ -7,7 +7,8 @@
 struct Fit {
     // How many views there are; those of cascades come first.
     views: u32,
-    // How many cascades each light has that has any. The last of them covers the whole view and stays as it is.
+    // How many cascades each light has that has any. The last of them covers the whole view and stays as it is: the farthest part of
+    // what is seen is read from it.
     cascades: u32,
     // How many lights have cascades.
     lights: u32,
@@ -84,7 +85,7 @@ fn cs_depths(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
 fn split(index: u32) -> f32 {
     let first = bitcast<f32>(atomicLoad(&depths[0]));
     let last = bitcast<f32>(atomicLoad(&depths[1])) * 1.0001;
-    let part = f32(index + 1u) / f32(fit.cascades - 1u);
+    let part = f32(index + 1u) / f32(fit.cascades);
     let by_ratio = first * pow(last / first, part);
     return mix(mix(first, last, part), by_ratio, fit.lambda);
 }
@@ -108,10 +109,12 @@ fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
     if depth > 0.0 {
         let position = textureLoad(surfaces, id.xy, 0).xyz;
         var cascade = 0u;
-        while cascade + 2u < fit.cascades && depth >= split(cascade) {
+        while cascade + 1u < fit.cascades && depth >= split(cascade) {
             cascade++;
         }
-        for (var light = 0u; light < fit.lights; light++) {
+        // What is in the farthest part is left to the cascade that covers the whole view.
+        let lights = select(0u, fit.lights, cascade + 1u < fit.cascades);
+        for (var light = 0u; light < lights; light++) {
             let index = light * fit.cascades + cascade;
             let at = position * axes(planned[index]);
             for (var axis = 0u; axis < 3u; axis++) {

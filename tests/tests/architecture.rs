@@ -15,7 +15,7 @@ const LIGHTING: &str = "shadowgraph-lighting";
 const FACADE: &str = "shadowgraph";
 
 /// Which members a member may depend on, in tests and build scripts too.
-const ARROWS: [(&str, &[&str]); 9] = [
+const ARROWS: [(&str, &[&str]); 10] = [
     (CORE, &[]),
     (SHADERS, &[]),
     (SCENE, &[CORE, SHADERS]),
@@ -24,6 +24,7 @@ const ARROWS: [(&str, &[&str]); 9] = [
     (FACADE, &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING]),
     ("shadowgraph-examples", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE]),
     ("shadowgraph-tests", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE]),
+    ("custom_technique", &[FACADE]),
     ("xtask", &[]),
 ];
 
@@ -117,6 +118,23 @@ fn scene_speaks_of_no_shadow_technique_and_no_lighting_model() {
     let models =
         ["ggx", "brdf", "bsdf", "lambert", "lambertian", "phong", "fresnel", "burley", "smith", "tonemap"];
     refuse_words("crates/scene/src", &[techniques.as_slice(), models.as_slice()].concat());
+}
+
+#[test]
+fn lighting_names_no_technique() {
+    let names: Vec<&str> = shadowgraph::shadows::Techniques::built_in()
+        .kinds()
+        .iter()
+        .map(|kind| kind.name)
+        // A word of the language.
+        .filter(|name| *name != "none")
+        .collect();
+    assert!(names.len() > 5);
+    refuse_words("crates/lighting/src", &names);
+    for file in ["lighting.wgsl", "forward.wgsl"] {
+        let text = std::fs::read_to_string(repository().join("shaders/wgsl").join(file)).unwrap();
+        assert_eq!(words(&text).iter().find(|word| names.contains(&word.as_str())), None, "{file}");
+    }
 }
 
 #[test]

@@ -24,7 +24,7 @@ fn example(name: &str) -> PathBuf {
 fn build() -> Vec<PathBuf> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.args(["build", "--quiet", "--workspace", "--examples"]);
+    command.args(["build", "--quiet", "--workspace", "--examples", "--bins"]);
     command.arg("--message-format=json-render-diagnostics").current_dir(repository());
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -106,9 +106,56 @@ fn window_without_a_display_ends_with_one_line() {
 
 #[test]
 fn examples_stay_short() {
-    for name in ["custom", "window"] {
-        let file = repository().join("examples/examples").join(format!("{name}.rs"));
-        let lines = std::fs::read_to_string(&file).unwrap().lines().count();
-        assert!(lines < 150, "{} has {lines} lines", file.display());
+    let lines = |file: &str| std::fs::read_to_string(repository().join(file)).unwrap().lines().count();
+    for (file, most) in [("custom.rs", 150), ("window.rs", 150), ("custom_engine.rs", 250)] {
+        let count = lines(&format!("examples/examples/{file}"));
+        assert!(count < most, "{file} has {count} lines");
     }
+    let of_technique =
+        ["main.rs", "esm.rs", "esm.wgsl"].map(|file| lines(&format!("examples/custom_technique/src/{file}")));
+    assert!(of_technique.iter().sum::<usize>() < 250, "{of_technique:?}");
+}
+
+#[test]
+fn an_engine_of_ones_own_gets_shadows_on_its_own_boxes() {
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = run(Command::new(example("custom_engine")).current_dir(folder.path()));
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    let picture = image::open(folder.path().join("out/custom_engine.png")).unwrap().into_rgba8();
+    // The ground in the light, in a step's shadow, and the sky.
+    let [lit, dark, sky] = [(560, 300), (310, 280), (20, 20)].map(|(x, y)| pixel(&picture, x, y));
+    assert!(lit[0] > 190 && dark[0] < 110 && sky[2] > sky[0] + 40, "{lit:?} {dark:?} {sky:?}");
+}
+
+#[test]
+fn a_strangers_technique_is_drawn_measured_and_dumped() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = |arguments: &[&str]| {
+        run(Command::new(example("custom_technique")).args(arguments).current_dir(folder.path()))
+    };
+    let nodes = program(&["nodes"]);
+    assert!(nodes.stdout.contains("\"esm\": (falloff_m: 0.05)"), "{}", nodes.stdout);
+    let dump = program(&["dump", "--technique", "esm"]);
+    assert!(dump.stdout.contains("esm/cascades"), "{}", dump.stdout);
+    std::fs::write(folder.path().join("mine.ron"), "(techniques: {\"esm\": (falloff_m: 0.0)})").unwrap();
+    let refused = program(&["render", "--settings", "mine.ron"]);
+    let expected =
+        "technique `esm`: its settings: shadow setting `falloff_m` is 0; allowed: 0.001 to 10 (metres)";
+    assert!(refused.code == Some(1) && refused.stderr.contains(expected), "{}", refused.stderr);
+    let drawn = program(&["render", "--technique", "esm+contact", "--size", "320x180", "-o", "esm.png"]);
+    assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
+    let case = r#"(cases: [(
+        scene: Trial("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
+        views: [(name: "near", eye: (3, 2, 5), target: (0, 0.5, 0))],
+    )])"#;
+    std::fs::write(folder.path().join("case.ron"), case).unwrap();
+    let arguments =
+        ["measure", "--techniques", "pcf,esm", "--quick", "--size", "160x90", "--cases", "case.ron"];
+    let measured = program(&arguments);
+    assert_eq!(measured.code, Some(0), "{}", measured.stderr);
+    assert!(
+        measured.stdout.lines().any(|line| line.starts_with("mean") && line.contains(" esm ")),
+        "{}",
+        measured.stdout
+    );
 }

@@ -73,7 +73,7 @@ fn a_folder_gets_a_page_with_pictures_and_a_report_that_reads_back() {
 }
 
 #[test]
-fn edges_of_pcss_are_nearer_to_soft_truth_than_those_of_pcf() {
+fn edges_of_pcss_and_of_several_rays_are_nearer_to_soft_truth_than_those_of_pcf() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, out) = (folder.path().join("cases.ron"), folder.path().join("out"));
     let columns = r#"(cases: [(
@@ -82,13 +82,14 @@ fn edges_of_pcss_are_nearer_to_soft_truth_than_those_of_pcf() {
     )])"#;
     std::fs::write(&cases, columns).unwrap();
     let cases = cases.to_str().unwrap();
-    let arguments = ["--quick", "--size", "320x180", "--techniques", "pcf,pcss", "--cases", cases, "-o"];
+    let techniques = ["--techniques", "pcf,pcss,raytraced"];
+    let arguments = [&["--quick", "--size", "320x180", "--cases", cases][..], &techniques, &["-o"]].concat();
     let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
     assert!(output.status.success(), "{}", text(&output.stderr));
     let json = std::fs::read_to_string(out.join("report.json")).unwrap();
     let report: Report = serde_json::from_str(&json).unwrap();
-    let [pcf, pcss] = [0, 1].map(|i| report.cases[i].edges.as_ref().unwrap().rmse);
-    assert!(pcss < 0.8 * pcf, "{pcss} {pcf}");
+    let [pcf, pcss, raytraced] = [0, 1, 2].map(|i| report.cases[i].edges.as_ref().unwrap().rmse);
+    assert!(pcss < 0.8 * pcf && raytraced < 0.8 * pcf, "{pcf} {pcss} {raytraced}");
 }
 
 #[test]

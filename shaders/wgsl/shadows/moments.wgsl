@@ -38,14 +38,15 @@ fn mixed(map: u32, uv: vec2f, mip: u32) -> vec4f {
     return mix(top, bottom, part.y);
 }
 
-// How many texels of moments lie across a pixel of the picture.
+// How many texels of moments lie across a pixel of the picture: between what the longer and what the shorter side says.
 fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
     var distance = 1.0;
     if shadow_view.light.w != 0.0 {
         distance = length(shadow_view.light.xyz - receiver.position);
     }
     let texel_world = shadow_view.texel_world * distance * f32(rules.downscale);
-    return max(length(receiver.ddx_position), length(receiver.ddy_position)) / max(texel_world, 1e-9);
+    let pixel_world = sqrt(length(receiver.ddx_position) * length(receiver.ddy_position));
+    return pixel_world / max(texel_world, 1e-9);
 }
 
 // How much of the light gets to a point: 0 (in shadow) to 1.
@@ -58,7 +59,8 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     if level > f32(mip) {
         moments = mix(moments, mixed(light.map, lookup.uv, mip + 1u), level - f32(mip));
     }
-    let reach = 0.5 * f32(rules.downscale * (rules.radius + 1u)) * exp2(level);
+    // A quarter of the way that is read is left to the receiver's own plane, and to the foot of lit walls; tents take more.
+    let reach = 0.25 * f32(rules.downscale * (rules.radius + 1u)) * exp2(level);
     let slope = lookup.plane.slope;
     let rise = reach * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
     let depth = min(lookup.plane.depth + rise, 1.0);

@@ -41,19 +41,19 @@ fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
     let mut sheet = Sheet::new();
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
-    for (column, (way, method)) in ways().into_iter().enumerate() {
-        let pictures = pictures(gpu, method, column == 0);
-        if column == 0 {
+    for (row, (way, method)) in ways().into_iter().enumerate() {
+        let pictures = pictures(gpu, method, row == 0);
+        if row == 0 {
             truth.clone_from(&pictures);
         }
-        for (row, (picture, truth)) in pictures.iter().zip(&truth).enumerate() {
+        for (column, (picture, truth)) in pictures.iter().zip(&truth).enumerate() {
             sheet.paste(picture, column, row);
             let (darker, lighter) = differing(picture, truth);
             // Without shadows there is too much light.
             let wrong_part = if method.technique == NONE { darker } else { darker + lighter };
-            let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[row]);
+            let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[column]);
             println!("{line}");
-            let has_shadows = MIXES[row] != "no light";
+            let has_shadows = MIXES[column] != "no light";
             let shows_none = method.technique == NONE && has_shadows && lighter < 0.05;
             if wrong_part > 0.03 || shows_none {
                 wrong.push(line);
@@ -72,7 +72,8 @@ fn pictures(gpu: &Gpu, method: Method, is_truth: bool) -> Vec<Picture> {
     add_panels(&mut scene);
     let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
     let options = ViewOptions { size_px: CELL_PX, ..view(camera, 80.0) };
-    let options = if is_truth { hard(&options) } else { options };
+    let mut options = if is_truth { hard(&options) } else { options };
+    options.shadows.cascades.map_size_px = 2048;
     let own = scene.lights.clone();
     let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method).unwrap();
     let mut picture = |mix: &&str| {
@@ -159,7 +160,7 @@ struct Sheet(RgbaImage);
 
 impl Sheet {
     fn new() -> Self {
-        let count = [ways().len() as u32, MIXES.len() as u32];
+        let count = [MIXES.len() as u32, ways().len() as u32];
         let [width, height] = [0, 1].map(|axis| count[axis] * (CELL_PX[axis] + GAP_PX));
         Self(RgbaImage::from_pixel(width, height, Rgba([255; 4])))
     }

@@ -8,8 +8,8 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::Scene;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::{
-    ContactSettings, EVSM, EvsmMoments, EvsmPrecision, EvsmSettings, MSM, PCF, PCSS, RAYTRACED, SDSM,
-    Technique, TechniqueKind,
+    ContactSettings, EVSM, EvsmMoments, EvsmPrecision, EvsmSettings, MSM, PCF, PCSS, RAYTRACED,
+    RaytracedSettings, SDSM, Technique, TechniqueKind,
 };
 use shadowgraph::{Gpu, Method, Renderer, ViewOptions};
 
@@ -169,4 +169,29 @@ fn fitted_cascades_have_every_caster_that_the_view_needs() {
     let truth = truth(gpu, &scene, &options);
     let fitted = greys(gpu, &scene, &options, SDSM);
     assert!(differing(&fitted, &truth, 127) < 0.02, "{}", differing(&fitted, &truth, 127));
+}
+
+#[test]
+fn the_denoise_takes_the_grain_out_of_wide_edges_and_leaves_hard_ones() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.meshes.push(box_mesh(DVec3::new(-1.5, 1.6, -1.0), DVec3::new(1.5, 1.7, 1.0)));
+    add_instance(&mut scene, 2, 0, DVec3::ZERO);
+    scene.add_light(sun(sun_direction(50.0, 130.0)));
+    let mut options = view(camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
+    let mut draw = |rays, denoise_px| {
+        let own = RaytracedSettings { rays, denoise_px, sun_radius_rad: 0.1, ..RaytracedSettings::default() };
+        options.shadows.techniques.set(&own).unwrap();
+        greys(gpu, &scene, &options, RAYTRACED)
+    };
+    let (fine, grainy, smooth) = (draw(64, 0), draw(4, 0), draw(4, 2));
+    let off = |greys: &[Option<u8>]| {
+        let pairs = greys.iter().zip(&fine).filter_map(|(a, b)| a.zip(*b));
+        pairs.map(|(a, b)| f64::from(a.abs_diff(b))).sum::<f64>()
+    };
+    println!("off by {} with grain, {} without", off(&grainy), off(&smooth));
+    assert!(off(&smooth) < 0.85 * off(&grainy), "{} {}", off(&smooth), off(&grainy));
+    // Pixels all of whose rays agree stay as they are.
+    let agree = grainy.iter().zip(&smooth).filter(|(grey, _)| matches!(grey, Some(0 | 255)));
+    assert!(agree.into_iter().all(|(a, b)| a == b));
 }

@@ -1,13 +1,12 @@
 //! Whether a technique is what it says, found out without a GPU.
 
-use std::borrow::Cow;
-
 use shadowgraph_shaders::{compose, naga};
 
 use super::{TechniqueContext, TechniqueKind};
 use crate::ShadowSettings;
 use crate::technique::binding::STORAGE;
 use crate::technique::{ShadowTechnique, layout, shadow_layout};
+use crate::techniques::compute::{pipeline, shader};
 
 /// Checks a name, and that no other has it.
 pub(super) fn name(name: &str, mut taken: impl Iterator<Item = &'static str>) -> Result<(), String> {
@@ -79,25 +78,9 @@ fn check_bindings(
     module: naga::Module,
 ) -> Result<(), String> {
     caught(device, || {
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("check.wgsl"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
-        let view_layout = layout(device, "view", &[STORAGE; 2]);
-        let shadow_layout = shadow_layout(device, technique);
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &[Some(&view_layout), Some(&shadow_layout)],
-            immediate_size: 0,
-        });
-        let _pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: None,
-            layout: Some(&pipeline_layout),
-            module: &shader,
-            entry_point: Some("cs_check"),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let shader = shader(device, "check.wgsl", module);
+        let layouts = [&layout(device, "view", &[STORAGE; 2]), &shadow_layout(device, technique)];
+        pipeline(device, &shader, "cs_check", &layouts);
     })
 }
 

@@ -9,7 +9,7 @@ use crate::Unshadowed;
 #[derive(Default)]
 pub struct ShadowOutputs<'f> {
     /// Which variant of the technique's modules has all that this frame needs, and the least beyond; see
-    /// [`ShadowTechnique::modules`].
+    /// [`ShadowTechnique::modules`](super::ShadowTechnique::modules).
     pub variant: u32,
     /// The light whose `shadow_debug_color` tells most: the main one, 0 where there is none.
     pub debug_light: u32,

@@ -1,5 +1,6 @@
 //! The techniques that come with Shadowgraph, a room each.
 
+pub(crate) mod compute;
 mod mask;
 mod moments;
 mod none;

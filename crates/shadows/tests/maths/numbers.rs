@@ -3,8 +3,9 @@
 use glam::DVec3;
 use shadowgraph_scene::{LightKind, origin_near};
 use shadowgraph_shadows::{
-    ContactSettings, Error, LightRef, LightShadows, PcssSettings, ScreenSettings, ShadowInputs,
-    ShadowSettings, ShadowView, SplitScheme, Techniques, plan_shadows,
+    ContactSettings, Error, EvsmSettings, LightRef, LightShadows, MsmSettings, PcssSettings,
+    RaytracedSettings, ScreenSettings, SdsmSettings, ShadowInputs, ShadowSettings, ShadowView, SplitScheme,
+    Techniques, plan_shadows,
 };
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
@@ -70,6 +71,10 @@ fn no_number_of_a_settings_file_makes_a_plan_that_is_not_finite() {
     settings.techniques.set(&PcssSettings::default()).unwrap();
     settings.techniques.set(&ScreenSettings::default()).unwrap();
     settings.techniques.set(&ContactSettings::default()).unwrap();
+    settings.techniques.set(&EvsmSettings::default()).unwrap();
+    settings.techniques.set(&MsmSettings::default()).unwrap();
+    settings.techniques.set(&RaytracedSettings::default()).unwrap();
+    settings.techniques.set(&SdsmSettings::default()).unwrap();
     let techniques = Techniques::built_in();
     let splits = [
         SplitScheme::Ratios(vec![0.1, 0.2, 0.4]),

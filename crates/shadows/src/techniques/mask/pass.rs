@@ -1,15 +1,14 @@
 //! Passes over a screen mask.
 
-use std::borrow::Cow;
-
 use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc, Uniform};
 use shadowgraph_scene::Light;
-use shadowgraph_shaders::{compose, naga};
+use shadowgraph_shaders::compose;
 
 use super::{MASK, MASK_FORMAT, MAX_MASK_LAYERS, TARGET, WORKGROUP_PX, masked_lights};
 use crate::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{Screen, layout};
+use crate::techniques::compute::{dispatch, pipeline, shader};
 
 /// The lights of a mask.
 #[derive(Clone, Copy)]
@@ -52,7 +51,8 @@ impl MaskPass {
         let view_layout = layout(device, "view", &[STORAGE; 2]);
         let own_layout = layout(device, name, &[FLOAT_MAP, MASK, TARGET, UNIFORM, UNIFORM]);
         let module = compose(file, &[])?;
-        let pipeline = pipeline(device, module, entry, &[&view_layout, &own_layout]);
+        let shader = shader(device, file, module);
+        let pipeline = pipeline(device, &shader, entry, &[&view_layout, &own_layout]);
         Ok(Self { name, view_layout, layout: own_layout, pipeline })
     }
 
@@ -83,7 +83,7 @@ impl MaskPass {
                 ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
                 ctx.bind_group(&self.layout, &own)?,
             ];
-            dispatch(&mut ctx.pass, &self.pipeline, &groups, size_px, layers);
+            dispatch(&mut ctx.pass, &self.pipeline, &groups, workgroups(size_px, layers));
             Ok(())
         });
         made
@@ -101,45 +101,7 @@ pub(in crate::techniques) fn mask_texture(
     frame.create_texture(name, TextureDesc::d2(width, height, MASK_FORMAT).layers(layers.count))
 }
 
-/// A pipeline that computes masks.
-pub(in crate::techniques) fn pipeline(
-    device: &wgpu::Device,
-    module: naga::Module,
-    entry: &str,
-    layouts: &[&wgpu::BindGroupLayout],
-) -> wgpu::ComputePipeline {
-    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(entry),
-        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-    });
-    let layouts: Vec<_> = layouts.iter().copied().map(Some).collect();
-    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(entry),
-        bind_group_layouts: &layouts,
-        immediate_size: 0,
-    });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry),
-        layout: Some(&pipeline_layout),
-        module: &shader,
-        entry_point: Some(entry),
-        compilation_options: Default::default(),
-        cache: None,
-    })
-}
-
-/// Computes each pixel of each layer.
-pub(in crate::techniques) fn dispatch(
-    pass: &mut wgpu::ComputePass<'_>,
-    pipeline: &wgpu::ComputePipeline,
-    groups: &[wgpu::BindGroup],
-    [width, height]: [u32; 2],
-    layers: Layers,
-) {
-    pass.set_pipeline(pipeline);
-    for (index, group) in (0..).zip(groups) {
-        pass.set_bind_group(index, group, &[]);
-    }
-    let [x, y] = [width, height].map(|side| side.div_ceil(WORKGROUP_PX));
-    pass.dispatch_workgroups(x, y, layers.count);
+/// How many workgroups compute each pixel of each layer.
+pub(in crate::techniques) fn workgroups([width, height]: [u32; 2], layers: Layers) -> [u32; 3] {
+    [width.div_ceil(WORKGROUP_PX), height.div_ceil(WORKGROUP_PX), layers.count]
 }

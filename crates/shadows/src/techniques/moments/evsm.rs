@@ -63,7 +63,7 @@ impl Default for EvsmSettings {
             bleed: 0.2,
             bias: 1e-4,
             downscale: 2,
-            blur_texels: 1,
+            blur_texels: 0,
             mips: 2,
         }
     }

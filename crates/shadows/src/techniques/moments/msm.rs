@@ -27,7 +27,7 @@ pub struct MsmSettings {
 
 impl Default for MsmSettings {
     fn default() -> Self {
-        Self { bleed: 0.02, bias: 6e-5, downscale: 2, blur_texels: 1, mips: 2 }
+        Self { bleed: 0.02, bias: 6e-5, downscale: 2, blur_texels: 0, mips: 2 }
     }
 }
 

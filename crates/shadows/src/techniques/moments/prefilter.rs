@@ -1,13 +1,12 @@
 //! The passes that turn maps of depths into maps of moments.
 
-use std::borrow::Cow;
-
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
 
 use super::{MomentRules, Moments};
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::layout;
+use crate::techniques::compute::{dispatch, pipeline, shader};
 use crate::{DrawnMap, Error};
 
 /// A map of moments, as it is read: whole numbers that are unpacked.
@@ -123,11 +122,7 @@ impl Prefilter {
                 ctx.bind_group(&self.map_layout, &map)?,
                 ctx.bind_group(&step.layout, &[Bind::Texture(from), Bind::Texture(to)])?,
             ];
-            ctx.pass.set_pipeline(&step.pipeline);
-            for (index, group) in (0..).zip(&groups) {
-                ctx.pass.set_bind_group(index, group, &[]);
-            }
-            ctx.pass.dispatch_workgroups(x, y, 1);
+            dispatch(&mut ctx.pass, &step.pipeline, &groups, [x, y, 1]);
             Ok(())
         });
     }
@@ -147,10 +142,7 @@ impl Form {
         };
         let source = PREFILTER.source.replace("FORMAT, write", &format!("{word}, write"));
         let module = compose_source(&ModuleSource::new(PREFILTER.file, source), &S::modules(form))?;
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("prefilter.wgsl"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
+        let shader = shader(device, "prefilter.wgsl", module);
         let step = |entry, from, to| Step::new(device, &shader, entry, map_layout, [from, written(to)]);
         Ok(Self {
             format,
@@ -171,19 +163,7 @@ impl Step {
         types: [wgpu::BindingType; 2],
     ) -> Self {
         let layout = layout(device, entry, &types);
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(entry),
-            bind_group_layouts: &[Some(map_layout), Some(&layout)],
-            immediate_size: 0,
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry),
-            layout: Some(&pipeline_layout),
-            module: shader,
-            entry_point: Some(entry),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let pipeline = pipeline(device, shader, entry, &[map_layout, &layout]);
         Self { layout, pipeline }
     }
 }

@@ -9,7 +9,8 @@ use shadowgraph_scene::Light;
 use shadowgraph_shaders::{ModuleSource, RAYTRACED};
 use wgpu::util::DeviceExt as _;
 
-use super::mask::pass::{Layers, MaskPass, dispatch, mask_texture, pipeline};
+use super::compute::{dispatch, pipeline, shader};
+use super::mask::pass::{Layers, MaskPass, mask_texture, workgroups};
 use super::mask::{MASK, TARGET, masked_lights, no_mask};
 use crate::rays::GpuRayScene;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
@@ -24,7 +25,7 @@ const UNMASKED: u32 = u32::MAX - 1;
 const LIT: u32 = u32::MAX;
 
 /// Every light that casts shadows sees a surface or does not, at any distance: with one ray to the middle of each light, other
-/// techniques are measured against it ([`RaytracedSettings::hard`]); with several, over the light's disc, edges are soft. Noise is
+/// techniques are measured against it ([`RaytracedSettings::hard`]); with several, over the light's disc, edges are soft. Noise can be
 /// averaged over a few pixels of the same surface. No other settings change it.
 ///
 /// What the picture shows is traced by a compute pass into a screen mask, a layer a light, the first
@@ -89,7 +90,7 @@ impl Raytraced {
                 ctx.bind_group(rays_layout, &rays)?,
                 ctx.bind_group(screen_layout, &[Bind::Texture(surfaces), Bind::TextureArray(target)])?,
             ];
-            dispatch(&mut ctx.pass, pipeline, &groups, size_px, layers);
+            dispatch(&mut ctx.pass, pipeline, &groups, workgroups(size_px, layers));
             Ok(())
         });
         mask
@@ -185,7 +186,9 @@ impl Trace {
         let view_layout = layout(device, "view", &[STORAGE; 2]);
         let rays_layout = layout(device, "rays", &[STORAGE; 6]);
         let screen_layout = layout(device, "screen", &[FLOAT_MAP, TARGET]);
-        let pipeline = pipeline(device, module, "cs_raytrace", &[&view_layout, &rays_layout, &screen_layout]);
+        let shader = shader(device, "raytrace.wgsl", module);
+        let layouts = [&view_layout, &rays_layout, &screen_layout];
+        let pipeline = pipeline(device, &shader, "cs_raytrace", &layouts);
         Ok(Self { view_layout, rays_layout, screen_layout, pipeline })
     }
 }

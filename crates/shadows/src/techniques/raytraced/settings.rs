@@ -15,13 +15,14 @@ pub struct RaytracedSettings {
     pub sun_radius_rad: f32,
     /// The radius of spot and point lights, metres, 0 to 10.
     pub lamp_radius_m: f32,
-    /// How many pixels soft edges are averaged over to either side, on the same surface, 0 to 4.
+    /// How many pixels soft edges are averaged over to either side, on the same surface, 0 to 4. It takes the grain out of edges that
+    /// are many pixels wide, as of large lights; of narrow ones it takes the shape.
     pub denoise_px: u32,
 }
 
 impl Default for RaytracedSettings {
     fn default() -> Self {
-        Self { rays: 4, sun_radius_rad: 0.00465, lamp_radius_m: 0.05, denoise_px: 2 }
+        Self { rays: 8, sun_radius_rad: 0.00465, lamp_radius_m: 0.05, denoise_px: 0 }
     }
 }
 
@@ -29,7 +30,7 @@ impl RaytracedSettings {
     /// One ray a pixel, and nothing averaged: what other techniques' hard edges are compared with.
     #[must_use]
     pub fn hard() -> Self {
-        Self { rays: 1, denoise_px: 0, ..Self::default() }
+        Self { rays: 1, ..Self::default() }
     }
 }
 

@@ -9,8 +9,9 @@ use shadowgraph_shaders::compose;
 use crate::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{Screen, ShadowOutputs, ShadowTechnique, layout, shadow_layout};
+use crate::techniques::compute::{dispatch, pipeline, shader};
 use crate::techniques::mask::TARGET;
-use crate::techniques::mask::pass::{Layers, dispatch, mask_texture, pipeline};
+use crate::techniques::mask::pass::{Layers, mask_texture, workgroups};
 
 /// The pass that writes a screen mask.
 pub(super) struct Collect {
@@ -48,7 +49,8 @@ impl Collect {
         }
         let module = compose("collect.wgsl", &technique.modules(variant))?;
         let layouts = [&self.view_layout, &self.shadow_layout, &self.layout];
-        let pipeline = Arc::new(pipeline(&self.device, module, "cs_collect", &layouts));
+        let shader = shader(&self.device, "collect.wgsl", module);
+        let pipeline = Arc::new(pipeline(&self.device, &shader, "cs_collect", &layouts));
         known.insert(variant, pipeline.clone());
         Ok(pipeline)
     }
@@ -77,7 +79,7 @@ impl Collect {
                 shadows.bind_group(ctx, &self.shadow_layout)?,
                 ctx.bind_group(&self.layout, &own)?,
             ];
-            dispatch(&mut ctx.pass, &pipeline, &groups, size_px, layers);
+            dispatch(&mut ctx.pass, &pipeline, &groups, workgroups(size_px, layers));
             Ok(())
         });
         Ok(mask)

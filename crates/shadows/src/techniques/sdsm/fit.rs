@@ -6,7 +6,7 @@ use shadowgraph_shaders::compose;
 
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{Screen, layout};
-use crate::techniques::mask::pass::pipeline;
+use crate::techniques::compute::{dispatch, pipeline, shader};
 use crate::{Error, ShadowInputs, ShadowPlan};
 
 /// The side of a workgroup of the passes over the picture, pixels.
@@ -52,13 +52,12 @@ impl GpuFit {
         let own_layout = layout(device, "fit cascades", &types);
         let views_layout = layout(device, "fitted views", &[WRITTEN]);
         let layouts = [&view_layout, &own_layout, &views_layout];
-        let make = |entry, groups| {
-            Ok::<_, Error>(pipeline(device, compose("sdsm.wgsl", &[])?, entry, &layouts[..groups]))
-        };
+        let shader = shader(device, "sdsm.wgsl", compose("sdsm.wgsl", &[])?);
+        let make = |entry, groups| pipeline(device, &shader, entry, &layouts[..groups]);
         Ok(Self {
-            depths: make("cs_depths", 2)?,
-            bounds: make("cs_bounds", 2)?,
-            fit: make("cs_fit", 3)?,
+            depths: make("cs_depths", 2),
+            bounds: make("cs_bounds", 2),
+            fit: make("cs_fit", 3),
             layout: own_layout,
             view_layout,
             views_layout,
@@ -134,11 +133,7 @@ impl GpuFit {
             if let Some(fitted) = fitted {
                 groups.push(ctx.bind_group(&self.views_layout, &[Bind::Buffer(fitted)])?);
             }
-            ctx.pass.set_pipeline(pipeline);
-            for (index, group) in (0..).zip(&groups) {
-                ctx.pass.set_bind_group(index, group, &[]);
-            }
-            ctx.pass.dispatch_workgroups(x, y, 1);
+            dispatch(&mut ctx.pass, pipeline, &groups, [x, y, 1]);
             Ok(())
         });
     }
