@@ -67,6 +67,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("fullscreen.wgsl"),
     file!("lighting.wgsl"),
     file!("material.wgsl"),
+    file!("noise.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
     file!("shadows/evsm_layout.wgsl"),

@@ -2,6 +2,7 @@
 // another surface. After Pranckevičius, "Deferred Cascaded Shadow Maps" (2009), and Mitchell, "Poisson Shadow Blur" (ShaderX3,
 // 2005).
 #import shadowgraph::view::{view, view_depth_of}
+#import shadowgraph::noise::pixel_noise
 #import shadowgraph::surface::unpack_normal
 
 // 16 bytes.
@@ -49,9 +50,8 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
         let depth = view_depth_of(surface.xyz);
         let radius_px = min(blur.radius_world * pixels_per_metre(depth), blur.most_px);
         let apart = blur.depth_threshold * depth;
-        // Interleaved gradient noise (Jimenez 2014).
         let pixel = vec2f(id.xy);
-        let angle = 6.2831853 * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+        let angle = 6.2831853 * pixel_noise(pixel);
         let turn = mat2x2f(cos(angle), sin(angle), -sin(angle), cos(angle));
         // Within half a pixel there is nothing to blur.
         let taps = select(0u, TAPS, radius_px > 0.5);

@@ -2,6 +2,7 @@
 // the picture shows is in the way. After Sousa, "Secrets of CryENGINE 3 Graphics Technology" (SIGGRAPH 2011), *screen space
 // self-shadowing*.
 #import shadowgraph::view::{view, lights, view_depth_of, LIGHT_DIRECTIONAL}
+#import shadowgraph::noise::pixel_noise
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::layers::MaskLayers
 
@@ -40,8 +41,8 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
     }
     let size = vec2f(textureDimensions(surfaces));
     let height = FLAT * view_depth_of(position);
-    // Interleaved gradient noise (Jimenez 2014): steps that are missed here are hit next door.
-    let noise = fract(52.9829189 * fract(dot(vec2f(pixel), vec2f(0.06711056, 0.00583715))));
+    // Steps that are missed here are hit next door.
+    let noise = pixel_noise(vec2f(pixel));
     for (var step = 0u; step < contact.steps; step++) {
         let part = (f32(step) + 0.5 + 0.5 * noise) / f32(contact.steps);
         let point = position + to_light * (part * length_world);

@@ -6,6 +6,7 @@
 //   casters before the near plane are kept at depth 1:
 //     the device clamps (unclipped_depth)      as above
 //     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp or fs_dither_clamp
+#import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
 #import shadowgraph::material::{TextureCoordinates, base_color, hole_cutoff}
 
@@ -55,11 +56,11 @@ fn covers(in: DepthVertex) -> bool {
     return alpha_of(in) >= hole_cutoff();
 }
 
-// As many pixels as alpha says, by interleaved gradient noise (Jimenez 2014).
+// As many pixels as alpha says.
 fn covers_by_chance(in: DepthVertex) -> bool {
     // Texels of the world: the pattern stays where it is while the tile moves.
     let texel = vec2f((vec2u(in.position.xy) + depth_view.noise_px) & vec2u(1023u));
-    let noise = fract(52.9829189 * fract(dot(texel, vec2f(0.06711056, 0.00583715))));
+    let noise = pixel_noise(texel);
     return alpha_of(in) > noise;
 }
 

@@ -92,12 +92,6 @@ impl ShadowTechnique for Esm {
         let falloff = Falloff { per_metre: 1.0 / settings.falloff_m };
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Uniform(frame.uniform(bytemuck::bytes_of(&falloff))));
-        Ok(ShadowOutputs {
-            bindings,
-            debug_light: maps.main_light,
-            debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
-            unshadowed: maps.unshadowed,
-            ..ShadowOutputs::default()
-        })
+        Ok(maps.outputs(bindings))
     }
 }

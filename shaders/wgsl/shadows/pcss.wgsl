@@ -1,10 +1,11 @@
 // The filter of the technique `pcss`: edges as wide as the light's size makes them (Fernando, "Percentage-Closer Soft Shadows",
 // 2005). Taps lie on a Vogel spiral that is turned from pixel to pixel.
 #define_import_path shadowgraph::shadows::filter
+#import shadowgraph::noise::pixel_noise
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::tent::tent_depth
-#import shadowgraph::shadows::tiles::{shadow_views, pixel_noise}
+#import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
 // 20 bytes.

@@ -1,5 +1,6 @@
 // Finds the tiles of shadow maps that a point is read from, and how much each of them counts.
 #define_import_path shadowgraph::shadows::tiles
+#import shadowgraph::noise::pixel_noise
 #import shadowgraph::receiver::{Receiver, RECEIVER_COARSER}
 #import shadowgraph::shadows::lookup::{Lookup, look_up}
 #import shadowgraph::shadows::types::{
@@ -80,11 +81,6 @@ fn inner_part(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction: 
     let to_edge = min(lookup.uv - shadow_view.uv_min, shadow_view.uv_max - lookup.uv) / size;
     let depth = lookup.plane.depth;
     return saturate(2.0 * min(min(to_edge.x, to_edge.y), min(depth, 1.0 - depth)) / fraction);
-}
-
-// Interleaved gradient noise, 0 up to 1: Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014.
-fn pixel_noise(pixel: vec2f) -> f32 {
-    return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
 }
 
 // How much of the shadows is left at this distance: all of it before the fade begins, nothing at its end.

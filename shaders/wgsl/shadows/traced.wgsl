@@ -1,6 +1,7 @@
 // How much of a light is seen, by rays.
 #define_import_path shadowgraph::shadows::traced
 #import shadowgraph::view::{view, lights, LIGHT_DIRECTIONAL}
+#import shadowgraph::noise::pixel_noise
 #import shadowgraph::rays::{ray_blocked, ray_origin, RAY_FAR, RAY_WAY_TO_LIGHT}
 
 struct Traced {
@@ -48,8 +49,7 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
     }
     let disc = across(to_middle / distance);
     let radius = select(traced.lamp_radius, traced.sun_radius, is_sun);
-    // Interleaved gradient noise (Jimenez 2014).
-    let turn = TURN * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+    let turn = TURN * pixel_noise(pixel);
     var seen = 0.0;
     for (var i = 0u; i < traced.rays; i++) {
         var way = to_middle;

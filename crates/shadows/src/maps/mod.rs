@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use cache::CachedMap;
 use shadowgraph_core::{Buffer, Frame, Texture};
 
-use crate::technique::ShadowBinding;
+use crate::technique::{ShadowBinding, ShadowOutputs};
 use crate::{
     Allotment, Error, Needs, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TileRect, Unshadowed,
     caster_view_layout, plan_shadows_after,
@@ -138,6 +138,18 @@ impl DrawnMaps {
             ShadowBinding::Texture(self.cascades.texture.clone()),
             ShadowBinding::Texture(self.atlas.texture.clone()),
         ]
+    }
+
+    /// Returns what a technique of these maps gives to a frame, with its bindings: variant 0, no mask, and the maps to look at.
+    #[must_use]
+    pub fn outputs<'f>(self, bindings: Vec<ShadowBinding<'f>>) -> ShadowOutputs<'f> {
+        ShadowOutputs {
+            bindings,
+            debug_light: self.main_light,
+            debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
+            unshadowed: self.unshadowed,
+            ..ShadowOutputs::default()
+        }
     }
 }
 

@@ -28,14 +28,7 @@ impl Pcf {
         let maps = frame.node("shadows", |frame| self.maps.add_fitted(frame, inputs, needs, fit))?;
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Sampler(&self.sampler));
-        Ok(ShadowOutputs {
-            variant: maps.variant.index(),
-            debug_light: maps.main_light,
-            mask: None,
-            debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
-            bindings,
-            unshadowed: maps.unshadowed,
-        })
+        Ok(ShadowOutputs { variant: maps.variant.index(), ..maps.outputs(bindings) })
     }
 
     /// Creates what stays the same for all frames.

@@ -78,6 +78,12 @@ impl MomentRules {
         self.downscale as f32 * (self.radius as f32 + 1.5 * coarsest as f32)
     }
 
+    /// What a technique with these rules needs.
+    fn needs(&self, inputs: &ShadowInputs<'_>) -> Needs {
+        let needs = plan::needs(inputs.settings);
+        Needs { kernel_radius_texels: needs.kernel_radius_texels.max(self.reach_texels()), ..needs }
+    }
+
     /// Checks what all settings of moments have in common.
     fn validate(&self) -> Result<(), Error> {
         in_range("bleed", self.bleed, 0.0, 0.95, "0 to 0.95 (part of the light)")?;
@@ -113,10 +119,7 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        let needs = plan::needs(inputs.settings);
-        let own: S = inputs.settings.techniques.get()?;
-        let reach = own.rules().reach_texels();
-        Ok(Needs { kernel_radius_texels: needs.kernel_radius_texels.max(reach), ..needs })
+        Ok(inputs.settings.techniques.get::<S>()?.rules().needs(inputs))
     }
 
     fn variant_count(&self) -> u32 {
@@ -142,8 +145,9 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
         inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let (needs, own) = (self.needs(inputs)?, inputs.settings.techniques.get::<S>()?);
+        let own: S = inputs.settings.techniques.get()?;
         let (layout, rules) = (own.layout(), own.rules());
+        let needs = rules.needs(inputs);
         frame.node("shadows", |frame| {
             let maps = self.maps.add_to(frame, inputs, &needs)?;
             let block = frame.uniform(bytemuck::bytes_of(&rules));
@@ -151,20 +155,14 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
                 |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &rules, block));
             let cascades = of("cascade moments", &maps.cascades);
             let atlas = of("atlas moments", &maps.atlas);
-            Ok(ShadowOutputs {
-                variant: layout,
-                debug_light: maps.main_light,
-                bindings: vec![
-                    ShadowBinding::Buffer(maps.views),
-                    ShadowBinding::Buffer(maps.lights),
-                    ShadowBinding::Texture(cascades),
-                    ShadowBinding::Texture(atlas),
-                    ShadowBinding::Uniform(block),
-                ],
-                mask: None,
-                debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
-                unshadowed: maps.unshadowed,
-            })
+            let bindings = vec![
+                ShadowBinding::Buffer(maps.views.clone()),
+                ShadowBinding::Buffer(maps.lights.clone()),
+                ShadowBinding::Texture(cascades),
+                ShadowBinding::Texture(atlas),
+                ShadowBinding::Uniform(block),
+            ];
+            Ok(ShadowOutputs { variant: layout, ..maps.outputs(bindings) })
         })
     }
 }

@@ -53,15 +53,19 @@ impl Pcss {
     }
 }
 
+/// What it needs with these settings of its own.
+fn needs(inputs: &ShadowInputs<'_>, own: &PcssSettings) -> Needs {
+    let needs = plan::needs(inputs.settings);
+    Needs { kernel_radius_texels: needs.kernel_radius_texels.max(own.most_texels), ..needs }
+}
+
 impl ShadowTechnique for Pcss {
     fn name(&self) -> &str {
         PcssSettings::NAME
     }
 
     fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        let needs = plan::needs(inputs.settings);
-        let own: PcssSettings = inputs.settings.techniques.get()?;
-        Ok(Needs { kernel_radius_texels: needs.kernel_radius_texels.max(own.most_texels), ..needs })
+        Ok(needs(inputs, &inputs.settings.techniques.get()?))
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
@@ -83,18 +87,12 @@ impl ShadowTechnique for Pcss {
         inputs: &ShadowInputs<'f>,
         _screen: Option<&Screen>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let (needs, own) = (self.needs(inputs)?, inputs.settings.techniques.get()?);
+        let own = inputs.settings.techniques.get()?;
+        let needs = needs(inputs, &own);
         let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, &needs))?;
         let soft = frame.uniform(bytemuck::bytes_of(&SoftLights::new(&own)));
         let mut bindings = maps.bindings();
         bindings.extend([ShadowBinding::Sampler(&self.sampler), ShadowBinding::Uniform(soft)]);
-        Ok(ShadowOutputs {
-            variant: 0,
-            debug_light: maps.main_light,
-            mask: None,
-            debug: vec![("cascades", maps.cascades.texture), ("atlas", maps.atlas.texture)],
-            bindings,
-            unshadowed: maps.unshadowed,
-        })
+        Ok(maps.outputs(bindings))
     }
 }
