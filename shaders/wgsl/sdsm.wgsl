@@ -3,7 +3,7 @@
 #import shadowgraph::view::{view, view_depth_of}
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, NOT_A_CASCADE}
 
-// 32 bytes.
+// 40 bytes.
 struct Fit {
     // How many views there are; those of cascades come first.
     views: u32,
@@ -18,6 +18,8 @@ struct Fit {
     // View depths where shadows begin and end, metres.
     nearest: f32,
     farthest: f32,
+    // Above 1 the nearer cascades are shorter.
+    nearness: f32,
 }
 
 // Of surfaces in a cascade, on the light's axes; coded so that whole numbers have the order of the floats.
@@ -85,7 +87,7 @@ fn cs_depths(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
 fn split(index: u32) -> f32 {
     let first = bitcast<f32>(atomicLoad(&depths[0]));
     let last = bitcast<f32>(atomicLoad(&depths[1])) * 1.0001;
-    let part = f32(index + 1u) / f32(fit.cascades);
+    let part = pow(f32(index + 1u) / f32(fit.cascades), fit.nearness);
     let by_ratio = first * pow(last / first, part);
     return mix(mix(first, last, part), by_ratio, fit.lambda);
 }

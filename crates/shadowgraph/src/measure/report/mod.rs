@@ -13,5 +13,5 @@ pub use bounds::{Bound, Bounds};
 pub use data::{CaseReport, Cost, Flicker, Motion, PictureFiles, Report};
 pub use metric::{METRICS, Metric, metric};
 pub use page::page;
-pub use summary::{mean, measured, off, techniques, worst};
+pub use summary::{Compared, compared, mean, measured, off, techniques, worst};
 pub use table::table;

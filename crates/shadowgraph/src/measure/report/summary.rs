@@ -1,5 +1,7 @@
 //! What all cases of a technique come to.
 
+use std::cmp::Ordering;
+
 use super::data::{CaseReport, Report};
 use super::metric::{METRICS, Metric};
 
@@ -42,6 +44,36 @@ pub fn worst<'r>(report: &'r Report, technique: &str, metric: &Metric) -> Option
 #[must_use]
 pub fn off(metric: &Metric, value: f64) -> f64 {
     if metric.name == "edge_width_ratio" { value.max(value.recip()) - 1.0 } else { value }
+}
+
+/// How a technique's cases compare with another one's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Compared {
+    /// How many cases both have a value in.
+    pub cases: usize,
+    /// In how many of them the technique is less [`off`].
+    pub better: usize,
+    /// In how many of them both are as far off.
+    pub equal: usize,
+}
+
+/// Compares a technique's values with another one's, case by case.
+#[must_use]
+pub fn compared(report: &Report, technique: &str, other: &str, metric: &Metric) -> Compared {
+    let place = |case: &CaseReport| [&case.scene, &case.light, &case.view].map(String::clone);
+    let others: Vec<_> = values(report, other, metric).map(|(case, value)| (place(case), value)).collect();
+    let mut compared = Compared::default();
+    for (case, value) in values(report, technique, metric) {
+        let at = place(case);
+        let Some((_, other)) = others.iter().find(|(place, _)| *place == at) else { continue };
+        compared.cases += 1;
+        match off(metric, value).total_cmp(&off(metric, *other)) {
+            Ordering::Less => compared.better += 1,
+            Ordering::Equal => compared.equal += 1,
+            Ordering::Greater => {}
+        }
+    }
+    compared
 }
 
 /// A value with its metric's decimals, a dash if there is none.
@@ -100,6 +132,20 @@ mod tests {
         let width = metric("edge_width_ratio").unwrap();
         assert_eq!(off(width, 2.0), off(width, 0.5));
         assert_eq!(worst(&report, "pcf", width).unwrap().1, 0.25);
+    }
+
+    #[test]
+    fn techniques_are_compared_in_the_cases_that_both_have() {
+        let mut report =
+            fixture::report(&[("pcf", 1.0), ("a", 0.5), ("pcf", 1.0), ("a", 1.0), ("pcf", 1.0), ("a", 2.0)]);
+        for (index, case) in report.cases.iter_mut().enumerate() {
+            case.view = format!("view {}", index / 2);
+        }
+        let wrong = metric("wrong_percent").unwrap();
+        assert_eq!(compared(&report, "a", "pcf", wrong), Compared { cases: 3, better: 1, equal: 1 });
+        report.cases.remove(0);
+        assert_eq!(compared(&report, "a", "pcf", wrong), Compared { cases: 2, better: 0, equal: 1 });
+        assert_eq!(compared(&report, "none", "pcf", wrong), Compared::default());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::data::{CaseReport, Report};
 use super::metric::{Metric, metric};
-use super::summary::{mean, measured, off, shown, techniques, worst};
+use super::summary::{Compared, compared, mean, measured, off, shown, techniques, worst};
 
 /// The columns of the terminal.
 const WIDTH: usize = 130;
@@ -45,7 +45,7 @@ pub fn table(report: &Report) -> String {
             widths.write(&mut out, row);
         }
     }
-    out + "\nworst cases\n" + &worst_cases(report, widths.names[3])
+    out + &comparison(report, widths.names[3]) + "\nworst cases\n" + &worst_cases(report, widths.names[3])
 }
 
 /// A line of the table: scene, light, view and technique, and the numbers.
@@ -78,6 +78,26 @@ fn summary_rows(report: &Report, metrics: &[&Metric]) -> Vec<Row> {
         [mean, row("worst", technique, &|metric| worst(report, technique, metric).map(|(_, value)| value))]
     };
     techniques(report).into_iter().flat_map(both).collect()
+}
+
+/// In how many cases techniques have fewer pixels on the wrong side than the first one; nothing where there is but one.
+fn comparison(report: &Report, technique_width: usize) -> String {
+    let techniques = techniques(report);
+    let (Some((first, others)), Some(metric)) = (techniques.split_first(), metric("wrong_total_percent"))
+    else {
+        return String::new();
+    };
+    if others.is_empty() {
+        return String::new();
+    }
+    let name = |technique: &str| cut(&clean(technique), technique_width);
+    let mut out = format!("\n{} below that of {}\n", metric.name, name(first));
+    for technique in others {
+        let Compared { cases, better, equal } = compared(report, technique, first, metric);
+        let name = name(technique);
+        let _ = writeln!(out, "  {name:<technique_width$}  in {better} of {cases} cases, as high in {equal}");
+    }
+    out
 }
 
 fn worst_cases(report: &Report, technique_width: usize) -> String {
@@ -197,6 +217,17 @@ mod tests {
             "{text}"
         );
         assert!(text.lines().any(|line| line.ends_with(" 0.000  all cases")), "{text}");
+    }
+
+    #[test]
+    fn techniques_are_compared_with_the_first() {
+        let mut report = fixture::report(&[("a", 1.0), ("b", 1.0)]);
+        report.cases[1].view = report.cases[0].view.clone();
+        report.cases[1].errors.misclassified.total.wrong_percent = -1.0;
+        let text = table(&report);
+        assert!(text.contains("\nwrong_total_percent below that of a\n  b"), "{text}");
+        assert!(text.contains("  in 1 of 1 cases, as high in 0\n"), "{text}");
+        assert!(!table(&fixture::report(&[("a", 1.0)])).contains("below that of"));
     }
 
     #[test]

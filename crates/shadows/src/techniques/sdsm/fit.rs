@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Frame, Uniform};
 use shadowgraph_shaders::compose;
 
+use super::SdsmSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{Screen, layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
@@ -33,6 +34,8 @@ struct Fit {
     map_size_px: [f32; 2],
     nearest: f32,
     farthest: f32,
+    nearness: f32,
+    unused: u32,
 }
 
 /// The passes and their bindings.
@@ -69,7 +72,7 @@ impl GpuFit {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'_>,
-        (screen, lambda): (&Screen, f32),
+        (screen, own): (&Screen, &SdsmSettings),
         plan: &ShadowPlan,
         [views, lights]: [&Buffer; 2],
     ) -> Buffer {
@@ -81,10 +84,12 @@ impl GpuFit {
             views: plan.views.len() as u32,
             cascades: count,
             lights: map.tiles.len() as u32 / count,
-            lambda,
+            lambda: own.lambda,
             map_size_px: map.size_px.map(|side| side as f32),
             nearest: inputs.camera.near() as f32,
             farthest: plan.lights.iter().map(|light| light.fade_end_m).fold(0.0, f32::max),
+            nearness: own.nearness,
+            unused: 0,
         };
         // Least and greatest, as nothing has changed them yet.
         let no_depths = vec![[u32::MAX, 0]];
@@ -167,6 +172,7 @@ mod tests {
             ("map_size_px", offset_of!(Fit, map_size_px)),
             ("nearest", offset_of!(Fit, nearest)),
             ("farthest", offset_of!(Fit, farthest)),
+            ("nearness", offset_of!(Fit, nearness)),
         ];
         layout::check(&module, "Fit", size_of::<Fit>(), &fields).unwrap();
     }

@@ -69,7 +69,7 @@ impl ShadowTechnique for Sdsm {
         let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name().into() })?;
         let (needs, own) = (self.needs(inputs)?, inputs.settings.techniques.get::<SdsmSettings>()?);
         self.pcf.add_fitted(frame, inputs, &needs, |frame, plan, views, lights| {
-            self.fit.add_to(frame, inputs, (screen, own.lambda), plan, [views, lights])
+            self.fit.add_to(frame, inputs, (screen, &own), plan, [views, lights])
         })
     }
 }
