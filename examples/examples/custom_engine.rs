@@ -14,8 +14,8 @@ use shadowgraph::output::{Pixels, write_png};
 use shadowgraph::scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection};
 use shadowgraph::shaders::{ModuleSource, compose_source};
 use shadowgraph::shadows::{
-    CasterTarget, CasterView, PCF, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique, Technique,
-    TechniqueContext, add_shadows, caster_view_layout, shadow_layout,
+    CasterPass, CasterTarget, CasterView, PCF, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique,
+    Technique, TechniqueContext, add_shadows, caster_view_layout, shadow_layout,
 };
 
 const SIZE_PX: [u32; 2] = [640, 360];
@@ -173,7 +173,10 @@ impl ShadowCasters for Engine {
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) {
         // A sun is all that this engine has: one format, one kind of view.
-        debug_assert_eq!(view.target, CasterTarget { format: Format::Depth32Float, perspective: false });
+        debug_assert_eq!(
+            view.target,
+            CasterTarget { pass: CasterPass::Depth, format: Format::Depth32Float, perspective: false }
+        );
         pass.set_pipeline(&self.caster);
         pass.set_bind_group(1, &self.caster_boxes, &[]);
         casters.iter().for_each(|&caster| pass.draw(0..36, caster..caster + 1));

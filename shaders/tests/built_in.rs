@@ -101,6 +101,8 @@ fn entry_points_have_the_names_that_pipelines_use() {
             "fs_clamp",
             "fs_mask_clamp",
             "fs_dither_clamp",
+            "fs_tint",
+            "fs_tint_clamp",
         ]
     );
     assert_eq!(names("forward.wgsl"), ["vs_forward", "fs_forward"]);

@@ -1,11 +1,12 @@
-// Depth only: the prepass and the shadow maps.
+// Depth, and the colour of light behind translucent casters: the prepass and the shadow maps.
 //
 //   opaque        vs_depth, no fragment stage
 //   with holes    vs_depth, fs_mask
 //   dithered      vs_depth, fs_dither
+//   translucent   vs_depth, fs_tint: its colour multiplies the target, its depth is not written
 //   casters before the near plane are kept at depth 1:
 //     the device clamps (unclipped_depth)      as above
-//     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp or fs_dither_clamp
+//     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp, fs_dither_clamp or fs_tint_clamp
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
 #import shadowgraph::material::{TextureCoordinates, base_color, hole_cutoff}
@@ -48,8 +49,19 @@ fn vs_depth_clamp(vertex: Vertex) -> DepthVertex {
     return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
 }
 
+fn color_of(in: DepthVertex) -> vec4f {
+    return base_color(TextureCoordinates(in.uv_first, in.uv_second), in.color);
+}
+
 fn alpha_of(in: DepthVertex) -> f32 {
-    return base_color(TextureCoordinates(in.uv_first, in.uv_second), in.color).a;
+    return color_of(in).a;
+}
+
+// What of the light passes: what gets past the surface, in its colour the more the denser it is.
+fn passed(in: DepthVertex) -> vec4f {
+    let color = color_of(in);
+    let alpha = saturate(color.a);
+    return vec4f((1.0 - alpha) * mix(vec3f(1.0), saturate(color.rgb), alpha * (2.0 - alpha)), 1.0);
 }
 
 fn covers(in: DepthVertex) -> bool {
@@ -106,4 +118,19 @@ fn fs_dither_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
         discard;
     }
     return depth;
+}
+
+@fragment
+fn fs_tint(in: DepthVertex) -> @location(0) vec4f {
+    return passed(in);
+}
+
+struct ClampedTint {
+    @builtin(frag_depth) depth: f32,
+    @location(0) passed: vec4f,
+}
+
+@fragment
+fn fs_tint_clamp(in: DepthVertex) -> ClampedTint {
+    return ClampedTint(clamped_depth(in), passed(in));
 }

@@ -12,7 +12,7 @@ struct RayNode {
 // 48 bytes, metres relative to the frame's origin.
 struct RayTriangle {
     a: vec3f,
-    // RAY_NONE: no holes.
+    // RAY_NONE: no light passes.
     cut: u32,
     b: vec3f,
     unused_b: u32,
@@ -20,22 +20,25 @@ struct RayTriangle {
     unused_c: u32,
 }
 
-// Where a triangle has holes, 48 bytes.
+// Where light passes through a triangle, 64 bytes.
 struct RayCut {
     uv_a: vec2f,
     uv_b: vec2f,
     uv_c: vec2f,
-    // RAY_NONE: alpha is the factor alone.
+    // Its alpha channel, before red, green and blue if it tints. RAY_NONE: the factor alone.
     texture: u32,
-    // Alpha below this is a hole.
+    // Alpha below this is a hole. RAY_TINT: none is, but light is coloured.
     cutoff: f32,
     // The factor of each corner.
     alpha: vec3f,
-    unused: u32,
+    unused_alpha: u32,
+    // The factor of each corner: red in the lowest byte, green, blue.
+    color: vec3u,
+    unused_color: u32,
 }
 
 // 16 bytes.
-struct RayAlphaTexture {
+struct RayTexture {
     first_texel: u32,
     width: u32,
     height: u32,
@@ -46,11 +49,12 @@ struct RayAlphaTexture {
 @group(1) @binding(0) var<storage, read> ray_nodes: array<RayNode>;
 @group(1) @binding(1) var<storage, read> ray_triangles: array<RayTriangle>;
 @group(1) @binding(2) var<storage, read> ray_cuts: array<RayCut>;
-@group(1) @binding(3) var<storage, read> ray_alpha_textures: array<RayAlphaTexture>;
+@group(1) @binding(3) var<storage, read> ray_textures: array<RayTexture>;
 // Four to a word, the first in its lowest byte.
-@group(1) @binding(4) var<storage, read> ray_alpha_texels: array<u32>;
+@group(1) @binding(4) var<storage, read> ray_texels: array<u32>;
 
 const RAY_NONE: u32 = 0xffffffffu;
+const RAY_TINT: f32 = -1.0;
 const RAY_WRAP_REPEAT: u32 = 0u;
 const RAY_WRAP_MIRROR: u32 = 1u;
 const RAY_BILINEAR: u32 = 16u;
@@ -141,15 +145,15 @@ fn ray_inside(index: i32, size: i32, wrap: u32) -> u32 {
     return u32(clamp(index, 0, size - 1));
 }
 
-fn ray_texel(image: RayAlphaTexture, x: i32, y: i32) -> f32 {
+fn ray_texel(image: RayTexture, x: i32, y: i32) -> f32 {
     let column = ray_inside(x, i32(image.width), image.sampling & 3u);
     let row = ray_inside(y, i32(image.height), (image.sampling >> 2u) & 3u);
     let index = image.first_texel + row * image.width + column;
-    let word = ray_alpha_texels[index >> 2u];
+    let word = ray_texels[index >> 2u];
     return f32((word >> (8u * (index & 3u))) & 255u) * (1.0 / 255.0);
 }
 
-fn ray_alpha(image: RayAlphaTexture, uv: vec2f) -> f32 {
+fn ray_value(image: RayTexture, uv: vec2f) -> f32 {
     let folded = vec2f(
         ray_folded(uv.x, image.sampling & 3u), ray_folded(uv.y, (image.sampling >> 2u) & 3u));
     let at = folded * vec2f(f32(image.width), f32(image.height));
@@ -167,21 +171,37 @@ fn ray_alpha(image: RayAlphaTexture, uv: vec2f) -> f32 {
     return top + (bottom - top) * part.y;
 }
 
-fn ray_is_hole(index: u32, weights: vec3f) -> bool {
+// What one of a triangle's channels has where it is hit.
+fn ray_channel(cut: RayCut, channel: u32, weights: vec3f) -> f32 {
+    if cut.texture == RAY_NONE {
+        return 1.0;
+    }
+    let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
+    return ray_value(ray_textures[cut.texture + channel], uv);
+}
+
+// Whether a triangle stops light where it is hit; if it does not, what it leaves of it.
+fn ray_stops(index: u32, weights: vec3f, passed: ptr<function, vec3f>) -> bool {
     if index == RAY_NONE {
-        return false;
+        return true;
     }
     let cut = ray_cuts[index];
     var alpha = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
-    if cut.texture != RAY_NONE {
-        let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
-        alpha *= ray_alpha(ray_alpha_textures[cut.texture], uv);
+    alpha *= ray_channel(cut, 0u, weights);
+    if cut.cutoff != RAY_TINT {
+        return alpha >= cut.cutoff;
     }
-    return alpha < cut.cutoff;
+    let texture = vec3f(
+        ray_channel(cut, 1u, weights), ray_channel(cut, 2u, weights), ray_channel(cut, 3u, weights));
+    let corners = mat3x3f(
+        unpack4x8unorm(cut.color.x).rgb, unpack4x8unorm(cut.color.y).rgb, unpack4x8unorm(cut.color.z).rgb);
+    alpha = saturate(alpha);
+    *passed *= (1.0 - alpha) * mix(vec3f(1.0), corners * weights * texture, alpha * (2.0 - alpha));
+    return false;
 }
 
 // The test of Woop, Benthin and Wald (Watertight Ray/Triangle Intersection, JCGT 2013), from both sides.
-fn ray_meets(ray: ShadowRay, triangle: RayTriangle) -> bool {
+fn ray_meets(ray: ShadowRay, triangle: RayTriangle, passed: ptr<function, vec3f>) -> bool {
     let a = ray_sheared(ray, triangle.a);
     let b = ray_sheared(ray, triangle.b);
     let c = ray_sheared(ray, triangle.c);
@@ -195,28 +215,30 @@ fn ray_meets(ray: ShadowRay, triangle: RayTriangle) -> bool {
     }
     let weights = areas / area;
     let t = weights.x * a.z + weights.y * b.z + weights.z * c.z;
-    return t >= ray.min_t && t < ray.max_t && !ray_is_hole(triangle.cut, weights);
+    return t >= ray.min_t && t < ray.max_t && ray_stops(triangle.cut, weights, passed);
 }
 
-fn ray_meets_any(ray: ShadowRay, node: RayNode) -> bool {
+fn ray_meets_any(ray: ShadowRay, node: RayNode, passed: ptr<function, vec3f>) -> bool {
     for (var i = 0u; i < node.count; i++) {
-        if ray_meets(ray, ray_triangles[node.first + i]) {
+        if ray_meets(ray, ray_triangles[node.first + i], passed) {
             return true;
         }
     }
     return false;
 }
 
-// True if anything but holes lies on the ray from `min_t` up to `max_t`, metres, at most RAY_FAR. `direction` has
-// unit length.
-fn ray_blocked(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> bool {
+// What of light passes along the ray from `min_t` up to `max_t`, metres, at most RAY_FAR: 0 if anything lies there but holes and what
+// is translucent. `direction` has unit length.
+fn ray_passed(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> vec3f {
+    var passed = vec3f(1.0);
     let ray = ray_new(origin, direction, min_t, max_t);
     let root = ray_nodes[0];
     if ray_enters(ray, root) >= max_t {
-        return false;
+        return passed;
     }
     if root.count > 0u {
-        return ray_meets_any(ray, root);
+        let is_stopped = ray_meets_any(ray, root, &passed);
+        return select(passed, vec3f(0.0), is_stopped);
     }
     var stack: array<u32, RAY_STACK>;
     var height = 0u;
@@ -239,14 +261,14 @@ fn ray_blocked(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> bool 
         if enters < max_t {
             if node.count == 0u {
                 next = node.first;
-            } else if ray_meets_any(ray, node) {
-                return true;
+            } else if ray_meets_any(ray, node, &passed) {
+                return vec3f(0.0);
             }
         }
         if enters_other < max_t {
             if other.count > 0u {
-                if ray_meets_any(ray, other) {
-                    return true;
+                if ray_meets_any(ray, other, &passed) {
+                    return vec3f(0.0);
                 }
             } else if next == 0u {
                 next = other.first;
@@ -264,5 +286,5 @@ fn ray_blocked(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> bool 
         }
         pair = next;
     }
-    return false;
+    return passed;
 }

@@ -12,11 +12,11 @@ fn cs_raytrace(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, id.xy, 0);
     let normal = unpack_normal(surface.w);
-    var lit = 1.0;
+    var lit = vec3f(1.0);
     if any(normal != vec3f(0.0)) {
         lit = traced_visibility(light_of(id.z), surface.xyz, normal, vec2f(id.xy) + 0.5);
     }
-    textureStore(mask, id.xy, id.z, vec4f(vec3f(lit), 1.0));
+    textureStore(mask, id.xy, id.z, vec4f(lit, 1.0));
 }
 
 // The light that has a layer.

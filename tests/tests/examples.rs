@@ -107,7 +107,9 @@ fn window_without_a_display_ends_with_one_line() {
 #[test]
 fn examples_stay_short() {
     let lines = |file: &str| std::fs::read_to_string(repository().join(file)).unwrap().lines().count();
-    for (file, most) in [("custom.rs", 150), ("window.rs", 150), ("custom_engine.rs", 250)] {
+    for (file, most) in
+        [("custom.rs", 150), ("window.rs", 150), ("stained_glass.rs", 60), ("custom_engine.rs", 250)]
+    {
         let count = lines(&format!("examples/examples/{file}"));
         assert!(count < most, "{file} has {count} lines");
     }
@@ -125,6 +127,24 @@ fn an_engine_of_ones_own_gets_shadows_on_its_own_boxes() {
     // The ground in the light, in a step's shadow, and the sky.
     let [lit, dark, sky] = [(560, 300), (270, 245), (20, 20)].map(|(x, y)| pixel(&picture, x, y));
     assert!(lit[0] > 190 && dark[0] < 110 && sky[2] > sky[0] + 40, "{lit:?} {dark:?} {sky:?}");
+}
+
+#[test]
+fn stained_glass_colours_the_floor_by_maps_and_by_rays() {
+    let folder = tempfile::tempdir().unwrap();
+    for technique in ["pcf", "raytraced"] {
+        let outcome = run(Command::new(example("stained_glass")).arg(technique).current_dir(folder.path()));
+        assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+        let file = folder.path().join(format!("out/stained_glass_{technique}.png"));
+        let picture = image::open(file).unwrap().into_rgba8();
+        // Behind the panes that are red, green and blue.
+        for (channel, (x, y)) in [(370, 330), (400, 395), (520, 410)].into_iter().enumerate() {
+            let [red, green, blue, _] = pixel(&picture, x, y);
+            let others = [red, green, blue].into_iter().enumerate().filter(|(other, _)| *other != channel);
+            let most = others.map(|(_, value)| value).max().unwrap();
+            assert!([red, green, blue][channel] > most + 15, "{technique}: {red} {green} {blue} at {x}, {y}");
+        }
+    }
 }
 
 #[test]

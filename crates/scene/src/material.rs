@@ -25,7 +25,7 @@ pub struct Material {
     pub double_sided: bool,
     /// Whether the base colour is shown as it is, without lighting. It casts shadows all the same.
     pub unlit: bool,
-    /// What shadow it casts; `None`: as its alpha says, `On` where alpha is ignored, else `Clip`.
+    /// What shadow it casts; `None`: as its alpha says, `On` where alpha is ignored, `Clip` where it cuts, `Tint` where it blends.
     pub casts: Option<CasterMode>,
     /// Whether others' shadows fall on it.
     pub receives_shadows: bool,
@@ -70,8 +70,11 @@ impl Material {
     /// Returns what shadow it casts.
     #[must_use]
     pub fn caster_mode(&self) -> CasterMode {
-        let by_alpha = if self.alpha == AlphaMode::Opaque { CasterMode::On } else { CasterMode::Clip };
-        self.casts.unwrap_or(by_alpha)
+        self.casts.unwrap_or(match self.alpha {
+            AlphaMode::Opaque => CasterMode::On,
+            AlphaMode::Mask { .. } => CasterMode::Clip,
+            AlphaMode::Blend => CasterMode::Tint,
+        })
     }
 }
 
@@ -84,6 +87,9 @@ pub enum CasterMode {
     Clip,
     /// One as dense as its alpha: the larger it is, the more texels of a shadow map it fills, by a pattern of noise.
     Dither,
+    /// A coloured one: where alpha is a and the colour c, the part `(1 - a) * mix(1, c, a * (2 - a))` of the light passes. So much
+    /// gets past the surface, in its colour the more the denser it is; what is wholly opaque stops all of it.
+    Tint,
     /// None.
     Off,
 }

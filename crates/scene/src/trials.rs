@@ -1,5 +1,9 @@
 //! Small scenes made by code whose shadows are known to be hard for shadow maps, to measure them by.
 
+mod stained_glass;
+
+pub use stained_glass::stained_glass;
+
 use glam::{DAffine3, DVec2, DVec3, Vec3, Vec4};
 
 use crate::solids::round::{lathe, sphere};
@@ -219,5 +223,13 @@ mod tests {
         assert!((direction - DVec3::new(0.0, -0.5, -(0.75f64.sqrt()))).length() < 1e-12, "{direction}");
         let LightKind::Directional { direction } = sun(90.0, 0.0).kind else { unreachable!() };
         assert!((direction - DVec3::NEG_Y).length() < 1e-12, "{direction}");
+    }
+
+    #[test]
+    fn stained_glass_casts_coloured_shadows_and_stone_does_not() {
+        let scene = stained_glass();
+        let tints = |i: &&Instance| scene.materials[i.material].caster_mode() == crate::CasterMode::Tint;
+        assert_eq!(scene.instances.iter().filter(tints).count(), 8);
+        assert_eq!((scene.lights.len(), scene.cameras.len(), scene.instances.len()), (2, 1, 11));
     }
 }

@@ -2,7 +2,7 @@
 
 use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, Draw, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
-use shadowgraph_shadows::{CasterView, DepthFormat, ShadowCasters};
+use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, ShadowCasters, TINT_FORMAT};
 
 use crate::Error;
 
@@ -29,14 +29,14 @@ impl SceneCasters {
         Self::with_target(device, scene, &target)
     }
 
-    /// Draws the casters in another way than usual; the format of `target` is not looked at.
+    /// Draws the casters in another way than usual; the formats of `target` are not looked at.
     ///
     /// # Errors
     /// If a shader does not compose.
     pub fn with_target(device: &wgpu::Device, scene: GpuScene, target: &DepthTarget) -> Result<Self, Error> {
         let pipelines = |depth: DepthFormat| {
             let format = depth.texture_format();
-            let target = DepthTarget { format, ..*target };
+            let target = DepthTarget { format, tint_format: TINT_FORMAT, ..*target };
             Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
@@ -78,6 +78,10 @@ impl ShadowCasters for SceneCasters {
         Some(0)
     }
 
+    fn tints(&self, caster: u32) -> bool {
+        self.scene.draw_of(caster).is_some_and(|draw| draw.casts == CasterMode::Tint)
+    }
+
     fn receivers(&self) -> Aabb {
         self.scene.all_bounds()
     }
@@ -91,6 +95,10 @@ impl ShadowCasters for SceneCasters {
         // Maps have no other formats.
         let Some((_, pipelines)) = made else { return };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
-        self.scene.draw(pass, draws, &|draw| pipelines.get(draw.casts));
+        self.scene.draw(pass, draws, &|draw| match view.target.pass {
+            CasterPass::Depth => pipelines.get(draw.casts),
+            CasterPass::TintDepth => Some(pipelines.solid()),
+            CasterPass::Tint => Some(pipelines.tint()),
+        });
     }
 }

@@ -1,15 +1,16 @@
 //! A scene's triangles, as they stop light.
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use shadowgraph_scene::{AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap};
-use shadowgraph_shadows::rays::{self, AlphaTexture, Cut, Occluder, RayScene};
+use shadowgraph_shadows::rays::{self, ChannelTexture, Cut, Occluder, RayScene, Surface, Tint};
 
 use shadowgraph_shadows::Error;
 
-/// Blended surfaces stop light where they are more than half opaque, as they do in shadow maps.
-const BLEND_CUTOFF: f32 = 0.5;
+/// The cutoff of surfaces whose material names none.
+const HALF: f32 = 0.5;
 
-/// Makes the tree of a scene's triangles, relative to `origin_world`. What is alpha-cut has its holes.
+/// Makes the tree of a scene's triangles, relative to `origin_world`. What is alpha-cut has its holes, what is
+/// translucent its colours.
 ///
 /// # Errors
 /// More triangles than the tree can number.
@@ -25,13 +26,14 @@ pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> 
         if material.caster_mode() == CasterMode::Off {
             continue;
         }
-        let holes = Holes::of(material, scene, &mut textures)?;
+        let skin = Skin::of(material, scene, &mut textures)?;
         for triangle in mesh.indices.chunks_exact(3) {
             let vertices =
                 [triangle[0], triangle[1], triangle[2]].map(|index| mesh.vertices.get(index as usize));
             let [Some(a), Some(b), Some(c)] = vertices else { continue };
             let corners = [a, b, c].map(|vertex| position(instance, vertex, origin_world));
-            occluders.push(Occluder { corners, cut: holes.as_ref().map(|holes| holes.cut([a, b, c])) });
+            let surface = skin.as_ref().map_or(Surface::Opaque, |skin| skin.surface([a, b, c]));
+            occluders.push(Occluder { corners, surface });
         }
     }
     Ok(RayScene::new(&occluders, textures.all)?)
@@ -42,36 +44,39 @@ fn position(instance: &Instance, vertex: &Vertex, origin_world: DVec3) -> Vec3 {
     (instance.world_from_local.transform_point3(local) - origin_world).as_vec3()
 }
 
-/// Where a material has holes.
-struct Holes {
-    cutoff: f32,
-    alpha: f32,
+/// What of a material its triangles need.
+struct Skin {
+    /// Below this alpha there are holes; none: light is coloured.
+    cutoff: Option<f32>,
+    color: Vec4,
     texture: Option<(u32, TextureRef)>,
 }
 
-impl Holes {
+impl Skin {
+    /// `None` if no light passes.
     fn of(material: &Material, scene: &Scene, textures: &mut Textures) -> Result<Option<Self>, Error> {
-        if material.caster_mode() == CasterMode::On {
-            return Ok(None);
-        }
-        // A ray meets something or not: what is dithered is cut where more than half of it is left out.
-        let cutoff = match material.alpha {
-            AlphaMode::Mask { cutoff } if material.caster_mode() == CasterMode::Clip => cutoff,
-            _ => BLEND_CUTOFF,
+        let cutoff = match (material.caster_mode(), material.alpha) {
+            (CasterMode::On | CasterMode::Off, _) => return Ok(None),
+            (CasterMode::Tint, _) => None,
+            (CasterMode::Clip, AlphaMode::Mask { cutoff }) => Some(cutoff),
+            // A ray meets something or not: what is dithered is cut where more than half of it is left out.
+            (CasterMode::Clip | CasterMode::Dither, _) => Some(HALF),
         };
+        let channels: &[usize] = if cutoff.is_none() { &[3, 0, 1, 2] } else { &[3] };
         let texture = match material.base_color_texture {
-            Some(used) => textures.get(scene, used)?.map(|index| (index, used)),
+            Some(used) => textures.get(scene, used, channels)?.map(|index| (index, used)),
             None => None,
         };
-        Ok(Some(Self { cutoff, alpha: material.base_color.w, texture }))
+        Ok(Some(Self { cutoff, color: material.base_color, texture }))
     }
 
-    fn cut(&self, vertices: [&Vertex; 3]) -> Cut {
-        Cut {
-            texture: self.texture.map(|(index, _)| index),
-            uv: vertices.map(|vertex| self.texture.map_or(Vec2::ZERO, |(_, used)| uv(vertex, &used))),
-            alpha: vertices.map(|vertex| self.alpha * f32::from(vertex.color[3]) / 255.0),
-            cutoff: self.cutoff,
+    fn surface(&self, vertices: [&Vertex; 3]) -> Surface {
+        let texture = self.texture.map(|(index, _)| index);
+        let uv = vertices.map(|vertex| self.texture.map_or(Vec2::ZERO, |(_, used)| uv(vertex, &used)));
+        let color = vertices.map(|vertex| self.color * Vec4::from(vertex.color.map(f32::from)) / 255.0);
+        match self.cutoff {
+            Some(cutoff) => Surface::Cut(Cut { texture, uv, alpha: color.map(|color| color.w), cutoff }),
+            None => Surface::Tint(Tint { texture, uv, color }),
         }
     }
 }
@@ -82,15 +87,19 @@ fn uv(vertex: &Vertex, used: &TextureRef) -> Vec2 {
     Vec2::new(x, y)
 }
 
-/// Alpha textures, each once.
+/// Channels of textures, each once.
 #[derive(Default)]
 struct Textures {
-    known: Vec<(usize, [rays::Wrap; 2], rays::Filter)>,
-    all: Vec<AlphaTexture>,
+    known: Vec<(Key, u32)>,
+    all: Vec<ChannelTexture>,
 }
 
+/// An image, how it is read, and how many of its channels are.
+type Key = (usize, [rays::Wrap; 2], rays::Filter, usize);
+
 impl Textures {
-    fn get(&mut self, scene: &Scene, used: TextureRef) -> Result<Option<u32>, Error> {
+    /// Returns the index of the first of some channels of a texture; `None` if there is no such image.
+    fn get(&mut self, scene: &Scene, used: TextureRef, channels: &[usize]) -> Result<Option<u32>, Error> {
         let wrap = [used.sampler.wrap_u, used.sampler.wrap_v].map(|wrap| match wrap {
             Wrap::Repeat => rays::Wrap::Repeat,
             Wrap::MirrorRepeat => rays::Wrap::Mirror,
@@ -100,15 +109,26 @@ impl Textures {
             Filter::Nearest => rays::Filter::Nearest,
             Filter::Linear => rays::Filter::Bilinear,
         };
-        let key = (used.image, wrap, filter);
-        if let Some(index) = self.known.iter().position(|known| *known == key) {
-            return Ok(Some(index as u32));
+        let key = (used.image, wrap, filter, channels.len());
+        if let Some((_, index)) = self.known.iter().find(|(known, _)| *known == key) {
+            return Ok(Some(*index));
         }
         let Some(image) = scene.images.get(used.image) else { return Ok(None) };
-        let texels = image.rgba8.chunks_exact(4).map(|texel| texel[3]).collect();
-        let texture = AlphaTexture::new([image.width, image.height], texels, wrap, filter);
-        self.all.push(texture.map_err(shadowgraph_shadows::Error::from)?);
-        self.known.push(key);
-        Ok(Some(self.all.len() as u32 - 1))
+        let first = self.all.len() as u32;
+        for &channel in channels {
+            let value = |texel: &[u8]| if channel == 3 { texel[3] } else { linear(texel[channel]) };
+            let texels = image.rgba8.chunks_exact(4).map(value).collect();
+            let texture = ChannelTexture::new([image.width, image.height], texels, wrap, filter);
+            self.all.push(texture.map_err(shadowgraph_shadows::Error::from)?);
+        }
+        self.known.push((key, first));
+        Ok(Some(first))
     }
+}
+
+/// A channel of sRGB as linear, both 0 to 255.
+fn linear(srgb: u8) -> u8 {
+    let value = f32::from(srgb) / 255.0;
+    let linear = if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) };
+    (linear * 255.0).round() as u8
 }

@@ -29,13 +29,20 @@ pub trait ShadowCasters: Sync {
         None
     }
 
+    /// Tells whether light passes through a caster and takes on its colour. Such ones are drawn in passes of their own: see
+    /// [`CasterPass`].
+    fn tints(&self, caster: u32) -> bool {
+        let _ = caster;
+        false
+    }
+
     /// Returns the bounds of everything that shadows can fall on: cascades end there, if that is before the shadow
     /// distance. By default the bounds of all casters; with surfaces that receive shadows and cast none, theirs too.
     fn receivers(&self) -> Aabb {
         self.bounds()
     }
 
-    /// Draws the depth of the casters into the pass. Viewport, scissor and group 0
+    /// Draws the casters into the pass, as `view.target` says. Viewport, scissor and group 0
     /// ([`caster_view_layout`]) are already set: its matrix `clip_from_world` takes positions relative to the
     /// frame's origin. Leave all of these as they are.
     ///
@@ -44,15 +51,33 @@ pub trait ShadowCasters: Sync {
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]);
 }
 
-/// What a pipeline that draws casters must be made for: depth only, written, compared with
-/// `GreaterEqual` (depth is reversed), one sample, no depth bias (it is applied where the map is read).
+/// What a pipeline that draws casters must be made for: depth compared with `GreaterEqual` (it is reversed), one sample, no
+/// depth bias (it is applied where the map is read).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CasterTarget {
-    /// The map's format.
+    /// What is drawn.
+    pub pass: CasterPass,
+    /// The format of depth.
     pub format: wgpu::TextureFormat,
     /// Whether the view is a spot light's pyramid rather than a box. In both, casters between the light and
     /// the near plane are to be kept with depth 1 (`unclipped_depth`, or its emulation).
     pub perspective: bool,
+}
+
+/// The format of what translucent casters let through.
+pub const TINT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// What of casters is drawn. Without casters that [tint](ShadowCasters::tints) there is only `Depth`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CasterPass {
+    /// The depth of casters that do not tint: written, no colour.
+    #[default]
+    Depth,
+    /// The depth of all surface of casters that tint, however little they do: written, no colour.
+    TintDepth,
+    /// What light passes through casters that tint: the one colour target, of [`TINT_FORMAT`],
+    /// is multiplied by it. Depth is that of `Depth`: tested, not written.
+    Tint,
 }
 
 /// The tile that casters are drawn into.

@@ -42,7 +42,7 @@ pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atla
 pub use basis::light_from_world;
 pub use budget::{BudgetRules, Quality, QualityController};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
-pub use casters::{CasterTarget, CasterView, ShadowCasters, caster_view_layout};
+pub use casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TINT_FORMAT, caster_view_layout};
 pub use cull::{ReceiverHull, Served, ServedCasters, ViewInLight};
 pub use error::Error;
 pub use filter::{Needs, ShadowFilter, filter_taps};

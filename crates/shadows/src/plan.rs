@@ -8,7 +8,7 @@ use crate::planner::Planner;
 use crate::rules::LightRules;
 use crate::techniques::PcfVariant;
 use crate::{
-    Allotment, CasterTarget, CasterView, DepthFormat, Error, Needs, ShadowCasters, ShadowLight,
+    Allotment, CasterPass, CasterTarget, CasterView, DepthFormat, Error, Needs, ShadowCasters, ShadowLight,
     ShadowSettings, ShadowView, TileRect, Unshadowed,
 };
 
@@ -75,16 +75,29 @@ pub struct TilePlan {
     pub part: TilePart,
     /// Viewport and scissor.
     pub rect: TileRect,
-    /// The casters to draw, as [`ShadowCasters::cull`] gave them. Can be empty: cleared means lit.
+    /// The casters to draw, as [`ShadowCasters::cull`] gave them, without those that tint. Can be empty: cleared means lit.
     pub casters: Vec<u32>,
+    /// Those that tint.
+    pub tints: Vec<u32>,
 }
 
 impl TilePlan {
+    /// Returns those that a pass draws.
+    #[must_use]
+    pub fn casters_of(&self, pass: CasterPass) -> &[u32] {
+        if pass == CasterPass::Depth { &self.casters } else { &self.tints }
+    }
+
     /// Describes the tile to those who draw casters into it.
     #[must_use]
-    pub fn caster_view(&self, view: &ShadowView, format: wgpu::TextureFormat) -> CasterView {
+    pub fn caster_view(
+        &self,
+        view: &ShadowView,
+        pass: CasterPass,
+        format: wgpu::TextureFormat,
+    ) -> CasterView {
         CasterView {
-            target: CasterTarget { format, perspective: view.light.w != 0.0 },
+            target: CasterTarget { pass, format, perspective: view.light.w != 0.0 },
             light: self.light,
             part: self.part,
             size_px: [self.rect.width, self.rect.height],

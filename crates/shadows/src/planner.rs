@@ -98,6 +98,11 @@ impl<'a> Planner<'a> {
         casters
     }
 
+    /// Tells casters that tint from the others.
+    fn opaque_and_tints(&self, casters: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
+        casters.into_iter().partition(|&caster| !self.inputs.casters.tints(caster))
+    }
+
     /// Gives a light its views; returns its record for what else there is to say.
     fn set_light(
         &mut self,

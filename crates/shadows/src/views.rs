@@ -51,8 +51,10 @@ pub struct ShadowView {
     /// What is added to a pixel of the map to get its texel in the world, modulo 1024: by it noise stays where it is, while
     /// the tile moves over the world, or is moved in its map.
     pub noise_px: [u32; 2],
+    /// 1: translucent casters are drawn into it, and its tints are read; 0: there are none.
+    pub is_tinted: u32,
     /// Zero.
-    pub reserved: [u32; 4],
+    pub reserved: [u32; 3],
 }
 
 /// Which views a light has and how they are read, 80 bytes. One for each light of the scene, in its order.

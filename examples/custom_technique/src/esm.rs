@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use shadowgraph::core::Frame;
 use shadowgraph::shaders::{MAPPED, ModuleSource};
-use shadowgraph::shadows::binding::{DEPTH_MAP, STORAGE, UNIFORM};
+use shadowgraph::shadows::binding::UNIFORM;
 use shadowgraph::shadows::{
     Error, Needs, Record, Screen, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs, ShadowTechnique,
     TechniqueKind, TechniqueSettings, record,
@@ -72,8 +72,7 @@ impl ShadowTechnique for Esm {
     }
 
     fn binding_types(&self) -> Vec<shadowgraph::wgpu::BindingType> {
-        // The first four are those of the maps.
-        vec![STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, UNIFORM]
+        [&ShadowMaps::BINDING_TYPES[..], &[UNIFORM]].concat()
     }
 
     fn records(&self) -> Vec<Record> {

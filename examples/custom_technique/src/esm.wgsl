@@ -1,16 +1,15 @@
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::maps::{map_size, stored_depth}
 #import shadowgraph::shadows::tiles::shadow_views
-#import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight}
 
 struct Falloff {
     per_metre: f32,
 }
 
-@group(1) @binding(2) var cascade_map: texture_depth_2d;
-@group(1) @binding(3) var atlas_map: texture_depth_2d;
-@group(1) @binding(4) var<uniform> falloff: Falloff;
+@group(1) @binding(8) var<uniform> falloff: Falloff;
 
 // Metres from where the tile's depth begins; depth is reversed, 1 at the light.
 fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
@@ -25,23 +24,12 @@ fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let point = metres(shadow_view, lookup.plane.depth);
-    let in_cascades = light.map == MAP_CASCADES;
-    var size = vec2f(textureDimensions(atlas_map));
-    if in_cascades {
-        size = vec2f(textureDimensions(cascade_map));
-    }
-    let at = lookup.uv * size - 0.5;
+    let at = lookup.uv * map_size(light.map) - 0.5;
     let part = fract(at);
     var lit = 0.0;
     for (var i = 0u; i < 4u; i++) {
         let corner = vec2u(i & 1u, i >> 1u);
-        let texel = vec2i(floor(at)) + vec2i(corner);
-        var stored = 0.0;
-        if in_cascades {
-            stored = textureLoad(cascade_map, texel, 0);
-        } else {
-            stored = textureLoad(atlas_map, texel, 0);
-        }
+        let stored = stored_depth(light.map, vec2i(floor(at)) + vec2i(corner));
         let behind = max(point - metres(shadow_view, stored), 0.0);
         let weight = select(1.0 - part, part, corner == vec2u(1u));
         lit += weight.x * weight.y * exp(-behind * falloff.per_metre);

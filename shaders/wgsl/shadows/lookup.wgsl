@@ -61,12 +61,3 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     }
     return lookup;
 }
-
-// How much what the map stores changes at a point, per texel: the bias of gradient shadow maps follows it.
-fn stored_gradient(map: texture_depth_2d, uv: vec2f) -> f32 {
-    let size_px = vec2i(textureDimensions(map));
-    let at = clamp(vec2i(uv * vec2f(size_px)), vec2i(1), size_px - 2);
-    let across = textureLoad(map, at + vec2i(1, 0), 0) - textureLoad(map, at - vec2i(1, 0), 0);
-    let down = textureLoad(map, at + vec2i(0, 1), 0) - textureLoad(map, at - vec2i(0, 1), 0);
-    return 0.5 * length(vec2f(across, down));
-}

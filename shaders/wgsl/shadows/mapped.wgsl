@@ -1,9 +1,10 @@
 // Techniques of shadow maps: finds the tiles of a point, and asks the technique's filter what they say. The filter is the module
-// shadowgraph::shadows::filter; it has the bindings from 2 on.
+// shadowgraph::shadows::filter; it has the bindings from 8 on.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::filter::filtered
 #import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::tints::tint
 #import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, blend_at, shadow_fade, edge_fade}
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::SHADOWED
@@ -21,17 +22,17 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     if !blend.first.covered {
         return vec3f(1.0);
     }
-    var lit = 0.0;
+    var lit = vec3f(0.0);
     var lookup = blend.first;
     var weight = blend.weight;
     for (var i = 0u; i < 2u; i++) {
         if weight > 0.0 {
-            lit += weight * filtered(shadow, receiver, lookup);
+            lit += weight * filtered(shadow, receiver, lookup) * tint(shadow, receiver, lookup);
         }
         lookup = blend.next;
         weight = 1.0 - blend.weight;
     }
-    return vec3f(mix(1.0, lit, strength * edge_fade(shadow, receiver, blend.first)));
+    return mix(vec3f(1.0), lit, strength * edge_fade(shadow, receiver, blend.first));
 }
 
 fn cascade_tint(cascade: u32) -> vec3f {

@@ -8,9 +8,9 @@
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
-@group(1) @binding(2) var cascade_moments: texture_2d<u32>;
-@group(1) @binding(3) var atlas_moments: texture_2d<u32>;
-@group(1) @binding(4) var<uniform> rules: MomentRules;
+@group(1) @binding(8) var cascade_moments: texture_2d<u32>;
+@group(1) @binding(9) var atlas_moments: texture_2d<u32>;
+@group(1) @binding(10) var<uniform> rules: MomentRules;
 
 fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
     if map == MAP_CASCADES {

@@ -1,32 +1,22 @@
 // The filter of the technique `pcf`: a tent of comparisons, with biases in each tap's own place.
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
-#import shadowgraph::shadows::lookup::{Lookup, stored_gradient}
+#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::maps::{cascade_map, atlas_map, map_size, stored_gradient}
 #import shadowgraph::shadows::tent::{tent_axis, tent_depth}
 #import shadowgraph::shadows::types::{ShadowLight, MAP_CASCADES, BIAS_GRADIENT}
 #import shadowgraph::shadows::variant::FILTER_TAPS
 
-@group(1) @binding(2) var cascade_map: texture_depth_2d;
-@group(1) @binding(3) var atlas_map: texture_depth_2d;
 // Linear, GreaterEqual: lit where the point is at least as near to the light as what the map has.
-@group(1) @binding(4) var shadow_sampler: sampler_comparison;
+@group(1) @binding(8) var shadow_sampler: sampler_comparison;
 
 // How much of the map around a point is not nearer to the light than the point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;
     var plane = lookup.plane;
-    var size_px = vec2f(textureDimensions(atlas_map));
-    if in_cascades {
-        size_px = vec2f(textureDimensions(cascade_map));
-    }
+    let size_px = map_size(light.map);
     if light.bias_method == BIAS_GRADIENT {
-        var gradient = 0.0;
-        if in_cascades {
-            gradient = stored_gradient(cascade_map, lookup.uv);
-        } else {
-            gradient = stored_gradient(atlas_map, lookup.uv);
-        }
-        plane.depth += lookup.gradient_bias * min(gradient, lookup.steepest);
+        plane.depth += lookup.gradient_bias * min(stored_gradient(light.map, lookup.uv), lookup.steepest);
     }
     let taps = select(FILTER_TAPS, light.filter_taps, FILTER_TAPS == 0u);
     let half = max(light.filter_half - light.filter_falloff * receiver.view_depth, 0.5);

@@ -4,6 +4,7 @@
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::maps::{cascade_map, atlas_map, map_size, stored_depth}
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
@@ -20,11 +21,9 @@ struct SoftLights {
     filter_taps: u32,
 }
 
-@group(1) @binding(2) var cascade_map: texture_depth_2d;
-@group(1) @binding(3) var atlas_map: texture_depth_2d;
 // Linear, GreaterEqual: lit where the point is at least as near to the light as what the map has.
-@group(1) @binding(4) var shadow_sampler: sampler_comparison;
-@group(1) @binding(5) var<uniform> soft_lights: SoftLights;
+@group(1) @binding(8) var shadow_sampler: sampler_comparison;
+@group(1) @binding(9) var<uniform> soft_lights: SoftLights;
 
 const GOLDEN_ANGLE: f32 = 2.39996323;
 const TURN: f32 = 6.28318531;
@@ -64,10 +63,7 @@ fn tap_depth(lookup: Lookup, tap: vec2f) -> f32 {
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;
     let shadow_view = shadow_views[light.first_view + lookup.view];
-    var size_px = vec2f(textureDimensions(atlas_map));
-    if in_cascades {
-        size_px = vec2f(textureDimensions(cascade_map));
-    }
+    let size_px = map_size(light.map);
     let at = lookup.uv * size_px;
     let turn = TURN * pixel_noise(receiver.pixel);
 
@@ -77,13 +73,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     var depths = 0.0;
     for (var i = 0u; i < soft_lights.blocker_taps; i++) {
         let tap = widest * spiral(i, soft_lights.blocker_taps, turn);
-        let texel = vec2i(floor(at + tap));
-        var stored = 0.0;
-        if in_cascades {
-            stored = textureLoad(cascade_map, texel, 0);
-        } else {
-            stored = textureLoad(atlas_map, texel, 0);
-        }
+        let stored = stored_depth(light.map, vec2i(floor(at + tap)));
         if stored > tap_depth(lookup, tap) {
             blockers += 1.0;
             depths += stored;

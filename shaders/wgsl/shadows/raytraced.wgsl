@@ -16,7 +16,7 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     if on_mask && layer != TRACED_UNMASKED {
         return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;
     }
-    return vec3f(traced_visibility(light, receiver.position, receiver.geometric_normal, receiver.pixel));
+    return traced_visibility(light, receiver.position, receiver.geometric_normal, receiver.pixel);
 }
 
 fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {

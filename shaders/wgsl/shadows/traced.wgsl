@@ -2,7 +2,7 @@
 #define_import_path shadowgraph::shadows::traced
 #import shadowgraph::view::{view, lights, LIGHT_DIRECTIONAL}
 #import shadowgraph::noise::pixel_noise
-#import shadowgraph::rays::{ray_blocked, ray_origin, RAY_FAR, RAY_WAY_TO_LIGHT}
+#import shadowgraph::rays::{ray_passed, ray_origin, RAY_FAR, RAY_WAY_TO_LIGHT}
 
 struct Traced {
     // The largest coordinate of the rays' scene.
@@ -39,18 +39,18 @@ fn across(direction: vec3f) -> mat2x3f {
 }
 
 // The part of the light that a surface sees: none of it, if it faces away from its middle. Rays are turned from pixel to pixel.
-fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel: vec2f) -> f32 {
+fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel: vec2f) -> vec3f {
     let origin = ray_origin(position, geometric_normal, distance(position, view.position), traced.reach);
     let is_sun = lights[light].kind == LIGHT_DIRECTIONAL;
     let to_middle = select(lights[light].position - origin, -lights[light].direction, is_sun);
     let distance = length(to_middle);
     if distance == 0.0 || dot(geometric_normal, to_middle) <= 0.0 {
-        return 0.0;
+        return vec3f(0.0);
     }
     let disc = across(to_middle / distance);
     let radius = select(traced.lamp_radius, traced.sun_radius, is_sun);
     let turn = TURN * pixel_noise(pixel);
-    var seen = 0.0;
+    var seen = vec3f(0.0);
     for (var i = 0u; i < traced.rays; i++) {
         var way = to_middle;
         if traced.rays > 1u {
@@ -60,9 +60,8 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
         }
         let length = length(way);
         let end = select(length * RAY_WAY_TO_LIGHT, RAY_FAR, is_sun);
-        let above = dot(geometric_normal, way) > 0.0;
-        if above && !ray_blocked(origin, way / length, 0.0, end) {
-            seen += 1.0;
+        if dot(geometric_normal, way) > 0.0 {
+            seen += ray_passed(origin, way / length, 0.0, end);
         }
     }
     return seen / f32(traced.rays);

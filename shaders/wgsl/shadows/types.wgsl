@@ -39,7 +39,9 @@ struct ShadowView {
     depth_step: f32,
     // What is added to a pixel of the map to get its texel in the world, modulo 1024.
     noise_px: vec2u,
-    reserved: vec4u,
+    // 1: translucent casters are drawn into it.
+    is_tinted: u32,
+    reserved: array<u32, 3>,
 }
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;

@@ -15,3 +15,4 @@ mod snapping;
 mod soft;
 mod stage;
 mod techniques;
+mod tints;

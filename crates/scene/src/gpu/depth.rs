@@ -20,18 +20,21 @@ pub struct DepthTarget {
     pub slope_bias: f32,
     /// How many samples each pixel has.
     pub samples: u32,
+    /// The format of the colours of [`CasterPipelines::tint`].
+    pub tint_format: wgpu::TextureFormat,
     /// Clamps in the fragment shader even where the device could do it: for tests of that path.
     pub emulate_clamp: bool,
 }
 
 impl Default for DepthTarget {
-    /// Returns `Depth32Float`, one sample, without clamping or bias.
+    /// Returns `Depth32Float` and `Rgba8Unorm`, one sample, without clamping or bias.
     fn default() -> Self {
         Self {
             format: wgpu::TextureFormat::Depth32Float,
             clamp_near: false,
             slope_bias: 0.0,
             samples: 1,
+            tint_format: wgpu::TextureFormat::Rgba8Unorm,
             emulate_clamp: false,
         }
     }
@@ -96,6 +99,7 @@ pub struct CasterPipelines {
     solid: wgpu::RenderPipeline,
     clip: wgpu::RenderPipeline,
     dither: wgpu::RenderPipeline,
+    tint: wgpu::RenderPipeline,
 }
 
 impl CasterPipelines {
@@ -115,28 +119,44 @@ impl CasterPipelines {
             solid: pipeline(Holes::None),
             clip: pipeline(Holes::Clip),
             dither: pipeline(Holes::Dither),
+            tint: pipeline(Holes::Tint),
         })
     }
 
-    /// Returns what draws of a mode are drawn with; `None` for those that cast no shadow.
+    /// Returns what the depth of draws of a mode is drawn with; `None` for those that cast no shadow. [`CasterMode::Tint`] is cut at
+    /// one half, as it is where nothing is tinted.
     #[must_use]
     pub fn get(&self, mode: CasterMode) -> Option<DrawWith<'_>> {
         let (pipeline, reads_material) = match mode {
             CasterMode::On => (&self.solid, false),
-            CasterMode::Clip => (&self.clip, true),
+            CasterMode::Clip | CasterMode::Tint => (&self.clip, true),
             CasterMode::Dither => (&self.dither, true),
             CasterMode::Off => return None,
         };
         Some(DrawWith { pipeline, reads_material })
     }
+
+    /// Returns what depth is drawn with, whatever its alpha.
+    #[must_use]
+    pub fn solid(&self) -> DrawWith<'_> {
+        DrawWith { pipeline: &self.solid, reads_material: false }
+    }
+
+    /// Returns what multiplies a target of [`DepthTarget::tint_format`] by what light passes. It is tested against depth and does not write it.
+    #[must_use]
+    pub fn tint(&self) -> DrawWith<'_> {
+        DrawWith { pipeline: &self.tint, reads_material: true }
+    }
 }
 
-/// Where alpha leaves something out.
+/// What alpha does.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Holes {
     None,
     Clip,
     Dither,
+    /// No holes, but colours.
+    Tint,
 }
 
 /// What of a key matters where only depth is written.
@@ -202,15 +222,27 @@ impl Recipe {
             (Holes::None, false) => None,
             (Holes::Clip, false) => Some("fs_mask"),
             (Holes::Dither, false) => Some("fs_dither"),
+            (Holes::Tint, false) => Some("fs_tint"),
             (Holes::None, true) => Some("fs_clamp"),
             (Holes::Clip, true) => Some("fs_mask_clamp"),
             (Holes::Dither, true) => Some("fs_dither_clamp"),
+            (Holes::Tint, true) => Some("fs_tint_clamp"),
+        };
+        let multiplied = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::Dst,
+            dst_factor: wgpu::BlendFactor::Zero,
+            operation: wgpu::BlendOperation::Add,
         };
         let constants = [("SLOPE_BIAS", f64::from(self.target.slope_bias))];
         let options = wgpu::PipelineCompilationOptions {
             constants: if self.emulated { &constants } else { &[] },
             ..wgpu::PipelineCompilationOptions::default()
         };
+        let tints = [Some(wgpu::ColorTargetState {
+            format: self.target.tint_format,
+            blend: Some(wgpu::BlendState { color: multiplied, alpha: multiplied }),
+            write_mask: wgpu::ColorWrites::COLOR,
+        })];
         let vertex = wgpu::VertexState {
             module: &self.shader,
             entry_point: Some(if self.emulated { "vs_depth_clamp" } else { "vs_depth" }),
@@ -227,7 +259,7 @@ impl Recipe {
                 unclipped_depth: self.unclipped,
                 ..wgpu::PrimitiveState::default()
             },
-            depth_stencil: Some(self.depth_state()),
+            depth_stencil: Some(self.depth_state(variant.holes != Holes::Tint)),
             multisample: wgpu::MultisampleState {
                 count: self.target.samples,
                 ..wgpu::MultisampleState::default()
@@ -236,19 +268,19 @@ impl Recipe {
                 module: &self.shader,
                 entry_point: Some(entry),
                 compilation_options: options,
-                targets: &[],
+                targets: if variant.holes == Holes::Tint { &tints } else { &[] },
             }),
             multiview_mask: None,
             cache: None,
         })
     }
 
-    fn depth_state(&self) -> wgpu::DepthStencilState {
+    fn depth_state(&self, is_written: bool) -> wgpu::DepthStencilState {
         // Depth from the fragment shader has the bias already.
         let slope_scale = if self.emulated { 0.0 } else { self.target.slope_bias };
         wgpu::DepthStencilState {
             format: self.target.format,
-            depth_write_enabled: Some(true),
+            depth_write_enabled: Some(is_written),
             depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState { slope_scale, ..wgpu::DepthBiasState::default() },

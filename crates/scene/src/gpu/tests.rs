@@ -109,7 +109,13 @@ fn demo_scene_draws_depth_without_complaints_on_every_path() {
             [(Depth32Float, false, false), (Depth32Float, true, false), (Depth16Unorm, true, true)]
         {
             without_complaints(&device, || {
-                let target = DepthTarget { format, clamp_near, slope_bias: -1.5, samples: 1, emulate_clamp };
+                let target = DepthTarget {
+                    format,
+                    clamp_near,
+                    slope_bias: -1.5,
+                    emulate_clamp,
+                    ..DepthTarget::default()
+                };
                 let pipelines = DepthPipelines::new(&device, gpu.layouts(), &target).unwrap();
                 let casters = CasterPipelines::new(&device, gpu.layouts(), &target).unwrap();
                 draw_depth(&device, &queue, &gpu, &draws, (&pipelines, &casters), format);

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use shadowgraph_core::Format;
 use shadowgraph_lighting::{GpuLight, GpuView, LitPipelines, ViewRecords};
-use shadowgraph_shadows::{MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, plan_shadows};
+use shadowgraph_shadows::{
+    CasterPass, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT, plan_shadows,
+};
 use wgpu::{BindingResource, TextureUsages};
 
 use super::objects::{attachment, begin, buffer, comparison_sampler, group, range};
@@ -131,7 +133,8 @@ impl<'v> ByHand<'v> {
             let [x, y, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|px| px as f32);
             pass.set_viewport(x, y, width, height, 0.0, 1.0);
             pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
-            let view = tile.caster_view(&views[tile.view as usize], plan.depth.texture_format());
+            let format = plan.depth.texture_format();
+            let view = tile.caster_view(&views[tile.view as usize], CasterPass::Depth, format);
             self.renderer.casters.draw(&mut pass, &view, &tile.casters);
         }
     }
@@ -180,11 +183,18 @@ impl Groups {
         let map = |map: &Option<wgpu::TextureView>| map.clone().unwrap_or_else(|| no_map.clone());
         let (cascades, atlas) = (map(&maps[0]), map(&maps[1]));
         let sampler = comparison_sampler(device);
+        // Nothing is tinted.
+        let tints = attachment(device, [1; 2], TINT_FORMAT, TextureUsages::TEXTURE_BINDING);
+        let tints = BindingResource::TextureView(&tints);
         let shadows = [
             shadow_views.as_entire_binding(),
             shadow_lights.as_entire_binding(),
             BindingResource::TextureView(&cascades),
             BindingResource::TextureView(&atlas),
+            tints.clone(),
+            tints,
+            BindingResource::TextureView(&no_map),
+            BindingResource::TextureView(&no_map),
             BindingResource::Sampler(&sampler),
         ];
         let view_and_lights = [view_buffer.as_entire_binding(), lights.as_entire_binding()];

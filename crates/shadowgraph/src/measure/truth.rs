@@ -10,7 +10,8 @@ use super::parallel::rows;
 /// The truth about one light in a view, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// Whether the light's centre is seen: 1 lit, 0 in shadow. 0 also where nothing is drawn.
+    /// Whether the light's centre is seen: 1 lit, 0 in shadow; behind what is translucent the mean of the colours that pass. 0 also
+    /// where nothing is drawn.
     pub hard: Vec<f32>,
     /// Metres to the nearest blocker; infinite where there is none.
     pub blocker_distances_m: Vec<f32>,
@@ -72,6 +73,11 @@ impl RayLight {
     }
 }
 
+/// The mean of the colours, as `probe.wgsl` has it.
+pub(super) fn mean(visibility: Vec3) -> f32 {
+    visibility.element_sum() / 3.0
+}
+
 fn receiver(surfaces: &Surfaces, pixel: usize, eye: Vec3) -> ReceiverPoint {
     let position = surfaces.positions[pixel];
     ReceiverPoint {
@@ -92,7 +98,7 @@ impl Truth {
             let Some(to_light) = to_light else { return dark };
             let n_dot_l = surfaces.normals[pixel].dot(to_light);
             let truth = hard(scene, &light.shape, &receiver(surfaces, pixel, eye), true);
-            (truth.visibility, truth.blocker_m.unwrap_or(f32::INFINITY), n_dot_l, to_light)
+            (mean(truth.visibility), truth.blocker_m.unwrap_or(f32::INFINITY), n_dot_l, to_light)
         });
         Self {
             hard: pixels.iter().map(|pixel| pixel.0).collect(),
@@ -120,8 +126,9 @@ impl Truth {
                 return 0.0;
             }
             let receiver = receiver(surfaces, pixel, eye);
-            let scouted = soft(scene, &light.shape, &receiver, SCOUTS);
-            if scouted == hard[pixel] { scouted } else { soft(scene, &light.shape, &receiver, rays) }
+            let seen = |rays| mean(soft(scene, &light.shape, &receiver, rays));
+            let scouted = seen(SCOUTS);
+            if scouted == hard[pixel] { scouted } else { seen(rays) }
         })
     }
 }

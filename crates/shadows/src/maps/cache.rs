@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::{MapPlan, ShadowCasters, ShadowView, TilePlan, TileRect};
+use crate::{ShadowCasters, ShadowView, TileRect};
 
 /// A map that outlives frames.
 pub(super) struct CachedMap {
@@ -28,16 +28,24 @@ pub(super) struct TileKey {
 
 impl TileKey {
     /// `None` if a caster may change at any time.
-    pub(super) fn new(tile: &TilePlan, view: &ShadowView, casters: &dyn ShadowCasters) -> Option<Self> {
-        let version = |&caster: &u32| casters.version(caster).map(|version| (caster, version));
-        let casters = tile.casters.iter().map(version).collect::<Option<_>>()?;
+    pub(super) fn new(
+        view: &ShadowView,
+        casters: impl Iterator<Item = u32>,
+        all: &dyn ShadowCasters,
+    ) -> Option<Self> {
+        let version = |caster| all.version(caster).map(|version| (caster, version));
+        let casters = casters.map(version).collect::<Option<_>>()?;
         Some(Self { clip_from_world: view.clip_from_world, casters })
     }
 }
 
 impl CachedMap {
-    pub(super) fn new(device: &wgpu::Device, name: &str, plan: &MapPlan) -> Self {
-        let [width, height] = plan.size_px;
+    pub(super) fn new(
+        device: &wgpu::Device,
+        name: &str,
+        [width, height]: [u32; 2],
+        format: wgpu::TextureFormat,
+    ) -> Self {
         let usage = wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::COPY_SRC;
@@ -47,17 +55,16 @@ impl CachedMap {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: plan.depth.texture_format(),
+            format,
             usage,
             view_formats: &[],
         });
         Self { texture, drawn: Mutex::default() }
     }
 
-    /// Whether it has the size and the format that a plan wants.
-    pub(super) fn fits(&self, plan: &MapPlan) -> bool {
-        let size_px = [self.texture.width(), self.texture.height()];
-        size_px == plan.size_px && self.texture.format() == plan.depth.texture_format()
+    /// Whether it has this size and this format.
+    pub(super) fn fits(&self, size_px: [u32; 2], format: wgpu::TextureFormat) -> bool {
+        [self.texture.width(), self.texture.height()] == size_px && self.texture.format() == format
     }
 
     fn drawn(&self) -> MutexGuard<'_, Drawn> {

@@ -6,128 +6,220 @@ use shadowgraph_core::{Bind, Contents, Format, Frame, Part, Texture, TextureDesc
 
 use super::cache::{CachedMap, TileKey};
 use super::{DrawnMap, ShadowMaps, Views};
-use crate::{MapPlan, ShadowCasters, ShadowView, TilePart, TilePlan, TileRect};
+use crate::{CasterPass, MapPlan, ShadowCasters, ShadowView, TINT_FORMAT, TilePart, TilePlan, TileRect};
 
 /// The bytes of a view: also the step of its dynamic offset.
 const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
 
+/// What the textures of a map are called.
+#[derive(Clone, Copy)]
+pub(super) struct Names {
+    depth: &'static str,
+    tint_depth: &'static str,
+    tint: &'static str,
+}
+
+/// The map of cascades.
+pub(super) const CASCADES: Names =
+    Names { depth: "cascades", tint_depth: "cascade tint depths", tint: "cascade tints" };
+
+/// The map of other lights.
+pub(super) const ATLAS: Names =
+    Names { depth: "atlas", tint_depth: "atlas tint depths", tint: "atlas tints" };
+
+/// What the tiles of a map are drawn from.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'v, 'f> {
+    /// Which of the frame's views it is for.
+    pub(super) view: u32,
+    pub(super) views: Views<'v>,
+    pub(super) casters: &'f dyn ShadowCasters,
+}
+
+/// One of the textures of a map.
+struct Sheet<'p> {
+    name: &'static str,
+    pass: CasterPass,
+    plan: &'p MapPlan,
+}
+
+impl Sheet<'_> {
+    fn format(&self) -> Format {
+        if self.pass == CasterPass::Tint { TINT_FORMAT } else { self.plan.depth.texture_format() }
+    }
+
+    /// What it holds where nothing is drawn.
+    fn empty(&self) -> Contents {
+        if self.pass == CasterPass::Tint {
+            Contents::clear_color([1.0; 4])
+        } else {
+            Contents::clear_depth(0.0)
+        }
+    }
+
+    /// Adds the pass that clears all of it; `then` is called when it has been recorded.
+    fn clear<'f>(&self, frame: &mut Frame<'f>, texture: &mut Texture, then: impl FnOnce() + Send + 'f) {
+        let mut pass = frame.render_pass("clear");
+        match self.pass {
+            CasterPass::Tint => pass.color(texture, self.empty()),
+            _ => pass.depth(texture, self.empty()),
+        };
+        pass.body(move |_| {
+            then();
+            Ok(())
+        });
+    }
+
+    /// What a tile of it depends on.
+    fn key(&self, tile: &TilePlan, source: Source<'_, '_>) -> Option<TileKey> {
+        // What opaque casters hide is not tinted.
+        let hiding = if self.pass == CasterPass::Tint { &tile.casters[..] } else { &[] };
+        let casters = tile.casters_of(self.pass).iter().chain(hiding).copied();
+        TileKey::new(&source.views.1[tile.view as usize], casters, source.casters)
+    }
+}
+
+/// The textures that a pass draws into.
+struct Target<'t> {
+    texture: &'t mut Texture,
+    /// What colours are tested against.
+    depth: Option<&'t Texture>,
+    contents: Contents,
+}
+
 impl ShadowMaps {
-    /// Adds the passes that draw a map, or imports the texel that means lit.
+    /// Adds the passes that draw a map, or imports the texels that mean lit.
     pub(super) fn map<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        name: &'static str,
-        plan: Option<MapPlan>,
-        (view, views): (u32, Views<'_>),
-        casters: &'f dyn ShadowCasters,
+        names: Names,
+        plan: Option<&MapPlan>,
+        source: Source<'_, 'f>,
     ) -> DrawnMap {
         let tiles = plan.iter().flat_map(|plan| &plan.tiles).map(|tile| (tile.rect, tile.view)).collect();
-        let cached = plan.as_ref().filter(|plan| plan.cache).map(|plan| self.cached_map(view, name, plan));
-        if cached.is_none() {
-            self.cached.lock().unwrap_or_else(PoisonError::into_inner).remove(&(view, name));
-        }
-        let texture = match (plan, cached) {
-            (None, _) => frame.import_texture(format_args!("no {name}"), &self.lit, true),
-            (Some(plan), None) => self.draw_map(frame, name, plan, views, casters),
-            (Some(plan), Some(cached)) => self.update_map(frame, name, plan, (cached, views), casters),
+        let is_tinted = |plan: &&MapPlan| plan.tiles.iter().any(|tile| !tile.tints.is_empty());
+        let tinted = plan.filter(is_tinted);
+        let mut sheet = |name, pass, plan, lit, depth: Option<&Texture>| match plan {
+            Some(plan) => self.sheet(frame, &Sheet { name, pass, plan }, depth, source),
+            None => {
+                self.forget(source.view, name);
+                frame.import_texture(format_args!("no {name}"), lit, true)
+            }
         };
-        DrawnMap { texture, tiles }
+        let texture = sheet(names.depth, CasterPass::Depth, plan, &self.lit, None);
+        let tint_depths = sheet(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None);
+        let tints = sheet(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture));
+        DrawnMap { texture, tints, tint_depths, tiles }
     }
 
-    /// Draws a map anew.
-    fn draw_map<'f>(
+    /// Draws one of a map's textures, or those tiles of it that do not hold what they should.
+    fn sheet<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        name: &'static str,
-        plan: MapPlan,
-        views: Views<'_>,
-        casters: &'f dyn ShadowCasters,
+        sheet: &Sheet<'_>,
+        depth: Option<&Texture>,
+        source: Source<'_, 'f>,
     ) -> Texture {
-        let [width, height] = plan.size_px;
-        let format = plan.depth.texture_format();
-        let mut map = frame.create_texture(name, TextureDesc::d2(width, height, format));
-        frame.node(name, |frame| {
+        if sheet.plan.cache {
+            return self.update(frame, sheet, depth, source);
+        }
+        self.forget(source.view, sheet.name);
+        let [width, height] = sheet.plan.size_px;
+        let mut texture = frame.create_texture(sheet.name, TextureDesc::d2(width, height, sheet.format()));
+        frame.node(sheet.name, |frame| {
             // All of the map, as shaders sample it whole and its tiles need not cover it. Tiles do not overlap, so
             // nothing orders them among each other, and all become one render pass that begins with this clear.
-            frame.render_pass("clear").depth(&mut map, Contents::clear_depth(0.0));
-            for tile in plan.tiles.into_iter().filter(|tile| !tile.casters.is_empty()) {
-                self.tile(frame, (&mut map, format, Contents::Preserve), tile, views, casters, |_| ());
+            sheet.clear(frame, &mut texture, || ());
+            for tile in sheet.plan.tiles.iter().filter(|tile| !tile.casters_of(sheet.pass).is_empty()) {
+                let target = Target { texture: &mut texture, depth, contents: Contents::Preserve };
+                self.tile(frame, sheet, target, tile, source, |_| ());
             }
         });
-        map
+        texture
     }
 
-    /// Draws those tiles of a map again that do not hold what they should.
-    fn update_map<'f>(
+    /// Draws those tiles of a texture again that do not hold what they should.
+    fn update<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        name: &'static str,
-        plan: MapPlan,
-        (cached, views): (Arc<CachedMap>, Views<'_>),
-        casters: &'f dyn ShadowCasters,
+        sheet: &Sheet<'_>,
+        depth: Option<&Texture>,
+        source: Source<'_, 'f>,
     ) -> Texture {
-        let format = plan.depth.texture_format();
+        let cached = self.cached(source.view, sheet);
         let cleared = cached.is_cleared();
-        let mut map = frame.import_texture(name, &cached.texture, cleared);
-        frame.node(name, |frame| {
+        let mut texture = frame.import_texture(sheet.name, &cached.texture, cleared);
+        frame.node(sheet.name, |frame| {
             if !cleared {
                 let cached = cached.clone();
-                let mut pass = frame.render_pass("clear");
-                pass.depth(&mut map, Contents::clear_depth(0.0));
-                pass.body(move |_| {
-                    cached.note_clear();
-                    Ok(())
-                });
+                sheet.clear(frame, &mut texture, move || cached.note_clear());
             }
-            for tile in plan.tiles {
-                let key = TileKey::new(&tile, &views.1[tile.view as usize], casters);
+            for tile in &sheet.plan.tiles {
+                let key = sheet.key(tile, source);
                 if key.as_ref().is_some_and(|key| cached.holds(tile.rect, key)) {
                     continue;
                 }
                 // What a pass has drawn is known when it has been recorded, not when it is declared.
                 let cached = cached.clone();
                 let note = move |rect| cached.note(rect, key);
-                self.tile(frame, (&mut map, format, Contents::clear_depth(0.0)), tile, views, casters, note);
+                let target = Target { texture: &mut texture, depth, contents: sheet.empty() };
+                self.tile(frame, sheet, target, tile, source, note);
             }
         });
-        map
+        texture
     }
 
-    fn cached_map(&self, view: u32, name: &'static str, plan: &MapPlan) -> Arc<CachedMap> {
+    fn cached(&self, view: u32, sheet: &Sheet<'_>) -> Arc<CachedMap> {
         let mut all = self.cached.lock().unwrap_or_else(PoisonError::into_inner);
-        let make = || Arc::new(CachedMap::new(&self.device, name, plan));
-        let cached = all.entry((view, name)).or_insert_with(make);
-        if !cached.fits(plan) {
+        let (size_px, format) = (sheet.plan.size_px, sheet.format());
+        let make = || Arc::new(CachedMap::new(&self.device, sheet.name, size_px, format));
+        let cached = all.entry((view, sheet.name)).or_insert_with(make);
+        if !cached.fits(size_px, format) {
             *cached = make();
         }
         cached.clone()
+    }
+
+    /// Keeps a texture no longer.
+    fn forget(&self, view: u32, name: &'static str) {
+        self.cached.lock().unwrap_or_else(PoisonError::into_inner).remove(&(view, name));
     }
 
     /// Adds the pass that draws casters into a tile; `then` is called when it has been recorded.
     fn tile<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        (map, format, contents): (&mut Texture, Format, Contents),
-        tile: TilePlan,
-        (buffer, views): Views<'_>,
-        casters: &'f dyn ShadowCasters,
+        sheet: &Sheet<'_>,
+        target: Target<'_>,
+        tile: &TilePlan,
+        source: Source<'_, 'f>,
         then: impl FnOnce(TileRect) + Send + 'f,
     ) {
-        let light = tile.light;
+        let (light, rect, view) = (tile.light, tile.rect, tile.view);
         let mut pass = match tile.part {
             TilePart::Cascade(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
             TilePart::Face(face) => frame.render_pass(format_args!("light {light} face {face}")),
             TilePart::Whole => frame.render_pass(format_args!("light {light}")),
         };
+        let (buffer, views) = source.views;
         let buffer = pass.storage_buffer(buffer);
         // The graph keeps viewport and scissor to the tile.
-        pass.on(Part::WHOLE.rect(tile.rect.into())).depth(map, contents);
-        let caster_view = tile.caster_view(&views[tile.view as usize], format);
+        let part = Part::WHOLE.rect(rect.into());
+        match target.depth {
+            None => pass.on(part).depth(target.texture, target.contents),
+            Some(depth) => {
+                pass.on(part).color(target.texture, target.contents);
+                pass.on(part).depth_read(depth)
+            }
+        };
+        let format = sheet.plan.depth.texture_format();
+        let caster_view = tile.caster_view(&views[view as usize], sheet.pass, format);
+        let (all, casters) = (source.casters, tile.casters_of(sheet.pass).to_vec());
         pass.body(move |ctx| {
             let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
-            ctx.pass.set_bind_group(0, &group, &[tile.view * VIEW_BYTES as u32]);
-            casters.draw(&mut ctx.pass, &caster_view, &tile.casters);
-            then(tile.rect);
+            ctx.pass.set_bind_group(0, &group, &[view * VIEW_BYTES as u32]);
+            all.draw(&mut ctx.pass, &caster_view, &casters);
+            then(rect);
             Ok(())
         });
     }

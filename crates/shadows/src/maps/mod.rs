@@ -7,12 +7,14 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use cache::CachedMap;
+use draw::{ATLAS, CASCADES, Source};
 use shadowgraph_core::{Buffer, Frame, Texture};
 
+use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE};
 use crate::technique::{ShadowBinding, ShadowOutputs};
 use crate::{
-    Allotment, Error, Needs, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TileRect, Unshadowed,
-    caster_view_layout, plan_shadows_after,
+    Allotment, Error, Needs, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT, TileRect,
+    Unshadowed, caster_view_layout, plan_shadows_after,
 };
 
 /// What techniques of shadow maps have in common: it plans the maps of each frame, and draws casters into their tiles.
@@ -24,6 +26,8 @@ pub struct ShadowMaps {
     view_layout: wgpu::BindGroupLayout,
     /// One texel that means lit, where there is no map.
     lit: wgpu::Texture,
+    /// One texel that is not read, where nothing is tinted.
+    untinted: wgpu::Texture,
     device: wgpu::Device,
     /// The tiles that lights had in the last frame, of each view.
     allotments: Mutex<BTreeMap<u32, Allotment>>,
@@ -53,26 +57,26 @@ pub struct DrawnMaps {
 pub struct DrawnMap {
     /// Depth: 1 nearest to the light, 0 farthest, and where nothing is.
     pub texture: Texture,
+    /// What translucent casters let through of the light, linear; without such casters one texel, which is not read.
+    pub tints: Texture,
+    /// Depth of the translucent casters that are nearest to the light; likewise.
+    pub tint_depths: Texture,
     /// Its tiles and the indices of their views; none where there is no map.
     pub tiles: Vec<(TileRect, u32)>,
 }
 
 impl ShadowMaps {
+    /// The first eight bindings of group 1 of every technique that reads these maps: those of [`DrawnMaps::bindings`].
+    pub const BINDING_TYPES: [wgpu::BindingType; 8] =
+        [STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, FLOAT_MAP, FLOAT_MAP, DEPTH_MAP, DEPTH_MAP];
+
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
             view_layout: caster_view_layout(device),
             // wgpu fills a new texture with zeros: the far end of reversed depth, in front of which all is lit.
-            lit: device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("no shadows"),
-                size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Depth32Float,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
-                view_formats: &[],
-            }),
+            lit: texel(device, "no shadows", wgpu::TextureFormat::Depth32Float),
+            untinted: texel(device, "no tints", TINT_FORMAT),
             device: device.clone(),
             allotments: Mutex::default(),
             cached: Mutex::default(),
@@ -112,9 +116,9 @@ impl ShadowMaps {
         });
         let views = fit(frame, &plan, &views, &lights);
         let (variant, main_light) = (plan.variant(), plan.main_light().unwrap_or(0));
-        let of = (inputs.view, (&views, &plan.views[..]));
-        let cascades = self.map(frame, "cascades", plan.cascades, of, inputs.casters);
-        let atlas = self.map(frame, "atlas", plan.atlas, of, inputs.casters);
+        let source = Source { view: inputs.view, views: (&views, &plan.views[..]), casters: inputs.casters };
+        let cascades = self.map(frame, CASCADES, plan.cascades.as_ref(), source);
+        let atlas = self.map(frame, ATLAS, plan.atlas.as_ref(), source);
         Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, unshadowed: plan.unshadowed })
     }
 
@@ -128,8 +132,8 @@ impl ShadowMaps {
 }
 
 impl DrawnMaps {
-    /// Returns the first four bindings of group 1, as `tiles.wgsl` and the filter of `pcf` have them: views, lights, and the two
-    /// maps of depths.
+    /// Returns the first eight bindings of group 1, as `tiles.wgsl` and `maps.wgsl` have them: views, lights, the two maps of depths,
+    /// their tints, and the depths of those.
     #[must_use]
     pub fn bindings<'f>(&self) -> Vec<ShadowBinding<'f>> {
         vec![
@@ -137,6 +141,10 @@ impl DrawnMaps {
             ShadowBinding::Buffer(self.lights.clone()),
             ShadowBinding::Texture(self.cascades.texture.clone()),
             ShadowBinding::Texture(self.atlas.texture.clone()),
+            ShadowBinding::Texture(self.cascades.tints.clone()),
+            ShadowBinding::Texture(self.atlas.tints.clone()),
+            ShadowBinding::Texture(self.cascades.tint_depths.clone()),
+            ShadowBinding::Texture(self.atlas.tint_depths.clone()),
         ]
     }
 
@@ -146,11 +154,29 @@ impl DrawnMaps {
         ShadowOutputs {
             bindings,
             debug_light: self.main_light,
-            debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
+            debug: vec![
+                ("cascades", self.cascades.texture),
+                ("atlas", self.atlas.texture),
+                ("cascade tints", self.cascades.tints),
+                ("atlas tints", self.atlas.tints),
+            ],
             unshadowed: self.unshadowed,
             ..ShadowOutputs::default()
         }
     }
+}
+
+fn texel(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    })
 }
 
 /// The buffer of a frame's views, and the views.

@@ -133,9 +133,12 @@ impl<'a> Planner<'a> {
         for ((index, casters), rect) in (0u32..).zip(casters).zip(tiles.rects) {
             let fit = self.fit(&candidate.shape, index as usize, tiles.tile_px, &rules);
             let tile = place(rect, tiles.map_size_px, &rules, depth_step);
-            self.plan.views.push(fit.view(&tile, self.inputs.origin_world));
+            let (casters, tints) = self.opaque_and_tints(casters);
+            let is_tinted = u32::from(!tints.is_empty());
+            self.plan.views.push(ShadowView { is_tinted, ..fit.view(&tile, self.inputs.origin_world) });
             let part = if is_point { TilePart::Face(index) } else { TilePart::Whole };
-            planned.push(TilePlan { light: candidate.light, view: first_view + index, part, rect, casters });
+            let (light, view) = (candidate.light, first_view + index);
+            planned.push(TilePlan { light, view, part, rect, casters, tints });
         }
         planned
     }

@@ -104,8 +104,10 @@ impl<'a> Planner<'a> {
         let mut tiles = Vec::new();
         for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
             let tile = place(rect, layout.size_px, &rules, settings.depth.step());
+            let (casters, tints) = self.opaque_and_tints(casters);
             self.plan.views.push(ShadowView {
                 cascade,
+                is_tinted: u32::from(!tints.is_empty()),
                 begin_m: begin_m as f32,
                 end_m: fit.far_m as f32,
                 bias_scale: settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0),
@@ -113,7 +115,7 @@ impl<'a> Planner<'a> {
             });
             begin_m = fit.far_m;
             let (light, view, part) = (candidate.light, first_view + cascade, TilePart::Cascade(cascade));
-            tiles.push(TilePlan { light, view, part, rect, casters });
+            tiles.push(TilePlan { light, view, part, rect, casters, tints });
         }
         if settings.select != CascadeSelection::Map {
             self.plan.views.push(ShadowView::nothing());

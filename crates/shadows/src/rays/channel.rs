@@ -1,4 +1,4 @@
-//! Alpha textures, and how they are read: the same arithmetic as in `rays.wgsl`.
+//! Channels of textures, and how they are read: the same arithmetic as in `rays.wgsl`.
 
 use glam::Vec2;
 
@@ -28,28 +28,28 @@ pub enum Filter {
     Bilinear = 1,
 }
 
-/// The alpha channel of a texture, always read at full size (its largest mip).
+/// One channel of a texture, alpha or a linear colour, always read at full size (its largest mip).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AlphaTexture {
+pub struct ChannelTexture {
     size_px: [u32; 2],
     texels: Vec<u8>,
     wrap: [Wrap; 2],
     filter: Filter,
 }
 
-impl AlphaTexture {
-    /// A texture of `size_px` columns and rows, row by row, 0 transparent and 255 opaque.
+impl ChannelTexture {
+    /// A texture of `size_px` columns and rows, row by row, 0 to 255.
     ///
     /// # Errors
     ///
-    /// [`Error::AlphaTexels`] if there is not exactly one byte a pixel, if there is no pixel, or if there are
+    /// [`Error::Texels`] if there is not exactly one byte a pixel, if there is no pixel, or if there are
     /// more than 2^31 - 1 in a row or column.
     pub fn new(size_px: [u32; 2], texels: Vec<u8>, wrap: [Wrap; 2], filter: Filter) -> Result<Self, Error> {
         let [width, height] = size_px;
         let needed = u64::from(width) * u64::from(height);
         let countable = i32::try_from(width.max(height)).is_ok();
         if needed == 0 || needed != texels.len() as u64 || !countable {
-            return Err(Error::AlphaTexels { width, height, bytes: texels.len() });
+            return Err(Error::Texels { width, height, bytes: texels.len() });
         }
         Ok(Self { size_px, texels, wrap, filter })
     }
@@ -78,9 +78,9 @@ impl AlphaTexture {
         self.filter
     }
 
-    /// Alpha at a point, 0 to 1.
+    /// The value at a point, 0 to 1.
     #[must_use]
-    pub fn alpha(&self, uv: Vec2) -> f32 {
+    pub fn value(&self, uv: Vec2) -> f32 {
         let x = folded(uv.x, self.wrap[0]) * self.size_px[0] as f32;
         let y = folded(uv.y, self.wrap[1]) * self.size_px[1] as f32;
         if self.filter == Filter::Nearest {
@@ -97,7 +97,7 @@ impl AlphaTexture {
         a + (b - a) * bottom_part
     }
 
-    /// Alpha of a texel, 0 to 1; columns and rows from -1 to the size.
+    /// The value of a texel, 0 to 1; columns and rows from -1 to the size.
     fn texel(&self, x: i32, y: i32) -> f32 {
         let column = inside(x, self.size_px[0], self.wrap[0]);
         let row = inside(y, self.size_px[1], self.wrap[1]);

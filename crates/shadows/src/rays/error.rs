@@ -4,11 +4,11 @@
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// An alpha texture's texels do not fill its size, or it has none.
+    /// A channel's texels do not fill its size, or it has none.
     #[error(
-        "an alpha texture of {width} x {height} pixels has {bytes} bytes; it needs one a pixel, at least one"
+        "a channel of a texture of {width} x {height} pixels has {bytes} bytes; it needs one a pixel, at least one"
     )]
-    AlphaTexels {
+    Texels {
         /// Its width, pixels.
         width: u32,
         /// Its height, pixels.
@@ -16,14 +16,14 @@ pub enum Error {
         /// The bytes that were given.
         bytes: usize,
     },
-    /// An occluder's cut names a texture that was not given.
-    #[error("occluder {occluder} is cut by alpha texture {texture}, but there are {count}")]
-    NoAlphaTexture {
+    /// An occluder names a channel that was not given.
+    #[error("occluder {occluder} reads channel {texture}, but there are {count}")]
+    NoTexture {
         /// The occluder's index.
         occluder: usize,
-        /// The texture it names.
+        /// The channel it names.
         texture: u32,
-        /// How many textures there are.
+        /// How many there are.
         count: usize,
     },
     /// There are more occluders than the tree can number.

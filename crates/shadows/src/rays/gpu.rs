@@ -3,13 +3,13 @@
 use bytemuck::Zeroable;
 
 use super::{
-    AlphaTexture, Error, RayScene,
-    records::{NO_CUT, RayAlphaTexture, RayCut, RayNode, RayTriangle},
+    ChannelTexture, Error, RayScene,
+    records::{NO_CUT, RayCut, RayNode, RayTexture, RayTriangle},
 };
 
 const FEWER_TRIANGLES: &str = "leave out what casts no shadow into view, use coarser meshes, or ask the device \
                                for a larger max_storage_buffer_binding_size";
-const FEWER_TEXELS: &str = "use smaller alpha textures, or ask the device for a larger \
+const FEWER_TEXELS: &str = "use smaller textures, or ask the device for a larger \
                             max_storage_buffer_binding_size";
 
 /// The buffers of `rays.wgsl`. None is empty: an empty scene has one triangle that no ray meets.
@@ -19,12 +19,12 @@ pub struct GpuRayScene {
     pub nodes: Vec<RayNode>,
     /// The triangles, in the tree's order.
     pub triangles: Vec<RayTriangle>,
-    /// Where triangles have holes.
+    /// Where light passes through triangles.
     pub cuts: Vec<RayCut>,
-    /// The alpha textures.
-    pub alpha_textures: Vec<RayAlphaTexture>,
-    /// The texels of all alpha textures, four to a word, the first in its lowest byte.
-    pub alpha_texels: Vec<u32>,
+    /// The channels of textures.
+    pub textures: Vec<RayTexture>,
+    /// The texels of all channels, four to a word, the first in its lowest byte.
+    pub texels: Vec<u32>,
     /// What the shader needs for the rays' origins: [`RayScene::reach_m`].
     pub reach_m: f32,
 }
@@ -42,46 +42,45 @@ impl GpuRayScene {
         fits::<RayCut>("cuts", scene.cuts().len(), max_binding_bytes)?;
         let (bytes, limit) = (texels.next_multiple_of(4), max_binding_bytes.min(u64::from(u32::MAX)));
         if bytes > limit {
-            return Err(Error::TooBig { what: "alpha texels", bytes, limit, help: FEWER_TEXELS });
+            return Err(Error::TooBig { what: "texels", bytes, limit, help: FEWER_TEXELS });
         }
         let mut gpu = Self {
             nodes: nodes(scene),
             triangles: or_one(scene.triangles(), RayTriangle::new([glam::Vec3::ZERO; 3], NO_CUT)),
             cuts: or_one(scene.cuts(), RayCut::zeroed()),
-            alpha_textures: Vec::new(),
-            alpha_texels: Vec::new(),
+            textures: Vec::new(),
+            texels: Vec::new(),
             reach_m: scene.reach_m(),
         };
         gpu.pack(scene.textures());
         Ok(gpu)
     }
 
-    /// The bytes of the buffers, in the order of their bindings: boxes, triangles, cuts, alpha textures, alpha
-    /// texels.
+    /// The bytes of the buffers, in the order of their bindings: boxes, triangles, cuts, channels, texels.
     #[must_use]
     pub fn buffers(&self) -> [&[u8]; 5] {
         [
             bytemuck::cast_slice(&self.nodes),
             bytemuck::cast_slice(&self.triangles),
             bytemuck::cast_slice(&self.cuts),
-            bytemuck::cast_slice(&self.alpha_textures),
-            bytemuck::cast_slice(&self.alpha_texels),
+            bytemuck::cast_slice(&self.textures),
+            bytemuck::cast_slice(&self.texels),
         ]
     }
 
-    fn pack(&mut self, textures: &[AlphaTexture]) {
+    fn pack(&mut self, textures: &[ChannelTexture]) {
         let mut texels = Vec::new();
         for texture in textures {
             let ([width, height], [wrap_u, wrap_v]) = (texture.size_px(), texture.wrap());
             let sampling = wrap_u as u32 | (wrap_v as u32) << 2 | (texture.filter() as u32) << 4;
             let first_texel = texels.len() as u32;
-            self.alpha_textures.push(RayAlphaTexture { first_texel, width, height, sampling });
+            self.textures.push(RayTexture { first_texel, width, height, sampling });
             texels.extend_from_slice(texture.texels());
         }
         texels.resize(texels.len().next_multiple_of(4).max(4), 0);
         let words = texels.as_chunks::<4>().0.iter();
-        self.alpha_texels = words.map(|&bytes| u32::from_le_bytes(bytes)).collect();
-        self.alpha_textures = or_one(&self.alpha_textures, RayAlphaTexture::zeroed());
+        self.texels = words.map(|&bytes| u32::from_le_bytes(bytes)).collect();
+        self.textures = or_one(&self.textures, RayTexture::zeroed());
     }
 }
 

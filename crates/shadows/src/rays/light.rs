@@ -33,41 +33,38 @@ pub enum LightShape {
 /// What a receiver truly sees of a light's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
-    /// 1: it sees it; 0: it does not.
-    pub visibility: f32,
+    /// What of its light it sees, linear red, green and blue: 1 all, 0 none, between behind what is translucent.
+    pub visibility: Vec3,
     /// The surface itself faces away from the light or stands edge-on to it: dark without any blocker.
     pub faces_away: bool,
-    /// The distance to the nearest thing between, metres; `None` if there is none, if it was not asked for, or if
+    /// The distance to the nearest thing between that no light passes, metres; `None` if there is none, if it was not asked for, or if
     /// the surface faces away.
     pub blocker_m: Option<f32>,
 }
 
-/// Finds whether the receiver sees the light's centre, and if `with_blocker` how near the nearest blocker is,
+/// Finds what the receiver sees of the light's centre, and if `with_blocker` how near the nearest blocker is,
 /// which takes longer.
 #[must_use]
 pub fn hard(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, with_blocker: bool) -> Truth {
     let Some(ray) = light.ray(scene, receiver, Vec2::ZERO) else {
-        return Truth { visibility: 0.0, faces_away: true, blocker_m: None };
+        return Truth { visibility: Vec3::ZERO, faces_away: true, blocker_m: None };
     };
     let blocker_m = if with_blocker { scene.nearest(&ray) } else { None };
-    let blocked = if with_blocker { blocker_m.is_some() } else { scene.blocked(&ray) };
-    Truth { visibility: if blocked { 0.0 } else { 1.0 }, faces_away: false, blocker_m }
+    let visibility = if blocker_m.is_some() { Vec3::ZERO } else { scene.passed(&ray) };
+    Truth { visibility, faces_away: false, blocker_m }
 }
 
-/// Returns how much of the light the receiver sees, 0 to 1, by `rays` rays (at least one) to the points of a
-/// Vogel spiral over the light's disc: always the same ones, each for the same area. 0 where the surface faces
+/// Returns how much of the light the receiver sees, linear red, green and blue, 0 to 1, by `rays` rays (at least one) to the
+/// points of a Vogel spiral over the light's disc: always the same ones, each for the same area. 0 where the surface faces
 /// away from the light's centre; points of the light below the surface's horizon count as not seen.
 #[must_use]
-pub fn soft(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, rays: u32) -> f32 {
+pub fn soft(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, rays: u32) -> Vec3 {
     if light.ray(scene, receiver, Vec2::ZERO).is_none() {
-        return 0.0;
+        return Vec3::ZERO;
     }
     let rays = rays.max(1);
-    let sees = |&index: &u32| {
-        let ray = light.ray(scene, receiver, on_disc(index, rays));
-        ray.is_some_and(|ray| !scene.blocked(&ray))
-    };
-    (0..rays).filter(sees).count() as f32 / rays as f32
+    let ray = |index| light.ray(scene, receiver, on_disc(index, rays));
+    (0..rays).filter_map(ray).map(|ray| scene.passed(&ray)).sum::<Vec3>() / rays as f32
 }
 
 /// Point `index` of `count` on a disc of radius 1.

@@ -1,6 +1,6 @@
 //! Shadow rays: the truth that shadow maps are measured against.
 //!
-//! A [`RayScene`] holds [`Occluder`]s (triangles, some [cut](Cut) by an [`AlphaTexture`]) in a tree. [`hard`] and
+//! A [`RayScene`] holds [`Occluder`]s (triangles, some [cut](Cut), some [translucent](Tint)) in a tree. [`hard`] and
 //! [`soft`] tell how much of a [`LightShape`] a [`ReceiverPoint`] sees. [`GpuRayScene`] is the same scene for
 //! `rays.wgsl`, which does the same arithmetic.
 //!
@@ -35,7 +35,7 @@
 //!
 //! The light is always above the side that the viewer sees, or else the surface is dark by itself: N·L ≤ 0.
 
-mod alpha;
+mod channel;
 mod error;
 mod gpu;
 mod light;
@@ -46,13 +46,13 @@ mod records;
 mod scene;
 mod tree;
 
-pub use alpha::{AlphaTexture, Filter, Wrap};
+pub use channel::{ChannelTexture, Filter, Wrap};
 pub use error::Error;
 pub use gpu::GpuRayScene;
 pub use light::{LightShape, Truth, WAY_TO_LIGHT, hard, soft};
-pub use occluder::{Cut, Occluder};
+pub use occluder::{Cut, Occluder, Surface, Tint};
 pub use ray::{Ray, TriangleHit};
 pub use receiver::{OFFSET_PER_COORDINATE, OFFSET_PER_VIEW_DISTANCE, ReceiverPoint};
-pub use records::{NO_CUT, NO_TEXTURE, RayAlphaTexture, RayCut, RayNode, RayTriangle};
+pub use records::{NO_CUT, NO_TEXTURE, RayCut, RayNode, RayTexture, RayTriangle, TINT};
 pub use scene::RayScene;
 pub use tree::MAX_DEPTH;

@@ -1,11 +1,11 @@
 //! The records of `rays.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
-use super::Cut;
+use super::{Cut, Surface, Tint};
 
-/// The `cut` of a triangle without holes.
+/// The `cut` of a triangle that no light passes.
 pub const NO_CUT: u32 = u32::MAX;
 
 /// The `texture` of a cut without one.
@@ -43,7 +43,10 @@ pub struct RayTriangle {
     pub unused_c: u32,
 }
 
-/// Where a triangle has holes, 48 bytes.
+/// The `cutoff` of a triangle without holes that colours light.
+pub const TINT: f32 = -1.0;
+
+/// Where light passes through a triangle, 64 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RayCut {
@@ -53,21 +56,25 @@ pub struct RayCut {
     pub uv_b: Vec2,
     /// The third corner's.
     pub uv_c: Vec2,
-    /// The index of its alpha texture, or [`NO_TEXTURE`].
+    /// The index of its alpha channel, before those of its colour if it has them, or [`NO_TEXTURE`].
     pub texture: u32,
-    /// Alpha below this is a hole.
+    /// Alpha below this is a hole; [`TINT`].
     pub cutoff: f32,
     /// The alpha factor of each corner.
     pub alpha: Vec3,
     /// Nothing.
-    pub unused: u32,
+    pub unused_alpha: u32,
+    /// The colour factor of each corner: red in the lowest byte, green, blue.
+    pub color: [u32; 3],
+    /// Nothing.
+    pub unused_color: u32,
 }
 
-/// An alpha texture, 16 bytes.
+/// A channel of a texture, 16 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
-pub struct RayAlphaTexture {
-    /// Its first texel among the texels of all textures.
+pub struct RayTexture {
+    /// Its first texel among the texels of all channels.
     pub first_texel: u32,
     /// Columns.
     pub width: u32,
@@ -90,9 +97,30 @@ impl RayTriangle {
 }
 
 impl RayCut {
-    pub(crate) fn new(cut: &Cut) -> Self {
-        let [uv_a, uv_b, uv_c] = cut.uv;
-        let texture = cut.texture.unwrap_or(NO_TEXTURE);
-        Self { uv_a, uv_b, uv_c, texture, cutoff: cut.cutoff, alpha: cut.alpha.into(), unused: 0 }
+    /// The record of a surface, if light passes it.
+    pub(crate) fn new(surface: &Surface) -> Option<Self> {
+        let (texture, [uv_a, uv_b, uv_c], alpha, color, cutoff) = match *surface {
+            Surface::Opaque => return None,
+            Surface::Cut(Cut { texture, uv, alpha, cutoff }) => (texture, uv, alpha, [0; 3], cutoff),
+            Surface::Tint(Tint { texture, uv, color }) => {
+                (texture, uv, color.map(|color| color.w), color.map(packed), TINT)
+            }
+        };
+        let texture = texture.unwrap_or(NO_TEXTURE);
+        let alpha = alpha.into();
+        Some(Self { uv_a, uv_b, uv_c, texture, cutoff, alpha, unused_alpha: 0, color, unused_color: 0 })
     }
+}
+
+/// A colour in 24 bits.
+fn packed(color: Vec4) -> u32 {
+    let [red, green, blue] =
+        color.truncate().to_array().map(|part| (part.clamp(0.0, 1.0) * 255.0).round() as u32);
+    red | green << 8 | blue << 16
+}
+
+/// A colour of 24 bits.
+pub(crate) fn unpacked(color: u32) -> Vec3 {
+    let part = |shift: u32| (color >> shift & 255) as f32 / 255.0;
+    Vec3::new(part(0), part(8), part(16))
 }

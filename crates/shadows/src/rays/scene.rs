@@ -1,5 +1,7 @@
 //! The scene that rays are traced through on the CPU.
 
+use std::cell::Cell;
+
 use glam::{Vec2, Vec3};
 use obvhs::{
     bvh2::Bvh2,
@@ -7,22 +9,22 @@ use obvhs::{
 };
 
 use super::{
-    AlphaTexture, Error, Occluder, Ray,
-    records::{NO_CUT, NO_TEXTURE, RayCut, RayTriangle},
+    ChannelTexture, Error, Occluder, Ray, TriangleHit,
+    records::{NO_CUT, NO_TEXTURE, RayCut, RayTriangle, TINT, unpacked},
     tree,
 };
 
 /// So many that the tree's nodes can be numbered in u32.
 const MAX_OCCLUDERS: usize = 1 << 30;
 
-/// Triangles, alpha textures, and a tree over the triangles.
+/// Triangles, channels of textures, and a tree over the triangles.
 #[derive(Clone)]
 pub struct RayScene {
     bvh: Bvh2,
     /// In the order in which the tree's leaves name them.
     triangles: Vec<RayTriangle>,
     cuts: Vec<RayCut>,
-    textures: Vec<AlphaTexture>,
+    textures: Vec<ChannelTexture>,
     dropped: usize,
     reach_m: f32,
 }
@@ -33,8 +35,8 @@ impl RayScene {
     ///
     /// # Errors
     ///
-    /// [`Error::NoAlphaTexture`] if a cut names a texture beyond the last, [`Error::TooMany`] past 2^30 occluders.
-    pub fn new(occluders: &[Occluder], textures: Vec<AlphaTexture>) -> Result<Self, Error> {
+    /// [`Error::NoTexture`] if a surface names a channel beyond the last, [`Error::TooMany`] past 2^30 occluders.
+    pub fn new(occluders: &[Occluder], textures: Vec<ChannelTexture>) -> Result<Self, Error> {
         check(occluders, textures.len())?;
         let sound: Vec<&Occluder> = occluders.iter().filter(|occluder| occluder.is_sound()).collect();
         let corners = || sound.iter().flat_map(|occluder| occluder.corners);
@@ -42,8 +44,8 @@ impl RayScene {
         let bvh = tree::build(&sound, reach_m);
         let mut cuts = Vec::new();
         let mut record = |occluder: &Occluder| {
-            let cut = occluder.cut.map_or(NO_CUT, |cut| {
-                cuts.push(RayCut::new(&cut));
+            let cut = RayCut::new(&occluder.surface).map_or(NO_CUT, |cut| {
+                cuts.push(cut);
                 (cuts.len() - 1) as u32
             });
             RayTriangle::new(occluder.corners, cut)
@@ -54,14 +56,29 @@ impl RayScene {
         Ok(Self { bvh, triangles, cuts, textures, dropped, reach_m })
     }
 
-    /// Tells whether the ray meets anything but holes.
+    /// Tells whether the ray meets anything but holes and what is translucent.
     #[must_use]
     pub fn blocked(&self, ray: &Ray) -> bool {
         let distance = |_: &obvhs::ray::Ray, index| self.distance(ray, index).unwrap_or(f32::INFINITY);
         !self.bvh.ray_traverse_miss(ray.for_boxes(), distance)
     }
 
-    /// The distance along the ray to the first thing it meets that is not a hole, metres.
+    /// Returns what of light passes along the ray, linear red, green and blue, 0 to 1.
+    #[must_use]
+    pub fn passed(&self, ray: &Ray) -> Vec3 {
+        let passed = Cell::new(Vec3::ONE);
+        let distance = |_: &obvhs::ray::Ray, index| match self.meet(ray, index) {
+            Some(Meeting { distance_m, passed: None }) => distance_m,
+            Some(Meeting { passed: Some(part), .. }) => {
+                passed.set(passed.get() * part);
+                f32::INFINITY
+            }
+            None => f32::INFINITY,
+        };
+        if self.bvh.ray_traverse_miss(ray.for_boxes(), distance) { passed.get() } else { Vec3::ZERO }
+    }
+
+    /// The distance along the ray to the first thing it meets that is neither a hole nor translucent, metres.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<f32> {
         self.nearest_triangle(ray).map(|(distance_m, _)| distance_m)
@@ -86,6 +103,13 @@ impl RayScene {
     #[must_use]
     pub fn blocked_by_any_of_all(&self, ray: &Ray) -> bool {
         (0..self.triangles.len()).any(|index| self.distance(ray, index).is_some())
+    }
+
+    /// The same as [`passed`](Self::passed) by a test of every triangle: slow, for tests of the tree.
+    #[must_use]
+    pub fn passed_by_all(&self, ray: &Ray) -> Vec3 {
+        let meetings = (0..self.triangles.len()).filter_map(|index| self.meet(ray, index));
+        meetings.map(|meeting| meeting.passed.unwrap_or(Vec3::ZERO)).product()
     }
 
     /// The triangles that can be hit, in the tree's order.
@@ -114,33 +138,68 @@ impl RayScene {
         &self.cuts
     }
 
-    pub(crate) fn textures(&self) -> &[AlphaTexture] {
+    pub(crate) fn textures(&self) -> &[ChannelTexture] {
         &self.textures
     }
 
+    /// How far along the ray it is to this triangle, if it is hit and no light passes there.
     fn distance(&self, ray: &Ray, index: usize) -> Option<f32> {
+        self.meet(ray, index).filter(|meeting| meeting.passed.is_none()).map(|meeting| meeting.distance_m)
+    }
+
+    /// Where the ray meets this triangle, unless in a hole.
+    fn meet(&self, ray: &Ray, index: usize) -> Option<Meeting> {
         let triangle = self.triangles.get(index)?;
-        let hit = ray.hit(triangle.corners())?;
-        let cut = self.cuts.get(triangle.cut as usize);
-        let hole = cut.is_some_and(|cut| self.alpha(cut, hit.weights) < cut.cutoff);
-        (!hole).then_some(hit.distance_m)
+        let TriangleHit { distance_m, weights } = ray.hit(triangle.corners())?;
+        let Some(cut) = self.cuts.get(triangle.cut as usize) else {
+            return Some(Meeting { distance_m, passed: None });
+        };
+        let alpha = self.alpha(cut, weights);
+        if cut.cutoff != TINT {
+            return (alpha >= cut.cutoff).then_some(Meeting { distance_m, passed: None });
+        }
+        let alpha = alpha.clamp(0.0, 1.0);
+        let passed = (1.0 - alpha) * Vec3::ONE.lerp(self.color(cut, weights), alpha * (2.0 - alpha));
+        Some(Meeting { distance_m, passed: Some(passed) })
     }
 
     fn alpha(&self, cut: &RayCut, weights: Vec3) -> f32 {
-        let factor = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
-        let uv: Vec2 = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
-        let texture = if cut.texture == NO_TEXTURE { None } else { self.textures.get(cut.texture as usize) };
-        factor * texture.map_or(1.0, |texture| texture.alpha(uv))
+        cut.alpha.dot(weights) * self.value(cut, 0, weights)
     }
+
+    fn color(&self, cut: &RayCut, weights: Vec3) -> Vec3 {
+        let [a, b, c] = cut.color.map(unpacked);
+        let factor = a * weights.x + b * weights.y + c * weights.z;
+        factor * Vec3::from([1, 2, 3].map(|channel| self.value(cut, channel, weights)))
+    }
+
+    /// What one of its channels has at a point; 1 without any.
+    fn value(&self, cut: &RayCut, channel: usize, weights: Vec3) -> f32 {
+        if cut.texture == NO_TEXTURE {
+            return 1.0;
+        }
+        let uv: Vec2 = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
+        self.textures.get(cut.texture as usize + channel).map_or(1.0, |texture| texture.value(uv))
+    }
+}
+
+/// Where a ray meets a triangle.
+struct Meeting {
+    distance_m: f32,
+    /// What of the light passes there; `None`: it is stopped.
+    passed: Option<Vec3>,
 }
 
 fn check(occluders: &[Occluder], count: usize) -> Result<(), Error> {
     if occluders.len() > MAX_OCCLUDERS {
         return Err(Error::TooMany { count: occluders.len(), limit: MAX_OCCLUDERS });
     }
-    for (occluder, cut) in occluders.iter().enumerate().filter_map(|(i, occluder)| Some((i, occluder.cut?))) {
-        if let Some(texture) = cut.texture.filter(|&texture| texture as usize >= count) {
-            return Err(Error::NoAlphaTexture { occluder, texture, count });
+    for (occluder, surface) in occluders.iter().map(|occluder| &occluder.surface).enumerate() {
+        if let Some((first, channels)) = surface.channels()
+            && let Some(texture) =
+                (first..first.saturating_add(channels)).find(|&texture| texture as usize >= count)
+        {
+            return Err(Error::NoTexture { occluder, texture, count });
         }
     }
     Ok(())

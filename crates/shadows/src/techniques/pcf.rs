@@ -6,7 +6,7 @@ use shadowgraph_shaders::{MAPPED, ModuleSource};
 use super::variant::PcfVariant;
 use crate::maps::comparison_sampler;
 use crate::plan;
-use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
+use crate::technique::binding::COMPARISON_SAMPLER;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, ShadowInputs, ShadowMaps, ShadowPlan};
 
@@ -55,8 +55,7 @@ impl ShadowTechnique for Pcf {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        // `tiles.wgsl` and `pcf.wgsl`.
-        vec![STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, COMPARISON_SAMPLER]
+        [&ShadowMaps::BINDING_TYPES[..], &[COMPARISON_SAMPLER]].concat()
     }
 
     fn add_to<'f>(

@@ -1,12 +1,12 @@
 use glam::{Vec2, Vec3};
-use shadowgraph_shadows::rays::{AlphaTexture, Error, Filter, RayScene, Wrap};
+use shadowgraph_shadows::rays::{ChannelTexture, Error, Filter, RayScene, Surface, Wrap};
 
 use crate::common::{cut_square, ray, texture};
 
 const RAMP: [u8; 4] = [0, 51, 102, 255];
 
 fn ramp(wrap: Wrap, filter: Filter, u: f32) -> f32 {
-    (texture([4, 1], &RAMP, wrap, filter).alpha(Vec2::new(u, 0.5)) * 255.0).round()
+    (texture([4, 1], &RAMP, wrap, filter).value(Vec2::new(u, 0.5)) * 255.0).round()
 }
 
 #[test]
@@ -22,8 +22,8 @@ fn bilinear_mixes_the_texels_around_the_point() {
         assert_eq!(ramp(Wrap::Repeat, Filter::Bilinear, u), texel, "{u}");
     }
     let four = texture([2, 2], &[0, 255, 255, 0], Wrap::Clamp, Filter::Bilinear);
-    assert_eq!(four.alpha(Vec2::splat(0.5)), 0.5);
-    assert!((four.alpha(Vec2::new(0.5, 0.25)) - 0.5).abs() < 1e-6);
+    assert_eq!(four.value(Vec2::splat(0.5)), 0.5);
+    assert!((four.value(Vec2::new(0.5, 0.25)) - 0.5).abs() < 1e-6);
 }
 
 #[test]
@@ -37,8 +37,9 @@ fn outside_the_square_each_axis_wraps_in_its_way() {
     assert_eq!(ramp(Wrap::Repeat, Filter::Bilinear, -1e-9), 128.0);
     assert_eq!(ramp(Wrap::Mirror, Filter::Bilinear, 1.0), 255.0);
     assert_eq!(ramp(Wrap::Clamp, Filter::Bilinear, 5.0), 255.0);
-    let both = AlphaTexture::new([2, 2], vec![0, 51, 102, 255], [Wrap::Repeat, Wrap::Clamp], Filter::Nearest);
-    assert_eq!(both.unwrap().alpha(Vec2::new(1.6, 7.0)), 1.0);
+    let both =
+        ChannelTexture::new([2, 2], vec![0, 51, 102, 255], [Wrap::Repeat, Wrap::Clamp], Filter::Nearest);
+    assert_eq!(both.unwrap().value(Vec2::new(1.6, 7.0)), 1.0);
 }
 
 #[test]
@@ -68,7 +69,8 @@ fn the_factor_is_interpolated_and_multiplies_the_texture() {
     let mut occluders = cut_square(1.0, 1.0, Some(0), 1.0);
     for occluder in &mut occluders {
         let across = occluder.corners.map(|corner| corner.x + 1.0);
-        occluder.cut.as_mut().unwrap().alpha = across;
+        let Surface::Cut(cut) = &mut occluder.surface else { panic!() };
+        cut.alpha = across;
     }
     let scene = RayScene::new(&occluders, vec![half]).unwrap();
     let blocked = |x: f32| scene.blocked(&ray(Vec3::new(x, 0.0, 0.3), Vec3::new(x, 1.0, 0.3)));
@@ -80,7 +82,7 @@ fn the_factor_is_interpolated_and_multiplies_the_texture() {
 fn a_texture_needs_one_byte_a_pixel() {
     let wrap = [Wrap::Repeat; 2];
     for (size, bytes) in [([2, 2], 3), ([2, 2], 5), ([0, 4], 0), ([4, 0], 0)] {
-        let error = AlphaTexture::new(size, vec![0; bytes], wrap, Filter::Nearest).unwrap_err();
-        assert_eq!(error, Error::AlphaTexels { width: size[0], height: size[1], bytes });
+        let error = ChannelTexture::new(size, vec![0; bytes], wrap, Filter::Nearest).unwrap_err();
+        assert_eq!(error, Error::Texels { width: size[0], height: size[1], bytes });
     }
 }

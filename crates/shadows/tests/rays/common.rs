@@ -1,7 +1,9 @@
 //! Meshes and rays.
 
 use glam::{Vec2, Vec3};
-use shadowgraph_shadows::rays::{AlphaTexture, Cut, Filter, Occluder, Ray, RayScene, ReceiverPoint, Wrap};
+use shadowgraph_shadows::rays::{
+    ChannelTexture, Cut, Filter, Occluder, Ray, RayScene, ReceiverPoint, Surface, Wrap,
+};
 
 /// Two triangles, from `corner` along `u` and `v`.
 pub(crate) fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Vec<Occluder> {
@@ -19,13 +21,13 @@ pub(crate) fn cut_square(height: f32, half: f32, texture: Option<u32>, alpha: f3
     let uv = |p: Vec3| Vec2::new(p.x + half, p.z + half) / (2.0 * half);
     let cut = |o: Occluder| {
         let cut = Cut { texture, uv: o.corners.map(uv), alpha: [alpha; 3], cutoff: 0.5 };
-        Occluder { cut: Some(cut), ..o }
+        Occluder { surface: Surface::Cut(cut), ..o }
     };
     level_square(height, half).into_iter().map(cut).collect()
 }
 
-pub(crate) fn texture(size_px: [u32; 2], texels: &[u8], wrap: Wrap, filter: Filter) -> AlphaTexture {
-    AlphaTexture::new(size_px, texels.to_vec(), [wrap; 2], filter).unwrap()
+pub(crate) fn texture(size_px: [u32; 2], texels: &[u8], wrap: Wrap, filter: Filter) -> ChannelTexture {
+    ChannelTexture::new(size_px, texels.to_vec(), [wrap; 2], filter).unwrap()
 }
 
 pub(crate) fn scene(occluders: &[Occluder]) -> RayScene {

@@ -1,19 +1,21 @@
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 use shadowgraph_shadows::rays::{
-    AlphaTexture, Cut, Filter, GpuRayScene, NO_CUT, NO_TEXTURE, Occluder, Ray, RayAlphaTexture, RayNode,
-    RayScene, TriangleHit, Wrap,
+    ChannelTexture, Cut, Filter, GpuRayScene, NO_CUT, NO_TEXTURE, Occluder, Ray, RayNode, RayScene,
+    RayTexture, Surface, TINT, Tint, Wrap,
 };
 
-/// `ray_blocked` of `rays.wgsl`, line by line.
-fn blocked(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> bool {
+/// `ray_passed` of `rays.wgsl`, line by line.
+fn passed(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> Vec3 {
     let inverse = direction.to_array().map(|d| 1.0 / if d.abs() < 1e-20 { 1e-20 } else { d }).into();
     let root = gpu.nodes[0];
+    let mut passed = Vec3::ONE;
     if enters(root, origin, inverse) >= f32::MAX {
-        return false;
+        return passed;
     }
     if root.count > 0 {
-        return leaf_blocks(gpu, root, ray);
+        let is_stopped = meets_any(gpu, root, ray, &mut passed);
+        return if is_stopped { Vec3::ZERO } else { passed };
     }
     let (mut stack, mut height, mut pair) = ([0u32; 64], 0, root.first);
     loop {
@@ -22,8 +24,8 @@ fn blocked(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> bool 
         let mut next = 0;
         for node in [node, other].into_iter().filter(|&node| hit(node)) {
             if node.count > 0 {
-                if leaf_blocks(gpu, node, ray) {
-                    return true;
+                if meets_any(gpu, node, ray, &mut passed) {
+                    return Vec3::ZERO;
                 }
             } else if next == 0 {
                 next = node.first;
@@ -34,7 +36,7 @@ fn blocked(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> bool 
         }
         if next == 0 {
             if height == 0 {
-                return false;
+                return passed;
             }
             height -= 1;
             next = stack[height];
@@ -49,55 +51,80 @@ fn enters(node: RayNode, origin: Vec3, inverse: Vec3) -> f32 {
     if leaves >= enters && leaves >= 0.0 { enters } else { f32::MAX }
 }
 
-fn leaf_blocks(gpu: &GpuRayScene, node: RayNode, ray: &Ray) -> bool {
+fn meets_any(gpu: &GpuRayScene, node: RayNode, ray: &Ray, passed: &mut Vec3) -> bool {
     let triangles = &gpu.triangles[node.first as usize..(node.first + node.count) as usize];
-    let blocks = |hit: TriangleHit, cut: u32| cut == NO_CUT || !is_hole(gpu, cut, hit.weights);
-    triangles.iter().any(|triangle| ray.hit(triangle.corners()).is_some_and(|hit| blocks(hit, triangle.cut)))
+    triangles.iter().any(|triangle| {
+        ray.hit(triangle.corners()).is_some_and(|hit| stops(gpu, triangle.cut, hit.weights, passed))
+    })
 }
 
-fn is_hole(gpu: &GpuRayScene, cut: u32, weights: Vec3) -> bool {
-    let cut = gpu.cuts[cut as usize];
-    let mut alpha = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
-    if cut.texture != NO_TEXTURE {
-        let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
-        alpha *= unpacked(gpu, gpu.alpha_textures[cut.texture as usize]).alpha(uv);
+fn stops(gpu: &GpuRayScene, index: u32, weights: Vec3, passed: &mut Vec3) -> bool {
+    if index == NO_CUT {
+        return true;
     }
-    alpha < cut.cutoff
+    let cut = gpu.cuts[index as usize];
+    let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
+    let channel = |channel| match cut.texture {
+        NO_TEXTURE => 1.0,
+        texture => unpacked(gpu, gpu.textures[(texture + channel) as usize]).value(uv),
+    };
+    let factor = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
+    let alpha = factor * channel(0);
+    if cut.cutoff != TINT {
+        return alpha >= cut.cutoff;
+    }
+    let part = |color: u32, shift: u32| (color >> shift & 255) as f32 / 255.0;
+    let corner = |color| Vec3::new(part(color, 0), part(color, 8), part(color, 16));
+    let [a, b, c] = cut.color.map(corner);
+    let color =
+        (a * weights.x + b * weights.y + c * weights.z) * Vec3::new(channel(1), channel(2), channel(3));
+    let alpha = alpha.clamp(0.0, 1.0);
+    *passed *= (1.0 - alpha) * Vec3::ONE.lerp(color, alpha * (2.0 - alpha));
+    false
 }
 
 /// The texture that the packed words stand for.
-fn unpacked(gpu: &GpuRayScene, image: RayAlphaTexture) -> AlphaTexture {
-    let texel = |index: u32| (gpu.alpha_texels[index as usize / 4] >> (8 * (index % 4))) as u8;
+fn unpacked(gpu: &GpuRayScene, image: RayTexture) -> ChannelTexture {
+    let texel = |index: u32| (gpu.texels[index as usize / 4] >> (8 * (index % 4))) as u8;
     let texels = (0..image.width * image.height).map(|i| texel(image.first_texel + i)).collect();
     let wrap = |bits: u32| [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp][(bits & 3) as usize];
     let filter = if image.sampling & 16 == 0 { Filter::Nearest } else { Filter::Bilinear };
     let wraps = [wrap(image.sampling), wrap(image.sampling >> 2)];
-    AlphaTexture::new([image.width, image.height], texels, wraps, filter).unwrap()
+    ChannelTexture::new([image.width, image.height], texels, wraps, filter).unwrap()
 }
 
 fn vector() -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-1f32..1.0).prop_map(Vec3::from)
 }
 
-fn textures() -> impl Strategy<Value = Vec<AlphaTexture>> {
+fn textures() -> impl Strategy<Value = Vec<ChannelTexture>> {
     let wrap = || prop::sample::select(vec![Wrap::Repeat, Wrap::Mirror, Wrap::Clamp]);
     let filter = prop::sample::select(vec![Filter::Nearest, Filter::Bilinear]);
     let one = (prop::collection::vec(any::<u8>(), 15), 0usize..3, wrap(), wrap(), filter).prop_map(
         |(texels, shape, u, v, filter)| {
             let size = [[3, 5], [5, 3], [1, 15]][shape];
-            AlphaTexture::new(size, texels, [u, v], filter).unwrap()
+            ChannelTexture::new(size, texels, [u, v], filter).unwrap()
         },
     );
-    prop::collection::vec(one, 3)
+    prop::collection::vec(one, 5)
 }
 
 fn occluder() -> impl Strategy<Value = Occluder> {
-    let uv = prop::array::uniform3(prop::array::uniform2(-3f32..3.0).prop_map(Vec2::from));
-    let cut = (prop::option::weighted(0.8, 0u32..3), uv, prop::array::uniform3(0.3f32..1.5))
-        .prop_map(|(texture, uv, alpha)| Cut { texture, uv, alpha, cutoff: 0.5 });
-    (vector(), prop::array::uniform3(vector()), prop::option::of(cut)).prop_map(|(center, corners, cut)| {
-        Occluder { corners: corners.map(|corner| center * 10.0 + corner * 3.0), cut }
+    (vector(), prop::array::uniform3(vector()), surface()).prop_map(|(center, corners, surface)| Occluder {
+        corners: corners.map(|corner| center * 10.0 + corner * 3.0),
+        surface,
     })
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    let uv = || prop::array::uniform3(prop::array::uniform2(-3f32..3.0).prop_map(Vec2::from));
+    let texture = || prop::option::weighted(0.8, 0u32..2);
+    let cut = (texture(), uv(), prop::array::uniform3(0.3f32..1.5))
+        .prop_map(|(texture, uv, alpha)| Surface::Cut(Cut { texture, uv, alpha, cutoff: 0.5 }));
+    let color = prop::array::uniform3(prop::array::uniform4(0f32..1.0).prop_map(Vec4::from));
+    let tint =
+        (texture(), uv(), color).prop_map(|(texture, uv, color)| Surface::Tint(Tint { texture, uv, color }));
+    prop_oneof![Just(Surface::Opaque), cut, tint]
 }
 
 proptest! {
@@ -117,7 +144,11 @@ proptest! {
             let truth = scene.blocked_by_any_of_all(&ray);
             prop_assert_eq!(scene.blocked(&ray), truth);
             prop_assert_eq!(scene.nearest(&ray), scene.nearest_of_all(&ray));
-            prop_assert_eq!(blocked(&gpu, origin, direction, &ray), truth);
+            let all = scene.passed_by_all(&ray);
+            prop_assert_eq!(all == Vec3::ZERO, truth);
+            // Products in another order.
+            prop_assert!(scene.passed(&ray).abs_diff_eq(all, 1e-6));
+            prop_assert!(passed(&gpu, origin, direction, &ray).abs_diff_eq(all, 1e-6));
         }
     }
 }
@@ -126,6 +157,6 @@ proptest! {
 fn the_buffers_of_an_empty_scene_block_nothing_and_none_is_empty() {
     let gpu = GpuRayScene::new(&RayScene::new(&[], Vec::new()).unwrap(), 1 << 27).unwrap();
     let ray = Ray::new(Vec3::Y, Vec3::NEG_Y, 0.0, f32::INFINITY);
-    assert!(!blocked(&gpu, Vec3::Y, Vec3::NEG_Y, &ray));
-    assert_eq!(gpu.buffers().map(<[u8]>::len), [32, 48, 48, 16, 4]);
+    assert_eq!(passed(&gpu, Vec3::Y, Vec3::NEG_Y, &ray), Vec3::ONE);
+    assert_eq!(gpu.buffers().map(<[u8]>::len), [32, 48, 64, 16, 4]);
 }

@@ -1,11 +1,12 @@
 //! Shadow rays on the CPU, and their form for the GPU.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
-mod alpha;
+mod channel;
 mod common;
 mod flat;
 mod lights;
 mod origins;
 mod scenes;
 mod shader;
+mod tints;
 mod watertight;

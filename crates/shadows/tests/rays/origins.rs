@@ -48,7 +48,7 @@ proptest! {
         case.receiver.position *= largest;
         let light = LightShape::Directional { to_light: case.to_light, angular_radius: 0.0 };
         let truth = hard(&scene(&[Occluder::solid(case.corners)]), &light, &case.receiver, true);
-        prop_assert!(truth.faces_away || truth.visibility == 1.0, "{:?} {:?}", case, truth);
+        prop_assert!(truth.faces_away || truth.visibility == Vec3::ONE, "{:?} {:?}", case, truth);
     }
 }
 

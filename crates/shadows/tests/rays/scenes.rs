@@ -1,6 +1,6 @@
 use glam::{Vec2, Vec3};
 use shadowgraph_shadows::rays::{
-    Cut, Error, Filter, GpuRayScene, MAX_DEPTH, Occluder, RayNode, RayScene, Wrap,
+    Cut, Error, Filter, GpuRayScene, MAX_DEPTH, Occluder, RayNode, RayScene, Surface, Wrap,
 };
 
 use crate::common::{ball, cut_square, level_square, ray, scene, texture};
@@ -19,7 +19,7 @@ fn triangles_without_area_or_with_broken_numbers_are_dropped_and_counted() {
     let cut = Cut { texture: None, uv: [Vec2::ZERO; 3], alpha: [1.0; 3], cutoff: f32::NAN };
     occluders
         .extend([[a, a, b], [a, b, a.midpoint(b)], [a, b, Vec3::NAN], [a, b, c * 1e30]].map(Occluder::solid));
-    occluders.push(Occluder { corners: [a, b, c], cut: Some(cut) });
+    occluders.push(Occluder { corners: [a, b, c], surface: Surface::Cut(cut) });
     let scene = scene(&occluders);
     assert_eq!((scene.dropped(), scene.triangles().len(), scene.reach_m()), (5, 2, 7.0));
 }
@@ -40,7 +40,7 @@ fn a_cut_must_name_a_texture_that_is_there() {
     let occluders = [level_square(0.0, 1.0), cut_square(1.0, 1.0, Some(1), 1.0)].concat();
     let one = texture([1, 1], &[0], Wrap::Repeat, Filter::Nearest);
     let error = RayScene::new(&occluders, vec![one]).err();
-    assert_eq!(error, Some(Error::NoAlphaTexture { occluder: 2, texture: 1, count: 1 }));
+    assert_eq!(error, Some(Error::NoTexture { occluder: 2, texture: 1, count: 1 }));
 }
 
 #[test]
@@ -50,10 +50,7 @@ fn a_buffer_past_the_limit_is_named_with_its_bytes() {
     assert!(GpuRayScene::new(&scene, 4096).is_ok());
     let text = |limit| GpuRayScene::new(&scene, limit).unwrap_err().to_string();
     for (limit, start) in [
-        (
-            4095,
-            "the alpha texels of the ray scene need 4096 bytes; a storage buffer binding holds 4095: use sm",
-        ),
+        (4095, "the texels of the ray scene need 4096 bytes; a storage buffer binding holds 4095: use sm"),
         (95, "the boxes of the ray scene need 96 bytes; a storage buffer binding holds 95: leave out"),
     ] {
         assert!(text(limit).starts_with(start), "{}", text(limit));

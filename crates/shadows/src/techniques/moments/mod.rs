@@ -15,7 +15,7 @@ use shadowgraph_core::{Format, Frame};
 use shadowgraph_shaders::{MAPPED, MOMENTS, ModuleSource};
 
 use crate::settings::in_range;
-use crate::technique::binding::{STORAGE, UNIFORM};
+use crate::technique::binding::UNIFORM;
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, Record, ShadowInputs, ShadowMaps, TechniqueSettings, plan, record};
 use prefilter::Prefilter;
@@ -131,8 +131,7 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        // `tiles.wgsl` and `moments.wgsl`.
-        vec![STORAGE, STORAGE, prefilter::MOMENT_MAP, prefilter::MOMENT_MAP, UNIFORM]
+        [&ShadowMaps::BINDING_TYPES[..], &[prefilter::MOMENT_MAP, prefilter::MOMENT_MAP, UNIFORM]].concat()
     }
 
     fn records(&self) -> Vec<Record> {
@@ -155,13 +154,9 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
                 |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &rules, block));
             let cascades = of("cascade moments", &maps.cascades);
             let atlas = of("atlas moments", &maps.atlas);
-            let bindings = vec![
-                ShadowBinding::Buffer(maps.views.clone()),
-                ShadowBinding::Buffer(maps.lights.clone()),
-                ShadowBinding::Texture(cascades),
-                ShadowBinding::Texture(atlas),
-                ShadowBinding::Uniform(block),
-            ];
+            let mut bindings = maps.bindings();
+            bindings.extend([cascades, atlas].map(ShadowBinding::Texture));
+            bindings.push(ShadowBinding::Uniform(block));
             Ok(ShadowOutputs { variant: layout, ..maps.outputs(bindings) })
         })
     }

@@ -13,7 +13,7 @@ use shadowgraph_shaders::{MAPPED, ModuleSource, PCSS};
 
 use crate::maps::comparison_sampler;
 use crate::plan;
-use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE, UNIFORM};
+use crate::technique::binding::{COMPARISON_SAMPLER, UNIFORM};
 use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
 use crate::{Error, Needs, Record, ShadowInputs, ShadowMaps, TechniqueSettings, record};
 
@@ -73,8 +73,7 @@ impl ShadowTechnique for Pcss {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        // `tiles.wgsl` and `pcss.wgsl`.
-        vec![STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, COMPARISON_SAMPLER, UNIFORM]
+        [&ShadowMaps::BINDING_TYPES[..], &[COMPARISON_SAMPLER, UNIFORM]].concat()
     }
 
     fn records(&self) -> Vec<Record> {

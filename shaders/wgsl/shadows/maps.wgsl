@@ -1,0 +1,50 @@
+// The shadow maps of a frame: depth, 1 nearest to the light, and the colour that light has behind what it passes through.
+#define_import_path shadowgraph::shadows::maps
+#import shadowgraph::shadows::types::MAP_CASCADES
+
+@group(1) @binding(2) var cascade_map: texture_depth_2d;
+@group(1) @binding(3) var atlas_map: texture_depth_2d;
+// Of translucent casters that opaque ones do not hide from the light: the product of what they let through.
+@group(1) @binding(4) var cascade_tints: texture_2d<f32>;
+@group(1) @binding(5) var atlas_tints: texture_2d<f32>;
+// Depth of the translucent caster that is nearest to the light.
+@group(1) @binding(6) var cascade_tint_depths: texture_depth_2d;
+@group(1) @binding(7) var atlas_tint_depths: texture_depth_2d;
+
+// Texels each way. `map`: MAP_*.
+fn map_size(map: u32) -> vec2f {
+    if map == MAP_CASCADES {
+        return vec2f(textureDimensions(cascade_map));
+    }
+    return vec2f(textureDimensions(atlas_map));
+}
+
+fn stored_depth(map: u32, texel: vec2i) -> f32 {
+    if map == MAP_CASCADES {
+        return textureLoad(cascade_map, texel, 0);
+    }
+    return textureLoad(atlas_map, texel, 0);
+}
+
+fn stored_tint(map: u32, texel: vec2i) -> vec3f {
+    if map == MAP_CASCADES {
+        return textureLoad(cascade_tints, texel, 0).rgb;
+    }
+    return textureLoad(atlas_tints, texel, 0).rgb;
+}
+
+fn stored_tint_depth(map: u32, texel: vec2i) -> f32 {
+    if map == MAP_CASCADES {
+        return textureLoad(cascade_tint_depths, texel, 0);
+    }
+    return textureLoad(atlas_tint_depths, texel, 0);
+}
+
+// How much what the map stores changes at a point, per texel: the bias of gradient shadow maps follows it.
+fn stored_gradient(map: u32, uv: vec2f) -> f32 {
+    let size_px = map_size(map);
+    let at = vec2i(clamp(floor(uv * size_px), vec2f(1.0), size_px - 2.0));
+    let across = stored_depth(map, at + vec2i(1, 0)) - stored_depth(map, at - vec2i(1, 0));
+    let down = stored_depth(map, at + vec2i(0, 1)) - stored_depth(map, at - vec2i(0, 1));
+    return 0.5 * length(vec2f(across, down));
+}

@@ -1,0 +1,161 @@
+//! Coloured shadows: maps of tints and rays through the same glass.
+
+use glam::{DVec3, Vec3};
+use shadowgraph::options::Aov;
+use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
+use shadowgraph::scene::trials::stained_glass;
+use shadowgraph::scene::{CasterMode, Scene};
+use shadowgraph::shadows::{EVSM, MSM, NONE, PCF, PCSS, Pcf, RAYTRACED, SDSM, ShadowFilter, Technique};
+use shadowgraph::{Gpu, Renderer, SceneCasters, ViewOptions};
+
+use crate::maps::draw_map;
+use crate::stage::{gpu, hard, view};
+
+/// The scene with one of its lights, 0 the sun or 1 the lamp, as its camera sees it.
+fn lit_by(light: usize) -> (Scene, ViewOptions) {
+    let mut scene = stained_glass();
+    scene.lights = vec![scene.lights[light].clone()];
+    let options = ViewOptions { size_px: [640, 360], ..view(scene.cameras[0].clone(), 60.0) };
+    (scene, options)
+}
+
+/// The screen mask of the only light: what of it each pixel's surface sees.
+fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -> Vec<Vec3> {
+    let aov = Aov::Texture("shadow mask".into());
+    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().picture;
+    // The picture is sRGB.
+    let linear = |byte: u8| {
+        let value = f32::from(byte) / 255.0;
+        if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    };
+    let color = |rgba: &[u8]| Vec3::new(linear(rgba[0]), linear(rgba[1]), linear(rgba[2]));
+    picture.rgba8.chunks_exact(4).map(color).collect()
+}
+
+/// Which pixels show surfaces that face the light: what the others see of it does not matter.
+fn facing(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<bool> {
+    let mut renderer =
+        Renderer::with(gpu, scene.clone(), &options.camera, Aov::Visibility(0), Technique::from(NONE))
+            .unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().picture;
+    picture.rgba8.chunks_exact(4).map(|rgba| rgba[3] == 255).collect()
+}
+
+/// The part of the pixels in which a colour differs by more than this.
+fn differing(a: &[Vec3], b: &[Vec3], by: f32) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.filter(|(a, b)| (**a - **b).abs().max_element() > by).count() as f64 / a.len() as f64
+}
+
+/// The part of the pixels that see neither all of the light nor none, and not the same of each colour.
+fn coloured(mask: &[Vec3]) -> f64 {
+    let is_coloured = |color: &&Vec3| color.max_element() - color.min_element() > 0.04;
+    mask.iter().filter(is_coloured).count() as f64 / mask.len() as f64
+}
+
+#[test]
+fn maps_and_rays_agree_on_the_colours_behind_stained_glass() {
+    let Some(gpu) = gpu() else { return };
+    for light in [0, 1] {
+        let (scene, mut options) = lit_by(light);
+        options.shadows.cascades.filter = ShadowFilter::Tent2;
+        options.shadows.atlas.filter = ShadowFilter::Tent2;
+        let truth = mask(gpu, &scene, &hard(&options), RAYTRACED.into());
+        let maps = mask(gpu, &scene, &options, Technique::from(PCF).collected());
+        let (part, coloured) = (differing(&maps, &truth, 0.02), coloured(&truth));
+        println!("light {light}: {:.3} % differ, {:.1} % are coloured", 100.0 * part, 100.0 * coloured);
+        assert!(coloured > 0.04, "light {light}: {coloured}");
+        assert!(part < 0.01, "light {light}: {part}");
+    }
+}
+
+#[test]
+fn every_technique_of_maps_colours_light_with_and_without_what_goes_on_top() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, mut options) = lit_by(0);
+    options.shadows.cascades.map_size_px = 2048;
+    let mut truth = mask(gpu, &scene, &hard(&options), RAYTRACED.into());
+    let facing = facing(gpu, &scene, &options);
+    let keep = |mask: &mut Vec<Vec3>| {
+        let mut faces = facing.iter();
+        mask.retain(|_| *faces.next().unwrap());
+    };
+    keep(&mut truth);
+    let ways = [PCSS, EVSM, MSM, SDSM].map(|kind| Technique::from(kind).collected());
+    for technique in ways.into_iter().chain([Technique::from(PCF).collected().with_contact()]) {
+        let mut mask = mask(gpu, &scene, &options, technique);
+        keep(&mut mask);
+        let part = differing(&mask, &truth, 0.1);
+        println!("{}: {:.2} % differ by a tenth", technique.name(), 100.0 * part);
+        assert!(part < 0.03, "{}: {part}", technique.name());
+    }
+}
+
+#[test]
+fn what_casts_no_tint_is_no_longer_coloured() {
+    let Some(gpu) = gpu() else { return };
+    let (mut scene, options) = lit_by(0);
+    let pcf = Technique::from(PCF).collected();
+    assert!(coloured(&mask(gpu, &scene, &options, pcf)) > 0.04);
+    for mode in [CasterMode::On, CasterMode::Off] {
+        scene.materials.iter_mut().for_each(|material| material.casts = Some(mode));
+        assert_eq!(coloured(&mask(gpu, &scene, &options, pcf)), 0.0, "{mode:?}");
+    }
+}
+
+#[test]
+fn tints_that_are_kept_from_frame_to_frame_are_those_that_are_drawn_anew() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, mut options) = lit_by(0);
+    options.shadows.cascades.map_size_px = 1024;
+    options.shadows.atlas.map_size_px = 1024;
+    let lights = stained_glass().lights;
+    let draw = |cache| {
+        let mut options = options.clone();
+        (options.shadows.cascades.cache, options.shadows.atlas.cache) = (cache, cache);
+        let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
+        // Both lights, both again, and the sun alone while the camera moves.
+        [(2, 0.0), (2, 0.0), (1, 0.3), (1, 0.3)].map(|(count, step)| {
+            renderer.set_lights(lights[..count].to_vec()).unwrap();
+            options.camera.world_from_view.translation = scene.cameras[0].position_world() + DVec3::X * step;
+            let drawn = renderer.draw(gpu, &options).unwrap();
+            let passes = drawn.plan.order().iter().map(|&pass| drawn.plan.pass_path(pass).to_string());
+            (drawn.picture, passes.filter(|path| path.contains(" tints/")).count())
+        })
+    };
+    let (kept, anew) = (draw(true), draw(false));
+    for ((kept, _), (anew, passes)) in kept.iter().zip(&anew) {
+        assert!(kept == anew && *passes > 0);
+    }
+    assert!(kept[0].1 > 0);
+    assert_eq!([kept[1].1, kept[3].1], [0, 0]);
+}
+
+#[test]
+fn tints_before_the_near_plane_are_drawn_by_the_shader_as_by_the_hardware() {
+    let Some(gpu) = gpu() else { return };
+    if !gpu.device.features().contains(shadowgraph::wgpu::Features::DEPTH_CLIP_CONTROL) {
+        return shadowgraph_tests::skip(
+            "depth_clip_control",
+            "the adapter has no DEPTH_CLIP_CONTROL to compare with",
+        );
+    }
+    let (scene, mut options) = lit_by(0);
+    // So near that the window is outside of the first cascade.
+    options.shadows.distance_m = 12.0;
+    options.shadows.cascades.map_size_px = 1024;
+    let upload = || GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
+    let maps = [false, true].map(|emulate_clamp| {
+        let target = DepthTarget { clamp_near: true, emulate_clamp, ..DepthTarget::default() };
+        let casters = SceneCasters::with_target(&gpu.device, upload(), &target).unwrap();
+        let (technique, camera) = (Pcf::new(&gpu.device), &scene.cameras[0]);
+        let settings = &options.shadows;
+        let map = draw_map(gpu, &technique, &casters, &scene.lights, camera, settings, "cascade tints");
+        map.depth.iter().map(|texel| texel.to_bits()).collect::<Vec<_>>()
+    });
+    let tinted = maps[0].iter().filter(|texel| **texel != u32::MAX).count();
+    let differ = maps[0].iter().zip(&maps[1]).filter(|(a, b)| a != b).count();
+    assert!(tinted > 1000, "{tinted}");
+    assert!(differ <= maps[0].len() / 10_000, "{differ} of {} texels differ", maps[0].len());
+}
