@@ -36,8 +36,8 @@ pub(crate) fn draw_map(
         ShadowInputs { view: 0, camera, aspect: 16.0 / 9.0, lights, casters, origin_world, settings };
     let plan = plan_shadows(&inputs).unwrap();
     let mut frame = Frame::new();
-    let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
-    let (_, map) = outputs.debug.iter().find(|(debug, _)| *debug == name).unwrap();
+    technique.add_to(&mut frame, &inputs, None).unwrap();
+    let map = &frame.find_texture(name).unwrap();
     let size = frame.texture_desc(map).unwrap().size;
     let size_px = [size.width, size.height];
     let row_bytes = (size.width * 4).next_multiple_of(256);

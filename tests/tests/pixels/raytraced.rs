@@ -10,7 +10,10 @@ use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 
-/// A light's visibility in a view, as the technique has it, 1 or 0, `None` where there is nothing to be lit.
+/// A mask and a picture have 8 bits each.
+const ROUNDING: f32 = 1.2 / 255.0;
+
+/// A light's visibility in a view, as the technique has it, the mean of the colours, `None` where there is nothing to be lit.
 struct Traced {
     visibility: Vec<Option<f32>>,
     surfaces: Surfaces,
@@ -41,7 +44,7 @@ impl Traced {
     fn unlike(&self, truth: &[f32], reached: &[f32]) -> (usize, usize) {
         // Outside of a spot light's cone the CPU does not ask.
         let pairs = self.visibility.iter().zip(truth).zip(reached).filter(|(_, n_dot_l)| **n_dot_l > 0.0);
-        let known = pairs.filter_map(|((seen, truth), _)| Some((*seen)? == *truth));
+        let known = pairs.filter_map(|((seen, truth), _)| Some(((*seen)? - truth).abs() < ROUNDING));
         known.fold((0, 0), |(unlike, all), same| (unlike + usize::from(!same), all + 1))
     }
 
@@ -61,9 +64,9 @@ impl Traced {
                 view_distance_m: position.distance(self.eye),
             };
             let ray = self.light.shape.ray(&self.rays, &receiver, glam::Vec2::ZERO);
-            ray.is_some_and(|ray| !self.rays.blocked_by_any_of_all(&ray))
+            ray.map_or(0.0, |ray| self.rays.passed_by_all(&ray).element_sum() / 3.0)
         });
-        let truth: Vec<f32> = truth.map(|lit| f32::from(u8::from(lit))).collect();
+        let truth: Vec<f32> = truth.collect();
         self.unlike(&truth, &n_dot_l)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, PoisonError};
 
-use shadowgraph_core::{Bind, Contents, Format, Frame, Part, Texture, TextureDesc};
+use shadowgraph_core::{Bind, Contents, Format, Frame, Part, Pass, Rendering, Texture, TextureDesc};
 
 use super::cache::{CachedMap, TileKey};
 use super::{DrawnMap, ShadowMaps, Views};
@@ -57,17 +57,14 @@ impl Sheet<'_> {
         }
     }
 
-    /// Adds the pass that clears all of it; `then` is called when it has been recorded.
-    fn clear<'f>(&self, frame: &mut Frame<'f>, texture: &mut Texture, then: impl FnOnce() + Send + 'f) {
+    /// Adds the pass that clears all of it.
+    fn clear<'p, 'f>(&self, frame: &'p mut Frame<'f>, texture: &mut Texture) -> Pass<'p, 'f, Rendering> {
         let mut pass = frame.render_pass("clear");
         match self.pass {
             CasterPass::Tint => pass.color(texture, self.empty()),
             _ => pass.depth(texture, self.empty()),
         };
-        pass.body(move |_| {
-            then();
-            Ok(())
-        });
+        pass
     }
 
     /// What a tile of it depends on.
@@ -129,7 +126,7 @@ impl ShadowMaps {
         frame.node(sheet.name, |frame| {
             // All of the map, as shaders sample it whole and its tiles need not cover it. Tiles do not overlap, so
             // nothing orders them among each other, and all become one render pass that begins with this clear.
-            sheet.clear(frame, &mut texture, || ());
+            sheet.clear(frame, &mut texture);
             for tile in sheet.plan.tiles.iter().filter(|tile| !tile.casters_of(sheet.pass).is_empty()) {
                 let target = Target { texture: &mut texture, depth, contents: Contents::Preserve };
                 self.tile(frame, sheet, target, tile, source, |_| ());
@@ -152,7 +149,10 @@ impl ShadowMaps {
         frame.node(sheet.name, |frame| {
             if !cleared {
                 let cached = cached.clone();
-                sheet.clear(frame, &mut texture, move || cached.note_clear());
+                sheet.clear(frame, &mut texture).body(move |_| {
+                    cached.note_clear();
+                    Ok(())
+                });
             }
             for tile in &sheet.plan.tiles {
                 let key = sheet.key(tile, source);

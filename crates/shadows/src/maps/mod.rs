@@ -154,12 +154,7 @@ impl DrawnMaps {
         ShadowOutputs {
             bindings,
             debug_light: self.main_light,
-            debug: vec![
-                ("cascades", self.cascades.texture),
-                ("atlas", self.atlas.texture),
-                ("cascade tints", self.cascades.tints),
-                ("atlas tints", self.atlas.tints),
-            ],
+            debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
             unshadowed: self.unshadowed,
             ..ShadowOutputs::default()
         }
