@@ -68,6 +68,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("lighting.wgsl"),
     file!("material.wgsl"),
     file!("noise.wgsl"),
+    file!("ray_surfaces.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
     file!("shadows/evsm_layout.wgsl"),

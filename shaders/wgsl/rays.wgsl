@@ -1,4 +1,5 @@
 #define_import_path shadowgraph::rays
+#import shadowgraph::ray_surfaces::{CUTS, TINTS}
 // Shadow rays through a tree of triangles: the same arithmetic as the CPU's.
 
 // A box of the tree, 32 bytes. With a count of 0, `first` is the first of its two boxes, else of its triangles.
@@ -182,13 +183,13 @@ fn ray_channel(cut: RayCut, channel: u32, weights: vec3f) -> f32 {
 
 // Whether a triangle stops light where it is hit; if it does not, what it leaves of it.
 fn ray_stops(index: u32, weights: vec3f, passed: ptr<function, vec3f>) -> bool {
-    if index == RAY_NONE {
+    if !(CUTS || TINTS) || index == RAY_NONE {
         return true;
     }
     let cut = ray_cuts[index];
     var alpha = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
     alpha *= ray_channel(cut, 0u, weights);
-    if cut.cutoff != RAY_TINT {
+    if !TINTS || cut.cutoff != RAY_TINT {
         return alpha >= cut.cutoff;
     }
     let texture = vec3f(

@@ -100,7 +100,11 @@ impl<'a> Planner<'a> {
 
     /// Tells casters that tint from the others.
     fn opaque_and_tints(&self, casters: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
-        casters.into_iter().partition(|&caster| !self.inputs.casters.tints(caster))
+        let tints = |caster: &u32| self.inputs.casters.tints(*caster);
+        if !casters.iter().any(tints) {
+            return (casters, Vec::new());
+        }
+        casters.into_iter().partition(|caster| !tints(caster))
     }
 
     /// Gives a light its views; returns its record for what else there is to say.

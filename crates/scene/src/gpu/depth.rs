@@ -114,12 +114,12 @@ impl CasterPipelines {
         target: &DepthTarget,
     ) -> Result<Self, Error> {
         let recipe = Recipe::new(device, layouts, target)?;
-        let pipeline = |holes| recipe.pipeline(device, Variant { holes, culled: None });
+        let pipeline = |alpha| recipe.pipeline(device, Variant { alpha, culled: None });
         Ok(Self {
-            solid: pipeline(Holes::None),
-            clip: pipeline(Holes::Clip),
-            dither: pipeline(Holes::Dither),
-            tint: pipeline(Holes::Tint),
+            solid: pipeline(Alpha::Ignored),
+            clip: pipeline(Alpha::Clip),
+            dither: pipeline(Alpha::Dither),
+            tint: pipeline(Alpha::Tint),
         })
     }
 
@@ -142,7 +142,8 @@ impl CasterPipelines {
         DrawWith { pipeline: &self.solid, reads_material: false }
     }
 
-    /// Returns what multiplies a target of [`DepthTarget::tint_format`] by what light passes. It is tested against depth and does not write it.
+    /// Returns what multiplies a target of [`DepthTarget::tint_format`] by the light that passes. It is tested against depth and does not
+    /// write it.
     #[must_use]
     pub fn tint(&self) -> DrawWith<'_> {
         DrawWith { pipeline: &self.tint, reads_material: true }
@@ -151,18 +152,18 @@ impl CasterPipelines {
 
 /// What alpha does.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Holes {
-    None,
+enum Alpha {
+    Ignored,
     Clip,
     Dither,
-    /// No holes, but colours.
+    /// It colours light.
     Tint,
 }
 
 /// What of a key matters where only depth is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Variant {
-    holes: Holes,
+    alpha: Alpha,
     /// The winding whose backs are left out; none: both sides are drawn.
     culled: Option<wgpu::FrontFace>,
 }
@@ -170,8 +171,8 @@ struct Variant {
 impl Variant {
     fn new(key: MaterialKey) -> Self {
         let state = key.primitive_state();
-        let holes = if key.alpha == AlphaKey::Opaque { Holes::None } else { Holes::Clip };
-        Self { holes, culled: state.cull_mode.map(|_| state.front_face) }
+        let alpha = if key.alpha == AlphaKey::Opaque { Alpha::Ignored } else { Alpha::Clip };
+        Self { alpha, culled: state.cull_mode.map(|_| state.front_face) }
     }
 }
 
@@ -185,7 +186,7 @@ struct Recipe {
     emulated: bool,
     view_layout: wgpu::BindGroupLayout,
     opaque_layout: wgpu::PipelineLayout,
-    holes_layout: wgpu::PipelineLayout,
+    material_layout: wgpu::PipelineLayout,
 }
 
 impl Recipe {
@@ -212,21 +213,21 @@ impl Recipe {
             unclipped,
             emulated: target.clamp_near && !unclipped,
             opaque_layout: layout(None),
-            holes_layout: layout(Some(&layouts.material)),
+            material_layout: layout(Some(&layouts.material)),
             view_layout,
         })
     }
 
     fn pipeline(&self, device: &wgpu::Device, variant: Variant) -> wgpu::RenderPipeline {
-        let fragment_entry = match (variant.holes, self.emulated) {
-            (Holes::None, false) => None,
-            (Holes::Clip, false) => Some("fs_mask"),
-            (Holes::Dither, false) => Some("fs_dither"),
-            (Holes::Tint, false) => Some("fs_tint"),
-            (Holes::None, true) => Some("fs_clamp"),
-            (Holes::Clip, true) => Some("fs_mask_clamp"),
-            (Holes::Dither, true) => Some("fs_dither_clamp"),
-            (Holes::Tint, true) => Some("fs_tint_clamp"),
+        let fragment_entry = match (variant.alpha, self.emulated) {
+            (Alpha::Ignored, false) => None,
+            (Alpha::Clip, false) => Some("fs_mask"),
+            (Alpha::Dither, false) => Some("fs_dither"),
+            (Alpha::Tint, false) => Some("fs_tint"),
+            (Alpha::Ignored, true) => Some("fs_clamp"),
+            (Alpha::Clip, true) => Some("fs_mask_clamp"),
+            (Alpha::Dither, true) => Some("fs_dither_clamp"),
+            (Alpha::Tint, true) => Some("fs_tint_clamp"),
         };
         let multiplied = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::Dst,
@@ -251,7 +252,11 @@ impl Recipe {
         };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("depth"),
-            layout: Some(if variant.holes == Holes::None { &self.opaque_layout } else { &self.holes_layout }),
+            layout: Some(if variant.alpha == Alpha::Ignored {
+                &self.opaque_layout
+            } else {
+                &self.material_layout
+            }),
             vertex,
             primitive: wgpu::PrimitiveState {
                 front_face: variant.culled.unwrap_or_default(),
@@ -259,7 +264,7 @@ impl Recipe {
                 unclipped_depth: self.unclipped,
                 ..wgpu::PrimitiveState::default()
             },
-            depth_stencil: Some(self.depth_state(variant.holes != Holes::Tint)),
+            depth_stencil: Some(self.depth_state(variant.alpha != Alpha::Tint)),
             multisample: wgpu::MultisampleState {
                 count: self.target.samples,
                 ..wgpu::MultisampleState::default()
@@ -268,7 +273,7 @@ impl Recipe {
                 module: &self.shader,
                 entry_point: Some(entry),
                 compilation_options: options,
-                targets: if variant.holes == Holes::Tint { &tints } else { &[] },
+                targets: if variant.alpha == Alpha::Tint { &tints } else { &[] },
             }),
             multiview_mask: None,
             cache: None,

@@ -74,7 +74,7 @@ impl ShadowMaps {
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
             view_layout: caster_view_layout(device),
-            // wgpu fills a new texture with zeros: the far end of reversed depth, in front of which all is lit.
+            // Zero is the far end of reversed depth, in front of which all is lit.
             lit: texel(device, "no shadows", wgpu::TextureFormat::Depth32Float),
             untinted: texel(device, "no tints", TINT_FORMAT),
             device: device.clone(),
@@ -161,6 +161,7 @@ impl DrawnMaps {
     }
 }
 
+/// One texel of zeros, which wgpu fills new textures with.
 fn texel(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),

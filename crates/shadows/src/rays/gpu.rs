@@ -1,10 +1,11 @@
 //! The scene as the buffers of `rays.wgsl`.
 
 use bytemuck::Zeroable;
+use shadowgraph_shaders::ModuleSource;
 
 use super::{
     ChannelTexture, Error, RayScene,
-    records::{NO_CUT, RayCut, RayNode, RayTexture, RayTriangle},
+    records::{NO_CUT, RayCut, RayNode, RayTexture, RayTriangle, TINT},
 };
 
 const FEWER_TRIANGLES: &str = "leave out what casts no shadow into view, use coarser meshes, or ask the device \
@@ -54,6 +55,21 @@ impl GpuRayScene {
         };
         gpu.pack(scene.textures());
         Ok(gpu)
+    }
+
+    /// Returns the WGSL that says what rays can meet, in the place of `ray_surfaces.wgsl`: what no triangle has is not compiled in.
+    #[must_use]
+    pub fn surfaces(&self) -> ModuleSource {
+        let of = |cut: u32| self.cuts.get(cut as usize).map(|cut| cut.cutoff == TINT);
+        let has = |tints| self.triangles.iter().any(|triangle| of(triangle.cut) == Some(tints));
+        let source = format!(
+            "#define_import_path shadowgraph::ray_surfaces\n\
+             const CUTS: bool = {};\n\
+             const TINTS: bool = {};\n",
+            has(false),
+            has(true),
+        );
+        ModuleSource::new("ray_surfaces.wgsl of a scene", source)
     }
 
     /// The bytes of the buffers, in the order of their bindings: boxes, triangles, cuts, channels, texels.

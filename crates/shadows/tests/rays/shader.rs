@@ -1,11 +1,15 @@
+use glam::{Vec2, Vec3, Vec4};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+use shadowgraph_shadows::rays::{Cut, GpuRayScene, Occluder, RayScene, Surface, Tint};
 
 const TEXT: &str = include_str!("../../../../shaders/wgsl/rays.wgsl");
 
 fn module() -> naga::Module {
-    let (first, rest) = TEXT.split_once('\n').unwrap();
-    assert_eq!(first, "#define_import_path shadowgraph::rays");
-    naga::front::wgsl::parse_str(rest).unwrap_or_else(|error| panic!("{}", error.emit_to_string(rest)))
+    let lines = |line: &&str| !line.starts_with('#');
+    let own = TEXT.lines().filter(lines).collect::<Vec<_>>().join("\n");
+    let whole = format!("const CUTS: bool = true;\nconst TINTS: bool = true;\n{own}");
+    naga::front::wgsl::parse_str(&whole).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&whole)))
 }
 
 #[test]
@@ -48,5 +52,24 @@ fn the_shader_has_the_constants_of_the_code() {
         "/ 131072.0",
     ] {
         assert!(TEXT.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn what_no_triangle_has_is_not_compiled_in() {
+    let square = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    let (texture, uv) = (None, [Vec2::ZERO; 3]);
+    let cut = Surface::Cut(Cut { texture, uv, alpha: [1.0; 3], cutoff: 0.5 });
+    let tint = Surface::Tint(Tint { texture, uv, color: [Vec4::ONE; 3] });
+    for surfaces in [vec![], vec![Surface::Opaque], vec![cut], vec![tint], vec![Surface::Opaque, tint, cut]] {
+        let occluders: Vec<_> =
+            surfaces.iter().map(|&surface| Occluder { corners: square, surface }).collect();
+        let scene = RayScene::new(&occluders, Vec::new()).unwrap();
+        let text = GpuRayScene::new(&scene, 1 << 27).unwrap().surfaces().source;
+        let has = |name: &str, surface| {
+            assert!(text.contains(&format!("{name}: bool = {};", surfaces.contains(&surface))), "{text}");
+        };
+        has("CUTS", cut);
+        has("TINTS", tint);
     }
 }

@@ -36,6 +36,8 @@ pub struct Raytraced {
     /// The bindings of `rays.wgsl`.
     rays: [wgpu::Buffer; 5],
     reach_m: f32,
+    /// See [`GpuRayScene::surfaces`].
+    surfaces: ModuleSource,
     /// What is bound where there is no mask.
     no_mask: wgpu::Texture,
 }
@@ -59,10 +61,11 @@ impl Raytraced {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
         };
         Ok(Self {
-            trace: Trace::new(device)?,
+            trace: Trace::new(device, &scene.surfaces())?,
             denoise: MaskPass::new(device, "denoise", "denoise.wgsl", "cs_denoise")?,
             rays: scene.buffers().map(buffer),
             reach_m: scene.reach_m,
+            surfaces: scene.surfaces(),
             no_mask: no_mask(device),
         })
     }
@@ -131,7 +134,7 @@ impl ShadowTechnique for Raytraced {
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
-        vec![RAYTRACED]
+        vec![RAYTRACED, self.surfaces.clone()]
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
@@ -181,8 +184,8 @@ fn record(reach_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8>
 }
 
 impl Trace {
-    fn new(device: &wgpu::Device) -> Result<Self, Error> {
-        let module = shadowgraph_shaders::compose("raytrace.wgsl", &[])?;
+    fn new(device: &wgpu::Device, surfaces: &ModuleSource) -> Result<Self, Error> {
+        let module = shadowgraph_shaders::compose("raytrace.wgsl", std::slice::from_ref(surfaces))?;
         let view_layout = layout(device, "view", &[STORAGE; 2]);
         let rays_layout = layout(device, "rays", &[STORAGE; 6]);
         let screen_layout = layout(device, "screen", &[FLOAT_MAP, TARGET]);
