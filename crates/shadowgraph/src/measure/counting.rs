@@ -42,6 +42,10 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.version(caster)
     }
 
+    fn tints(&self, caster: u32) -> bool {
+        self.casters.tints(caster)
+    }
+
     fn receivers(&self) -> Aabb {
         self.casters.receivers()
     }

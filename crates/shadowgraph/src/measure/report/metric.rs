@@ -135,7 +135,7 @@ pub const METRICS: &[Metric] = &[
     },
     Metric {
         name: "draws",
-        heading: ["draws", ""],
+        heading: ["caster", "draws"],
         about: "Draws of casters in a frame.",
         decimals: 0,
         of: |case| case.cost.map(|cost| cost.draws as f64),
