@@ -23,6 +23,7 @@ mod mesh;
 mod origin;
 mod scene;
 mod solids;
+mod srgb;
 pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
@@ -34,3 +35,4 @@ pub use material::{AlphaMode, CasterMode, Filter, Image, Material, Sampler, Text
 pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
 pub use scene::{Instance, Scene};
+pub use srgb::light_from_srgb;

@@ -1,10 +1,11 @@
 //! A scene's triangles, as they stop light.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
-use shadowgraph_scene::{AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap};
-use shadowgraph_shadows::rays::{self, ChannelTexture, Cut, Occluder, RayScene, Surface, Tint};
-
+use shadowgraph_scene::{
+    AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap, light_from_srgb,
+};
 use shadowgraph_shadows::Error;
+use shadowgraph_shadows::rays::{self, ChannelTexture, Cut, Occluder, RayScene, Surface, Tint};
 
 /// The cutoff of surfaces whose material names none.
 const HALF: f32 = 0.5;
@@ -116,19 +117,14 @@ impl Textures {
         let Some(image) = scene.images.get(used.image) else { return Ok(None) };
         let first = self.all.len() as u32;
         for &channel in channels {
-            let value = |texel: &[u8]| if channel == 3 { texel[3] } else { linear(texel[channel]) };
-            let texels = image.rgba8.chunks_exact(4).map(value).collect();
-            let texture = ChannelTexture::new([image.width, image.height], texels, wrap, filter);
+            let texels = image.rgba8.chunks_exact(4).map(|texel| match channel {
+                3 => texel[3],
+                _ => (light_from_srgb(texel[channel]) * 255.0).round() as u8,
+            });
+            let texture = ChannelTexture::new([image.width, image.height], texels.collect(), wrap, filter);
             self.all.push(texture.map_err(shadowgraph_shadows::Error::from)?);
         }
         self.known.push((key, first));
         Ok(Some(first))
     }
-}
-
-/// A channel of sRGB as linear, both 0 to 255.
-fn linear(srgb: u8) -> u8 {
-    let value = f32::from(srgb) / 255.0;
-    let linear = if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) };
-    (linear * 255.0).round() as u8
 }

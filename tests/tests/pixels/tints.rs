@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
 use shadowgraph::scene::trials::stained_glass;
-use shadowgraph::scene::{CasterMode, Scene};
+use shadowgraph::scene::{CasterMode, Scene, light_from_srgb};
 use shadowgraph::shadows::{EVSM, MSM, NONE, PCF, PCSS, Pcf, RAYTRACED, SDSM, ShadowFilter, Technique};
 use shadowgraph::{Gpu, Renderer, SceneCasters, ViewOptions};
 
@@ -24,12 +24,8 @@ fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -
     let aov = Aov::Texture("shadow mask".into());
     let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
     let picture = renderer.draw(gpu, options).unwrap().picture;
-    // The picture is sRGB.
-    let linear = |byte: u8| {
-        let value = f32::from(byte) / 255.0;
-        if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-    };
-    let color = |rgba: &[u8]| Vec3::new(linear(rgba[0]), linear(rgba[1]), linear(rgba[2]));
+    let color =
+        |rgba: &[u8]| Vec3::from([rgba[0], rgba[1], rgba[2]].map(|byte| light_from_srgb(byte) as f32));
     picture.rgba8.chunks_exact(4).map(color).collect()
 }
 

@@ -97,7 +97,8 @@ impl Techniques {
             found = match (base(part), over(part)) {
                 (Some(kind), _) if place == 0 => Some(Technique::from(kind)),
                 (_, Some(over)) => Some(found.unwrap_or_default().over_with(over)),
-                _ => return Err(self.unknown(name)),
+                _ if place > 0 => return Err(self.unknown(&format!("+{part}"))),
+                _ => return Err(self.unknown(part)),
             };
         }
         found.ok_or_else(|| self.unknown(name))

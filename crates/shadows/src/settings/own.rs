@@ -43,12 +43,12 @@ impl OwnSettings {
     /// # Errors
     /// Names the technique and the field, and what it may be.
     pub fn get<T: TechniqueSettings>(&self) -> Result<T, Error> {
-        let read: T = match self.0.get(T::NAME) {
-            Some(own) => own.into_rust().map_err(|error| failed(T::NAME, &error.code))?,
+        let settings: T = match self.0.get(T::NAME) {
+            Some(own) => read(own).map_err(|error| failed(T::NAME, &error))?,
             None => T::default(),
         };
-        read.validate().map_err(|error| failed(T::NAME, &error))?;
-        Ok(read)
+        settings.validate().map_err(|error| failed(T::NAME, &error))?;
+        Ok(settings)
     }
 
     /// Puts a technique's settings in the place of those that it has.
@@ -66,6 +66,15 @@ impl OwnSettings {
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)
     }
+}
+
+/// Reads RON; what is wrong is told with the line that it is in.
+fn read<T: DeserializeOwned>(text: &RawValue) -> Result<T, String> {
+    let text = text.get_ron();
+    ron::from_str(text).map_err(|error| {
+        let line = text.lines().nth(error.span.start.line.saturating_sub(1)).unwrap_or_default();
+        format!("{}, in `{}`", error.code, line.trim())
+    })
 }
 
 fn failed(technique: &str, reason: &dyn std::fmt::Display) -> Error {
