@@ -148,6 +148,12 @@ pub enum Error {
     /// A texture is used in a way that the device does not allow for its format.
     #[error("SG0605: `{resource}` has the format {format:?}, which this device {problem}")]
     FormatSupport { resource: String, format: crate::Format, problem: String },
+    /// Neither a pass nor a resource has the name.
+    #[error("SG0701: the frame has no pass and no resource `{name}`{hint}")]
+    NoSuchName { name: String, hint: String },
+    /// A text is no dump of a plan, or one that is not read any more.
+    #[error("SG0702: not a dump: {problem}")]
+    Dump { problem: String },
 }
 
 impl Error {
@@ -186,6 +192,8 @@ impl Error {
             Self::ReadBack { .. } => "SG0603",
             Self::Shader { .. } => "SG0604",
             Self::FormatSupport { .. } => "SG0605",
+            Self::NoSuchName { .. } => "SG0701",
+            Self::Dump { .. } => "SG0702",
         }
     }
 }

@@ -63,16 +63,20 @@ mod pool;
 mod programs;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
+mod times;
 
 pub use access::{Access, ClearValue, Contents};
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
 pub use compiled::Compiled;
 pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
+pub use dump::{
+    Diff, Difference, Drawing, HtmlPage, Outline, Picture, PictureTile, Subject, TexelValues, Texels,
+};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Bind, BodyResult, ComputeContext, EncoderContext, Executed, PassTime, ReadBack, ReadBackRequest,
+    Bind, BodyResult, Capture, Captured, ComputeContext, EncoderContext, Executed, ReadBack, ReadBackRequest,
     RenderContext, Resources, Timer,
 };
 pub use frame::{Frame, History, Resize};
@@ -92,6 +96,7 @@ pub use plan::{
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
 pub use programs::{Block, Call, ComputeShader, FullscreenShader};
+pub use times::PassTime;
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

@@ -1,6 +1,8 @@
 //! From declarations to a plan, by small pure functions.
 
 mod alias;
+#[cfg(feature = "gpu")]
+mod capture;
 mod coverage;
 mod cull;
 mod hazards;
@@ -14,6 +16,8 @@ mod validate;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "gpu")]
+pub(crate) use capture::capturing;
 #[cfg(feature = "gpu")]
 pub(crate) use validate::copy_extent;
 

@@ -1,5 +1,6 @@
 //! One thing asked for, in sentences: a pass, a resource, an order.
 
+mod name;
 mod order;
 mod pass;
 mod resource;

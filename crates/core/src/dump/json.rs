@@ -7,7 +7,7 @@ use reasons::Reason;
 use serde::Serialize;
 
 /// Counts up when a field changes its meaning or goes; added fields do not count.
-const SCHEMA: u32 = 2;
+pub(super) const SCHEMA: u32 = 2;
 
 #[derive(Serialize)]
 struct Document<'a> {

@@ -2,6 +2,7 @@
 
 mod attachments;
 mod bind;
+mod capture;
 mod context;
 mod copies;
 mod import;
@@ -18,6 +19,7 @@ mod timer;
 mod tests;
 
 pub use bind::Bind;
+pub use capture::{Capture, Captured};
 pub(crate) use context::Body;
 pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
 pub(crate) use import::Imported;
@@ -25,7 +27,7 @@ pub(crate) use poison::Pattern;
 pub(crate) use read_back::Requested;
 pub use read_back::{ReadBack, ReadBackRequest};
 pub(crate) use realise::Realised;
-pub use timer::{PassTime, Timer};
+pub use timer::Timer;
 
 use crate::compiled::Compiled;
 use crate::error::Error;
@@ -45,6 +47,11 @@ pub struct Executed {
 }
 
 impl Executed {
+    /// The same of another plan of the same frame.
+    fn of_plan(self, plan: Arc<Plan>) -> Self {
+        Self { plan, ..self }
+    }
+
     /// Returns what was recorded, and why.
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -95,7 +102,7 @@ impl Compiled<'_> {
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<Executed, Error> {
-        record::record(self, &mut graph.device, device, encoder, None)
+        record::record(self, &mut graph.device, device, encoder, None, None)
     }
 
     /// Records the frame like [`execute`](Self::execute) and measures every pass; see [`Timer`].
@@ -109,7 +116,7 @@ impl Compiled<'_> {
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut Timer,
     ) -> Result<Executed, Error> {
-        record::record(self, &mut graph.device, device, encoder, Some(timer))
+        record::record(self, &mut graph.device, device, encoder, Some(timer), None)
     }
 
     /// Records the frame on `threads` threads, each into an encoder of its own, and returns the command buffers in

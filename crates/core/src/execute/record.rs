@@ -37,12 +37,17 @@ pub(super) struct Prepared {
     pub(super) uploads: Uploads,
 }
 
+/// What is done behind each pass of a step, once the step is recorded.
+pub(super) type Watch<'w> =
+    dyn FnMut(&Recording<'_>, PassId, &mut wgpu::CommandEncoder) -> Result<(), Error> + 'w;
+
 pub(super) fn record(
     mut compiled: Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,
     encoder: &mut wgpu::CommandEncoder,
     mut timer: Option<&mut Timer>,
+    watch: Option<&mut Watch<'_>>,
 ) -> Result<Executed, Error> {
     let prepared = prepare(&compiled, pool, device, encoder, None)?;
     if let Some(timer) = timer.as_deref_mut() {
@@ -50,8 +55,16 @@ pub(super) fn record(
     }
     let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
     let recording = prepared.recording(&compiled, pool, device, timer.as_deref());
-    let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
-    recording.steps(0..compiled.plan.steps.len(), encoder, take)?;
+    let mut take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
+    match watch {
+        None => recording.steps(0..compiled.plan.steps.len(), encoder, take)?,
+        Some(watch) => {
+            for (index, step) in compiled.plan.steps().enumerate() {
+                recording.steps(index..index + 1, encoder, &mut take)?;
+                step.passes.iter().try_for_each(|&pass| watch(&recording, pass, encoder))?;
+            }
+        }
+    }
     let read_backs = recording.read_backs(&compiled.frame.work.read_backs, encoder)?;
     compiled.frame.work.bodies = bodies;
     if let Some(timer) = timer {

@@ -132,6 +132,8 @@ pub(crate) enum Format {
     Json,
     /// Graphviz
     Dot,
+    /// One page that opens in any browser
+    Html,
 }
 
 /// The options that all drawing commands share.

@@ -79,6 +79,7 @@ pub(crate) fn dump(args: &DumpArgs, techniques: &Techniques) -> Result<(), Failu
         Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
         Format::Json => report::json(&lights, &drawn)?,
         Format::Dot => drawn.plan.to_dot(),
+        Format::Html => report::html(&lights, &drawn),
     };
     match &args.output {
         Some(file) => Ok(write_text(file, &text)?),

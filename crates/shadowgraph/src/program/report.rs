@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::commands::Planned;
 use super::failure::Failure;
-use crate::core::PassTime;
+use crate::core::{HtmlPage, PassTime};
 use crate::scene::{Light, LightKind};
 use crate::shadows::Unshadowed;
 use crate::wgpu::AdapterInfo;
@@ -46,6 +46,25 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');
     Ok(text)
+}
+
+/// The plan as a page, with the scene's lights.
+pub(crate) fn html(lights: &[Light], planned: &Planned) -> String {
+    let mut page = HtmlPage::new(&planned.plan).with_title("Shadowgraph frame").with_times(&planned.times);
+    let columns = ["light", "kind", "name", "strength", "shadows"].map(String::from).to_vec();
+    let row = |(index, light): (usize, &Light)| {
+        let strength = format!("{:.1} {}", light.intensity, unit(light));
+        let name = light.name.clone().unwrap_or_default();
+        vec![
+            index.to_string(),
+            kind(light).into(),
+            name,
+            strength,
+            shadows(light, index, &planned.unshadowed),
+        ]
+    };
+    page.tables.push(("Lights".into(), columns, lights.iter().enumerate().map(row).collect()));
+    page.to_html()
 }
 
 /// Which lights have no shadows and why, a sentence for each reason.

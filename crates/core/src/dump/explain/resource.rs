@@ -36,7 +36,7 @@ impl Plan {
         page.0
     }
 
-    fn origin_words(&self, id: ResourceId) -> &'static str {
+    pub(in crate::dump) fn origin_words(&self, id: ResourceId) -> &'static str {
         let resource = self.resource(id);
         match resource.origin {
             Origin::Transient if resource.exported => {
@@ -75,7 +75,7 @@ impl Plan {
     }
 
     /// What each usage flag is for.
-    fn usages(&self, id: ResourceId) -> Vec<String> {
+    pub(in crate::dump) fn usages(&self, id: ResourceId) -> Vec<String> {
         let resource = self.resource(id);
         if let Origin::Imported { .. } = resource.origin {
             return vec!["usages: those that the caller created it with".into()];

@@ -2,6 +2,7 @@
 //! also on one that draws.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
+mod capture;
 mod copies;
 mod depth;
 mod errors;

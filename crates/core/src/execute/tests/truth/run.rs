@@ -12,11 +12,20 @@ use crate::{Executed, Options, OrderPolicy, Plan};
 struct Variation {
     name: &'static str,
     options: Options,
-    threads: Option<usize>,
+    way: Way,
     poison: bool,
     /// How many frames of the same graph follow each other.
     frames: u32,
     submission: Submission,
+}
+
+/// How a frame is recorded.
+#[derive(Clone, Copy)]
+enum Way {
+    OneEncoder,
+    Threads(usize),
+    /// With a copy of all that each pass writes.
+    Captured,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -29,11 +38,11 @@ enum Submission {
     OneByOne,
 }
 
-fn variations() -> [Variation; 7] {
+fn variations() -> [Variation; 8] {
     let plain = || Variation {
         name: "plain",
         options: Options::default(),
-        threads: None,
+        way: Way::OneEncoder,
         poison: false,
         frames: 2,
         submission: Submission::Together,
@@ -52,7 +61,8 @@ fn variations() -> [Variation; 7] {
             ..plain()
         },
         Variation { name: "nothing merged", options: apart, ..plain() },
-        Variation { name: "two threads", threads: Some(2), ..plain() },
+        Variation { name: "two threads", way: Way::Threads(2), ..plain() },
+        Variation { name: "captured", way: Way::Captured, ..plain() },
     ]
 }
 
@@ -177,9 +187,13 @@ impl Run<'_, '_> {
         frame.set_options(self.variation.options);
         let exports = declare(&mut frame, self.graph, self.gpu, imports, salt);
         let compiled = self.pool.compile(frame).map_err(|error| error.to_string())?;
-        let executed = match self.variation.threads {
-            None => compiled.execute(self.pool, &self.gpu.device, encoder),
-            Some(threads) => {
+        let plan = compiled.shared_plan();
+        let executed = match self.variation.way {
+            Way::OneEncoder => compiled.execute(self.pool, &self.gpu.device, encoder),
+            Way::Captured => compiled
+                .execute_captured(self.pool, &self.gpu.device, encoder)
+                .map(|(executed, _capture)| executed),
+            Way::Threads(threads) => {
                 let recorded = compiled.execute_on_threads(self.pool, &self.gpu.device, threads);
                 recorded.map(|(executed, own)| {
                     commands.extend(own);
@@ -187,6 +201,8 @@ impl Run<'_, '_> {
                 })
             }
         };
-        Ok((executed.map_err(|error| error.to_string())?, exports))
+        let executed = executed.map_err(|error| error.to_string())?;
+        assert_eq!(executed.plan(), &*plan, "the plan is the frame's, however it is recorded");
+        Ok((executed, exports))
     }
 }

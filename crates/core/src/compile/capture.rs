@@ -1,0 +1,39 @@
+//! The same frame with its contents kept, so that pictures can be taken of them.
+
+use super::{alias, lifetime, ops};
+use crate::desc::ResourceDesc;
+use crate::plan::{MergeReason, Plan, StoreAction};
+use wgpu_types::{BufferUsages, TextureUsages};
+
+/// Plans the same passes in the same order, but each in a render pass of its own, with all that it draws stored, and
+/// each resource in memory of its own that can be copied from. What passes see is what they would have seen.
+pub(crate) fn capturing(plan: &Plan) -> Plan {
+    let decl = plan.decl.clone();
+    let steps: Vec<(u32, u32)> = (0..plan.order.len() as u32).map(|place| (place, place + 1)).collect();
+    let mut uses = lifetime::uses(&decl, &plan.order, &steps);
+    let last = steps.len().saturating_sub(1) as u32;
+    for (own, resource) in uses.iter_mut().zip(&decl.resources) {
+        // Nobody takes over from it.
+        own.steps = own.steps.map(|(first, _)| (first, last));
+        own.only_drawn = false;
+        match resource.desc {
+            ResourceDesc::Texture(_) => own.texture_usage |= TextureUsages::COPY_SRC,
+            ResourceDesc::Buffer(_) => own.buffer_usage |= BufferUsages::COPY_SRC,
+        }
+    }
+    let mut ops = ops::ops(&decl, &plan.order, &steps);
+    for ops in ops.iter_mut().flatten() {
+        ops.store = StoreAction::Store;
+    }
+    let alias::Aliasing { fates, slots, tenants } = alias::alias(&decl, &uses, steps.len());
+    Plan {
+        merges: vec![MergeReason::Off; plan.order.len()],
+        steps,
+        ops,
+        fates,
+        slots,
+        tenants,
+        decl,
+        ..plan.clone()
+    }
+}

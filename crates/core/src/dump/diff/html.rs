@@ -1,0 +1,58 @@
+//! Differences as a page of their own.
+
+use super::{Diff, Difference, Subject};
+use std::fmt::Write as _;
+
+const STYLE: &str = include_str!("page.css");
+
+impl Diff {
+    /// Returns the differences as one HTML page, which needs nothing beside it; `before` and `after` are what the frames are
+    /// called.
+    pub fn to_html(&self, before: &str, after: &str) -> String {
+        let (before, after) = (escape(before), escape(after));
+        let mut out = format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{before} and {after}</title>\n\
+             <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>From {before} to {after}</h1>\n"
+        );
+        out.push_str("<p>");
+        for subject in Subject::ALL {
+            let changes = self.about(subject).count();
+            let _ = write!(out, "<a href=\"#{0}\">{changes} {0}</a> ", subject.plural());
+        }
+        out.push_str("differ.</p>\n");
+        for subject in Subject::ALL {
+            let _ = writeln!(out, "<section id=\"{0}\">\n<h2>{0}</h2>", subject.plural());
+            if self.about(subject).next().is_none() {
+                out.push_str("<p>They do not differ.</p>\n</section>\n");
+                continue;
+            }
+            out.push_str("<table>\n<thead><tr><th scope=\"col\">which</th><th scope=\"col\">");
+            let _ = writeln!(out, "{before}</th><th scope=\"col\">{after}</th></tr></thead>\n<tbody>");
+            for difference in self.about(subject) {
+                row(&mut out, difference);
+            }
+            out.push_str("</tbody>\n</table>\n</section>\n");
+        }
+        out.push_str("</body>\n</html>\n");
+        out
+    }
+}
+
+fn row(out: &mut String, Difference { name, before, after, .. }: &Difference) {
+    let class = match (before, after) {
+        (Some(_), Some(_)) => "changed",
+        (Some(_), None) => "went",
+        _ => "came",
+    };
+    let cell = |side: &Option<String>, tag: &str| match side {
+        None => "<td class=\"none\">not there</td>".to_owned(),
+        Some(fact) if fact.is_empty() => format!("<td><{tag}>there</{tag}></td>"),
+        Some(fact) => format!("<td><{tag}>{}</{tag}></td>", escape(fact)),
+    };
+    let (was, is) = (cell(before, "del"), cell(after, "ins"));
+    let _ = writeln!(out, "<tr class=\"{class}\"><th scope=\"row\">{}</th>{was}{is}</tr>", escape(name));
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,68 @@
+//! Passes and resources by the names that people type.
+
+use crate::error::Error;
+use crate::handle::PassId;
+use crate::plan::Plan;
+
+/// Names that are no more alike than this are not suggested; 1 is equal.
+const ALIKE: f64 = 0.7;
+
+impl Plan {
+    /// Says why every pass and every resource of a name is as it is. A pass is known by its path, such as `post/blur`, or by
+    /// the last part of it.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
+    /// let mut frame = Frame::new();
+    /// let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
+    /// frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
+    /// let plan = frame.compile()?.into_plan();
+    /// assert!(plan.explain("draw")?.contains("does not run: nothing reads `scene`"));
+    /// let error = plan.explain("scenes").unwrap_err().to_string();
+    /// assert!(error.ends_with("did you mean `scene`?"), "{error}");
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoSuchName`], with names that are like it.
+    pub fn explain(&self, name: &str) -> Result<String, Error> {
+        let passes = self.passes_named(name).into_iter().map(|id| self.explain_pass(id));
+        let named = self.resources().filter(|(_, resource)| resource.name == name);
+        let pages: Vec<String> = passes.chain(named.map(|(id, _)| self.explain_resource(id))).collect();
+        if pages.is_empty() { Err(self.no_such_name(name)) } else { Ok(pages.join("\n")) }
+    }
+
+    /// Says why a pass runs before another, for every pair of passes of these names.
+    ///
+    /// # Errors
+    /// As [`explain`](Self::explain).
+    pub fn explain_order(&self, before: &str, after: &str) -> Result<String, Error> {
+        let named = |name: &str| match self.passes_named(name) {
+            passes if passes.is_empty() => Err(self.no_such_name(name)),
+            passes => Ok(passes),
+        };
+        let (first, second) = (named(before)?, named(after)?);
+        let pairs = first.iter().flat_map(|&first| second.iter().map(move |&second| (first, second)));
+        let pages: Vec<String> = pairs.map(|(first, second)| self.why_before_words(first, second)).collect();
+        Ok(pages.join("\n"))
+    }
+
+    /// Those of this path; where there are none, those of this name.
+    fn passes_named(&self, name: &str) -> Vec<PassId> {
+        let ids = || self.passes().map(|(id, _)| id);
+        let of_path: Vec<PassId> = ids().filter(|&id| self.pass_path(id) == name).collect();
+        if of_path.is_empty() { ids().filter(|&id| self.pass(id).name == name).collect() } else { of_path }
+    }
+
+    fn no_such_name(&self, name: &str) -> Error {
+        let paths = self.passes().flat_map(|(id, pass)| [self.pass_path(id), pass.name.to_owned()]);
+        let names = paths.chain(self.resources().map(|(_, resource)| resource.name.to_owned()));
+        let rated = names.map(|known| (strsim::jaro_winkler(&known, name), known));
+        let nearest = rated.filter(|(alike, _)| *alike >= ALIKE).max_by(|a, b| a.0.total_cmp(&b.0));
+        let hint = match nearest {
+            Some((_, nearest)) => format!("; did you mean `{nearest}`?"),
+            None => "; `dump` lists them".into(),
+        };
+        Error::NoSuchName { name: name.into(), hint }
+    }
+}

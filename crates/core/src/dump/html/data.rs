@@ -1,0 +1,230 @@
+//! What the page's script draws: indices, and each sentence once.
+
+use super::HtmlPage;
+use super::picture::{Drawing, PictureData};
+use crate::desc::ResourceDesc;
+use crate::dump::places::Places;
+use crate::dump::words::{bytes, shape, verb};
+use crate::handle::{PassId, ResourceId};
+use crate::part::Part;
+use crate::plan::{AccessPlan, DependencyKind, NodePlan, Plan};
+use crate::times::PassTime;
+use serde::Serialize;
+use wgpu_types::TextureUsages;
+
+/// Columns of the notes at accesses.
+const NOTE: usize = 70;
+
+#[derive(Serialize)]
+pub(super) struct FrameData<'p> {
+    summary: String,
+    notes: &'p [String],
+    nodes: Vec<NodePlan<'p>>,
+    passes: Vec<PassData<'p>>,
+    resources: Vec<ResourceData<'p>>,
+    slots: Vec<SlotData<'p>>,
+    edges: Vec<EdgeData>,
+    tables: Vec<TableData<'p>>,
+    drawings: &'p [Drawing],
+    pictures: Vec<PictureData<'p>>,
+}
+
+#[derive(Serialize)]
+struct PassData<'p> {
+    name: &'p str,
+    node: Option<u32>,
+    kind: &'static str,
+    keep: bool,
+    /// Why it does not run.
+    culled: Option<String>,
+    /// Why it runs.
+    alive: Option<String>,
+    place: Option<PlaceData>,
+    waits: Vec<String>,
+    accesses: Vec<AccessData>,
+    time: Option<&'p PassTime>,
+}
+
+#[derive(Serialize)]
+struct PlaceData {
+    order: usize,
+    step: usize,
+    /// Among the passes of the step, and how many those are.
+    within: usize,
+    of: usize,
+    why: String,
+    merged: String,
+}
+
+#[derive(Serialize)]
+struct AccessData {
+    resource: u32,
+    /// The words before the resource's name and those after it.
+    does: &'static str,
+    r#as: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<String>,
+    version: u32,
+    writes: bool,
+    /// What was there matters.
+    keeps: bool,
+    covers: bool,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    note: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load: Option<(String, String)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clear: Option<(String, String)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    store: Option<(&'static str, String)>,
+}
+
+#[derive(Serialize)]
+struct ResourceData<'p> {
+    name: &'p str,
+    buffer: bool,
+    shape: String,
+    bytes: u64,
+    origin: &'static str,
+    usages: Vec<String>,
+    steps: Option<(u32, u32)>,
+    slot: Option<u32>,
+    /// Why it lives where it does.
+    home: String,
+}
+
+#[derive(Serialize)]
+struct SlotData<'p> {
+    shape: String,
+    bytes: u64,
+    transient: bool,
+    tenants: &'p [ResourceId],
+}
+
+#[derive(Serialize)]
+struct EdgeData {
+    before: PassId,
+    after: PassId,
+    resource: Option<ResourceId>,
+    kind: DependencyKind,
+}
+
+#[derive(Serialize)]
+struct TableData<'p> {
+    title: &'p str,
+    columns: &'p [String],
+    rows: &'p [Vec<String>],
+}
+
+impl<'p> FrameData<'p> {
+    pub(super) fn of(page: &'p HtmlPage<'p>) -> Self {
+        let plan = page.plan;
+        let places = Places::of(plan);
+        let time = |id| page.times.get(places.get(id)?.order);
+        let slot = |slot: crate::SlotPlan<'p>| SlotData {
+            shape: shape(&slot.desc),
+            bytes: slot.desc.bytes(),
+            transient: slot.texture_usage.contains(TextureUsages::TRANSIENT_ATTACHMENT),
+            tenants: slot.tenants,
+        };
+        let edge = |d: &crate::Dependency| EdgeData {
+            before: d.before,
+            after: d.after,
+            resource: d.resource,
+            kind: d.kind,
+        };
+        Self {
+            summary: plan.summary(),
+            notes: &page.notes,
+            nodes: plan.nodes().collect(),
+            passes: plan.passes().map(|(id, _)| plan.pass_data(&places, id, time(id))).collect(),
+            resources: plan.resources().map(|(id, _)| plan.resource_data(id)).collect(),
+            slots: plan.slots().map(slot).collect(),
+            edges: plan.dependencies().iter().map(edge).collect(),
+            tables: page
+                .tables
+                .iter()
+                .map(|(title, columns, rows)| TableData { title, columns, rows })
+                .collect(),
+            drawings: &page.drawings,
+            pictures: page.pictures.iter().map(|picture| PictureData::of(plan, picture)).collect(),
+        }
+    }
+}
+
+impl Plan {
+    fn pass_data<'p>(&'p self, places: &Places, id: PassId, time: Option<&'p PassTime>) -> PassData<'p> {
+        let pass = self.pass(id);
+        let place = places.get(id);
+        // Who wrote what is read stands with the accesses.
+        let waits = self.waits_for(id).iter().filter(|d| d.kind != DependencyKind::ReadAfterWrite);
+        PassData {
+            name: pass.name,
+            node: pass.node.map(|node| node.0),
+            kind: pass.kind.word(),
+            keep: pass.keep,
+            culled: pass.culled.map(|reason| self.cull_words(reason)),
+            alive: place.map(|_| self.alive_sentence(id)),
+            place: place.map(|place| PlaceData {
+                order: place.order,
+                step: place.step,
+                within: place.within,
+                of: place.passes,
+                why: self.place_words(self.placed[place.order]),
+                merged: self.merge_sentence(place.order),
+            }),
+            waits: waits.map(|dependency| self.dependency_sentence(dependency)).collect(),
+            accesses: self.accesses(id).map(|access| self.access_data(id, &access)).collect(),
+            time,
+        }
+    }
+
+    fn access_data(&self, pass: PassId, access: &AccessPlan) -> AccessData {
+        let (does, r#as) = verb(access.access);
+        let runs = self.pass(pass).culled.is_none();
+        let ops = access.ops.as_ref();
+        AccessData {
+            resource: access.resource.0,
+            does,
+            r#as,
+            part: (access.part != Part::WHOLE).then(|| access.part.words()),
+            version: access.version,
+            writes: access.access.writes(),
+            keeps: access.contents.is_none_or(|contents| contents.preserves()),
+            covers: access.contents.is_some_and(|contents| !contents.preserves()),
+            note: if runs { self.access_note(pass, access, NOTE) } else { String::new() },
+            load: ops.map(|ops| self.load_sentence(access, ops)),
+            clear: ops.and_then(|ops| self.clear_drawn_sentence(access, ops)),
+            store: ops.map(|ops| self.store_sentence(pass, access, ops)),
+        }
+    }
+
+    fn resource_data(&self, id: ResourceId) -> ResourceData<'_> {
+        let resource = self.resource(id);
+        ResourceData {
+            name: resource.name,
+            buffer: matches!(resource.desc, ResourceDesc::Buffer(_)),
+            shape: shape(&resource.desc),
+            bytes: resource.desc.bytes(),
+            origin: self.origin_words(id),
+            usages: self.usages(id),
+            steps: resource.steps,
+            slot: resource.slot.map(|slot| slot.0),
+            home: self.slot_sentence(id),
+        }
+    }
+
+    /// The plan in one line.
+    fn summary(&self) -> String {
+        let tenants: usize = self.slots().map(|slot| slot.tenants.len()).sum();
+        format!(
+            "{} passes in {} steps, {} culled; {tenants} resources in {} slots of {}, {} saved by sharing",
+            self.order().len(),
+            self.steps().len(),
+            self.culled_count(),
+            self.slots().len(),
+            bytes(self.slot_bytes()),
+            bytes(self.saved_bytes()),
+        )
+    }
+}

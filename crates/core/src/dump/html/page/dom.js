@@ -1,0 +1,44 @@
+// Making elements.
+
+function fill(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes ?? {})) {
+    if (value == null || value === false) continue;
+    if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
+    else element.setAttribute(name, value === true ? '' : value);
+  }
+  element.append(...children.flat().filter((child) => child != null && child !== false));
+  return element;
+}
+const h = (tag, attributes, ...children) => fill(document.createElement(tag), attributes, children);
+const s = (tag, attributes, ...children) => fill(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
+
+// Does `act` on a click, and on Enter or Space of what has the focus.
+function press(act) {
+  return {
+    onclick: act,
+    onkeydown: (event) => {
+      if (event.key !== 'Enter' && event.key !== ' ') return;
+      event.preventDefault();
+      act(event);
+    },
+  };
+}
+
+const tip = document.getElementById('tip');
+// Shows `words` beside the pointer, and to those who have none as the element's name.
+function hint(words) {
+  const move = (event) => {
+    tip.textContent = words;
+    tip.hidden = false;
+    const [x, y] = [event.clientX + 14, event.clientY + 14];
+    tip.style.left = `${Math.min(x, innerWidth - tip.offsetWidth - 8)}px`;
+    tip.style.top = `${Math.min(y, innerHeight - tip.offsetHeight - 8)}px`;
+  };
+  return { 'aria-label': words, onpointermove: move, onpointerleave: () => { tip.hidden = true; } };
+}
+
+const passLink = (pass) => h('button', { class: 'link', onclick: () => choose({ pass }) }, passPath(pass));
+const resourceLink = (resource) => h('button', { class: 'link', onclick: () => choose({ resource }) }, resources[resource].name);
+const clip = (text, length) => (text.length > length ? `${text.slice(0, length - 1)}…` : text);
+const hue = (node) => (node == null ? 'transparent' : `hsl(${(around(node)[0] * 137.5 + 205) % 360} 45% var(--fill))`);
+const hueLine = (node) => (node == null ? 'var(--line)' : `hsl(${(around(node)[0] * 137.5 + 205) % 360} 45% var(--edge))`);

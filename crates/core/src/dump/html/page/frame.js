@@ -1,0 +1,76 @@
+// The frame, and what the views ask of it. Passes, resources and nodes are known by their indices.
+
+const frame = JSON.parse(document.getElementById('frame').textContent);
+const { passes, resources, nodes, slots, edges } = frame;
+
+const nodePath = (node) => (node == null ? '' : nodePath(nodes[node].parent) + nodes[node].name + '/');
+const passPath = (pass) => nodePath(passes[pass].node) + passes[pass].name;
+// The nodes around something, the outermost first.
+const around = (node) => (node == null ? [] : [...around(nodes[node].parent), node]);
+
+// The passes that run, in order.
+const order = passes.map((_, pass) => pass).filter((pass) => passes[pass].place)
+  .sort((a, b) => passes[a].place.order - passes[b].place.order);
+const stepCount = order.length ? passes[order.at(-1)].place.step + 1 : 0;
+const steps = Array.from({ length: stepCount }, () => []);
+for (const pass of order) steps[passes[pass].place.step].push(pass);
+
+// The version of a resource that a pass makes or finds, in few characters.
+const versionOf = (access) => `v${access.version + (access.writes ? 1 : 0)}`;
+
+// By resource: who touches it, in order of declaration.
+const users = resources.map(() => []);
+passes.forEach((pass, index) => pass.accesses.forEach((access) => users[access.resource].push({ pass: index, access })));
+
+// What a pass that does not run would have read and given: an edge for each, told by versions.
+function culledEdges() {
+  const found = [];
+  for (const [resource, uses] of users.entries()) {
+    for (const reader of uses) {
+      for (const writer of uses) {
+        const fits = writer.access.writes && writer.pass < reader.pass && !reader.access.covers
+          && writer.access.version + 1 === reader.access.version;
+        if (fits && (!passes[writer.pass].place || !passes[reader.pass].place)) {
+          found.push({ before: writer.pass, after: reader.pass, resource, kind: 'faint' });
+        }
+      }
+    }
+  }
+  return found;
+}
+const links = [...edges, ...culledEdges()];
+const before = passes.map(() => []);
+const after = passes.map(() => []);
+for (const link of links) {
+  before[link.after].push(link);
+  after[link.before].push(link);
+}
+
+// Where a pass stands among all; a culled one behind what it would have read.
+const rank = [];
+passes.forEach((pass, index) => {
+  rank[index] = pass.place?.order ?? before[index].reduce((last, link) => Math.max(last, rank[link.before]), -1) + 0.5;
+});
+
+function linkLabel(link) {
+  if (link.resource == null) return 'after';
+  const used = passes[link.after].accesses.find((access) => access.resource === link.resource);
+  return `${resources[link.resource].name} v${used ? used.version : '?'}`;
+}
+
+function linkWords(link) {
+  const [a, b] = [passPath(link.before), passPath(link.after)];
+  const name = link.resource == null ? '' : resources[link.resource].name;
+  switch (link.kind) {
+    case 'ReadAfterWrite': return `“${b}” needs what “${a}” wrote to “${name}”`;
+    case 'WriteAfterRead': return `“${b}” writes over “${name}”, which “${a}” reads`;
+    case 'WriteAfterWrite': return `“${b}” writes over what “${a}” wrote to “${name}”`;
+    case 'Explicit': return `“${b}” was declared to run after “${a}”`;
+    default: return `“${b}” would read “${name}” from “${a}”, were neither culled`;
+  }
+}
+
+function bytes(count) {
+  if (count < 1024) return `${count} B`;
+  return count < 1048576 ? `${(count / 1024).toFixed(1)} KiB` : `${(count / 1048576).toFixed(1)} MiB`;
+}

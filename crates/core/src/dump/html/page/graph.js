@@ -1,0 +1,263 @@
+// The graph: nodes closed until asked, and around what is chosen its neighbours.
+
+// Groups are nodes, and runs of passes without a node where those are many.
+const groups = nodes.map((node) => ({ name: node.name, parent: node.parent, node: true }));
+const FEW = 40;
+const loose = passes.map((_, pass) => pass).filter((pass) => passes[pass].node == null);
+const looseGroup = new Map();
+if (loose.length > FEW) {
+  const size = Math.ceil(Math.sqrt(loose.length));
+  for (let first = 0; first < loose.length; first += size) {
+    const run = loose.slice(first, first + size);
+    run.forEach((pass) => looseGroup.set(pass, groups.length));
+    groups.push({ name: `${passes[run[0]].name} … ${passes[run.at(-1)].name}`, parent: null, node: false });
+  }
+}
+const groupsAround = (pass) => (looseGroup.has(pass) ? [looseGroup.get(pass)] : around(passes[pass].node));
+const members = groups.map(() => []);
+passes.forEach((_, pass) => groupsAround(pass).forEach((group) => members[group].push(pass)));
+
+const graphView = {
+  name: 'Graph',
+  open: new Set(),
+  whole: true,
+  reach: 1,
+  view: { x: 20, y: 20, scale: 1 },
+
+  build(panel) {
+    this.note = h('span', { class: 'hint', 'aria-live': 'polite' });
+    this.reachBox = h('select', { 'aria-label': 'How far from what is chosen', onchange: (event) => {
+      this.reach = Number(event.target.value);
+      this.draw();
+    } }, [1, 2, 3, 99].map((reach) => h('option', { value: reach }, reach > 9 ? 'all that it is tied to' : `${reach} away`)));
+    this.back = h('button', { id: 'whole', onclick: () => this.showWhole() }, 'Whole frame (Esc)');
+    this.svg = s('svg', { class: 'canvas', role: 'group', 'aria-label': 'Passes and what they hand on', tabindex: '0' });
+    this.outline = h('nav', { class: 'outline', 'aria-label': 'Nodes and passes' });
+    panel.append(
+      h('div', { class: 'bar' },
+        this.back, this.reachBox,
+        h('button', { id: 'open-all', onclick: () => this.openAll(true) }, 'Open all'),
+        h('button', { id: 'close-all', onclick: () => this.openAll(false) }, 'Close all'),
+        h('button', { onclick: () => this.zoom(1.25), 'aria-label': 'Zoom in' }, '+'),
+        h('button', { onclick: () => this.zoom(0.8), 'aria-label': 'Zoom out' }, '−'),
+        h('button', { id: 'fit', onclick: () => this.fit() }, 'Fit'),
+        this.note),
+      h('div', { class: 'split' }, this.outline, this.svg));
+    this.buildOutline();
+    this.listen();
+    this.draw();
+  },
+
+  buildOutline() {
+    const item = (pass) => h('li', { class: passes[pass].place ? null : 'culled' },
+      h('button', { class: 'link', onclick: () => choose({ pass }) }, passes[pass].name));
+    const inside = (parent) => {
+      const own = groups.map((_, group) => group).filter((group) => groups[group].parent === parent);
+      const direct = parent == null ? loose.filter((pass) => !looseGroup.has(pass))
+        : members[parent].filter((pass) => groupsAround(pass).at(-1) === parent);
+      const sorted = [...own.map((group) => [Math.min(...members[group]), branch(group)]), ...direct.map((pass) => [pass, item(pass)])];
+      return h('ul', {}, sorted.sort((a, b) => a[0] - b[0]).map(([, element]) => element));
+    };
+    const branch = (group) => {
+      const details = h('details', { 'data-group': group }, h('summary', {}, `${groups[group].name} (${members[group].length})`), inside(group));
+      details.addEventListener('toggle', () => {
+        if (details.open === this.open.has(group)) return;
+        if (details.open) this.open.add(group); else this.open.delete(group);
+        if (this.whole) this.draw();
+      });
+      return h('li', {}, details);
+    };
+    this.outline.replaceChildren(inside(null));
+  },
+
+  openAll(open) {
+    this.open = new Set(open ? groups.keys() : []);
+    this.showWhole();
+  },
+
+  showWhole() {
+    this.whole = true;
+    this.draw();
+  },
+
+  focus() {
+    this.whole = false;
+    this.draw();
+  },
+
+  // The passes to show, and the links between them.
+  shown() {
+    if (this.whole || !chosen) return { of: new Set(passes.keys()), links };
+    if (chosen.resource != null) {
+      const own = users[chosen.resource].map((use) => use.pass);
+      return { of: new Set(own), links: links.filter((link) => link.resource === chosen.resource) };
+    }
+    const of = new Set([chosen.pass]);
+    for (const [next, end] of [[before, 'before'], [after, 'after']]) {
+      let edge = [chosen.pass];
+      const seen = new Set(edge);
+      for (let far = 0; far < this.reach && edge.length; far += 1) {
+        edge = [...new Set(edge.flatMap((pass) => next[pass].map((link) => link[end])))].filter((pass) => !seen.has(pass));
+        edge.forEach((pass) => seen.add(pass));
+      }
+      seen.forEach((pass) => of.add(pass));
+    }
+    return { of, links: links.filter((link) => of.has(link.before) && of.has(link.after)) };
+  },
+
+  draw() {
+    const whole = this.whole || !chosen;
+    const { of, links: drawn } = this.shown();
+    const units = new Map();
+    const unitOf = new Map();
+    for (const pass of [...of].sort((a, b) => rank[a] - rank[b] || a - b)) {
+      const closed = whole ? groupsAround(pass).find((group) => !this.open.has(group)) : undefined;
+      const key = closed == null ? `p${pass}` : `g${closed}`;
+      if (!units.has(key)) units.set(key, { key, pass: closed == null ? pass : null, group: closed, passes: [], place: units.size });
+      units.get(key).passes.push(pass);
+      unitOf.set(pass, units.get(key));
+    }
+    const arrows = new Map();
+    for (const link of drawn) {
+      const [a, b] = [unitOf.get(link.before), unitOf.get(link.after)];
+      if (!a || !b || a === b) continue;
+      const forward = a.place < b.place;
+      const [from, to] = forward ? [a.place, b.place] : [b.place, a.place];
+      const key = `${from} ${to}`;
+      if (!arrows.has(key)) arrows.set(key, { from, to, links: [], forward: false, backward: false });
+      const arrow = arrows.get(key);
+      arrow.links.push(link);
+      arrow[forward ? 'forward' : 'backward'] = true;
+    }
+    const list = [...units.values()];
+    const far = list.length > 60 ? 6 : Infinity;
+    layOut(list, [...arrows.values()], far);
+    this.paint(list, [...arrows.values()], whole);
+    this.back.hidden = whole;
+    this.reachBox.hidden = whole || chosen?.pass == null;
+    const stubs = [...arrows.values()].filter((arrow) => !arrow.points).length;
+    this.note.textContent = whole
+      ? `${units.size} boxes for ${passes.length} passes. Choose a box to open it or to see its neighbours.${stubs ? ` ${stubs} long arrows are left out: choose a pass to see all of its.` : ''}`
+      : `${units.size} of ${passes.length} passes, around ${chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resources[chosen.resource].name}”`}.`;
+    this.outline.querySelectorAll('details').forEach((details) => { details.open = this.open.has(Number(details.dataset.group)); });
+    this.fit();
+  },
+
+  paint(units, arrows, whole) {
+    const labels = arrows.length <= 40 || !whole;
+    const lines = arrows.filter((arrow) => arrow.points).map((arrow) => this.arrow(arrow, labels));
+    const arrowhead = (id, orient) => s('marker', { id, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient },
+      s('path', { d: 'M0 0L8 4L0 8z', fill: 'var(--faint)' }));
+    this.content = s('g', {}, lines.map((line) => line.line), lines.map((line) => line.label), units.map((unit) => this.unit(unit)));
+    this.svg.replaceChildren(s('defs', {}, arrowhead('ahead', 'auto'), arrowhead('behind', 'auto-start-reverse')), this.content);
+    this.size = {
+      width: Math.max(1, ...units.map((unit) => unit.x + BOX.width)),
+      height: Math.max(1, ...units.map((unit) => unit.y + BOX.height)),
+    };
+  },
+
+  arrow(arrow, labels) {
+    const names = [...new Set(arrow.links.map(linkLabel))];
+    const words = arrow.links.slice(0, 12).map(linkWords).join('\n') + (arrow.links.length > 12 ? `\nand ${arrow.links.length - 12} more` : '');
+    const kinds = arrow.links.map((link) => link.kind);
+    const style = kinds.every((kind) => kind === 'faint') ? ' faint' : kinds.includes('ReadAfterWrite') ? '' : ' order';
+    const line = s('path', {
+      class: `edge${style}`, d: pathOf(arrow.points), 'marker-end': arrow.forward ? 'url(#ahead)' : null,
+      'marker-start': arrow.backward ? 'url(#behind)' : null,
+    });
+    const wide = s('path', { d: pathOf(arrow.points), fill: 'none', stroke: 'transparent', 'stroke-width': 12, ...hint(words) });
+    const middle = arrow.points.length > 2 ? arrow.points[Math.floor(arrow.points.length / 2)]
+      : { x: (arrow.points[0].x + arrow.points[1].x) / 2, y: (arrow.points[0].y + arrow.points[1].y) / 2 };
+    const text = names.length > 2 ? `${names.length} things` : names.map((name) => clip(name, names.length > 1 ? 14 : 26)).join(', ');
+    const label = labels ? s('text', { class: 'label', x: middle.x, y: middle.y - 3, 'text-anchor': 'middle' }, text) : null;
+    return { line: s('g', { class: 'line' }, line, wide), label: label ?? '' };
+  },
+
+  unit(unit) {
+    const isPass = unit.pass != null;
+    const pass = isPass ? passes[unit.pass] : null;
+    const culled = unit.passes.filter((index) => !passes[index].place).length;
+    const node = isPass ? pass.node : groups[unit.group].node ? unit.group : null;
+    const name = isPass ? pass.name : groups[unit.group].name;
+    const second = isPass
+      ? (pass.place ? `${pass.kind}, step ${pass.place.step}${pass.place.of > 1 ? `, ${pass.place.within + 1} of ${pass.place.of} merged` : ''}` : 'culled')
+      : `▸ ${unit.passes.length} passes${culled ? `, ${culled} culled` : ''}`;
+    const words = isPass ? `${passPath(unit.pass)}: ${pass.place ? `${second}\n${pass.alive}` : `does not run: ${pass.culled}`}` : `${name}: ${second.slice(2)}. Opens.`;
+    const act = isPass ? () => choose({ pass: unit.pass }) : () => {
+      this.open.add(unit.group);
+      this.draw();
+    };
+    const chosenHere = isPass && chosen?.pass === unit.pass;
+    const outer = isPass && pass.node != null && this.whole ? clip(nodePath(pass.node), 28) : '';
+    return s('g', {
+      class: `unit${isPass && !pass.place ? ' culled' : ''}${chosenHere ? ' chosen' : ''}`, tabindex: '0', role: 'button', 'data-name': name,
+      transform: `translate(${unit.x} ${unit.y})`, ...press(act), ...hint(words),
+    },
+    s('rect', { width: BOX.width, height: BOX.height, rx: 6, style: `fill:${node == null ? 'var(--wash)' : hue(node)};stroke:${hueLine(node)}` }),
+    s('text', { x: 10, y: 17, style: isPass ? '' : 'font-weight:600' }, clip(name, 28)),
+    s('text', { class: 'small', x: 10, y: 32 }, clip(second, 32)),
+    outer ? s('text', { class: 'small label', x: 2, y: -3 }, outer) : '');
+  },
+
+  place() {
+    const { x, y, scale } = this.view;
+    this.content.setAttribute('transform', `translate(${x} ${y}) scale(${scale})`);
+  },
+
+  fit() {
+    const { width, height } = this.svg.getBoundingClientRect();
+    if (!width) return;
+    // Never so small that names cannot be read: what does not fit is dragged into sight.
+    const scale = Math.max(0.55, Math.min(1.15, (width - 40) / this.size.width, (height - 50) / this.size.height));
+    this.view = { x: Math.max(20, (width - this.size.width * scale) / 2), y: Math.max(24, (height - this.size.height * scale) / 2), scale };
+    if (this.size.height * scale > height) this.view.y = 24;
+    this.centre(width, height);
+    this.place();
+  },
+
+  // Brings what is chosen into sight where not all is.
+  centre(width, height) {
+    const transform = this.content.querySelector('.chosen')?.transform.baseVal[0].matrix;
+    if (!transform || (this.size.width * this.view.scale < width && this.size.height * this.view.scale < height)) return;
+    this.view.x = width / 2 - (transform.e + BOX.width / 2) * this.view.scale;
+    this.view.y = height / 2 - (transform.f + BOX.height / 2) * this.view.scale;
+  },
+
+  zoom(by, at) {
+    const box = this.svg.getBoundingClientRect();
+    const { x, y } = at ?? { x: box.width / 2, y: box.height / 2 };
+    const scale = Math.min(3, Math.max(0.08, this.view.scale * by));
+    const ratio = scale / this.view.scale;
+    this.view = { x: x - (x - this.view.x) * ratio, y: y - (y - this.view.y) * ratio, scale };
+    this.place();
+  },
+
+  listen() {
+    this.svg.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      const box = this.svg.getBoundingClientRect();
+      this.zoom(Math.exp(-event.deltaY * 0.0012), { x: event.clientX - box.left, y: event.clientY - box.top });
+    }, { passive: false });
+    this.svg.addEventListener('pointerdown', (event) => { this.grip = { x: event.clientX, y: event.clientY, of: this.view }; });
+    window.addEventListener('pointermove', (event) => {
+      if (!this.grip || !event.buttons) return;
+      this.view = { ...this.grip.of, x: this.grip.of.x + event.clientX - this.grip.x, y: this.grip.of.y + event.clientY - this.grip.y };
+      this.place();
+    });
+    window.addEventListener('pointerup', () => { this.grip = null; });
+    this.svg.addEventListener('keydown', (event) => {
+      const move = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] }[event.key];
+      if (move && event.target === this.svg) {
+        event.preventDefault();
+        this.view = { ...this.view, x: this.view.x + move[0], y: this.view.y + move[1] };
+        this.place();
+      } else if (event.key === '+' || event.key === '-') {
+        this.zoom(event.key === '+' ? 1.25 : 0.8);
+      }
+    });
+  },
+
+  chosen() {
+    if (chosen) this.focus(); else this.showWhole();
+  },
+};

@@ -1,0 +1,64 @@
+// Every decision as a sentence.
+
+function decisions() {
+  const all = [];
+  const say = (kind, subject, words) => all.push({ kind, subject, words });
+  for (const pass of passes.map((_, index) => index).sort((a, b) => rank[a] - rank[b])) {
+    const { place, culled, alive, accesses } = passes[pass];
+    const subject = { pass };
+    if (!place) say('culled', subject, `does not run: ${culled}`);
+    else {
+      say('kept', subject, `runs: ${alive}`);
+      say('placed', subject, `step ${place.step}: ${place.why}`);
+      say('merged', subject, `${place.within ? 'merged with the pass before it' : 'not merged'}: ${place.merged}`);
+    }
+    for (const access of accesses) {
+      const name = `${access.part ? `${access.part} of ` : ''}“${resources[access.resource].name}”`;
+      if (access.load) say('load', subject, `${name}, ${access.load[0]}: ${access.load[1]}`);
+      if (access.clear) say('clear', subject, `${name}, ${access.clear[0]}: ${access.clear[1]}`);
+      if (access.store) say('store', subject, `${name}, ${access.store[0]}: ${access.store[1]}`);
+    }
+  }
+  resources.forEach((resource, index) => {
+    say('slot', { resource: index }, `${resource.slot == null ? 'no slot' : `slot ${resource.slot}`}: ${resource.home}`);
+    for (const usage of resource.usages) say('usage', { resource: index }, usage);
+  });
+  return all;
+}
+
+const logView = {
+  name: 'Log',
+  words: '',
+  kind: '',
+
+  build(panel) {
+    this.all = decisions();
+    this.list = h('ol', { class: 'log', id: 'decisions' });
+    this.count = h('span', { class: 'hint', 'aria-live': 'polite' });
+    const kinds = [...new Set(this.all.map((decision) => decision.kind))];
+    panel.append(
+      h('div', { class: 'bar' },
+        h('select', { 'aria-label': 'Kind of decision', onchange: (event) => this.filter({ kind: event.target.value }) },
+          h('option', { value: '' }, 'every decision'), kinds.map((kind) => h('option', { value: kind }, kind))),
+        h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter decisions', oninput: (event) => this.filter({ words: event.target.value.toLowerCase() }) }),
+        this.count),
+      h('div', { class: 'scroll' }, this.list));
+    this.draw();
+  },
+
+  filter(by) {
+    Object.assign(this, by);
+    this.draw();
+  },
+
+  draw() {
+    const name = ({ pass, resource }) => (pass != null ? passPath(pass) : resources[resource].name);
+    const shown = this.all.filter((decision) => (!this.kind || decision.kind === this.kind)
+      && `${name(decision.subject)} ${decision.words}`.toLowerCase().includes(this.words));
+    this.list.replaceChildren(...shown.map((decision) => h('li', {}, h('span', { class: 'tag' }, decision.kind),
+      decision.subject.pass != null ? passLink(decision.subject.pass) : resourceLink(decision.subject.resource), ` ${decision.words}`)));
+    this.count.textContent = `${shown.length} of ${this.all.length} decisions`;
+  },
+
+  chosen() {},
+};

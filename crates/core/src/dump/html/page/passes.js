@@ -1,0 +1,69 @@
+// All passes in a table that sorts and filters.
+
+const COLUMNS = [
+  { name: 'Step', value: (pass) => passes[pass].place?.order ?? Infinity, cell: (pass) => passes[pass].place?.step ?? '–', number: true },
+  { name: 'Node', value: (pass) => nodePath(passes[pass].node), cell: (pass) => nodePath(passes[pass].node).slice(0, -1) },
+  { name: 'Pass', value: (pass) => passes[pass].name, cell: (pass) => h('button', { class: 'link', onclick: () => choose({ pass }) }, passes[pass].name) },
+  { name: 'Kind', value: (pass) => passes[pass].kind, cell: (pass) => passes[pass].kind },
+  { name: 'CPU ms', value: (pass) => passes[pass].time?.cpu_ms ?? -1, cell: (pass) => milliseconds(passes[pass].time?.cpu_ms), number: true },
+  {
+    name: 'GPU ms', value: (pass) => passes[pass].time?.gpu_ms ?? -1, number: true,
+    cell: (pass) => milliseconds(passes[pass].time?.gpu_ms) + (passes[pass].time?.shared_by > 1 ? ` (${passes[pass].time.shared_by} merged)` : ''),
+  },
+  { name: 'Draws', value: (pass) => passes[pass].time?.draws ?? -1, cell: (pass) => passes[pass].time?.draws ?? '–', number: true },
+  { name: 'Triangles', value: (pass) => passes[pass].time?.triangles ?? -1, cell: (pass) => passes[pass].time?.triangles?.toLocaleString('en') ?? '–', number: true },
+  { name: 'Attachments, loads and stores', value: (pass) => attachments(pass).length, cell: (pass) => attachments(pass).map((line) => h('div', {}, line)) },
+];
+
+const milliseconds = (value) => (value == null ? '–' : value.toFixed(3));
+
+function attachments(pass) {
+  return passes[pass].accesses.filter((access) => access.load).map((access) => {
+    const part = access.part ? ` (${access.part})` : '';
+    const ops = [access.load, access.clear, access.store].filter(Boolean).map(([action, why]) => `${action}: ${why}`);
+    return `${resources[access.resource].name}${part} – ${ops.join('; ')}`;
+  });
+}
+
+const passesView = {
+  name: 'Passes',
+  by: COLUMNS[0],
+  down: false,
+  words: '',
+
+  build(panel) {
+    this.body = h('tbody');
+    this.count = h('span', { class: 'hint', 'aria-live': 'polite' });
+    // Columns that no pass has anything in say nothing.
+    this.columns = COLUMNS.filter((column) => !['CPU ms', 'GPU ms', 'Draws', 'Triangles'].includes(column.name) || passes.some((_, pass) => column.value(pass) >= 0));
+    this.heads = this.columns.map((column) => h('th', { scope: 'col' }, h('button', { onclick: () => this.sort(column) }, column.name)));
+    panel.append(
+      h('div', { class: 'bar' },
+        h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter passes', oninput: (event) => {
+          this.words = event.target.value.toLowerCase();
+          this.draw();
+        } }), this.count),
+      h('div', { class: 'scroll' }, h('table', { id: 'passes' }, h('thead', {}, h('tr', {}, this.heads)), this.body)));
+    this.draw();
+  },
+
+  sort(column) {
+    this.down = this.by === column ? !this.down : Boolean(column.number && column.name !== 'Step');
+    this.by = column;
+    this.draw();
+  },
+
+  draw() {
+    const text = (pass) => `${passPath(pass)} ${passes[pass].kind} ${passes[pass].accesses.map((access) => resources[access.resource].name).join(' ')}`.toLowerCase();
+    const shown = passes.map((_, pass) => pass).filter((pass) => text(pass).includes(this.words));
+    const sign = this.down ? -1 : 1;
+    const compare = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
+    shown.sort((a, b) => sign * compare(this.by.value(a), this.by.value(b)) || rank[a] - rank[b]);
+    this.heads.forEach((head, index) => head.setAttribute('aria-sort', this.columns[index] !== this.by ? 'none' : this.down ? 'descending' : 'ascending'));
+    this.body.replaceChildren(...shown.map((pass) => h('tr', { class: `${passes[pass].place ? '' : 'culled'}${chosen?.pass === pass ? ' chosen' : ''}` },
+      this.columns.map((column) => h('td', { class: column.number ? 'number' : null }, column.cell(pass))))));
+    this.count.textContent = `${shown.length} of ${passes.length} passes`;
+  },
+
+  chosen() { this.draw(); },
+};

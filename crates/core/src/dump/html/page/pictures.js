@@ -1,0 +1,177 @@
+// What textures held, after each pass that wrote them; and drawings.
+
+// Texels of a picture, in rows from the top: bytes, or floats. Read once.
+async function texelsOf(picture) {
+  picture.texels ??= (async () => {
+    const packed = Uint8Array.from(atob(picture.data), (char) => char.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+    const buffer = await new Response(stream).arrayBuffer();
+    return picture.floats ? new Float32Array(buffer) : new Uint8Array(buffer);
+  })();
+  return picture.texels;
+}
+
+// The range that greys are stretched over: all finite values, for depth without those that nothing was drawn to.
+function rangeOf(picture, texels) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of texels) {
+    if (!Number.isFinite(value) || (picture.depth && value === 0)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return low <= high ? [low, high] : [0, 1];
+}
+
+const encode = (light) => 255 * (light <= 0.0031308 ? light * 12.92 : 1.055 * light ** (1 / 2.4) - 0.055);
+
+function paintPicture(canvas, picture, texels, opaque) {
+  const { width, height, channels } = picture;
+  canvas.width = width;
+  canvas.height = height;
+  const image = new ImageData(width, height);
+  const [low, high] = picture.floats ? rangeOf(picture, texels) : [0, 255];
+  const grey = channels === 1 || picture.depth;
+  for (let index = 0; index < width * height; index += 1) {
+    const at = (channel) => texels[index * channels + channel];
+    const out = image.data.subarray(index * 4, index * 4 + 4);
+    out[3] = 255;
+    for (let channel = 0; channel < 3; channel += 1) {
+      const value = at(grey ? 0 : channel);
+      if (!grey && channel >= channels) out[channel] = 0;
+      else if (!picture.floats) out[channel] = value;
+      else if (Number.isNaN(value)) [out[0], out[1], out[2]] = [255, 0, 255];
+      else if (grey) out[channel] = value === 0 && picture.depth ? 0 : 40 + (215 * (value - low)) / (high - low || 1);
+      // Light without an upper end (Reinhard et al., 2002).
+      else out[channel] = encode(Math.max(0, value) / (1 + Math.max(0, value)));
+    }
+    if (!opaque && channels === 4 && !picture.floats) out[3] = at(3);
+  }
+  canvas.getContext('2d').putImageData(image, 0, 0);
+}
+
+// The texel under the pointer, in words.
+function valueAt(picture, texels, canvas, event) {
+  const box = canvas.getBoundingClientRect();
+  const scale = Math.min(box.width / picture.width, box.height / picture.height);
+  const [left, top] = [(box.width - picture.width * scale) / 2, (box.height - picture.height * scale) / 2];
+  const [x, y] = [Math.floor((event.clientX - box.left - left) / scale), Math.floor((event.clientY - box.top - top) / scale)];
+  if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return '';
+  const texel = (at, size, axis) => picture.origin[axis] + Math.floor(((at + 0.5) * picture.full[axis]) / size);
+  const values = Array.from(texels.slice((y * picture.width + x) * picture.channels, (y * picture.width + x + 1) * picture.channels));
+  const words = values.map((value) => (picture.floats ? Number(value.toPrecision(6)) : value)).join(', ');
+  const tile = (picture.tiles ?? []).find((box) => {
+    const [u, v] = [texel(x, picture.width, 0), texel(y, picture.height, 1)];
+    return u >= box.x && v >= box.y && u < box.x + box.width && v < box.y + box.height;
+  });
+  return `texel ${texel(x, picture.width, 0)}, ${texel(y, picture.height, 1)}: ${words}${picture.floats ? '' : ' of 255'}${tile ? `   ${tile.name}` : ''}`;
+}
+
+const captionOf = (picture) => `v${picture.version}${picture.part ? `, ${picture.part}` : ''}, ${picture.pass == null ? 'at the end' : `after ${passPath(picture.pass)}`}`;
+
+const picturesView = {
+  name: 'Pictures',
+
+  build(panel) {
+    this.value = h('span', { class: 'value', 'aria-live': 'off' });
+    const byResource = new Map();
+    frame.pictures.forEach((picture) => byResource.set(picture.resource, [...(byResource.get(picture.resource) ?? []), picture]));
+    const blocks = [...byResource].map(([resource, list]) => h('section', { class: 'pictures', id: `pictures-${resource}` },
+      h('h2', {}, resourceLink(resource), h('span', { class: 'why' }, ` ${resources[resource].shape}`)), list.map((picture) => this.card(picture))));
+    panel.append(
+      h('div', { class: 'bar' }, frame.pictures.length
+        ? [h('span', { class: 'hint' }, 'Point at a picture for a texel’s value; choose it for more.'), this.value]
+        : h('span', { class: 'hint' }, 'There are no pictures: nothing was drawn for this page.')),
+      h('div', { class: 'scroll', id: 'pictures' }, frame.drawings.map(drawing), blocks));
+  },
+
+  card(picture) {
+    const caption = h('figcaption', {}, captionOf(picture));
+    if (picture.missing) return h('figure', {}, h('p', { class: 'why' }, `No picture: ${picture.missing}.`), caption);
+    const canvas = h('canvas', { role: 'img', tabindex: '0', 'aria-label': `${resources[picture.resource].name}, ${captionOf(picture)}`, ...press(() => this.open(picture)) });
+    // Read when it comes into sight.
+    new IntersectionObserver(async (seen, observer) => {
+      if (!seen.some((entry) => entry.isIntersecting)) return;
+      observer.disconnect();
+      const texels = await texelsOf(picture);
+      paintPicture(canvas, picture, texels, false);
+      canvas.dataset.drawn = 'yes';
+      canvas.addEventListener('pointermove', (event) => { this.value.textContent = valueAt(picture, texels, canvas, event); });
+    }).observe(canvas);
+    return h('figure', {}, canvas, caption);
+  },
+
+  async open(picture) {
+    const texels = await texelsOf(picture);
+    const canvas = h('canvas');
+    const value = h('div', { class: 'value' });
+    const names = s('svg', { style: 'position:absolute;left:0;top:0;pointer-events:none' });
+    let scale = Math.max(1, Math.floor(Math.min((innerWidth * 0.9) / picture.width, (innerHeight * 0.75) / picture.height)));
+    let opaque = false;
+    const draw = () => {
+      paintPicture(canvas, picture, texels, opaque);
+      canvas.style.width = `${picture.width * scale}px`;
+      canvas.style.height = `${picture.height * scale}px`;
+      drawTiles(names, picture, scale);
+    };
+    canvas.addEventListener('pointermove', (event) => { value.textContent = valueAt(picture, texels, canvas, event); });
+    const size = (by) => () => {
+      scale = Math.max(1, Math.min(32, scale * by));
+      draw();
+    };
+    const dialog = h('dialog', { 'aria-label': `${resources[picture.resource].name}, ${captionOf(picture)}`, onclose: () => dialog.remove() },
+      h('h2', {}, `${resources[picture.resource].name}: ${captionOf(picture)}`),
+      h('div', {}, h('button', { onclick: size(2), 'aria-label': 'Larger' }, '+'), ' ', h('button', { onclick: size(0.5), 'aria-label': 'Smaller' }, '−'), ' ',
+        picture.channels === 4 && !picture.floats ? h('label', {}, h('input', { type: 'checkbox', onchange: (event) => {
+          opaque = event.target.checked;
+          draw();
+        } }), ' without alpha ') : '',
+        h('button', { onclick: () => dialog.close() }, 'Close (Esc)'), h('span', { class: 'why' }, ` ${rangeWords(picture, texels)}`)),
+      value, h('div', { class: 'stage' }, canvas, names));
+    document.body.append(dialog);
+    draw();
+    dialog.showModal();
+  },
+
+  reveal(resource) {
+    if (resource != null) document.getElementById(`pictures-${resource}`)?.scrollIntoView();
+  },
+
+  chosen() {},
+};
+
+function rangeWords(picture, texels) {
+  const whole = `${picture.full[0]} x ${picture.full[1]} texels, every ${(picture.full[0] / picture.width).toFixed(1)}th shown`;
+  if (!picture.floats) return whole;
+  const [low, high] = rangeOf(picture, texels);
+  return `${whole}; values ${Number(low.toPrecision(5))} to ${Number(high.toPrecision(5))}${picture.depth ? ', black where nothing was drawn' : ''}`;
+}
+
+// Outlines and names of the parts that passes drew into.
+function drawTiles(svg, picture, scale) {
+  const across = (picture.width / picture.full[0]) * scale;
+  svg.setAttribute('width', picture.width * scale);
+  svg.setAttribute('height', picture.height * scale);
+  svg.replaceChildren(...(picture.tiles ?? []).flatMap((tile) => [
+    s('rect', { x: tile.x * across, y: tile.y * across, width: tile.width * across, height: tile.height * across, fill: 'none', stroke: 'var(--mark)', 'stroke-width': 1.5 }),
+    s('text', { class: 'label', x: tile.x * across + 4, y: tile.y * across + 14 }, clip(tile.name, Math.max(3, Math.floor((tile.width * across) / 7)))),
+  ]));
+}
+
+// Named outlines on a plane, x to the right and y down.
+function drawing(plot) {
+  const points = plot.outlines.flatMap((outline) => outline.points);
+  const [xs, ys] = [points.map((point) => point[0]), points.map((point) => point[1])];
+  const [x, y, width, height] = [Math.min(...xs), Math.min(...ys), Math.max(...xs) - Math.min(...xs) || 1, Math.max(...ys) - Math.min(...ys) || 1];
+  const unit = Math.max(width / 900, height / 460);
+  const outlines = plot.outlines.map((outline, index) => {
+    const color = `hsl(${(index * 137.5 + 205) % 360} 60% 50%)`;
+    const at = outline.points[index % outline.points.length];
+    return s('g', { class: 'unit', ...hint(outline.name) },
+      s('polygon', { points: outline.points.map((point) => point.join(',')).join(' '), style: `fill:${color};fill-opacity:.08;stroke:${color};stroke-width:${unit * 1.5}` }),
+      s('text', { x: at[0], y: at[1], 'text-anchor': at[0] > x + width / 2 ? 'end' : 'start', style: `font-size:${unit * 12}px;fill:${color}` }, outline.name));
+  });
+  return h('figure', { class: 'drawing' }, h('h2', {}, plot.title), s('svg', {
+    viewBox: `${x - 10 * unit} ${y - 20 * unit} ${width + 20 * unit} ${height + 40 * unit}`, style: 'background:none;max-height:480px',
+    role: 'img', 'aria-label': `${plot.title}: ${plot.outlines.map((outline) => outline.name).join(', ')}`,
+  }, outlines), h('figcaption', {}, plot.caption));
+}

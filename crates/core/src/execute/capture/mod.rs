@@ -1,0 +1,265 @@
+//! Pictures of what passes write, taken behind each of them.
+
+mod texels;
+
+use super::Executed;
+use super::read_back::{ReadBack, TexturePart};
+use super::record::{self, Recording};
+use crate::compile::capturing;
+use crate::compiled::Compiled;
+use crate::declaration::AccessDecl;
+use crate::desc::{ResourceDesc, TextureDesc};
+use crate::dump::{Picture, PictureTile};
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::handle::{PassId, ResourceId};
+use crate::part::{Aspect, Part};
+use crate::plan::Plan;
+use std::ops::Range;
+use std::sync::Arc;
+use wgpu_types::TextureDimension;
+
+/// Layers of a texture beyond these have no picture.
+const LAYERS: u32 = 16;
+/// Larger buffers are left out.
+const BUFFER_BYTES: u64 = 65_536;
+
+/// What the passes of a frame wrote, on its way to the CPU.
+#[must_use = "the pictures come only to whoever calls `wait`"]
+pub struct Capture {
+    shots: Vec<Shot>,
+    buffers: Vec<(ResourceId, ReadBack)>,
+}
+
+/// What the passes of a frame wrote.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Captured {
+    /// Every texture at each version, in the order of the passes. At most 320 texels of a side are kept, evenly spread.
+    pub pictures: Vec<Picture>,
+    /// The bytes of every buffer of at most 64 KiB, behind each pass that wrote it, in the order of the passes.
+    pub buffers: Vec<(ResourceId, Vec<u8>)>,
+}
+
+/// One mip level of a texture, behind the pass that wrote it.
+struct Shot {
+    resource: ResourceId,
+    version: u32,
+    pass: PassId,
+    mip: u32,
+    desc: TextureDesc,
+    /// The layers that were copied, or why none were.
+    taken: Result<(Range<u32>, ReadBack), String>,
+    tiles: Vec<PictureTile>,
+}
+
+impl Compiled<'_> {
+    /// Records the frame so that pictures can be taken of every texture at each of its versions. Nothing is submitted.
+    ///
+    /// What is recorded is a variant of the plan that draws the same: no pass is merged, all is stored, nothing shares
+    /// memory, and copies follow each pass. It takes as much memory as all versions of all textures. [`Executed::plan`]
+    /// is the plan of the frame itself, as without.
+    ///
+    /// Where passes draw into rectangles one after the other, one picture shows them all, with the passes' names.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, HtmlPage, TextureDesc};
+    /// # use shadowgraph_core::wgpu;
+    /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    /// let mut graph = Graph::new();
+    /// let mut frame = graph.frame();
+    /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    /// frame.render_pass("clear").color(&mut color, Contents::clear_color([1.0; 4]));
+    /// frame.export_texture(&color);
+    /// let mut encoder = device.create_command_encoder(&Default::default());
+    /// let (executed, capture) = graph.compile(frame)?.execute_captured(&mut graph, &device, &mut encoder)?;
+    /// queue.submit([encoder.finish()]);
+    /// let mut page = HtmlPage::new(executed.plan());
+    /// page.pictures = capture.wait(&device)?.pictures;
+    /// assert_eq!(page.pictures.len(), 1);
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`execute`](Self::execute).
+    pub fn execute_captured(
+        mut self,
+        graph: &mut Graph,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(Executed, Capture), Error> {
+        let plan = self.plan.clone();
+        self.plan = Arc::new(capturing(&plan));
+        let mut capture = Capture { shots: Vec::new(), buffers: Vec::new() };
+        let mut watch = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
+            capture.behind(recording, pass, encoder)
+        };
+        let executed = record::record(self, &mut graph.device, device, encoder, None, Some(&mut watch))?;
+        Ok((executed.of_plan(plan), capture))
+    }
+}
+
+impl Capture {
+    /// Waits for the submitted frame and returns what it wrote.
+    ///
+    /// # Errors
+    /// When the device is lost, or the encoder was not submitted.
+    pub fn wait(self, device: &wgpu::Device) -> Result<Captured, Error> {
+        let mut captured = Captured::default();
+        for shot in self.shots {
+            shot.develop(device, &mut captured.pictures)?;
+        }
+        for (buffer, bytes) in self.buffers {
+            captured.buffers.push((buffer, bytes.wait(device)?));
+        }
+        Ok(captured)
+    }
+
+    /// Copies what a pass wrote.
+    fn behind(
+        &mut self,
+        recording: &Recording<'_>,
+        pass: PassId,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), Error> {
+        let decl = &recording.plan.decl;
+        for access in decl.accesses(pass).iter().filter(|access| access.contents.writes()) {
+            match decl.resource(access.resource).desc {
+                ResourceDesc::Texture(desc) => self.shoot(recording, pass, access, &desc, encoder),
+                ResourceDesc::Buffer(desc) if desc.bytes <= BUFFER_BYTES => {
+                    let (id, name) = (access.resource, decl.resource_name(access.resource));
+                    let buffer = recording.buffer(id)?;
+                    if buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
+                        let bytes = ReadBack::buffer(recording.device, encoder, name, buffer, 0..desc.bytes)?;
+                        self.buffers.push((id, bytes));
+                    }
+                }
+                ResourceDesc::Buffer(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Copies what a pass wrote to a texture.
+    fn shoot(
+        &mut self,
+        recording: &Recording<'_>,
+        pass: PassId,
+        access: &AccessDecl,
+        desc: &TextureDesc,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
+        let plan = recording.plan;
+        if goes_on(plan, pass, access) {
+            return;
+        }
+        let part = plan.decl.part(access);
+        let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
+        for mip in first..end {
+            let shown =
+                TexturePart { mip, layers: layers(desc, part, mip), aspect: aspect(desc, part), rect: None };
+            let name = plan.decl.resource_name(access.resource);
+            let taken = recording
+                .texture(access.resource)
+                .and_then(|texture| ReadBack::texture(recording.device, encoder, name, texture, &shown));
+            self.shots.push(Shot {
+                resource: access.resource,
+                version: access.version + 1,
+                pass,
+                mip,
+                desc: *desc,
+                taken: taken.map(|texels| (shown.layers, texels)).map_err(problem),
+                tiles: tiles(plan, pass, access),
+            });
+        }
+    }
+}
+
+/// Whether the next pass that touches what the access wrote draws into another rectangle of it.
+fn goes_on(plan: &Plan, pass: PassId, access: &AccessDecl) -> bool {
+    let part = plan.decl.part(access);
+    let later = plan.order.iter().skip_while(|&&other| other != pass).skip(1);
+    let mut touching =
+        later.flat_map(|&other| plan.decl.accesses(other)).filter(|other| same_layer(plan, access, other));
+    part.rect.is_some()
+        && touching.next().is_some_and(|next| next.contents.writes() && plan.decl.part(next).rect.is_some())
+}
+
+fn same_layer(plan: &Plan, a: &AccessDecl, b: &AccessDecl) -> bool {
+    let place = |access| Part { rect: None, ..plan.decl.part(access) };
+    a.resource == b.resource && place(a) == place(b)
+}
+
+/// The rectangles that passes have drawn into up to this one, with the names of the last to do so.
+fn tiles(plan: &Plan, pass: PassId, access: &AccessDecl) -> Vec<PictureTile> {
+    let mut tiles: Vec<PictureTile> = Vec::new();
+    for &earlier in &plan.order {
+        for other in plan.decl.accesses(earlier) {
+            if !other.contents.writes() || !same_layer(plan, access, other) {
+                continue;
+            }
+            let Some(rect) = plan.decl.part(other).rect else { continue };
+            tiles.retain(|tile| tile.rect != rect);
+            tiles.push(PictureTile { rect, name: plan.pass(earlier).name.into() });
+        }
+        if earlier == pass {
+            break;
+        }
+    }
+    tiles
+}
+
+fn layers(desc: &TextureDesc, part: Part, mip: u32) -> Range<u32> {
+    let all = match desc.dimension {
+        TextureDimension::D3 => (desc.size.depth_or_array_layers >> mip).max(1),
+        _ => desc.size.depth_or_array_layers,
+    };
+    let (first, end) = part.layers.unwrap_or((0, all));
+    first..end.min(all).min(first + LAYERS)
+}
+
+/// Of depth and stencil together the depth, unless the pass writes the stencil alone.
+fn aspect(desc: &TextureDesc, part: Part) -> wgpu::TextureAspect {
+    match part.aspect {
+        Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
+        _ if desc.format.is_combined_depth_stencil_format() => wgpu::TextureAspect::DepthOnly,
+        _ => wgpu::TextureAspect::All,
+    }
+}
+
+fn problem(error: Error) -> String {
+    match error {
+        Error::ReadBack { problem, .. } => problem,
+        other => other.to_string(),
+    }
+}
+
+impl Shot {
+    fn develop(self, device: &wgpu::Device, pictures: &mut Vec<Picture>) -> Result<(), Error> {
+        let size = self.desc.size.mip_level_size(self.mip, self.desc.dimension);
+        let full_px = [size.width, size.height];
+        let picture = |part: Part, texels| Picture {
+            resource: self.resource,
+            version: self.version,
+            pass: Some(self.pass),
+            part,
+            full_px,
+            texels,
+            tiles: self.tiles.clone(),
+        };
+        let part = if self.desc.mip_levels > 1 { Part::WHOLE.mip(self.mip) } else { Part::WHOLE };
+        let (layers, texels) = match self.taken {
+            Ok((layers, texels)) => (layers, texels.wait(device)?),
+            Err(problem) => {
+                pictures.push(picture(part, Err(problem)));
+                return Ok(());
+            }
+        };
+        let layered = self.desc.size.depth_or_array_layers > 1;
+        let layer_bytes = texels.len() / layers.len().max(1);
+        for (layer, bytes) in layers.zip(texels.chunks_exact(layer_bytes.max(1))) {
+            let part = if layered { part.layer(layer) } else { part };
+            pictures.push(picture(part, texels::texels(self.desc.format, full_px, bytes)));
+        }
+        Ok(())
+    }
+}
