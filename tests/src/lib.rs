@@ -6,5 +6,5 @@ mod skip;
 pub mod watch;
 
 pub use places::{repository, shared};
-pub use program::{ProgramError, program};
+pub use program::{ProgramError, on_path, program};
 pub use skip::skip;

@@ -49,3 +49,9 @@ fn build() -> Result<PathBuf, ProgramError> {
     });
     executable.ok_or_else(|| ProgramError("cargo did not say where it is".to_owned()))
 }
+
+/// Returns whether a program of that name can be started.
+pub fn on_path(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+}

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 use shadowgraph_tests::watch::{self, Limits, Outcome};
-use shadowgraph_tests::{repository, skip};
+use shadowgraph_tests::{on_path, repository, skip};
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
@@ -40,11 +40,6 @@ fn run(command: &mut Command) -> Outcome {
     let outcome = watch::run(command, LIMITS).unwrap();
     assert_eq!(outcome.stopped, None, "{outcome:?}");
     outcome
-}
-
-fn on_path(program: &str) -> bool {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
 }
 
 fn pixel(picture: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use shadowgraph_core::{Executed, Format, Frame, Graph, Part, PassTime, Plan, Timer};
+use shadowgraph_core::{Buffer, Compiled, Executed, Format, Frame, Graph, Part, Plan, Timer};
 use shadowgraph_lighting::{Ambience, Forward, Key, LitTarget, Shows, Tonemap};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near, visible};
@@ -219,6 +219,25 @@ impl Renderer {
         options: &ViewOptions,
         mut timer: Option<&mut Timer>,
     ) -> Result<Drawn, Error> {
+        let (mut drawn, _) = self.draw_by(gpu, options, |compiled, graph, encoder| {
+            Ok(match timer.as_deref_mut() {
+                Some(timer) => compiled.execute_timed(graph, &gpu.device, encoder, timer)?,
+                None => compiled.execute(graph, &gpu.device, encoder)?,
+            })
+        })?;
+        if let Some(timer) = timer {
+            drawn.times = timer.read(&gpu.device, &gpu.queue)?;
+        }
+        Ok(drawn)
+    }
+
+    /// Draws a view whose frame `record` records, and returns with it the records of its shadow maps.
+    pub(crate) fn draw_by(
+        &mut self,
+        gpu: &Gpu,
+        options: &ViewOptions,
+        record: impl FnOnce(Compiled<'_>, &mut Graph, &mut wgpu::CommandEncoder) -> Result<Executed, Error>,
+    ) -> Result<(Drawn, Option<[Buffer; 2]>), Error> {
         let [width, height] = options.size_px;
         let limit = gpu.device.limits().max_texture_dimension_2d;
         if width.max(height) > limit {
@@ -231,12 +250,15 @@ impl Renderer {
             let output = pipelines::add(&mut frame, self, &view)?;
             let request = frame.read_back_texture(&output.picture, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut executed = self.execute(frame, gpu, &mut encoder, timer.as_deref_mut())?;
+            let mut graph = self.graph();
+            let compiled = graph.compile(frame)?;
+            let mut executed = record(compiled, &mut graph, &mut encoder)?;
+            drop(graph);
             let texels = executed.read_back(request).ok_or_else(nothing_read)?;
             gpu.queue.submit([encoder.finish()]);
             let picture = Picture { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
-            let times = times(gpu, timer.as_deref())?;
-            Ok(Drawn { picture, plan: executed.shared_plan(), times, unshadowed: output.unshadowed })
+            let (plan, times) = (executed.shared_plan(), Vec::new());
+            Ok((Drawn { picture, plan, times, unshadowed: output.unshadowed }, output.records))
         })
     }
 
@@ -401,13 +423,6 @@ impl Renderer {
 /// A read-back is taken out once, by the frame that asked for it.
 pub(crate) fn nothing_read() -> Error {
     Error::Gpu("nothing was read back".into())
-}
-
-fn times(gpu: &Gpu, timer: Option<&Timer>) -> Result<Vec<PassTime>, Error> {
-    match timer {
-        Some(timer) => Ok(timer.read(&gpu.device, &gpu.queue)?),
-        None => Ok(Vec::new()),
-    }
 }
 
 /// What the lit pass writes for an output, and in which format.

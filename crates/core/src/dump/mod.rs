@@ -5,6 +5,7 @@ mod dot;
 mod explain;
 mod html;
 mod json;
+mod mermaid;
 mod places;
 mod text;
 mod words;

@@ -8,7 +8,7 @@ pub use forward::forward;
 pub use minimal::minimal;
 use steps::{background, geometry, inputs, picture, records};
 
-use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
+use shadowgraph_core::{Buffer, Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{Ambience, Tonemap};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_shadows::Unshadowed;
@@ -64,6 +64,8 @@ impl Target<'_> {
 pub struct Output {
     /// Four bytes a pixel, as large as the view.
     pub picture: Texture,
+    /// The records of shadow maps, where there are any.
+    pub records: Option<[Buffer; 2]>,
     /// The lights that are to cast shadows but have none, and why.
     pub unshadowed: Vec<Unshadowed>,
 }

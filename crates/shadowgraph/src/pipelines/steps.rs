@@ -70,7 +70,8 @@ pub(super) fn picture<'f>(
             Ok(show.textures(frame, buffers, &[&texture], size_px))
         }
     });
-    picture.map(|picture| Output { picture, unshadowed: shadows.unshadowed })
+    let (records, unshadowed) = (shadows.records, shadows.unshadowed);
+    picture.map(|picture| Output { picture, records, unshadowed })
 }
 
 fn maps<'s>(shadows: &'s ShadowOutputs<'_>) -> Vec<&'s Texture> {

@@ -29,6 +29,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Show the plan of a frame: passes, resources, and why each is as it is
     Dump(DumpArgs),
+    /// Say why a pass or a resource of a frame is as it is
+    Explain(ExplainArgs),
     /// List the pipelines and techniques, and in how many permutations their shaders come
     Nodes,
     /// Measure a frame: the graph beside the same passes encoded by hand, and the time of each pass
@@ -55,9 +57,24 @@ pub(crate) struct DumpArgs {
     /// The form of the dump
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
+    /// Show what differs between two dumps in JSON, as text, json or html, instead of a frame
+    #[arg(long, num_args = 2, value_names = ["A.json", "B.json"], conflicts_with = "scene")]
+    pub(crate) diff: Option<Vec<PathBuf>>,
     /// The file; a missing folder is created. Without it the dump goes to standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// `shadowgraph explain`
+#[derive(Debug, Args)]
+pub(crate) struct ExplainArgs {
+    /// A pass, by its name or with its nodes before it such as shadows/cascades/clear, or a resource
+    pub(crate) name: String,
+    /// Say why the pass NAME runs before this one
+    #[arg(long, value_name = "PASS")]
+    pub(crate) before: Option<String>,
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
 }
 
 /// `shadowgraph bench`
@@ -132,6 +149,8 @@ pub(crate) enum Format {
     Json,
     /// Graphviz
     Dot,
+    /// Mermaid, for pages of documents
+    Mermaid,
     /// One page that opens in any browser
     Html,
 }
@@ -183,6 +202,11 @@ impl DrawArgs {
     /// Returns whether a GPU is asked for.
     pub(crate) fn names_adapter(&self) -> bool {
         self.adapter.is_some()
+    }
+
+    /// Returns whether times are asked for.
+    pub(crate) fn times(&self) -> bool {
+        self.timings
     }
 
     /// Parses and checks every option.

@@ -1,20 +1,23 @@
 //! The commands, one call per step.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::args::{DrawArgs, DumpArgs, Format, RenderArgs};
+use super::args::{DrawArgs, DumpArgs, ExplainArgs, Format, RenderArgs};
 use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report;
-use crate::core::{PassTime, Plan, Timer};
+use crate::core::{Diff, HtmlPage, PassTime, Plan, Timer};
 use crate::options::{Aov, Options};
 use crate::output::{Pixels, write_png, write_text};
 use crate::scene::gltf::Progress as LoadProgress;
 use crate::scene::{Camera, Scene};
 use crate::shadows::{Techniques, Unshadowed};
 use crate::{Drawn, Gpu, Method, Picture, Renderer, ViewOptions};
+
+/// What pages are called.
+const TITLE: &str = "Shadowgraph frame";
 
 /// What every drawing command starts from.
 pub(crate) struct Input {
@@ -71,20 +74,88 @@ fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
 
 /// `shadowgraph dump`
 pub(crate) fn dump(args: &DumpArgs, techniques: &Techniques) -> Result<(), Failure> {
-    let input = input(&args.draw, techniques)?;
-    let lights = input.scene.lights.clone();
-    let (gpu, drawn) = planned(&args.draw, input)?;
-    let text = match args.format {
-        Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
-        Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
-        Format::Json => report::json(&lights, &drawn)?,
-        Format::Dot => drawn.plan.to_dot(),
-        Format::Html => report::html(&lights, &drawn),
+    let text = match (&args.diff, args.format) {
+        (Some(files), format) => diff(files, format)?,
+        (None, Format::Html) => page(&args.draw, input(&args.draw, techniques)?)?,
+        (None, format) => plan_text(args, format, input(&args.draw, techniques)?)?,
     };
     match &args.output {
         Some(file) => Ok(write_text(file, &text)?),
         None => console::print(&text),
     }
+}
+
+fn plan_text(args: &DumpArgs, format: Format, input: Input) -> Result<String, Failure> {
+    let lights = input.scene.lights.clone();
+    let (gpu, drawn) = planned(&args.draw, input)?;
+    Ok(match format {
+        Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
+        Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
+        Format::Json => report::json(&lights, &drawn)?,
+        Format::Dot => drawn.plan.to_dot(),
+        Format::Mermaid => drawn.plan.to_mermaid(),
+        Format::Html => drawn.plan.to_html(),
+    })
+}
+
+/// The page about a frame, with pictures where there is something to draw with.
+fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
+    let lights = input.scene.lights.clone();
+    let gpu = match Gpu::open(&input.options.adapter) {
+        Ok(gpu) => gpu,
+        Err(error) if args.names_adapter() || args.times() => return Err(Failure::no_device(error)),
+        Err(error) => {
+            let (_, Planned { plan, .. }) = planned(args, input)?;
+            let mut page = HtmlPage::new(&plan).with_title(TITLE);
+            page.notes.push(format!("There are no pictures and no times: {error}."));
+            return Ok(page.to_html());
+        }
+    };
+    let _drawing = Progress::if_slow("drawing");
+    let view = view_options(&input);
+    let Options { aov, technique, pipeline, samples, .. } = input.options;
+    let method = Method { technique, pipeline, samples };
+    let mut renderer = Renderer::with(&gpu, input.scene, &input.camera, aov, method)?;
+    let inspected = renderer.inspect(&gpu, &view)?;
+    let mut page = inspected.page(&lights, &view).with_title(TITLE);
+    let [width, height] = view.size_px;
+    page.notes.push(format!("{width} x {height} pixels, drawn by {}.", gpu.adapter.name));
+    page.notes.push(format!("Technique {}, pipeline {}.", technique.name(), pipeline.name()));
+    page.notes.extend(report::unshadowed(&inspected.drawn.unshadowed));
+    Ok(page.to_html())
+}
+
+/// What differs between the frames of two files.
+fn diff(files: &[PathBuf], format: Format) -> Result<String, Failure> {
+    let [before, after] = files else { return Err(usage("--diff: takes two files")) };
+    let read = |file: &PathBuf| {
+        let failed = |error| Failure {
+            code: Failure::INPUT,
+            message: format!("--diff {}: cannot be read: {error}", file.display()),
+        };
+        std::fs::read_to_string(file).map_err(failed)
+    };
+    let diff = Diff::of_json(&read(before)?, &read(after)?)?;
+    let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    match format {
+        Format::Text => Ok(diff.to_text()),
+        Format::Json => Ok(serde_json::to_string_pretty(&diff)? + "\n"),
+        Format::Html => Ok(diff.to_html(&name(before), &name(after))),
+        Format::Dot | Format::Mermaid => Err(usage("--diff: is shown as text, json or html")),
+    }
+}
+
+fn usage(message: &str) -> Failure {
+    Failure { code: Failure::USAGE, message: message.into() }
+}
+
+/// `shadowgraph explain`
+pub(crate) fn explain(args: &ExplainArgs, techniques: &Techniques) -> Result<(), Failure> {
+    let (_, Planned { plan, .. }) = planned(&args.draw, input(&args.draw, techniques)?)?;
+    console::print(&match &args.before {
+        Some(after) => plan.explain_order(&args.name, after)?,
+        None => plan.explain(&args.name)?,
+    })
 }
 
 /// A plan needs no GPU, but times do, and an adapter that is named is to be there.

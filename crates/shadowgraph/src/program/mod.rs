@@ -41,6 +41,7 @@ pub fn run(techniques: &Techniques) -> ExitCode {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, techniques),
         Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args, techniques),
+        Ok(Cli { command: Some(Command::Explain(args)) }) => commands::explain(&args, techniques),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, techniques),
         Ok(Cli { command: Some(Command::Nodes) }) => nodes::nodes(techniques),
         Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, techniques),

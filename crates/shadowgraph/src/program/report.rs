@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use super::commands::Planned;
 use super::failure::Failure;
-use crate::core::{HtmlPage, PassTime};
-use crate::scene::{Light, LightKind};
+use crate::core::PassTime;
+use crate::inspect::lights::{kind, shadows, unit};
+use crate::scene::Light;
 use crate::shadows::Unshadowed;
 use crate::wgpu::AdapterInfo;
 use serde_json::{Value, json};
@@ -46,25 +47,6 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');
     Ok(text)
-}
-
-/// The plan as a page, with the scene's lights.
-pub(crate) fn html(lights: &[Light], planned: &Planned) -> String {
-    let mut page = HtmlPage::new(&planned.plan).with_title("Shadowgraph frame").with_times(&planned.times);
-    let columns = ["light", "kind", "name", "strength", "shadows"].map(String::from).to_vec();
-    let row = |(index, light): (usize, &Light)| {
-        let strength = format!("{:.1} {}", light.intensity, unit(light));
-        let name = light.name.clone().unwrap_or_default();
-        vec![
-            index.to_string(),
-            kind(light).into(),
-            name,
-            strength,
-            shadows(light, index, &planned.unshadowed),
-        ]
-    };
-    page.tables.push(("Lights".into(), columns, lights.iter().enumerate().map(row).collect()));
-    page.to_html()
 }
 
 /// Which lights have no shadows and why, a sentence for each reason.
@@ -122,27 +104,6 @@ pub(crate) fn gpu_sum_ms(times: &[PassTime]) -> Option<f64> {
 
 fn columns(cpu_ms: f64, gpu_ms: Option<f64>) -> String {
     format!("{cpu_ms:>10.3} {:>10}", gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}")))
-}
-
-fn kind(light: &Light) -> &'static str {
-    match light.kind {
-        LightKind::Directional { .. } => "directional",
-        LightKind::Spot { .. } => "spot",
-        LightKind::Point { .. } => "point",
-    }
-}
-
-fn unit(light: &Light) -> &'static str {
-    if matches!(light.kind, LightKind::Directional { .. }) { "lx" } else { "cd" }
-}
-
-fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String {
-    let missing = unshadowed.iter().find(|unshadowed| unshadowed.light as usize == index);
-    match missing {
-        _ if !light.casts_shadow => "no shadows asked for".into(),
-        Some(missing) => format!("no shadows: {}", missing.reason.text()),
-        None => "casts shadows".into(),
-    }
 }
 
 #[cfg(test)]

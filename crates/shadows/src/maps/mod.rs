@@ -155,6 +155,7 @@ impl DrawnMaps {
             bindings,
             debug_light: self.main_light,
             debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
+            records: Some([self.views, self.lights]),
             unshadowed: self.unshadowed,
             ..ShadowOutputs::default()
         }

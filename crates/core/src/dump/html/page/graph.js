@@ -17,6 +17,17 @@ const groupsAround = (pass) => (looseGroup.has(pass) ? [looseGroup.get(pass)] : 
 const members = groups.map(() => []);
 passes.forEach((_, pass) => groupsAround(pass).forEach((group) => members[group].push(pass)));
 
+// Leaves out arrows between boxes that are tied by other arrows too.
+function withoutImplied(arrows, count) {
+  const next = Array.from({ length: count }, () => []);
+  for (const arrow of arrows) next[arrow.from].push(arrow.to);
+  const reach = [];
+  for (let from = count - 1; from >= 0; from -= 1) {
+    reach[from] = new Set(next[from].flatMap((to) => [to, ...reach[to]]));
+  }
+  return arrows.filter(({ from, to }) => !next[from].some((other) => other !== to && reach[other].has(to)));
+}
+
 const graphView = {
   name: 'Graph',
   open: new Set(),
@@ -110,7 +121,8 @@ const graphView = {
     const { of, links: drawn } = this.shown();
     const units = new Map();
     const unitOf = new Map();
-    for (const pass of [...of].sort((a, b) => rank[a] - rank[b] || a - b)) {
+    // In order of declaration, in which nothing needs what comes later, and nodes are together.
+    for (const pass of [...of].sort((a, b) => a - b)) {
       const closed = whole ? groupsAround(pass).find((group) => !this.open.has(group)) : undefined;
       const key = closed == null ? `p${pass}` : `g${closed}`;
       if (!units.has(key)) units.set(key, { key, pass: closed == null ? pass : null, group: closed, passes: [], place: units.size });
@@ -131,13 +143,15 @@ const graphView = {
     }
     const list = [...units.values()];
     const far = list.length > 60 ? 6 : Infinity;
-    layOut(list, [...arrows.values()], far);
-    this.paint(list, [...arrows.values()], whole);
+    const every = [...arrows.values()];
+    const kept = whole && every.length > FEW ? withoutImplied(every, list.length) : every;
+    layOut(list, kept, far);
+    this.paint(list, kept, whole);
     this.back.hidden = whole;
     this.reachBox.hidden = whole || chosen?.pass == null;
-    const stubs = [...arrows.values()].filter((arrow) => !arrow.points).length;
+    const missing = every.length - kept.filter((arrow) => arrow.points).length;
     this.note.textContent = whole
-      ? `${units.size} boxes for ${passes.length} passes. Choose a box to open it or to see its neighbours.${stubs ? ` ${stubs} long arrows are left out: choose a pass to see all of its.` : ''}`
+      ? `${units.size} boxes for ${passes.length} passes. Choose a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out, as others imply them or they are long: choose a pass to see all of its.` : ''}`
       : `${units.size} of ${passes.length} passes, around ${chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resources[chosen.resource].name}”`}.`;
     this.outline.querySelectorAll('details').forEach((details) => { details.open = this.open.has(Number(details.dataset.group)); });
     this.fit();
@@ -145,7 +159,10 @@ const graphView = {
 
   paint(units, arrows, whole) {
     const labels = arrows.length <= 40 || !whole;
-    const lines = arrows.filter((arrow) => arrow.points).map((arrow) => this.arrow(arrow, labels));
+    // Around a pass, what its neighbours hand each other stands back.
+    const own = whole || chosen.pass == null ? null : units.find((unit) => unit.pass === chosen.pass).place;
+    const near = (arrow) => own == null || arrow.from === own || arrow.to === own;
+    const lines = arrows.filter((arrow) => arrow.points).sort((a, b) => near(a) - near(b)).map((arrow) => this.arrow(arrow, labels && near(arrow), near(arrow)));
     const arrowhead = (id, orient) => s('marker', { id, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient },
       s('path', { d: 'M0 0L8 4L0 8z', fill: 'var(--faint)' }));
     this.content = s('g', {}, lines.map((line) => line.line), lines.map((line) => line.label), units.map((unit) => this.unit(unit)));
@@ -156,11 +173,11 @@ const graphView = {
     };
   },
 
-  arrow(arrow, labels) {
+  arrow(arrow, labels, near) {
     const names = [...new Set(arrow.links.map(linkLabel))];
     const words = arrow.links.slice(0, 12).map(linkWords).join('\n') + (arrow.links.length > 12 ? `\nand ${arrow.links.length - 12} more` : '');
     const kinds = arrow.links.map((link) => link.kind);
-    const style = kinds.every((kind) => kind === 'faint') ? ' faint' : kinds.includes('ReadAfterWrite') ? '' : ' order';
+    const style = !near || kinds.every((kind) => kind === 'faint') ? ' faint' : kinds.includes('ReadAfterWrite') ? '' : ' order';
     const line = s('path', {
       class: `edge${style}`, d: pathOf(arrow.points), 'marker-end': arrow.forward ? 'url(#ahead)' : null,
       'marker-start': arrow.backward ? 'url(#behind)' : null,
@@ -190,7 +207,7 @@ const graphView = {
     const chosenHere = isPass && chosen?.pass === unit.pass;
     const outer = isPass && pass.node != null && this.whole ? clip(nodePath(pass.node), 28) : '';
     return s('g', {
-      class: `unit${isPass && !pass.place ? ' culled' : ''}${chosenHere ? ' chosen' : ''}`, tabindex: '0', role: 'button', 'data-name': name,
+      class: `unit${culled === unit.passes.length ? ' culled' : ''}${chosenHere ? ' chosen' : ''}`, tabindex: '0', role: 'button', 'data-name': name,
       transform: `translate(${unit.x} ${unit.y})`, ...press(act), ...hint(words),
     },
     s('rect', { width: BOX.width, height: BOX.height, rx: 6, style: `fill:${node == null ? 'var(--wash)' : hue(node)};stroke:${hueLine(node)}` }),
@@ -207,8 +224,9 @@ const graphView = {
   fit() {
     const { width, height } = this.svg.getBoundingClientRect();
     if (!width) return;
+    const whole = Math.min(1.15, (width - 40) / this.size.width, (height - 50) / this.size.height);
     // Never so small that names cannot be read: what does not fit is dragged into sight.
-    const scale = Math.max(0.55, Math.min(1.15, (width - 40) / this.size.width, (height - 50) / this.size.height));
+    const scale = whole < 0.6 ? 0.8 : whole;
     this.view = { x: Math.max(20, (width - this.size.width * scale) / 2), y: Math.max(24, (height - this.size.height * scale) / 2), scale };
     if (this.size.height * scale > height) this.view.y = 24;
     this.centre(width, height);

@@ -43,7 +43,7 @@ const passesView = {
           this.words = event.target.value.toLowerCase();
           this.draw();
         } }), this.count),
-      h('div', { class: 'scroll' }, h('table', { id: 'passes' }, h('thead', {}, h('tr', {}, this.heads)), this.body)));
+      h('div', { class: 'scroll' }, h('table', { id: 'pass-table' }, h('thead', {}, h('tr', {}, this.heads)), this.body)));
     this.draw();
   },
 

@@ -81,23 +81,21 @@ const picturesView = {
       h('div', { class: 'bar' }, frame.pictures.length
         ? [h('span', { class: 'hint' }, 'Point at a picture for a texel’s value; choose it for more.'), this.value]
         : h('span', { class: 'hint' }, 'There are no pictures: nothing was drawn for this page.')),
-      h('div', { class: 'scroll', id: 'pictures' }, frame.drawings.map(drawing), blocks));
+      h('div', { class: 'scroll', id: 'all-pictures' }, frame.drawings.map(drawing), blocks));
   },
 
   card(picture) {
     const caption = h('figcaption', {}, captionOf(picture));
     if (picture.missing) return h('figure', {}, h('p', { class: 'why' }, `No picture: ${picture.missing}.`), caption);
     const canvas = h('canvas', { role: 'img', tabindex: '0', 'aria-label': `${resources[picture.resource].name}, ${captionOf(picture)}`, ...press(() => this.open(picture)) });
-    // Read when it comes into sight.
-    new IntersectionObserver(async (seen, observer) => {
-      if (!seen.some((entry) => entry.isIntersecting)) return;
-      observer.disconnect();
-      const texels = await texelsOf(picture);
+    texelsOf(picture).then((texels) => {
       paintPicture(canvas, picture, texels, false);
       canvas.dataset.drawn = 'yes';
       canvas.addEventListener('pointermove', (event) => { this.value.textContent = valueAt(picture, texels, canvas, event); });
-    }).observe(canvas);
-    return h('figure', {}, canvas, caption);
+    });
+    const names = picture.tiles.length ? s('svg', { class: 'tiles', 'aria-hidden': 'true', viewBox: `0 0 ${picture.full[0]} ${picture.full[1]}` }) : '';
+    if (names) drawTiles(names, picture, picture.full[0] / picture.width);
+    return h('figure', {}, h('div', { class: 'stage' }, canvas, names), caption);
   },
 
   async open(picture) {
@@ -111,6 +109,8 @@ const picturesView = {
       paintPicture(canvas, picture, texels, opaque);
       canvas.style.width = `${picture.width * scale}px`;
       canvas.style.height = `${picture.height * scale}px`;
+      names.setAttribute('width', picture.width * scale);
+      names.setAttribute('height', picture.height * scale);
       drawTiles(names, picture, scale);
     };
     canvas.addEventListener('pointermove', (event) => { value.textContent = valueAt(picture, texels, canvas, event); });
@@ -146,32 +146,44 @@ function rangeWords(picture, texels) {
   return `${whole}; values ${Number(low.toPrecision(5))} to ${Number(high.toPrecision(5))}${picture.depth ? ', black where nothing was drawn' : ''}`;
 }
 
-// Outlines and names of the parts that passes drew into.
+// Outlines and names of the parts that passes drew into. `scale` is how large a shown texel is.
 function drawTiles(svg, picture, scale) {
+  const letter = Math.max(12, (picture.width * scale) / (svg.classList.contains('tiles') ? 20 : 60));
   const across = (picture.width / picture.full[0]) * scale;
-  svg.setAttribute('width', picture.width * scale);
-  svg.setAttribute('height', picture.height * scale);
   svg.replaceChildren(...(picture.tiles ?? []).flatMap((tile) => [
-    s('rect', { x: tile.x * across, y: tile.y * across, width: tile.width * across, height: tile.height * across, fill: 'none', stroke: 'var(--mark)', 'stroke-width': 1.5 }),
-    s('text', { class: 'label', x: tile.x * across + 4, y: tile.y * across + 14 }, clip(tile.name, Math.max(3, Math.floor((tile.width * across) / 7)))),
+    s('rect', {
+      x: tile.x * across, y: tile.y * across, width: tile.width * across, height: tile.height * across, fill: 'none', stroke: 'var(--mark)',
+      'stroke-width': 1.5, 'vector-effect': 'non-scaling-stroke',
+    }),
+    s('text', { class: 'label', x: tile.x * across + letter * 0.4, y: tile.y * across + letter * 1.2, style: `font-size:${letter}px;stroke-width:${letter / 3}px` },
+      clip(tile.name, Math.max(3, Math.floor((tile.width * across) / letter / 0.6)))),
   ]));
 }
 
-// Named outlines on a plane, x to the right and y down.
+// Named outlines on a plane, x to the right and y down, with a list of them beside it that zooms in on each.
 function drawing(plot) {
-  const points = plot.outlines.flatMap((outline) => outline.points);
-  const [xs, ys] = [points.map((point) => point[0]), points.map((point) => point[1])];
-  const [x, y, width, height] = [Math.min(...xs), Math.min(...ys), Math.max(...xs) - Math.min(...xs) || 1, Math.max(...ys) - Math.min(...ys) || 1];
-  const unit = Math.max(width / 900, height / 460);
-  const outlines = plot.outlines.map((outline, index) => {
-    const color = `hsl(${(index * 137.5 + 205) % 360} 60% 50%)`;
-    const at = outline.points[index % outline.points.length];
-    return s('g', { class: 'unit', ...hint(outline.name) },
-      s('polygon', { points: outline.points.map((point) => point.join(',')).join(' '), style: `fill:${color};fill-opacity:.08;stroke:${color};stroke-width:${unit * 1.5}` }),
-      s('text', { x: at[0], y: at[1], 'text-anchor': at[0] > x + width / 2 ? 'end' : 'start', style: `font-size:${unit * 12}px;fill:${color}` }, outline.name));
-  });
-  return h('figure', { class: 'drawing' }, h('h2', {}, plot.title), s('svg', {
-    viewBox: `${x - 10 * unit} ${y - 20 * unit} ${width + 20 * unit} ${height + 40 * unit}`, style: 'background:none;max-height:480px',
-    role: 'img', 'aria-label': `${plot.title}: ${plot.outlines.map((outline) => outline.name).join(', ')}`,
-  }, outlines), h('figcaption', {}, plot.caption));
+  const boxOf = (points) => {
+    const [xs, ys] = [points.map((point) => point[0]), points.map((point) => point[1])];
+    const [x, y] = [Math.min(...xs), Math.min(...ys)];
+    return { x, y, width: Math.max(...xs) - x || 1, height: Math.max(...ys) - y || 1 };
+  };
+  const color = (index) => `hsl(${(index * 137.5 + 205) % 360} 60% 50%)`;
+  const shapes = plot.outlines.map((outline, index) => s('polygon', {
+    points: outline.points.map((point) => point.join(',')).join(' '), 'vector-effect': 'non-scaling-stroke',
+    style: `fill:${color(index)};fill-opacity:.07;stroke:${color(index)};stroke-width:1.5`, ...hint(outline.name),
+  }));
+  const svg = s('svg', { style: 'background:none', role: 'img', 'aria-label': `${plot.title}: ${plot.outlines.map((outline) => outline.name).join(', ')}` }, shapes);
+  const look = (points) => {
+    const { x, y, width, height } = boxOf(points);
+    svg.setAttribute('viewBox', `${x - width * 0.1} ${y - height * 0.1} ${width * 1.2} ${height * 1.2}`);
+  };
+  const emphasis = (shape, strong) => () => { shape.style.fillOpacity = strong ? 0.35 : 0.07; };
+  const entry = (outline, index) => h('li', {}, h('button', {
+    class: 'link', onclick: () => look(outline.points), onpointerenter: emphasis(shapes[index], true), onpointerleave: emphasis(shapes[index], false),
+    onfocus: emphasis(shapes[index], true), onblur: emphasis(shapes[index], false),
+  }, h('span', { style: `color:${color(index)}` }, '■ '), outline.name));
+  const all = plot.outlines.flatMap((outline) => outline.points);
+  look(all);
+  return h('figure', { class: 'drawing' }, h('h2', {}, plot.title), svg,
+    h('ul', {}, plot.outlines.map(entry), h('li', {}, h('button', { class: 'link', onclick: () => look(all) }, 'all of them'))), h('figcaption', {}, plot.caption));
 }

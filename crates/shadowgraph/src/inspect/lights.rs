@@ -1,0 +1,51 @@
+//! A scene's lights in words.
+
+use shadowgraph_core::HtmlPage;
+use shadowgraph_scene::{Light, LightKind};
+use shadowgraph_shadows::Unshadowed;
+
+use crate::Drawn;
+
+impl Drawn {
+    /// Returns the page about the frame: its plan, times where it was measured, and the scene's lights.
+    pub fn page(&self, lights: &[Light]) -> HtmlPage<'_> {
+        let mut page = HtmlPage::new(&self.plan).with_title("Shadowgraph frame").with_times(&self.times);
+        page.tables.push(table(lights, &self.unshadowed));
+        page
+    }
+}
+
+/// The lights as a table: its name, the heads of its columns, its rows.
+pub(crate) fn table(lights: &[Light], unshadowed: &[Unshadowed]) -> (String, Vec<String>, Vec<Vec<String>>) {
+    let columns = ["Light", "Kind", "Name", "Strength", "Shadows"].map(String::from).to_vec();
+    let row = |(index, light): (usize, &Light)| {
+        let strength = format!("{:.1} {}", light.intensity, unit(light));
+        let name = light.name.clone().unwrap_or_default();
+        vec![index.to_string(), kind(light).into(), name, strength, shadows(light, index, unshadowed)]
+    };
+    ("Lights".into(), columns, lights.iter().enumerate().map(row).collect())
+}
+
+/// What kind it is.
+pub(crate) fn kind(light: &Light) -> &'static str {
+    match light.kind {
+        LightKind::Directional { .. } => "directional",
+        LightKind::Spot { .. } => "spot",
+        LightKind::Point { .. } => "point",
+    }
+}
+
+/// The unit of its strength.
+pub(crate) fn unit(light: &Light) -> &'static str {
+    if matches!(light.kind, LightKind::Directional { .. }) { "lx" } else { "cd" }
+}
+
+/// Whether it casts shadows, and why not.
+pub(crate) fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String {
+    let missing = unshadowed.iter().find(|unshadowed| unshadowed.light as usize == index);
+    match missing {
+        _ if !light.casts_shadow => "no shadows asked for".into(),
+        Some(missing) => format!("no shadows: {}", missing.reason.text()),
+        None => "casts shadows".into(),
+    }
+}

@@ -1,0 +1,112 @@
+//! Pages about frames, used in headless Chromium by `driver.js`.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+mod frames;
+
+use serde_json::Value;
+use shadowgraph_tests::{on_path, program, skip};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+const FLAGS: [&str; 14] = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-extensions",
+    "--hide-scrollbars",
+    "--window-size=1600,1000",
+    "--virtual-time-budget=60000",
+    "--enable-logging=stderr",
+    "--dump-dom",
+];
+
+/// A page without its pictures fits into this.
+const MOST_BYTES: usize = 1 << 20;
+
+/// Opens a page with the driver at its end, and returns what the driver found out; `None` without a browser.
+fn used(page: &str) -> Option<Value> {
+    let Some(browser) = BROWSERS.into_iter().find(|name| on_path(name)) else {
+        skip("pages", "no Chromium is installed");
+        return None;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("page.html");
+    let driver = format!("<script>\n{}</script>\n</body>", include_str!("driver.js"));
+    fs::write(&file, page.replacen("</body>", &driver, 1)).unwrap();
+    let data = format!("--user-data-dir={}", folder.path().join("browser").display());
+    let output = Command::new(browser)
+        .args(FLAGS)
+        .arg(data)
+        .arg(format!("file://{}", file.display()))
+        .output()
+        .unwrap();
+    let (dom, log) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let said: Vec<_> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
+    assert!(said.is_empty(), "the page has errors: {said:#?}");
+    let (_, result) = dom.split_once(r#"<pre id="result">"#).unwrap_or_else(|| panic!("no result: {log}"));
+    let (result, _) = result.split_once("</pre>").unwrap();
+    Some(
+        serde_json::from_str(&result.replace("&amp;", "&").replace("&lt;", "<").replace("&gt;", ">"))
+            .unwrap(),
+    )
+}
+
+fn assert_sound(found: &Value) {
+    assert_eq!(found["faults"], Value::Array(Vec::new()), "{found:#}");
+}
+
+#[test]
+fn the_page_of_the_demo_frame_shows_every_view_and_its_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("demo.html");
+    let status = Command::new(program().unwrap())
+        .args(["dump", "--size", "320x180", "--format", "html", "-o"])
+        .arg(&file)
+        .status()
+        .unwrap();
+    assert!(status.success());
+    let page = fs::read_to_string(&file).unwrap();
+    keep(&page, "demo");
+    let Some(found) = used(&page) else { return };
+    assert_sound(&found);
+    // Maps, depth and colours are not of one color.
+    let colors: Vec<u64> =
+        found["facts"]["colors"].as_array().unwrap().iter().filter_map(Value::as_u64).collect();
+    assert!(colors.iter().filter(|&&colors| colors > 50).count() >= 4, "{found}");
+}
+
+#[test]
+fn the_page_of_a_frame_of_65_passes_opens_closed_by_node() {
+    let page = frames::real().unwrap().to_html();
+    assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
+    keep(&page, "real");
+    let Some(found) = used(&page) else { return };
+    assert_sound(&found);
+    assert!(found["facts"]["boxes"].as_u64() < Some(30), "{found}");
+}
+
+#[test]
+fn the_page_of_a_frame_of_500_passes_is_readable() {
+    let plan = frames::large().unwrap();
+    assert!(plan.pass_count() > 500 && plan.culled_count() > 50, "{}", plan.culled_count());
+    let page = plan.to_html();
+    assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
+    keep(&page, "large");
+    let Some(found) = used(&page) else { return };
+    assert_sound(&found);
+    assert!(found["facts"]["boxes"].as_u64() < Some(60), "{found}");
+}
+
+/// Leaves a page where a person can look at it.
+fn keep(page: &str, name: &str) {
+    let folder = shadowgraph_tests::repository().join("target/tmp/pages");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(Path::new(&folder).join(format!("{name}.html")), page).unwrap();
+}
