@@ -5,7 +5,7 @@ mod html;
 
 use crate::error::Error;
 use crate::plan::Plan;
-use facts::facts;
+use facts::{Facts, facts};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -37,8 +37,8 @@ pub struct Difference {
     pub after: Option<String>,
 }
 
-/// What differs between two frames. Things are known by their names; where several have one name they are told apart by their
-/// order.
+/// What differs between two frames. Things are known by their names; where several have one name, those that are alike in both
+/// frames are no difference, and the others are compared in their order.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Diff {
     /// By subject, then by name.
@@ -53,16 +53,20 @@ impl Diff {
     pub fn of_json(before: &str, after: &str) -> Result<Self, Error> {
         let (before, after) = (facts(before, "the first")?, facts(after, "the second")?);
         let keys: BTreeSet<_> = before.keys().chain(after.keys()).collect();
-        let differences = keys.into_iter().filter_map(|key| {
-            let (was, is) = (before.get(key), after.get(key));
-            (was != is).then(|| Difference {
-                subject: key.0,
-                name: key.1.clone(),
-                before: was.cloned(),
-                after: is.cloned(),
-            })
-        });
-        Ok(Self { differences: differences.collect() })
+        let of = |facts: &Facts, key| facts.get(key).cloned().unwrap_or_default();
+        let mut differences = Vec::new();
+        for key in keys {
+            let (mut was, mut is) = (of(&before, key), of(&after, key));
+            // What is in both, in whichever order, is no difference.
+            was.retain(|fact| is.iter().position(|other| other == fact).map(|at| is.remove(at)).is_none());
+            let mut is = is.into_iter();
+            let mut add = |before, after| {
+                differences.push(Difference { subject: key.0, name: key.1.clone(), before, after });
+            };
+            was.into_iter().for_each(|fact| add(Some(fact), is.next()));
+            is.for_each(|fact| add(None, Some(fact)));
+        }
+        Ok(Self { differences })
     }
 
     /// Returns whether the frames are the same in all that is compared.

@@ -1,7 +1,9 @@
 //! Mistakes that `compile` finds, without a device.
 
 use super::{Mistake, square};
-use shadowgraph_core::{BufferDesc, ClearValue, Contents, Error, Format, Frame, Part, Rect, Resize, Texture};
+use shadowgraph_core::{
+    BufferDesc, ClearValue, Contents, Diff, Error, Format, Frame, Part, Rect, Resize, Texture,
+};
 use shadowgraph_core::{TextureDesc, TextureUsages};
 
 const BLACK: Contents = Contents::Clear(ClearValue::Color([0.0; 4]));
@@ -25,10 +27,20 @@ fn depth(frame: &mut Frame<'_>, name: &str) -> Texture {
 }
 
 pub(crate) fn mistakes() -> Vec<Mistake> {
-    [handles(), contents(), attachments(), formats(), copies(), resources(), order()]
+    [handles(), contents(), attachments(), formats(), copies(), resources(), order(), dumps()]
         .into_iter()
         .flatten()
         .collect()
+}
+
+/// What is asked of a plan and of its dump.
+fn dumps() -> Vec<Mistake> {
+    let plan = Frame::new().compile().expect("an empty frame").into_plan();
+    let dump = plan.to_json().expect("JSON");
+    let words = &["`draw`", "`dump` lists them"];
+    let unknown = Mistake { code: "SG0701", error: plan.explain("draw").expect_err("no pass"), words };
+    let old = Diff::of_json(&dump, r#"{"schema": 1}"#).expect_err("an old dump");
+    vec![unknown, Mistake { code: "SG0702", error: old, words: &["the second", "schema 1", "write it anew"] }]
 }
 
 fn handles() -> Vec<Mistake> {

@@ -6,8 +6,8 @@ use crate::error::Error;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// By subject and name: how it is.
-pub(super) type Facts = BTreeMap<(Subject, String), String>;
+/// By subject and name: how it is; several where several have the name.
+pub(super) type Facts = BTreeMap<(Subject, String), Vec<String>>;
 
 /// Reads a dump; `which` of two it is, is for the error.
 pub(super) fn facts(json: &str, which: &str) -> Result<Facts, Error> {
@@ -71,15 +71,8 @@ impl Reader<'_> {
         Some(self.facts)
     }
 
-    /// Adds a fact. The second of a name is `name #2`, and so on.
     fn add(&mut self, subject: Subject, name: String, fact: String) {
-        let mut key = (subject, name.clone());
-        let mut number = 2;
-        while self.facts.contains_key(&key) {
-            key.1 = format!("{name} #{number}");
-            number += 1;
-        }
-        self.facts.insert(key, fact);
+        self.facts.entry((subject, name)).or_default().push(fact);
     }
 }
 

@@ -1,6 +1,9 @@
 //! What `shadowgraph dump` prints for the demo scene.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod diff;
+mod schema;
+
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
@@ -66,6 +69,43 @@ fn json_has_the_plan_its_reasons_and_the_lights() {
     assert!(json["plan"]["passes"].as_array().unwrap().len() > 5);
     assert!(json["reasons"].as_array().unwrap().iter().all(|reason| reason["because"].is_string()));
     assert_eq!(dump("json"), dump("json"), "the same frame, the same bytes");
+}
+
+#[test]
+fn explain_tells_of_a_pass_a_resource_and_an_order() {
+    let explain = |args: &[&str]| {
+        let output =
+            Command::new(shadowgraph_tests::program().unwrap()).arg("explain").args(args).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let (code, words, _) = explain(&["forward"]);
+    assert_eq!(code, Some(0));
+    assert!(
+        words.starts_with("render pass `lighting/forward`\n  runs: `picture/tonemap` needs `lit`"),
+        "{words}"
+    );
+    assert!(explain(&["cascades"]).1.contains("`cascades`: 4096x4096 Depth32Float, 64.0 MiB"));
+    let (_, words, _) = explain(&["cascade 0", "--before", "tonemap"]);
+    assert!(
+        words.contains("`lighting/forward` needs what `shadows/cascades/cascade 0` wrote to `cascades`"),
+        "{words}"
+    );
+    let (code, _, error) = explain(&["forwrad"]);
+    assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
+    assert!(error.contains("did you mean `forward`?"), "{error}");
+}
+
+#[test]
+fn mermaid_has_a_box_for_each_pass_and_a_group_for_each_node() {
+    let text = dump("mermaid");
+    assert!(text.starts_with("flowchart LR\n"), "{text}");
+    assert_eq!(text.matches("<br/>step ").count(), 16, "{text}");
+    assert_eq!(
+        text.matches("subgraph ").count(),
+        text.matches("\n  end\n").count() + text.matches("    end\n").count()
+    );
+    assert!(text.contains("subgraph n4 [\"cascades\"]"), "{text}");
 }
 
 #[test]

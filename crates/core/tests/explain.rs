@@ -1,0 +1,102 @@
+//! Frames that draw the wrong thing, and the cause as `explain` tells it.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use shadowgraph_core::{Contents, Format, Frame, Plan, TextureDesc};
+
+fn color() -> TextureDesc {
+    TextureDesc::d2(64, 64, Format::Rgba16Float)
+}
+
+/// Ambient occlusion that is not seen: the lit pass samples what has not been blurred.
+fn culled() -> Plan {
+    let mut frame = Frame::new();
+    let mut raw = frame.create_texture("raw occlusion", color());
+    let mut blurred = frame.create_texture("occlusion", color());
+    frame.render_pass("occlusion").color(&mut raw, Contents::clear_color([1.0; 4]));
+    let mut blur = frame.render_pass("blur occlusion");
+    blur.sample(&raw);
+    blur.color(&mut blurred, Contents::Cover);
+    let mut lit = frame.create_texture("lit", color());
+    let mut light = frame.render_pass("light");
+    light.sample(&raw); // `blurred` was meant
+    light.color(&mut lit, Contents::clear_color([0.0; 4]));
+    frame.export_texture(&lit);
+    frame.compile().unwrap().into_plan()
+}
+
+#[test]
+fn a_pass_that_is_wrongly_culled_names_what_nobody_reads() {
+    let plan = culled();
+    let why = plan.explain("blur occlusion").unwrap();
+    assert!(why.contains("does not run: nothing reads `occlusion`"), "{why}");
+    let read = plan.explain("light").unwrap();
+    assert!(read.contains("samples `raw occlusion`: from `occlusion`"), "{read}");
+}
+
+/// Decals that cost a render pass: they test depth where the pass before writes it.
+#[test]
+fn a_merge_that_is_refused_names_the_attachment_that_makes_the_difference() {
+    let mut frame = Frame::new();
+    let mut lit = frame.create_texture("lit", color());
+    let mut depth = frame.create_texture("depth", TextureDesc::d2(64, 64, Format::Depth32Float));
+    let mut opaque = frame.render_pass("opaque");
+    opaque.color(&mut lit, Contents::clear_color([0.0; 4]));
+    opaque.depth(&mut depth, Contents::clear_depth(0.0));
+    let mut decals = frame.render_pass("decals");
+    decals.color(&mut lit, Contents::Preserve);
+    decals.depth_read(&depth);
+    frame.export_texture(&lit);
+    let why = frame.compile().unwrap().into_plan().explain("decals").unwrap();
+    assert!(why.contains("not merged: it only tests against `depth`, which `opaque` writes"), "{why}");
+}
+
+/// Reflections that lag behind: they are declared before the fog that they should show.
+#[test]
+fn a_stale_read_names_the_version_and_who_wrote_it() {
+    let mut frame = Frame::new();
+    let mut lit = frame.create_texture("lit", color());
+    let mut reflected = frame.create_texture("reflected", color());
+    frame.render_pass("opaque").color(&mut lit, Contents::clear_color([0.0; 4]));
+    let mut reflections = frame.render_pass("reflections");
+    reflections.sample(&lit);
+    reflections.color(&mut reflected, Contents::Cover);
+    frame.render_pass("fog").color(&mut lit, Contents::Preserve);
+    frame.export_texture(&lit);
+    frame.export_texture(&reflected);
+    let plan = frame.compile().unwrap().into_plan();
+    let why = plan.explain("reflections").unwrap();
+    assert!(why.contains("samples `lit`: from `opaque`"), "{why}");
+    let versions = plan.explain("lit").unwrap();
+    assert!(versions.contains("version 1: `reflections` samples it"), "{versions}");
+    assert!(versions.contains("version 2: `fog` draws into it"), "{versions}");
+    let order = plan.explain_order("reflections", "fog").unwrap();
+    assert!(order.contains("`fog` writes over `lit`, which `reflections` reads"), "{order}");
+}
+
+#[test]
+fn a_name_that_several_have_is_explained_for_each_and_a_path_for_one() {
+    let mut frame = Frame::new();
+    for node in ["left", "right"] {
+        frame.node(node, |frame| {
+            let mut target = frame.create_texture("target", color());
+            frame.render_pass("clear").color(&mut target, Contents::clear_color([0.0; 4]));
+            frame.export_texture(&target);
+        });
+    }
+    let plan = frame.compile().unwrap().into_plan();
+    let both = plan.explain("clear").unwrap();
+    assert!(both.contains("pass `left/clear`") && both.contains("pass `right/clear`"), "{both}");
+    let one = plan.explain("left/clear").unwrap();
+    assert!(!one.contains("right/clear"), "{one}");
+    assert_eq!(plan.explain("target").unwrap().matches("`target`: 64x64").count(), 2);
+}
+
+#[test]
+fn a_name_that_nothing_has_is_an_error_with_the_nearest() {
+    let error = culled().explain("blur oclusion").unwrap_err();
+    assert_eq!(error.code(), "SG0701");
+    assert!(error.to_string().ends_with("did you mean `blur occlusion`?"), "{error}");
+    let error = culled().explain("?").unwrap_err().to_string();
+    assert!(error.ends_with("`dump` lists them"), "{error}");
+    assert!(culled().explain_order("light", "ligth").is_err());
+}

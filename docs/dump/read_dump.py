@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Reads a dump in JSON and says what is in it: an example of how to use one.
+
+    shadowgraph dump model.glb --format json -o frame.json
+    python3 read_dump.py frame.json
+
+`schema.json` beside this file describes every field.
+"""
+
+import json
+import sys
+
+SCHEMA = 2
+
+
+def node_path(nodes, node):
+    """The name of a node with the nodes around it before it."""
+    if node is None:
+        return ""
+    return node_path(nodes, nodes[node]["parent"]) + nodes[node]["name"] + "/"
+
+
+def byte_count(desc):
+    """The bytes of a buffer, or of a texture of a format with a known size."""
+    if "Buffer" in desc:
+        return desc["Buffer"]["bytes"]
+    texture = desc["Texture"]
+    per_texel = {
+        "depth32float": 4, "depth16unorm": 2, "r8unorm": 1, "rg8unorm": 2, "rgba8unorm": 4, "rgba8unorm-srgb": 4,
+        "bgra8unorm-srgb": 4, "r16float": 2, "rg16float": 4, "rgba16float": 8, "r32float": 4, "rgba32float": 16,
+        "rgba32uint": 16, "r32uint": 4,
+    }.get(texture["format"])
+    if per_texel is None:
+        return None
+    size = texture["size"]
+    texels = size["width"] * size["height"] * size["depthOrArrayLayers"]
+    return texels * per_texel * texture["samples"]
+
+
+def main(file):
+    with open(file, encoding="utf-8") as source:
+        dump = json.load(source)
+    if dump.get("schema") != SCHEMA:
+        sys.exit(f"{file}: schema {dump.get('schema')}, and this reads {SCHEMA}")
+    plan, summary = dump["plan"], dump["summary"]
+    ran = summary["passes"] - summary["culled"]
+    print(f"{ran} passes in {summary['steps']} steps, {summary['culled']} culled")
+
+    print("\nsteps")
+    for step, passes in enumerate(plan["order"]):
+        names = []
+        for index in passes["passes"]:
+            own = plan["passes"][index]
+            names.append(node_path(plan["nodes"], own["node"]) + own["name"])
+        print(f"  {step:>3}  {', '.join(names)}")
+
+    print("\nlargest resources")
+    sized = [(byte_count(resource["desc"]) or 0, resource["name"]) for resource in plan["resources"]]
+    for size, name in sorted(sized, reverse=True)[:5]:
+        print(f"  {size / 1048576:7.1f} MiB  {name}")
+
+    culled = [reason for reason in dump["reasons"] if reason["decision"] == "culled"]
+    if culled:
+        print("\nculled")
+        for reason in culled:
+            print(f"  {reason['pass']}: {reason['because']}")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: read_dump.py FRAME.json")
+    main(sys.argv[1])
