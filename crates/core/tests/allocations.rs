@@ -62,7 +62,8 @@ fn a_changed_frame_is_seen_to_allocate() {
 #[cfg(feature = "gpu")]
 mod bodies {
     use super::{Chain, allocations};
-    use shadowgraph_core::{Contents, Format, FullscreenShader, Texture, TextureDesc};
+    use allocation_counter::measure;
+    use shadowgraph_core::{Contents, Format, Frame, FullscreenShader, Graph, Texture, TextureDesc, wgpu};
 
     #[test]
     fn a_pass_body_is_one_allocation_and_only_where_it_borrows_something() {
@@ -94,5 +95,48 @@ mod bodies {
             frame.export_texture(&color);
         });
         assert_eq!(counted, 0);
+    }
+
+    /// A pass that draws, one that reads it and one that goes on with that.
+    fn three_passes(frame: &mut Frame<'_>) {
+        let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+        let mut picture = frame.create_texture("picture", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+        frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
+        let mut pass = frame.render_pass("read");
+        pass.sample(&scene);
+        pass.color(&mut picture, Contents::Cover);
+        frame.render_pass("go on").color(&mut picture, Contents::Preserve);
+        frame.export_texture(&picture);
+    }
+
+    /// What recording a frame allocates in the steady state, wgpu's share with it.
+    fn recorded(device: &wgpu::Device, queue: &wgpu::Queue, graph: &mut Graph) -> u64 {
+        let mut frame = || {
+            let mut frame = graph.frame();
+            three_passes(&mut frame);
+            let mut encoder = device.create_command_encoder(&Default::default());
+            let compiled = graph.compile(frame).expect("the frame has no mistake");
+            compiled.execute(graph, device, &mut encoder).expect("it records");
+            queue.submit([encoder.finish()]);
+        };
+        (0..20).for_each(|_| frame());
+        // wgpu's pools grow now and then.
+        (0..10).map(|_| measure(&mut frame).count_total).min().unwrap_or_default()
+    }
+
+    #[test]
+    fn a_capture_leaves_later_frames_as_cheap_as_without() {
+        let (device, queue) = wgpu::Device::noop(&Default::default());
+        let mut graph = Graph::new();
+        recorded(&device, &queue, &mut graph);
+        let mut frame = graph.frame();
+        three_passes(&mut frame);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let compiled = graph.compile(frame).expect("the frame has no mistake");
+        let (_, capture) = compiled.execute_captured(&mut graph, &device, &mut encoder).expect("it records");
+        queue.submit([encoder.finish()]);
+        assert_eq!(capture.wait(&device).expect("pictures").pictures.len(), 3);
+        // Of the same device: what it has seen may cost wgpu something.
+        assert_eq!(recorded(&device, &queue, &mut graph), recorded(&device, &queue, &mut Graph::new()));
     }
 }

@@ -3,6 +3,7 @@
 
 mod analytic;
 mod aovs;
+mod captured;
 mod casters;
 mod hostile;
 mod maps;

@@ -1,0 +1,55 @@
+//! A frame whose textures are captured draws the same, by a plan that is said to be the same.
+
+use shadowgraph::core::TexelValues;
+use shadowgraph::options::Aov;
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::shadows::{ShadowSettings, Techniques};
+use shadowgraph::{Inspected, Renderer, ViewOptions};
+
+use crate::stage::gpu;
+
+fn inspect(technique: &str) -> Option<(Inspected, shadowgraph::Drawn)> {
+    let gpu = gpu()?;
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let shadows = ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() };
+    let options = ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows };
+    let technique = Techniques::built_in().find(technique).unwrap();
+    let new = || Renderer::with(gpu, scene.clone(), &camera, Aov::Color, technique).unwrap();
+    let inspected = new().inspect(gpu, &options).unwrap();
+    Some((inspected, new().draw(gpu, &options).unwrap()))
+}
+
+#[test]
+fn a_captured_frame_has_the_plan_and_the_pixels_of_the_frame_itself() {
+    for technique in ["pcf", "evsm", "sdsm", "pcf+contact"] {
+        let Some((inspected, drawn)) = inspect(technique) else { return };
+        assert_eq!(inspected.drawn.plan, drawn.plan, "{technique}");
+        assert_eq!(inspected.drawn.picture, drawn.picture, "{technique}");
+        assert!(!inspected.drawn.times.is_empty() && !inspected.pictures.is_empty());
+        // What the capture itself drew, to the texel where all of them are kept.
+        let picture = drawn.plan.find_resource("picture").unwrap();
+        let captured = inspected.pictures.iter().rfind(|shot| shot.resource == picture).unwrap();
+        let texels = captured.texels.as_ref().unwrap();
+        assert_eq!(texels.size_px, drawn.picture.size_px);
+        assert_eq!(texels.values, TexelValues::Bytes(drawn.picture.rgba8.clone()), "{technique}");
+    }
+}
+
+#[test]
+fn the_page_tells_where_every_shadow_map_looks() {
+    let Some((inspected, _)) = inspect("sdsm") else { return };
+    assert_eq!(inspected.lights.len(), demo_scene().lights.len());
+    let scene = demo_scene();
+    let options = ViewOptions {
+        camera: scene.cameras[0].clone(),
+        size_px: [160, 90],
+        shadows: ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() },
+    };
+    let page = inspected.page(&scene.lights, &options);
+    let names: Vec<_> = page.drawings[0].outlines.iter().map(|outline| &*outline.name).collect();
+    assert_eq!(names.len(), 1 + 4 + 3, "{names:?}");
+    assert!(names[1].starts_with("cascade 0, 0.1 to ") && names.contains(&"teal"), "{names:?}");
+    // Fitted to the picture on the GPU: the nearest cascade begins where the nearest surface is.
+    assert!(inspected.views[0].end_m < 60.0 && inspected.views[0].end_m > 0.0);
+}
