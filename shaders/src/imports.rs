@@ -111,7 +111,7 @@ impl<'a> Library<'a> {
 }
 
 /// The path of the line `#define_import_path`.
-fn import_path(module: &ModuleSource) -> Result<String, Error> {
+pub(crate) fn import_path(module: &ModuleSource) -> Result<String, Error> {
     let path = get_preprocessor_data(&module.source).0;
     // Text that cannot be read so far gets its own message later; here only the path matters.
     let path = path.or_else(|| {

@@ -22,6 +22,7 @@
 
 mod compose;
 mod error;
+mod folder;
 mod imports;
 pub mod layout;
 mod report;
@@ -29,6 +30,7 @@ mod source;
 
 pub use compose::{compose, compose_source};
 pub use error::Error;
+pub use folder::set_folder;
 pub use naga;
 pub use source::{
     EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, PCSS, PREFILTER, RAYTRACED, SCREEN, builtin,

@@ -96,7 +96,7 @@ pub use plan::{
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
 pub use programs::{Block, Call, ComputeShader, FullscreenShader};
-pub use times::PassTime;
+pub use times::{PassTime, TimeHistory, TimeSpread, TimeSummary};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

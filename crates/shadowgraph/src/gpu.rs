@@ -45,6 +45,22 @@ impl Gpu {
         Self::from_adapter(&choose(adapters, choice)?)
     }
 
+    /// Opens a device that can draw into a window.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), of the adapters that can.
+    #[cfg(feature = "view")]
+    pub(crate) fn for_surface(
+        instance: &wgpu::Instance,
+        surface: &wgpu::Surface<'_>,
+        choice: &AdapterChoice,
+    ) -> Result<(Self, wgpu::Adapter), Error> {
+        let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+        adapters.retain(|adapter| adapter.is_surface_supported(surface));
+        let adapter = choose(adapters, choice)?;
+        Ok((Self::from_adapter(&adapter)?, adapter))
+    }
+
     /// Opens wgpu's noop device: everything is validated and nothing is drawn. For plans without a GPU.
     ///
     /// # Errors

@@ -101,6 +101,8 @@ pub struct Renderer {
     target_tonemap: Option<(Format, Tonemap)>,
     scene: Scene,
     aov: Aov,
+    /// Whose view shadows are made for, where that is not the one who looks.
+    pub(crate) shadow_camera: Option<Camera>,
     /// A frame borrows the renderer while the graph compiles and records it.
     graph: Mutex<Graph>,
 }
@@ -162,6 +164,7 @@ impl Renderer {
             target_tonemap: None,
             scene,
             aov,
+            shadow_camera: None,
             graph: Mutex::default(),
         })
     }
@@ -179,6 +182,12 @@ impl Renderer {
         shows(&self.aov, &lights)?;
         self.scene.lights = lights;
         Ok(())
+    }
+
+    /// Makes shadows for this camera's view, whoever looks, so that they can be seen from outside; `None`: for the view that
+    /// is drawn.
+    pub fn set_shadow_camera(&mut self, camera: Option<Camera>) {
+        self.shadow_camera = camera;
     }
 
     /// Returns the scene on the GPU, as shadow casters.

@@ -27,7 +27,7 @@ pub(super) fn inputs<'f>(renderer: &'f Renderer, view: &'f View<'f>) -> ShadowIn
     let options = view.options;
     ShadowInputs {
         view: view.number,
-        camera: &options.camera,
+        camera: renderer.shadow_camera.as_ref().unwrap_or(&options.camera),
         aspect: options.aspect(),
         lights: &renderer.scene().lights,
         casters: &renderer.casters,

@@ -33,6 +33,9 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// List the pipelines and techniques, and in how many permutations their shaders come
     Nodes,
+    /// Look around a scene in a window, with every setting, the graph and its times beside it
+    #[cfg(feature = "view")]
+    View(ViewArgs),
     /// Measure a frame: the graph beside the same passes encoded by hand, and the time of each pass
     Bench(BenchArgs),
     /// Measure shadows against ray-traced truth: a table, and with -o a page with pictures
@@ -63,6 +66,18 @@ pub(crate) struct DumpArgs {
     /// The file; a missing folder is created. Without it the dump goes to standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// `shadowgraph view`
+#[cfg(feature = "view")]
+#[derive(Debug, Args)]
+pub(crate) struct ViewArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+    /// A folder of WGSL files that take the place of the built-in ones of the same name, and are read again when they
+    /// are saved, such as shaders/wgsl of the checkout
+    #[arg(long, value_name = "DIR")]
+    pub(crate) shaders: Option<PathBuf>,
 }
 
 /// `shadowgraph explain`
@@ -202,6 +217,12 @@ impl DrawArgs {
     /// Returns whether a GPU is asked for.
     pub(crate) fn names_adapter(&self) -> bool {
         self.adapter.is_some()
+    }
+
+    /// Returns the file of settings, if there is one.
+    #[cfg(feature = "view")]
+    pub(crate) fn settings_file(&self) -> Option<&Path> {
+        self.settings.as_deref()
     }
 
     /// Returns whether times are asked for.

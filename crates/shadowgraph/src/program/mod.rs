@@ -12,6 +12,8 @@ mod measure;
 mod nodes;
 mod progress;
 mod report;
+#[cfg(feature = "view")]
+mod view;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
@@ -42,6 +44,8 @@ pub fn run(techniques: &Techniques) -> ExitCode {
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, techniques),
         Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args, techniques),
         Ok(Cli { command: Some(Command::Explain(args)) }) => commands::explain(&args, techniques),
+        #[cfg(feature = "view")]
+        Ok(Cli { command: Some(Command::View(args)) }) => view::view(&args, techniques),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, techniques),
         Ok(Cli { command: Some(Command::Nodes) }) => nodes::nodes(techniques),
         Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, techniques),

@@ -3,8 +3,10 @@
 use std::fmt;
 
 use crate::rays::{GpuRayScene, RayScene};
+use crate::settings::failed;
 use crate::technique::ShadowTechnique;
 use crate::{Error, ShadowSettings, TechniqueSettings};
+use serde_json::Value;
 
 /// A technique by name, and how one is made. A plain constant:
 ///
@@ -38,6 +40,8 @@ pub(super) struct SettingsKind {
     pub(super) name: &'static str,
     pub(super) check: fn(&ShadowSettings) -> Result<(), Error>,
     pub(super) defaults: fn() -> String,
+    pub(super) json: fn(&ShadowSettings) -> Result<Value, Error>,
+    pub(super) set_json: fn(&mut ShadowSettings, Value) -> Result<(), Error>,
 }
 
 impl SettingsKind {
@@ -47,6 +51,13 @@ impl SettingsKind {
             check: |settings| settings.techniques.get::<T>().map(drop),
             // Numbers and the like can always be written.
             defaults: || ron::to_string(&T::default()).unwrap_or_default(),
+            json: |settings| {
+                serde_json::to_value(settings.techniques.get::<T>()?).map_err(|error| failed(T::NAME, &error))
+            },
+            set_json: |settings, value| {
+                let own: T = serde_json::from_value(value).map_err(|error| failed(T::NAME, &error))?;
+                settings.techniques.set(&own)
+            },
         }
     }
 }

@@ -14,6 +14,7 @@ use kind::SettingsKind;
 
 use crate::techniques::{ContactSettings, ScreenSettings};
 use crate::{Error, ShadowSettings};
+use serde_json::Value;
 
 /// The techniques that there are.
 ///
@@ -113,6 +114,53 @@ impl Techniques {
         }
     }
 
+    /// Returns the names of all that has settings of its own: techniques, and what can be put on top of them.
+    pub fn with_settings(&self) -> impl Iterator<Item = &'static str> {
+        self.settings_kinds().map(|settings| settings.name)
+    }
+
+    /// Returns the settings of a technique, or of what is put on top, as JSON with every field; `None` if it has none.
+    ///
+    /// ```
+    /// use shadowgraph_shadows::{ShadowSettings, Techniques};
+    /// let (techniques, mut settings) = (Techniques::built_in(), ShadowSettings::default());
+    /// let mut pcss = techniques.own_settings("pcss", &settings).ok_or("pcss has settings")??;
+    /// pcss["filter_taps"] = 32.into();
+    /// techniques.set_own_settings("pcss", &mut settings, pcss.clone())?;
+    /// pcss["filter_taps"] = 0.into();
+    /// let error = techniques.set_own_settings("pcss", &mut settings, pcss).unwrap_err().to_string();
+    /// assert!(error.contains("1 to 64"), "{error}");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn own_settings(&self, name: &str, settings: &ShadowSettings) -> Option<Result<Value, Error>> {
+        let known = self.settings_kinds().find(|known| known.name == name)?;
+        Some((known.json)(settings))
+    }
+
+    /// Puts settings in the place of those that a technique has, as [`own_settings`](Self::own_settings) gives them.
+    ///
+    /// # Errors
+    /// A field that it does not have, or a value out of range: nothing is changed then.
+    pub fn set_own_settings(
+        &self,
+        name: &str,
+        settings: &mut ShadowSettings,
+        value: Value,
+    ) -> Result<(), Error> {
+        match self.settings_kinds().find(|known| known.name == name) {
+            Some(known) => (known.set_json)(settings, value),
+            None => Err(Error::Technique {
+                technique: name.into(),
+                fault: "it has no settings of its own".into(),
+            }),
+        }
+    }
+
+    fn settings_kinds(&self) -> impl Iterator<Item = SettingsKind> {
+        let of_kinds = self.kinds.iter().filter_map(|kind| kind.settings);
+        of_kinds.chain(TOPS.map(|top| top.settings))
+    }
+
     /// Checks all settings, those of single techniques too.
     ///
     /// # Errors
@@ -120,9 +168,7 @@ impl Techniques {
     pub fn check(&self, settings: &ShadowSettings) -> Result<(), Error> {
         settings.validate()?;
         settings.techniques.names().try_for_each(|name| {
-            let of_kinds = self.kinds.iter().filter_map(|kind| kind.settings);
-            let mut known = of_kinds.chain(TOPS.map(|top| top.settings));
-            match known.find(|known| known.name == name) {
+            match self.settings_kinds().find(|known| known.name == name) {
                 Some(known) => (known.check)(settings),
                 None => {
                     self.find(name)?;

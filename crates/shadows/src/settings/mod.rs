@@ -18,6 +18,7 @@ pub use cascades::{
 pub use cull::CullSettings;
 pub use depth::DepthFormat;
 pub use lights::{LightRef, LightShadows};
+pub(crate) use own::failed;
 pub use own::{OwnSettings, TechniqueSettings};
 
 use serde::{Deserialize, Serialize};

@@ -77,6 +77,6 @@ fn read<T: DeserializeOwned>(text: &RawValue) -> Result<T, String> {
     })
 }
 
-fn failed(technique: &str, reason: &dyn std::fmt::Display) -> Error {
+pub(crate) fn failed(technique: &str, reason: &dyn std::fmt::Display) -> Error {
     Error::Technique { technique: technique.to_owned(), fault: format!("its settings: {reason}") }
 }

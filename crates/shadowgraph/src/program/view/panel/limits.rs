@@ -1,0 +1,156 @@
+//! What values a setting may have, found out by trying: the checks themselves are asked, so what the panel says is what they
+//! hold to, for techniques of other crates too.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+/// What a setting may be.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Limit {
+    /// Lowest and highest number.
+    pub(super) range: Option<(f64, f64)>,
+    /// The range and its unit in words, as the check says them.
+    pub(super) allowed: String,
+    /// Whether numbers are whole.
+    pub(super) whole: bool,
+    /// Names to choose from, with a value for each.
+    pub(super) variants: Vec<(String, Value)>,
+}
+
+/// Limits by the setting's path.
+#[derive(Default)]
+pub(super) struct Limits(BTreeMap<String, Limit>);
+
+/// Checks settings; an error says what is wrong.
+pub(super) type Check<'c> = &'c dyn Fn(&Value) -> Result<(), String>;
+
+impl Limits {
+    /// Returns what the value at `path` (a JSON pointer) of `root` may be.
+    pub(super) fn of(&mut self, root: &Value, path: &str, check: Check<'_>) -> &Limit {
+        self.0.entry(path.to_owned()).or_insert_with(|| find(root, path, check))
+    }
+}
+
+fn find(root: &Value, path: &str, check: Check<'_>) -> Limit {
+    let error = |value: Value| {
+        let mut tried = root.clone();
+        match tried.pointer_mut(path) {
+            Some(place) => *place = value,
+            None => return String::new(),
+        }
+        check(&tried).err().unwrap_or_default()
+    };
+    match root.pointer(path) {
+        Some(Value::Number(_)) => {
+            // Far above what any setting allows, yet a number of every kind.
+            let allowed = allowed(&error(4_000_000_000_u32.into()));
+            let whole = error(serde_json::json!(0.5)).contains("invalid type");
+            Limit {
+                range: allowed.as_deref().and_then(range),
+                allowed: allowed.unwrap_or_default(),
+                whole,
+                ..Limit::default()
+            }
+        }
+        Some(Value::String(_) | Value::Object(_)) => {
+            let names = names(&error("?".into()));
+            let value = |name: String| {
+                let value = variant(&name, &error)?;
+                Some((name, value))
+            };
+            Limit { variants: names.into_iter().filter_map(value).collect(), ..Limit::default() }
+        }
+        _ => Limit::default(),
+    }
+}
+
+/// What follows `allowed: ` or the like in an error of a check.
+fn allowed(error: &str) -> Option<String> {
+    let (_, allowed) = error.rsplit_once("allowed: ").or_else(|| error.rsplit_once("; it can be "))?;
+    Some(allowed.to_owned())
+}
+
+/// The two ends of `1 to 64 (texels)`.
+fn range(allowed: &str) -> Option<(f64, f64)> {
+    let (low, rest) = allowed.split_once(" to ")?;
+    let high: String =
+        rest.chars().take_while(|char| char.is_ascii_digit() || ".-e".contains(*char)).collect();
+    Some((low.trim().parse().ok()?, high.trim_end_matches('.').parse().ok()?))
+}
+
+/// The names that serde lists where it knows none of `?`.
+fn names(error: &str) -> Vec<String> {
+    let Some((_, names)) = error.split_once("unknown variant `?`, expected ") else { return Vec::new() };
+    names.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+/// The first value of a variant that is taken.
+fn variant(name: &str, error: &dyn Fn(Value) -> String) -> Option<Value> {
+    let payloads = [
+        Value::Null,
+        0.5.into(),
+        1.into(),
+        serde_json::json!([0.1, 0.3, 0.6]),
+        serde_json::json!([0.5, 0.5]),
+        Value::String(String::new()),
+    ];
+    let plain = Value::String(name.to_owned());
+    let with = payloads.into_iter().map(|payload| serde_json::json!({ name: payload }));
+    let found = std::iter::once(plain).chain(with).find(|value| error(value.clone()).is_empty());
+    found.or_else(|| {
+        // A variant with fields: those that are missed are added.
+        let mut fields = serde_json::Map::new();
+        for _ in 0..8 {
+            let value = serde_json::json!({ name: fields });
+            let problem = error(value.clone());
+            match problem.split_once("missing field `").and_then(|(_, rest)| rest.split_once('`')) {
+                Some((field, _)) => fields.insert(field.to_owned(), 0.5.into()),
+                None => return problem.is_empty().then_some(value),
+            };
+        }
+        None
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::program::view::panel::settings::{check_shared, shared};
+    use crate::shadows::{ShadowSettings, Techniques};
+
+    #[test]
+    fn ranges_units_and_names_are_those_of_the_checks() {
+        let root = shared(&ShadowSettings::default()).unwrap();
+        let mut limits = Limits::default();
+        let distance = limits.of(&root, "/distance_m", &check_shared).clone();
+        assert_eq!((distance.range, &*distance.allowed), (Some((0.001, 1e6)), "0.001 to 1000000 (metres)"));
+        let count = limits.of(&root, "/cascades/count", &check_shared).clone();
+        assert!(count.whole && count.range == Some((0.0, 8.0)), "{count:?}");
+        let split = limits.of(&root, "/cascades/split", &check_shared);
+        let names: Vec<&str> = split.variants.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(
+            names,
+            ["Standard", "Ratios", "Metres", "Factor", "Geometric", "Logarithmic", "Practical"]
+        );
+        for (_, value) in split.variants.clone() {
+            let mut tried = root.clone();
+            *tried.pointer_mut("/cascades/split").unwrap() = value;
+            assert_eq!(check_shared(&tried), Ok(()));
+        }
+    }
+
+    #[test]
+    fn settings_of_single_techniques_have_limits_too() {
+        let techniques = Techniques::built_in();
+        let settings = ShadowSettings::default();
+        let root = techniques.own_settings("pcss", &settings).unwrap().unwrap();
+        let check = |value: &Value| {
+            let set = techniques.set_own_settings("pcss", &mut settings.clone(), value.clone());
+            set.map_err(|error| error.to_string())
+        };
+        let taps = Limits::default().of(&root, "/filter_taps", &check).clone();
+        assert_eq!((taps.range, taps.whole), (Some((1.0, 64.0)), true));
+    }
+}

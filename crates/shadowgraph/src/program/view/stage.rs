@@ -1,0 +1,192 @@
+//! What is shown: a scene, drawn by a renderer that is made anew when the method changes.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::fly::Fly;
+use super::reload::Watched;
+use crate::core::{Format, Plan, TimeHistory, Timer};
+use crate::options::{Aov, Pipeline, SettingsFile};
+use crate::program::args::ViewArgs;
+use crate::program::commands::Input;
+use crate::program::failure::Failure;
+use crate::scene::Scene;
+use crate::shadows::{ShadowSettings, Technique, Techniques};
+use crate::{Gpu, Method, Renderer, ViewOptions, wgpu};
+
+/// Frames that times are kept of.
+const FRAMES: usize = 60;
+
+/// What the user has chosen, and what follows from it.
+pub(super) struct Stage {
+    pub(super) scene: Scene,
+    pub(super) techniques: Techniques,
+    pub(super) technique: Technique,
+    pub(super) pipeline: Pipeline,
+    samples: u32,
+    pub(super) aov: Aov,
+    pub(super) settings: ShadowSettings,
+    pub(super) fly: Fly,
+    /// Whether shadows stay those of the place where the camera was.
+    pub(super) frozen: bool,
+    pub(super) times: TimeHistory,
+    /// The plan of the last good frame.
+    pub(super) plan: Option<Arc<Plan>>,
+    /// Why the last frame is not the newest.
+    pub(super) error: Option<String>,
+    /// What was done last.
+    pub(super) note: String,
+    pub(super) settings_file: Option<PathBuf>,
+    watched_settings: Watched,
+    watched_shaders: Watched,
+    renderer: Option<Renderer>,
+    /// What the renderer was made for.
+    made: Option<(Technique, Pipeline, Aov)>,
+    /// Whether making it failed, so that it is not tried again for the same.
+    failed: Option<(Technique, Pipeline, Aov)>,
+}
+
+impl Stage {
+    pub(super) fn new(
+        input: Input,
+        view: ViewOptions,
+        techniques: Techniques,
+        args: &ViewArgs,
+    ) -> Result<Self, Failure> {
+        let reach_m = input.scene.bounds().radius();
+        let shaders = args.shaders.iter().flat_map(|folder| {
+            shadowgraph_shaders::builtin_files().map(|file| folder.join(file)).collect::<Vec<_>>()
+        });
+        let settings_file = args.draw.settings_file().map(PathBuf::from);
+        Ok(Self {
+            fly: Fly::new(input.camera, reach_m),
+            scene: input.scene,
+            techniques,
+            technique: input.options.technique,
+            pipeline: input.options.pipeline,
+            samples: input.options.samples,
+            aov: input.options.aov,
+            settings: view.shadows,
+            frozen: false,
+            times: TimeHistory::new(FRAMES),
+            plan: None,
+            error: None,
+            note: String::new(),
+            watched_settings: Watched::new(settings_file.clone()),
+            settings_file,
+            watched_shaders: Watched::new(shaders),
+            renderer: None,
+            made: None,
+            failed: None,
+        })
+    }
+
+    /// Reads again what was saved since the last frame.
+    pub(super) fn reload(&mut self) {
+        if self.watched_shaders.changed() {
+            (self.made, self.failed) = (None, None);
+            self.note = "shaders were read again".into();
+        }
+        if self.watched_settings.changed()
+            && let Some(file) = &self.settings_file
+        {
+            match SettingsFile::load(file, &self.techniques) {
+                Ok(read) => {
+                    (self.settings, self.error) = (read.settings, None);
+                    self.note = format!("{} was read again", file.display());
+                }
+                Err(error) => self.error = Some(error.to_string()),
+            }
+        }
+    }
+
+    /// Holds shadows where the camera is, or lets them follow it again.
+    pub(super) fn freeze(&mut self, frozen: bool) {
+        self.frozen = frozen;
+        let camera = frozen.then(|| self.fly.camera().clone());
+        if let Some(renderer) = &mut self.renderer {
+            renderer.set_shadow_camera(camera);
+        }
+    }
+
+    /// How the view is drawn now.
+    pub(super) fn options(&self, size_px: [u32; 2]) -> ViewOptions {
+        ViewOptions { camera: self.fly.camera().clone(), size_px, shadows: self.settings.clone() }
+    }
+
+    /// The format of the texture that is drawn into.
+    pub(super) fn format(&self) -> Format {
+        let depth = |name: &String| {
+            let plan = self.plan.as_ref()?;
+            match plan.resource(plan.find_resource(name)?).desc {
+                crate::core::ResourceDesc::Texture(desc) => Some(desc.format.is_depth_stencil_format()),
+                crate::core::ResourceDesc::Buffer(_) => None,
+            }
+        };
+        match &self.aov {
+            Aov::Color => Format::Rgba8UnormSrgb,
+            Aov::Texture(name) if depth(name) != Some(true) => Format::Rgba8UnormSrgb,
+            _ => Format::Rgba8Unorm,
+        }
+    }
+
+    /// Draws a frame into `target`. What goes wrong is kept as [`error`](Self::error), and the target stays as it was.
+    pub(super) fn draw(&mut self, gpu: &Gpu, target: &wgpu::Texture) {
+        match self.try_draw(gpu, target) {
+            Ok(()) => self.error = None,
+            Err(error) => self.error = Some(error.to_string()),
+        }
+    }
+
+    fn try_draw(&mut self, gpu: &Gpu, target: &wgpu::Texture) -> Result<(), crate::Error> {
+        self.make(gpu)?;
+        let options = self.options([target.width(), target.height()]);
+        self.techniques.check(&options.shadows)?;
+        let Some(renderer) = &mut self.renderer else { return Ok(()) };
+        let mut timer = Timer::new();
+        let plan = gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let executed = renderer.record_timed(gpu, &mut encoder, target, &options, Some(&mut timer))?;
+            gpu.queue.submit([encoder.finish()]);
+            Ok(executed.shared_plan())
+        })?;
+        self.times.add(&timer.read(&gpu.device, &gpu.queue)?);
+        self.plan = Some(plan);
+        Ok(())
+    }
+
+    /// Makes the renderer for what is chosen. Where that fails the old one stays, and its picture.
+    fn make(&mut self, gpu: &Gpu) -> Result<(), crate::Error> {
+        let wanted = (self.technique, self.pipeline, self.aov.clone());
+        if self.made.as_ref() == Some(&wanted) || self.failed.as_ref() == Some(&wanted) {
+            return match (&self.error, self.made.as_ref() == Some(&wanted)) {
+                (Some(error), false) => Err(crate::Error::Gpu(error.clone())),
+                _ => Ok(()),
+            };
+        }
+        let (technique, pipeline, samples) = (self.technique, self.pipeline, self.samples);
+        let method = Method { technique, pipeline, samples };
+        let made = gpu
+            .checked(|| Renderer::with(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), method));
+        match made {
+            Ok(renderer) => {
+                let frozen = self.renderer.as_ref().and_then(|old| old.shadow_camera.clone());
+                self.renderer.insert(renderer).set_shadow_camera(frozen);
+                (self.made, self.failed) = (Some(wanted), None);
+                Ok(())
+            }
+            Err(error) => {
+                self.failed = Some(wanted);
+                Err(error)
+            }
+        }
+    }
+
+    /// Returns the page about the frame as it is now.
+    pub(super) fn page(&mut self, gpu: &Gpu, size_px: [u32; 2]) -> Result<String, crate::Error> {
+        let options = self.options(size_px);
+        let lights = self.scene.lights.clone();
+        let Some(renderer) = &mut self.renderer else { return Ok(String::new()) };
+        Ok(renderer.inspect(gpu, &options)?.page(&lights, &options).to_html())
+    }
+}

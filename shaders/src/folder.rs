@@ -1,0 +1,37 @@
+//! A folder of WGSL files that take the place of the built-in ones, to work on them while a program runs.
+
+use crate::ModuleSource;
+use crate::imports::import_path;
+use crate::source::MODULES;
+use std::borrow::Cow;
+use std::path::PathBuf;
+use std::sync::{PoisonError, RwLock};
+
+static FOLDER: RwLock<Option<PathBuf>> = RwLock::new(None);
+
+/// Sets the folder whose files take the place of built-in ones of the same name, such as `forward.wgsl` or
+/// `shadows/pcf.wgsl`, each time that something is composed from now on, in the whole program; `None` for the built-in ones
+/// again. For tools that show the effect of a change while they run. Files that are not there stay as they are built in.
+pub fn set_folder(folder: Option<PathBuf>) {
+    *FOLDER.write().unwrap_or_else(PoisonError::into_inner) = folder;
+}
+
+/// The source as the folder has it.
+pub(crate) fn current(module: &ModuleSource) -> ModuleSource {
+    read(module).unwrap_or_else(|| module.clone())
+}
+
+/// The modules that are passed, and those built in that the folder has, as the folder has them.
+pub(crate) fn with_folder(extra: &[ModuleSource]) -> Vec<ModuleSource> {
+    let mut all: Vec<ModuleSource> = extra.iter().map(current).collect();
+    let passed: Vec<_> = extra.iter().filter_map(|module| import_path(module).ok()).collect();
+    let changed = MODULES.iter().filter_map(read);
+    all.extend(changed.filter(|module| import_path(module).is_ok_and(|path| !passed.contains(&path))));
+    all
+}
+
+fn read(module: &ModuleSource) -> Option<ModuleSource> {
+    let folder = FOLDER.read().unwrap_or_else(PoisonError::into_inner);
+    let source = std::fs::read_to_string(folder.as_ref()?.join(module.file.as_ref())).ok()?;
+    Some(ModuleSource { file: module.file.clone(), source: Cow::Owned(source) })
+}

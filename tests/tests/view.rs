@@ -1,0 +1,282 @@
+//! `shadowgraph view` in a window on a display of its own.
+#![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use shadowgraph_tests::{on_path, program, repository, skip};
+use std::io::{BufRead as _, BufReader, Read as _};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection as _;
+use x11rb::protocol::xproto::{
+    AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, ImageFormat, InputFocus,
+    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, Window,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+
+/// A software driver takes about a second for a frame of a debug build.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A display that nobody sees.
+struct Display {
+    server: Child,
+    name: String,
+}
+
+impl Display {
+    fn open() -> Option<Self> {
+        if !on_path("Xvfb") {
+            skip("view", "Xvfb is not installed");
+            return None;
+        }
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1024x640x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        Some(Self { server, name: format!(":{}", number.trim()) })
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _gone = self.server.kill();
+        let _ended = self.server.wait();
+    }
+}
+
+/// The program and its window.
+struct View {
+    child: Child,
+    x: RustConnection,
+    root: Window,
+    window: Window,
+}
+
+type Picture = image::RgbImage;
+
+impl View {
+    /// Starts the program on the demo scene and waits for its window.
+    fn start(display: &Display, arguments: &[&str]) -> Self {
+        let child = Command::new(program().unwrap())
+            .args(["view", "--size", "640x360", "--adapter", "cpu"])
+            .args(arguments)
+            .env("DISPLAY", &display.name)
+            .env_remove("WAYLAND_DISPLAY")
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let (x, screen) = x11rb::connect(Some(&display.name)).unwrap();
+        let root = x.setup().roots[screen].root;
+        let mut view = Self { child, x, root, window: 0 };
+        view.until("a window", |view| {
+            let children = view.x.query_tree(view.root).unwrap().reply().unwrap().children;
+            let named = children.into_iter().find(|&window| view.title(window).starts_with("Shadowgraph"));
+            view.window = named.unwrap_or(0);
+            named.is_some()
+        });
+        // No window manager does it here.
+        view.until("the first frame", |view| view.title(view.window).contains(", "));
+        view.x.set_input_focus(InputFocus::PARENT, view.window, x11rb::CURRENT_TIME).unwrap();
+        view.x.flush().unwrap();
+        view
+    }
+
+    fn title(&self, window: Window) -> String {
+        let name = self.x.get_property(false, window, AtomEnum::WM_NAME, AtomEnum::ANY, 0, 64).unwrap();
+        name.reply().map(|name| String::from_utf8_lossy(&name.value).into_owned()).unwrap_or_default()
+    }
+
+    /// Waits, while the program runs.
+    fn until(&mut self, what: &str, mut holds: impl FnMut(&mut Self) -> bool) {
+        let started = Instant::now();
+        while !holds(self) {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                panic!("waiting for {what}, the program ended with {status}: {}", self.errors());
+            }
+            assert!(started.elapsed() < PATIENCE, "waited too long for {what}");
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+
+    fn errors(&mut self) -> String {
+        let mut text = String::new();
+        if let Some(mut errors) = self.child.stderr.take() {
+            let _read = errors.read_to_string(&mut text);
+        }
+        text
+    }
+
+    fn picture(&self) -> Picture {
+        let [width, height] = [640u16, 360];
+        let image = self.x.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, !0).unwrap();
+        let bytes = image.reply().unwrap().data;
+        let rgb: Vec<u8> = bytes.chunks_exact(4).flat_map(|bgrx| [bgrx[2], bgrx[1], bgrx[0]]).collect();
+        Picture::from_raw(width.into(), height.into(), rgb).unwrap()
+    }
+
+    /// Keeps what is on the screen where a person can look at it.
+    fn keep(&self, name: &str) -> Picture {
+        let folder = repository().join("target/tmp/view");
+        std::fs::create_dir_all(&folder).unwrap();
+        let picture = self.picture();
+        picture.save(folder.join(format!("{name}.png"))).unwrap();
+        picture
+    }
+
+    fn key(&self, keysym: u32, held: Duration) {
+        let setup = self.x.setup();
+        let count = setup.max_keycode - setup.min_keycode + 1;
+        let map = self.x.get_keyboard_mapping(setup.min_keycode, count).unwrap().reply().unwrap();
+        let per = usize::from(map.keysyms_per_keycode);
+        let place = map.keysyms.chunks(per).position(|keys| keys.first() == Some(&keysym)).unwrap();
+        let code = setup.min_keycode + place as u8;
+        for (kind, wait) in [(KEY_PRESS_EVENT, held), (KEY_RELEASE_EVENT, Duration::ZERO)] {
+            self.x.xtest_fake_input(kind, code, 0, self.root, 0, 0, 0).unwrap();
+            self.x.flush().unwrap();
+            std::thread::sleep(wait);
+        }
+    }
+
+    fn tap(&self, keysym: u32) {
+        self.key(keysym, Duration::from_millis(30));
+    }
+
+    fn resize(&self, width: u32, height: u32) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        self.x.configure_window(self.window, &size).unwrap();
+        self.x.flush().unwrap();
+    }
+
+    /// Whether a frame comes within the time: the title is asked for the program's sake.
+    fn draws_on(&mut self, before: &Picture) {
+        self.until("another picture", |view| changed(before, &view.picture()) > 0.02);
+    }
+
+    /// Closes the window as its frame's button does, and returns how the program ended.
+    fn close(mut self) -> (ExitStatus, String) {
+        let atom = |name: &str| self.x.intern_atom(false, name.as_bytes()).unwrap().reply().unwrap().atom;
+        let data = [atom("WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
+        let message = ClientMessageEvent::new(32, self.window, atom("WM_PROTOCOLS"), data);
+        self.x.send_event(false, self.window, EventMask::NO_EVENT, message).unwrap();
+        self.x.flush().unwrap();
+        let started = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                let errors = self.errors();
+                return (status, errors);
+            }
+            assert!(started.elapsed() < PATIENCE, "the window was closed and the program goes on");
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+}
+
+impl Drop for View {
+    fn drop(&mut self) {
+        let _gone = self.child.kill();
+        let _ended = self.child.wait();
+    }
+}
+
+/// The part of pixels that differ by more than a little.
+fn changed(a: &Picture, b: &Picture) -> f64 {
+    let differs = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| a[c].abs_diff(b[c]) > 12);
+    let count = a.pixels().zip(b.pixels()).filter(|&pair| differs(pair)).count();
+    count as f64 / f64::from(a.width() * a.height())
+}
+
+const F2: u32 = 0xffbf;
+const F3: u32 = 0xffc0;
+
+#[test]
+fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
+    let Some(display) = Display::open() else { return };
+    if !drivers() {
+        return skip("view", "no graphics driver is installed");
+    }
+    let mut view = View::start(&display, &[]);
+    let empty = Picture::new(640, 360);
+    view.draws_on(&empty);
+    let first = view.keep("1 scene");
+
+    view.key(u32::from('d'), Duration::from_millis(900));
+    view.until("the camera to move", |view| changed(&first, &view.picture()) > 0.2);
+    let moved = view.keep("2 moved");
+
+    view.tap(u32::from('t'));
+    view.until("the next technique", |view| view.title(view.window).contains("pcss"));
+    view.tap(F3);
+    view.draws_on(&moved);
+    std::thread::sleep(Duration::from_secs(3));
+    let graph = view.keep("3 graph");
+
+    view.tap(F2);
+    view.draws_on(&graph);
+    std::thread::sleep(Duration::from_secs(2));
+    view.keep("4 settings");
+
+    // As small as can be, out of sight, and back.
+    view.resize(1, 1);
+    std::thread::sleep(Duration::from_secs(2));
+    view.resize(640, 360);
+    view.x.unmap_window(view.window).unwrap();
+    view.x.flush().unwrap();
+    std::thread::sleep(Duration::from_secs(2));
+    view.x.map_window(view.window).unwrap();
+    view.x.flush().unwrap();
+    view.draws_on(&empty);
+    view.keep("5 back");
+
+    let (status, errors) = view.close();
+    assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
+}
+
+#[test]
+fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
+    let Some(display) = Display::open() else { return };
+    if !drivers() {
+        return skip("view", "no graphics driver is installed");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("tonemap.wgsl");
+    let good = std::fs::read_to_string(repository().join("shaders/wgsl/tonemap.wgsl")).unwrap();
+    std::fs::write(&file, &good).unwrap();
+    let mut view = View::start(&display, &["--shaders", folder.path().to_str().unwrap()]);
+    view.draws_on(&Picture::new(640, 360));
+    std::thread::sleep(Duration::from_secs(2));
+    let before = view.picture();
+    let scene = |picture: &Picture| image::imageops::crop_imm(picture, 0, 0, 200, 360).to_image();
+    std::fs::write(&file, good.replace("return", "return oops +")).unwrap();
+    // The panel tells of it; the picture beside it stays.
+    view.draws_on(&before);
+    let broken = view.keep("6 mistake");
+    assert!(changed(&scene(&before), &scene(&broken)) < 0.001, "the last good picture stays");
+    std::fs::write(&file, good.replace("@fragment", "\n@fragment")).unwrap();
+    view.until("the mistake to be gone", |view| changed(&before, &view.picture()) < 0.02);
+    let (status, errors) = view.close();
+    assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
+}
+
+#[test]
+fn without_a_display_it_says_so_in_one_line() {
+    let output = Command::new(program().unwrap())
+        .arg("view")
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .unwrap();
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.starts_with("error: there is no display") && error.lines().count() == 1, "{error}");
+}
+
+/// Whether there is anything to draw with.
+fn drivers() -> bool {
+    let choice = shadowgraph::options::AdapterChoice::Cpu;
+    shadowgraph::Gpu::open(&choice).is_ok()
+}
