@@ -171,7 +171,7 @@ impl ShadowCasters for Engine {
         Aabb { min: middle - half, max: middle + half }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
         // A sun is all that this engine has: one format, one kind of view.
         debug_assert_eq!(
             view.target,
@@ -180,6 +180,7 @@ impl ShadowCasters for Engine {
         pass.set_pipeline(&self.caster);
         pass.set_bind_group(1, &self.caster_boxes, &[]);
         casters.iter().for_each(|&caster| pass.draw(0..36, caster..caster + 1));
+        casters.len() as u32
     }
 }
 

@@ -189,6 +189,11 @@ fn changed(a: &Picture, b: &Picture) -> f64 {
     count as f64 / f64::from(a.width() * a.height())
 }
 
+/// Whether the scene is drawn, left of the panel.
+fn lit(picture: &Picture) -> bool {
+    picture.get_pixel(20, 20).0.iter().all(|&channel| channel > 60)
+}
+
 const F2: u32 = 0xffbf;
 const F3: u32 = 0xffc0;
 
@@ -200,7 +205,7 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     }
     let mut view = View::start(&display, &[]);
     let empty = Picture::new(640, 360);
-    view.draws_on(&empty);
+    view.until("the scene", |view| lit(&view.picture()));
     let first = view.keep("1 scene");
 
     view.key(u32::from('d'), Duration::from_millis(900));
@@ -246,7 +251,7 @@ fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
     let good = std::fs::read_to_string(repository().join("shaders/wgsl/tonemap.wgsl")).unwrap();
     std::fs::write(&file, &good).unwrap();
     let mut view = View::start(&display, &["--shaders", folder.path().to_str().unwrap()]);
-    view.draws_on(&Picture::new(640, 360));
+    view.until("the scene", |view| lit(&view.picture()));
     std::thread::sleep(Duration::from_secs(2));
     let before = view.picture();
     let scene = |picture: &Picture| image::imageops::crop_imm(picture, 0, 0, 200, 360).to_image();

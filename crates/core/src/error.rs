@@ -148,6 +148,9 @@ pub enum Error {
     /// A texture is used in a way that the device does not allow for its format.
     #[error("SG0605: `{resource}` has the format {format:?}, which this device {problem}")]
     FormatSupport { resource: String, format: crate::Format, problem: String },
+    /// wgpu objects to what passes record; found by `Compiled::execute_checked`.
+    #[error("SG0606: wgpu refuses what {passes} records: {message}")]
+    Refused { passes: String, message: String },
     /// Neither a pass nor a resource has the name.
     #[error("SG0701: the frame has no pass and no resource `{name}`{hint}")]
     NoSuchName { name: String, hint: String },
@@ -192,6 +195,7 @@ impl Error {
             Self::ReadBack { .. } => "SG0603",
             Self::Shader { .. } => "SG0604",
             Self::FormatSupport { .. } => "SG0605",
+            Self::Refused { .. } => "SG0606",
             Self::NoSuchName { .. } => "SG0701",
             Self::Dump { .. } => "SG0702",
         }

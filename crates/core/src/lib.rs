@@ -76,8 +76,8 @@ pub use dump::{
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Bind, BodyResult, Capture, Captured, ComputeContext, EncoderContext, Executed, ReadBack, ReadBackRequest,
-    RenderContext, Resources, Timer,
+    Bind, BodyResult, Capture, Captured, ComputeContext, EncoderContext, Executed, FailedFrame, ReadBack,
+    ReadBackRequest, RenderContext, Resources, Timer,
 };
 pub use frame::{Frame, History, Resize};
 pub use graph::{Graph, PlanCounts};
@@ -96,7 +96,7 @@ pub use plan::{
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
 pub use programs::{Block, Call, ComputeShader, FullscreenShader};
-pub use times::{PassTime, TimeHistory, TimeSpread, TimeSummary};
+pub use times::{PassTime, TimeHistory, TimeSpread, TimeSummary, trace_json};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

@@ -1,22 +1,34 @@
 //! How long passes took, as plain data.
 
+mod trace;
+
+pub use trace::trace_json;
+
 use serde::Serialize;
 use std::collections::VecDeque;
 
 /// The time of one pass.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PassTime {
     /// The pass, with its nodes before its name.
     pub pass: String,
     /// The node it belongs to; empty for none.
     pub node: String,
+    /// When its body began on the CPU, milliseconds after the first pass was recorded; 0 for a pass without one.
+    pub cpu_begin_ms: f64,
     /// Milliseconds that the pass's body took on the CPU; 0 for a pass without one.
     pub cpu_ms: f64,
+    /// When it began on the GPU, milliseconds after the first pass there; `None` where the device cannot tell.
+    pub gpu_begin_ms: Option<f64>,
     /// Milliseconds on the GPU; `None` where the device cannot tell, see `Timer`.
     pub gpu_ms: Option<f64>,
     /// How many passes `gpu_ms` is the time of: 1, or more where passes were merged and the device cannot tell them
     /// apart. Each of them then shows the same time.
     pub shared_by: u32,
+    /// Draw calls, where the body told of them by `Resources::note_draws`; `None` where it did not.
+    pub draws: Option<u32>,
+    /// Triangles that were drawn, before what is outside the view was cut off; `None` where the device cannot tell.
+    pub triangles: Option<u64>,
 }
 
 /// The times of the last frames, pass by pass.
@@ -26,7 +38,8 @@ pub struct PassTime {
 /// let mut history = TimeHistory::new(60);
 /// for gpu_ms in [1.0, 9.0, 2.0] {
 ///     let (pass, node) = ("draw".to_owned(), String::new());
-///     history.add(&[PassTime { pass, node, cpu_ms: 0.1, gpu_ms: Some(gpu_ms), shared_by: 1 }]);
+///     let time = PassTime { pass, node, cpu_ms: 0.1, gpu_ms: Some(gpu_ms), shared_by: 1, ..Default::default() };
+///     history.add(&[time]);
 /// }
 /// let draw = &history.summary()[0];
 /// assert_eq!((draw.gpu_ms.unwrap().median, draw.gpu_ms.unwrap().high), (2.0, 9.0));
@@ -117,7 +130,7 @@ mod tests {
     use super::*;
 
     fn frame(pass: &str, cpu_ms: f64) -> Vec<PassTime> {
-        vec![PassTime { pass: pass.into(), node: String::new(), cpu_ms, gpu_ms: None, shared_by: 1 }]
+        vec![PassTime { pass: pass.into(), cpu_ms, shared_by: 1, ..PassTime::default() }]
     }
 
     #[test]

@@ -209,7 +209,8 @@ impl Forward {
             let group = ctx.bind_group(self.prepass.view_layout(), &[whole])?;
             ctx.pass.set_bind_group(0, &group, &[0]);
             let with = |draw: &Draw| Some(self.prepass.get(draw.key));
-            geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
+            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
+            ctx.note_draws(draws);
             Ok(())
         });
         depth
@@ -301,7 +302,8 @@ impl Forward {
             let blend: &[Draw] =
                 if self.recipe.target.shows == Shows::Light { &geometry.draws.blend } else { &[] };
             for draws in [&geometry.draws.solid, blend] {
-                geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
+                let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
+                ctx.note_draws(draws);
             }
             Ok(())
         });

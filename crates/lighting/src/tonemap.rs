@@ -85,6 +85,7 @@ impl Tonemap {
             ctx.pass.set_pipeline(&self.pipeline);
             ctx.pass.set_bind_group(0, &group, &[]);
             ctx.pass.draw(0..3, 0..1);
+            ctx.note_draws(1);
             Ok(())
         });
     }

@@ -90,15 +90,15 @@ impl ShadowCasters for SceneCasters {
         self.scene.bounds().get(caster as usize).copied().unwrap_or(Aabb::EMPTY)
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
         let made = self.pipelines.iter().find(|(format, _)| *format == view.target.format);
         // Maps have no other formats.
-        let Some((_, pipelines)) = made else { return };
+        let Some((_, pipelines)) = made else { return 0 };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
         self.scene.draw(pass, draws, &|draw| match view.target.pass {
             CasterPass::Depth => pipelines.get(draw.casts),
             CasterPass::TintDepth => Some(pipelines.solid()),
             CasterPass::Tint => Some(pipelines.tint()),
-        });
+        })
     }
 }

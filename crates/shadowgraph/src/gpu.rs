@@ -9,7 +9,8 @@ const INSTALL: &str = "install a Vulkan driver, for example `sudo apt-get instal
 /// Features that are used where the adapter has them.
 const WANTED: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
     .union(wgpu::Features::TIMESTAMP_QUERY)
-    .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+    .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS)
+    .union(wgpu::Features::PIPELINE_STATISTICS_QUERY);
 
 /// The features that are of use on an adapter. Timestamps inside a render pass tell passes apart that were merged, but
 /// software and GPUs that draw in tiles do most of the work when the render pass ends, behind all of them.

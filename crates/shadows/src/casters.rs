@@ -48,7 +48,9 @@ pub trait ShadowCasters: Sync {
     ///
     /// Pipelines are the implementer's own, so vertices can be moved (skinning, wind), many instances be drawn at once, and
     /// `view` tells which level of detail is enough. Bounds must hold what is drawn, wherever it is moved.
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]);
+    ///
+    /// Returns how many draw calls it recorded, for those who measure.
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32;
 }
 
 /// What a pipeline that draws casters must be made for: depth compared with `GreaterEqual` (it is reversed), one sample, no

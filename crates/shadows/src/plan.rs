@@ -132,7 +132,7 @@ pub enum TilePart {
 ///     fn bounds(&self) -> Aabb {
 ///         self.0
 ///     }
-///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
+///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 { 0 }
 /// }
 ///
 /// let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };

@@ -17,7 +17,9 @@ impl ShadowCasters for Nothing {
     fn bounds(&self) -> Aabb {
         Aabb::EMPTY
     }
-    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
+    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 {
+        0
+    }
 }
 
 /// Says one thing and gives another.

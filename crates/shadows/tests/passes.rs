@@ -28,7 +28,9 @@ impl ShadowCasters for Boxes {
         Aabb { min: DVec3::splat(-500.0), max: DVec3::splat(500.0) }
     }
 
-    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
+    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 {
+        0
+    }
 }
 
 fn cube(center: DVec3) -> Aabb {

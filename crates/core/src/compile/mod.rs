@@ -24,18 +24,21 @@ pub(crate) use validate::copy_extent;
 use crate::declaration::Declaration;
 use crate::error::Error;
 use crate::plan::{CullReason, Dependency, Plan};
+use tracing::debug_span;
 
 /// Compiles a frame's declarations.
 pub(crate) fn compile(decl: Declaration) -> Result<Plan, Error> {
-    validate::validate(&decl)?;
-    let culled = cull::cull(&decl);
-    let dependencies = hazards::hazards(&decl, &culled);
+    let _span = debug_span!("compile", passes = decl.passes.len()).entered();
+    debug_span!("validate").in_scope(|| validate::validate(&decl))?;
+    let culled = debug_span!("cull").in_scope(|| cull::cull(&decl));
+    let dependencies = debug_span!("hazards").in_scope(|| hazards::hazards(&decl, &culled));
     Ok(schedule(decl, culled, dependencies))
 }
 
 /// Compiles declarations that differ from those of a plan in sizes only: the same passes run, for the same reasons.
 pub(crate) fn resize(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
-    validate::validate(&decl)?;
+    let _span = debug_span!("resize", passes = decl.passes.len()).entered();
+    debug_span!("validate").in_scope(|| validate::validate(&decl))?;
     Ok(schedule(decl, plan.culled.clone(), plan.dependencies.clone()))
 }
 
@@ -43,10 +46,11 @@ pub(crate) fn resize(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
 ///
 /// Merging comes before lifetimes and slots: passes that share a render pass cannot share an attachment's slot.
 fn schedule(decl: Declaration, culled: Vec<Option<CullReason>>, dependencies: Vec<Dependency>) -> Plan {
-    let (order, placed) = order::order(&decl, &culled, &dependencies);
-    let (steps, merges) = merge::merge(&decl, &order);
-    let uses = lifetime::uses(&decl, &order, &steps);
-    let ops = ops::ops(&decl, &order, &steps);
-    let alias::Aliasing { fates, slots, tenants } = alias::alias(&decl, &uses, steps.len());
+    let (order, placed) = debug_span!("order").in_scope(|| order::order(&decl, &culled, &dependencies));
+    let (steps, merges) = debug_span!("merge").in_scope(|| merge::merge(&decl, &order));
+    let uses = debug_span!("lifetime").in_scope(|| lifetime::uses(&decl, &order, &steps));
+    let ops = debug_span!("ops").in_scope(|| ops::ops(&decl, &order, &steps));
+    let aliasing = debug_span!("alias").in_scope(|| alias::alias(&decl, &uses, steps.len()));
+    let alias::Aliasing { fates, slots, tenants } = aliasing;
     Plan { decl, culled, order, placed, merges, steps, ops, fates, slots, tenants, dependencies }
 }

@@ -52,8 +52,8 @@ impl Plan {
 /// use shadowgraph_core::{Frame, HtmlPage};
 /// let compiled = Frame::new().compile()?;
 /// let mut page = HtmlPage::new(compiled.plan()).with_title("An empty frame");
-/// page.tables.push(("Lights".into(), vec!["light".into()], vec![vec!["the sun".into()]]));
-/// assert!(page.to_html().contains("the sun"));
+/// page.tables.push(("Files".into(), vec!["name".into()], vec![vec!["hall.glb".into()]]));
+/// assert!(page.to_html().contains("hall.glb"));
 /// # Ok::<(), shadowgraph_core::Error>(())
 /// ```
 pub struct HtmlPage<'p> {

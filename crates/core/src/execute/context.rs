@@ -70,6 +70,14 @@ impl<'a> Resources<'a> {
         Ok(self.buffer(token)?.slice(self.byte_range(token.0)))
     }
 
+    /// Tells a [`Timer`](crate::Timer) how many draw calls the body has recorded, for [`PassTime::draws`](crate::PassTime::draws). Adds up;
+    /// without a timer it does nothing.
+    pub fn note_draws(&self, draws: u32) {
+        if let Some(timer) = self.recording.timer {
+            timer.draws(self.pass, draws);
+        }
+    }
+
     fn resolve(&self, token: Token) -> Result<ResourceId, Error> {
         resolve(self.recording.plan, self.recording.frame, self.pass, token)
     }

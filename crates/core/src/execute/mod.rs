@@ -3,6 +3,7 @@
 mod attachments;
 mod bind;
 mod capture;
+mod checked;
 mod context;
 mod copies;
 mod import;
@@ -20,6 +21,7 @@ mod tests;
 
 pub use bind::Bind;
 pub use capture::{Capture, Captured};
+pub use checked::FailedFrame;
 pub(crate) use context::Body;
 pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
 pub(crate) use import::Imported;

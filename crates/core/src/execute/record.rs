@@ -176,10 +176,11 @@ impl<'a> Recording<'a> {
 
     /// Runs a body, gives its own error the name of its pass, and notes how long it took.
     pub(super) fn timed(&self, id: PassId, body: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
+        let _span = tracing::debug_span!("pass", name = self.realised.label(id)).entered();
         let started = self.timer.map(|timer| (timer, Instant::now()));
         let result = body();
         if let Some((timer, started)) = started {
-            timer.cpu(id, started.elapsed());
+            timer.cpu(id, started);
         }
         result.map_err(|error| match error {
             Error::Body { pass, message } if pass.is_empty() => {

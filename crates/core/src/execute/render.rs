@@ -62,12 +62,19 @@ impl<'a> Recording<'a> {
         if let Some((queries, begin)) = inside {
             context.pass.write_timestamp(queries, begin);
         }
+        let counted = self.timer.and_then(|timer| timer.triangle_query(id));
         let drawn = self.clear_regions(id, context);
         self.clean_state(id, context, several && id != passes[0] || drawn);
+        if let Some((queries, query)) = counted {
+            context.pass.begin_pipeline_statistics_query(queries, query);
+        }
         match body {
             Body::Render(body) => self.timed(id, || body(context))?,
             Body::Call(call) => self.timed(id, || programs::draw(context, call))?,
             Body::None | Body::Compute(_) | Body::Encoder(_) => {}
+        }
+        if counted.is_some() {
+            context.pass.end_pipeline_statistics_query();
         }
         if let Some((queries, begin)) = inside {
             context.pass.write_timestamp(queries, begin + 1);

@@ -1,12 +1,13 @@
 //! How long each pass took.
 
+use crate::declaration::PassKind;
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::plan::Plan;
 use crate::times::PassTime;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Duration;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::time::Instant;
 
 /// Measures every pass of one frame: CPU time of recording, and GPU time where the device has timestamps.
 ///
@@ -43,19 +44,34 @@ pub struct Timer {
     passes: Vec<PassId>,
     /// By pass: its place in `passes`, and how many passes share its render pass.
     places: Vec<(u32, u32)>,
-    /// By place: nanoseconds.
-    cpu: Vec<AtomicU64>,
+    begun: Option<Instant>,
+    /// By place: nanoseconds from there, and for how long.
+    cpu: Vec<(AtomicU64, AtomicU64)>,
+    /// By place: draw calls that bodies told of.
+    draws: Vec<AtomicU32>,
     gpu: Option<Queries>,
+    triangles: Option<Triangles>,
 }
 
 struct Queries {
     set: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    readable: wgpu::Buffer,
+    numbers: Resolved,
     /// Copies and raw encoding can be measured.
     inside_encoders: bool,
     /// Passes that were merged can be told apart.
     inside_passes: bool,
+}
+
+/// What is read back when the frame is done: one number for each query.
+struct Resolved {
+    resolved: wgpu::Buffer,
+    readable: wgpu::Buffer,
+}
+
+/// Triangles by pass.
+struct Triangles {
+    set: wgpu::QuerySet,
+    numbers: Resolved,
 }
 
 impl Timer {
@@ -75,24 +91,44 @@ impl Timer {
                 place += 1;
             }
         }
-        self.cpu = self.passes.iter().map(|_| AtomicU64::new(0)).collect();
+        self.begun = Some(Instant::now());
+        self.cpu = self.passes.iter().map(|_| Default::default()).collect();
+        self.draws = self.passes.iter().map(|_| AtomicU32::new(0)).collect();
         let count = place * 2;
         let able = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         self.gpu =
             (able && count > 0 && count <= wgpu::QUERY_SET_MAX_QUERIES).then(|| Queries::new(device, count));
+        let able = device.features().contains(wgpu::Features::PIPELINE_STATISTICS_QUERY);
+        self.triangles = (able && place > 0 && place <= wgpu::QUERY_SET_MAX_QUERIES)
+            .then(|| Triangles::new(device, place));
     }
 
     pub(super) fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(gpu) = &self.gpu {
             let count = self.passes.len() as u32 * 2;
-            encoder.resolve_query_set(&gpu.set, 0..count, &gpu.resolved, 0);
-            encoder.copy_buffer_to_buffer(&gpu.resolved, 0, &gpu.readable, 0, gpu.readable.size());
+            gpu.numbers.resolve(encoder, &gpu.set, count);
+        }
+        if let Some(triangles) = &self.triangles {
+            triangles.numbers.resolve(encoder, &triangles.set, self.passes.len() as u32);
         }
     }
 
-    pub(super) fn cpu(&self, pass: PassId, time: Duration) {
+    pub(super) fn draws(&self, pass: PassId, draws: u32) {
         let (place, _) = self.places[pass.index()];
-        self.cpu[place as usize].store(time.as_nanos() as u64, Ordering::Relaxed);
+        self.draws[place as usize].fetch_add(draws, Ordering::Relaxed);
+    }
+
+    /// The query set that counts a render pass's triangles, and the query.
+    pub(super) fn triangle_query(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
+        Some((&self.triangles.as_ref()?.set, self.places[pass.index()].0))
+    }
+
+    pub(super) fn cpu(&self, pass: PassId, begin: Instant) {
+        let (place, _) = self.places[pass.index()];
+        let (begins, takes) = &self.cpu[place as usize];
+        takes.store(begin.elapsed().as_nanos() as u64, Ordering::Relaxed);
+        let since = self.begun.map(|begun| begin.duration_since(begun)).unwrap_or_default();
+        begins.store(since.as_nanos() as u64, Ordering::Relaxed);
     }
 
     /// The query set, and the queries around the render or compute pass that passes from `first` to `last` share;
@@ -133,21 +169,31 @@ impl Timer {
     /// When the device is lost or the times cannot be mapped.
     pub fn read(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<PassTime>, Error> {
         let Some(plan) = &self.plan else { return Ok(Vec::new()) };
-        let ticks = self.gpu.as_ref().map(|gpu| gpu.read(device)).transpose()?;
+        let ticks = self.gpu.as_ref().map(|gpu| gpu.numbers.read(device)).transpose()?;
+        let triangles = self.triangles.as_ref().map(|own| own.numbers.read(device)).transpose()?;
         let period = f64::from(queue.get_timestamp_period());
         let gpu_ms = |begin: usize, end: usize| {
             let ticks = ticks.as_ref()?;
             let (begin, end) = (*ticks.get(begin)?, *ticks.get(end)?);
             (end >= begin && begin != 0).then(|| (end - begin) as f64 * period * 1e-6)
         };
+        let first = ticks.iter().flatten().copied().filter(|&tick| tick != 0).min();
+        let gpu_ms_since_first =
+            |query: usize| Some(ticks.as_ref()?.get(query)?.checked_sub(first?)? as f64 * period * 1e-6);
         let times = self.passes.iter().zip(&self.cpu).enumerate().map(|(place, (&pass, cpu))| {
             let (begin, end, shared_by) = self.measured(place, plan);
+            let renders = plan.pass(pass).kind == PassKind::Render;
+            let draws = self.draws[place].load(Ordering::Relaxed);
             PassTime {
                 pass: plan.pass_path(pass),
                 node: plan.pass(pass).node.map(|node| plan.node_path(node)).unwrap_or_default(),
-                cpu_ms: cpu.load(Ordering::Relaxed) as f64 * 1e-6,
+                cpu_begin_ms: cpu.0.load(Ordering::Relaxed) as f64 * 1e-6,
+                cpu_ms: cpu.1.load(Ordering::Relaxed) as f64 * 1e-6,
+                gpu_begin_ms: gpu_ms(begin, end).and(gpu_ms_since_first(begin)),
                 gpu_ms: gpu_ms(begin, end),
                 shared_by,
+                draws: (draws > 0).then_some(draws),
+                triangles: triangles.as_ref().filter(|_| renders).and_then(|all| all.get(place).copied()),
             }
         });
         Ok(times.collect())
@@ -155,6 +201,34 @@ impl Timer {
 }
 
 impl Queries {
+    fn new(device: &wgpu::Device, count: u32) -> Self {
+        Self {
+            set: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("pass times"),
+                ty: wgpu::QueryType::Timestamp,
+                count,
+            }),
+            numbers: Resolved::new(device, count),
+            inside_encoders: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS),
+            inside_passes: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
+        }
+    }
+}
+
+impl Triangles {
+    fn new(device: &wgpu::Device, count: u32) -> Self {
+        Self {
+            set: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("triangles"),
+                ty: wgpu::QueryType::PipelineStatistics(wgpu::PipelineStatisticsTypes::CLIPPER_INVOCATIONS),
+                count,
+            }),
+            numbers: Resolved::new(device, count),
+        }
+    }
+}
+
+impl Resolved {
     fn new(device: &wgpu::Device, count: u32) -> Self {
         let buffer = |label, usage| {
             let size = u64::from(count) * 8;
@@ -167,16 +241,14 @@ impl Queries {
         };
         use wgpu::BufferUsages as Usage;
         Self {
-            set: device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("pass times"),
-                ty: wgpu::QueryType::Timestamp,
-                count,
-            }),
-            resolved: buffer("pass times, resolved", Usage::QUERY_RESOLVE | Usage::COPY_SRC),
-            readable: buffer("pass times, readable", Usage::MAP_READ | Usage::COPY_DST),
-            inside_encoders: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS),
-            inside_passes: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
+            resolved: buffer("queries, resolved", Usage::QUERY_RESOLVE | Usage::COPY_SRC),
+            readable: buffer("queries, readable", Usage::MAP_READ | Usage::COPY_DST),
         }
+    }
+
+    fn resolve(&self, encoder: &mut wgpu::CommandEncoder, set: &wgpu::QuerySet, count: u32) {
+        encoder.resolve_query_set(set, 0..count, &self.resolved, 0);
+        encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, self.readable.size());
     }
 
     fn read(&self, device: &wgpu::Device) -> Result<Vec<u64>, Error> {

@@ -18,6 +18,7 @@ pub(crate) fn draw(context: &mut RenderContext<'_>, call: u32) -> BodyResult {
         context.pass.set_bind_group(0, group, &[]);
     }
     context.pass.draw(0..3, 0..1);
+    context.note_draws(1);
     Ok(())
 }
 

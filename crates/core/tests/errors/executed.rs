@@ -22,8 +22,33 @@ fn mistake(
     Mistake { code, error: error.expect("a mistake"), words }
 }
 
+/// A pass in a node draws without a pipeline, which only wgpu knows is wrong.
+fn refused() -> Mistake {
+    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    let mut color = frame.create_texture("color", square());
+    frame.render_pass("clear").color(&mut color, Contents::clear_color([0.0; 4]));
+    frame.node("post", |frame| {
+        let mut other = frame.create_texture("other", square());
+        let mut pass = frame.render_pass("blur");
+        pass.sample(&color);
+        pass.color(&mut other, Contents::Cover);
+        pass.body(|ctx| {
+            ctx.pass.draw(0..3, 0..1);
+            Ok(())
+        });
+        frame.export_texture(&other);
+    });
+    let compiled = graph.compile(frame).expect("the frame has no mistake");
+    let failed = compiled.execute_checked(&mut graph, &device, &queue).err().expect("wgpu objects");
+    assert!(failed.plan.find_pass("blur").is_some(), "the plan comes with the error");
+    Mistake { code: "SG0606", error: failed.error, words: &["what `post/blur` records", "pipeline"] }
+}
+
 pub(crate) fn mistakes() -> Vec<Mistake> {
     vec![
+        refused(),
         mistake(
             "SG0104",
             &["pass `b` touches `a` without", "belongs to `first`", "declare the access on `b`"],

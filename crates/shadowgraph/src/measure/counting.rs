@@ -50,9 +50,9 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.receivers()
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
         self.draws.fetch_add(casters.len() as u64, Ordering::Relaxed);
         self.triangles.fetch_add(self.casters.triangle_count(casters), Ordering::Relaxed);
-        self.casters.draw(pass, view, casters);
+        self.casters.draw(pass, view, casters)
     }
 }

@@ -168,6 +168,8 @@ pub(crate) enum Format {
     Mermaid,
     /// One page that opens in any browser
     Html,
+    /// Times of passes for chrome://tracing or ui.perfetto.dev
+    Trace,
 }
 
 /// The options that all drawing commands share.

@@ -175,6 +175,7 @@ mod tests {
             cpu_ms: 0.5,
             gpu_ms,
             shared_by,
+            ..PassTime::default()
         };
         let text = pass_table(&[
             pass("shadows/atlas/clear", Some(1.5), 2),

@@ -8,7 +8,7 @@ use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report;
-use crate::core::{Diff, HtmlPage, PassTime, Plan, Timer};
+use crate::core::{Diff, HtmlPage, PassTime, Plan, Timer, trace_json};
 use crate::options::{Aov, Options};
 use crate::output::{Pixels, write_png, write_text};
 use crate::scene::gltf::Progress as LoadProgress;
@@ -85,7 +85,8 @@ pub(crate) fn dump(args: &DumpArgs, techniques: &Techniques) -> Result<(), Failu
     }
 }
 
-fn plan_text(args: &DumpArgs, format: Format, input: Input) -> Result<String, Failure> {
+fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String, Failure> {
+    input.options.timings |= format == Format::Trace;
     let lights = input.scene.lights.clone();
     let (gpu, drawn) = planned(&args.draw, input)?;
     Ok(match format {
@@ -95,6 +96,7 @@ fn plan_text(args: &DumpArgs, format: Format, input: Input) -> Result<String, Fa
         Format::Dot => drawn.plan.to_dot(),
         Format::Mermaid => drawn.plan.to_mermaid(),
         Format::Html => drawn.plan.to_html(),
+        Format::Trace => trace_json(&drawn.times)?,
     })
 }
 
@@ -141,7 +143,7 @@ fn diff(files: &[PathBuf], format: Format) -> Result<String, Failure> {
         Format::Text => Ok(diff.to_text()),
         Format::Json => Ok(serde_json::to_string_pretty(&diff)? + "\n"),
         Format::Html => Ok(diff.to_html(&name(before), &name(after))),
-        Format::Dot | Format::Mermaid => Err(usage("--diff: is shown as text, json or html")),
+        Format::Dot | Format::Mermaid | Format::Trace => Err(usage("--diff: is shown as text, json or html")),
     }
 }
 

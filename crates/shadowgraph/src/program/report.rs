@@ -119,6 +119,7 @@ mod tests {
             cpu_ms: 1.0,
             gpu_ms,
             shared_by: 1,
+            ..PassTime::default()
         };
         let list = [time("a/x", "a", Some(2.0)), time("y", "", None), time("a/z", "a", Some(0.5))];
         let table = columns(3.0, Some(2.5));
@@ -137,6 +138,7 @@ mod tests {
             cpu_ms: 1.0,
             gpu_ms,
             shared_by,
+            ..PassTime::default()
         };
         let merged = ["clear", "first", "second"].map(|pass| time(pass, Some(6.0), 3));
         let list = [merged.as_slice(), &[time("alone", Some(0.5), 1), time("unknown", None, 3)]].concat();

@@ -50,7 +50,9 @@ mod tests {
         fn bounds(&self) -> Aabb {
             Aabb::EMPTY
         }
-        fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
+        fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 {
+            0
+        }
     }
 
     #[test]

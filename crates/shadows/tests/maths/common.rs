@@ -17,7 +17,9 @@ impl ShadowCasters for Boxes {
         self.0.iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
     }
 
-    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) {}
+    fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 {
+        0
+    }
 }
 
 pub(crate) fn cube(center: DVec3, side: f64) -> Aabb {

@@ -89,12 +89,13 @@ impl ShadowCasters for Reeds {
         Aabb { min: DVec3::new(-80.0, 0.0, -80.0), max: DVec3::new(80.0, 1.5, 80.0) }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, _casters: &[u32]) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, _casters: &[u32]) -> u32 {
         // Where a texel is as wide as a reed, its bend is not seen.
         let level = usize::from(view.texel_world > 0.02);
         self.drawn.lock().unwrap().push((view.part, level));
         pass.set_pipeline(&self.pipelines[level]);
         pass.draw(0..SEGMENTS[level] * 6, 0..100);
+        1
     }
 }
 

@@ -61,7 +61,7 @@ pub struct PictureTile {
     pub name: String,
 }
 
-/// Named outlines on a plane, such as what cameras see from above.
+/// Named outlines on a plane, such as volumes from above.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Drawing {
     /// What it shows.

@@ -143,6 +143,7 @@ impl Channel {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
     use super::*;
 
     fn values(format: Format, size: [u32; 2], bytes: &[u8]) -> Vec<f32> {

@@ -9,6 +9,7 @@ use egui::{ComboBox, Image, InputState, Key, ScrollArea, Sense, TextureId, Ui, l
 
 use super::fly::Steer;
 use super::stage::Stage;
+use crate::core::TimeSummary;
 use crate::options::{Aov, PIPELINES};
 use crate::shadows::Technique;
 use graph::GraphPanel;
@@ -190,13 +191,11 @@ fn scene(ui: &mut Ui, stage: &mut Stage, adapter: &str) -> Option<Wish> {
     ui.separator();
     let position = stage.fly.camera().position_world();
     ui.monospace(format!("camera {:.1} {:.1} {:.1}", position.x, position.y, position.z));
-    let gpu_ms: f64 = stage
-        .times
-        .summary()
-        .iter()
-        .filter_map(|time| Some(time.gpu_ms?.median / f64::from(time.shared_by.max(1))))
-        .sum();
-    ui.monospace(format!("GPU {gpu_ms:.2} ms, the median of {} frames", stage.times.frames()));
+    let own_ms = |time: &TimeSummary| Some(time.gpu_ms?.median / f64::from(time.shared_by.max(1)));
+    let gpu_ms = stage.times.summary().iter().filter_map(own_ms).reduce(|a, b| a + b);
+    if let Some(gpu_ms) = gpu_ms {
+        ui.monospace(format!("GPU {gpu_ms:.2} ms, the median of {} frames", stage.times.frames()));
+    }
     ui.separator();
     ui.weak("W A S D or arrows fly, E and Q up and down, Shift faster; drag to look around; T is the next technique.");
     wish

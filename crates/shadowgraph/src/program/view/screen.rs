@@ -78,6 +78,7 @@ impl Screen {
     }
 
     /// Draws the scene and the panel, and returns what the user wants beside them.
+    #[allow(clippy::iter_over_hash_type, reason = "textures are made and freed in any order")]
     pub(super) fn draw(&mut self, stage: &mut Stage) -> Result<Option<Wish>, Error> {
         let raw = self.input.take_egui_input(&self.window);
         let context = self.input.egui_ctx().clone();

@@ -1,0 +1,104 @@
+//! Recording step by step, so that what wgpu objects to has the name of a pass.
+
+use super::Executed;
+use super::context::Body;
+use super::record::prepare;
+use crate::compiled::Compiled;
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::handle::PassId;
+use crate::plan::Plan;
+use std::sync::Arc;
+
+/// A frame that could not be recorded, with its plan.
+#[derive(Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct FailedFrame {
+    /// What went wrong, and in which pass.
+    #[source]
+    pub error: Error,
+    /// The plan of the frame, to be looked at: [`Plan::to_html`] and its like.
+    pub plan: Arc<Plan>,
+}
+
+impl Compiled<'_> {
+    /// Records and submits the frame like [`execute`](Self::execute), but each step in a command buffer of its own, and stops at
+    /// the first that wgpu objects to: the error names its passes, and the plan comes with it. For debugging, as it costs a
+    /// command buffer for every step and waits for wgpu's answer to each.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
+    /// # use shadowgraph_core::wgpu;
+    /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    /// let mut graph = Graph::new();
+    /// let mut frame = graph.frame();
+    /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    /// let mut pass = frame.render_pass("draws without a pipeline");
+    /// pass.color(&mut color, Contents::clear_color([0.0; 4]));
+    /// pass.body(|ctx| {
+    ///     ctx.pass.draw(0..3, 0..1);
+    ///     Ok(())
+    /// });
+    /// frame.export_texture(&color);
+    /// let failed = graph.compile(frame)?.execute_checked(&mut graph, &device, &queue).err().ok_or("it draws")?;
+    /// assert!(failed.to_string().starts_with("SG0606: wgpu refuses what `draws without a pipeline` records: "));
+    /// std::fs::write(std::env::temp_dir().join("failed_frame.html"), failed.plan.to_html())?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for what wgpu objects to; else as `execute`. Nothing is submitted then.
+    pub fn execute_checked(
+        self,
+        graph: &mut Graph,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Executed, Box<FailedFrame>> {
+        let plan = self.plan.clone();
+        record(self, graph, device, queue).map_err(|error| Box::new(FailedFrame { error, plan }))
+    }
+}
+
+fn record(
+    mut compiled: Compiled<'_>,
+    graph: &mut Graph,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+) -> Result<Executed, Error> {
+    let pool = &mut graph.device;
+    let encoder = || device.create_command_encoder(&Default::default());
+    let (mut first, mut last) = (encoder(), encoder());
+    let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
+    let prepared = prepare(&compiled, pool, device, &mut first, Some(&last))?;
+    let recording = prepared.recording(&compiled, pool, device, None);
+    let mut buffers = vec![first.finish()];
+    for (index, step) in compiled.plan.steps().enumerate() {
+        let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let mut encoder = encoder();
+        let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
+        let recorded = recording.steps(index..index + 1, &mut encoder, take);
+        buffers.push(encoder.finish());
+        let objection = wait(scope.pop());
+        recorded?;
+        if let Some(objection) = objection {
+            return Err(refused(&compiled.plan, step.passes, &objection));
+        }
+    }
+    let read_backs = recording.read_backs(&compiled.frame.work.read_backs, &mut last)?;
+    compiled.frame.work.bodies = bodies;
+    buffers.push(last.finish());
+    queue.submit(buffers);
+    Ok(prepared.finish(compiled, pool, read_backs))
+}
+
+fn refused(plan: &Plan, passes: &[PassId], objection: &wgpu::Error) -> Error {
+    let names: Vec<String> = passes.iter().map(|&pass| format!("`{}`", plan.pass_path(pass))).collect();
+    let message = objection.to_string();
+    let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    Error::Refused { passes: names.join(", "), message: lines.join("; ") }
+}
+
+/// wgpu's error scopes are answered at once where there is a driver on this machine; a future all the same.
+fn wait<T>(future: impl Future<Output = T>) -> T {
+    pollster::block_on(future)
+}
