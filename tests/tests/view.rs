@@ -191,7 +191,9 @@ fn changed(a: &Picture, b: &Picture) -> f64 {
 
 /// Whether the scene is drawn, left of the panel.
 fn lit(picture: &Picture) -> bool {
-    picture.get_pixel(20, 20).0.iter().all(|&channel| channel > 60)
+    let bright =
+        picture.enumerate_pixels().filter(|(x, _, pixel)| *x < 150 && pixel.0.iter().all(|&c| c > 60));
+    bright.count() > 150 * 360 / 5
 }
 
 const F2: u32 = 0xffbf;
@@ -262,6 +264,29 @@ fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
     assert!(changed(&scene(&before), &scene(&broken)) < 0.001, "the last good picture stays");
     std::fs::write(&file, good.replace("@fragment", "\n@fragment")).unwrap();
     view.until("the mistake to be gone", |view| changed(&before, &view.picture()) < 0.02);
+    let (status, errors) = view.close();
+    assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
+}
+
+#[test]
+fn a_saved_settings_file_is_read_again_and_a_mistake_in_it_is_told() {
+    let Some(display) = Display::open() else { return };
+    if !drivers() {
+        return skip("view", "no graphics driver is installed");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("settings.ron");
+    std::fs::write(&file, "(distance_m: 60.0)").unwrap();
+    let mut view = View::start(&display, &["--settings", file.to_str().unwrap(), "--technique", "none"]);
+    view.until("the scene", |view| lit(&view.picture()));
+    std::thread::sleep(Duration::from_secs(1));
+    let before = view.picture();
+    std::fs::write(&file, "(distance_m: 0.0)").unwrap();
+    view.draws_on(&before);
+    let told = view.keep("7 settings mistake");
+    std::fs::write(&file, "(distance_m: 70.0)").unwrap();
+    view.draws_on(&told);
+    view.keep("8 settings again");
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
 }

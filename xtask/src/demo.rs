@@ -1,4 +1,4 @@
-//! `cargo xtask demo`: the built-in scene as a picture and its graph as text, JSON and DOT.
+//! `cargo xtask demo`: the built-in scene as a picture and its graph as a page, text, JSON and DOT.
 
 use crate::child::{self, RuntimeFolder};
 use crate::driver::{self, Need};
@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// The program's arguments, the file that they write, and what it is.
-const PRODUCTS: [(&[&str], &str, &str); 4] = [
+const PRODUCTS: [(&[&str], &str, &str); 5] = [
     (&["render"], "out/demo.png", "the built-in scene"),
-    (&["dump", "--format", "text"], "out/demo.txt", "its render graph as a table, with reasons"),
+    (&["dump", "--format", "html"], "out/demo.html", "its render graph as a page for any browser"),
+    (&["dump", "--format", "text"], "out/demo.txt", "the same as a table, with reasons"),
     (&["dump", "--format", "json"], "out/demo.json", "the same as data"),
     (&["dump", "--format", "dot"], "out/demo.dot", "the same for Graphviz"),
 ];
@@ -18,7 +19,7 @@ Try next:
   cargo run -- render your.glb --sun \"dir=-1,-2,-1 lux=20000 color=1,0.95,0.9\" -o out/yours.png
   cargo run -- render --aov visibility:0 -o out/sun_visibility.png
   cargo run -- render --aov atlas -o out/atlas.png
-  dot -Tsvg out/demo.dot -o out/demo.svg
+  cargo run -- view
 ";
 
 pub(crate) fn run() -> ExitCode {

@@ -69,6 +69,7 @@ fn corners(view: &ShadowView) -> [Vec3; 8] {
 fn hull(points: [DVec2; 8]) -> Vec<[f32; 2]> {
     let mut points: Vec<DVec2> = points.into_iter().filter(|point| point.is_finite()).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup();
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut chain: Vec<DVec2> = Vec::new();
         for point in points {

@@ -11,7 +11,7 @@ const USEFUL: &str = "\
 The three most useful commands:
   shadowgraph render model.glb --sun \"dir=-1,-2,-1 lux=20000\" -o out/model.png
   shadowgraph render model.glb --aov visibility:0 -o out/shadow.png
-  shadowgraph dump model.glb --format text
+  shadowgraph dump model.glb --format html -o out/frame.html
 
 Without a SCENE the built-in demo scene is taken.";
 

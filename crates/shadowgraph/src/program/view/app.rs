@@ -80,9 +80,10 @@ impl App {
             Some(Wish::SaveSettings) => {
                 match ron::ser::to_string_pretty(&self.stage.settings, Default::default()) {
                     Ok(text) => self.save("settings.ron", &text),
-                    Err(error) => self.stage.error = Some(error.to_string()),
+                    Err(error) => self.stage.refused = Some(error.to_string()),
                 }
             }
+            Some(Wish::Open(file)) => self.stage.open(file.as_deref()),
             None => {}
         }
         Ok(())
@@ -92,7 +93,7 @@ impl App {
         let file: PathBuf = Path::new(FOLDER).join(name);
         match write_text(&file, text) {
             Ok(()) => self.stage.note = format!("wrote {}", file.display()),
-            Err(error) => self.stage.error = Some(error.to_string()),
+            Err(error) => self.stage.refused = Some(error.to_string()),
         }
     }
 }
@@ -120,6 +121,7 @@ impl ApplicationHandler for App {
         match event {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
             WindowEvent::Resized(size) => screen.resize(size),
+            WindowEvent::DroppedFile(file) => self.stage.open(Some(&file)),
             WindowEvent::Focused(_) | WindowEvent::Occluded(false) => screen.window.request_redraw(),
             WindowEvent::RedrawRequested => {
                 if let Err(error) = self.draw() {

@@ -5,7 +5,10 @@ mod graph;
 mod limits;
 mod settings;
 
-use egui::{ComboBox, Image, InputState, Key, ScrollArea, Sense, TextureId, Ui, load::SizedTexture};
+use std::path::PathBuf;
+
+use egui::load::SizedTexture;
+use egui::{ComboBox, Image, InputState, Key, ScrollArea, Sense, TextEdit, TextureId, Ui};
 
 use super::fly::Steer;
 use super::stage::Stage;
@@ -16,8 +19,10 @@ use graph::GraphPanel;
 use settings::SettingsPanel;
 
 /// What is to be done after the frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Wish {
+    /// Show another scene; `None`: the built-in one.
+    Open(Option<PathBuf>),
     /// Write a page about the frame, drawn in this size.
     SaveDump { size_px: [u32; 2] },
     /// Write the settings to a file.
@@ -42,6 +47,8 @@ enum Page {
 #[derive(Default)]
 pub(super) struct Panel {
     page: Page,
+    /// The scene's file, as it is typed.
+    file: String,
     settings: SettingsPanel,
     graph: GraphPanel,
 }
@@ -71,13 +78,20 @@ impl Panel {
                 }
             });
             ui.separator();
+            if let Some(refused) = &stage.refused {
+                ui.colored_label(ui.visuals().error_fg_color, refused);
+                ui.separator();
+            }
             if let Some(error) = &stage.error {
                 ui.colored_label(ui.visuals().error_fg_color, error);
                 ui.weak("The picture is the last good one.");
                 ui.separator();
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match self.page {
-                Page::Scene => wish = scene(ui, stage, adapter),
+                Page::Scene => {
+                    ui.weak(adapter);
+                    wish = self.open(ui).or(scene(ui, stage));
+                }
                 Page::Settings => wish = self.settings.show(ui, stage),
                 Page::Graph => self.graph.show(ui, stage),
             });
@@ -105,9 +119,27 @@ impl Panel {
             Wish::SaveDump { .. } => {
                 Wish::SaveDump { size_px: size_points.map(|p| (p * scale).max(1.0) as u32) }
             }
-            Wish::SaveSettings => wish,
+            Wish::SaveSettings | Wish::Open(_) => wish,
         });
         Shown { size_points, wish }
+    }
+
+    /// Another scene, by the name of its file.
+    fn open(&mut self, ui: &mut Ui) -> Option<Wish> {
+        let mut wish = None;
+        ui.horizontal(|ui| {
+            let hint =
+                TextEdit::singleline(&mut self.file).hint_text("a glTF or GLB file").desired_width(200.0);
+            let typed = ui.add(hint);
+            let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if (ui.button("Open").clicked() || entered) && !self.file.is_empty() {
+                wish = Some(Wish::Open(Some(PathBuf::from(self.file.trim()))));
+            }
+            if ui.button("Built-in").clicked() {
+                wish = Some(Wish::Open(None));
+            }
+        });
+        wish
     }
 
     /// Keys that work while nothing is typed: pages, the next technique, freezing.
@@ -152,8 +184,7 @@ pub(in crate::program::view) fn steer(input: &InputState) -> Steer {
     }
 }
 
-fn scene(ui: &mut Ui, stage: &mut Stage, adapter: &str) -> Option<Wish> {
-    ui.weak(adapter);
+fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
     ui.horizontal(|ui| {
         ui.label("Technique");
         technique(ui, stage);

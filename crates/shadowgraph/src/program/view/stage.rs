@@ -1,14 +1,14 @@
 //! What is shown: a scene, drawn by a renderer that is made anew when the method changes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::fly::Fly;
 use super::reload::Watched;
 use crate::core::{Format, Plan, TimeHistory, Timer};
-use crate::options::{Aov, Pipeline, SettingsFile};
+use crate::options::{Aov, Pipeline, SettingsFile, ShadowDistance, SunChoice};
 use crate::program::args::ViewArgs;
-use crate::program::commands::Input;
+use crate::program::commands::{Input, load};
 use crate::program::failure::Failure;
 use crate::scene::Scene;
 use crate::shadows::{ShadowSettings, Technique, Techniques};
@@ -34,6 +34,8 @@ pub(super) struct Stage {
     pub(super) plan: Option<Arc<Plan>>,
     /// Why the last frame is not the newest.
     pub(super) error: Option<String>,
+    /// Why a file was not taken, until one is.
+    pub(super) refused: Option<String>,
     /// What was done last.
     pub(super) note: String,
     pub(super) settings_file: Option<PathBuf>,
@@ -71,6 +73,7 @@ impl Stage {
             times: TimeHistory::new(FRAMES),
             plan: None,
             error: None,
+            refused: None,
             note: String::new(),
             watched_settings: Watched::new(settings_file.clone()),
             settings_file,
@@ -79,6 +82,22 @@ impl Stage {
             made: None,
             failed: None,
         })
+    }
+
+    /// Shows another scene, from its first camera; the built-in one without a file. One that cannot be read changes nothing.
+    pub(super) fn open(&mut self, file: Option<&Path>) {
+        let mut scene = match load(file) {
+            Ok(scene) => scene,
+            Err(failure) => return self.refused = Some(failure.message),
+        };
+        let name = file.map_or("the built-in scene".into(), |file| file.display().to_string());
+        self.note = SunChoice::default().apply(&mut scene).unwrap_or(name);
+        let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
+        let view = ViewOptions { camera: camera.clone(), size_px: [16, 9], shadows: self.settings.clone() };
+        self.settings = view.with_shadow_distance(ShadowDistance::Auto, &scene).shadows;
+        self.fly = Fly::new(camera, scene.bounds().radius());
+        (self.scene, self.aov, self.frozen) = (scene, Aov::default(), false);
+        (self.renderer, self.made, self.failed, self.refused) = (None, None, None, None);
     }
 
     /// Reads again what was saved since the last frame.
@@ -92,10 +111,10 @@ impl Stage {
         {
             match SettingsFile::load(file, &self.techniques) {
                 Ok(read) => {
-                    (self.settings, self.error) = (read.settings, None);
+                    (self.settings, self.refused) = (read.settings, None);
                     self.note = format!("{} was read again", file.display());
                 }
-                Err(error) => self.error = Some(error.to_string()),
+                Err(error) => self.refused = Some(error.to_string()),
             }
         }
     }

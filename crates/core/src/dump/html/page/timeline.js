@@ -11,26 +11,47 @@ const timelineView = {
     used.sort((a, b) => first(a) - first(b) || a - b);
     const width = CELL.names + order.length * CELL.width + 140;
     const height = CELL.heads + used.length * CELL.height + 10;
+    // Names stay in sight while the rest is scrolled.
+    const paper = (wide, high) => s('rect', { width: wide, height: high, fill: 'var(--card)' });
+    const heads = s('g', {}, paper(width, CELL.heads), order.map((pass, place) => this.head(pass, place)));
+    const names = s('g', {}, paper(CELL.names - 4, height), used.map((resource, row) => this.label(resource, row)));
+    const corner = s('g', {}, paper(CELL.names - 4, CELL.heads));
     this.svg = s('svg', { width, height, role: 'group', 'aria-label': 'When each resource is in use' },
       order.map((pass, place) => this.column(pass, place, height)),
-      used.map((resource, row) => this.row(resource, row, width)));
+      used.map((resource, row) => this.row(resource, row, width)), names, heads, corner);
+    const stay = (event) => {
+      const { scrollLeft: left, scrollTop: top } = event.target;
+      names.setAttribute('transform', `translate(${left} 0)`);
+      heads.setAttribute('transform', `translate(0 ${top})`);
+      corner.setAttribute('transform', `translate(${left} ${top})`);
+    };
     panel.append(
       h('div', { class: 'bar' },
         h('span', {}, swatch('var(--write)', '■ writes'), ' ', swatch('var(--read)', '● reads'), ' ', swatch('var(--both)', '◆ keeps and writes')),
         h('span', { class: 'hint' }, 'A bar runs from first to last use. Columns of one shade share a render pass.')),
-      h('div', { class: 'scroll' }, this.svg));
+      h('div', { class: 'scroll flush', onscroll: stay }, this.svg));
   },
 
   column(pass, place, height) {
     const x = CELL.names + place * CELL.width;
     const { place: at } = passes[pass];
     const shade = at.step % 2 ? 'var(--wash)' : 'transparent';
-    return s('g', { class: 'col' },
-      s('rect', { x, y: CELL.heads, width: CELL.width, height: height - CELL.heads, fill: shade }),
-      s('text', {
-        class: 'unit', tabindex: '0', role: 'button', transform: `translate(${x + 14} ${CELL.heads - 6}) rotate(-55)`,
-        ...press(() => choose({ pass })), ...hint(`${passPath(pass)}\nstep ${at.step}: ${at.why}`),
-      }, clip(passes[pass].name, 26)));
+    return s('g', { class: 'col' }, s('rect', { x, y: CELL.heads, width: CELL.width, height: height - CELL.heads, fill: shade }));
+  },
+
+  head(pass, place) {
+    const { place: at } = passes[pass];
+    return s('text', {
+      class: 'unit', tabindex: '0', role: 'button', transform: `translate(${CELL.names + place * CELL.width + 14} ${CELL.heads - 6}) rotate(-55)`,
+      ...press(() => choose({ pass })), ...hint(`${passPath(pass)}\nstep ${at.step}: ${at.why}`),
+    }, clip(passes[pass].name, 26));
+  },
+
+  label(resource, row) {
+    return s('text', {
+      class: 'unit', tabindex: '0', role: 'button', x: CELL.names - 12, y: CELL.heads + row * CELL.height + 14, 'text-anchor': 'end',
+      ...press(() => choose({ resource })), ...hint(`${resources[resource].name}: ${resources[resource].shape}, ${bytes(resources[resource].bytes)}\n${resources[resource].origin}`),
+    }, clip(resources[resource].name, 34));
   },
 
   row(resource, row, width) {
@@ -52,10 +73,6 @@ const timelineView = {
     };
     return s('g', { class: 'row' },
       s('rect', { class: 'band', x: 0, y, width, height: CELL.height }),
-      s('text', {
-        class: 'unit', tabindex: '0', role: 'button', x: CELL.names - 8, y: y + 14, 'text-anchor': 'end',
-        ...press(() => choose({ resource })), ...hint(`${resources[resource].name}: ${resources[resource].shape}, ${bytes(resources[resource].bytes)}\n${resources[resource].origin}`),
-      }, clip(resources[resource].name, 34)),
       s('rect', { x: centre(start) - 3, y: y + 7, width: centre(end) - centre(start) + 6, height: 6, rx: 3, fill: 'var(--line)' }),
       uses.map(mark));
   },

@@ -91,6 +91,7 @@ fn variant(name: &str, error: &dyn Fn(Value) -> String) -> Option<Value> {
         Value::Null,
         0.5.into(),
         1.into(),
+        2.0.into(),
         serde_json::json!([0.1, 0.3, 0.6]),
         serde_json::json!([0.5, 0.5]),
         Value::String(String::new()),
