@@ -120,7 +120,11 @@ impl ApplicationHandler for App {
         }
         match event {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
-            WindowEvent::Resized(size) => screen.resize(size),
+            WindowEvent::Resized(size) => {
+                if let Err(error) = screen.resize(size) {
+                    self.fail(event_loop, error);
+                }
+            }
             WindowEvent::DroppedFile(file) => self.stage.open(Some(&file)),
             WindowEvent::Focused(_) | WindowEvent::Occluded(false) => screen.window.request_redraw(),
             WindowEvent::RedrawRequested => {

@@ -62,11 +62,11 @@ impl Screen {
         Ok(Self { window, surface, config, gpu, input, painter, panel: Panel::default(), picture: None })
     }
 
-    pub(super) fn resize(&mut self, size: PhysicalSize<u32>) {
+    pub(super) fn resize(&mut self, size: PhysicalSize<u32>) -> Result<(), Error> {
         // A minimised window has no size, and a surface must have one.
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         (self.config.width, self.config.height) = (size.width.clamp(1, limit), size.height.clamp(1, limit));
-        self.surface.configure(&self.gpu.device, &self.config);
+        self.configure()
     }
 
     /// Says in the title what is shown.
@@ -142,43 +142,61 @@ impl Screen {
         }
     }
 
+    /// Fits the surface to the window. A window that was taken away can have none.
+    fn configure(&self) -> Result<(), Error> {
+        let Self { gpu, surface, config, .. } = self;
+        gpu.checked(|| {
+            surface.configure(&gpu.device, config);
+            Ok(())
+        })
+        .map_err(gone)
+    }
+
     fn paint(&mut self, shapes: &[egui::ClippedPrimitive], scale: f32) -> Result<(), Error> {
         use wgpu::CurrentSurfaceTexture::{Lost, Outdated, Suboptimal, Success, Validation};
-        let target = match self.surface.get_current_texture() {
+        let Self { gpu, surface, .. } = self;
+        let target = match gpu.checked(|| Ok(surface.get_current_texture())).map_err(gone)? {
             Success(texture) | Suboptimal(texture) => texture,
-            Outdated | Lost => {
-                self.surface.configure(&self.gpu.device, &self.config);
-                return Ok(());
-            }
-            Validation => return Err(Error::Gpu("the window's surface is not valid any more".into())),
+            Outdated | Lost => return self.configure(),
+            Validation => return Err(gone("its surface is not valid any more")),
             // Hidden or late: the next frame may do better.
             _ => return Ok(()),
         };
-        let device = &self.gpu.device;
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let size_in_pixels = [self.config.width, self.config.height];
+        let Self { gpu, painter, config, .. } = self;
+        let (device, queue) = (&gpu.device, &gpu.queue);
+        let size_in_pixels = [config.width, config.height];
         let screen = ScreenDescriptor { size_in_pixels, pixels_per_point: scale };
-        let queue = &self.gpu.queue;
-        let commands = self.painter.update_buffers(device, queue, &mut encoder, shapes, &screen);
-        let view = target.texture.create_view(&Default::default());
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("panel"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            ..Default::default()
+        let painted = gpu.checked(|| {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            let commands = painter.update_buffers(device, queue, &mut encoder, shapes, &screen);
+            let view = target.texture.create_view(&Default::default());
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("panel"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            painter.render(&mut pass.forget_lifetime(), shapes, &screen);
+            queue.submit(commands.into_iter().chain([encoder.finish()]));
+            queue.present(target);
+            Ok(())
         });
-        self.painter.render(&mut pass.forget_lifetime(), shapes, &screen);
-        queue.submit(commands.into_iter().chain([encoder.finish()]));
-        queue.present(target);
-        Ok(())
+        painted.map_err(gone)
     }
+}
+
+/// What a window that was taken away comes to.
+fn gone(reason: impl std::fmt::Display) -> Error {
+    let reason = reason.to_string();
+    let lines: Vec<&str> = reason.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    Error::Gpu(format!("the window is gone: {}", lines.join("; ")))
 }
 
 fn target(device: &wgpu::Device, [width, height]: [u32; 2], format: Format) -> wgpu::Texture {
