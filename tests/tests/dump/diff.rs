@@ -111,7 +111,7 @@ fn a_file_that_is_no_dump_is_refused_in_one_line() {
     };
     let (code, error) = diff([&file, &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
-    assert!(error.contains("the first: it has no `schema`"), "{error}");
+    assert!(error.contains("bad.json: it has no `schema`"), "{error}");
     let (code, error) = diff([&folder.path().join("none.json"), &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
     assert!(error.contains("none.json: cannot be read"), "{error}");

@@ -137,7 +137,13 @@ fn diff(files: &[PathBuf], format: Format) -> Result<String, Failure> {
         };
         std::fs::read_to_string(file).map_err(failed)
     };
-    let diff = Diff::of_json(&read(before)?, &read(after)?)?;
+    let diff = Diff::of_json(&read(before)?, &read(after)?).map_err(|error| {
+        let named = [("the first", before), ("the second", after)];
+        let message = named.iter().fold(error.to_string(), |message, (which, file)| {
+            message.replacen(which, &file.display().to_string(), 1)
+        });
+        Failure { code: Failure::INPUT, message: format!("--diff: {message}") }
+    })?;
     let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     match format {
         Format::Text => Ok(diff.to_text()),

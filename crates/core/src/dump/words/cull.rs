@@ -38,7 +38,10 @@ impl Plan {
             let readers: Vec<String> =
                 self.readers(pass, &access).into_iter().map(|p| quoted(&self.pass_path(p))).collect();
             match (readers.is_empty(), self.root_words(&access)) {
-                (false, _) => needs.push(format!("{} needs `{name}`", list(&readers, NAMES))),
+                (false, _) => {
+                    let verb = if readers.len() > 1 { "need" } else { "needs" };
+                    needs.push(format!("{} {verb} `{name}`", list(&readers, NAMES)));
+                }
                 (true, Some(root)) => needs.push(format!("`{name}` {root}")),
                 (true, None) => {}
             }
