@@ -99,4 +99,17 @@ fn a_name_that_nothing_has_is_an_error_with_the_nearest() {
     let error = culled().explain("?").unwrap_err().to_string();
     assert!(error.ends_with("`dump` lists them"), "{error}");
     assert!(culled().explain_order("light", "ligth").is_err());
+    let error = culled().explain_order("lit", "light").unwrap_err().to_string();
+    assert!(error.contains("it is a resource, and an order is one of passes"), "{error}");
+}
+
+#[test]
+fn the_name_of_a_node_leads_to_its_passes() {
+    let mut frame = Frame::new();
+    frame.node("post", |frame| {
+        let mut target = frame.create_texture("target", color());
+        frame.render_pass("blur").color(&mut target, Contents::clear_color([0.0; 4]));
+    });
+    let error = frame.compile().unwrap().into_plan().explain("post").unwrap_err().to_string();
+    assert!(error.ends_with("`post`: it is a node, of `post/blur`"), "{error}");
 }

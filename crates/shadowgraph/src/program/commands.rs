@@ -16,8 +16,14 @@ use crate::scene::{Camera, Scene};
 use crate::shadows::{Techniques, Unshadowed};
 use crate::{Drawn, Gpu, Method, Picture, Renderer, ViewOptions};
 
-/// What pages are called.
+/// What pages are called, with the scene's file behind it.
 const TITLE: &str = "Shadowgraph frame";
+
+/// What the page about a scene is called.
+fn title(args: &DrawArgs) -> String {
+    let file = args.scene.as_deref().and_then(Path::file_name);
+    file.map_or(TITLE.into(), |file| format!("{TITLE}: {}", file.to_string_lossy()))
+}
 
 /// What every drawing command starts from.
 pub(crate) struct Input {
@@ -102,13 +108,13 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
 
 /// The page about a frame, with pictures where there is something to draw with.
 fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
-    let lights = input.scene.lights.clone();
+    let (lights, notes) = (input.scene.lights.clone(), input.scene.notes.clone());
     let gpu = match Gpu::open(&input.options.adapter) {
         Ok(gpu) => gpu,
         Err(error) if args.names_adapter() || args.times() => return Err(Failure::no_device(error)),
         Err(error) => {
             let (_, Planned { plan, .. }) = planned(args, input)?;
-            let mut page = HtmlPage::new(&plan).with_title(TITLE);
+            let mut page = HtmlPage::new(&plan).with_title(&title(args));
             page.notes.push(format!("There are no pictures and no times: {error}."));
             return Ok(page.to_html());
         }
@@ -119,10 +125,11 @@ fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
     let method = Method { technique, pipeline, samples };
     let mut renderer = Renderer::with(&gpu, input.scene, &input.camera, aov, method)?;
     let inspected = renderer.inspect(&gpu, &view)?;
-    let mut page = inspected.page(&lights, &view).with_title(TITLE);
+    let mut page = inspected.page(&lights, &view).with_title(&title(args));
     let [width, height] = view.size_px;
     page.notes.push(format!("{width} x {height} pixels, drawn by {}.", gpu.adapter.name));
     page.notes.push(format!("Technique {}, pipeline {}.", technique.name(), pipeline.name()));
+    page.notes.extend(notes);
     page.notes.extend(report::unshadowed(&inspected.drawn.unshadowed));
     Ok(page.to_html())
 }

@@ -1,5 +1,6 @@
 //! Passes and resources by the names that people type.
 
+use crate::dump::words::{list, quoted};
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::plan::Plan;
@@ -55,6 +56,19 @@ impl Plan {
     }
 
     fn no_such_name(&self, name: &str) -> Error {
+        let refused = |hint: String| Error::NoSuchName { name: name.into(), hint };
+        // Asked for as a pass.
+        if self.resources().any(|(_, resource)| resource.name == name) {
+            return refused(" that is a pass: it is a resource, and an order is one of passes".into());
+        }
+        let paths = |id| self.pass_path(id);
+        let inside =
+            |path: &String| path.starts_with(&format!("{name}/")) || path.contains(&format!("/{name}/"));
+        let members: Vec<String> =
+            self.passes().map(|(id, _)| paths(id)).filter(inside).map(|path| quoted(&path)).collect();
+        if !members.is_empty() {
+            return refused(format!(": it is a node, of {}", list(&members, 200)));
+        }
         let paths = self.passes().flat_map(|(id, pass)| [self.pass_path(id), pass.name.to_owned()]);
         let names = paths.chain(self.resources().map(|(_, resource)| resource.name.to_owned()));
         let rated = names.map(|known| (strsim::jaro_winkler(&known, name), known));
@@ -63,6 +77,6 @@ impl Plan {
             Some((_, nearest)) => format!("; did you mean `{nearest}`?"),
             None => "; `dump` lists them".into(),
         };
-        Error::NoSuchName { name: name.into(), hint }
+        refused(hint)
     }
 }
