@@ -10,7 +10,7 @@
 import json
 import sys
 
-SCHEMA = 2
+SCHEMA = 3
 
 
 def node_path(nodes, node):
@@ -33,15 +33,21 @@ def byte_count(desc):
     if per_texel is None:
         return None
     size = texture["size"]
-    texels = size["width"] * size["height"] * size["depthOrArrayLayers"]
-    return texels * per_texel * texture["samples"]
+    texels = 0
+    for mip in range(texture["mip_levels"]):
+        texels += max(1, size["width"] >> mip) * max(1, size["height"] >> mip)
+    return texels * size["depthOrArrayLayers"] * per_texel * texture["samples"]
 
 
 def main(file):
-    with open(file, encoding="utf-8") as source:
-        dump = json.load(source)
-    if dump.get("schema") != SCHEMA:
-        sys.exit(f"{file}: schema {dump.get('schema')}, and this reads {SCHEMA}")
+    try:
+        with open(file, encoding="utf-8") as source:
+            dump = json.load(source)
+    except (OSError, ValueError) as problem:
+        sys.exit(f"{file}: {problem}")
+    schema = dump.get("schema") if isinstance(dump, dict) else None
+    if schema != SCHEMA:
+        sys.exit(f"{file}: schema {schema}, and this reads {SCHEMA}")
     plan, summary = dump["plan"], dump["summary"]
     ran = summary["passes"] - summary["culled"]
     print(f"{ran} passes in {summary['steps']} steps, {summary['culled']} culled")
@@ -55,7 +61,11 @@ def main(file):
         print(f"  {step:>3}  {', '.join(names)}")
 
     print("\nlargest resources")
-    sized = [(byte_count(resource["desc"]) or 0, resource["name"]) for resource in plan["resources"]]
+    nodes = plan["nodes"]
+    sized = [
+        (byte_count(resource["desc"]) or 0, node_path(nodes, resource["node"]) + resource["name"])
+        for resource in plan["resources"]
+    ]
     for size, name in sorted(sized, reverse=True)[:5]:
         print(f"  {size / 1048576:7.1f} MiB  {name}")
 

@@ -29,6 +29,10 @@ impl Display {
             skip("view", "Xvfb is not installed");
             return None;
         }
+        if !drivers() {
+            skip("view", "no graphics driver is installed");
+            return None;
+        }
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1024x640x24", "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -213,9 +217,6 @@ const F3: u32 = 0xffc0;
 #[test]
 fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     let Some(display) = Display::open() else { return };
-    if !drivers() {
-        return skip("view", "no graphics driver is installed");
-    }
     let mut view = View::start(&display, &[]);
     let empty = Picture::new(640, 360);
     view.until("the scene", |view| lit(&view.picture()));
@@ -256,9 +257,6 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
 #[test]
 fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
     let Some(display) = Display::open() else { return };
-    if !drivers() {
-        return skip("view", "no graphics driver is installed");
-    }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("tonemap.wgsl");
     let good = std::fs::read_to_string(repository().join("shaders/wgsl/tonemap.wgsl")).unwrap();
@@ -282,9 +280,6 @@ fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
 #[test]
 fn a_saved_settings_file_is_read_again_and_a_mistake_in_it_is_told() {
     let Some(display) = Display::open() else { return };
-    if !drivers() {
-        return skip("view", "no graphics driver is installed");
-    }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("settings.ron");
     std::fs::write(&file, "(distance_m: 60.0)").unwrap();

@@ -1,10 +1,10 @@
 //! How a pass touches a resource, and what becomes of the contents.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// One way of touching a texture or buffer. Usage flags follow from it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Access {
     /// Colour attachment of this index.

@@ -198,6 +198,7 @@ pub(crate) struct PartDecl {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ResourceDecl {
     pub(crate) name: Text,
+    pub(crate) node: Option<NodeId>,
     pub(crate) desc: ResourceDesc,
     pub(crate) origin: Origin,
     /// How many writes have been declared.
@@ -334,6 +335,16 @@ impl Declaration {
             path.push('/');
         }
         path.push_str(self.names.get(pass.name));
+    }
+
+    /// The resource's name with the nodes that it was declared in before it.
+    pub(crate) fn resource_path(&self, id: ResourceId) -> String {
+        let mut path = String::new();
+        if let Some(node) = self.resource(id).node {
+            self.write_node_path(node, &mut path);
+            path.push('/');
+        }
+        path + self.resource_name(id)
     }
 
     pub(crate) fn write_node_path(&self, id: NodeId, path: &mut String) {

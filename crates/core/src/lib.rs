@@ -71,7 +71,8 @@ pub use compiled::Compiled;
 pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 pub use dump::{
-    Diff, Difference, Drawing, HtmlPage, Outline, Picture, PictureTile, Subject, TexelValues, Texels,
+    Diff, Difference, Drawing, Dump, HtmlPage, Outline, PageTable, Picture, PictureTile, Subject,
+    TexelValues, Texels,
 };
 pub use error::Error;
 #[cfg(feature = "gpu")]

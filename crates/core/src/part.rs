@@ -4,12 +4,12 @@
 mod tests;
 
 use crate::desc::{Extent, ResourceDesc, TextureDesc};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use wgpu_types::TextureDimension;
 
 /// A rectangle of texels, for tiles of an atlas.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Rect {
     /// Left edge in texels.
     pub x: u32,
@@ -29,7 +29,7 @@ impl Rect {
 }
 
 /// Which aspect of a depth-stencil texture is meant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Aspect {
     /// All that the format has.
     #[default]
@@ -53,7 +53,7 @@ pub enum Aspect {
 /// let header = Part::WHOLE.bytes(0..64);
 /// # let _ = (second_mip_of_face, tile, header);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Part {
     pub(crate) mips: Option<(u32, u32)>,
     pub(crate) layers: Option<(u32, u32)>,

@@ -148,6 +148,8 @@ pub enum StoreAction {
 pub struct ResourcePlan<'p> {
     /// The name it was declared under.
     pub name: &'p str,
+    /// The node that declared it.
+    pub node: Option<NodeId>,
     /// Its shape.
     pub desc: ResourceDesc,
     /// Where it comes from.
@@ -322,6 +324,7 @@ impl Plan {
         let fate = &self.fates[id.index()];
         ResourcePlan {
             name: self.decl.names.get(resource.name),
+            node: resource.node,
             desc: resource.desc,
             origin: resource.origin,
             exported: resource.exported.is_some(),
@@ -360,6 +363,11 @@ impl Plan {
     /// Returns the pass's name with its nodes before it, such as `post/blur`.
     pub fn pass_path(&self, id: PassId) -> String {
         self.decl.pass_path(id)
+    }
+
+    /// Returns the resource's name with the nodes that it was declared in before it, such as `post/half`.
+    pub fn resource_path(&self, id: ResourceId) -> String {
+        self.decl.resource_path(id)
     }
 
     /// Returns the node's name with the nodes around it before it.

@@ -31,6 +31,27 @@ pub struct PassTime {
     pub triangles: Option<u64>,
 }
 
+impl PassTime {
+    /// Returns the GPU time with what passes share dealt out evenly among them, so that the sum over a frame counts each
+    /// time once; `None` where the device cannot tell.
+    ///
+    /// ```
+    /// use shadowgraph_core::PassTime;
+    /// let merged = PassTime { gpu_ms: Some(6.0), shared_by: 3, ..PassTime::default() };
+    /// assert_eq!(merged.gpu_share_ms(), Some(2.0));
+    /// ```
+    pub fn gpu_share_ms(&self) -> Option<f64> {
+        Some(self.gpu_ms? / f64::from(self.shared_by.max(1)))
+    }
+}
+
+impl TimeSummary {
+    /// Returns the median of the GPU time, dealt out as by [`PassTime::gpu_share_ms`].
+    pub fn gpu_share_ms(&self) -> Option<f64> {
+        Some(self.gpu_ms?.median / f64::from(self.shared_by.max(1)))
+    }
+}
+
 /// The times of the last frames, pass by pass.
 ///
 /// ```

@@ -88,7 +88,9 @@ fn a_name_that_several_have_is_explained_for_each_and_a_path_for_one() {
     assert!(both.contains("pass `left/clear`") && both.contains("pass `right/clear`"), "{both}");
     let one = plan.explain("left/clear").unwrap();
     assert!(!one.contains("right/clear"), "{one}");
-    assert_eq!(plan.explain("target").unwrap().matches("`target`: 64x64").count(), 2);
+    assert_eq!(plan.explain("target").unwrap().matches("/target`: 64x64").count(), 2);
+    let right = plan.explain("right/target").unwrap();
+    assert!(right.contains("`right/clear`") && !right.contains("left"), "{right}");
 }
 
 #[test]
@@ -96,6 +98,8 @@ fn a_name_that_nothing_has_is_an_error_with_the_nearest() {
     let error = culled().explain("blur oclusion").unwrap_err();
     assert_eq!(error.code(), "SG0701");
     assert!(error.to_string().ends_with("did you mean `blur occlusion`?"), "{error}");
+    let error = culled().explain("Blur Occlusion").unwrap_err().to_string();
+    assert!(error.ends_with("did you mean `blur occlusion`?"), "{error}");
     let error = culled().explain("?").unwrap_err().to_string();
     assert!(error.ends_with("`dump` lists them"), "{error}");
     assert!(culled().explain_order("light", "ligth").is_err());

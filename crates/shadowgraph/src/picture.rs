@@ -41,8 +41,9 @@ impl Drawn {
     /// the device cannot tell them. Looking shadows up is part of lighting, and not counted but with a screen mask.
     pub fn shadow_ms(&self) -> Option<f64> {
         let is_shadow = |time: &&PassTime| time.pass.split('/').any(|part| part.ends_with("shadows"));
-        // Merged passes share a time.
-        let own_ms = |time: &PassTime| Some(time.gpu_ms? / f64::from(time.shared_by.max(1)));
-        if self.times.is_empty() { None } else { self.times.iter().filter(is_shadow).map(own_ms).sum() }
+        if self.times.is_empty() {
+            return None;
+        }
+        self.times.iter().filter(is_shadow).map(PassTime::gpu_share_ms).sum()
     }
 }

@@ -33,7 +33,9 @@ fn facts(dump: &Value) -> Vec<(&'static str, String, String)> {
                 (_, value) => value.to_string(),
             })
             .collect();
-        ("resource", resource["name"].as_str().unwrap().to_owned(), shape.join(" "))
+        let (node, name) = (path(&resource["node"]), resource["name"].as_str().unwrap());
+        let name = if node.is_empty() { name.to_owned() } else { format!("{node}/{name}") };
+        ("resource", name, shape.join(" "))
     });
     let of_decisions = dump["reasons"].as_array().unwrap().iter().map(|reason| {
         let text = |field: &str| reason[field].as_str().map(str::to_owned);
@@ -96,7 +98,15 @@ fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() 
     }
     assert!(came.iter().any(|(kind, name, _)| *kind == "node" && name.contains("moments")), "{came:?}");
     assert!(diff("text").contains("+ shadows/cascade moments\n"));
-    assert!(diff("html").contains("<h1>From pcf.json to evsm.json</h1>"));
+    assert!(diff("html").contains(&format!("to {}</h1>", evsm.display())));
+    let schema = std::fs::read_to_string(shadowgraph_tests::repository().join("docs/dump/diff.schema.json"));
+    let schema: Value = serde_json::from_str(&schema.unwrap()).unwrap();
+    let faults = super::schema::faults(&schema, &schema, &serde_json::json!({ "differences": told }), "");
+    assert_eq!(faults, Vec::<String>::new());
+    let slots = told.iter().find(|d| d["subject"] == "summary" && d["name"] == "slot memory").unwrap();
+    assert!(slots["after"].as_str().unwrap().ends_with("MiB"), "memory is told: {slots}");
+    let sampled = "lighting/forward · shadows/cascade moments/moments";
+    assert!(told.iter().any(|d| d["subject"] == "access" && d["name"] == sampled), "what is read is told");
 }
 
 #[test]
@@ -111,7 +121,7 @@ fn a_file_that_is_no_dump_is_refused_in_one_line() {
     };
     let (code, error) = diff([&file, &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
-    assert!(error.contains("bad.json: it has no `schema`"), "{error}");
+    assert!(error.contains("bad.json: SG0702: not a dump: it has no `schema`"), "{error}");
     let (code, error) = diff([&folder.path().join("none.json"), &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
     assert!(error.contains("none.json: cannot be read"), "{error}");

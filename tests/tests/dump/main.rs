@@ -64,7 +64,7 @@ fn the_tiles_of_a_shadow_map_are_one_render_pass_with_one_clear() {
 #[test]
 fn json_has_the_plan_its_reasons_and_the_lights() {
     let json: serde_json::Value = serde_json::from_str(&dump("json")).unwrap();
-    assert_eq!(json["schema"], 2);
+    assert_eq!(json["schema"], 3);
     assert_eq!(json["lights"].as_array().unwrap().len(), 4);
     assert!(json["plan"]["passes"].as_array().unwrap().len() > 5);
     assert!(json["reasons"].as_array().unwrap().iter().all(|reason| reason["because"].is_string()));
@@ -85,7 +85,7 @@ fn explain_tells_of_a_pass_a_resource_and_an_order() {
         words.starts_with("render pass `lighting/forward`\n  runs: `picture/tonemap` needs `lit`"),
         "{words}"
     );
-    assert!(explain(&["cascades"]).1.contains("`cascades`: 4096x4096 Depth32Float, 64.0 MiB"));
+    assert!(explain(&["cascades"]).1.contains("cascades`: 4096x4096 Depth32Float, 64.0 MiB"));
     let (_, words, _) = explain(&["cascade 0", "--before", "tonemap"]);
     assert!(
         words.contains("`lighting/forward` needs what `shadows/cascades/cascade 0` wrote to `cascades`"),

@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::process::Command;
 
 /// What of a value is not as a schema says. Knows the words of JSON Schema that ours uses, and no others.
-fn faults(root: &Value, schema: &Value, value: &Value, place: &str) -> Vec<String> {
+pub(super) fn faults(root: &Value, schema: &Value, value: &Value, place: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (word, rule) in schema.as_object().unwrap() {
         let holds = match word.as_str() {

@@ -49,7 +49,7 @@ fn the_page_tells_where_every_shadow_map_looks() {
     let page = inspected.page(&scene.lights, &options);
     let names: Vec<_> = page.drawings[0].outlines.iter().map(|outline| &*outline.name).collect();
     assert_eq!(names.len(), 1 + 4 + 3, "{names:?}");
-    assert!(names[1].starts_with("cascade 0, 0.1 to ") && names.contains(&"teal"), "{names:?}");
+    assert!(names[1].starts_with("cascade 0, 0.1 to ") && names.contains(&"light 2 (teal)"), "{names:?}");
     // Fitted to the picture on the GPU: the nearest cascade begins where the nearest surface is.
     assert!(inspected.views[0].end_m < 60.0 && inspected.views[0].end_m > 0.0);
 }

@@ -5,7 +5,8 @@ mod html;
 
 use crate::error::Error;
 use crate::plan::Plan;
-use facts::{Facts, facts};
+pub use facts::Dump;
+use facts::Facts;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -14,27 +15,34 @@ use std::fmt::Write as _;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Subject {
+    /// A count of the whole frame, or its memory.
+    Summary,
     /// A group of passes.
     Node,
     /// A pass: its kind.
     Pass,
     /// A texture or buffer: its shape, where it comes from and its usages.
     Resource,
+    /// What a pass does with a resource, and at which version.
+    Access,
     /// Why something is as it is.
     Decision,
 }
 
 /// One thing that is not the same in both frames.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Difference {
     /// What kind of thing.
     pub subject: Subject,
-    /// Which: a path, a name, or of a decision the pass, the resource and part, and what was decided, with ` · ` between.
+    /// Which: a path; of an access the pass, the resource and the part; of a decision those and what was decided. With ` · `
+    /// between them.
     pub name: String,
     /// How it was in the first frame; `None` if it was not there.
     pub before: Option<String>,
     /// How it is in the second frame; `None` if it is not there.
     pub after: Option<String>,
+    /// Whether nothing but the numbers of steps, slots and versions differs, as it does for all that follows a pass that came.
+    pub only_numbers: bool,
 }
 
 /// What differs between two frames. Things are known by their names; where several have one name, those that are alike in both
@@ -45,30 +53,48 @@ pub struct Diff {
     pub differences: Vec<Difference>,
 }
 
-impl Diff {
-    /// Compares two dumps, as [`Plan::to_json`] writes them.
+impl Dump {
+    /// Says what differs between this frame and another.
     ///
-    /// # Errors
-    /// [`Error::Dump`] where a text is no dump, or one of another schema.
-    pub fn of_json(before: &str, after: &str) -> Result<Self, Error> {
-        let (before, after) = (facts(before, "the first")?, facts(after, "the second")?);
+    /// ```
+    /// use shadowgraph_core::{Dump, Frame};
+    /// let dump = Dump::of_json(&Frame::new().compile()?.plan().to_json()?)?;
+    /// assert!(dump.diff(&dump).is_empty());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn diff(&self, after: &Self) -> Diff {
+        let (before, after) = (&self.facts, &after.facts);
         let keys: BTreeSet<_> = before.keys().chain(after.keys()).collect();
         let of = |facts: &Facts, key| facts.get(key).cloned().unwrap_or_default();
         let mut differences = Vec::new();
         for key in keys {
-            let (mut was, mut is) = (of(&before, key), of(&after, key));
+            let (mut was, mut is) = (of(before, key), of(after, key));
             // What is in both, in whichever order, is no difference.
             was.retain(|fact| is.iter().position(|other| other == fact).map(|at| is.remove(at)).is_none());
             let mut is = is.into_iter();
-            let mut add = |before, after| {
-                differences.push(Difference { subject: key.0, name: key.1.clone(), before, after });
+            let mut add = |before: Option<String>, after: Option<String>| {
+                let only_numbers = match (&before, &after) {
+                    (Some(before), Some(after)) => {
+                        key.0 != Subject::Summary && without_numbers(before) == without_numbers(after)
+                    }
+                    _ => false,
+                };
+                differences.push(Difference {
+                    subject: key.0,
+                    name: key.1.clone(),
+                    before,
+                    after,
+                    only_numbers,
+                });
             };
             was.into_iter().for_each(|fact| add(Some(fact), is.next()));
             is.for_each(|fact| add(None, Some(fact)));
         }
-        Ok(Self { differences })
+        Diff { differences }
     }
+}
 
+impl Diff {
     /// Returns whether the frames are the same in all that is compared.
     pub fn is_empty(&self) -> bool {
         self.differences.is_empty()
@@ -79,7 +105,8 @@ impl Diff {
         self.differences.iter().filter(move |difference| difference.subject == subject)
     }
 
-    /// Returns the differences as text: `-` for what went, `+` for what came, `~` for what changed.
+    /// Returns the differences as text: `-` for what went, `+` for what came, `~` for what changed. Of those in which only
+    /// numbers differ it tells how many there are.
     pub fn to_text(&self) -> String {
         if self.is_empty() {
             return "the frames do not differ\n".into();
@@ -90,7 +117,7 @@ impl Diff {
                 continue;
             }
             let _ = writeln!(out, "{}", subject.plural());
-            for Difference { name, before, after, .. } in self.about(subject) {
+            for Difference { name, before, after, .. } in self.about(subject).filter(|d| !d.only_numbers) {
                 let _ = match (before, after) {
                     (Some(was), Some(is)) => writeln!(out, "  ~ {name}\n      - {was}\n      + {is}"),
                     (Some(was), None) => writeln!(out, "  - {}", line(name, was)),
@@ -98,9 +125,33 @@ impl Diff {
                     (None, None) => Ok(()),
                 };
             }
+            if let Some(words) = self.numbers_words(subject) {
+                let _ = writeln!(out, "  {words}");
+            }
         }
         out
     }
+
+    /// How many differences about a subject are in numbers only; `None` for none.
+    fn numbers_words(&self, subject: Subject) -> Option<String> {
+        match self.about(subject).filter(|difference| difference.only_numbers).count() {
+            0 => None,
+            1 => Some("1 differs only in the number of a step, slot or version".into()),
+            many => Some(format!("{many} differ only in the numbers of steps, slots or versions")),
+        }
+    }
+}
+
+/// The text without the numbers behind `step`, `slot` and `version`.
+fn without_numbers(text: &str) -> String {
+    let numbered = |word: &str| ["step", "slot", "version"].contains(&word);
+    let mut words: Vec<&str> = text.split(' ').collect();
+    for at in 1..words.len() {
+        if numbered(words[at - 1]) {
+            words[at] = words[at].trim_start_matches(|c: char| c.is_ascii_digit());
+        }
+    }
+    words.join(" ")
 }
 
 impl Plan {
@@ -117,26 +168,28 @@ impl Plan {
     /// };
     /// assert!(plan(64)?.diff(&plan(64)?)?.is_empty());
     /// let diff = plan(64)?.diff(&plan(128)?)?;
-    /// assert_eq!(diff.differences[0].name, "scene");
+    /// assert!(diff.to_text().contains("scene"));
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     ///
     /// # Errors
     /// None that a plan can cause.
     pub fn diff(&self, after: &Self) -> Result<Diff, Error> {
-        let json = |plan: &Self| plan.to_json().map_err(|error| Error::Dump { problem: error.to_string() });
-        Diff::of_json(&json(self)?, &json(after)?)
+        Ok(Dump::of(self)?.diff(&Dump::of(after)?))
     }
 }
 
 impl Subject {
-    const ALL: [Self; 4] = [Self::Node, Self::Pass, Self::Resource, Self::Decision];
+    const ALL: [Self; 6] =
+        [Self::Summary, Self::Node, Self::Pass, Self::Resource, Self::Access, Self::Decision];
 
     fn plural(self) -> &'static str {
         match self {
+            Self::Summary => "counts",
             Self::Node => "nodes",
             Self::Pass => "passes",
             Self::Resource => "resources",
+            Self::Access => "accesses",
             Self::Decision => "decisions",
         }
     }

@@ -8,6 +8,7 @@ pub use picture::{Drawing, Outline, Picture, PictureTile, TexelValues, Texels};
 use crate::plan::Plan;
 use crate::times::PassTime;
 use data::FrameData;
+use serde::Serialize;
 
 const PAGE: &str = include_str!("html/page/page.html");
 const STYLE: &str = include_str!("html/page/page.css");
@@ -49,10 +50,11 @@ impl Plan {
 /// What a page about a frame holds beside its plan.
 ///
 /// ```
-/// use shadowgraph_core::{Frame, HtmlPage};
+/// use shadowgraph_core::{Frame, HtmlPage, PageTable};
 /// let compiled = Frame::new().compile()?;
 /// let mut page = HtmlPage::new(compiled.plan()).with_title("An empty frame");
-/// page.tables.push(("Files".into(), vec!["name".into()], vec![vec!["hall.glb".into()]]));
+/// let (columns, rows) = (vec!["Name".into()], vec![vec!["hall.glb".into()]]);
+/// page.tables.push(PageTable { title: "Files".into(), columns, rows });
 /// assert!(page.to_html().contains("hall.glb"));
 /// # Ok::<(), shadowgraph_core::Error>(())
 /// ```
@@ -62,12 +64,23 @@ pub struct HtmlPage<'p> {
     times: &'p [PassTime],
     /// Sentences to be read first, such as on what the frame was drawn.
     pub notes: Vec<String>,
-    /// Tables with a view of their own: its name, the heads of the columns, the rows.
-    pub tables: Vec<(String, Vec<String>, Vec<Vec<String>>)>,
+    /// Tables, each with a view of its own.
+    pub tables: Vec<PageTable>,
     /// Plots of named outlines.
     pub drawings: Vec<Drawing>,
     /// What textures held.
     pub pictures: Vec<Picture>,
+}
+
+/// A table with a view of its own.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct PageTable {
+    /// What the view is called.
+    pub title: String,
+    /// The heads of the columns.
+    pub columns: Vec<String>,
+    /// The cells, as many in each row as there are columns.
+    pub rows: Vec<Vec<String>>,
 }
 
 impl<'p> HtmlPage<'p> {
@@ -95,7 +108,7 @@ impl<'p> HtmlPage<'p> {
         let frame = serde_json::to_string(&FrameData::of(self)).unwrap_or_default();
         // Nothing in it may end the element that it stands in.
         let frame = frame.replace('<', "\\u003c");
-        let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
+        let title = escape(&self.title);
         let parts = [
             ("{{title}}", &*title),
             ("{{style}}", STYLE),
@@ -104,6 +117,11 @@ impl<'p> HtmlPage<'p> {
         ];
         fill(PAGE, &parts)
     }
+}
+
+/// The text as it stands in HTML, in an element or in quotes.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Puts each part in the place of its name, once, whatever the other parts hold.

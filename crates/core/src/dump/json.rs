@@ -7,10 +7,10 @@ use reasons::Reason;
 use serde::Serialize;
 
 /// Counts up when a field changes its meaning or goes; added fields do not count.
-pub(super) const SCHEMA: u32 = 2;
+pub(super) const SCHEMA: u32 = 3;
 
 #[derive(Serialize)]
-struct Document<'a> {
+pub(super) struct Document<'a> {
     schema: u32,
     summary: Summary,
     plan: &'a Plan,
@@ -37,7 +37,11 @@ impl Plan {
     /// # Errors
     /// None that a plan can cause; serde_json's, should it have one.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        let document = Document {
+        serde_json::to_string_pretty(&self.document())
+    }
+
+    pub(super) fn document(&self) -> Document<'_> {
+        Document {
             schema: SCHEMA,
             summary: Summary {
                 passes: self.pass_count(),
@@ -50,7 +54,6 @@ impl Plan {
             },
             plan: self,
             reasons: self.reasons(),
-        };
-        serde_json::to_string_pretty(&document)
+        }
     }
 }

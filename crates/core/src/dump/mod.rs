@@ -7,8 +7,9 @@ mod html;
 mod json;
 mod mermaid;
 mod places;
+mod summary;
 mod text;
 mod words;
 
-pub use diff::{Diff, Difference, Subject};
-pub use html::{Drawing, HtmlPage, Outline, Picture, PictureTile, TexelValues, Texels};
+pub use diff::{Diff, Difference, Dump, Subject};
+pub use html::{Drawing, HtmlPage, Outline, PageTable, Picture, PictureTile, TexelValues, Texels};

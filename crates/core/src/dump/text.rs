@@ -3,7 +3,7 @@
 mod passes;
 mod resources;
 
-use super::words::{bytes, clip};
+use super::words::clip;
 use crate::declaration::{Options, OrderPolicy};
 use crate::plan::Plan;
 use std::fmt::Write as _;
@@ -25,18 +25,7 @@ impl Plan {
     }
 
     fn write_summary(&self, out: &mut String) {
-        let tenants = self.slots().map(|slot| slot.tenants.len()).sum();
-        let _ = writeln!(
-            out,
-            "plan: {} in {}, {} culled; {} in {} of {}, {} saved by sharing",
-            count(self.order().len(), "pass", "passes"),
-            count(self.steps().len(), "step", "steps"),
-            self.culled_count(),
-            count(tenants, "resource", "resources"),
-            count(self.slots().len(), "slot", "slots"),
-            bytes(self.slot_bytes()),
-            bytes(self.saved_bytes()),
-        );
+        let _ = writeln!(out, "plan: {}", self.summary());
         let options = options(self.options());
         if !options.is_empty() {
             let _ = writeln!(out, "options: {}", options.join(", "));
@@ -55,10 +44,6 @@ impl Plan {
             }
         }
     }
-}
-
-fn count(number: usize, one: &str, many: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { many })
 }
 
 /// What is not as usual.

@@ -78,7 +78,7 @@ fn record(
         let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
         let recorded = recording.steps(index..index + 1, &mut encoder, take);
         buffers.push(encoder.finish());
-        let objection = wait(scope.pop());
+        let objection = pollster::block_on(scope.pop());
         recorded?;
         if let Some(objection) = objection {
             return Err(refused(&compiled.plan, step.passes, &objection));
@@ -96,9 +96,4 @@ fn refused(plan: &Plan, passes: &[PassId], objection: &wgpu::Error) -> Error {
     let message = objection.to_string();
     let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     Error::Refused { passes: names.join(", "), message: lines.join("; ") }
-}
-
-/// wgpu's error scopes are answered at once where there is a driver on this machine; a future all the same.
-fn wait<T>(future: impl Future<Output = T>) -> T {
-    pollster::block_on(future)
 }

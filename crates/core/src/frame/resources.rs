@@ -173,6 +173,7 @@ impl<'f> Frame<'f> {
         let name = self.decl.names.push(name);
         self.decl.resources.push(ResourceDecl {
             name,
+            node: self.node,
             desc,
             origin,
             version: 0,

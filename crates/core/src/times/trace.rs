@@ -37,13 +37,16 @@ struct Arguments<'t> {
     draws: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     triangles: Option<u64>,
+    /// Those that a GPU time is of, where they are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    passes: Vec<&'t str>,
 }
 
 const CPU: u32 = 1;
 const GPU: u32 = 2;
 
 /// Returns the times of a frame in Chrome's trace format, which chrome://tracing and Perfetto open: a row for the CPU and one
-/// for the GPU. Where passes share one GPU time they are one event, named after the first of them.
+/// for the GPU. Where passes share one GPU time they are one event, with the names of them all.
 ///
 /// ```
 /// use shadowgraph_core::{PassTime, trace_json};
@@ -63,13 +66,13 @@ pub fn trace_json(times: &[PassTime]) -> Result<String, serde_json::Error> {
         tid,
         ts: None,
         dur: None,
-        args: Some(Arguments { name: Some(name), draws: None, triangles: None }),
+        args: Some(Arguments { name: Some(name), draws: None, triangles: None, passes: Vec::new() }),
     };
     let mut events = vec![row(CPU, "CPU: recording"), row(GPU, "GPU")];
     let mut shared: Option<f64> = None;
     for time in times {
-        let args = || Some(Arguments { name: None, draws: time.draws, triangles: time.triangles });
-        let of = |tid, begin_ms: f64, ms: f64| Event {
+        let args = |passes| Arguments { name: None, draws: time.draws, triangles: time.triangles, passes };
+        let of = |tid, begin_ms: f64, ms: f64, passes| Event {
             name: &time.pass,
             cat: &time.node,
             ph: "X",
@@ -77,16 +80,18 @@ pub fn trace_json(times: &[PassTime]) -> Result<String, serde_json::Error> {
             tid,
             ts: Some(begin_ms * 1e3),
             dur: Some(ms * 1e3),
-            args: args(),
+            args: Some(args(passes)),
         };
-        events.push(of(CPU, time.cpu_begin_ms, time.cpu_ms));
+        events.push(of(CPU, time.cpu_begin_ms, time.cpu_ms, Vec::new()));
         let (Some(begin_ms), Some(ms)) = (time.gpu_begin_ms, time.gpu_ms) else { continue };
         // Passes that share a time have the same.
         if time.shared_by > 1 && shared == Some(begin_ms) {
             continue;
         }
         shared = Some(begin_ms);
-        events.push(of(GPU, begin_ms, ms));
+        let together = |other: &&PassTime| time.shared_by > 1 && other.gpu_begin_ms == Some(begin_ms);
+        let passes = times.iter().filter(together).map(|other| &*other.pass).collect();
+        events.push(of(GPU, begin_ms, ms, passes));
     }
     serde_json::to_string(&Trace { events, unit: "ms" })
 }
@@ -111,6 +116,7 @@ mod tests {
         let row = |tid| events.iter().filter(move |e| e["tid"] == tid && e["ph"] == "X");
         let names = |tid| row(tid).map(|e| e["name"].as_str().unwrap()).collect::<Vec<_>>();
         assert_eq!((names(CPU), names(GPU)), (vec!["clear", "tile", "lit"], vec!["clear", "lit"]));
+        assert_eq!(row(GPU).next().unwrap()["args"]["passes"], serde_json::json!(["clear", "tile"]));
         let lit = row(GPU).next_back().unwrap();
         assert_eq!((lit["ts"].as_f64(), lit["dur"].as_f64()), (Some(3000.0), Some(2000.0)));
     }

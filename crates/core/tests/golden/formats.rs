@@ -46,7 +46,7 @@ fn the_same_declaration_gives_the_same_bytes() {
 #[test]
 fn the_json_dump_has_every_decision_as_a_sentence() {
     let json: serde_json::Value = serde_json::from_str(&all().to_json().unwrap()).unwrap();
-    assert_eq!(json["schema"], 2);
+    assert_eq!(json["schema"], 3);
     assert_eq!(json["plan"]["passes"].as_array().unwrap().len(), 6);
     let reasons = json["reasons"].as_array().unwrap();
     let kinds: BTreeSet<_> = reasons.iter().map(|reason| reason["decision"].as_str().unwrap()).collect();

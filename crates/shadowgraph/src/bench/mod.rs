@@ -16,7 +16,7 @@ pub use spread::Spread;
 
 use std::time::{Duration, Instant};
 
-use shadowgraph_core::{Format, Graph, PassTime, Timer};
+use shadowgraph_core::{Format, Graph, PassTime, TimeHistory, TimeSummary, Timer};
 
 use self::by_hand::ByHand;
 use crate::options::Aov;
@@ -162,8 +162,7 @@ fn through_graph(
     Ok(FrameTime { plan: Duration::ZERO, declare, compile, record, finish, submit: clock.lap() })
 }
 
-/// Measures each pass of `frames` frames: medians of the CPU time of recording it, and of its GPU time where the
-/// device can tell.
+/// Measures each pass of `frames` frames: the CPU time of recording it, and its GPU time where the device can tell.
 ///
 /// # Errors
 /// As [`compare`], or when the GPU fails.
@@ -172,7 +171,7 @@ pub fn pass_times(
     renderer: &mut Renderer,
     options: &ViewOptions,
     frames: u32,
-) -> Result<Vec<PassTime>, Error> {
+) -> Result<Vec<TimeSummary>, Error> {
     only_color(renderer)?;
     let target = target(&gpu.device, options.size_px)?;
     let mut frame = || -> Result<Vec<PassTime>, Error> {
@@ -185,23 +184,12 @@ pub fn pass_times(
     gpu.checked(|| {
         // A software driver compiles shaders at the first draw.
         frame()?;
-        Ok(medians(&(0..frames.max(1)).map(|_| frame()).collect::<Result<Vec<_>, _>>()?))
-    })
-}
-
-/// The median of each pass, over frames of the same passes.
-fn medians(frames: &[Vec<PassTime>]) -> Vec<PassTime> {
-    let Some(first) = frames.first() else { return Vec::new() };
-    let of_pass = |index: usize| frames.iter().filter_map(move |times| times.get(index));
-    let median = |(index, time): (usize, &PassTime)| {
-        let gpu_ms: Vec<f64> = of_pass(index).filter_map(|time| time.gpu_ms).collect();
-        PassTime {
-            cpu_ms: Spread::of(of_pass(index).map(|time| time.cpu_ms)).median,
-            gpu_ms: (!gpu_ms.is_empty()).then(|| Spread::of(gpu_ms.into_iter()).median),
-            ..time.clone()
+        let mut history = TimeHistory::new(frames as usize);
+        for _ in 0..frames.max(1) {
+            history.add(&frame()?);
         }
-    };
-    first.iter().enumerate().map(median).collect()
+        Ok(history.summary())
+    })
 }
 
 fn only_color(renderer: &Renderer) -> Result<(), Error> {

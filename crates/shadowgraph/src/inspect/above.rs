@@ -43,8 +43,9 @@ fn camera(options: &ViewOptions, flat: impl Fn(DVec3) -> DVec2, origin: DVec3) -
 }
 
 fn name(light: usize, lights: &[Light], view: &ShadowView, number: Option<usize>) -> String {
-    let name =
-        lights.get(light).and_then(|light| light.name.clone()).unwrap_or_else(|| format!("light {light}"));
+    // As the passes that draw the maps are named, with the light's own name behind.
+    let own = lights.get(light).and_then(|light| light.name.as_deref());
+    let name = own.map_or(format!("light {light}"), |own| format!("light {light} ({own})"));
     match (view.cascade, number) {
         (NOT_A_CASCADE, None) => name,
         (NOT_A_CASCADE, Some(side)) => format!("{name}, {}", SIDES[side.min(5)]),

@@ -1,6 +1,6 @@
 //! A scene's lights in words.
 
-use shadowgraph_core::HtmlPage;
+use shadowgraph_core::{HtmlPage, PageTable, PassTime, Plan};
 use shadowgraph_scene::{Light, LightKind};
 use shadowgraph_shadows::Unshadowed;
 
@@ -9,21 +9,30 @@ use crate::Drawn;
 impl Drawn {
     /// Returns the page about the frame: its plan, times where it was measured, and the scene's lights.
     pub fn page(&self, lights: &[Light]) -> HtmlPage<'_> {
-        let mut page = HtmlPage::new(&self.plan).with_title("Shadowgraph frame").with_times(&self.times);
-        page.tables.push(table(lights, &self.unshadowed));
-        page
+        page(&self.plan, &self.times, lights, &self.unshadowed)
     }
 }
 
-/// The lights as a table: its name, the heads of its columns, its rows.
-pub(crate) fn table(lights: &[Light], unshadowed: &[Unshadowed]) -> (String, Vec<String>, Vec<Vec<String>>) {
+/// The page about a plan, with times and the scene's lights.
+pub(crate) fn page<'p>(
+    plan: &'p Plan,
+    times: &'p [PassTime],
+    lights: &[Light],
+    unshadowed: &[Unshadowed],
+) -> HtmlPage<'p> {
+    let mut page = HtmlPage::new(plan).with_title("Shadowgraph frame").with_times(times);
+    page.tables.push(table(lights, unshadowed));
+    page
+}
+
+fn table(lights: &[Light], unshadowed: &[Unshadowed]) -> PageTable {
     let columns = ["Light", "Kind", "Name", "Strength", "Shadows"].map(String::from).to_vec();
     let row = |(index, light): (usize, &Light)| {
         let strength = format!("{:.1} {}", light.intensity, unit(light));
         let name = light.name.clone().unwrap_or_default();
         vec![index.to_string(), kind(light).into(), name, strength, shadows(light, index, unshadowed)]
     };
-    ("Lights".into(), columns, lights.iter().enumerate().map(row).collect())
+    PageTable { title: "Lights".into(), columns, rows: lights.iter().enumerate().map(row).collect() }
 }
 
 /// What kind it is.

@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 
-use shadowgraph_core::{Bind, Contents, Format, Frame, Graph, Part, Plan, ResourceDesc, TextureDesc, Timer};
+use shadowgraph_core::{
+    Bind, Contents, Format, Frame, Graph, Part, PassTime, Plan, ResourceDesc, TextureDesc, Timer,
+};
 use shadowgraph_lighting::{Geometry, ViewRecords};
 use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
 
@@ -137,7 +139,7 @@ impl Probe {
         let visibility = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
         let times = timer.read(&gpu.device, &gpu.queue)?;
         let of_technique = times.iter().filter(|time| is_technique(&time.pass));
-        let gpu_ms = of_technique.filter_map(|time| Some(time.gpu_ms? / f64::from(time.shared_by.max(1))));
+        let gpu_ms = of_technique.filter_map(PassTime::gpu_share_ms);
         let (draws, triangles) = casters.counted();
         let texture_bytes = texture_bytes(&plan);
         let cost = Cost { gpu_ms: gpu_ms.reduce(|a, b| a + b), texture_bytes, draws, triangles };

@@ -11,7 +11,7 @@ const USEFUL: &str = "\
 The three most useful commands:
   shadowgraph render model.glb --sun \"dir=-1,-2,-1 lux=20000\" -o out/model.png
   shadowgraph render model.glb --aov visibility:0 -o out/shadow.png
-  shadowgraph dump model.glb --format html -o out/frame.html
+  shadowgraph dump model.glb -o out/frame.html
 
 Without a SCENE the built-in demo scene is taken.";
 
@@ -57,15 +57,30 @@ pub(crate) struct RenderArgs {
 pub(crate) struct DumpArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// The form of the dump
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    /// The form of the dump. Default: that of the ending of --output (html, json, dot or mmd), else text
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Show what differs between two dumps in JSON, as text, json or html, instead of a frame
-    #[arg(long, num_args = 2, value_names = ["A.json", "B.json"], conflicts_with = "scene")]
+    #[arg(long, num_args = 2, value_names = ["A.json", "B.json"], conflicts_with = "DrawArgs")]
     pub(crate) diff: Option<Vec<PathBuf>>,
     /// The file; a missing folder is created. Without it the dump goes to standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+impl DumpArgs {
+    /// Returns the form that is asked for, by name or by the ending of the file.
+    pub(crate) fn format(&self) -> Format {
+        let ending = self.output.as_ref().and_then(|file| file.extension());
+        let by_ending = match ending.map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
+            Some("html" | "htm") => Format::Html,
+            Some("json") => Format::Json,
+            Some("dot" | "gv") => Format::Dot,
+            Some("mmd") => Format::Mermaid,
+            _ => Format::Text,
+        };
+        self.format.unwrap_or(by_ending)
+    }
 }
 
 /// `shadowgraph view`
@@ -83,7 +98,7 @@ pub(crate) struct ViewArgs {
 /// `shadowgraph explain`
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
-    /// A pass, by its name or with its nodes before it such as shadows/cascades/clear, or a resource
+    /// A pass, by its name or with its nodes before it such as shadows/cascades/clear, or a resource likewise
     pub(crate) name: String,
     /// Say why the pass NAME runs before this one
     #[arg(long, value_name = "PASS")]

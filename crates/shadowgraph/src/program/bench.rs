@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::report;
 use crate::bench::{Comparison, FrameTime, Spread, compare, pass_times};
-use crate::core::PassTime;
+use crate::core::TimeSummary;
 use crate::options::Options;
 use crate::shadows::Techniques;
 use crate::{Gpu, Method, Renderer, ViewOptions};
@@ -129,16 +129,18 @@ fn ratio(spread: Spread) -> String {
 }
 
 /// The passes as a table. Their names hold the nodes they belong to.
-fn pass_table(passes: &[PassTime]) -> String {
+fn pass_table(passes: &[TimeSummary]) -> String {
     let mut out = format!("  {:<66}{:>14}{:>14}\n", "pass", "CPU us", "GPU ms");
     let mut row = |name: &str, cpu_ms: f64, gpu_ms: Option<f64>, note: &str| {
         let gpu = gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}"));
         let _ = writeln!(out, "  {name:<66}{:>14.1}{gpu:>14}{note}", cpu_ms * 1e3);
     };
     for pass in passes {
-        row(&pass.pass, pass.cpu_ms, pass.gpu_ms, &report::sharing(pass));
+        let gpu_ms = pass.gpu_ms.map(|gpu_ms| gpu_ms.median);
+        row(&pass.pass, pass.cpu_ms.median, gpu_ms, &report::sharing(gpu_ms.is_some(), pass.shared_by));
     }
-    row("all", passes.iter().map(|pass| pass.cpu_ms).sum(), report::gpu_sum_ms(passes), "");
+    let gpu_ms = passes.iter().filter_map(TimeSummary::gpu_share_ms).reduce(|a, b| a + b);
+    row("all", passes.iter().map(|pass| pass.cpu_ms.median).sum(), gpu_ms, "");
     out
 }
 
@@ -147,6 +149,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
     use crate::bench::Counts;
+    use crate::core::TimeSpread;
 
     fn comparison(micros: u64) -> Comparison {
         let step = Duration::from_micros(micros);
@@ -169,13 +172,13 @@ mod tests {
 
     #[test]
     fn passes_are_told_in_order_with_their_sum() {
-        let pass = |pass: &str, gpu_ms, shared_by| PassTime {
+        let spread = |ms: f64| TimeSpread { median: ms, high: ms };
+        let pass = |pass: &str, gpu_ms: Option<f64>, shared_by| TimeSummary {
             pass: pass.into(),
             node: String::new(),
-            cpu_ms: 0.5,
-            gpu_ms,
+            cpu_ms: spread(0.5),
+            gpu_ms: gpu_ms.map(spread),
             shared_by,
-            ..PassTime::default()
         };
         let text = pass_table(&[
             pass("shadows/atlas/clear", Some(1.5), 2),

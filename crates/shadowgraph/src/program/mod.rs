@@ -7,6 +7,7 @@ mod args;
 mod bench;
 mod commands;
 mod console;
+mod dump;
 mod failure;
 mod measure;
 mod nodes;
@@ -42,8 +43,8 @@ pub fn run(techniques: &Techniques) -> ExitCode {
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, techniques),
-        Ok(Cli { command: Some(Command::Dump(args)) }) => commands::dump(&args, techniques),
-        Ok(Cli { command: Some(Command::Explain(args)) }) => commands::explain(&args, techniques),
+        Ok(Cli { command: Some(Command::Dump(args)) }) => dump::dump(&args, techniques),
+        Ok(Cli { command: Some(Command::Explain(args)) }) => dump::explain(&args, techniques),
         #[cfg(feature = "view")]
         Ok(Cli { command: Some(Command::View(args)) }) => view::view(&args, techniques),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, techniques),

@@ -1,15 +1,23 @@
 //! What the program tells of a scene, a plan and its times. Tables are at most 110 columns wide.
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
-use super::commands::Planned;
 use super::failure::Failure;
-use crate::core::PassTime;
+use crate::core::{PassTime, Plan};
 use crate::inspect::lights::{kind, shadows, unit};
 use crate::scene::Light;
 use crate::shadows::Unshadowed;
 use crate::wgpu::AdapterInfo;
 use serde_json::{Value, json};
+
+/// A frame that is told of.
+pub(crate) struct Planned {
+    pub(crate) plan: Arc<Plan>,
+    /// Empty unless they were asked for.
+    pub(crate) times: Vec<PassTime>,
+    pub(crate) unshadowed: Vec<Unshadowed>,
+}
 
 /// The plan as text, with the scene's lights.
 pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
@@ -68,7 +76,10 @@ pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
 
 /// A table of times per pass, by node.
 pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
-    let mut out = format!("times on {}\n  {:<60} {:>10} {:>10}\n", adapter.name, "pass", "CPU ms", "GPU ms");
+    let mut out = format!(
+        "times on {}\n  {:<40} {:>10} {:>10} {:>7} {:>11}\n",
+        adapter.name, "pass", "CPU ms", "GPU ms", "draws", "triangles"
+    );
     let mut nodes: Vec<&str> = Vec::new();
     for time in times {
         if !nodes.contains(&time.node.as_str()) {
@@ -80,26 +91,22 @@ pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
         let _ = writeln!(out, "  {}", if node.is_empty() { "(no node)" } else { node });
         for time in of_node() {
             let name = time.pass.rsplit('/').next().unwrap_or_default();
-            let _ = writeln!(out, "    {name:<58} {}{}", columns(time.cpu_ms, time.gpu_ms), sharing(time));
+            let count = |number: Option<u64>| number.map_or("-".into(), |number| number.to_string());
+            let (draws, triangles) = (count(time.draws.map(u64::from)), count(time.triangles));
+            let shared = sharing(time.gpu_ms.is_some(), time.shared_by);
+            let times = columns(time.cpu_ms, time.gpu_ms);
+            let _ = writeln!(out, "    {name:<38} {times} {draws:>7} {triangles:>11}{shared}");
         }
     }
     let cpu_ms = times.iter().map(|time| time.cpu_ms).sum();
-    let _ = writeln!(out, "  {:<60} {}", "sum", columns(cpu_ms, gpu_sum_ms(times)));
+    let gpu_ms = times.iter().filter_map(PassTime::gpu_share_ms).reduce(|a, b| a + b);
+    let _ = writeln!(out, "  {:<40} {}", "sum", columns(cpu_ms, gpu_ms));
     out
 }
 
 /// What is to be known of a pass's GPU time: passes that were merged may have one time together.
-pub(crate) fn sharing(time: &PassTime) -> String {
-    if time.gpu_ms.is_none() || time.shared_by <= 1 {
-        return String::new();
-    }
-    format!("  all {} merged", time.shared_by)
-}
-
-/// The GPU time of all passes. A time that several share counts once.
-pub(crate) fn gpu_sum_ms(times: &[PassTime]) -> Option<f64> {
-    let share = |time: &PassTime| Some(time.gpu_ms? / f64::from(time.shared_by.max(1)));
-    times.iter().filter_map(share).reduce(|a, b| a + b)
+pub(crate) fn sharing(measured: bool, shared_by: u32) -> String {
+    if measured && shared_by > 1 { format!("  all {shared_by} merged") } else { String::new() }
 }
 
 fn columns(cpu_ms: f64, gpu_ms: Option<f64>) -> String {
@@ -143,7 +150,7 @@ mod tests {
         let merged = ["clear", "first", "second"].map(|pass| time(pass, Some(6.0), 3));
         let list = [merged.as_slice(), &[time("alone", Some(0.5), 1), time("unknown", None, 3)]].concat();
         let text = times(&list, &crate::Gpu::noop().unwrap().adapter);
-        assert_eq!(text.matches("6.000  all 3 merged").count(), 3, "{text}");
+        assert_eq!(text.matches("6.000       -           -  all 3 merged").count(), 3, "{text}");
         assert_eq!(text.matches("merged").count(), 3, "{text}");
         assert!(text.ends_with(&format!("{}\n", columns(5.0, Some(6.5)))), "{text}");
         assert!(text.lines().all(|line| line.len() <= 110), "{text}");

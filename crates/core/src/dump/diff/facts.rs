@@ -1,35 +1,56 @@
 //! A dump as names and what is so of them.
 
 use super::Subject;
+use crate::access::Access;
 use crate::dump::json::SCHEMA;
+use crate::dump::words::bytes;
 use crate::error::Error;
+use crate::part::Part;
+use crate::plan::Plan;
+use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// By subject and name: how it is; several where several have the name.
 pub(super) type Facts = BTreeMap<(Subject, String), Vec<String>>;
 
-/// Reads a dump; `which` of two it is, is for the error.
-pub(super) fn facts(json: &str, which: &str) -> Result<Facts, Error> {
-    let dump: Value =
-        serde_json::from_str(json).map_err(|error| no_dump(which, &format!("it is not JSON: {error}")))?;
-    match dump.get("schema").and_then(Value::as_u64) {
-        Some(schema) if schema == u64::from(SCHEMA) => {}
-        Some(schema) => {
-            return Err(no_dump(
-                which,
-                &format!("it has schema {schema}, and {SCHEMA} is read: write it anew"),
-            ));
-        }
-        None => return Err(no_dump(which, "it has no `schema`")),
-    }
-    Reader { dump: &dump, facts: Facts::new() }
-        .read()
-        .ok_or_else(|| no_dump(which, "a part of it is missing"))
+/// A frame as its dump tells of it, to be compared with another.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dump {
+    pub(super) facts: Facts,
 }
 
-fn no_dump(which: &str, problem: &str) -> Error {
-    Error::Dump { problem: format!("{which}: {problem}") }
+impl Dump {
+    /// Reads a dump, as [`Plan::to_json`] writes it.
+    ///
+    /// # Errors
+    /// [`Error::Dump`] where the text is no dump, or one of another schema.
+    pub fn of_json(json: &str) -> Result<Self, Error> {
+        let dump =
+            serde_json::from_str(json).map_err(|error| no_dump(&format!("it is not JSON: {error}")))?;
+        Self::of_value(&dump)
+    }
+
+    pub(super) fn of(plan: &Plan) -> Result<Self, Error> {
+        let dump = serde_json::to_value(plan.document()).map_err(|error| no_dump(&error.to_string()))?;
+        Self::of_value(&dump)
+    }
+
+    fn of_value(dump: &Value) -> Result<Self, Error> {
+        match dump.get("schema").and_then(Value::as_u64) {
+            Some(schema) if schema == u64::from(SCHEMA) => {}
+            Some(schema) => {
+                return Err(no_dump(&format!("it has schema {schema}, and {SCHEMA} is read: write it anew")));
+            }
+            None => return Err(no_dump("it has no `schema`")),
+        }
+        let facts = Reader { dump, facts: Facts::new() }.read();
+        Ok(Self { facts: facts.ok_or_else(|| no_dump("a part of it is missing"))? })
+    }
+}
+
+fn no_dump(problem: &str) -> Error {
+    Error::Dump { problem: problem.into() }
 }
 
 struct Reader<'d> {
@@ -40,6 +61,7 @@ struct Reader<'d> {
 impl Reader<'_> {
     /// `None` where a field is missing.
     fn read(mut self) -> Option<Facts> {
+        self.summary()?;
         let plan = self.dump.get("plan")?;
         let nodes = plan.get("nodes")?.as_array()?;
         let paths: Vec<String> =
@@ -47,17 +69,25 @@ impl Reader<'_> {
         for path in &paths {
             self.add(Subject::Node, path.clone(), String::new());
         }
-        for pass in plan.get("passes")?.as_array()? {
-            let name = text(pass, "name")?;
-            let path = match pass.get("node").and_then(Value::as_u64) {
+        let path = |thing: &Value| {
+            let name = text(thing, "name")?;
+            Some(match thing.get("node").and_then(Value::as_u64) {
                 Some(node) => format!("{}/{name}", paths.get(node as usize)?),
                 None => name.to_owned(),
-            };
-            let kept = if pass.get("keep")?.as_bool()? { ", kept" } else { "" };
-            self.add(Subject::Pass, path, format!("{}{kept}", text(pass, "kind")?.to_lowercase()));
+            })
+        };
+        let resources = plan.get("resources")?.as_array()?;
+        for resource in resources {
+            self.add(Subject::Resource, path(resource)?, resource_words(resource)?);
         }
-        for resource in plan.get("resources")?.as_array()? {
-            self.add(Subject::Resource, text(resource, "name")?.to_owned(), resource_words(resource)?);
+        for pass in plan.get("passes")?.as_array()? {
+            let own = path(pass)?;
+            for access in pass.get("accesses")?.as_array()? {
+                let resource = resources.get(access.get("resource")?.as_u64()? as usize)?;
+                self.add(Subject::Access, format!("{own} · {}", path(resource)?), access_words(access)?);
+            }
+            let kept = if pass.get("keep")?.as_bool()? { ", kept" } else { "" };
+            self.add(Subject::Pass, own, format!("{}{kept}", text(pass, "kind")?.to_lowercase()));
         }
         for reason in self.dump.get("reasons")?.as_array()? {
             let who = ["pass", "resource", "part", "decision"].iter().filter_map(|key| text(reason, key));
@@ -69,6 +99,16 @@ impl Reader<'_> {
             );
         }
         Some(self.facts)
+    }
+
+    fn summary(&mut self) -> Option<()> {
+        let summary = self.dump.get("summary")?.as_object()?;
+        for (name, value) in summary {
+            let value = value.as_u64()?;
+            let words = if name.ends_with("bytes") { bytes(value) } else { value.to_string() };
+            self.add(Subject::Summary, name.replace("_bytes", " memory"), words);
+        }
+        Some(())
     }
 
     fn add(&mut self, subject: Subject, name: String, fact: String) {
@@ -119,4 +159,19 @@ fn resource_words(resource: &Value) -> Option<String> {
     let usages = [text(resource, "texture_usage")?, text(resource, "buffer_usage")?].concat();
     let usages = if usages.is_empty() { "no usage".to_owned() } else { usages };
     Some(format!("{shape}, {origin}{exported}, {usages}"))
+}
+
+/// What is done with which part, what becomes of the earlier contents, and the version that is found or made.
+fn access_words(access: &Value) -> Option<String> {
+    let label = Access::deserialize(access.get("access")?).ok()?.label();
+    let part = Part::deserialize(access.get("part")?).ok()?;
+    let part = if part == Part::WHOLE { String::new() } else { format!(" of {}", part.words()) };
+    let version = access.get("version")?.as_u64()?;
+    let contents = match access.get("contents")? {
+        Value::Null => return Some(format!("{label}{part}, version {version}")),
+        Value::String(contents) if contents == "Cover" => "covers",
+        Value::String(_) => "keeps",
+        _ => "clears",
+    };
+    Some(format!("{label}{part}, {contents}, makes version {}", version + 1))
 }

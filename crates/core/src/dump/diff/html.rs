@@ -1,6 +1,7 @@
 //! Differences as a page of their own.
 
 use super::{Diff, Difference, Subject};
+use crate::dump::html::escape;
 use std::fmt::Write as _;
 
 const STYLE: &str = include_str!("page.css");
@@ -16,7 +17,7 @@ impl Diff {
         );
         out.push_str("<p>");
         for subject in Subject::ALL {
-            let changes = self.about(subject).count();
+            let changes = self.about(subject).filter(|difference| !difference.only_numbers).count();
             let _ = write!(out, "<a href=\"#{0}\">{changes} {0}</a> ", subject.plural());
         }
         out.push_str("differ.</p>\n");
@@ -26,16 +27,29 @@ impl Diff {
                 out.push_str("<p>They do not differ.</p>\n</section>\n");
                 continue;
             }
-            out.push_str("<table>\n<thead><tr><th scope=\"col\">which</th><th scope=\"col\">");
-            let _ = writeln!(out, "{before}</th><th scope=\"col\">{after}</th></tr></thead>\n<tbody>");
-            for difference in self.about(subject) {
-                row(&mut out, difference);
+            let (shifted, other): (Vec<&Difference>, Vec<&Difference>) =
+                self.about(subject).partition(|difference| difference.only_numbers);
+            table(&mut out, &other, [&before, &after]);
+            if let Some(words) = self.numbers_words(subject) {
+                let _ = writeln!(out, "<details><summary>{words}</summary>");
+                table(&mut out, &shifted, [&before, &after]);
+                out.push_str("</details>\n");
             }
-            out.push_str("</tbody>\n</table>\n</section>\n");
+            out.push_str("</section>\n");
         }
         out.push_str("</body>\n</html>\n");
         out
     }
+}
+
+fn table(out: &mut String, differences: &[&Difference], [before, after]: [&str; 2]) {
+    if differences.is_empty() {
+        return;
+    }
+    out.push_str("<table>\n<thead><tr><th scope=\"col\">which</th><th scope=\"col\">");
+    let _ = writeln!(out, "{before}</th><th scope=\"col\">{after}</th></tr></thead>\n<tbody>");
+    differences.iter().for_each(|difference| row(out, difference));
+    out.push_str("</tbody>\n</table>\n");
 }
 
 fn row(out: &mut String, Difference { name, before, after, .. }: &Difference) {
@@ -51,8 +65,4 @@ fn row(out: &mut String, Difference { name, before, after, .. }: &Difference) {
     };
     let (was, is) = (cell(before, "del"), cell(after, "ins"));
     let _ = writeln!(out, "<tr class=\"{class}\"><th scope=\"row\">{}</th>{was}{is}</tr>", escape(name));
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

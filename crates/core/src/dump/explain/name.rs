@@ -2,15 +2,15 @@
 
 use crate::dump::words::{list, quoted};
 use crate::error::Error;
-use crate::handle::PassId;
+use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
 
 /// Names that are no more alike than this are not suggested; 1 is equal.
 const ALIKE: f64 = 0.7;
 
 impl Plan {
-    /// Says why every pass and every resource of a name is as it is. A pass is known by its path, such as `post/blur`, or by
-    /// the last part of it.
+    /// Says why every pass and every resource of a name is as it is. Both are known by their path, such as `post/blur`, or
+    /// by the last part of it.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -28,8 +28,8 @@ impl Plan {
     /// [`Error::NoSuchName`], with names that are like it.
     pub fn explain(&self, name: &str) -> Result<String, Error> {
         let passes = self.passes_named(name).into_iter().map(|id| self.explain_pass(id));
-        let named = self.resources().filter(|(_, resource)| resource.name == name);
-        let pages: Vec<String> = passes.chain(named.map(|(id, _)| self.explain_resource(id))).collect();
+        let resources = self.resources_named(name).into_iter().map(|id| self.explain_resource(id));
+        let pages: Vec<String> = passes.chain(resources).collect();
         if pages.is_empty() { Err(self.no_such_name(name)) } else { Ok(pages.join("\n")) }
     }
 
@@ -55,10 +55,20 @@ impl Plan {
         if of_path.is_empty() { ids().filter(|&id| self.pass(id).name == name).collect() } else { of_path }
     }
 
+    fn resources_named(&self, name: &str) -> Vec<ResourceId> {
+        let ids = || self.resources().map(|(id, _)| id);
+        let of_path: Vec<ResourceId> = ids().filter(|&id| self.resource_path(id) == name).collect();
+        if of_path.is_empty() {
+            ids().filter(|&id| self.resource(id).name == name).collect()
+        } else {
+            of_path
+        }
+    }
+
     fn no_such_name(&self, name: &str) -> Error {
         let refused = |hint: String| Error::NoSuchName { name: name.into(), hint };
         // Asked for as a pass.
-        if self.resources().any(|(_, resource)| resource.name == name) {
+        if !self.resources_named(name).is_empty() {
             return refused(" that is a pass: it is a resource, and an order is one of passes".into());
         }
         let paths = |id| self.pass_path(id);
@@ -69,9 +79,11 @@ impl Plan {
         if !members.is_empty() {
             return refused(format!(": it is a node, of {}", list(&members, 200)));
         }
+        let wanted = name.to_lowercase();
         let paths = self.passes().flat_map(|(id, pass)| [self.pass_path(id), pass.name.to_owned()]);
-        let names = paths.chain(self.resources().map(|(_, resource)| resource.name.to_owned()));
-        let rated = names.map(|known| (strsim::jaro_winkler(&known, name), known));
+        let names =
+            paths.chain(self.resources().flat_map(|(id, own)| [self.resource_path(id), own.name.to_owned()]));
+        let rated = names.map(|known| (strsim::jaro_winkler(&known.to_lowercase(), &wanted), known));
         let nearest = rated.filter(|(alike, _)| *alike >= ALIKE).max_by(|a, b| a.0.total_cmp(&b.0));
         let hint = match nearest {
             Some((_, nearest)) => format!("; did you mean `{nearest}`?"),

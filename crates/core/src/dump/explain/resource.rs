@@ -26,7 +26,7 @@ impl Plan {
     pub fn explain_resource(&self, id: ResourceId) -> String {
         let resource = self.resource(id);
         let size = bytes(resource.desc.bytes());
-        let mut page = Page::new(&format!("`{}`: {}, {size}", resource.name, shape(&resource.desc)));
+        let mut page = Page::new(&format!("`{}`: {}, {size}", self.resource_path(id), shape(&resource.desc)));
         page.line(1, self.origin_words(id));
         self.explain_versions(&mut page, id);
         for usage in self.usages(id) {

@@ -1,10 +1,10 @@
 //! What the page's script draws: indices, and each sentence once.
 
-use super::HtmlPage;
 use super::picture::{Drawing, PictureData};
+use super::{HtmlPage, PageTable};
 use crate::desc::ResourceDesc;
 use crate::dump::places::Places;
-use crate::dump::words::{bytes, shape, verb};
+use crate::dump::words::{shape, verb};
 use crate::handle::{PassId, ResourceId};
 use crate::part::Part;
 use crate::plan::{AccessPlan, DependencyKind, NodePlan, Plan};
@@ -24,7 +24,7 @@ pub(super) struct FrameData<'p> {
     resources: Vec<ResourceData<'p>>,
     slots: Vec<SlotData<'p>>,
     edges: Vec<EdgeData>,
-    tables: Vec<TableData<'p>>,
+    tables: &'p [PageTable],
     drawings: &'p [Drawing],
     pictures: Vec<PictureData<'p>>,
 }
@@ -82,6 +82,7 @@ struct AccessData {
 #[derive(Serialize)]
 struct ResourceData<'p> {
     name: &'p str,
+    node: Option<u32>,
     buffer: bool,
     shape: String,
     bytes: u64,
@@ -107,13 +108,8 @@ struct EdgeData {
     after: PassId,
     resource: Option<ResourceId>,
     kind: DependencyKind,
-}
-
-#[derive(Serialize)]
-struct TableData<'p> {
-    title: &'p str,
-    columns: &'p [String],
-    rows: &'p [Vec<String>],
+    /// The dependency as a sentence.
+    why: String,
 }
 
 impl<'p> FrameData<'p> {
@@ -132,6 +128,7 @@ impl<'p> FrameData<'p> {
             after: d.after,
             resource: d.resource,
             kind: d.kind,
+            why: plan.dependency_sentence(d),
         };
         Self {
             summary: plan.summary(),
@@ -141,11 +138,7 @@ impl<'p> FrameData<'p> {
             resources: plan.resources().map(|(id, _)| plan.resource_data(id)).collect(),
             slots: plan.slots().map(slot).collect(),
             edges: plan.dependencies().iter().map(edge).collect(),
-            tables: page
-                .tables
-                .iter()
-                .map(|(title, columns, rows)| TableData { title, columns, rows })
-                .collect(),
+            tables: &page.tables,
             drawings: &page.drawings,
             pictures: page.pictures.iter().map(|picture| PictureData::of(plan, picture)).collect(),
         }
@@ -203,6 +196,7 @@ impl Plan {
         let resource = self.resource(id);
         ResourceData {
             name: resource.name,
+            node: resource.node.map(|node| node.0),
             buffer: matches!(resource.desc, ResourceDesc::Buffer(_)),
             shape: shape(&resource.desc),
             bytes: resource.desc.bytes(),
@@ -212,19 +206,5 @@ impl Plan {
             slot: resource.slot.map(|slot| slot.0),
             home: self.slot_sentence(id),
         }
-    }
-
-    /// The plan in one line.
-    fn summary(&self) -> String {
-        let tenants: usize = self.slots().map(|slot| slot.tenants.len()).sum();
-        format!(
-            "{} passes in {} steps, {} culled; {tenants} resources in {} slots of {}, {} saved by sharing",
-            self.order().len(),
-            self.steps().len(),
-            self.culled_count(),
-            self.slots().len(),
-            bytes(self.slot_bytes()),
-            bytes(self.saved_bytes()),
-        )
     }
 }

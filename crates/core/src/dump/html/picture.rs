@@ -10,6 +10,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 use std::io::Write as _;
+use wgpu_types::TextureSampleType;
 
 /// What a part of a texture held at one moment of the frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Picture {
     pub resource: ResourceId,
     /// Its version.
     pub version: u32,
+    /// The first version that is in the picture: `version`, or an earlier one where passes drew beside each other.
+    pub since: u32,
     /// The pass that made the version; `None` for the end of the frame.
     pub pass: Option<PassId>,
     /// The part that is shown: one layer of one mip.
@@ -98,6 +101,10 @@ pub(super) struct PictureData<'p> {
     channels: u32,
     depth: bool,
     floats: bool,
+    /// Whole numbers.
+    integers: bool,
+    /// The versions from this one on are shown together, as their passes draw beside each other.
+    since: u32,
     /// Compressed by zlib, in base64.
     data: String,
     tiles: Vec<TileData<'p>>,
@@ -115,9 +122,15 @@ impl<'p> PictureData<'p> {
         let rect = picture.part.rect;
         let texels = picture.texels.as_ref();
         let [width, height] = texels.map_or([0, 0], |texels| texels.size_px);
-        let several = match plan.resource(picture.resource).desc {
-            ResourceDesc::Texture(desc) => desc.mip_levels > 1 || desc.size.depth_or_array_layers > 1,
-            ResourceDesc::Buffer(_) => false,
+        let (several, integers) = match plan.resource(picture.resource).desc {
+            ResourceDesc::Texture(desc) => (
+                desc.mip_levels > 1 || desc.size.depth_or_array_layers > 1,
+                matches!(
+                    desc.format.sample_type(None, None),
+                    Some(TextureSampleType::Uint | TextureSampleType::Sint)
+                ),
+            ),
+            ResourceDesc::Buffer(_) => (false, false),
         };
         let words = if several || rect.is_some() { picture.part.words() } else { String::new() };
         Self {
@@ -133,6 +146,8 @@ impl<'p> PictureData<'p> {
             channels: texels.map_or(0, |texels| texels.channels),
             depth: texels.is_ok_and(|texels| texels.is_depth),
             floats: texels.is_ok_and(|texels| matches!(texels.values, TexelValues::Floats(_))),
+            integers,
+            since: picture.since,
             data: texels.map(Texels::packed).unwrap_or_default(),
             tiles: picture.tiles.iter().map(|tile| TileData { rect: tile.rect, name: &tile.name }).collect(),
         }

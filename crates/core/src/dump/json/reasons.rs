@@ -57,7 +57,7 @@ impl Plan {
         let Some(ops) = &access.ops else { return };
         let of_access = |decision, (action, because)| Reason {
             pass: Some(self.pass_path(pass)),
-            resource: Some(self.resource(access.resource).name.to_owned()),
+            resource: Some(self.resource_path(access.resource)),
             part: (access.part != crate::Part::WHOLE).then(|| access.part.words()),
             decision,
             action,
@@ -79,7 +79,7 @@ impl Plan {
         };
         Reason {
             pass: None,
-            resource: Some(resource.name.to_owned()),
+            resource: Some(self.resource_path(id)),
             part: None,
             decision: "slot",
             action,

@@ -43,6 +43,8 @@ pub struct Captured {
 /// One mip level of a texture, behind the pass that wrote it.
 struct Shot {
     resource: ResourceId,
+    /// The versions that are in it.
+    since: u32,
     version: u32,
     pass: PassId,
     mip: u32,
@@ -163,6 +165,7 @@ impl Capture {
                 .and_then(|texture| ReadBack::texture(recording.device, encoder, name, texture, &shown));
             self.shots.push(Shot {
                 resource: access.resource,
+                since: since(plan, pass, access),
                 version: access.version + 1,
                 pass,
                 mip,
@@ -187,6 +190,21 @@ fn goes_on(plan: &Plan, pass: PassId, access: &AccessDecl) -> bool {
 fn same_layer(plan: &Plan, a: &AccessDecl, b: &AccessDecl) -> bool {
     let place = |access| Part { rect: None, ..plan.decl.part(access) };
     a.resource == b.resource && place(a) == place(b)
+}
+
+/// The first of the versions that were drawn beside each other up to this one.
+fn since(plan: &Plan, pass: PassId, access: &AccessDecl) -> u32 {
+    let before = plan.order.iter().rev().skip_while(|&&other| other != pass).skip(1);
+    let mut first = access.version + 1;
+    for &other in before {
+        for earlier in plan.decl.accesses(other).iter().filter(|other| same_layer(plan, access, other)) {
+            if !earlier.contents.writes() || !goes_on(plan, other, earlier) {
+                return first;
+            }
+            first = earlier.version + 1;
+        }
+    }
+    first
 }
 
 /// The rectangles that passes have drawn into up to this one, with the names of the last to do so.
@@ -240,6 +258,7 @@ impl Shot {
         let picture = |part: Part, texels| Picture {
             resource: self.resource,
             version: self.version,
+            since: self.since,
             pass: Some(self.pass),
             part,
             full_px,

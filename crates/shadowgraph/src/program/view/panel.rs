@@ -222,8 +222,8 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
     ui.separator();
     let position = stage.fly.camera().position_world();
     ui.monospace(format!("camera {:.1} {:.1} {:.1}", position.x, position.y, position.z));
-    let own_ms = |time: &TimeSummary| Some(time.gpu_ms?.median / f64::from(time.shared_by.max(1)));
-    let gpu_ms = stage.times.summary().iter().filter_map(own_ms).reduce(|a, b| a + b);
+    let summary = stage.times.summary();
+    let gpu_ms = summary.iter().filter_map(TimeSummary::gpu_share_ms).reduce(|a, b| a + b);
     if let Some(gpu_ms) = gpu_ms {
         ui.monospace(format!("GPU {gpu_ms:.2} ms, the median of {} frames", stage.times.frames()));
     }

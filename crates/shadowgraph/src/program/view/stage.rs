@@ -42,11 +42,12 @@ pub(super) struct Stage {
     watched_settings: Watched,
     watched_shaders: Watched,
     renderer: Option<Renderer>,
-    /// What the renderer was made for.
-    made: Option<(Technique, Pipeline, Aov)>,
-    /// Whether making it failed, so that it is not tried again for the same.
-    failed: Option<(Technique, Pipeline, Aov)>,
+    /// What was asked for last, and why there is no renderer for it: it is not tried again for the same.
+    made: Option<(Asked, Result<(), String>)>,
 }
+
+/// What a renderer is made for.
+type Asked = (Technique, Pipeline, Aov);
 
 impl Stage {
     pub(super) fn new(
@@ -80,7 +81,6 @@ impl Stage {
             watched_shaders: Watched::new(shaders),
             renderer: None,
             made: None,
-            failed: None,
         })
     }
 
@@ -97,13 +97,13 @@ impl Stage {
         self.settings = view.with_shadow_distance(ShadowDistance::Auto, &scene).shadows;
         self.fly = Fly::new(camera, scene.bounds().radius());
         (self.scene, self.aov, self.frozen) = (scene, Aov::default(), false);
-        (self.renderer, self.made, self.failed, self.refused) = (None, None, None, None);
+        (self.renderer, self.made, self.refused) = (None, None, None);
     }
 
     /// Reads again what was saved since the last frame.
     pub(super) fn reload(&mut self) {
         if self.watched_shaders.changed() {
-            (self.made, self.failed) = (None, None);
+            self.made = None;
             self.note = "shaders were read again".into();
         }
         if self.watched_settings.changed()
@@ -177,28 +177,19 @@ impl Stage {
     /// Makes the renderer for what is chosen. Where that fails the old one stays, and its picture.
     fn make(&mut self, gpu: &Gpu) -> Result<(), crate::Error> {
         let wanted = (self.technique, self.pipeline, self.aov.clone());
-        if self.made.as_ref() == Some(&wanted) || self.failed.as_ref() == Some(&wanted) {
-            return match (&self.error, self.made.as_ref() == Some(&wanted)) {
-                (Some(error), false) => Err(crate::Error::Gpu(error.clone())),
-                _ => Ok(()),
-            };
+        if let Some((_, made)) = self.made.as_ref().filter(|(asked, _)| *asked == wanted) {
+            return made.clone().map_err(crate::Error::Gpu);
         }
         let (technique, pipeline, samples) = (self.technique, self.pipeline, self.samples);
         let method = Method { technique, pipeline, samples };
         let made = gpu
             .checked(|| Renderer::with(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), method));
-        match made {
-            Ok(renderer) => {
-                let frozen = self.renderer.as_ref().and_then(|old| old.shadow_camera.clone());
-                self.renderer.insert(renderer).set_shadow_camera(frozen);
-                (self.made, self.failed) = (Some(wanted), None);
-                Ok(())
-            }
-            Err(error) => {
-                self.failed = Some(wanted);
-                Err(error)
-            }
-        }
+        let failed = made.as_ref().err().map(ToString::to_string);
+        self.made = Some((wanted, failed.map_or(Ok(()), Err)));
+        let renderer = made?;
+        let frozen = self.renderer.as_ref().and_then(|old| old.shadow_camera.clone());
+        self.renderer.insert(renderer).set_shadow_camera(frozen);
+        Ok(())
     }
 
     /// Returns the page about the frame as it is now.

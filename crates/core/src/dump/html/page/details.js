@@ -8,7 +8,7 @@ function passDetails(pass) {
     h('p', {}, `${kind} pass${keep ? ', kept whether or not anything needs what it writes' : ''}`),
     place ? h('p', {}, 'Runs: ', h('span', { class: 'why' }, alive)) : h('p', {}, h('strong', {}, 'Does not run: '), culled),
     place && [
-      h('p', {}, `Step ${place.step} of 0 to ${stepCount - 1}: `, h('span', { class: 'why' }, place.why)),
+      h('p', {}, `Step ${place.step}, of steps 0 to ${stepCount - 1}: `, h('span', { class: 'why' }, place.why)),
       h('p', {}, place.within ? 'Merged with the pass before it: ' : 'Not merged: ', h('span', { class: 'why' }, place.merged)),
       place.of > 1 && h('p', {}, `Pass ${place.within + 1} of ${place.of} in this render pass.`),
       waits.length > 0 && [h('h3', {}, 'Waits'), lines(waits)],
@@ -39,7 +39,7 @@ function resourceDetails(index) {
   const resource = resources[index];
   const shots = frame.pictures.filter((picture) => picture.resource === index);
   return [
-    h('h2', {}, resource.name),
+    h('h2', {}, resourcePath(index)),
     h('p', {}, `${resource.shape}, ${bytes(resource.bytes)}`),
     h('p', {}, `It ${resource.origin}.`),
     h('p', {}, resource.slot == null ? 'No slot: ' : `Slot ${resource.slot}${resource.steps ? `, steps ${resource.steps[0]} to ${resource.steps[1]}` : ''}: `, h('span', { class: 'why' }, resource.home)),

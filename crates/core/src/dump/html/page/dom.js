@@ -38,7 +38,15 @@ function hint(words) {
 }
 
 const passLink = (pass) => h('button', { class: 'link', onclick: () => choose({ pass }) }, passPath(pass));
-const resourceLink = (resource) => h('button', { class: 'link', onclick: () => choose({ resource }) }, resources[resource].name);
+const resourceLink = (resource) => h('button', { class: 'link', onclick: () => choose({ resource }) }, resourceName(resource));
+const counted = (number, one, many) => `${number} ${number === 1 ? one : many}`;
 const clip = (text, length) => (text.length > length ? `${text.slice(0, length - 1)}…` : text);
-const hue = (node) => (node == null ? 'transparent' : `hsl(${(around(node)[0] * 137.5 + 205) % 360} 45% var(--fill))`);
-const hueLine = (node) => (node == null ? 'var(--line)' : `hsl(${(around(node)[0] * 137.5 + 205) % 360} 45% var(--edge))`);
+// A colour for a name, the same in every frame (FNV-1a, Fowler, Noll and Vo).
+function hueOf(name) {
+  let hash = 0x811c9dc5;
+  for (const char of name) hash = Math.imul(hash ^ char.charCodeAt(0), 0x01000193);
+  return (hash >>> 0) % 360;
+}
+const outermost = (node) => hueOf(nodes[around(node)[0]].name);
+const hue = (node) => (node == null ? 'transparent' : `hsl(${outermost(node)} 45% var(--fill))`);
+const hueLine = (node) => (node == null ? 'var(--line)' : `hsl(${outermost(node)} 45% var(--edge))`);

@@ -5,6 +5,11 @@ const { passes, resources, nodes, slots, edges } = frame;
 
 const nodePath = (node) => (node == null ? '' : nodePath(nodes[node].parent) + nodes[node].name + '/');
 const passPath = (pass) => nodePath(passes[pass].node) + passes[pass].name;
+const resourcePath = (resource) => nodePath(resources[resource].node) + resources[resource].name;
+// As short as tells it apart from the others.
+const sameName = new Map();
+for (const { name } of resources) sameName.set(name, (sameName.get(name) ?? 0) + 1);
+const resourceName = (resource) => (sameName.get(resources[resource].name) > 1 ? resourcePath(resource) : resources[resource].name);
 // The nodes around something, the outermost first.
 const around = (node) => (node == null ? [] : [...around(nodes[node].parent), node]);
 
@@ -55,20 +60,12 @@ passes.forEach((pass, index) => {
 function linkLabel(link) {
   if (link.resource == null) return 'after';
   const used = passes[link.after].accesses.find((access) => access.resource === link.resource);
-  return `${resources[link.resource].name} v${used ? used.version : '?'}`;
+  return `${resourceName(link.resource)} v${used ? used.version : '?'}`;
 }
 
-function linkWords(link) {
-  const [a, b] = [passPath(link.before), passPath(link.after)];
-  const name = link.resource == null ? '' : resources[link.resource].name;
-  switch (link.kind) {
-    case 'ReadAfterWrite': return `“${b}” needs what “${a}” wrote to “${name}”`;
-    case 'WriteAfterRead': return `“${b}” writes over “${name}”, which “${a}” reads`;
-    case 'WriteAfterWrite': return `“${b}” writes over what “${a}” wrote to “${name}”`;
-    case 'Explicit': return `“${b}” was declared to run after “${a}”`;
-    default: return `“${b}” would read “${name}” from “${a}”, were neither culled`;
-  }
-}
+// Culled passes have no dependencies: these are what they would have had.
+const linkWords = ({ why, before, after, resource }) => why
+  ?? `“${passPath(after)}” would read “${resourceName(resource)}” from “${passPath(before)}”, were neither culled`;
 
 function bytes(count) {
   if (count < 1024) return `${count} B`;

@@ -3,6 +3,7 @@
 // Groups are nodes, and runs of passes without a node where those are many.
 const groups = nodes.map((node) => ({ name: node.name, parent: node.parent, node: true }));
 const FEW = 40;
+const MERGED = 4;
 const loose = passes.map((_, pass) => pass).filter((pass) => passes[pass].node == null);
 const looseGroup = new Map();
 if (loose.length > FEW) {
@@ -31,6 +32,7 @@ function withoutImplied(arrows, count) {
 const graphView = {
   name: 'Graph',
   open: new Set(),
+  openSteps: new Set(),
   whole: true,
   reach: 1,
   view: { x: 20, y: 20, scale: 1 },
@@ -116,6 +118,13 @@ const graphView = {
     return { of, links: links.filter((link) => of.has(link.before) && of.has(link.after)) };
   },
 
+  // The step that a neighbour is shown as a part of, where many of its merged passes would stand there.
+  mergedStep(pass, shown) {
+    const { place } = passes[pass];
+    if (!place || pass === chosen.pass || this.openSteps.has(place.step)) return undefined;
+    return steps[place.step].filter((other) => shown.has(other)).length > MERGED ? place.step : undefined;
+  },
+
   draw() {
     const whole = this.whole || !chosen;
     const { of, links: drawn } = this.shown();
@@ -124,8 +133,9 @@ const graphView = {
     // In order of declaration, in which nothing needs what comes later, and nodes are together.
     for (const pass of [...of].sort((a, b) => a - b)) {
       const closed = whole ? groupsAround(pass).find((group) => !this.open.has(group)) : undefined;
-      const key = closed == null ? `p${pass}` : `g${closed}`;
-      if (!units.has(key)) units.set(key, { key, pass: closed == null ? pass : null, group: closed, passes: [], place: units.size });
+      const step = whole ? undefined : this.mergedStep(pass, of);
+      const key = closed != null ? `g${closed}` : step != null ? `s${step}` : `p${pass}`;
+      if (!units.has(key)) units.set(key, { key, pass: closed == null && step == null ? pass : null, group: closed, step, passes: [], place: units.size });
       units.get(key).passes.push(pass);
       unitOf.set(pass, units.get(key));
     }
@@ -151,8 +161,8 @@ const graphView = {
     this.reachBox.hidden = whole || chosen?.pass == null;
     const missing = every.length - kept.filter((arrow) => arrow.points).length;
     this.note.textContent = whole
-      ? `${units.size} boxes for ${passes.length} passes. Choose a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out, as others imply them or they are long: choose a pass to see all of its.` : ''}`
-      : `${units.size} of ${passes.length} passes, around ${chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resources[chosen.resource].name}”`}.`;
+      ? `${counted(units.size, 'box', 'boxes')} for ${counted(passes.length, 'pass', 'passes')}. Choose a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out, as others imply them or they are long: choose a pass to see all of its.` : ''}`
+      : `${of.size} of ${counted(passes.length, 'pass', 'passes')}, around ${chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resourceName(chosen.resource)}”`}.`;
     this.outline.querySelectorAll('details').forEach((details) => { details.open = this.open.has(Number(details.dataset.group)); });
     this.fit();
   },
@@ -185,7 +195,7 @@ const graphView = {
     const wide = s('path', { d: pathOf(arrow.points), fill: 'none', stroke: 'transparent', 'stroke-width': 12, ...hint(words) });
     const middle = arrow.points.length > 2 ? arrow.points[Math.floor(arrow.points.length / 2)]
       : { x: (arrow.points[0].x + arrow.points[1].x) / 2, y: (arrow.points[0].y + arrow.points[1].y) / 2 };
-    const text = names.length > 2 ? `${names.length} things` : names.map((name) => clip(name, names.length > 1 ? 14 : 26)).join(', ');
+    const text = names.length > 2 ? `${clip(names[0], 14)} and ${names.length - 1} more` : names.map((name) => clip(name, names.length > 1 ? 14 : 26)).join(', ');
     const label = labels ? s('text', { class: 'label', x: middle.x, y: middle.y - 3, 'text-anchor': 'middle' }, text) : null;
     return { line: s('g', { class: 'line' }, line, wide), label: label ?? '' };
   },
@@ -194,14 +204,15 @@ const graphView = {
     const isPass = unit.pass != null;
     const pass = isPass ? passes[unit.pass] : null;
     const culled = unit.passes.filter((index) => !passes[index].place).length;
-    const node = isPass ? pass.node : groups[unit.group].node ? unit.group : null;
-    const name = isPass ? pass.name : groups[unit.group].name;
+    const run = unit.step != null;
+    const node = isPass ? pass.node : run ? passes[unit.passes[0]].node : groups[unit.group].node ? unit.group : null;
+    const name = isPass ? pass.name : run ? `${clip(passes[unit.passes[0]].name, 12)} … ${clip(passes[unit.passes.at(-1)].name, 12)}` : groups[unit.group].name;
     const second = isPass
       ? (pass.place ? `${pass.kind}, step ${pass.place.step}${pass.place.of > 1 ? `, ${pass.place.within + 1} of ${pass.place.of} merged` : ''}` : 'culled')
-      : `▸ ${unit.passes.length} passes${culled ? `, ${culled} culled` : ''}`;
+      : `▸ ${counted(unit.passes.length, 'pass', 'passes')}${run ? ` merged in step ${unit.step}` : ''}${culled ? `, ${culled} culled` : ''}`;
     const words = isPass ? `${passPath(unit.pass)}: ${pass.place ? `${second}\n${pass.alive}` : `does not run: ${pass.culled}`}` : `${name}: ${second.slice(2)}. Opens.`;
     const act = isPass ? () => choose({ pass: unit.pass }) : () => {
-      this.open.add(unit.group);
+      if (run) this.openSteps.add(unit.step); else this.open.add(unit.group);
       this.draw();
     };
     const chosenHere = isPass && chosen?.pass === unit.pass;

@@ -13,7 +13,7 @@ function decisions() {
       say('merged', subject, `${place.within ? 'merged with the pass before it' : 'not merged'}: ${place.merged}`);
     }
     for (const access of accesses) {
-      const name = `${access.part ? `${access.part} of ` : ''}“${resources[access.resource].name}”`;
+      const name = `${access.part ? `${access.part} of ` : ''}“${resourceName(access.resource)}”`;
       if (access.load) say('load', subject, `${name}, ${access.load[0]}: ${access.load[1]}`);
       if (access.clear) say('clear', subject, `${name}, ${access.clear[0]}: ${access.clear[1]}`);
       if (access.store) say('store', subject, `${name}, ${access.store[0]}: ${access.store[1]}`);
@@ -52,7 +52,7 @@ const logView = {
   },
 
   draw() {
-    const name = ({ pass, resource }) => (pass != null ? passPath(pass) : resources[resource].name);
+    const name = ({ pass, resource }) => (pass != null ? passPath(pass) : resourceName(resource));
     const shown = this.all.filter((decision) => (!this.kind || decision.kind === this.kind)
       && `${name(decision.subject)} ${decision.words}`.toLowerCase().includes(this.words));
     this.list.replaceChildren(...shown.map((decision) => h('li', {}, h('span', { class: 'tag' }, decision.kind),

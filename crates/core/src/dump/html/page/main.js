@@ -66,7 +66,7 @@ function find(words) {
   const matches = (name) => name.toLowerCase().includes(wanted);
   const found = [
     ...passes.map((_, pass) => ({ what: { pass }, name: passPath(pass), kind: passes[pass].place ? 'pass' : 'culled' })),
-    ...resources.map((resource, index) => ({ what: { resource: index }, name: resource.name, kind: resource.buffer ? 'buffer' : 'texture' })),
+    ...resources.map((resource, index) => ({ what: { resource: index }, name: resourceName(index), kind: resource.buffer ? 'buffer' : 'texture' })),
   ].filter((item) => matches(item.name)).sort((a, b) => a.name.length - b.name.length);
   const take = (item) => {
     document.getElementById('query').value = '';

@@ -1,6 +1,6 @@
 // Physical textures and buffers as lanes, and how many bytes are in use at each step.
 
-const LANE = { width: 24, height: 26, names: 250, chart: 120 };
+const LANE = { width: 24, height: 26, names: 300, chart: 120 };
 
 const memoryView = {
   name: 'Memory',
@@ -49,12 +49,12 @@ const memoryView = {
       const [start, end] = resource.steps;
       const wide = x(end + 1) - x(start);
       const name = clip(resource.name, Math.max(1, Math.floor((wide - 6) / 6.5)));
-      return s('g', { class: 'unit', tabindex: '0', role: 'button', ...press(() => choose({ resource: tenant })), ...hint(`${resource.name}: steps ${start} to ${end}\n${resource.home}`) },
+      return s('g', { class: 'unit', tabindex: '0', role: 'button', ...press(() => choose({ resource: tenant })), ...hint(`${resourceName(tenant)}: steps ${start} to ${end}\n${resource.home}`) },
         s('rect', { x: x(start) + 0.5, y: y + 3, width: wide - 1, height: LANE.height - 6, rx: 3, style: `fill:${laneColor(tenant)};stroke:${laneLine(tenant)}` }),
         name.length > 2 ? s('text', { class: 'small', x: x(start) + 5, y: y + 17 }, name) : '');
     });
     return s('g', { class: 'row' }, s('rect', { class: 'band', x: 0, y, width, height: LANE.height }),
-      s('text', { x: LANE.names - 8, y: y + 17, 'text-anchor': 'end' }, clip(`${index}: ${slot.shape}, ${bytes(slot.bytes)}`, 40)), tenants);
+      s('text', { x: LANE.names - 8, y: y + 17, 'text-anchor': 'end' }, clip(`${index}: ${slot.shape}, ${bytes(slot.bytes)}`, 46)), tenants);
   },
 
   // What does not live in slots.

@@ -8,21 +8,36 @@ const COLUMNS = [
   { name: 'CPU ms', value: (pass) => passes[pass].time?.cpu_ms ?? -1, cell: (pass) => milliseconds(passes[pass].time?.cpu_ms), number: true },
   {
     name: 'GPU ms', value: (pass) => passes[pass].time?.gpu_ms ?? -1, number: true,
-    cell: (pass) => milliseconds(passes[pass].time?.gpu_ms) + (passes[pass].time?.shared_by > 1 ? ` (${passes[pass].time.shared_by} merged)` : ''),
+    cell: (pass) => gpuCell(pass),
   },
   { name: 'Draws', value: (pass) => passes[pass].time?.draws ?? -1, cell: (pass) => passes[pass].time?.draws ?? '–', number: true },
   { name: 'Triangles', value: (pass) => passes[pass].time?.triangles ?? -1, cell: (pass) => passes[pass].time?.triangles?.toLocaleString('en') ?? '–', number: true },
   { name: 'Attachments, loads and stores', value: (pass) => attachments(pass).length, cell: (pass) => attachments(pass).map((line) => h('div', {}, line)) },
 ];
 
+// What merged passes took together stands once, at the first of them.
+function gpuCell(pass) {
+  const { time, place } = passes[pass];
+  if (!(time?.shared_by > 1)) return milliseconds(time?.gpu_ms);
+  return place.within ? 'with the first' : `${milliseconds(time.gpu_ms)} for all ${time.shared_by}`;
+}
+
 const milliseconds = (value) => (value == null ? '–' : value.toFixed(3));
 
 function attachments(pass) {
   return passes[pass].accesses.filter((access) => access.load).map((access) => {
     const part = access.part ? ` (${access.part})` : '';
-    const ops = [access.load, access.clear, access.store].filter(Boolean).map(([action, why]) => `${action}: ${why}`);
-    return `${resources[access.resource].name}${part} – ${ops.join('; ')}`;
+    const [[load, why], [store, reason]] = [access.load, access.store];
+    const begin = [`begins: ${load}, ${why}`, ...(access.clear ? [access.clear.join(', ')] : [])];
+    return `${resourceName(access.resource)}${part} – ${begin.join('; ')}; ends: ${store}, ${reason}`;
   });
+}
+
+// The time of passes together.
+function timeSum(of) {
+  const sum = (time) => of.reduce((all, pass) => (time(passes[pass]) == null ? all : (all ?? 0) + time(passes[pass])), null);
+  const [cpu, gpu] = [sum(({ time }) => time?.cpu_ms), sum(({ time }) => (time?.gpu_ms == null ? null : time.gpu_ms / Math.max(1, time.shared_by)))];
+  return `${cpu == null ? '' : `; CPU ${milliseconds(cpu)} ms`}${gpu == null ? '' : `, GPU ${milliseconds(gpu)} ms`}`;
 }
 
 const passesView = {
@@ -54,7 +69,7 @@ const passesView = {
   },
 
   draw() {
-    const text = (pass) => `${passPath(pass)} ${passes[pass].kind} ${passes[pass].accesses.map((access) => resources[access.resource].name).join(' ')}`.toLowerCase();
+    const text = (pass) => `${passPath(pass)} ${passes[pass].kind} ${passes[pass].accesses.map((access) => resourceName(access.resource)).join(' ')}`.toLowerCase();
     const shown = passes.map((_, pass) => pass).filter((pass) => text(pass).includes(this.words));
     const sign = this.down ? -1 : 1;
     const compare = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
@@ -62,7 +77,7 @@ const passesView = {
     this.heads.forEach((head, index) => head.setAttribute('aria-sort', this.columns[index] !== this.by ? 'none' : this.down ? 'descending' : 'ascending'));
     this.body.replaceChildren(...shown.map((pass) => h('tr', { class: `${passes[pass].place ? '' : 'culled'}${chosen?.pass === pass ? ' chosen' : ''}` },
       this.columns.map((column) => h('td', { class: column.number ? 'number' : null }, column.cell(pass))))));
-    this.count.textContent = `${shown.length} of ${passes.length} passes`;
+    this.count.textContent = `${shown.length} of ${counted(passes.length, 'pass', 'passes')}${timeSum(shown)}`;
   },
 
   chosen() { this.draw(); },

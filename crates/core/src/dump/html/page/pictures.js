@@ -12,9 +12,11 @@ async function texelsOf(picture) {
 }
 
 // The range that greys are stretched over: all finite values, for depth without those that nothing was drawn to.
-function rangeOf(picture, texels) {
+function rangeOf(picture, texels, only = null) {
   let [low, high] = [Infinity, -Infinity];
-  for (const value of texels) {
+  const step = only == null ? 1 : picture.channels;
+  for (let at = only ?? 0; at < texels.length; at += step) {
+    const value = texels[at];
     if (!Number.isFinite(value) || (picture.depth && value === 0)) continue;
     low = Math.min(low, value);
     high = Math.max(high, value);
@@ -24,27 +26,32 @@ function rangeOf(picture, texels) {
 
 const encode = (light) => 255 * (light <= 0.0031308 ? light * 12.92 : 1.055 * light ** (1 / 2.4) - 0.055);
 
-function paintPicture(canvas, picture, texels, opaque) {
+const stretch = (value, [low, high]) => 40 + (215 * (value - low)) / (high - low || 1);
+
+// `only` is a channel that is shown alone, as greys over its range.
+function paintPicture(canvas, picture, texels, opaque, only = null) {
   const { width, height, channels } = picture;
   canvas.width = width;
   canvas.height = height;
   const image = new ImageData(width, height);
-  const [low, high] = picture.floats ? rangeOf(picture, texels) : [0, 255];
-  const grey = channels === 1 || picture.depth;
+  const grey = channels === 1 || picture.depth || only != null;
+  // Light is toned down; all else is stretched, each channel over its own range.
+  const light = picture.floats && !grey && channels > 2 && !picture.integers && texels.every((value) => !(value < 0));
+  const ranges = [0, 1, 2].map((channel) => (grey || channel < channels ? rangeOf(picture, texels, grey ? only : channel) : null));
   for (let index = 0; index < width * height; index += 1) {
     const at = (channel) => texels[index * channels + channel];
     const out = image.data.subarray(index * 4, index * 4 + 4);
     out[3] = 255;
     for (let channel = 0; channel < 3; channel += 1) {
-      const value = at(grey ? 0 : channel);
+      const value = at(grey ? only ?? 0 : channel);
       if (!grey && channel >= channels) out[channel] = 0;
       else if (!picture.floats) out[channel] = value;
       else if (Number.isNaN(value)) [out[0], out[1], out[2]] = [255, 0, 255];
-      else if (grey) out[channel] = value === 0 && picture.depth ? 0 : 40 + (215 * (value - low)) / (high - low || 1);
+      else if (!light) out[channel] = value === 0 && picture.depth ? 0 : stretch(value, ranges[channel]);
       // Light without an upper end (Reinhard et al., 2002).
       else out[channel] = encode(Math.max(0, value) / (1 + Math.max(0, value)));
     }
-    if (!opaque && channels === 4 && !picture.floats) out[3] = at(3);
+    if (!opaque && channels === 4 && !picture.floats && only == null) out[3] = at(3);
   }
   canvas.getContext('2d').putImageData(image, 0, 0);
 }
@@ -66,7 +73,8 @@ function valueAt(picture, texels, canvas, event) {
   return `texel ${texel(x, picture.width, 0)}, ${texel(y, picture.height, 1)}: ${words}${picture.floats ? '' : ' of 255'}${tile ? `   ${tile.name}` : ''}`;
 }
 
-const captionOf = (picture) => `v${picture.version}${picture.part ? `, ${picture.part}` : ''}, ${picture.pass == null ? 'at the end' : `after ${passPath(picture.pass)}`}`;
+const versionsOf = ({ since, version }) => (since < version ? `v${since} to v${version} beside each other` : `v${version}`);
+const captionOf = (picture) => `${versionsOf(picture)}${picture.part ? `, ${picture.part}` : ''}, ${picture.pass == null ? 'at the end' : `after ${passPath(picture.pass)}`}`;
 
 const picturesView = {
   name: 'Pictures',
@@ -87,7 +95,7 @@ const picturesView = {
   card(picture) {
     const caption = h('figcaption', {}, captionOf(picture));
     if (picture.missing) return h('figure', {}, h('p', { class: 'why' }, `No picture: ${picture.missing}.`), caption);
-    const canvas = h('canvas', { role: 'img', tabindex: '0', 'aria-label': `${resources[picture.resource].name}, ${captionOf(picture)}`, ...press(() => this.open(picture)) });
+    const canvas = h('canvas', { role: 'img', tabindex: '0', 'aria-label': `${resourceName(picture.resource)}, ${captionOf(picture)}`, ...press(() => this.open(picture)) });
     texelsOf(picture).then((texels) => {
       paintPicture(canvas, picture, texels, false);
       canvas.dataset.drawn = 'yes';
@@ -105,8 +113,11 @@ const picturesView = {
     const names = s('svg', { style: 'position:absolute;left:0;top:0;pointer-events:none' });
     let scale = Math.max(1, Math.floor(Math.min((innerWidth * 0.9) / picture.width, (innerHeight * 0.75) / picture.height)));
     let opaque = false;
+    let only = null;
+    const range = h('span', { class: 'why' });
     const draw = () => {
-      paintPicture(canvas, picture, texels, opaque);
+      paintPicture(canvas, picture, texels, opaque, only);
+      range.textContent = ` ${rangeWords(picture, texels, only)}`;
       canvas.style.width = `${picture.width * scale}px`;
       canvas.style.height = `${picture.height * scale}px`;
       names.setAttribute('width', picture.width * scale);
@@ -118,14 +129,18 @@ const picturesView = {
       scale = Math.max(1, Math.min(32, scale * by));
       draw();
     };
-    const dialog = h('dialog', { 'aria-label': `${resources[picture.resource].name}, ${captionOf(picture)}`, onclose: () => dialog.remove() },
-      h('h2', {}, `${resources[picture.resource].name}: ${captionOf(picture)}`),
+    const dialog = h('dialog', { 'aria-label': `${resourceName(picture.resource)}, ${captionOf(picture)}`, onclose: () => dialog.remove() },
+      h('h2', {}, `${resourceName(picture.resource)}: ${captionOf(picture)}`),
       h('div', {}, h('button', { onclick: size(2), 'aria-label': 'Larger' }, '+'), ' ', h('button', { onclick: size(0.5), 'aria-label': 'Smaller' }, '−'), ' ',
         picture.channels === 4 && !picture.floats ? h('label', {}, h('input', { type: 'checkbox', onchange: (event) => {
           opaque = event.target.checked;
           draw();
         } }), ' without alpha ') : '',
-        h('button', { onclick: () => dialog.close() }, 'Close (Esc)'), h('span', { class: 'why' }, ` ${rangeWords(picture, texels)}`)),
+        picture.channels > 1 && h('select', { 'aria-label': 'Channels', onchange: (event) => {
+          only = event.target.value === '' ? null : Number(event.target.value);
+          draw();
+        } }, ['all channels', 'red', 'green', 'blue', 'alpha'].slice(0, picture.channels + 1).map((name, index) => h('option', { value: index ? index - 1 : '' }, name))),
+        ' ', h('button', { onclick: () => dialog.close() }, 'Close (Esc)'), range),
       value, h('div', { class: 'stage' }, canvas, names));
     document.body.append(dialog);
     draw();
@@ -139,25 +154,27 @@ const picturesView = {
   chosen() {},
 };
 
-function rangeWords(picture, texels) {
+function rangeWords(picture, texels, only) {
   const whole = `${picture.full[0]} x ${picture.full[1]} texels, every ${(picture.full[0] / picture.width).toFixed(1)}th shown`;
   if (!picture.floats) return whole;
-  const [low, high] = rangeOf(picture, texels);
-  return `${whole}; values ${Number(low.toPrecision(5))} to ${Number(high.toPrecision(5))}${picture.depth ? ', black where nothing was drawn' : ''}`;
+  const [low, high] = rangeOf(picture, texels, only);
+  return `${whole}; values ${Number(low.toPrecision(5))} to ${Number(high.toPrecision(5))}${picture.depth ? ', black where nothing was drawn' : ''}${picture.integers ? ', whole numbers' : ''}`;
 }
 
 // Outlines and names of the parts that passes drew into. `scale` is how large a shown texel is.
 function drawTiles(svg, picture, scale) {
   const letter = Math.max(12, (picture.width * scale) / (svg.classList.contains('tiles') ? 20 : 60));
   const across = (picture.width / picture.full[0]) * scale;
-  svg.replaceChildren(...(picture.tiles ?? []).flatMap((tile) => [
+  const parts = (picture.tiles ?? []).flatMap((tile) => [
     s('rect', {
       x: tile.x * across, y: tile.y * across, width: tile.width * across, height: tile.height * across, fill: 'none', stroke: 'var(--mark)',
       'stroke-width': 1.5, 'vector-effect': 'non-scaling-stroke',
     }),
-    s('text', { class: 'label', x: tile.x * across + letter * 0.4, y: tile.y * across + letter * 1.2, style: `font-size:${letter}px;stroke-width:${letter / 3}px` },
+    // What does not fit is told by the value under the pointer.
+    tile.width * across > letter * 2.5 && s('text', { class: 'label', x: tile.x * across + letter * 0.4, y: tile.y * across + letter * 1.2, style: `font-size:${letter}px;stroke-width:${letter / 3}px` },
       clip(tile.name, Math.max(3, Math.floor((tile.width * across) / letter / 0.6)))),
-  ]));
+  ]);
+  svg.replaceChildren(...parts.filter(Boolean));
 }
 
 // Named outlines on a plane, x to the right and y down, with a list of them beside it that zooms in on each.
@@ -167,7 +184,7 @@ function drawing(plot) {
     const [x, y] = [Math.min(...xs), Math.min(...ys)];
     return { x, y, width: Math.max(...xs) - x || 1, height: Math.max(...ys) - y || 1 };
   };
-  const color = (index) => `hsl(${(index * 137.5 + 205) % 360} 60% 50%)`;
+  const color = (index) => `hsl(${hueOf(plot.outlines[index].name)} 60% 50%)`;
   const shapes = plot.outlines.map((outline, index) => s('polygon', {
     points: outline.points.map((point) => point.join(',')).join(' '), 'vector-effect': 'non-scaling-stroke',
     style: `fill:${color(index)};fill-opacity:.07;stroke:${color(index)};stroke-width:1.5`, ...hint(outline.name),

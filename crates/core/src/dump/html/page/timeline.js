@@ -28,7 +28,7 @@ const timelineView = {
     panel.append(
       h('div', { class: 'bar' },
         h('span', {}, swatch('var(--write)', '■ writes'), ' ', swatch('var(--read)', '● reads'), ' ', swatch('var(--both)', '◆ keeps and writes')),
-        h('span', { class: 'hint' }, 'A bar runs from first to last use. Columns of one shade share a render pass.')),
+        h('span', { class: 'hint' }, 'A bar runs from first to last use. Shades change from step to step: passes of one step share a pass of the encoder.')),
       h('div', { class: 'scroll flush', onscroll: stay }, this.svg));
   },
 
@@ -50,8 +50,8 @@ const timelineView = {
   label(resource, row) {
     return s('text', {
       class: 'unit', tabindex: '0', role: 'button', x: CELL.names - 12, y: CELL.heads + row * CELL.height + 14, 'text-anchor': 'end',
-      ...press(() => choose({ resource })), ...hint(`${resources[resource].name}: ${resources[resource].shape}, ${bytes(resources[resource].bytes)}\n${resources[resource].origin}`),
-    }, clip(resources[resource].name, 34));
+      ...press(() => choose({ resource })), ...hint(`${resourceName(resource)}: ${resources[resource].shape}, ${bytes(resources[resource].bytes)}\n${resources[resource].origin}`),
+    }, clip(resourceName(resource), 34));
   },
 
   row(resource, row, width) {
@@ -62,7 +62,7 @@ const timelineView = {
     const centre = (place) => CELL.names + place * CELL.width + CELL.width / 2;
     const mark = (use) => {
       const { writes, keeps } = use.access;
-      const words = `${passPath(use.pass)} ${use.access.does} ${resources[resource].name}${use.access.as}, ${versionOf(use.access)}`
+      const words = `${passPath(use.pass)} ${use.access.does} ${resourceName(resource)}${use.access.as}, ${versionOf(use.access)}`
         + `${use.access.part ? `, ${use.access.part}` : ''}${use.access.note ? `\n${use.access.note}` : ''}`
         + [use.access.load, use.access.clear, use.access.store].filter(Boolean).map(([action, why]) => `\n${action}: ${why}`).join('');
       const [x, middle] = [centre(use.at), y + CELL.height / 2];

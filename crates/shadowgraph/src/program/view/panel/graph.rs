@@ -3,7 +3,7 @@
 use egui::{CollapsingHeader, Grid, Ui};
 
 use super::super::stage::Stage;
-use crate::core::{PassId, Plan, TimeSummary};
+use crate::core::{NodeId, PassId, Plan, TimeSummary};
 
 #[derive(Default)]
 pub(super) struct GraphPanel {
@@ -22,19 +22,23 @@ impl GraphPanel {
             plan.slot_bytes() as f64 / 1_048_576.0
         ));
         let times = stage.times.summary();
-        let mut nodes: Vec<String> = Vec::new();
+        // Times are in order of recording; the first frame of another plan has none yet.
+        let times = |place: usize| times.get(place).filter(|_| times.len() == plan.order().len());
+        let mut nodes: Vec<Option<NodeId>> = Vec::new();
         for &pass in plan.order() {
-            let node = node(plan, pass);
+            let node = plan.pass(pass).node;
             if !nodes.contains(&node) {
                 nodes.push(node);
             }
         }
-        for name in nodes {
-            let title = if name.is_empty() { "(no node)" } else { &name };
-            CollapsingHeader::new(title).default_open(true).show(ui, |ui| {
+        for node in nodes {
+            let name = node.map_or("(no node)".into(), |node| plan.node_path(node));
+            CollapsingHeader::new(&name).default_open(true).show(ui, |ui| {
                 Grid::new(&name).num_columns(3).striped(true).show(ui, |ui| {
-                    for &pass in plan.order().iter().filter(|&&pass| node(plan, pass) == name) {
-                        self.row(ui, plan, pass, &times);
+                    for (place, &pass) in plan.order().iter().enumerate() {
+                        if plan.pass(pass).node == node {
+                            self.row(ui, plan, pass, times(place));
+                        }
                     }
                 });
             });
@@ -46,13 +50,12 @@ impl GraphPanel {
         }
     }
 
-    fn row(&mut self, ui: &mut Ui, plan: &Plan, pass: PassId, times: &[TimeSummary]) {
-        let path = plan.pass_path(pass);
-        let chosen = self.chosen.as_ref() == Some(&path);
+    fn row(&mut self, ui: &mut Ui, plan: &Plan, pass: PassId, time: Option<&TimeSummary>) {
+        let chosen = self.chosen.as_ref().is_some_and(|path| *path == plan.pass_path(pass));
         if ui.selectable_label(chosen, plan.pass(pass).name).clicked() {
-            self.chosen = Some(path.clone());
+            self.chosen = Some(plan.pass_path(pass));
         }
-        let Some(time) = times.iter().find(|time| time.pass == path) else { return ui.end_row() };
+        let Some(time) = time else { return ui.end_row() };
         ui.monospace(format!("{:.3} ms CPU", time.cpu_ms.median));
         if let Some(gpu_ms) = time.gpu_ms {
             let shared =
@@ -76,8 +79,4 @@ impl GraphPanel {
             }
         });
     }
-}
-
-fn node(plan: &Plan, pass: PassId) -> String {
-    plan.pass(pass).node.map(|node| plan.node_path(node)).unwrap_or_default()
 }

@@ -1,0 +1,29 @@
+//! The plan in one line.
+
+use super::words::bytes;
+use crate::plan::Plan;
+
+impl Plan {
+    /// How many passes, steps, resources and slots there are, and what they take.
+    pub(super) fn summary(&self) -> String {
+        let tenants = self.slots().map(|slot| slot.tenants.len()).sum::<usize>();
+        let outside = match self.resources().len() - tenants {
+            0 => String::new(),
+            others => format!(", {others} outside"),
+        };
+        format!(
+            "{} in {}, {} culled; {} in {} of {}{outside}; sharing saves {}",
+            count(self.order().len(), "pass", "passes"),
+            count(self.steps().len(), "step", "steps"),
+            self.culled_count(),
+            count(tenants, "resource", "resources"),
+            count(self.slots().len(), "slot", "slots"),
+            bytes(self.slot_bytes()),
+            bytes(self.saved_bytes()),
+        )
+    }
+}
+
+fn count(number: usize, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
