@@ -1,33 +1,17 @@
-//! Forward lighting: a depth prepass, and one pass for all lights and materials.
+//! Forward lighting: one pass for all lights and materials.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{
-    AlphaKey, DepthPipelines, DepthTarget, Draw, DrawList, DrawWith, GpuScene, MaterialKey, MaterialLayouts,
-    vertex_layout,
-};
+use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 
 use shadowgraph_shaders::ModuleSource;
 
-use crate::{Error, GpuView, ViewBuffers};
-
-/// The format of the depth that the prepass draws.
-const DEPTH_FORMAT: Format = Format::Depth32Float;
-
-/// What is drawn, seen by which camera.
-#[derive(Clone, Copy)]
-pub struct Geometry<'f> {
-    /// The scene on the GPU.
-    pub scene: &'f GpuScene,
-    /// Its visible draws.
-    pub draws: &'f DrawList,
-    /// Width and height of the picture, pixels.
-    pub size_px: [u32; 2],
-}
+use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::{Error, ViewBuffers};
 
 /// What the lit pass writes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,7 +35,6 @@ pub enum Shows {
 pub struct Forward {
     view_layout: wgpu::BindGroupLayout,
     shadow_layout: wgpu::BindGroupLayout,
-    prepass: DepthPipelines,
     recipe: Arc<Recipe>,
     /// The technique's modules in each of its variants.
     modules: Vec<Vec<ModuleSource>>,
@@ -130,11 +113,6 @@ impl Forward {
             immediate_size: 0,
         });
         let forward = Self {
-            prepass: DepthPipelines::new(
-                device,
-                layouts,
-                &DepthTarget { samples: target.samples, ..DepthTarget::default() },
-            )?,
             view_layout,
             shadow_layout,
             recipe: Arc::new(Recipe { device: device.clone(), layout, target }),
@@ -176,11 +154,6 @@ impl Forward {
         Ok(pipelines)
     }
 
-    /// Returns the pipelines of the prepass, for one that is recorded without the graph.
-    pub fn depth_pipelines(&self) -> &DepthPipelines {
-        &self.prepass
-    }
-
     /// Returns the layout of group 1 of the lit pass: the technique's.
     pub fn shadow_layout(&self) -> &wgpu::BindGroupLayout {
         &self.shadow_layout
@@ -189,31 +162,6 @@ impl Forward {
     /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
         &self.view_layout
-    }
-
-    /// Adds the pass that draws the depth of all solid geometry, and returns the depth.
-    pub fn prepass<'f>(
-        &'f self,
-        frame: &mut Frame<'f>,
-        view: &ViewBuffers,
-        geometry: Geometry<'f>,
-    ) -> Texture {
-        let [width, height] = geometry.size_px;
-        let desc = TextureDesc::d2(width, height, DEPTH_FORMAT).samples(self.recipe.target.samples);
-        let mut depth = frame.create_texture("depth", desc);
-        let mut pass = frame.render_pass("depth prepass");
-        let view = pass.storage_buffer(&view.view);
-        pass.depth(&mut depth, Contents::clear_depth(0.0));
-        pass.body(move |ctx| {
-            let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
-            let group = ctx.bind_group(self.prepass.view_layout(), &[whole])?;
-            ctx.pass.set_bind_group(0, &group, &[0]);
-            let with = |draw: &Draw| Some(self.prepass.get(draw.key));
-            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
-            ctx.note_draws(draws);
-            Ok(())
-        });
-        depth
     }
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where

@@ -3,7 +3,7 @@
 //! A frame is lit in a few calls, each of which adds passes to the graph:
 //!
 //! 1. [`ViewRecords::upload`] writes the camera and the lights;
-//! 2. [`Forward::prepass`] draws depth;
+//! 2. [`Prepass::add_to`] draws depth;
 //! 3. the shadow technique adds its maps (`shadowgraph_shadows::add_shadows`);
 //! 4. [`Forward::lit`] draws the scene, every light and material, asking `shadow_visibility` for each light;
 //! 5. [`Tonemap::add_to`] makes a picture of it.
@@ -14,11 +14,14 @@
 mod error;
 mod exposure;
 mod forward;
+mod prepass;
 mod records;
+mod shader;
 mod tonemap;
 
 pub use error::Error;
 pub use exposure::{Ambience, Key};
-pub use forward::{Forward, Geometry, LitPipelines, LitTarget, Shows};
+pub use forward::{Forward, LitPipelines, LitTarget, Shows};
+pub use prepass::{Geometry, Prepass};
 pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
 pub use tonemap::Tonemap;

@@ -7,7 +7,8 @@
 use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
-use shadowgraph::options::{AdapterChoice, Aov, Pipeline};
+use shadowgraph::Pipeline;
+use shadowgraph::options::{AdapterChoice, Aov};
 use shadowgraph::scene::gpu::{DrawList, GpuScene};
 use shadowgraph::scene::{
     Aabb, AlphaMode, Camera, CullTree, CullVolume, Instance, Light, LightKind, Material, Mesh, Projection,
@@ -152,7 +153,7 @@ fn overdraw() -> Result<(), Failure> {
         let camera = Camera::look_at(DVec3::new(0.0, 0.0, 6.0), DVec3::ZERO, DVec3::Y, projection);
         let shadows = ShadowSettings { distance_m: 30.0, ..ShadowSettings::default() };
         let options = ViewOptions { camera, size_px: [640, 360], shadows };
-        let pipelines = [Pipeline::Minimal, Pipeline::Forward, Pipeline::ScreenShadows];
+        let pipelines = [Pipeline::minimal(), Pipeline::forward(), Pipeline::screen_shadows()];
         let mut renderers = Vec::new();
         for pipeline in pipelines {
             let method = Method::from(pipeline);

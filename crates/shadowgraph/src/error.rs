@@ -61,6 +61,43 @@ pub enum Error {
         /// The names there are.
         known: String,
     },
+    /// A pipeline is not right.
+    #[error(transparent)]
+    Pipeline(#[from] crate::pipelines::PipelineError),
+    /// A pipeline has no such output.
+    #[error("--aov {aov}: the outputs of pipeline {pipeline} name no `{output}`")]
+    NoOutput {
+        /// What is to be shown.
+        aov: String,
+        /// The pipeline.
+        pipeline: String,
+        /// What that would need.
+        output: &'static str,
+    },
+    /// A kind of node contradicts itself: a mistake of whoever wrote it.
+    #[error("the kind of node `{kind}` is wrong: {fault}")]
+    NodeKind {
+        /// Its name.
+        kind: &'static str,
+        /// What is wrong.
+        fault: String,
+    },
+    /// A kind of node that there is not.
+    #[error("there is no kind of node `{name}`{hint}")]
+    NoNodeKind {
+        /// The name asked for.
+        name: String,
+        /// A name that is like it, or all.
+        hint: String,
+    },
+    /// A node that the frame gives nothing to read.
+    #[error("`{port}` of `{node}` is not there in this frame: feed it, or leave the node out")]
+    Unfed {
+        /// The node.
+        node: String,
+        /// Its input.
+        port: String,
+    },
     /// Cases to measure cannot be read.
     #[error("{place}: {reason}")]
     Cases {

@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use shadowgraph::shadows::Techniques;
+use shadowgraph::Registry;
 
 fn main() -> ExitCode {
-    shadowgraph::program::run(&Techniques::built_in())
+    shadowgraph::program::run(&Registry::built_in())
 }

@@ -5,8 +5,7 @@ use shadowgraph_scene::Scene;
 
 use shadowgraph_shadows::Technique;
 
-use crate::options::Pipeline;
-use crate::{Error, Gpu, Method, techniques};
+use crate::{Error, Gpu, Method, Pipeline, techniques};
 
 /// How many variants of the lit shader a technique can make a frame ask for. Each of them is compiled for those of the
 /// [material keys](shadowgraph_scene::gpu::MaterialKey) that are drawn.
@@ -27,10 +26,10 @@ pub struct Permutations {
 pub fn permutations(technique: Technique) -> Result<Permutations, Error> {
     let gpu = Gpu::noop()?;
     let count = |pipeline| -> Result<u32, Error> {
-        let method = Method { technique, pipeline, ..Method::default() };
-        Ok(techniques::make(method, &gpu, &Scene::default(), DVec3::ZERO)?.variant_count())
+        let method = Method { technique: Some(technique), pipeline, ..Method::default() };
+        Ok(techniques::make(&method, &gpu, &Scene::default(), DVec3::ZERO)?.variant_count())
     };
-    let (asked, all) = (count(Pipeline::Forward)?, count(Pipeline::ScreenShadows)?);
+    let (asked, all) = (count(Pipeline::forward())?, count(Pipeline::screen_shadows())?);
     // The mask alone needs nothing of the technique.
     Ok(Permutations { asked, collected: all - asked, collected_and_asked: asked })
 }

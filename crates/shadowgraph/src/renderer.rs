@@ -2,17 +2,18 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use shadowgraph_core::{Buffer, Compiled, Executed, Format, Frame, Graph, Part, Plan, Timer};
-use shadowgraph_lighting::{Ambience, Forward, Key, LitTarget, Shows, Tonemap};
+use shadowgraph_core::{Buffer, Compiled, Executed, Format, Frame, Graph, Part, Plan, Texture, Timer};
+use shadowgraph_lighting::{Ambience, Key, LitTarget, Shows};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near, visible};
-use shadowgraph_shadows::{ShadowSettings, ShadowTechnique, Technique, TechniqueKind, Unshadowed};
+use shadowgraph_shadows::{
+    ShadowOutputs, ShadowSettings, ShadowTechnique, Technique, TechniqueKind, Unshadowed,
+};
 
-use crate::options::{Aov, Pipeline, ShadowDistance};
+use crate::options::{Aov, ShadowDistance};
 use crate::picture::{Drawn, Picture};
-use crate::pipelines::{self, Target, View};
-use crate::surfaces::SurfaceDrawer;
-use crate::{Error, Gpu, SceneCasters, Show, techniques};
+use crate::pipelines::{Build, Output, View, Wiring};
+use crate::{Error, Gpu, Pipeline, SceneCasters, Show, techniques};
 
 /// What a view shows, and how.
 #[derive(Clone, Debug)]
@@ -53,10 +54,10 @@ impl ViewOptions {
 }
 
 /// How pictures are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Method {
-    /// The shadows.
-    pub technique: Technique,
+    /// The shadows; `None`: those that the pipeline says, `pcf` where it says nothing.
+    pub technique: Option<Technique>,
     /// The passes.
     pub pipeline: Pipeline,
     /// How many samples each pixel has while colours are drawn: 1, or 4 for smooth edges.
@@ -65,13 +66,20 @@ pub struct Method {
 
 impl Default for Method {
     fn default() -> Self {
-        Self { technique: Technique::default(), pipeline: Pipeline::default(), samples: 1 }
+        Self { technique: None, pipeline: Pipeline::default(), samples: 1 }
+    }
+}
+
+impl Method {
+    /// Returns the technique that shadows are made with, without what the pipeline adds to it.
+    pub fn technique(&self) -> Technique {
+        self.technique.or(self.pipeline.technique()).unwrap_or_default()
     }
 }
 
 impl From<Technique> for Method {
     fn from(technique: Technique) -> Self {
-        Self { technique, ..Self::default() }
+        Self { technique: Some(technique), ..Self::default() }
     }
 }
 
@@ -92,13 +100,9 @@ pub struct Renderer {
     pub(crate) casters: SceneCasters,
     pub(crate) technique: Box<dyn ShadowTechnique>,
     method: Method,
-    pub(crate) forward: Forward,
-    /// Where the technique reads them.
-    pub(crate) surfaces: Option<SurfaceDrawer>,
-    pub(crate) show: Show,
-    tonemap: Tonemap,
-    /// For the caller's targets of this format.
-    target_tonemap: Option<(Format, Tonemap)>,
+    wiring: Box<dyn Wiring>,
+    show: Show,
+    shows: Shows,
     scene: Scene,
     aov: Aov,
     /// Whose view shadows are made for, where that is not the one who looks.
@@ -145,23 +149,21 @@ impl Renderer {
 
     fn unchecked(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov, method: Method) -> Result<Self, Error> {
         let device = &gpu.device;
+        let method = Method { pipeline: method.pipeline.on(gpu.adapter.device_type)?, ..method };
         let origin_world = origin_near(eye.position_world());
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique = techniques::make(method, gpu, &scene, origin_world)?;
+        let technique = techniques::make(&method, gpu, &scene, origin_world)?;
         let (shows, format) = shows(&aov, &scene.lights)?;
-        let target = LitTarget { format, shows, samples: method.samples };
-        let forward = Forward::new(device, uploaded.layouts(), technique.as_ref(), target)?;
-        let reads_surfaces = technique.reads_surfaces();
-        let surfaces = reads_surfaces.then(|| SurfaceDrawer::new(device, uploaded.layouts())).transpose()?;
+        let lit = LitTarget { format, shows, samples: method.samples };
+        let layouts = uploaded.layouts();
+        let wiring = method.pipeline.make(&Build { device, layouts, technique: technique.as_ref(), lit })?;
         Ok(Self {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
             method,
-            forward,
-            surfaces,
+            wiring,
             show: Show::new(device)?,
-            tonemap: Tonemap::new(device, PICTURE_FORMAT)?,
-            target_tonemap: None,
+            shows,
             scene,
             aov,
             shadow_camera: None,
@@ -196,8 +198,8 @@ impl Renderer {
     }
 
     /// Returns the pipeline that draws.
-    pub fn pipeline(&self) -> Pipeline {
-        self.method.pipeline
+    pub fn pipeline(&self) -> &Pipeline {
+        &self.method.pipeline
     }
 
     /// Returns how many samples each pixel has while it is drawn.
@@ -256,7 +258,7 @@ impl Renderer {
         let view = self.view(options, None);
         gpu.checked(|| {
             let mut frame = self.graph().frame();
-            let output = pipelines::add(&mut frame, self, &view)?;
+            let output = self.add(&mut frame, &view)?;
             let request = frame.read_back_texture(&output.picture, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut graph = self.graph();
@@ -288,7 +290,7 @@ impl Renderer {
             let mut requests = Vec::new();
             for view in &planned {
                 let name = format_args!("view {}", view.number);
-                let output = frame.node(name, |frame| pipelines::add(frame, self, view))?;
+                let output = frame.node(name, |frame| self.add(frame, view))?;
                 requests.push(frame.read_back_texture(&output.picture, Part::WHOLE));
             }
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -337,11 +339,11 @@ impl Renderer {
         timer: Option<&mut Timer>,
     ) -> Result<Executed, Error> {
         let options = ViewOptions { size_px: [target.width(), target.height()], ..options.clone() };
-        self.prepare_target(&gpu.device, target.format())?;
+        self.check_target(target.format())?;
         self.move_origin(gpu, &options)?;
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
-        let output = pipelines::add(&mut frame, self, &view)?;
+        let output = self.add(&mut frame, &view)?;
         if self.aov != Aov::Color {
             let mut target = frame.import_texture("target", target, false);
             frame.copy_pass("copy to target").texture(&output.picture, &mut target);
@@ -357,12 +359,57 @@ impl Renderer {
         options.camera.check(options.aspect())?;
         let view = self.view(options, None);
         let mut frame = self.graph().frame();
-        let output = pipelines::add(&mut frame, self, &view)?;
+        let output = self.add(&mut frame, &view)?;
         frame.export_texture(&output.picture);
         Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
     }
 
-    /// Culls and sorts what the view sees. `target` is one that was prepared for.
+    /// Adds the passes of a view, and those that show what is asked for.
+    pub(crate) fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Shown, Error> {
+        let output = self.wiring.add(frame, view)?;
+        let picture = self.shown(frame, view, &output)?;
+        let ShadowOutputs { records, unshadowed, .. } = output.shadows;
+        Ok(Shown { picture, records, unshadowed })
+    }
+
+    /// What is asked for; passes that it does not need are culled.
+    fn shown<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f View<'f>,
+        output: &Output<'f>,
+    ) -> Result<Texture, Error> {
+        let none = |output| Error::NoOutput {
+            aov: self.aov.to_string(),
+            pipeline: self.method.pipeline.name().into(),
+            output,
+        };
+        let size_px = view.options.size_px;
+        let buffers = || output.view.as_ref().ok_or_else(|| none("view"));
+        match &self.aov {
+            Aov::Color => Ok(output.picture.clone()),
+            Aov::Visibility(_) | Aov::Cascade | Aov::Normal => {
+                output.light.clone().ok_or_else(|| none("light"))
+            }
+            Aov::Depth => {
+                let depth = output.depth.as_ref().ok_or_else(|| none("depth"))?;
+                let buffers = buffers()?;
+                Ok(frame.node("picture", |frame| self.show.depth(frame, buffers, depth, size_px)))
+            }
+            Aov::Atlas => {
+                let maps: Vec<&Texture> = output.shadows.debug.iter().map(|(_, texture)| texture).collect();
+                let buffers = buffers()?;
+                Ok(frame.node("picture", |frame| self.show.textures(frame, buffers, &maps, size_px)))
+            }
+            Aov::Texture(name) => {
+                let texture = frame.find_texture(name).ok_or_else(|| no_texture(frame, name))?;
+                let buffers = buffers()?;
+                Ok(frame.node("picture", |frame| self.show.textures(frame, buffers, &[&texture], size_px)))
+            }
+        }
+    }
+
+    /// Culls and sorts what the view sees. A colour picture goes to `target`.
     pub(crate) fn view<'v>(
         &'v self,
         options: &'v ViewOptions,
@@ -373,24 +420,25 @@ impl Renderer {
         gpu_scene.cull(&options.camera.volume(options.aspect()).into(), &mut seen);
         let draws = gpu_scene.draw_list(&seen, options.camera.position_world());
         let key = Key::of(&self.scene.lights, gpu_scene.bounds());
-        let tonemap = match (target, &self.target_tonemap) {
-            (Some(_), Some((_, tonemap))) => tonemap,
-            _ => &self.tonemap,
-        };
-        let target = Target { texture: target, tonemap };
-        View { number: 0, options, draws, ambience: Ambience::for_key(key), target }
+        View {
+            number: 0,
+            options,
+            draws,
+            ambience: Ambience::for_key(key),
+            lights: &self.scene.lights,
+            casters: &self.casters,
+            technique: self.technique.as_ref(),
+            shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
+            shows: self.shows,
+            target: target.filter(|_| self.aov == Aov::Color),
+        }
     }
 
-    /// Makes the pipeline that draws colours into a target of the caller's, if there is none yet.
-    pub(crate) fn prepare_target(&mut self, device: &wgpu::Device, format: Format) -> Result<(), Error> {
-        let known = self.target_tonemap.as_ref().is_some_and(|(known, _)| *known == format);
-        if known || self.aov != Aov::Color {
-            return Ok(());
-        }
-        if !format.is_srgb() {
+    /// Pictures of colours need a format that encodes them.
+    fn check_target(&self, format: Format) -> Result<(), Error> {
+        if self.aov == Aov::Color && !format.is_srgb() {
             return Err(Error::TargetFormat { format });
         }
-        self.target_tonemap = Some((format, Tonemap::new(device, format)?));
         Ok(())
     }
 
@@ -403,7 +451,7 @@ impl Renderer {
         }
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
         // It may hold positions.
-        self.technique = techniques::make(self.method, gpu, &self.scene, origin_world)?;
+        self.technique = techniques::make(&self.method, gpu, &self.scene, origin_world)?;
         Ok(())
     }
 
@@ -427,6 +475,21 @@ impl Renderer {
             None => compiled.execute(&mut graph, &gpu.device, encoder)?,
         })
     }
+}
+
+/// What a view gives.
+pub(crate) struct Shown {
+    /// Four bytes a pixel, as large as the view.
+    pub(crate) picture: Texture,
+    /// The records of shadow maps, where there are any.
+    pub(crate) records: Option<[Buffer; 2]>,
+    /// The lights that are to cast shadows but have none, and why.
+    pub(crate) unshadowed: Vec<Unshadowed>,
+}
+
+fn no_texture(frame: &Frame<'_>, name: &str) -> Error {
+    let known: Vec<_> = frame.texture_names().collect();
+    Error::NoTexture { name: name.into(), known: known.join(", ") }
 }
 
 /// A read-back is taken out once, by the frame that asked for it.

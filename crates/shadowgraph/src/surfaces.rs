@@ -1,7 +1,7 @@
 //! Drawing the surfaces that a view sees.
 
 use shadowgraph_core::{Format, Frame, Texture};
-use shadowgraph_lighting::{Forward, Geometry, LitTarget, Shows, ViewBuffers};
+use shadowgraph_lighting::{Forward, Geometry, LitTarget, Prepass, Shows, ViewBuffers};
 use shadowgraph_scene::gpu::MaterialLayouts;
 use shadowgraph_shadows::{NoShadows, Screen, ShadowOutputs};
 
@@ -9,6 +9,7 @@ use crate::Error;
 
 /// The pass that draws positions and geometric normals.
 pub(crate) struct SurfaceDrawer {
+    prepass: Prepass,
     forward: Forward,
 }
 
@@ -16,7 +17,7 @@ impl SurfaceDrawer {
     pub(crate) fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
         let target = LitTarget { format: Format::Rgba32Float, shows: Shows::Surface, samples: 1 };
         let forward = Forward::new(device, layouts, &NoShadows, target)?;
-        Ok(Self { forward })
+        Ok(Self { prepass: Prepass::new(device, layouts, 1)?, forward })
     }
 
     /// Adds the pass, behind a prepass that drew `depth`.
@@ -40,7 +41,7 @@ impl SurfaceDrawer {
         geometry: Geometry<'f>,
     ) -> Result<Screen, Error> {
         frame.node("one sample", |frame| {
-            let depth = self.forward.prepass(frame, view, geometry);
+            let depth = self.prepass.add_to(frame, view, geometry);
             self.screen(frame, view, &depth, geometry)
         })
     }

@@ -6,12 +6,12 @@ mod esm;
 
 use std::process::ExitCode;
 
-use shadowgraph::shadows::Techniques;
+use shadowgraph::Registry;
 
 fn main() -> ExitCode {
-    let mut techniques = Techniques::built_in();
-    match techniques.register(esm::ESM) {
-        Ok(()) => shadowgraph::program::run(&techniques),
+    let mut registry = Registry::built_in();
+    match registry.techniques.register(esm::ESM) {
+        Ok(()) => shadowgraph::program::run(&registry),
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE

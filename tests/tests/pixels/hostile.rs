@@ -2,7 +2,8 @@
 
 use crate::stage::{camera, cube_on_floor, draw, gpu, light, sun, sun_direction, view};
 use glam::DVec3;
-use shadowgraph::options::{Aov, Pipeline};
+use shadowgraph::Pipeline;
+use shadowgraph::options::Aov;
 use shadowgraph::scene::{Camera, Light, LightKind, Projection, Scene};
 use shadowgraph::shadows::{AtlasTiles, NONE, PCF, RAYTRACED, ShadowSettings, UnshadowedReason};
 use shadowgraph::{Drawn, Gpu, Method, Renderer, ViewOptions};
@@ -31,8 +32,8 @@ impl Ways {
     fn new(gpu: &Gpu) -> Self {
         let ways: [Method; 5] = [
             PCF.into(),
-            Pipeline::ScreenShadows.into(),
-            Pipeline::Minimal.into(),
+            Pipeline::screen_shadows().into(),
+            Pipeline::minimal().into(),
             RAYTRACED.into(),
             NONE.into(),
         ];

@@ -3,7 +3,8 @@
 use crate::stage::{camera, gpu, hard, light, sun, view};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use image::{Rgba, RgbaImage};
-use shadowgraph::options::{Aov, Pipeline};
+use shadowgraph::Pipeline;
+use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{
     AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
@@ -21,8 +22,8 @@ fn ways() -> Vec<(String, Method)> {
     let mut ways: Vec<(String, Method)> = vec![("truth".into(), RAYTRACED.into())];
     ways.extend(Techniques::built_in().kinds().iter().map(|&kind| (kind.name.into(), kind.into())));
     ways.extend([
-        ("pcf, minimal".into(), Pipeline::Minimal.into()),
-        ("pcf, screen_shadows".into(), Pipeline::ScreenShadows.into()),
+        ("pcf, minimal".into(), Pipeline::minimal().into()),
+        ("pcf, screen_shadows".into(), Pipeline::screen_shadows().into()),
         ("pcf, 4 samples".into(), Method { samples: 4, ..Method::default() }),
     ]);
     let on_top = [
@@ -42,7 +43,7 @@ fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
     for (row, (way, method)) in ways().into_iter().enumerate() {
-        let pictures = pictures(gpu, method, row == 0);
+        let pictures = pictures(gpu, method.clone(), row == 0);
         if row == 0 {
             truth.clone_from(&pictures);
         }
@@ -50,11 +51,11 @@ fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
             sheet.paste(picture, column, row);
             let (darker, lighter) = differing(picture, truth);
             // Without shadows there is too much light.
-            let wrong_part = if method.technique == NONE { darker } else { darker + lighter };
+            let wrong_part = if method.technique() == NONE { darker } else { darker + lighter };
             let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[column]);
             println!("{line}");
             let has_shadows = MIXES[column] != "no light";
-            let shows_none = method.technique == NONE && has_shadows && lighter < 0.05;
+            let shows_none = method.technique() == NONE && has_shadows && lighter < 0.05;
             if wrong_part > 0.03 || shows_none {
                 wrong.push(line);
             }

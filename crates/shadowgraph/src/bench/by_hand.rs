@@ -4,7 +4,9 @@
 use std::sync::Arc;
 
 use shadowgraph_core::Format;
-use shadowgraph_lighting::{GpuLight, GpuView, LitPipelines, ViewRecords};
+use shadowgraph_lighting::{
+    Forward, GpuLight, GpuView, LitPipelines, LitTarget, Prepass, Shows, ViewRecords,
+};
 use shadowgraph_shadows::{
     CasterPass, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT, plan_shadows,
 };
@@ -31,7 +33,9 @@ pub(super) struct ByHand<'v> {
     lit: wgpu::TextureView,
     target: wgpu::TextureView,
     groups: Groups,
+    prepass: Prepass,
     pipelines: Arc<LitPipelines>,
+    tonemap: wgpu::RenderPipeline,
 }
 
 struct Groups {
@@ -70,10 +74,17 @@ impl<'v> ByHand<'v> {
             plan.as_ref().map(map)
         };
         let maps = [map(&records.shadows.cascades), map(&records.shadows.atlas)];
+        let (layouts, technique) = (renderer.casters.scene.layouts(), renderer.technique.as_ref());
+        let (format, shows) = (Format::Rgba16Float, Shows::Light);
+        let forward = Forward::new(device, layouts, technique, LitTarget { format, shows, samples: 1 })?;
+        let prepass = Prepass::new(device, layouts, 1)?;
+        let tonemap = tonemap(device, target.format())?;
         Ok(Self {
             counts: counts(&records, view),
-            pipelines: renderer.forward.pipelines(records.shadows.variant().index(), false)?,
-            groups: Groups::new(device, renderer, view, &buffers, &maps, &lit),
+            pipelines: forward.pipelines(records.shadows.variant().index(), false)?,
+            groups: Groups::new(device, (&forward, &prepass, &tonemap), &buffers, &maps, &lit),
+            prepass,
+            tonemap,
             target: target.create_view(&wgpu::TextureViewDescriptor::default()),
             renderer,
             view,
@@ -142,7 +153,7 @@ impl<'v> ByHand<'v> {
     fn prepass(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = begin(encoder, "depth prepass", None, Some((&self.depth, true)));
         pass.set_bind_group(0, &self.groups.prepass, &[0]);
-        let pipelines = self.renderer.forward.depth_pipelines();
+        let pipelines = self.prepass.pipelines();
         self.renderer
             .casters
             .scene
@@ -161,7 +172,7 @@ impl<'v> ByHand<'v> {
 
     fn tonemap(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = begin(encoder, "tonemap", Some((&self.target, [0.0; 4])), None);
-        pass.set_pipeline(self.view.target.tonemap.pipeline());
+        pass.set_pipeline(&self.tonemap);
         pass.set_bind_group(0, &self.groups.tonemap, &[]);
         pass.draw(0..3, 0..1);
     }
@@ -170,14 +181,12 @@ impl<'v> ByHand<'v> {
 impl Groups {
     fn new(
         device: &wgpu::Device,
-        renderer: &Renderer,
-        view: &View<'_>,
+        (forward, prepass, tonemap): (&Forward, &Prepass, &wgpu::RenderPipeline),
         [view_buffer, lights, shadow_views, shadow_lights]: &[wgpu::Buffer; 4],
         maps: &[Option<wgpu::TextureView>; 2],
         lit: &wgpu::TextureView,
     ) -> Self {
-        let Renderer { forward, .. } = renderer;
-        let depth_layout = forward.depth_pipelines().view_layout();
+        let depth_layout = prepass.pipelines().view_layout();
         // wgpu fills it with zeros, which mean lit.
         let no_map = attachment(device, [1, 1], DEPTH, TextureUsages::TEXTURE_BINDING);
         let map = |map: &Option<wgpu::TextureView>| map.clone().unwrap_or_else(|| no_map.clone());
@@ -204,9 +213,38 @@ impl Groups {
             prepass: group(device, depth_layout, [range(view_buffer, size_of::<GpuView>() as u32)]),
             view: group(device, forward.view_layout(), view_and_lights),
             shadows: group(device, forward.shadow_layout(), shadows),
-            tonemap: group(device, view.target.tonemap.layout(), light),
+            tonemap: group(device, &tonemap.get_bind_group_layout(0), light),
         }
     }
+}
+
+fn tonemap(device: &wgpu::Device, format: Format) -> Result<wgpu::RenderPipeline, Error> {
+    let module = shadowgraph_shaders::compose("tonemap.wgsl", &[])?;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("tonemap.wgsl"),
+        source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
+    });
+    Ok(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("tonemap"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vs_tonemap"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fs_tonemap"),
+            compilation_options: Default::default(),
+            targets: &[Some(format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    }))
 }
 
 fn records(renderer: &Renderer, view: &View<'_>) -> Result<Records, Error> {

@@ -20,7 +20,7 @@ use shadowgraph_core::{Format, Graph, PassTime, TimeHistory, TimeSummary, Timer}
 
 use self::by_hand::ByHand;
 use crate::options::Aov;
-use crate::pipelines::{self, View};
+use crate::pipelines::View;
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// What is drawn into, as a window's surface would be.
@@ -114,7 +114,6 @@ fn compare_unchecked(
     pairs: u32,
 ) -> Result<Comparison, Error> {
     let target = target(&gpu.device, options.size_px)?;
-    renderer.prepare_target(&gpu.device, TARGET_FORMAT)?;
     renderer.move_origin(gpu, options)?;
     let renderer = &*renderer;
     let view = renderer.view(options, Some(&target));
@@ -147,7 +146,7 @@ fn through_graph(
 ) -> Result<FrameTime, Error> {
     let mut clock = Clock::start();
     let mut frame = graph.frame();
-    pipelines::add(&mut frame, renderer, view)?;
+    renderer.add(&mut frame, view)?;
     let declare = clock.lap();
     let compiled = graph.compile(frame)?;
     let compile = clock.lap();

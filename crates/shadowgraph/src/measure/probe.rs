@@ -14,6 +14,7 @@ use super::instrument::pixel_m_at_1m;
 use super::report::Cost;
 use crate::pipelines::View;
 use crate::renderer::nothing_read;
+use crate::surfaces::SurfaceDrawer;
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// `RECEIVER_COARSER` of `receiver.wgsl`.
@@ -31,6 +32,8 @@ pub struct Probe {
     shadow_layout: wgpu::BindGroupLayout,
     points_layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
+    /// Where the technique reads them.
+    surfaces: Option<SurfaceDrawer>,
 }
 
 /// Points in the world to ask at, on the GPU.
@@ -111,7 +114,10 @@ impl Probe {
             compilation_options: Default::default(),
             cache: None,
         });
-        Ok(Self { view_layout, shadow_layout, points_layout, pipeline })
+        let layouts = renderer.casters.scene.layouts();
+        let reads = renderer.technique.reads_surfaces();
+        let surfaces = reads.then(|| SurfaceDrawer::new(device, layouts)).transpose()?;
+        Ok(Self { view_layout, shadow_layout, points_layout, pipeline, surfaces })
     }
 
     /// Draws the shadows of a view, and asks at all points.
@@ -162,10 +168,7 @@ impl Probe {
             ViewRecords::new(&options.camera, options.size_px, lights, origin_world, &view.ambience);
         let buffers = records.upload(&mut frame);
         let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-        let screen = renderer.surfaces.as_ref().map(|drawer| {
-            let depth = renderer.forward.prepass(&mut frame, &buffers, geometry);
-            drawer.screen(&mut frame, &buffers, &depth, geometry)
-        });
+        let screen = self.surfaces.as_ref().map(|drawer| drawer.screen_alone(&mut frame, &buffers, geometry));
         let screen = screen.transpose()?;
         let inputs = ShadowInputs {
             view: 0,

@@ -54,9 +54,8 @@ impl SurfaceReader {
                 ViewRecords::new(&options.camera, options.size_px, lights, origin_world, &view.ambience);
             let buffers = records.upload(&mut frame);
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-            let depth = renderer.forward.prepass(&mut frame, &buffers, geometry);
-            let surfaces = self.drawer.add_to(&mut frame, &buffers, &depth, geometry)?;
-            let request = frame.read_back_texture(&surfaces, Part::WHOLE);
+            let screen = self.drawer.screen_alone(&mut frame, &buffers, geometry)?;
+            let request = frame.read_back_texture(&screen.surfaces, Part::WHOLE);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
             gpu.queue.submit([encoder.finish()]);

@@ -19,7 +19,6 @@ mod aov;
 mod camera;
 mod distance;
 mod error;
-mod names;
 mod pairs;
 mod settings;
 mod size;
@@ -30,11 +29,11 @@ pub use aov::Aov;
 pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
 pub use error::OptionError;
-pub use names::{PIPELINES, Pipeline};
 pub use settings::SettingsFile;
 pub use size::Size;
 pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
 
+use crate::{Method, Pipeline};
 use shadowgraph_shadows::{ShadowSettings, Technique};
 
 /// Everything that the options of a drawing command say, without the scene's file and the output's.
@@ -42,8 +41,8 @@ use shadowgraph_shadows::{ShadowSettings, Technique};
 pub struct Options {
     /// The pipeline that draws.
     pub pipeline: Pipeline,
-    /// The sun's shadow technique.
-    pub technique: Technique,
+    /// The shadow technique; `None`: that of the pipeline.
+    pub technique: Option<Technique>,
     /// How many samples each pixel has while colours are drawn, 1 or 4.
     pub samples: u32,
     /// The settings of the shadows.
@@ -64,11 +63,18 @@ pub struct Options {
     pub timings: bool,
 }
 
+impl Options {
+    /// Returns how pictures are drawn.
+    pub fn method(&self) -> Method {
+        Method { technique: self.technique, pipeline: self.pipeline.clone(), samples: self.samples }
+    }
+}
+
 impl Default for Options {
     fn default() -> Self {
         Self {
             pipeline: Pipeline::default(),
-            technique: Technique::default(),
+            technique: None,
             samples: 1,
             settings: ShadowSettings::default(),
             size: Size::default(),

@@ -1,44 +1,57 @@
 //! `forward`: a depth prepass, shadows, one lit pass, a tonemap.
 //!
-//! `screen_shadows` is the same with a technique that collects its shadows in a screen mask.
+//! `screen_shadows` is the same with shadows that are collected in a screen mask.
 
 use shadowgraph_core::Frame;
-use shadowgraph_shadows::add_shadows;
+use shadowgraph_lighting::{Forward as Lighting, Tonemap};
 
-use super::{Output, View, background, geometry, inputs, picture, records};
-use crate::{Error, Renderer};
+use super::{Build, Output, View, Wiring};
+use crate::Error;
+use crate::nodes::GeometryNode;
 
-/// Adds all passes of a view to a frame.
-///
-/// # Errors
-/// Shadow settings out of range, or an output that the frame does not have.
-pub fn forward<'f>(
-    frame: &mut Frame<'f>,
-    renderer: &'f Renderer,
-    view: &'f View<'f>,
-) -> Result<Output, Error> {
-    let Renderer { technique, forward, surfaces, .. } = renderer;
+/// What `forward` keeps from frame to frame.
+pub struct Forward {
+    geometry: GeometryNode,
+    lighting: Lighting,
+    tonemap: Tonemap,
+}
 
-    // The camera and the lights, for every shader.
-    let buffers = records(renderer, view).upload(frame);
+impl Forward {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the technique's WGSL does not compose.
+    pub fn new(build: &Build<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            geometry: GeometryNode::new(build)?,
+            lighting: Lighting::new(build.device, build.layouts, build.technique, build.lit)?,
+            tonemap: Tonemap::new(build.device)?,
+        })
+    }
+}
 
-    // What is seen: its depth, and where a technique asks for it, its surfaces.
-    let geometry = geometry(renderer, view);
-    let (depth, screen) = frame.node("geometry", |frame| {
-        let depth = forward.prepass(frame, &buffers, geometry);
-        let screen = surfaces.as_ref().map(|drawer| match renderer.samples() {
-            1 => drawer.screen(frame, &buffers, &depth, geometry),
-            _ => drawer.screen_alone(frame, &buffers, geometry),
+impl Wiring for Forward {
+    fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
+        // The camera and the lights, for every shader.
+        let buffers = view.records().upload(frame);
+
+        // What is seen: its depth, and where the technique asks for it, its surfaces.
+        let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
+
+        // Shadows, by whatever technique.
+        let shadows = view.shadows(frame, screen.as_ref())?;
+
+        // The lit scene.
+        let (geometry, sky) = (view.geometry(), view.background());
+        let light = frame
+            .node("lighting", |frame| self.lighting.lit(frame, &buffers, &shadows, &depth, geometry, sky))?;
+
+        // The picture.
+        let picture = frame.node("picture", |frame| {
+            let mut picture = view.picture(frame);
+            self.tonemap.add_to(frame, &light, &mut picture);
+            picture
         });
-        screen.transpose().map(|screen| (depth, screen))
-    })?;
-
-    // Shadows, by whatever technique.
-    let shadows = add_shadows(technique.as_ref(), frame, &inputs(renderer, view), screen.as_ref())?;
-
-    // The lit scene.
-    let background = background(renderer, view);
-    let lit = frame
-        .node("lighting", |frame| forward.lit(frame, &buffers, &shadows, &depth, geometry, background))?;
-    picture(frame, renderer, view, &buffers, shadows, [lit, depth])
+        Ok(Output { picture, light: Some(light), depth: Some(depth), view: Some(buffers), shadows })
+    }
 }

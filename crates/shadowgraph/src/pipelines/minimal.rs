@@ -1,35 +1,56 @@
 //! `minimal`: shadows, one lit pass without a depth prepass, a tonemap.
 
 use shadowgraph_core::Frame;
-use shadowgraph_shadows::add_shadows;
+use shadowgraph_lighting::{Forward as Lighting, Tonemap};
 
-use super::{Output, View, background, geometry, inputs, picture, records};
-use crate::{Error, Renderer};
+use super::{Build, Output, View, Wiring};
+use crate::Error;
+use crate::surfaces::SurfaceDrawer;
 
-/// Adds all passes of a view to a frame.
-///
-/// # Errors
-/// Shadow settings out of range, or an output that the frame does not have.
-pub fn minimal<'f>(
-    frame: &mut Frame<'f>,
-    renderer: &'f Renderer,
-    view: &'f View<'f>,
-) -> Result<Output, Error> {
-    let Renderer { technique, forward, surfaces, .. } = renderer;
-    let buffers = records(renderer, view).upload(frame);
-    let geometry = geometry(renderer, view);
+/// What `minimal` keeps from frame to frame.
+pub struct Minimal {
+    surfaces: Option<SurfaceDrawer>,
+    lighting: Lighting,
+    tonemap: Tonemap,
+}
 
-    // A technique that asks for surfaces needs them before anything is lit.
-    let screen = surfaces.as_ref().map(|drawer| drawer.screen_alone(frame, &buffers, geometry));
-    let screen = screen.transpose()?;
+impl Minimal {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the technique's WGSL does not compose.
+    pub fn new(build: &Build<'_>) -> Result<Self, Error> {
+        let reads = build.technique.reads_surfaces();
+        Ok(Self {
+            surfaces: reads.then(|| SurfaceDrawer::new(build.device, build.layouts)).transpose()?,
+            lighting: Lighting::new(build.device, build.layouts, build.technique, build.lit)?,
+            tonemap: Tonemap::new(build.device)?,
+        })
+    }
+}
 
-    // Shadows, by whatever technique.
-    let shadows = add_shadows(technique.as_ref(), frame, &inputs(renderer, view), screen.as_ref())?;
+impl Wiring for Minimal {
+    fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
+        let buffers = view.records().upload(frame);
+        let geometry = view.geometry();
 
-    // The lit scene.
-    let background = background(renderer, view);
-    let (lit, depth) = frame.node("lighting", |frame| {
-        forward.lit_without_prepass(frame, &buffers, &shadows, geometry, background)
-    })?;
-    picture(frame, renderer, view, &buffers, shadows, [lit, depth])
+        // A technique that asks for surfaces needs them before anything is lit.
+        let screen = self.surfaces.as_ref().map(|drawer| drawer.screen_alone(frame, &buffers, geometry));
+
+        // Shadows, by whatever technique.
+        let shadows = view.shadows(frame, screen.transpose()?.as_ref())?;
+
+        // The lit scene.
+        let (light, depth) = frame.node("lighting", |frame| {
+            self.lighting.lit_without_prepass(frame, &buffers, &shadows, geometry, view.background())
+        })?;
+
+        // The picture.
+        let picture = frame.node("picture", |frame| {
+            let mut picture = view.picture(frame);
+            self.tonemap.add_to(frame, &light, &mut picture);
+            picture
+        });
+        Ok(Output { picture, light: Some(light), depth: Some(depth), view: Some(buffers), shadows })
+    }
 }

@@ -1,71 +1,63 @@
-//! Pipelines: scripts that wire nodes together, one call per step. Copy one and edit it.
+//! Pipelines: nodes wired together, as a file or as a script of one call per step.
+//!
+//! A pipeline file names nodes of [`Nodes`](crate::nodes::Nodes) and which output feeds which input ([`Pipeline::load`]). A
+//! pipeline in Rust is a [`Wiring`], such as [`Forward`]: copy one and edit it. Both give the same plans.
 
+mod choice;
+mod file;
 mod forward;
 mod minimal;
-mod steps;
+mod view;
 
-pub use forward::forward;
-pub use minimal::minimal;
-use steps::{background, geometry, inputs, picture, records};
+pub use choice::{BUILT_IN, Pipeline};
+use file::PipelineFile;
+pub use file::{Choices, PipelineError, schema};
+pub use forward::Forward;
+pub use minimal::Minimal;
+pub use view::View;
 
-use shadowgraph_core::{Buffer, Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::{Ambience, Tonemap};
-use shadowgraph_scene::gpu::DrawList;
-use shadowgraph_shadows::Unshadowed;
+use shadowgraph_core::{Frame, Texture};
+use shadowgraph_lighting::{LitTarget, ViewBuffers};
+use shadowgraph_scene::gpu::MaterialLayouts;
+use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
 
-use crate::options::Pipeline;
-use crate::{Error, Renderer, ViewOptions};
+use crate::Error;
 
-/// Adds the passes of the renderer's own pipeline.
-///
-/// # Errors
-/// Shadow settings out of range, or an output that the frame does not have.
-pub fn add<'f>(frame: &mut Frame<'f>, renderer: &'f Renderer, view: &'f View<'f>) -> Result<Output, Error> {
-    match renderer.pipeline() {
-        Pipeline::Forward | Pipeline::ScreenShadows => forward(frame, renderer, view),
-        Pipeline::Minimal => minimal(frame, renderer, view),
-    }
+/// What adds all passes of a view to a frame, and keeps what they need from frame to frame.
+pub trait Wiring: Send + Sync {
+    /// Adds the passes.
+    ///
+    /// # Errors
+    /// For settings out of range, and what a view asks for and cannot be.
+    fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error>;
 }
 
-/// One view of a frame.
-pub struct View<'v> {
-    /// Which of the frame's views it is, from 0.
-    pub number: u32,
-    /// Who looks, and how.
-    pub options: &'v ViewOptions,
-    /// What of the scene is seen.
-    pub draws: DrawList,
-    /// The light from all around, and the exposure.
-    pub ambience: Ambience,
-    /// Where a colour picture goes.
-    pub target: Target<'v>,
-}
-
-/// Where a colour picture goes.
+/// What a pipeline is made for.
 #[derive(Clone, Copy)]
-pub struct Target<'v> {
-    /// A texture of the caller's, as large as the view; `None`: a texture of the frame.
-    pub texture: Option<&'v wgpu::Texture>,
-    /// The tonemap for its format.
-    pub tonemap: &'v Tonemap,
-}
-
-impl Target<'_> {
-    /// Imports the caller's texture, or creates one of the frame.
-    pub fn add_to(&self, frame: &mut Frame<'_>, size_px: [u32; 2], format: Format) -> Texture {
-        match self.texture {
-            Some(texture) => frame.import_texture("target", texture, false),
-            None => frame.create_texture("picture", TextureDesc::d2(size_px[0], size_px[1], format)),
-        }
-    }
+pub struct Build<'b> {
+    /// The device.
+    pub device: &'b wgpu::Device,
+    /// How materials are bound.
+    pub layouts: &'b MaterialLayouts,
+    /// How shadows are made.
+    pub technique: &'b dyn ShadowTechnique,
+    /// What lit passes draw into.
+    pub lit: LitTarget,
 }
 
 /// What a pipeline gives.
-pub struct Output {
-    /// Four bytes a pixel, as large as the view.
+pub struct Output<'f> {
+    /// What is to be seen, as large as the view.
     pub picture: Texture,
-    /// The records of shadow maps, where there are any.
-    pub records: Option<[Buffer; 2]>,
-    /// The lights that are to cast shadows but have none, and why.
-    pub unshadowed: Vec<Unshadowed>,
+    /// What lit passes wrote, for outputs that show it as it is.
+    pub light: Option<Texture>,
+    /// What the camera sees.
+    pub depth: Option<Texture>,
+    /// The camera and the lights.
+    pub view: Option<ViewBuffers>,
+    /// The shadows; empty of a pipeline without.
+    pub shadows: ShadowOutputs<'f>,
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,10 @@
 //! The command line.
 
 use super::failure::Failure;
+use crate::Registry;
+use crate::nodes::near_words;
 use crate::options::{OptionError, Options, SettingsFile, ShadowDistance};
+use crate::pipelines::{BUILT_IN, Choices, Pipeline};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use shadowgraph_shadows::{Technique, Techniques};
 use std::path::{Path, PathBuf};
@@ -31,8 +34,8 @@ pub(crate) enum Command {
     Dump(DumpArgs),
     /// Say why a pass or a resource of a frame is as it is
     Explain(ExplainArgs),
-    /// List the pipelines and techniques, and in how many permutations their shaders come
-    Nodes,
+    /// List pipelines, kinds of nodes and techniques, or tell all about one of them
+    Nodes(NodesArgs),
     /// Look around a scene in a window, with every setting, the graph and its times beside it
     #[cfg(feature = "view")]
     View(ViewArgs),
@@ -93,6 +96,16 @@ pub(crate) struct ViewArgs {
     /// are saved, such as shaders/wgsl of the checkout
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
+}
+
+/// `shadowgraph nodes`
+#[derive(Debug, Args)]
+pub(crate) struct NodesArgs {
+    /// A pipeline, a kind of node or a technique, to be told all about: its file, or its ports and settings with ranges
+    pub(crate) name: Option<String>,
+    /// Print the JSON Schema of pipeline files, for editors
+    #[arg(long, conflicts_with = "name")]
+    pub(crate) schema: bool,
 }
 
 /// `shadowgraph explain`
@@ -188,16 +201,22 @@ pub(crate) enum Format {
 }
 
 /// The options that all drawing commands share.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct DrawArgs {
     /// A glTF or GLB file; without it the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
-    /// The pipeline: forward, screen_shadows or minimal
-    #[arg(long, value_name = "NAME", default_value = "forward")]
+    /// The pipeline: a built-in one by name (`nodes` lists them), or a .ron file
+    #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
     pipeline: String,
+    /// A parameter of the pipeline; can be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// A tier of quality of the pipeline. Default: what its file has for the device
+    #[arg(long, value_name = "NAME")]
+    tier: Option<String>,
     /// The shadow technique, one of those that `nodes` lists, such as pcf, or pcf+contact
-    #[arg(long, value_name = "NAME", default_value = "pcf")]
-    technique: String,
+    #[arg(long, value_name = "NAME")]
+    technique: Option<String>,
     /// Samples a pixel while colours are drawn: 1 or 4
     #[arg(long, value_name = "N", default_value_t = 1)]
     samples: u32,
@@ -251,15 +270,17 @@ impl DrawArgs {
     ///
     /// # Errors
     /// One line with the option and what is wrong with its value.
-    pub(crate) fn options(&self, techniques: &Techniques) -> Result<Options, Failure> {
+    pub(crate) fn options(&self, registry: &Registry) -> Result<Options, Failure> {
+        let techniques = &registry.techniques;
         let file = settings_file(self.settings.as_deref(), techniques)?;
+        let named = self.technique.as_deref().map(|name| technique("--technique", name, techniques));
         let shadow_distance = match &self.shadow_distance {
             None if file.has_distance => ShadowDistance::Metres(file.settings.distance_m.into()),
             given => or_default(given.as_deref())?,
         };
         Ok(Options {
-            pipeline: self.pipeline.parse()?,
-            technique: technique("--technique", &self.technique, techniques)?,
+            pipeline: self.pipeline(registry)?,
+            technique: named.transpose()?,
             samples: self.samples,
             settings: file.settings,
             size: self.size.parse()?,
@@ -271,6 +292,46 @@ impl DrawArgs {
             timings: self.timings,
         })
     }
+}
+
+impl DrawArgs {
+    /// Reads and checks the pipeline.
+    ///
+    /// # Errors
+    /// One line with the place and what is wrong there.
+    pub(crate) fn pipeline(&self, registry: &Registry) -> Result<Pipeline, OptionError> {
+        let parameters = self.set.iter().map(|text| parameter(text)).collect::<Result<_, _>>()?;
+        let choices = Choices { parameters, tier: self.tier.clone(), device: None };
+        let file = Path::new(&self.pipeline);
+        let is_file = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        let pipeline = if is_file {
+            Pipeline::load(file, &registry.nodes, &registry.techniques, &choices)
+        } else if BUILT_IN.contains(&self.pipeline.as_str()) {
+            Pipeline::built_in(&self.pipeline, &choices)
+        } else {
+            let near = near_words(&self.pipeline, BUILT_IN.iter().copied());
+            let reason = format!("there is no pipeline `{}`{near} Files end in .ron", self.pipeline);
+            return Err(OptionError::new("--pipeline", reason));
+        };
+        pipeline.map_err(|error| OptionError::new("--pipeline", error.to_string()))
+    }
+
+    /// Returns the pipeline's file, if it is one.
+    #[cfg(feature = "view")]
+    pub(crate) fn pipeline_file(&self) -> Option<&Path> {
+        let file = Path::new(&self.pipeline);
+        file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron")).then_some(file)
+    }
+}
+
+/// `name=value`, the value as a pipeline file has it; a text needs no quotes.
+fn parameter(text: &str) -> Result<(String, serde_json::Value), OptionError> {
+    let Some((name, value)) = text.split_once('=') else {
+        return Err(OptionError::new("--set", format!("`{text}` is not NAME=VALUE")));
+    };
+    let value = ron::from_str(value).ok().filter(|value: &serde_json::Value| !value.is_null());
+    let text = || serde_json::Value::String(text[name.len() + 1..].to_owned());
+    Ok((name.to_owned(), value.unwrap_or_else(text)))
 }
 
 /// Reads `--settings`, if there are any.
@@ -312,7 +373,7 @@ mod tests {
             ["shadowgraph", "render"].into_iter().chain(line.split(';').filter(|word| !word.is_empty()));
         let cli = Cli::try_parse_from(words).map_err(|error| error.to_string())?;
         let Some(Command::Render(args)) = cli.command else { panic!("{cli:?}") };
-        args.draw.options(&Techniques::built_in()).map_err(|failure| failure.message)
+        args.draw.options(&Registry::built_in()).map_err(|failure| failure.message)
     }
 
     #[test]
@@ -341,7 +402,11 @@ mod tests {
     fn a_wrong_value_is_one_line_with_the_option() {
         for (line, start) in [
             ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf, pcss, "),
-            ("--pipeline;my.ron", "--pipeline: there is no pipeline `my.ron`; there is: forward"),
+            ("--pipeline;my.ron", "--pipeline: my.ron: cannot be read: "),
+            (
+                "--pipeline;mine",
+                "--pipeline: there is no pipeline `mine`; did you mean `minimal`? Files end in .ron",
+            ),
             ("--size;0x4", "--size: the width 0"),
             ("--sun;dir=0,0,0", "--sun: dir has no length"),
             ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
@@ -381,14 +446,14 @@ mod tests {
     fn bench_measures_a_thousand_frames_without_a_gpu_by_default() {
         let args = bench("").unwrap();
         assert_eq!((args.frames, args.draw.names_adapter()), (1000, false));
-        assert_eq!(args.draw.options(&Techniques::built_in()).ok(), Some(Options::default()));
+        assert_eq!(args.draw.options(&Registry::built_in()).ok(), Some(Options::default()));
     }
 
     #[test]
     fn bench_takes_the_options_of_drawing_and_a_number_of_frames() {
         let args = bench("hall.glb --frames 20 --adapter cpu --size 64x36").unwrap();
         assert_eq!((args.frames, args.draw.names_adapter()), (20, true));
-        let Ok(options) = args.draw.options(&Techniques::built_in()) else { panic!("{args:?}") };
+        let Ok(options) = args.draw.options(&Registry::built_in()) else { panic!("{args:?}") };
         assert_eq!((options.adapter, options.size.width_px), (AdapterChoice::Cpu, 64));
         assert_eq!(args.draw.scene, Some(PathBuf::from("hall.glb")));
     }

@@ -11,16 +11,14 @@ use super::progress::Progress;
 use super::report;
 use crate::bench::{Comparison, FrameTime, Spread, compare, pass_times};
 use crate::core::TimeSummary;
-use crate::options::Options;
-use crate::shadows::Techniques;
-use crate::{Gpu, Method, Renderer, ViewOptions};
+use crate::{Gpu, Method, Registry, Renderer, ViewOptions};
 
 /// Frames on a real GPU, of which each is waited for.
 const GPU_FRAMES: u32 = 20;
 
 /// Measures and prints, a table at a time.
-pub(crate) fn bench(args: &BenchArgs, techniques: &Techniques) -> Result<(), Failure> {
-    let input = commands::input(&args.draw, techniques)?;
+pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure> {
+    let input = commands::input(&args.draw, registry)?;
     let view = commands::view_options(&input);
     if cfg!(debug_assertions) {
         console::warning(
@@ -34,7 +32,7 @@ pub(crate) fn bench(args: &BenchArgs, techniques: &Techniques) -> Result<(), Fai
     };
     console::print(&heading(args, &input))?;
     let measuring = Progress::if_slow("measuring");
-    let comparison = match method(&input) == Method::default() {
+    let comparison = match input.options.method() == Method::default() {
         true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
         false => {
             "Only the pipeline forward with pcf and one sample is compared with passes encoded by hand.\n"
@@ -46,14 +44,9 @@ pub(crate) fn bench(args: &BenchArgs, techniques: &Techniques) -> Result<(), Fai
     console::print(&format!("{comparison}\n{passes}"))
 }
 
-fn method(input: &Input) -> Method {
-    let Options { technique, pipeline, samples, .. } = input.options;
-    Method { technique, pipeline, samples }
-}
-
 fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
     let (scene, aov) = (input.scene.clone(), input.options.aov.clone());
-    Ok(Renderer::with(gpu, scene, &input.camera, aov, method(input))?)
+    Ok(Renderer::with(gpu, scene, &input.camera, aov, input.options.method())?)
 }
 
 fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
@@ -66,7 +59,10 @@ fn heading(args: &BenchArgs, input: &Input) -> String {
     let scene = args.draw.scene.as_ref().map_or("the demo scene".into(), |file| file.display().to_string());
     let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
     let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
-    format!("{scene}, {size}, pipeline {pipeline}, technique {}{samples}\n", input.options.technique.name())
+    format!(
+        "{scene}, {size}, pipeline {pipeline}, technique {}{samples}\n",
+        input.options.method().technique().name()
+    )
 }
 
 /// One side's time of a step, or of several.

@@ -12,8 +12,7 @@ use crate::options::{Aov, Options};
 use crate::output::{Pixels, write_png};
 use crate::scene::gltf::Progress as LoadProgress;
 use crate::scene::{Camera, Scene};
-use crate::shadows::Techniques;
-use crate::{Drawn, Gpu, Method, Picture, Renderer, ViewOptions};
+use crate::{Drawn, Gpu, Picture, Registry, Renderer, ViewOptions};
 
 /// What every drawing command starts from.
 pub(crate) struct Input {
@@ -23,9 +22,9 @@ pub(crate) struct Input {
 }
 
 /// `shadowgraph render`
-pub(crate) fn render(args: &RenderArgs, techniques: &Techniques) -> Result<(), Failure> {
+pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
     check_output(&args.output)?;
-    let input = input(&args.draw, techniques)?;
+    let input = input(&args.draw, registry)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let drawn = draw(&gpu, input)?;
     let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
@@ -48,16 +47,9 @@ pub(super) struct DrawnView {
 
 pub(super) fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
     let _drawing = Progress::if_slow("drawing");
-    let Options { aov, timings, pipeline, samples, .. } = input.options.clone();
-    let view = view_options(&input);
-    let technique = input.options.technique;
-    let mut renderer = Renderer::with(
-        gpu,
-        input.scene,
-        &input.camera,
-        aov.clone(),
-        Method { technique, pipeline, samples },
-    )?;
+    let Options { aov, timings, .. } = input.options.clone();
+    let (view, method) = (view_options(&input), input.options.method());
+    let mut renderer = Renderer::with(gpu, input.scene, &input.camera, aov.clone(), method)?;
     let mut timer = timings.then(Timer::new);
     if timings {
         // A software driver compiles shaders at the first draw.
@@ -80,8 +72,8 @@ fn check_output(file: &Path) -> Result<(), Failure> {
 }
 
 /// Parses the options, loads the scene and applies the options to it.
-pub(crate) fn input(args: &DrawArgs, techniques: &Techniques) -> Result<Input, Failure> {
-    let options = args.options(techniques)?;
+pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failure> {
+    let options = args.options(registry)?;
     let mut scene = load(args.scene.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
     if let Some(note) = options.sun.apply(&mut scene) {

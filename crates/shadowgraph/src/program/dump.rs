@@ -10,20 +10,18 @@ use super::progress::Progress;
 use super::report::{self, Planned};
 use crate::core::{Dump, HtmlPage, trace_json};
 use crate::inspect::lights;
-use crate::options::Options;
 use crate::output::write_text;
-use crate::shadows::Techniques;
-use crate::{Drawn, Gpu, Method, Renderer};
+use crate::{Drawn, Gpu, Registry, Renderer};
 
 /// What pages are called, with the scene's file behind it.
 const TITLE: &str = "Shadowgraph frame";
 
 /// `shadowgraph dump`
-pub(crate) fn dump(args: &DumpArgs, techniques: &Techniques) -> Result<(), Failure> {
+pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> {
     let text = match (&args.diff, args.format()) {
         (Some(files), format) => diff(files, format)?,
-        (None, Format::Html) => page(&args.draw, input(&args.draw, techniques)?)?,
-        (None, format) => plan_text(args, format, input(&args.draw, techniques)?)?,
+        (None, Format::Html) => page(&args.draw, input(&args.draw, registry)?)?,
+        (None, format) => plan_text(args, format, input(&args.draw, registry)?)?,
     };
     match &args.output {
         Some(file) => Ok(write_text(file, &text)?),
@@ -49,13 +47,16 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
 /// The page about a frame, with pictures where there is something to draw with.
 fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
     let view = view_options(&input);
-    let Options { aov, technique, pipeline, samples, .. } = input.options.clone();
-    let method = Method { technique, pipeline, samples };
+    let (aov, method) = (input.options.aov.clone(), input.options.method());
     let (scene_lights, mut notes) = (input.scene.lights.clone(), input.scene.notes.clone());
     let [width, height] = view.size_px;
     notes.insert(
         0,
-        format!("{width} x {height} pixels, technique {}, pipeline {}.", technique.name(), pipeline.name()),
+        format!(
+            "{width} x {height} pixels, technique {}, pipeline {}.",
+            method.technique().name(),
+            method.pipeline.name()
+        ),
     );
     let mut finish = |mut page: HtmlPage<'_>| {
         let file = args.scene.as_deref().and_then(Path::file_name);
@@ -110,8 +111,8 @@ fn usage(message: &str) -> Failure {
 }
 
 /// `shadowgraph explain`
-pub(crate) fn explain(args: &ExplainArgs, techniques: &Techniques) -> Result<(), Failure> {
-    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input(&args.draw, techniques)?)?;
+pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Failure> {
+    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input(&args.draw, registry)?)?;
     console::print(&match &args.before {
         Some(after) => plan.explain_order(&args.name, after)?,
         None => plan.explain(&args.name)?,
@@ -139,9 +140,8 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
         Gpu::noop()?
     };
     let view = view_options(&input);
-    let Options { aov, technique, pipeline, samples, .. } = input.options;
-    let renderer =
-        Renderer::with(&gpu, input.scene, &input.camera, aov, Method { technique, pipeline, samples })?;
+    let (aov, method) = (input.options.aov.clone(), input.options.method());
+    let renderer = Renderer::with(&gpu, input.scene, &input.camera, aov, method)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
 }

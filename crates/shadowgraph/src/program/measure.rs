@@ -36,7 +36,8 @@ enum Work {
 }
 
 /// Measures, prints the table, writes the files, and checks the bounds.
-pub(crate) fn measure_command(args: &MeasureArgs, techniques: &Techniques) -> Result<(), Failure> {
+pub(crate) fn measure_command(args: &MeasureArgs, registry: &crate::Registry) -> Result<(), Failure> {
+    let techniques = &registry.techniques;
     let plan = plan(args, techniques)?;
     let gpu = Gpu::open(&plan.adapter).map_err(Failure::no_device)?;
     let output = args.output.as_deref().map(Output::new).transpose()?;

@@ -1,4 +1,4 @@
-//! The `shadowgraph` program, for those who add techniques of their own to it.
+//! The `shadowgraph` program, for those who add techniques and nodes of their own to it.
 //!
 //! Exit codes: 0 done, 1 the input or a setting is wrong, 2 usage, 3 no usable adapter. Whatever is wrong
 //! is told in one line on standard error that starts with `error:`.
@@ -16,40 +16,41 @@ mod report;
 #[cfg(feature = "view")]
 mod view;
 
+use crate::Registry;
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
 use failure::Failure;
-use shadowgraph_shadows::Techniques;
 #[cfg(unix)]
 use std::process::Command as Process;
 use std::process::ExitCode;
 
-/// Does what the command line says, with these techniques to choose from: the whole `main` of a program.
+/// Does what the command line says, with these techniques and nodes to choose from: the whole `main` of a program.
 ///
 /// ```no_run
-/// use shadowgraph::shadows::{NoShadows, TechniqueKind, Techniques};
+/// use shadowgraph::Registry;
+/// use shadowgraph::shadows::{NoShadows, TechniqueKind};
 ///
 /// const MINE: TechniqueKind =
 ///     TechniqueKind::new("mine", "everything is lit", |_context| Ok(Box::new(NoShadows)));
 ///
-/// let mut techniques = Techniques::built_in();
-/// techniques.register(MINE)?;
-/// shadowgraph::program::run(&techniques);
+/// let mut registry = Registry::built_in();
+/// registry.techniques.register(MINE)?;
+/// shadowgraph::program::run(&registry);
 /// # Ok::<(), shadowgraph::shadows::Error>(())
 /// ```
-pub fn run(techniques: &Techniques) -> ExitCode {
+pub fn run(registry: &Registry) -> ExitCode {
     #[cfg(unix)]
     runtime_folder();
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
-        Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, techniques),
-        Ok(Cli { command: Some(Command::Dump(args)) }) => dump::dump(&args, techniques),
-        Ok(Cli { command: Some(Command::Explain(args)) }) => dump::explain(&args, techniques),
+        Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, registry),
+        Ok(Cli { command: Some(Command::Dump(args)) }) => dump::dump(&args, registry),
+        Ok(Cli { command: Some(Command::Explain(args)) }) => dump::explain(&args, registry),
         #[cfg(feature = "view")]
-        Ok(Cli { command: Some(Command::View(args)) }) => view::view(&args, techniques),
-        Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, techniques),
-        Ok(Cli { command: Some(Command::Nodes) }) => nodes::nodes(techniques),
-        Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, techniques),
+        Ok(Cli { command: Some(Command::View(args)) }) => view::view(&args, registry),
+        Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, registry),
+        Ok(Cli { command: Some(Command::Nodes(args)) }) => nodes::nodes(&args, registry),
+        Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, registry),
         Err(usage) => return tell_usage(&usage),
     };
     match done {

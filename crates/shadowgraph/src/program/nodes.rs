@@ -2,21 +2,62 @@
 
 use std::fmt::Write as _;
 
+use super::args::NodesArgs;
 use super::console;
 use super::failure::Failure;
-use crate::options::PIPELINES;
-use crate::permutations;
-use crate::shadows::Techniques;
+use crate::nodes::near_words;
+use crate::pipelines::{BUILT_IN, Pipeline, schema};
+use crate::shadows::{TechniqueKind, Techniques};
+use crate::{Registry, permutations};
 
-/// Prints the pipelines, the techniques and their settings, and in how many permutations shaders come.
-pub(crate) fn nodes(techniques: &Techniques) -> Result<(), Failure> {
-    let mut out = String::from("pipelines\n");
-    for (name, what) in PIPELINES.iter().zip([
-        "a depth prepass; each pixel asks for its shadows as it is lit",
-        "a depth prepass; shadows are collected in a screen mask, then lit",
-        "no prepass; each pixel asks for its shadows as it is lit",
-    ]) {
-        let _ = writeln!(out, "  {name:<16}{what}");
+/// Prints all that there is, one of it, or the schema of files.
+pub(crate) fn nodes(args: &NodesArgs, registry: &Registry) -> Result<(), Failure> {
+    let text = match &args.name {
+        _ if args.schema => serde_json::to_string_pretty(&schema(&registry.nodes))? + "\n",
+        Some(name) => one(name, registry)?,
+        None => all(registry)?,
+    };
+    console::print(&text)
+}
+
+/// All about a pipeline, a kind of node or a technique.
+fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
+    let Registry { techniques, nodes } = registry;
+    let kind = techniques.kinds().iter().find(|kind| kind.name == name);
+    let mut told = String::new();
+    if let Some(text) = Pipeline::text_of(name) {
+        let _ = write!(told, "pipeline {name}, as a file\n\n{text}");
+    }
+    for text in [nodes.describe(name).ok(), kind.map(technique)].into_iter().flatten() {
+        told += if told.is_empty() { "" } else { "\n" };
+        told += &text;
+    }
+    if told.is_empty() {
+        let kinds = nodes.kinds().iter().map(|kind| kind.name);
+        let all =
+            BUILT_IN.iter().copied().chain(kinds).chain(techniques.kinds().iter().map(|kind| kind.name));
+        let near = near_words(name, all);
+        let message = format!("there is no pipeline, kind of node or technique `{name}`{near}");
+        return Err(Failure { code: Failure::INPUT, message });
+    }
+    Ok(told)
+}
+
+fn technique(kind: &TechniqueKind) -> String {
+    let mut out = format!("technique {}: {}\n", kind.name, kind.summary);
+    settings(&mut out, kind.name, kind.default_settings());
+    out
+}
+
+fn all(registry: &Registry) -> Result<String, Failure> {
+    let Registry { techniques, nodes } = registry;
+    let mut out = String::from("pipelines; `nodes NAME` prints the file of one\n");
+    for pipeline in BUILT_IN.iter().filter_map(|name| name.parse::<Pipeline>().ok()) {
+        let _ = writeln!(out, "  {:<16}{}", pipeline.name(), pipeline.about());
+    }
+    out.push_str("\nkinds of nodes; `nodes NAME` prints ports and settings of one\n");
+    for kind in nodes.kinds() {
+        let _ = writeln!(out, "  {:<16}{}", kind.name, kind.about);
     }
     out.push_str("\ntechniques, and their own settings as they are by default\n");
     for kind in techniques.kinds() {
@@ -28,6 +69,11 @@ pub(crate) fn nodes(techniques: &Techniques) -> Result<(), Failure> {
         let _ = writeln!(out, "  {:<16}{what}", format!("+{name}"));
         settings(&mut out, name, Some(defaults));
     }
+    permutation_table(&mut out, techniques)?;
+    Ok(out)
+}
+
+fn permutation_table(out: &mut String, techniques: &Techniques) -> Result<(), Failure> {
     out.push_str("\nin how many permutations the shaders of lit passes come\n");
     let _ =
         writeln!(out, "  {:<16}{:>16}{:>16}{:>32}", "", "asked", "collected", "collected, blended surfaces");
@@ -40,10 +86,11 @@ pub(crate) fn nodes(techniques: &Techniques) -> Result<(), Failure> {
         );
     }
     out.push_str(
-        "\nasked: pipelines forward and minimal; collected: screen_shadows. Each is compiled for those kinds of material\n\
-         (opaque, mask, blend; double-sided; mirrored: up to 12) that are drawn, when it is first needed.\n",
+        "\nasked: where each pixel asks for its shadows; collected: in a screen mask, as by pipeline screen_shadows. Each is\n\
+         compiled for those kinds of material (opaque, mask, blend; double-sided; mirrored: up to 12) that are drawn, when it\n\
+         is first needed.\n",
     );
-    console::print(&out)
+    Ok(())
 }
 
 /// What a settings file has in its `techniques`.

@@ -3,8 +3,9 @@
 use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
 use crate::stage::{SIZE_PX, cube_on_floor, gpu, sun, sun_direction};
 use glam::DVec3;
+use shadowgraph::Pipeline;
 use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
-use shadowgraph::options::{Aov, Pipeline};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, Scene};
 use shadowgraph::shadows::{
     CascadeSelection, Pcf, Screen, ScreenSettings, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
@@ -17,7 +18,7 @@ fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: 
 }
 
 fn screen_greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
-    let picture = picture(gpu, scene, Aov::Visibility(light), options, Pipeline::ScreenShadows);
+    let picture = picture(gpu, scene, Aov::Visibility(light), options, Pipeline::screen_shadows());
     picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 
@@ -32,7 +33,7 @@ fn pillars_in_sun() -> Scene {
 fn row_15_three_pipelines_draw_the_same_picture() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
-    let [forward, screen, minimal] = [Pipeline::Forward, Pipeline::ScreenShadows, Pipeline::Minimal]
+    let [forward, screen, minimal] = [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()]
         .map(|pipeline| picture(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
     let differ = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| a.abs_diff(**b) > 3).count();
     let pixels = (SIZE_PX[0] * SIZE_PX[1]) as usize;
@@ -158,7 +159,7 @@ fn row_36_what_is_blended_still_has_shadows() {
     crate::stage::add_instance(&mut scene, 0, 1, DVec3::new(0.0, 0.02, 0.0));
     scene.add_light(sun(sun_direction(40.0, 130.0)));
     let options = cube_view(|_| ());
-    let [forward, screen] = [Pipeline::Forward, Pipeline::ScreenShadows]
+    let [forward, screen] = [Pipeline::forward(), Pipeline::screen_shadows()]
         .map(|pipeline| picture(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
     let differ = forward.iter().zip(&screen).filter(|(a, b)| a.abs_diff(**b) > 3).count();
     assert!(differ < forward.len() / 1000, "{differ}");

@@ -3,7 +3,8 @@
 use super::{pillar_view, pillars};
 use crate::stage::{SIZE_PX, gpu, sun, sun_direction};
 use glam::DVec3;
-use shadowgraph::options::{Aov, Pipeline};
+use shadowgraph::Pipeline;
+use shadowgraph::options::Aov;
 use shadowgraph::scene::Scene;
 use shadowgraph::shadows::PCF;
 use shadowgraph::{Error, Gpu, Method, Renderer};
@@ -19,9 +20,9 @@ fn pillars_in_sun() -> Scene {
 fn row_40_four_samples_smooth_edges_and_change_nothing_else() {
     let Some(gpu) = gpu() else { return };
     let options = pillar_view(|_| ());
-    for pipeline in [Pipeline::Forward, Pipeline::ScreenShadows, Pipeline::Minimal] {
+    for pipeline in [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()] {
         let draw = |samples| {
-            let method = Method { pipeline, samples, ..Method::default() };
+            let method = Method { pipeline: pipeline.clone(), samples, ..Method::default() };
             let mut renderer =
                 Renderer::with(gpu, pillars_in_sun(), &options.camera, Aov::Color, method).unwrap();
             renderer.draw(gpu, &options).unwrap().picture.rgba8
@@ -66,9 +67,11 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
     let mut right = left.clone();
     right.camera = crate::stage::camera(DVec3::new(8.0, 6.0, -10.0), DVec3::new(0.0, 0.0, -14.0));
     right.size_px = [160, 120];
-    for pipeline in [Pipeline::Forward, Pipeline::ScreenShadows] {
-        let make =
-            || Renderer::with(gpu, pillars_in_sun(), &left.camera, Aov::Visibility(0), pipeline).unwrap();
+    for pipeline in [Pipeline::forward(), Pipeline::screen_shadows()] {
+        let make = || {
+            let aov = Aov::Visibility(0);
+            Renderer::with(gpu, pillars_in_sun(), &left.camera, aov, pipeline.clone()).unwrap()
+        };
         let mut together = make();
         for _ in 0..2 {
             let pictures = together.draw_views(gpu, &[left.clone(), right.clone()]).unwrap();
@@ -84,7 +87,7 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
         }
         let (first, second) = (together.draw_views(gpu, std::slice::from_ref(&left)).unwrap(), make());
         assert_eq!(first.len(), 1);
-        assert_eq!(second.pipeline(), pipeline);
+        assert_eq!(*second.pipeline(), pipeline);
     }
     let none =
         Renderer::with(gpu, pillars_in_sun(), &left.camera, Aov::Color, PCF).unwrap().draw_views(gpu, &[]);

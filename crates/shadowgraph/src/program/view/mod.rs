@@ -16,23 +16,22 @@ use winit::event_loop::EventLoop;
 use super::args::ViewArgs;
 use super::commands::{input, view_options};
 use super::failure::Failure;
-use crate::shadows::Techniques;
-use crate::wgpu;
+use crate::{Registry, wgpu};
 
 /// `shadowgraph view`
-pub(crate) fn view(args: &ViewArgs, techniques: &Techniques) -> Result<(), Failure> {
+pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> {
     if let Some(folder) = &args.shaders {
         check_folder(folder)?;
         shadowgraph_shaders::set_folder(Some(folder.clone()));
     }
-    let input = input(&args.draw, techniques)?;
+    let input = input(&args.draw, registry)?;
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
     let display = Box::new(event_loop.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
     let adapter = input.options.adapter.clone();
     let view = view_options(&input);
     let size_px = view.size_px;
-    let stage = Stage::new(input, view, techniques.clone(), args)?;
+    let stage = Stage::new(input, view, registry.clone(), args)?;
     let mut app = App::new(instance, adapter, size_px, stage);
     event_loop.run_app(&mut app)?;
     app.end()

@@ -12,8 +12,10 @@ use egui::{ComboBox, Image, InputState, Key, ScrollArea, Sense, TextEdit, Textur
 
 use super::fly::Steer;
 use super::stage::Stage;
+use crate::Pipeline;
 use crate::core::TimeSummary;
-use crate::options::{Aov, PIPELINES};
+use crate::options::Aov;
+use crate::pipelines::BUILT_IN;
 use crate::shadows::Technique;
 use graph::GraphPanel;
 use settings::SettingsPanel;
@@ -163,7 +165,7 @@ impl Panel {
 
 /// Takes the technique after the one that is chosen.
 fn next_technique(stage: &mut Stage) {
-    let kinds = stage.techniques.kinds();
+    let kinds = stage.registry.techniques.kinds();
     let name = stage.technique.name();
     let base = name.split('+').next().unwrap_or_default();
     let at = kinds.iter().position(|kind| kind.name == base).unwrap_or_default();
@@ -192,8 +194,12 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
     ui.horizontal(|ui| {
         ui.label("Pipeline");
         ComboBox::from_id_salt("pipeline").selected_text(stage.pipeline.name()).show_ui(ui, |ui| {
-            for pipeline in PIPELINES.iter().filter_map(|name| name.parse().ok()) {
-                ui.selectable_value(&mut stage.pipeline, pipeline, pipeline.name());
+            for pipeline in BUILT_IN.iter().filter_map(|name| name.parse::<Pipeline>().ok()) {
+                let chosen = stage.pipeline == pipeline;
+                let label = ui.selectable_label(chosen, pipeline.name()).on_hover_text(pipeline.about());
+                if label.clicked() {
+                    stage.pipeline = pipeline;
+                }
             }
         });
     });
@@ -234,8 +240,8 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
 
 fn technique(ui: &mut Ui, stage: &mut Stage) {
     ComboBox::from_id_salt("technique").selected_text(stage.technique.name()).show_ui(ui, |ui| {
-        for kind in stage.techniques.kinds() {
-            let plain = Technique::from(*kind);
+        for kind in stage.registry.techniques.kinds().to_vec() {
+            let plain = Technique::from(kind);
             for choice in [plain, plain.collected(), plain.with_contact()] {
                 let label = ui.selectable_value(&mut stage.technique, choice, choice.name());
                 label.on_hover_text(kind.summary);

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use super::fly::Fly;
 use super::reload::Watched;
 use crate::core::{Format, Plan, TimeHistory, Timer};
-use crate::options::{Aov, Pipeline, SettingsFile, ShadowDistance, SunChoice};
-use crate::program::args::ViewArgs;
+use crate::options::{Aov, SettingsFile, ShadowDistance, SunChoice};
+use crate::program::args::{DrawArgs, ViewArgs};
 use crate::program::commands::{Input, load};
 use crate::program::failure::Failure;
 use crate::scene::Scene;
-use crate::shadows::{ShadowSettings, Technique, Techniques};
-use crate::{Gpu, Method, Renderer, ViewOptions, wgpu};
+use crate::shadows::{ShadowSettings, Technique};
+use crate::{Gpu, Method, Pipeline, Registry, Renderer, ViewOptions, wgpu};
 
 /// Frames that times are kept of.
 const FRAMES: usize = 60;
@@ -20,7 +20,8 @@ const FRAMES: usize = 60;
 /// What the user has chosen, and what follows from it.
 pub(super) struct Stage {
     pub(super) scene: Scene,
-    pub(super) techniques: Techniques,
+    pub(super) registry: Registry,
+    draw: DrawArgs,
     pub(super) technique: Technique,
     pub(super) pipeline: Pipeline,
     samples: u32,
@@ -40,6 +41,7 @@ pub(super) struct Stage {
     pub(super) note: String,
     pub(super) settings_file: Option<PathBuf>,
     watched_settings: Watched,
+    watched_pipeline: Watched,
     watched_shaders: Watched,
     renderer: Option<Renderer>,
     /// What was asked for last, and why there is no renderer for it: it is not tried again for the same.
@@ -53,7 +55,7 @@ impl Stage {
     pub(super) fn new(
         input: Input,
         view: ViewOptions,
-        techniques: Techniques,
+        registry: Registry,
         args: &ViewArgs,
     ) -> Result<Self, Failure> {
         let reach_m = input.scene.bounds().radius();
@@ -64,8 +66,9 @@ impl Stage {
         Ok(Self {
             fly: Fly::new(input.camera, reach_m),
             scene: input.scene,
-            techniques,
-            technique: input.options.technique,
+            technique: input.options.method().technique(),
+            registry,
+            draw: args.draw.clone(),
             pipeline: input.options.pipeline,
             samples: input.options.samples,
             aov: input.options.aov,
@@ -78,6 +81,7 @@ impl Stage {
             note: String::new(),
             watched_settings: Watched::new(settings_file.clone()),
             settings_file,
+            watched_pipeline: Watched::new(args.draw.pipeline_file().map(PathBuf::from)),
             watched_shaders: Watched::new(shaders),
             renderer: None,
             made: None,
@@ -106,10 +110,19 @@ impl Stage {
             self.made = None;
             self.note = "shaders were read again".into();
         }
+        if self.watched_pipeline.changed() {
+            match self.draw.pipeline(&self.registry) {
+                Ok(pipeline) => {
+                    (self.pipeline, self.refused) = (pipeline, None);
+                    self.note = format!("{} was read again", self.pipeline.name());
+                }
+                Err(error) => self.refused = Some(error.to_string()),
+            }
+        }
         if self.watched_settings.changed()
             && let Some(file) = &self.settings_file
         {
-            match SettingsFile::load(file, &self.techniques) {
+            match SettingsFile::load(file, &self.registry.techniques) {
                 Ok(read) => {
                     (self.settings, self.refused) = (read.settings, None);
                     self.note = format!("{} was read again", file.display());
@@ -160,7 +173,7 @@ impl Stage {
     fn try_draw(&mut self, gpu: &Gpu, target: &wgpu::Texture) -> Result<(), crate::Error> {
         self.make(gpu)?;
         let options = self.options([target.width(), target.height()]);
-        self.techniques.check(&options.shadows)?;
+        self.registry.techniques.check(&options.shadows)?;
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         let mut timer = Timer::new();
         let plan = gpu.checked(|| {
@@ -176,12 +189,12 @@ impl Stage {
 
     /// Makes the renderer for what is chosen. Where that fails the old one stays, and its picture.
     fn make(&mut self, gpu: &Gpu) -> Result<(), crate::Error> {
-        let wanted = (self.technique, self.pipeline, self.aov.clone());
+        let wanted = (self.technique, self.pipeline.clone(), self.aov.clone());
         if let Some((_, made)) = self.made.as_ref().filter(|(asked, _)| *asked == wanted) {
             return made.clone().map_err(crate::Error::Gpu);
         }
-        let (technique, pipeline, samples) = (self.technique, self.pipeline, self.samples);
-        let method = Method { technique, pipeline, samples };
+        let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
+        let method = Method { technique, pipeline, samples: self.samples };
         let made = gpu
             .checked(|| Renderer::with(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), method));
         let failed = made.as_ref().err().map(ToString::to_string);

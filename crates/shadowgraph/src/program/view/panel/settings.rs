@@ -31,7 +31,7 @@ impl SettingsPanel {
         });
         ui.label(&stage.note);
         CollapsingHeader::new("Shadow maps").default_open(true).show(ui, |ui| self.shared(ui, stage));
-        let names: Vec<&'static str> = stage.techniques.with_settings().collect();
+        let names: Vec<&'static str> = stage.registry.techniques.with_settings().collect();
         for name in names {
             let used = stage.technique.name().split('+').any(|part| part == name);
             CollapsingHeader::new(name).default_open(used).show(ui, |ui| self.own(ui, stage, name));
@@ -52,15 +52,17 @@ impl SettingsPanel {
     }
 
     fn own(&mut self, ui: &mut Ui, stage: &mut Stage, name: &'static str) {
-        let Some(Ok(mut value)) = stage.techniques.own_settings(name, &stage.settings) else { return };
-        let (techniques, settings) = (&stage.techniques, &stage.settings);
+        let Some(Ok(mut value)) = stage.registry.techniques.own_settings(name, &stage.settings) else {
+            return;
+        };
+        let (techniques, settings) = (&stage.registry.techniques, &stage.settings);
         let check = |value: &Value| {
             let set = techniques.set_own_settings(name, &mut settings.clone(), value.clone());
             set.map_err(|error| error.to_string())
         };
         if edit(ui, &mut value, self.limits.entry(name).or_default(), &check) {
             // What is out of range stays as it was.
-            let _refused = stage.techniques.set_own_settings(name, &mut stage.settings, value);
+            let _refused = stage.registry.techniques.set_own_settings(name, &mut stage.settings, value);
         }
     }
 }

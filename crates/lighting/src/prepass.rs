@@ -1,0 +1,67 @@
+//! The depth of what is seen, before anything is lit.
+
+use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_scene::gpu::{DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialLayouts};
+
+use crate::{Error, GpuView, ViewBuffers};
+
+/// The format of the depth that cameras see.
+pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
+
+/// What is drawn, seen by which camera.
+#[derive(Clone, Copy)]
+pub struct Geometry<'f> {
+    /// The scene on the GPU.
+    pub scene: &'f GpuScene,
+    /// Its visible draws.
+    pub draws: &'f DrawList,
+    /// Width and height of the picture, pixels.
+    pub size_px: [u32; 2],
+}
+
+/// The pass that draws depth alone.
+pub struct Prepass {
+    pipelines: DepthPipelines,
+    samples: u32,
+}
+
+impl Prepass {
+    /// Makes the pipelines for `layouts`' materials, with so many samples a pixel: 1, or 4.
+    ///
+    /// # Errors
+    /// None with the WGSL that Shadowgraph comes with.
+    pub fn new(device: &wgpu::Device, layouts: &MaterialLayouts, samples: u32) -> Result<Self, Error> {
+        let target = DepthTarget { samples, ..DepthTarget::default() };
+        Ok(Self { pipelines: DepthPipelines::new(device, layouts, &target)?, samples })
+    }
+
+    /// Returns the pipelines, for a pass that is recorded without the graph.
+    pub fn pipelines(&self) -> &DepthPipelines {
+        &self.pipelines
+    }
+
+    /// Adds the pass that draws the depth of all solid geometry, and returns the depth.
+    pub fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        geometry: Geometry<'f>,
+    ) -> Texture {
+        let [width, height] = geometry.size_px;
+        let desc = TextureDesc::d2(width, height, DEPTH_FORMAT).samples(self.samples);
+        let mut depth = frame.create_texture("depth", desc);
+        let mut pass = frame.render_pass("depth prepass");
+        let view = pass.storage_buffer(&view.view);
+        pass.depth(&mut depth, Contents::clear_depth(0.0));
+        pass.body(move |ctx| {
+            let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
+            let group = ctx.bind_group(self.pipelines.view_layout(), &[whole])?;
+            ctx.pass.set_bind_group(0, &group, &[0]);
+            let with = |draw: &Draw| Some(self.pipelines.get(draw.key));
+            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
+            ctx.note_draws(draws);
+            Ok(())
+        });
+        depth
+    }
+}

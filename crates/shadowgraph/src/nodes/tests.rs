@@ -1,0 +1,106 @@
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
+use super::*;
+use serde_json::json;
+
+/// A kind of node that does nothing, with these.
+macro_rules! kind {
+    ($name:ident, $text:literal, $inputs:expr, $outputs:expr, $settings:expr) => {
+        struct $name;
+        impl Node for $name {
+            const NAME: &'static str = $text;
+            const ABOUT: &'static str = "does nothing";
+            const INPUTS: &'static [Port] = $inputs;
+            const OUTPUTS: &'static [Port] = $outputs;
+            const SETTINGS: &'static [Setting] = $settings;
+            fn new(_build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
+                Ok(Self)
+            }
+            fn add<'f>(
+                &'f self,
+                _frame: &mut Frame<'f>,
+                _view: &'f View<'f>,
+                _ports: &mut Ports<'_, 'f>,
+            ) -> Result<(), Error> {
+                Ok(())
+            }
+        }
+    };
+}
+
+kind!(Known, "tonemap", &[], &[], &[]);
+kind!(TwoInputs, "a", &[Port::texture("x", ""), Port::texture("x", "")], &[], &[]);
+kind!(TwoOutputs, "b", &[], &[Port::texture("x", ""), Port::texture("x", "")], &[]);
+kind!(Default_, "c", &[], &[], &[Setting::new("n", Allows::Integer(9, 0, 8), "")]);
+kind!(StandIn, "d", &[Port::new("x", PortKind::Buffer, "").or_texel([0.0; 4])], &[], &[]);
+kind!(
+    Good,
+    "e",
+    &[Port::texture("x", "what is read")],
+    &[],
+    &[Setting::new("n", Allows::Integer(8, 0, 8), "how many")]
+);
+
+fn refused<N: Node>() -> String {
+    Nodes::built_in().register::<N>().unwrap_err().to_string()
+}
+
+#[test]
+fn a_kind_that_contradicts_itself_is_refused() {
+    assert!(refused::<Known>().contains("a kind of that name already"));
+    assert!(refused::<TwoInputs>().contains("two inputs `x`"));
+    assert!(refused::<TwoOutputs>().contains("two outputs `x`"));
+    assert!(refused::<Default_>().contains("a default is out of its range: n is 9; it can be 0 to 8"));
+    assert!(refused::<StandIn>().contains("only textures have stand-ins"));
+}
+
+#[test]
+fn a_kind_is_told_with_ports_ranges_and_defaults() {
+    let mut nodes = Nodes::built_in();
+    nodes.register::<Good>().unwrap();
+    let text = nodes.describe("e").unwrap();
+    assert!(text.contains("takes  x") && text.contains("texture: what is read"), "{text}");
+    assert!(text.contains("8; 0 to 8, a whole number: how many"), "{text}");
+    assert!(nodes.describe("tonemapp").unwrap_err().to_string().ends_with("did you mean `tonemap`?"));
+    assert!(nodes.describe("?").unwrap_err().to_string().contains("there is: view"));
+}
+
+#[test]
+fn every_kind_that_comes_along_is_right_and_has_a_phrase_for_everything() {
+    let built_in = Nodes::built_in();
+    for kind in built_in.kinds() {
+        let others =
+            Nodes(built_in.kinds().iter().filter(|other| other.name != kind.name).copied().collect());
+        assert_eq!(others.fault(kind), None, "{}", kind.name);
+        assert!(!kind.about.is_empty() && !kind.outputs.is_empty(), "{}", kind.name);
+        let ports = kind.inputs.iter().chain(kind.outputs).map(|port| port.about);
+        let phrases = ports.chain(kind.settings.iter().map(|setting| setting.about));
+        assert!(phrases.into_iter().all(|about| !about.is_empty()), "{}", kind.name);
+    }
+}
+
+#[test]
+fn values_out_of_range_or_of_another_type_are_told_with_what_is_allowed() {
+    let fault = |allows, value| Setting::new("n", allows, "").in_units("m").fault(&value);
+    assert_eq!(fault(Allows::Toggle(true), json!(false)), None);
+    assert!(fault(Allows::Toggle(true), json!(1)).unwrap().contains("true or false"));
+    assert_eq!(fault(Allows::Number(0.5, 0.0, 1.0), json!(1)), None);
+    let high = fault(Allows::Number(0.5, 0.0, 1.0), json!(1.5)).unwrap();
+    assert_eq!(high, "n is 1.5; it can be 0 to 1 (m)");
+    assert!(fault(Allows::Integer(1, 0, 4), json!(0.5)).is_some());
+    assert!(fault(Allows::Choice("a", &["a", "b"]), json!("c")).unwrap().contains("one of a, b"));
+    assert_eq!(fault(Allows::Text(""), json!("any")), None);
+    assert_eq!(fault(Allows::Color([0.0; 3]), json!([1, 0.5, 0])), None);
+    for wrong in [json!([1, 2]), json!([1, 2, 3, 4]), json!([1, 2, -1]), json!([1, 2, "3"]), json!("red")] {
+        assert!(fault(Allows::Color([0.0; 3]), wrong).is_some());
+    }
+}
+
+#[test]
+fn a_setting_that_is_not_described_is_the_mistake_of_the_kind() {
+    let settings = Settings::new("mine", vec![("radius", json!(0.5))]);
+    assert_eq!(settings.number("radius").unwrap(), 0.5);
+    for error in [settings.number("radios").unwrap_err(), settings.toggle("radius").unwrap_err()] {
+        assert!(error.to_string().contains("the kind of node `mine` is wrong"), "{error}");
+    }
+}

@@ -1,0 +1,43 @@
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
+use std::sync::Arc;
+
+use shadowgraph_core::Plan;
+use shadowgraph_scene::demo::demo_scene;
+use shadowgraph_shadows::{ShadowSettings, Techniques};
+
+use super::{BUILT_IN, Pipeline};
+use crate::options::Aov;
+use crate::{Gpu, Method, Renderer, ViewOptions};
+
+fn plan(gpu: &Gpu, aov: Aov, method: Method) -> Arc<Plan> {
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let renderer = Renderer::with(gpu, scene, &camera, aov, method).unwrap();
+    let options = ViewOptions { camera, size_px: [64, 36], shadows: ShadowSettings::default() };
+    renderer.plan(&options).unwrap().0
+}
+
+#[test]
+fn every_built_in_file_gives_the_plan_of_its_twin_in_rust() {
+    let (gpu, techniques) = (Gpu::noop().unwrap(), Techniques::built_in());
+    let scripts = Pipeline::scripts();
+    assert_eq!(scripts.iter().map(Pipeline::name).collect::<Vec<_>>(), BUILT_IN);
+    for script in scripts {
+        let file: Pipeline = script.name().parse().unwrap();
+        assert!(file != script && !file.about().is_empty());
+        for name in ["pcf", "evsm", "sdsm", "pcf+contact", "none"] {
+            for samples in [1, 4] {
+                let technique = Some(techniques.find(name).unwrap());
+                let of = |pipeline: &Pipeline, aov| {
+                    plan(&gpu, aov, Method { technique, pipeline: pipeline.clone(), samples })
+                };
+                for aov in [Aov::Color, Aov::Depth, Aov::Visibility(0)] {
+                    let (of_file, of_script) = (of(&file, aov.clone()), of(&script, aov));
+                    let diff = of_file.diff(&of_script).unwrap().to_text();
+                    assert!(of_file == of_script, "{}, {name}, {samples} samples\n{diff}", script.name());
+                }
+            }
+        }
+    }
+}
