@@ -58,19 +58,27 @@ pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");
 /// The technique `screen` where nothing but its mask is needed; `MASK` and `LAYERS` are as in [`SCREEN`].
 pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 
+/// Which lights a point asks, those of its cluster: in the place of the built-in module that asks all of them.
+pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
+
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
 pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 
 /// The modules that any file can import.
 pub(crate) const MODULES: &[ModuleSource] = &[
+    file!("cluster_grid.wgsl"),
     file!("draw.wgsl"),
     file!("fullscreen.wgsl"),
+    file!("gbuffer_layout.wgsl"),
+    file!("light_list.wgsl"),
     file!("lighting.wgsl"),
     file!("material.wgsl"),
+    file!("mesh.wgsl"),
     file!("noise.wgsl"),
     file!("ray_surfaces.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
+    file!("shade.wgsl"),
     file!("shadows/evsm_layout.wgsl"),
     file!("shadows/layers.wgsl"),
     file!("shadows/lookup.wgsl"),
@@ -94,11 +102,14 @@ pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED];
 pub(crate) const ENTRIES: &[ModuleSource] = &[
     file!("blur.wgsl"),
     file!("check.wgsl"),
+    file!("clusters.wgsl"),
     file!("collect.wgsl"),
     file!("contact.wgsl"),
+    file!("deferred.wgsl"),
     file!("denoise.wgsl"),
     file!("depth.wgsl"),
     file!("forward.wgsl"),
+    file!("gbuffer.wgsl"),
     file!("probe.wgsl"),
     file!("raytrace.wgsl"),
     file!("sdsm.wgsl"),

@@ -10,14 +10,17 @@ use shadowgraph_shaders::{
     builtin_files, compose, layout,
 };
 
-const ENTRIES: [&str; 12] = [
+const ENTRIES: [&str; 15] = [
     "blur.wgsl",
     "check.wgsl",
+    "clusters.wgsl",
     "collect.wgsl",
     "contact.wgsl",
+    "deferred.wgsl",
     "denoise.wgsl",
     "depth.wgsl",
     "forward.wgsl",
+    "gbuffer.wgsl",
     "probe.wgsl",
     "raytrace.wgsl",
     "sdsm.wgsl",
@@ -199,12 +202,19 @@ fn structs_lie_in_memory_as_agreed() {
 
 /// How a vertex stage arrives at its position: the functions it calls, by name, in order.
 fn functions_called(module: &naga::Module, entry: &str) -> Vec<String> {
+    fn called(module: &naga::Module, body: &naga::Block) -> Vec<String> {
+        let mut names = Vec::new();
+        for statement in body {
+            if let naga::Statement::Call { function, .. } = statement {
+                let function = &module.functions[*function];
+                names.push(plain(&function.name));
+                names.extend(called(module, &function.body));
+            }
+        }
+        names
+    }
     let entry = module.entry_points.iter().find(|e| e.name == entry).unwrap();
-    let called = entry.function.body.iter().filter_map(|statement| match statement {
-        naga::Statement::Call { function, .. } => Some(plain(&module.functions[*function].name)),
-        _ => None,
-    });
-    called.collect()
+    called(module, &entry.function.body)
 }
 
 /// True where the stage's position output is declared invariant.
@@ -219,11 +229,14 @@ fn has_invariant_position(module: &naga::Module, entry: &str) -> bool {
 
 #[test]
 fn depth_and_lit_passes_compute_positions_by_the_same_functions() {
-    let (depth, forward) = (composed("depth.wgsl"), composed("forward.wgsl"));
+    let depth = composed("depth.wgsl");
     assert!(has_invariant_position(&depth, "vs_depth"));
-    assert!(has_invariant_position(&forward, "vs_forward"));
     let shared = ["world_position", "clip_position"];
     assert_eq!(functions_called(&depth, "vs_depth"), shared);
-    let lit = functions_called(&forward, "vs_forward");
-    assert_eq!(lit.iter().filter(|name| shared.contains(&name.as_str())).count(), 2);
+    for (file, entry) in [("forward.wgsl", "vs_forward"), ("gbuffer.wgsl", "vs_gbuffer")] {
+        let module = composed(file);
+        assert!(has_invariant_position(&module, entry));
+        let lit = functions_called(&module, entry);
+        assert_eq!(lit.iter().filter(|name| shared.contains(&name.as_str())).count(), 2);
+    }
 }

@@ -21,7 +21,11 @@ fn unpack_normal(packed: f32) -> vec3f {
         return vec3f(0.0);
     }
     let whole = u32(packed) - 1u;
-    let flat = vec2f(vec2u(whole / 4096u, whole % 4096u)) / 4095.0 * 2.0 - 1.0;
+    return unfold(vec2f(vec2u(whole / 4096u, whole % 4096u)) / 4095.0 * 2.0 - 1.0);
+}
+
+// The direction of a point of the unfolded octahedron, unit length.
+fn unfold(flat: vec2f) -> vec3f {
     let z = 1.0 - abs(flat.x) - abs(flat.y);
     let folded = (1.0 - abs(flat.yx)) * select(vec2f(-1.0), vec2f(1.0), flat >= vec2f(0.0));
     return normalize(vec3f(select(folded, flat, z >= 0.0), z));

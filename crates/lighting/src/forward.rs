@@ -4,13 +4,14 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 
 use shadowgraph_shaders::ModuleSource;
 
 use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::view_group::{ViewLayouts, with_clusters};
 use crate::{Error, ViewBuffers};
 
 /// What the lit pass writes.
@@ -33,7 +34,7 @@ pub enum Shows {
 
 /// Pipelines and nodes of forward lighting with one shadow technique.
 pub struct Forward {
-    view_layout: wgpu::BindGroupLayout,
+    view_layouts: ViewLayouts,
     shadow_layout: wgpu::BindGroupLayout,
     recipe: Arc<Recipe>,
     /// The technique's modules in each of its variants.
@@ -51,6 +52,8 @@ struct LitKey {
     debug_light: u32,
     /// There is no prepass.
     writes_depth: bool,
+    /// Each pixel asks the lights of its cluster.
+    clustered: bool,
 }
 
 /// The pipelines that light with one variant of a technique: each is made when it is first asked for.
@@ -73,7 +76,8 @@ impl LitPipelines {
 /// What all pipelines of a pass share.
 struct Recipe {
     device: wgpu::Device,
-    layout: wgpu::PipelineLayout,
+    /// Without and with clusters of lights.
+    layouts: [wgpu::PipelineLayout; 2],
     target: LitTarget,
 }
 
@@ -100,22 +104,28 @@ impl Forward {
         technique: &dyn ShadowTechnique,
         target: LitTarget,
     ) -> Result<Self, Error> {
-        let view_layout = view_layout(device);
+        let view_layouts = ViewLayouts::new(device);
         let shadow_layout = shadow_layout(device, technique);
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("forward"),
-            bind_group_layouts: &[
-                Some(&view_layout),
-                Some(&shadow_layout),
-                Some(&layouts.material),
-                Some(&layouts.draw),
-            ],
-            immediate_size: 0,
-        });
+        let layout = |view_layout| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("forward"),
+                bind_group_layouts: &[
+                    Some(view_layout),
+                    Some(&shadow_layout),
+                    Some(&layouts.material),
+                    Some(&layouts.draw),
+                ],
+                immediate_size: 0,
+            })
+        };
         let forward = Self {
-            view_layout,
+            recipe: Arc::new(Recipe {
+                device: device.clone(),
+                layouts: [layout(&view_layouts.plain), layout(&view_layouts.clustered)],
+                target,
+            }),
+            view_layouts,
             shadow_layout,
-            recipe: Arc::new(Recipe { device: device.clone(), layout, target }),
             modules: (0..technique.variant_count()).map(|variant| technique.modules(variant)).collect(),
             lit: Mutex::default(),
         };
@@ -134,7 +144,7 @@ impl Forward {
     /// # Errors
     /// If the variant's WGSL does not compose.
     pub fn pipelines(&self, variant: u32, writes_depth: bool) -> Result<Arc<LitPipelines>, Error> {
-        self.pipelines_of(LitKey { variant, debug_light: 0, writes_depth })
+        self.pipelines_of(LitKey { variant, debug_light: 0, writes_depth, clustered: false })
     }
 
     fn pipelines_of(&self, key: LitKey) -> Result<Arc<LitPipelines>, Error> {
@@ -142,7 +152,8 @@ impl Forward {
         if let Some(pipelines) = known.get(&key) {
             return Ok(pipelines.clone());
         }
-        let module = shadowgraph_shaders::compose("forward.wgsl", self.modules_of(key.variant))?;
+        let modules = with_clusters(self.modules_of(key.variant), key.clustered);
+        let module = shadowgraph_shaders::compose("forward.wgsl", &modules)?;
         let shader = self.recipe.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("forward.wgsl"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
@@ -161,7 +172,7 @@ impl Forward {
 
     /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.view_layout
+        &self.view_layouts.plain
     }
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where
@@ -201,6 +212,42 @@ impl Forward {
         Ok((lit, depth))
     }
 
+    /// Adds the pass that draws what is blended, lit and shadowed, over `light`; none where nothing is.
+    ///
+    /// # Errors
+    /// As [`lit`](Self::lit).
+    pub fn blended<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        shadows: &ShadowOutputs<'f>,
+        depth: &Texture,
+        geometry: Geometry<'f>,
+        light: &mut Texture,
+    ) -> Result<(), Error> {
+        if geometry.draws.blend.is_empty() || self.recipe.target.shows != Shows::Light {
+            return Ok(());
+        }
+        let (variant, debug_light) = self.recipe.target.variant(shadows);
+        let clustered = view.clusters.is_some();
+        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth: false, clustered })?;
+        let mut pass = frame.render_pass("blended");
+        let (shadows, view) = (shadows.read_in(&mut pass), view.read_in(&mut pass));
+        pass.depth_read(depth);
+        pass.color(light, Contents::Preserve);
+        pass.body(move |ctx| {
+            let view = view.bind_group(ctx, &self.view_layouts)?;
+            let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
+            ctx.pass.set_bind_group(0, &view, &[]);
+            ctx.pass.set_bind_group(1, &shadows, &[]);
+            let draws = &geometry.draws.blend;
+            let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
+            ctx.note_draws(draws);
+            Ok(())
+        });
+        Ok(())
+    }
+
     fn add_lit<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -211,12 +258,10 @@ impl Forward {
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         // Debug colours are not in every variant.
-        let (variant, debug_light) = match self.recipe.target.shows {
-            Shows::Debug => (0, shadows.debug_light),
-            _ => (shadows.variant, 0),
-        };
+        let (variant, debug_light) = self.recipe.target.variant(shadows);
         let writes_depth = matches!(depth, Depth::Own(_));
-        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth })?;
+        let clustered = view.clusters.is_some();
+        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth, clustered })?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.recipe.target.shows {
             Shows::Surface => ("surfaces", "surfaces"),
@@ -228,7 +273,7 @@ impl Forward {
         let many = (samples > 1).then(|| frame.create_texture("lit samples", desc.samples(samples)));
         let mut pass = frame.render_pass(pass);
         let shadows = shadows.read_in(&mut pass);
-        let (view, lights) = (pass.storage_buffer(&view.view), pass.storage_buffer(&view.lights));
+        let view = view.read_in(&mut pass);
         match depth {
             Depth::Prepass(depth) => pass.depth_read(depth),
             Depth::Own(depth) => pass.depth(depth, Contents::clear_depth(0.0)),
@@ -243,7 +288,7 @@ impl Forward {
             }
         }
         pass.body(move |ctx| {
-            let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?;
+            let view = view.bind_group(ctx, &self.view_layouts)?;
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
@@ -259,6 +304,28 @@ impl Forward {
     }
 }
 
+impl LitTarget {
+    /// Which variant of the technique a pass asks for, and whose debug colours it shows. Those are not in every variant.
+    pub(crate) fn variant(&self, shadows: &ShadowOutputs<'_>) -> (u32, u32) {
+        match self.shows {
+            Shows::Debug => (0, shadows.debug_light),
+            _ => (shadows.variant, 0),
+        }
+    }
+
+    /// The numbers of `AOV` and `AOV_LIGHT` in the shaders.
+    pub(crate) fn constants(&self, debug_light: u32) -> [(&'static str, f64); 2] {
+        let (aov, light) = match self.shows {
+            Shows::Light => (0, 0),
+            Shows::Visibility(light) => (1, light),
+            Shows::Debug => (2, debug_light),
+            Shows::Normal => (3, 0),
+            Shows::Surface => (4, 0),
+        };
+        [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))]
+    }
+}
+
 /// Where the depth of a lit pass comes from.
 enum Depth<'d> {
     /// A prepass has drawn it.
@@ -269,19 +336,12 @@ enum Depth<'d> {
 
 impl Recipe {
     fn pipeline(&self, shader: &wgpu::ShaderModule, lit: LitKey, key: MaterialKey) -> wgpu::RenderPipeline {
-        let (aov, light) = match self.target.shows {
-            Shows::Light => (0, 0),
-            Shows::Visibility(light) => (1, light),
-            Shows::Debug => (2, lit.debug_light),
-            Shows::Normal => (3, 0),
-            Shows::Surface => (4, 0),
-        };
-        let constants = [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))];
+        let constants = self.target.constants(lit.debug_light);
         // Only light is drawn for what is blended.
         let blended = key.alpha == AlphaKey::Blend && self.target.shows == Shows::Light;
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("forward"),
-            layout: Some(&self.layout),
+            layout: Some(&self.layouts[usize::from(lit.clustered)]),
             vertex: wgpu::VertexState {
                 module: shader,
                 entry_point: Some("vs_forward"),
@@ -315,21 +375,4 @@ impl Recipe {
             cache: None,
         })
     }
-}
-
-/// Group 0: the view and the lights.
-fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let label = Some("view");
-    device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[entry(0), entry(1)] })
 }

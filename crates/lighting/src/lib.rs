@@ -11,17 +11,24 @@
 //! Nothing here knows how a shadow technique works. Cameras are those of `shadowgraph_scene`, depth is reversed,
 //! and colours are scene-linear until the tonemap.
 
+mod clusters;
+mod deferred;
 mod error;
 mod exposure;
 mod forward;
+mod gbuffer;
 mod prepass;
 mod records;
 mod shader;
 mod tonemap;
+mod view_group;
 
+pub use clusters::Clusters;
+pub use deferred::Deferred;
 pub use error::Error;
 pub use exposure::{Ambience, Key};
 pub use forward::{Forward, LitPipelines, LitTarget, Shows};
+pub use gbuffer::{GBuffer, GBufferPass};
 pub use prepass::{Geometry, Prepass};
 pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
 pub use tonemap::Tonemap;

@@ -74,6 +74,8 @@ pub struct ViewBuffers {
     pub view: Buffer,
     /// [`GpuLight`]s; one of zeros where there is no light.
     pub lights: Buffer,
+    /// Which lights reach which part of the view, where that was found out ([`Clusters`](crate::Clusters)).
+    pub clusters: Option<Buffer>,
 }
 
 impl ViewRecords {
@@ -102,6 +104,7 @@ impl ViewRecords {
         frame.node("view", |frame| ViewBuffers {
             view: frame.upload_buffer("view", bytemuck::bytes_of(&self.view).to_vec()),
             lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
+            clusters: None,
         })
     }
 }

@@ -8,6 +8,7 @@ mod casters;
 mod hostile;
 mod maps;
 mod measure;
+mod pipelines;
 mod raytraced;
 mod rows;
 mod scenes;

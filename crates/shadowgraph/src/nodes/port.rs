@@ -1,7 +1,7 @@
 //! What nodes take and give.
 
 use shadowgraph_core::{Buffer, Format, Texture};
-use shadowgraph_lighting::ViewBuffers;
+use shadowgraph_lighting::{GBuffer, ViewBuffers};
 use shadowgraph_shadows::{Screen, ShadowOutputs};
 
 /// What a port hands on.
@@ -17,6 +17,8 @@ pub enum PortKind {
     Surfaces,
     /// Shadows, as lit passes read them.
     Shadows,
+    /// The textures that deferred lighting reads.
+    GBuffer,
 }
 
 impl PortKind {
@@ -28,6 +30,7 @@ impl PortKind {
             Self::View => "view",
             Self::Surfaces => "surfaces",
             Self::Shadows => "shadows",
+            Self::GBuffer => "G-buffer",
         }
     }
 }
@@ -101,6 +104,8 @@ pub enum Value<'f> {
     Surfaces(Screen),
     /// Shadows.
     Shadows(ShadowOutputs<'f>),
+    /// What deferred lighting reads.
+    GBuffer(GBuffer),
 }
 
 impl Value<'_> {
@@ -112,6 +117,7 @@ impl Value<'_> {
             Self::View(_) => PortKind::View,
             Self::Surfaces(_) => PortKind::Surfaces,
             Self::Shadows(_) => PortKind::Shadows,
+            Self::GBuffer(_) => PortKind::GBuffer,
         }
     }
 }
@@ -137,6 +143,12 @@ impl From<ViewBuffers> for Value<'_> {
 impl From<Screen> for Value<'_> {
     fn from(screen: Screen) -> Self {
         Self::Surfaces(screen)
+    }
+}
+
+impl From<GBuffer> for Value<'_> {
+    fn from(buffer: GBuffer) -> Self {
+        Self::GBuffer(buffer)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A node's ports in one frame.
 
 use shadowgraph_core::{Buffer, Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::ViewBuffers;
+use shadowgraph_lighting::{GBuffer, ViewBuffers};
 use shadowgraph_shadows::{Screen, ShadowOutputs};
 
 use super::port::{Need, Port, Value};
@@ -112,6 +112,17 @@ impl<'f> Ports<'_, 'f> {
     pub fn shadows(&self, name: &str) -> Result<&ShadowOutputs<'f>, Error> {
         match self.required(name)? {
             Value::Shadows(shadows) => Ok(shadows),
+            _ => Err(self.wrong(name)),
+        }
+    }
+
+    /// Returns the G-buffer at an input.
+    ///
+    /// # Errors
+    /// As [`texture`](Self::texture).
+    pub fn gbuffer(&self, name: &str) -> Result<GBuffer, Error> {
+        match self.required(name)? {
+            Value::GBuffer(buffer) => Ok(buffer.clone()),
             _ => Err(self.wrong(name)),
         }
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use shadowgraph_shadows::{Technique, Techniques};
 
-use super::{Build, Choices, Forward, Minimal, PipelineError, PipelineFile, Wiring};
+use super::{Build, Choices, Deferred, Forward, ForwardPlus, Minimal, PipelineError, PipelineFile, Wiring};
 use crate::Error;
 use crate::nodes::Nodes;
 use crate::options::OptionError;
@@ -15,12 +15,14 @@ use crate::options::OptionError;
 /// The files of the built-in pipelines, the default first.
 const FILES: &[(&str, &str)] = &[
     ("forward", include_str!("../../pipelines/forward.ron")),
+    ("forward_plus", include_str!("../../pipelines/forward_plus.ron")),
+    ("deferred", include_str!("../../pipelines/deferred.ron")),
     ("screen_shadows", include_str!("../../pipelines/screen_shadows.ron")),
     ("minimal", include_str!("../../pipelines/minimal.ron")),
 ];
 
 /// The names of the built-in pipelines, the default first.
-pub const BUILT_IN: &[&str] = &["forward", "screen_shadows", "minimal"];
+pub const BUILT_IN: &[&str] = &["forward", "forward_plus", "deferred", "screen_shadows", "minimal"];
 
 type Make = dyn Fn(&Build<'_>) -> Result<Box<dyn Wiring>, Error> + Send + Sync;
 
@@ -97,6 +99,16 @@ impl Pipeline {
         Self::known("forward")
     }
 
+    /// Returns the built-in pipeline in which each pixel asks only the lights that reach its part of the view.
+    pub fn forward_plus() -> Self {
+        Self::known("forward_plus")
+    }
+
+    /// Returns the built-in pipeline that draws a G-buffer and lights each pixel once.
+    pub fn deferred() -> Self {
+        Self::known("deferred")
+    }
+
     /// Returns the built-in pipeline that collects shadows in a screen mask before anything is lit.
     pub fn screen_shadows() -> Self {
         Self::known("screen_shadows")
@@ -119,6 +131,8 @@ impl Pipeline {
             |build: &Build<'_>| -> Result<Box<dyn Wiring>, Error> { Ok(Box::new(Forward::new(build)?)) };
         vec![
             Self::script("forward", forward),
+            Self::script("forward_plus", |build| Ok(Box::new(ForwardPlus::new(build)?))),
+            Self::script("deferred", |build| Ok(Box::new(Deferred::new(build)?))),
             Self::script_with_collected_shadows("screen_shadows", forward),
             Self::script("minimal", |build| Ok(Box::new(Minimal::new(build)?))),
         ]

@@ -4,15 +4,19 @@
 //! pipeline in Rust is a [`Wiring`], such as [`Forward`]: copy one and edit it. Both give the same plans.
 
 mod choice;
+mod deferred;
 mod file;
 mod forward;
+mod forward_plus;
 mod minimal;
 mod view;
 
 pub use choice::{BUILT_IN, Pipeline};
+pub use deferred::Deferred;
 use file::PipelineFile;
 pub use file::{Choices, PipelineError, schema};
 pub use forward::Forward;
+pub use forward_plus::ForwardPlus;
 pub use minimal::Minimal;
 pub use view::View;
 

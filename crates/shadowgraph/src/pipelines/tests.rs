@@ -26,18 +26,29 @@ fn every_built_in_file_gives_the_plan_of_its_twin_in_rust() {
     for script in scripts {
         let file: Pipeline = script.name().parse().unwrap();
         assert!(file != script && !file.about().is_empty());
-        for name in ["pcf", "evsm", "sdsm", "pcf+contact", "none"] {
-            for samples in [1, 4] {
-                let technique = Some(techniques.find(name).unwrap());
-                let of = |pipeline: &Pipeline, aov| {
-                    plan(&gpu, aov, Method { technique, pipeline: pipeline.clone(), samples })
-                };
-                for aov in [Aov::Color, Aov::Depth, Aov::Visibility(0)] {
-                    let (of_file, of_script) = (of(&file, aov.clone()), of(&script, aov));
-                    let diff = of_file.diff(&of_script).unwrap().to_text();
-                    assert!(of_file == of_script, "{}, {name}, {samples} samples\n{diff}", script.name());
-                }
-            }
+        let color = |name, samples| (name, samples, Aov::Color);
+        let mut cases: Vec<_> = ["pcf", "evsm", "sdsm", "pcf+contact"].map(|name| color(name, 1)).to_vec();
+        cases.extend([("pcf", 1, Aov::Depth), ("none", 1, Aov::Visibility(0))]);
+        if script.name() != "deferred" {
+            cases.push(color("pcf+contact", 4));
+        }
+        for (name, samples, aov) in cases {
+            let technique = Some(techniques.find(name).unwrap());
+            let of = |pipeline: &Pipeline| {
+                plan(&gpu, aov.clone(), Method { technique, pipeline: pipeline.clone(), samples })
+            };
+            let (of_file, of_script) = (of(&file), of(&script));
+            let diff = of_file.diff(&of_script).unwrap().to_text();
+            assert!(of_file == of_script, "{}, {name}, {samples} samples\n{diff}", script.name());
         }
     }
+}
+
+#[test]
+fn deferred_lighting_of_several_samples_is_refused_with_the_option() {
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let method = Method { samples: 4, pipeline: Pipeline::deferred(), ..Method::default() };
+    let error = Renderer::with(&Gpu::noop().unwrap(), scene, &camera, Aov::Color, method).err().unwrap();
+    assert_eq!(error.to_string(), "--samples 4: deferred lighting has one sample a pixel");
 }

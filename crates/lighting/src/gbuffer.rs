@@ -1,0 +1,148 @@
+//! The surfaces that a view sees, as deferred lighting reads them.
+
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
+
+use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::view_group::ViewLayouts;
+use crate::{Error, ViewBuffers};
+
+/// What deferred lighting reads of each pixel, behind its depth: 20 bytes.
+#[derive(Clone, Debug)]
+pub struct GBuffer {
+    /// Linear colour, and in alpha what kind of surface it is.
+    pub base_color: Texture,
+    /// Metallic, roughness, ambient occlusion.
+    pub material: Texture,
+    /// The shading and the geometric normal, each as two numbers of 16 bits.
+    pub normals: Texture,
+    /// What the surface gives off.
+    pub glow: Texture,
+}
+
+impl GBuffer {
+    /// The formats, in the order of the fields.
+    pub const FORMATS: [Format; 4] =
+        [Format::Rgba8UnormSrgb, Format::Rgba8Unorm, Format::Rg32Uint, Format::Rgba16Float];
+}
+
+/// The pass that draws the G-buffer.
+pub struct GBufferPass {
+    view_layouts: ViewLayouts,
+    layout: wgpu::PipelineLayout,
+    empty: wgpu::BindGroup,
+    shader: wgpu::ShaderModule,
+    device: wgpu::Device,
+    /// By [`MaterialKey::index`].
+    made: Vec<OnceLock<wgpu::RenderPipeline>>,
+}
+
+impl GBufferPass {
+    /// Makes what its pipelines share; each is made when it is first drawn with.
+    ///
+    /// # Errors
+    /// None with the WGSL that Shadowgraph comes with.
+    pub fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
+        let module = shadowgraph_shaders::compose("gbuffer.wgsl", &[])?;
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("gbuffer.wgsl"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
+        let view_layouts = ViewLayouts::new(device);
+        let none = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("no shadows"),
+            entries: &[],
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("G-buffer"),
+            bind_group_layouts: &[
+                Some(&view_layouts.plain),
+                Some(&none),
+                Some(&layouts.material),
+                Some(&layouts.draw),
+            ],
+            immediate_size: 0,
+        });
+        let empty = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("no shadows"),
+            layout: &none,
+            entries: &[],
+        });
+        let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
+        Ok(Self { view_layouts, layout, empty, shader, device: device.clone(), made })
+    }
+
+    /// Adds the pass that draws all that is not blended, behind a prepass that drew `depth`.
+    pub fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &ViewBuffers,
+        depth: &Texture,
+        geometry: Geometry<'f>,
+    ) -> GBuffer {
+        let [width, height] = geometry.size_px;
+        let [base_color, material, normals, glow] = GBuffer::FORMATS;
+        let mut texture =
+            |name: &str, format| frame.create_texture(name, TextureDesc::d2(width, height, format));
+        let mut buffer = GBuffer {
+            base_color: texture("base color", base_color),
+            material: texture("material", material),
+            normals: texture("normals", normals),
+            glow: texture("glow", glow),
+        };
+        let mut pass = frame.render_pass("G-buffer");
+        let view = ViewBuffers { clusters: None, ..view.clone() }.read_in(&mut pass);
+        pass.depth_read(depth);
+        for texture in [&mut buffer.base_color, &mut buffer.material, &mut buffer.normals, &mut buffer.glow] {
+            pass.color(texture, Contents::clear_color([0.0; 4]));
+        }
+        pass.body(move |ctx| {
+            let view = view.bind_group(ctx, &self.view_layouts)?;
+            ctx.pass.set_bind_group(0, &view, &[]);
+            ctx.pass.set_bind_group(1, &self.empty, &[]);
+            let with = |draw: &Draw| {
+                let pipeline = self.made[draw.key.index()].get_or_init(|| self.pipeline(draw.key));
+                Some(DrawWith { pipeline, reads_material: true })
+            };
+            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
+            ctx.note_draws(draws);
+            Ok(())
+        });
+        buffer
+    }
+
+    fn pipeline(&self, key: MaterialKey) -> wgpu::RenderPipeline {
+        debug_assert_ne!(key.alpha, AlphaKey::Blend, "what is blended is drawn over what is lit");
+        let targets = GBuffer::FORMATS.map(|format| Some(format.into()));
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("G-buffer"),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.shader,
+                entry_point: Some("vs_gbuffer"),
+                compilation_options: Default::default(),
+                buffers: &[Some(vertex_layout())],
+            },
+            primitive: key.primitive_state(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &self.shader,
+                entry_point: Some("fs_gbuffer"),
+                compilation_options: Default::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

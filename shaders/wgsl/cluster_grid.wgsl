@@ -1,0 +1,24 @@
+// The boxes that a view is cut into, so that each knows the lights that reach it (Olsson, Billeter and Assarsson, "Clustered
+// Deferred and Forward Shading", 2012).
+#define_import_path shadowgraph::cluster_grid
+
+// Across, down, and away from the camera.
+const CLUSTERS: vec3u = vec3u(16u, 9u, 24u);
+// The last slice goes on without end from here, in metres times the near plane's distance.
+const FARTHEST: f32 = 10000.0;
+
+// How far in front of the camera a slice begins, metres; slices grow with the distance.
+fn slice_begin(slice: u32, near: f32) -> f32 {
+    return near * pow(FARTHEST, f32(slice) / f32(CLUSTERS.z));
+}
+
+fn slice_of(view_depth: f32, near: f32) -> u32 {
+    let slice = log(max(view_depth / near, 1.0)) / log(FARTHEST) * f32(CLUSTERS.z);
+    return min(u32(slice), CLUSTERS.z - 1u);
+}
+
+// The first word of a cluster's lights.
+fn cluster_start(cluster: vec3u, light_count: u32) -> u32 {
+    let index = (cluster.z * CLUSTERS.y + cluster.y) * CLUSTERS.x + cluster.x;
+    return index * ((light_count + 31u) / 32u);
+}

@@ -1,0 +1,90 @@
+// The surfaces of meshes as cameras see them: the vertices of passes that shade, and the normals of what they hit.
+#define_import_path shadowgraph::mesh
+#import shadowgraph::view::{view, view_depth_of, direction_to_camera, to_neighbour}
+#import shadowgraph::draw::{
+    Vertex, world_position, world_normal, world_direction, handedness, clip_position,
+}
+#import shadowgraph::material::{
+    MATERIAL_BLEND, MATERIAL_NORMAL_MAP, TextureCoordinates, material_has, normal_in_tangent_space,
+}
+#import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_BACK_FACE}
+
+struct MeshVertex {
+    @invariant @builtin(position) position: vec4f,
+    // Relative to the camera: its small numbers keep the derivatives precise where they matter, nearby.
+    @location(0) from_camera: vec3f,
+    @location(1) normal: vec3f,
+    // w: which side the bitangent is on.
+    @location(2) tangent: vec4f,
+    @location(3) uv_first: vec2f,
+    @location(4) uv_second: vec2f,
+    @location(5) color: vec4f,
+}
+
+fn mesh_vertex(vertex: Vertex) -> MeshVertex {
+    let position = world_position(vertex.instance, vertex.position);
+    let side = vertex.tangent.w * handedness(vertex.instance);
+    return MeshVertex(
+        clip_position(view.clip_from_world, position),
+        position - view.position,
+        world_normal(vertex.instance, vertex.normal),
+        vec4f(world_direction(vertex.instance, vertex.tangent.xyz), side),
+        vertex.uv_first,
+        vertex.uv_second,
+        vertex.color,
+    );
+}
+
+// `fallback` where the direction has no length.
+fn normalize_or(direction: vec3f, fallback: vec3f) -> vec3f {
+    let length_squared = dot(direction, direction);
+    if length_squared > 1e-30 {
+        return direction * inverseSqrt(length_squared);
+    }
+    return fallback;
+}
+
+// The triangle's own normal, towards the viewer: for the front of a surface and for a back that is shown alike,
+// that is the side that is seen.
+fn geometric_normal(ddx_position: vec3f, ddy_position: vec3f, to_camera: vec3f, shading_normal: vec3f) -> vec3f {
+    // Scaled to the same length first: up close, the product of two derivatives is too small a number.
+    let right = normalize_or(ddx_position, vec3f(0.0));
+    let down = normalize_or(ddy_position, vec3f(0.0));
+    let n = normalize_or(cross(right, down), shading_normal);
+    return select(n, -n, dot(n, to_camera) < 0.0);
+}
+
+// Reads a texture: call in uniform control flow.
+fn shading_normal(in: MeshVertex, uv: TextureCoordinates, front_facing: bool, to_camera: vec3f) -> vec3f {
+    let smooth_normal = normalize_or(in.normal, to_camera);
+    var normal = smooth_normal;
+    if material_has(MATERIAL_NORMAL_MAP) {
+        let across = in.tangent.xyz - smooth_normal * dot(in.tangent.xyz, smooth_normal);
+        let tangent = normalize_or(across, vec3f(0.0));
+        let bitangent = cross(smooth_normal, tangent) * in.tangent.w;
+        let mapped = normal_in_tangent_space(uv);
+        normal = normalize_or(
+            tangent * mapped.x + bitangent * mapped.y + smooth_normal * mapped.z, smooth_normal);
+    }
+    return select(-normal, normal, front_facing);
+}
+
+// What is asked about a surface. The derivatives are those of `in.from_camera`.
+fn receiver_of(
+    in: MeshVertex, ddx_position: vec3f, ddy_position: vec3f, normal: vec3f, to_camera: vec3f, front_facing: bool,
+) -> Receiver {
+    let position = in.from_camera + view.position;
+    let view_depth = view_depth_of(position);
+    let flat_normal = geometric_normal(ddx_position, ddy_position, to_camera, normal);
+    let blended = material_has(MATERIAL_BLEND);
+    return Receiver(
+        position,
+        view_depth,
+        flat_normal,
+        select(0u, RECEIVER_TRANSPARENT, blended) | select(RECEIVER_BACK_FACE, 0u, front_facing),
+        normal,
+        in.position.xy,
+        to_neighbour(position, flat_normal, view_depth, 0),
+        -to_neighbour(position, flat_normal, view_depth, 1),
+    );
+}

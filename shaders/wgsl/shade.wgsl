@@ -1,0 +1,66 @@
+// What arrives at a surface from every light, shadows included.
+#define_import_path shadowgraph::shade
+#import shadowgraph::view::{view, lights, Light}
+#import shadowgraph::receiver::Receiver
+#import shadowgraph::lighting::{Surface, arriving_light, reflected, ambient}
+#import shadowgraph::light_list::light_mask
+#import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
+
+// What the technique says, where the material lets shadows fall.
+fn visibility_of(light: u32, receiver: Receiver, unshadowed: bool) -> vec3f {
+    if unshadowed {
+        return vec3f(1.0);
+    }
+    return shadow_visibility(light, receiver);
+}
+
+fn lit(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3f {
+    var sum = ambient(surface, view.ambient_sky, view.ambient_ground);
+    for (var word = 0u; word * 32u < view.light_count; word++) {
+        var mask = light_mask(word, receiver.pixel, receiver.view_depth);
+        while mask != 0u {
+            let i = word * 32u + firstTrailingBit(mask);
+            mask &= mask - 1u;
+            if i >= view.light_count {
+                break;
+            }
+            let light = lights[i];
+            let arriving = arriving_light(light, receiver.position);
+            let n_dot_l = dot(surface.normal, arriving.to_light);
+            if n_dot_l > 0.0 && arriving.attenuation > 0.0 {
+                let visibility = visibility_of(i, receiver, unshadowed);
+                let illuminance = light.color * arriving.attenuation * visibility;
+                sum += reflected(surface, arriving.to_light, n_dot_l) * illuminance;
+            }
+        }
+    }
+    return sum;
+}
+
+// Grey: the factor of a light in the lit pass. Alpha 0 where the surface faces away from the light.
+fn visibility_shown(light: u32, receiver: Receiver, unshadowed: bool) -> vec4f {
+    if light >= view.light_count {
+        return vec4f(0.0);
+    }
+    let arriving = arriving_light(lights[light], receiver.position);
+    if dot(receiver.shading_normal, arriving.to_light) <= 0.0 {
+        return vec4f(0.0);
+    }
+    let factor = dot(visibility_of(light, receiver, unshadowed), vec3f(1.0 / 3.0));
+    return vec4f(vec3f(factor), 1.0);
+}
+
+// The technique's colours, shaded so that shapes and shadows can be made out.
+fn debug_shown(light: u32, receiver: Receiver, to_camera: vec3f, unshadowed: bool) -> vec4f {
+    var shade = 0.4 + 0.2 * saturate(dot(receiver.shading_normal, to_camera));
+    if light >= view.light_count {
+        return vec4f(vec3f(shade), 1.0);
+    }
+    let arriving = arriving_light(lights[light], receiver.position);
+    let n_dot_l = dot(receiver.shading_normal, arriving.to_light);
+    if n_dot_l > 0.0 {
+        let factor = dot(visibility_of(light, receiver, unshadowed), vec3f(1.0 / 3.0));
+        shade += 0.4 * n_dot_l * factor;
+    }
+    return vec4f(shadow_debug_color(light, receiver) * shade, 1.0);
+}

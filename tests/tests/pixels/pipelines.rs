@@ -1,0 +1,88 @@
+//! Pipelines: the same shadows by each, from files and from scripts, and with nodes of one's own.
+
+use crate::stage::gpu;
+use shadowgraph::options::{Aov, ShadowDistance, SunChoice};
+use shadowgraph::pipelines::BUILT_IN;
+use shadowgraph::scene::Scene;
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::{Gpu, Method, Picture, Pipeline, Renderer, ViewOptions};
+use std::path::PathBuf;
+
+fn options(scene: &Scene, size_px: [u32; 2]) -> ViewOptions {
+    let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
+    ViewOptions { camera, size_px, shadows: Default::default() }
+        .with_shadow_distance(ShadowDistance::Auto, scene)
+}
+
+fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, method: Method, size_px: [u32; 2]) -> Picture {
+    let options = options(scene, size_px);
+    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, method).unwrap();
+    renderer.draw(gpu, &options).unwrap().picture
+}
+
+/// The share of pixels of which some channel differs by more than 2 of 255.
+fn differing(a: &Picture, b: &Picture) -> f64 {
+    let pixels = a.rgba8.chunks_exact(4).zip(b.rgba8.chunks_exact(4));
+    let differ = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2)).count();
+    differ as f64 / (a.rgba8.len() / 4) as f64
+}
+
+/// The shared scenes; `None` where they are not at hand.
+fn scenes() -> Option<Vec<PathBuf>> {
+    let Some(folder) = shadowgraph_tests::shared("scenes") else {
+        shadowgraph_tests::skip(
+            "scenes",
+            "the collection of real scenes is not at hand (SHADOWGRAPH_SHARED)",
+        );
+        return None;
+    };
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let is_scene = |file: &PathBuf| file.extension().is_some_and(|extension| extension == "glb");
+    let mut files: Vec<_> = files.filter(is_scene).collect();
+    files.sort();
+    Some(files)
+}
+
+#[test]
+fn shadows_of_real_scenes_are_the_same_by_forward_forward_plus_and_deferred() {
+    let Some(gpu) = gpu() else { return };
+    let Some(files) = scenes() else { return };
+    for file in files {
+        let mut scene = shadowgraph::scene::gltf::load(&file).unwrap();
+        SunChoice::default().apply(&mut scene);
+        let visibility =
+            |pipeline: Pipeline| picture(gpu, &scene, Aov::Visibility(0), pipeline.into(), [256, 144]);
+        let forward = visibility(Pipeline::forward());
+        for pipeline in [Pipeline::forward_plus(), Pipeline::deferred()] {
+            let name = pipeline.name().to_owned();
+            let share = differing(&forward, &visibility(pipeline));
+            assert!(share <= 0.001, "{}, {name}: {share}", file.display());
+        }
+    }
+}
+
+#[test]
+fn every_built_in_pipeline_draws_the_demo_scene_alike_in_colour() {
+    let Some(gpu) = gpu() else { return };
+    let scene = demo_scene();
+    let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [320, 180]);
+    let forward = draw(Pipeline::forward());
+    for name in BUILT_IN {
+        let pipeline: Pipeline = name.parse().unwrap();
+        let share = differing(&forward, &draw(pipeline));
+        // A G-buffer keeps eight bits of a colour; a screen mask eight of visibility.
+        assert!(share < 0.01, "{name}: {share}");
+    }
+    assert!(forward == draw(Pipeline::forward_plus()), "clusters leave out only lights that give nothing");
+}
+
+#[test]
+fn files_and_scripts_give_equal_pictures() {
+    let Some(gpu) = gpu() else { return };
+    let scene = demo_scene();
+    for script in Pipeline::scripts() {
+        let file: Pipeline = script.name().parse().unwrap();
+        let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [160, 90]);
+        assert!(draw(file) == draw(script.clone()), "{}", script.name());
+    }
+}
