@@ -33,6 +33,6 @@ pub use error::Error;
 pub use folder::set_folder;
 pub use naga;
 pub use source::{
-    CLUSTERED, EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, PCSS, PREFILTER, RAYTRACED, SCREEN,
-    builtin, builtin_files,
+    CLUSTERED, EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, OCCLUDED, PCSS, PREFILTER,
+    RAYTRACED, SCREEN, builtin, builtin_files,
 };

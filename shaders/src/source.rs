@@ -61,6 +61,9 @@ pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 /// Which lights a point asks, those of its cluster: in the place of the built-in module that asks all of them.
 pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
 
+/// Ambient occlusion of the screen, where lit passes have it: in the place of the built-in module without.
+pub const OCCLUDED: ModuleSource = file!("occluded.wgsl");
+
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
 pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 
@@ -78,6 +81,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("ray_surfaces.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
+    file!("screen_occlusion.wgsl"),
     file!("shade.wgsl"),
     file!("shadows/evsm_layout.wgsl"),
     file!("shadows/layers.wgsl"),
@@ -110,6 +114,14 @@ pub(crate) const ENTRIES: &[ModuleSource] = &[
     file!("depth.wgsl"),
     file!("forward.wgsl"),
     file!("gbuffer.wgsl"),
+    file!("post/bloom.wgsl"),
+    file!("post/bloom_mix.wgsl"),
+    file!("post/fxaa.wgsl"),
+    file!("post/occlusion.wgsl"),
+    file!("post/occlusion_blur.wgsl"),
+    file!("post/overlay.wgsl"),
+    file!("post/sky.wgsl"),
+    file!("post/temporal.wgsl"),
     file!("probe.wgsl"),
     file!("raytrace.wgsl"),
     file!("sdsm.wgsl"),

@@ -10,7 +10,7 @@ use shadowgraph_shaders::{
     builtin_files, compose, layout,
 };
 
-const ENTRIES: [&str; 15] = [
+const ENTRIES: [&str; 23] = [
     "blur.wgsl",
     "check.wgsl",
     "clusters.wgsl",
@@ -21,6 +21,14 @@ const ENTRIES: [&str; 15] = [
     "depth.wgsl",
     "forward.wgsl",
     "gbuffer.wgsl",
+    "post/bloom.wgsl",
+    "post/bloom_mix.wgsl",
+    "post/fxaa.wgsl",
+    "post/occlusion.wgsl",
+    "post/occlusion_blur.wgsl",
+    "post/overlay.wgsl",
+    "post/sky.wgsl",
+    "post/temporal.wgsl",
     "probe.wgsl",
     "raytrace.wgsl",
     "sdsm.wgsl",

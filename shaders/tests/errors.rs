@@ -104,7 +104,9 @@ fn an_unknown_entry_file_says_which_there_are() {
     assert_eq!(
         text,
         "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, check.wgsl, clusters.wgsl, collect.wgsl, contact.wgsl, deferred.wgsl, \
-         denoise.wgsl, depth.wgsl, forward.wgsl, gbuffer.wgsl, probe.wgsl, raytrace.wgsl, sdsm.wgsl, show.wgsl, tonemap.wgsl"
+         denoise.wgsl, depth.wgsl, forward.wgsl, gbuffer.wgsl, post/bloom.wgsl, post/bloom_mix.wgsl, post/fxaa.wgsl, \
+         post/occlusion.wgsl, post/occlusion_blur.wgsl, post/overlay.wgsl, post/sky.wgsl, post/temporal.wgsl, probe.wgsl, \
+         raytrace.wgsl, sdsm.wgsl, show.wgsl, tonemap.wgsl"
     );
     // A module is no entry file.
     assert!(compose("view.wgsl", &[]).is_err());

@@ -1,7 +1,8 @@
 // What arrives at a surface from every light, shadows included.
 #define_import_path shadowgraph::shade
 #import shadowgraph::view::{view, lights, Light}
-#import shadowgraph::receiver::Receiver
+#import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT}
+#import shadowgraph::screen_occlusion::screen_occlusion
 #import shadowgraph::lighting::{Surface, arriving_light, reflected, ambient}
 #import shadowgraph::light_list::light_mask
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
@@ -15,7 +16,9 @@ fn visibility_of(light: u32, receiver: Receiver, unshadowed: bool) -> vec3f {
 }
 
 fn lit(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3f {
-    var sum = ambient(surface, view.ambient_sky, view.ambient_ground);
+    let transparent = (receiver.flags & RECEIVER_TRANSPARENT) != 0u;
+    let open = screen_occlusion(receiver.pixel, transparent);
+    var sum = ambient(surface, view.ambient_sky, view.ambient_ground) * open;
     for (var word = 0u; word * 32u < view.light_count; word++) {
         var mask = light_mask(word, receiver.pixel, receiver.view_depth);
         while mask != 0u {

@@ -47,6 +47,28 @@ fn pixel(picture: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {
 }
 
 #[test]
+fn custom_pipeline_gives_equal_plans_and_pictures_from_a_file_and_from_a_script() {
+    if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
+        return skip("pipelines", "no graphics driver is installed");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = run(Command::new(example("custom_pipeline")).current_dir(folder.path()));
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    let equal = outcome.stdout.lines().filter(|line| line.ends_with("equal plans true, equal pictures true"));
+    assert_eq!(equal.count(), 8, "{}", outcome.stdout);
+    let picture = image::open(folder.path().join("out/custom_pipeline.png")).unwrap().into_rgba8();
+    assert_eq!(picture.dimensions(), (640, 360));
+    // The vignette darkens the sky in a corner.
+    let brightness = |x, y| pixel(&picture, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
+    assert!(
+        brightness(2, 2) * 4 < brightness(250, 40) * 3,
+        "{} and {}",
+        brightness(2, 2),
+        brightness(250, 40)
+    );
+}
+
+#[test]
 fn custom_draws_into_the_canvas_of_the_application_and_prints_the_plan() {
     let folder = tempfile::tempdir().unwrap();
     let outcome = run(Command::new(example("custom")).current_dir(folder.path()));

@@ -8,7 +8,7 @@ use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc};
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 
-use crate::view_group::{ViewLayouts, with_clusters};
+use crate::view_group::{Extras, ViewLayouts};
 use crate::{Error, GBuffer, LitTarget, ViewBuffers};
 
 /// The pass that lights a G-buffer with the shadows of one technique.
@@ -23,8 +23,8 @@ pub struct Deferred {
     made: Mutex<BTreeMap<Key, wgpu::RenderPipeline>>,
 }
 
-/// What pipelines differ in: the technique's variant, whose debug colours are shown, whether there are clusters.
-type Key = (u32, u32, bool);
+/// What pipelines differ in: the technique's variant, whose debug colours are shown, what is bound with the view.
+type Key = (u32, u32, Extras);
 
 impl Deferred {
     /// Makes what its pipelines share. The target has one sample a pixel.
@@ -72,7 +72,7 @@ impl Deferred {
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         let (variant, debug_light) = self.target.variant(shadows);
-        let pipeline = self.pipeline((variant, debug_light, view.clusters.is_some()))?;
+        let pipeline = self.pipeline((variant, debug_light, view.extras()))?;
         let size = frame.texture_desc(depth).map(|desc| desc.size).unwrap_or_default();
         let desc = TextureDesc::d2(size.width, size.height, self.target.format);
         let mut light = frame.create_texture("lit", desc);
@@ -97,22 +97,21 @@ impl Deferred {
     }
 
     fn pipeline(&self, key: Key) -> Result<wgpu::RenderPipeline, Error> {
-        let (variant, debug_light, clustered) = key;
+        let (variant, debug_light, extras) = key;
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(pipeline) = made.get(&key) {
             return Ok(pipeline.clone());
         }
-        let modules = with_clusters(self.modules_of(variant), clustered);
+        let modules = extras.with(self.modules_of(variant));
         let module = shadowgraph_shaders::compose("deferred.wgsl", &modules)?;
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("deferred.wgsl"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
-        let ViewLayouts { plain, clustered: with } = &self.view_layouts;
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("deferred"),
             bind_group_layouts: &[
-                Some(if clustered { with } else { plain }),
+                Some(self.view_layouts.of(extras)),
                 Some(&self.shadow_layout),
                 Some(&self.gbuffer_layout),
             ],

@@ -11,7 +11,7 @@ use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 use shadowgraph_shaders::ModuleSource;
 
 use crate::prepass::{DEPTH_FORMAT, Geometry};
-use crate::view_group::{ViewLayouts, with_clusters};
+use crate::view_group::{Extras, ViewLayouts};
 use crate::{Error, ViewBuffers};
 
 /// What the lit pass writes.
@@ -52,8 +52,7 @@ struct LitKey {
     debug_light: u32,
     /// There is no prepass.
     writes_depth: bool,
-    /// Each pixel asks the lights of its cluster.
-    clustered: bool,
+    extras: Extras,
 }
 
 /// The pipelines that light with one variant of a technique: each is made when it is first asked for.
@@ -76,8 +75,8 @@ impl LitPipelines {
 /// What all pipelines of a pass share.
 struct Recipe {
     device: wgpu::Device,
-    /// Without and with clusters of lights.
-    layouts: [wgpu::PipelineLayout; 2],
+    /// By [`Extras::index`].
+    layouts: [wgpu::PipelineLayout; 4],
     target: LitTarget,
 }
 
@@ -121,7 +120,7 @@ impl Forward {
         let forward = Self {
             recipe: Arc::new(Recipe {
                 device: device.clone(),
-                layouts: [layout(&view_layouts.plain), layout(&view_layouts.clustered)],
+                layouts: Extras::ALL.map(|extras| layout(view_layouts.of(extras))),
                 target,
             }),
             view_layouts,
@@ -144,7 +143,7 @@ impl Forward {
     /// # Errors
     /// If the variant's WGSL does not compose.
     pub fn pipelines(&self, variant: u32, writes_depth: bool) -> Result<Arc<LitPipelines>, Error> {
-        self.pipelines_of(LitKey { variant, debug_light: 0, writes_depth, clustered: false })
+        self.pipelines_of(LitKey { variant, debug_light: 0, writes_depth, extras: Extras::default() })
     }
 
     fn pipelines_of(&self, key: LitKey) -> Result<Arc<LitPipelines>, Error> {
@@ -152,7 +151,7 @@ impl Forward {
         if let Some(pipelines) = known.get(&key) {
             return Ok(pipelines.clone());
         }
-        let modules = with_clusters(self.modules_of(key.variant), key.clustered);
+        let modules = key.extras.with(self.modules_of(key.variant));
         let module = shadowgraph_shaders::compose("forward.wgsl", &modules)?;
         let shader = self.recipe.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("forward.wgsl"),
@@ -172,7 +171,7 @@ impl Forward {
 
     /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.view_layouts.plain
+        self.view_layouts.of(Extras::default())
     }
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where
@@ -229,8 +228,8 @@ impl Forward {
             return Ok(());
         }
         let (variant, debug_light) = self.recipe.target.variant(shadows);
-        let clustered = view.clusters.is_some();
-        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth: false, clustered })?;
+        let extras = view.extras();
+        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth: false, extras })?;
         let mut pass = frame.render_pass("blended");
         let (shadows, view) = (shadows.read_in(&mut pass), view.read_in(&mut pass));
         pass.depth_read(depth);
@@ -260,8 +259,8 @@ impl Forward {
         // Debug colours are not in every variant.
         let (variant, debug_light) = self.recipe.target.variant(shadows);
         let writes_depth = matches!(depth, Depth::Own(_));
-        let clustered = view.clusters.is_some();
-        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth, clustered })?;
+        let extras = view.extras();
+        let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth, extras })?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.recipe.target.shows {
             Shows::Surface => ("surfaces", "surfaces"),
@@ -341,7 +340,7 @@ impl Recipe {
         let blended = key.alpha == AlphaKey::Blend && self.target.shows == Shows::Light;
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("forward"),
-            layout: Some(&self.layouts[usize::from(lit.clustered)]),
+            layout: Some(&self.layouts[lit.extras.index()]),
             vertex: wgpu::VertexState {
                 module: shader,
                 entry_point: Some("vs_forward"),

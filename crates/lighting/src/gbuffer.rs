@@ -7,7 +7,7 @@ use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
 
 use crate::prepass::{DEPTH_FORMAT, Geometry};
-use crate::view_group::ViewLayouts;
+use crate::view_group::{Extras, ViewLayouts};
 use crate::{Error, ViewBuffers};
 
 /// What deferred lighting reads of each pixel, behind its depth: 20 bytes.
@@ -59,7 +59,7 @@ impl GBufferPass {
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("G-buffer"),
             bind_group_layouts: &[
-                Some(&view_layouts.plain),
+                Some(view_layouts.of(Extras::default())),
                 Some(&none),
                 Some(&layouts.material),
                 Some(&layouts.draw),
@@ -94,7 +94,7 @@ impl GBufferPass {
             glow: texture("glow", glow),
         };
         let mut pass = frame.render_pass("G-buffer");
-        let view = ViewBuffers { clusters: None, ..view.clone() }.read_in(&mut pass);
+        let view = ViewBuffers { clusters: None, occlusion: None, ..view.clone() }.read_in(&mut pass);
         pass.depth_read(depth);
         for texture in [&mut buffer.base_color, &mut buffer.material, &mut buffer.normals, &mut buffer.glow] {
             pass.color(texture, Contents::clear_color([0.0; 4]));

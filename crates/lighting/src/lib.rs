@@ -17,6 +17,7 @@ mod error;
 mod exposure;
 mod forward;
 mod gbuffer;
+pub mod post;
 mod prepass;
 mod records;
 mod shader;

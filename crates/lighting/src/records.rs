@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
-use shadowgraph_core::{Buffer, Frame};
+use shadowgraph_core::{Buffer, Frame, Texture};
+
+use crate::post::Jitter;
 use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 
 use crate::Ambience;
@@ -65,9 +67,11 @@ pub struct ViewRecords {
     pub view: GpuView,
     /// The lights, in the scene's order.
     pub lights: Vec<GpuLight>,
+    /// What pixels are shifted by.
+    pub shift_px: Vec2,
 }
 
-/// The buffers behind bind group 0.
+/// What bind group 0 of passes that light holds.
 #[derive(Clone, Debug)]
 pub struct ViewBuffers {
     /// One [`GpuView`].
@@ -76,6 +80,10 @@ pub struct ViewBuffers {
     pub lights: Buffer,
     /// Which lights reach which part of the view, where that was found out ([`Clusters`](crate::Clusters)).
     pub clusters: Option<Buffer>,
+    /// How much of the light from all around reaches what is seen, where that was found out ([`Occlusion`](crate::post::Occlusion)).
+    pub occlusion: Option<Texture>,
+    /// What pixels are shifted by in this frame ([`Jitter`]).
+    pub shift_px: Vec2,
 }
 
 impl ViewRecords {
@@ -94,7 +102,18 @@ impl ViewRecords {
             light_count: lights.len() as u32,
             ..GpuView::of_camera(camera, size_px, origin_world)
         };
-        Self { view, lights: lights.iter().map(|light| GpuLight::new(light, origin_world)).collect() }
+        let lights = lights.iter().map(|light| GpuLight::new(light, origin_world)).collect();
+        Self { view, lights, shift_px: Vec2::ZERO }
+    }
+
+    /// Has pixels look beside their middles, for anti-aliasing over several frames.
+    #[must_use]
+    pub fn shifted(mut self, jitter: Jitter) -> Self {
+        let [width, height] = self.view.size_px.to_array().map(|px| px as u32);
+        self.view.clip_from_world = jitter.clip_shift([width, height]) * self.view.clip_from_world;
+        self.view.world_from_clip = self.view.clip_from_world.inverse();
+        self.shift_px = jitter.shift_px();
+        self
     }
 
     /// Adds the node that writes the records.
@@ -105,6 +124,8 @@ impl ViewRecords {
             view: frame.upload_buffer("view", bytemuck::bytes_of(&self.view).to_vec()),
             lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
             clusters: None,
+            occlusion: None,
+            shift_px: self.shift_px,
         })
     }
 }

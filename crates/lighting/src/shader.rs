@@ -19,3 +19,13 @@ pub(crate) fn fullscreen(
     });
     Ok(FullscreenShader::module(file, &module).entry(entry))
 }
+
+/// A sampler that filters and ends at the edges.
+pub(crate) fn linear(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("linear"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    })
+}

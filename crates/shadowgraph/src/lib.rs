@@ -88,3 +88,7 @@ mod readme {}
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/guide.md")]
 mod guide {}
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/pipelines.md")]
+mod pipelines_document {}

@@ -9,6 +9,7 @@ mod hostile;
 mod maps;
 mod measure;
 mod pipelines;
+mod post;
 mod raytraced;
 mod rows;
 mod scenes;

@@ -60,12 +60,14 @@ pub struct Port {
     pub format: Option<Format>,
     /// Whether it has to be fed.
     pub need: Need,
+    /// Whether the node draws over what it is fed: whoever else reads it does so before, and its output takes its place.
+    pub taken: bool,
 }
 
 impl Port {
     /// Describes a port that has to be fed, or that is always there.
     pub const fn new(name: &'static str, kind: PortKind, about: &'static str) -> Self {
-        Self { name, kind, about, format: None, need: Need::Required }
+        Self { name, kind, about, format: None, need: Need::Required, taken: false }
     }
 
     /// Describes a texture.
@@ -83,6 +85,12 @@ impl Port {
     #[must_use]
     pub const fn optional(self) -> Self {
         Self { need: Need::Optional, ..self }
+    }
+
+    /// Says that the node draws over what this input is fed.
+    #[must_use]
+    pub const fn taken(self) -> Self {
+        Self { taken: true, ..self }
     }
 
     /// Says that a texel of this colour takes the place of what is not fed.

@@ -7,7 +7,10 @@ use std::sync::Arc;
 
 use shadowgraph_shadows::{Technique, Techniques};
 
-use super::{Build, Choices, Deferred, Forward, ForwardPlus, Minimal, PipelineError, PipelineFile, Wiring};
+use super::{
+    Build, Choices, DebugCascades, Deferred, Forward, ForwardPlus, Minimal, PipelineError, PipelineFile,
+    Wiring,
+};
 use crate::Error;
 use crate::nodes::Nodes;
 use crate::options::OptionError;
@@ -19,10 +22,12 @@ const FILES: &[(&str, &str)] = &[
     ("deferred", include_str!("../../pipelines/deferred.ron")),
     ("screen_shadows", include_str!("../../pipelines/screen_shadows.ron")),
     ("minimal", include_str!("../../pipelines/minimal.ron")),
+    ("debug_cascades", include_str!("../../pipelines/debug_cascades.ron")),
 ];
 
 /// The names of the built-in pipelines, the default first.
-pub const BUILT_IN: &[&str] = &["forward", "forward_plus", "deferred", "screen_shadows", "minimal"];
+pub const BUILT_IN: &[&str] =
+    &["forward", "forward_plus", "deferred", "screen_shadows", "minimal", "debug_cascades"];
 
 type Make = dyn Fn(&Build<'_>) -> Result<Box<dyn Wiring>, Error> + Send + Sync;
 
@@ -135,6 +140,7 @@ impl Pipeline {
             Self::script("deferred", |build| Ok(Box::new(Deferred::new(build)?))),
             Self::script_with_collected_shadows("screen_shadows", forward),
             Self::script("minimal", |build| Ok(Box::new(Minimal::new(build)?))),
+            Self::script("debug_cascades", |build| Ok(Box::new(DebugCascades::new(build)?))),
         ]
     }
 

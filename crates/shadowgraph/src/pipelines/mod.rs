@@ -4,6 +4,7 @@
 //! pipeline in Rust is a [`Wiring`], such as [`Forward`]: copy one and edit it. Both give the same plans.
 
 mod choice;
+mod debug_cascades;
 mod deferred;
 mod file;
 mod forward;
@@ -12,6 +13,7 @@ mod minimal;
 mod view;
 
 pub use choice::{BUILT_IN, Pipeline};
+pub use debug_cascades::DebugCascades;
 pub use deferred::Deferred;
 use file::PipelineFile;
 pub use file::{Choices, PipelineError, schema};

@@ -1,12 +1,19 @@
 //! The kinds that Shadowgraph comes with, a file each.
 
+mod bloom;
 mod clusters;
 mod deferred;
 mod forward;
+mod fxaa;
 mod gbuffer;
 mod geometry;
+mod overlay;
+mod shadow_debug;
 mod shadows;
+mod sky;
+mod ssao;
 mod surfaces;
+mod taa;
 mod tonemap;
 mod view;
 
@@ -15,7 +22,7 @@ pub(crate) use shadows::Shadows;
 
 use super::NodeKind;
 
-pub(super) fn kinds() -> [NodeKind; 9] {
+pub(super) fn kinds() -> [NodeKind; 16] {
     [
         NodeKind::of::<view::ViewRecords>(),
         NodeKind::of::<geometry::Geometry>(),
@@ -25,6 +32,13 @@ pub(super) fn kinds() -> [NodeKind; 9] {
         NodeKind::of::<forward::Forward>(),
         NodeKind::of::<gbuffer::GBuffer>(),
         NodeKind::of::<deferred::Deferred>(),
+        NodeKind::of::<ssao::Ssao>(),
+        NodeKind::of::<sky::Sky>(),
+        NodeKind::of::<bloom::Bloom>(),
+        NodeKind::of::<taa::Taa>(),
         NodeKind::of::<tonemap::Tonemap>(),
+        NodeKind::of::<fxaa::Fxaa>(),
+        NodeKind::of::<shadow_debug::ShadowDebug>(),
+        NodeKind::of::<overlay::Overlay>(),
     ]
 }

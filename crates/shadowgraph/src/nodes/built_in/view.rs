@@ -1,22 +1,30 @@
 //! `view`
 
 use shadowgraph_core::Frame;
+use shadowgraph_lighting::post::Jitters;
 
 use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
+use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
 use crate::pipelines::{Build, View};
 
-pub(super) struct ViewRecords;
+pub(super) struct ViewRecords {
+    jitters: Option<Jitters>,
+}
 
 impl Node for ViewRecords {
     const NAME: &'static str = "view";
     const ABOUT: &'static str = "writes the camera and the lights for every shader";
     const INPUTS: &'static [Port] = &[];
     const OUTPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera and the lights")];
+    const SETTINGS: &'static [Setting] = &[Setting::new(
+        "jitter",
+        Allows::Toggle(false),
+        "whether pixels look at another place in each frame, for `taa`",
+    )];
     const GROUPS_ITSELF: bool = true;
 
-    fn new(_build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Ok(Self)
+    fn new(_build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
+        Ok(Self { jitters: settings.toggle("jitter")?.then(Jitters::default) })
     }
 
     fn add<'f>(
@@ -25,7 +33,12 @@ impl Node for ViewRecords {
         view: &'f View<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        ports.set("view", view.records().upload(frame));
+        let records = view.records();
+        let records = match &self.jitters {
+            Some(jitters) => records.shifted(jitters.next(view.number)),
+            None => records,
+        };
+        ports.set("view", records.upload(frame));
         Ok(())
     }
 }

@@ -63,8 +63,15 @@ impl Document {
         }
         let wires = Wires { document: self, present: &present };
         let inputs = present.iter().map(|node| wires.inputs(node)).collect::<Result<Vec<_>, _>>()?;
-        let order = order(&present, &inputs)?;
+        let takers = takers(&present, &inputs)?;
+        let order = order(&present, &inputs, &takers)?;
         let outputs = wires.outputs(name)?;
+        for &(output, node, port) in &outputs {
+            let place = present[node].first + port;
+            if let Some((_, taker)) = takers.iter().find(|(taken, _)| *taken == place) {
+                return Err(wires.taken_output(output, &present[*taker]));
+            }
+        }
         let mut placed = Vec::new();
         for &index in &order {
             let Present { entry, kind, first } = &present[index];
@@ -264,6 +271,16 @@ impl Wires<'_, '_> {
         }
     }
 
+    fn taken_output(&self, output: &str, taker: &Present<'_>) -> PipelineError {
+        let feed = self.document.outputs.iter().find(|(name, _)| name.value == output);
+        let taker = &taker.entry.name;
+        let place = feed.map_or(&taker.place, |(name, _)| &name.place);
+        place.error(format!(
+            "`{0}` draws over that: name an output of `{0}`, or of what comes behind it",
+            taker.value
+        ))
+    }
+
     fn outputs(&self, file: &str) -> Result<Vec<(&'static str, usize, usize)>, PipelineError> {
         let mut found = Vec::new();
         for feed in &self.document.outputs {
@@ -302,13 +319,45 @@ fn settings(entry: &Entry, kind: &NodeKind, chosen: &Chosen<'_>) -> Result<Setti
     Ok(Settings::new(kind.name, values))
 }
 
+/// The places of values that are drawn over, and the nodes that do.
+fn takers(present: &[Present<'_>], inputs: &[Vec<Wired>]) -> Result<Vec<(usize, usize)>, PipelineError> {
+    let mut takers: Vec<(usize, usize)> = Vec::new();
+    for (index, inputs) in inputs.iter().enumerate() {
+        for (port, place, _) in inputs.iter().filter(|(port, ..)| port.taken) {
+            let Some(place) = *place else { continue };
+            if let Some((_, other)) = takers.iter().find(|(taken, _)| *taken == place) {
+                let (own, other) = (&present[index].entry.name, &present[*other].entry.name.value);
+                return Err(own.error(format!(
+                    "`{}` draws over what feeds its `{}`, and so does `{other}`: feed one of them from the other",
+                    own.value, port.name
+                )));
+            }
+            takers.push((place, index));
+        }
+    }
+    Ok(takers)
+}
+
 /// Nodes behind all that feed them; of those ready, the first of the file.
-fn order(present: &[Present<'_>], inputs: &[Vec<Wired>]) -> Result<Vec<usize>, PipelineError> {
+fn order(
+    present: &[Present<'_>],
+    inputs: &[Vec<Wired>],
+    takers: &[(usize, usize)],
+) -> Result<Vec<usize>, PipelineError> {
     let mut graph: DiGraph<usize, ()> = DiGraph::new();
     let nodes: Vec<NodeIndex> = (0..present.len()).map(|index| graph.add_node(index)).collect();
     for (index, inputs) in inputs.iter().enumerate() {
         for giver in inputs.iter().filter_map(|(.., giver)| *giver) {
             graph.update_edge(nodes[giver], nodes[index], ());
+        }
+    }
+    // What is drawn over is read before.
+    for (index, inputs) in inputs.iter().enumerate() {
+        for place in inputs.iter().filter_map(|(_, place, _)| *place) {
+            let taker = takers.iter().find(|(taken, taker)| *taken == place && *taker != index);
+            if let Some((_, taker)) = taker {
+                graph.update_edge(nodes[index], nodes[*taker], ());
+            }
         }
     }
     let is_cycle = |part: &&Vec<NodeIndex>| part.len() > 1 || graph.contains_edge(part[0], part[0]);

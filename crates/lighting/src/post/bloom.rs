@@ -1,0 +1,73 @@
+//! Light that spreads in the lens.
+
+use bytemuck::bytes_of;
+use shadowgraph_core::{Format, Frame, FullscreenShader, Part, Texture, TextureDesc};
+
+use crate::Error;
+use crate::shader::{fullscreen, linear};
+
+/// Bright light that spreads over its surroundings: the light is halved again and again and added up from the smallest (Jimenez,
+/// "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014).
+pub struct Bloom {
+    first: FullscreenShader,
+    halve: FullscreenShader,
+    widen: FullscreenShader,
+    mix: FullscreenShader,
+    linear: wgpu::Sampler,
+}
+
+impl Bloom {
+    /// Composes the shaders.
+    ///
+    /// # Errors
+    /// None with the WGSL that Shadowgraph comes with.
+    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let of = |entry| fullscreen(device, "post/bloom.wgsl", entry);
+        Ok(Self {
+            first: of("fs_first")?,
+            halve: of("fs_halve")?,
+            widen: of("fs_widen")?,
+            mix: fullscreen(device, "post/bloom_mix.wgsl", "fs_mix")?,
+            linear: linear(device),
+        })
+    }
+
+    /// Adds the passes, and covers `target`, which is as large as `light`, with the light and what spread. `strength` is the part
+    /// that spreads, 0 to 1; `levels` how often it is halved, 1 to 10: each doubles how far it spreads.
+    pub fn add_to(
+        &self,
+        frame: &mut Frame<'_>,
+        light: &Texture,
+        target: &mut Texture,
+        strength: f32,
+        levels: u32,
+    ) {
+        let size = frame.texture_desc(light).map(|desc| desc.size).unwrap_or_default();
+        let half = TextureDesc::d2((size.width / 2).max(1), (size.height / 2).max(1), Format::Rgba16Float);
+        let most = half.size.width.max(half.size.height).ilog2() + 1;
+        let levels = levels.clamp(1, most);
+        let mip = |level| Part::WHOLE.mip(level);
+        let mut down = frame.create_texture("halved", TextureDesc { mip_levels: levels, ..half });
+        let pass = frame.fullscreen("halve 1", &self.first).sample(light).sampler(&self.linear);
+        pass.on(mip(0)).draw(&mut down);
+        for level in 1..levels {
+            let pass = frame.fullscreen(format_args!("halve {}", level + 1), &self.halve);
+            let pass = pass.on(mip(level - 1)).sample(&down).sampler(&self.linear);
+            pass.on(mip(level)).draw(&mut down);
+        }
+        let (mut spread, mut top) = (down.clone(), levels - 1);
+        if levels > 1 {
+            let mut up = frame.create_texture("spread", TextureDesc { mip_levels: levels - 1, ..half });
+            for level in (0..levels - 1).rev() {
+                let pass = frame.fullscreen(format_args!("widen {}", level + 1), &self.widen);
+                let smallest = level + 2 == levels;
+                let pass = pass.on(mip(level + 1)).sample(if smallest { &down } else { &up });
+                let pass = pass.sampler(&self.linear).on(mip(level)).sample(&down);
+                pass.on(mip(level)).draw(&mut up);
+            }
+            (spread, top) = (up, 0);
+        }
+        let pass = frame.fullscreen("mix", &self.mix).sample(light).on(mip(top)).sample(&spread);
+        pass.sampler(&self.linear).uniform(bytes_of(&strength)).draw(target);
+    }
+}

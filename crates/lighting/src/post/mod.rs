@@ -1,0 +1,15 @@
+//! What is done to the light of a picture before and behind the tonemap.
+
+mod bloom;
+mod fxaa;
+mod occlusion;
+mod overlay;
+mod sky;
+mod temporal;
+
+pub use bloom::Bloom;
+pub use fxaa::Fxaa;
+pub use occlusion::{Occlusion, OcclusionSettings};
+pub use overlay::Overlay;
+pub use sky::{Sky, SkySettings};
+pub use temporal::{Jitter, Jitters, Temporal};

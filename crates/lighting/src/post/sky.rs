@@ -1,0 +1,61 @@
+//! A plain sky.
+
+use bytemuck::{NoUninit, bytes_of};
+use shadowgraph_core::{Frame, FullscreenShader, Texture};
+
+use crate::shader::fullscreen;
+use crate::{Error, ViewBuffers};
+
+/// A sky where nothing is drawn: the light from all around, brighter towards the horizon, and the discs of directional lights.
+pub struct Sky {
+    shader: FullscreenShader,
+}
+
+/// What the sky looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkySettings {
+    /// Radius of the discs, radians: the sun's is 0.00465.
+    pub disc_rad: f32,
+    /// How much brighter the horizon is than the light from above, from 0.
+    pub haze: f32,
+}
+
+impl Default for SkySettings {
+    fn default() -> Self {
+        Self { disc_rad: 0.012, haze: 0.8 }
+    }
+}
+
+/// `Settings` of `post/sky.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Block {
+    disc_rad: f32,
+    haze: f32,
+    padding: [u32; 2],
+}
+
+impl Sky {
+    /// Composes the shader.
+    ///
+    /// # Errors
+    /// None with the WGSL that Shadowgraph comes with.
+    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        Ok(Self { shader: fullscreen(device, "post/sky.wgsl", "fs_sky")? })
+    }
+
+    /// Adds the pass that draws the sky into `light` where `depth` says that nothing is drawn. Both have as many samples.
+    pub fn add_to(
+        &self,
+        frame: &mut Frame<'_>,
+        view: &ViewBuffers,
+        depth: &Texture,
+        light: &mut Texture,
+        settings: &SkySettings,
+    ) {
+        let block = Block { disc_rad: settings.disc_rad, haze: settings.haze, padding: [0; 2] };
+        let pass = frame.fullscreen("sky", &self.shader).storage(&view.view).storage(&view.lights);
+        let pass = pass.uniform(bytes_of(&block)).depth_test(depth, wgpu::CompareFunction::Equal);
+        pass.draw_over(light, None);
+    }
+}

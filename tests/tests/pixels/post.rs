@@ -1,0 +1,133 @@
+//! What is done to light and pictures behind the lit pass.
+
+use crate::stage::gpu;
+use shadowgraph::options::Aov;
+use shadowgraph::pipelines::Choices;
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::{Gpu, Picture, Pipeline, Registry, Renderer, ViewOptions};
+
+/// `forward` with more nodes; `picture` is where the picture comes from.
+fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("post.ron");
+    let text = format!(
+        "(nodes: [
+            (name: \"view\", kind: \"view\", settings: {{{view}}}),
+            (name: \"geometry\", kind: \"geometry\", inputs: {{\"view\": \"view\"}}),
+            (name: \"shadows\", kind: \"shadows\", inputs: {{\"surfaces\": \"geometry\"}}),
+            (name: \"lighting\", kind: \"forward\", inputs: {{{lit}, \"shadows\": \"shadows\", \"depth\": \"geometry\"}}),
+            {more}
+        ], outputs: {{\"picture\": \"{picture}\"}})"
+    );
+    std::fs::write(&file, text).unwrap();
+    let Registry { nodes, techniques } = Registry::built_in();
+    Pipeline::load(&file, &nodes, &techniques, &Choices::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const VIEW: &str = "\"view\": \"view\"";
+
+fn draw(gpu: &Gpu, pipeline: &Pipeline, aov: Aov, size_px: [u32; 2], frames: u32) -> Picture {
+    let scene = demo_scene();
+    let options = ViewOptions { camera: scene.cameras[0].clone(), size_px, shadows: Default::default() };
+    let mut renderer = Renderer::with(gpu, scene, &options.camera, aov, pipeline.clone()).unwrap();
+    let mut picture = renderer.draw(gpu, &options).unwrap().picture;
+    for _ in 1..frames {
+        picture = renderer.draw(gpu, &options).unwrap().picture;
+    }
+    picture
+}
+
+fn mean(picture: &Picture) -> f64 {
+    let values = picture.rgba8.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
+    values.map(|&value| f64::from(value)).sum::<f64>() / (picture.rgba8.len() / 4 * 3) as f64
+}
+
+/// How far a picture is from one of four times its size, in each direction, made as small: root mean square of 255.
+fn error(picture: &Picture, large: &Picture) -> f64 {
+    let [width, height] = picture.size_px;
+    let mut sum = 0.0;
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let own = picture.pixel(x, y).unwrap();
+        for (channel, value) in own.iter().enumerate().take(3) {
+            let of = |at: u32| f64::from(large.pixel(4 * x + at % 4, 4 * y + at / 4).unwrap()[channel]);
+            let smooth = (0..16).map(of).sum::<f64>() / 16.0;
+            sum += (f64::from(*value) - smooth).powi(2);
+        }
+    }
+    (sum / f64::from(width * height * 3)).sqrt()
+}
+
+#[test]
+fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
+    let Some(gpu) = gpu() else { return };
+    let tonemap =
+        |light: &str| format!("(name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"{light}\"}}),");
+    let plain = pipeline("", VIEW, &tonemap("lighting"), "picture");
+    let smooth = "(name: \"smooth\", kind: \"fxaa\", inputs: {\"picture\": \"picture\"})";
+    let fxaa = pipeline("", VIEW, &(tonemap("lighting") + smooth), "smooth");
+    let mixed = "(name: \"mixed\", kind: \"taa\", inputs: {\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"}),";
+    let taa = pipeline("\"jitter\": true", VIEW, &(mixed.to_owned() + &tonemap("mixed")), "picture");
+    let large = draw(gpu, &plain, Aov::Color, [640, 360], 1);
+    let of = |pipeline: &Pipeline, frames| error(&draw(gpu, pipeline, Aov::Color, [160, 90], frames), &large);
+    let (without, with_fxaa, with_taa) = (of(&plain, 1), of(&fxaa, 1), of(&taa, 24));
+    println!("root mean square: none {without:.2}, fxaa {with_fxaa:.2}, taa {with_taa:.2}");
+    assert!(with_fxaa < 0.95 * without && with_taa < 0.75 * without, "{without}, {with_fxaa}, {with_taa}");
+    // The first frame has nothing before it: it is what was drawn.
+    assert!(of(&taa, 1) < 1.3 * without);
+}
+
+#[test]
+fn bloom_spreads_light_and_keeps_how_much_there_is() {
+    let Some(gpu) = gpu() else { return };
+    let bloom = |strength: f32| {
+        let more = format!(
+            "(name: \"bloom\", kind: \"bloom\", inputs: {{\"light\": \"lighting\"}}, settings: {{\"strength\": {strength:.2}}}),
+             (name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"bloom\"}})"
+        );
+        draw(gpu, &pipeline("", VIEW, &more, "picture"), Aov::Color, [160, 90], 1)
+    };
+    let (none, some, all) = (bloom(0.0), bloom(0.2), bloom(1.0));
+    let plain = draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1);
+    assert!(none == plain && some != plain);
+    assert!((mean(&some) / mean(&plain) - 1.0).abs() < 0.05, "{} and {}", mean(&some), mean(&plain));
+    // Nothing but what spread: neighbours hardly differ.
+    let rough = |picture: &Picture| {
+        let pairs = picture.rgba8.chunks_exact(4).zip(picture.rgba8.chunks_exact(4).skip(1));
+        pairs.map(|(a, b)| u64::from(a[1].abs_diff(b[1]))).sum::<u64>()
+    };
+    assert!(rough(&all) * 4 < rough(&plain), "{} and {}", rough(&all), rough(&plain));
+}
+
+#[test]
+fn corners_are_occluded_and_open_ground_is_not() {
+    let Some(gpu) = gpu() else { return };
+    let more = "(name: \"occlusion\", kind: \"ssao\", inputs: {\"view\": \"view\", \"depth\": \"geometry\"}),
+                (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"lighting\"})";
+    let pipeline = pipeline("", "\"view\": \"occlusion\"", more, "picture");
+    let occlusion = draw(gpu, &pipeline, Aov::Texture("occlusion".into()), [640, 360], 1);
+    let at = |x, y| occlusion.pixel(x, y).unwrap()[0];
+    // Tiles in the open and the sky; under the sphere and between steps.
+    assert!(at(200, 330) > 240 && at(250, 20) == 255, "{} and {}", at(200, 330), at(250, 20));
+    let darkest = (320..356).map(|x| (264..274).map(|y| at(x, y)).min().unwrap()).min().unwrap();
+    assert!(darkest < 170, "{darkest}");
+    // It takes light away, and only that from all around.
+    let (with, without) = (
+        draw(gpu, &pipeline, Aov::Color, [160, 90], 1),
+        draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1),
+    );
+    let brighter = with.rgba8.iter().zip(&without.rgba8).filter(|(a, b)| a > b).count();
+    assert!(brighter == 0 && mean(&with) < mean(&without) && mean(&with) > 0.8 * mean(&without));
+}
+
+#[test]
+fn the_sky_is_brighter_at_the_horizon_and_behind_everything() {
+    let Some(gpu) = gpu() else { return };
+    let more = "(name: \"sky\", kind: \"sky\", inputs: {\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"}),
+                (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"sky\"})";
+    let with = draw(gpu, &pipeline("", VIEW, more, "picture"), Aov::Color, [320, 180], 1);
+    let without = draw(gpu, &Pipeline::forward(), Aov::Color, [320, 180], 1);
+    let differ = |x, y| with.pixel(x, y) != without.pixel(x, y);
+    let (high, low) = (with.pixel(30, 4).unwrap(), with.pixel(30, 44).unwrap());
+    assert!(low[1] > high[1], "{low:?} and {high:?}");
+    assert!(differ(30, 44) && (60..180).all(|y| (0..320).step_by(7).all(|x| !differ(x, y) || y < 75)));
+}
