@@ -10,7 +10,7 @@ use shadowgraph_shaders::{
     builtin_files, compose, layout,
 };
 
-const ENTRIES: [&str; 23] = [
+const ENTRIES: [&str; 26] = [
     "blur.wgsl",
     "check.wgsl",
     "clusters.wgsl",
@@ -23,10 +23,13 @@ const ENTRIES: [&str; 23] = [
     "gbuffer.wgsl",
     "post/bloom.wgsl",
     "post/bloom_mix.wgsl",
+    "post/fog.wgsl",
     "post/fxaa.wgsl",
     "post/occlusion.wgsl",
     "post/occlusion_blur.wgsl",
     "post/overlay.wgsl",
+    "post/pyramid.wgsl",
+    "post/pyramid_halve.wgsl",
     "post/sky.wgsl",
     "post/temporal.wgsl",
     "probe.wgsl",

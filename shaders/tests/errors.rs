@@ -104,8 +104,8 @@ fn an_unknown_entry_file_says_which_there_are() {
     assert_eq!(
         text,
         "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, check.wgsl, clusters.wgsl, collect.wgsl, contact.wgsl, deferred.wgsl, \
-         denoise.wgsl, depth.wgsl, forward.wgsl, gbuffer.wgsl, post/bloom.wgsl, post/bloom_mix.wgsl, post/fxaa.wgsl, \
-         post/occlusion.wgsl, post/occlusion_blur.wgsl, post/overlay.wgsl, post/sky.wgsl, post/temporal.wgsl, probe.wgsl, \
+         denoise.wgsl, depth.wgsl, forward.wgsl, gbuffer.wgsl, post/bloom.wgsl, post/bloom_mix.wgsl, post/fog.wgsl, \
+         post/fxaa.wgsl, post/occlusion.wgsl, post/occlusion_blur.wgsl, post/overlay.wgsl, post/pyramid.wgsl, post/pyramid_halve.wgsl, post/sky.wgsl, post/temporal.wgsl, probe.wgsl, \
          raytrace.wgsl, sdsm.wgsl, show.wgsl, tonemap.wgsl"
     );
     // A module is no entry file.

@@ -20,6 +20,7 @@ mod gbuffer;
 pub mod post;
 mod prepass;
 mod records;
+mod screen_pass;
 mod shader;
 mod tonemap;
 mod view_group;

@@ -1,10 +1,12 @@
 //! What is done to light and pictures behind the lit pass.
 
 use crate::stage::gpu;
+use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Part, TextureDesc};
+use shadowgraph::lighting::post::DepthPyramid;
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::Choices;
 use shadowgraph::scene::demo::demo_scene;
-use shadowgraph::{Gpu, Picture, Pipeline, Registry, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Method, Picture, Pipeline, Registry, Renderer, ViewOptions};
 
 /// `forward` with more nodes; `picture` is where the picture comes from.
 fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
@@ -130,4 +132,67 @@ fn the_sky_is_brighter_at_the_horizon_and_behind_everything() {
     let (high, low) = (with.pixel(30, 4).unwrap(), with.pixel(30, 44).unwrap());
     assert!(low[1] > high[1], "{low:?} and {high:?}");
     assert!(differ(30, 44) && (60..180).all(|y| (0..320).step_by(7).all(|x| !differ(x, y) || y < 75)));
+}
+
+#[test]
+fn fog_is_brighter_where_light_passes_than_in_shadow() {
+    let Some(gpu) = gpu() else { return };
+    let fog = |settings: &str| {
+        let more = format!(
+            "(name: \"fog\", kind: \"fog\", inputs: {{\"view\": \"view\", \"shadows\": \"shadows\", \"depth\": \"geometry\", \"light\": \"lighting\"}},
+                settings: {{{settings}}}),
+             (name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"fog\"}})"
+        );
+        draw(gpu, &pipeline("", VIEW, &more, "picture"), Aov::Color, [160, 90], 1)
+    };
+    let plain = draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1);
+    assert!(fog("\"density\": 0.0") == plain, "no fog is nothing");
+    let thick = fog("\"density\": 0.5, \"falloff\": 0.0, \"steps\": 32");
+    assert!(thick != plain);
+    // Without shadows there is more light in it.
+    let technique = Registry::built_in().techniques.find("none").unwrap();
+    let lit = {
+        let scene = demo_scene();
+        let options = ViewOptions { camera: scene.cameras[0].clone(), size_px: [160, 90], shadows: Default::default() };
+        let more = "(name: \"fog\", kind: \"fog\", inputs: {\"view\": \"view\", \"shadows\": \"shadows\", \"depth\": \"geometry\", \"light\": \"lighting\"},
+                settings: {\"density\": 0.5, \"falloff\": 0.0, \"steps\": 32}),
+             (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"fog\"})";
+        let method = Method { technique: Some(technique), pipeline: pipeline("", VIEW, more, "picture"), samples: 1 };
+        Renderer::with(gpu, scene, &options.camera, Aov::Color, method).unwrap().draw(gpu, &options).unwrap().picture
+    };
+    assert!(mean(&lit) > mean(&thick) + 0.5, "{} and {}", mean(&lit), mean(&thick));
+}
+
+#[test]
+fn a_pyramid_of_depth_has_the_farthest_of_all_below() {
+    let Some(gpu) = gpu() else { return };
+    let slope = FullscreenShader::wgsl(
+        "slope",
+        "@fragment fn slope(@builtin(position) at: vec4f) -> @builtin(frag_depth) f32 {
+            return (floor(at.x) * 3.0 + floor(at.y) * 7.0 + 1.0) / 64.0;
+        }",
+    );
+    let pyramid = DepthPyramid::new(&gpu.device).unwrap();
+    let mut graph = Graph::new();
+    let mut frame: Frame<'_> = graph.frame();
+    let mut depth = frame.create_texture("depth", TextureDesc::d2(5, 3, Format::Depth32Float));
+    frame.fullscreen("slope", &slope).draw_depth(&mut depth);
+    let levels = pyramid.add_to(&mut frame, &depth);
+    let requests: Vec<_> =
+        (0..3).map(|level| frame.read_back_texture(&levels, Part::WHOLE.mip(level))).collect();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut executed = graph.compile(frame).unwrap().execute(&mut graph, &gpu.device, &mut encoder).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    let read: Vec<Vec<f32>> = requests
+        .into_iter()
+        .map(|request| {
+            let bytes = executed.read_back(request).unwrap().wait(&gpu.device).unwrap();
+            bytes.chunks_exact(4).map(|texel| f32::from_le_bytes(texel.try_into().unwrap()) * 64.0).collect()
+        })
+        .collect();
+    let of = |x: u32, y: u32| (x * 3 + y * 7 + 1) as f32;
+    assert_eq!(read[0], (0..3).flat_map(|y| (0..5).map(move |x| of(x, y))).collect::<Vec<_>>());
+    // 2x1: columns 0 and 1; then 2, 3 and the odd one out.
+    assert_eq!(read[1], [of(0, 0), of(2, 0)]);
+    assert_eq!(read[2], [of(0, 0)]);
 }

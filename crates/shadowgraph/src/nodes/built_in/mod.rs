@@ -3,10 +3,12 @@
 mod bloom;
 mod clusters;
 mod deferred;
+mod fog;
 mod forward;
 mod fxaa;
 mod gbuffer;
 mod geometry;
+mod hi_z;
 mod overlay;
 mod shadow_debug;
 mod shadows;
@@ -22,7 +24,7 @@ pub(crate) use shadows::Shadows;
 
 use super::NodeKind;
 
-pub(super) fn kinds() -> [NodeKind; 16] {
+pub(super) fn kinds() -> [NodeKind; 18] {
     [
         NodeKind::of::<view::ViewRecords>(),
         NodeKind::of::<geometry::Geometry>(),
@@ -34,6 +36,8 @@ pub(super) fn kinds() -> [NodeKind; 16] {
         NodeKind::of::<deferred::Deferred>(),
         NodeKind::of::<ssao::Ssao>(),
         NodeKind::of::<sky::Sky>(),
+        NodeKind::of::<fog::Fog>(),
+        NodeKind::of::<hi_z::HiZ>(),
         NodeKind::of::<bloom::Bloom>(),
         NodeKind::of::<taa::Taa>(),
         NodeKind::of::<tonemap::Tonemap>(),
