@@ -2,6 +2,8 @@
 //!
 //! `cargo run -p shadowgraph-examples --example custom_pipeline` writes out/custom_pipeline.png.
 
+#![allow(clippy::print_stdout, reason = "an example is a program")]
+
 use shadowgraph::core::{Format, Frame, FullscreenShader, Texture};
 use shadowgraph::lighting::post::{Bloom, Jitters, Occlusion, OcclusionSettings, Sky, SkySettings, Temporal};
 use shadowgraph::lighting::{Forward, Tonemap};

@@ -61,7 +61,8 @@ pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 /// Which lights a point asks, those of its cluster: in the place of the built-in module that asks all of them.
 pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
 
-/// Ambient occlusion of the screen, where lit passes have it: in the place of the built-in module without.
+/// Ambient occlusion of the screen, where lit passes have it: in the place of the built-in module without. `OCCLUSION` stands for the
+/// number of its binding in group 0.
 pub const OCCLUDED: ModuleSource = file!("occluded.wgsl");
 
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.

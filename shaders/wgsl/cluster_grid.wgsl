@@ -17,8 +17,8 @@ fn slice_of(view_depth: f32, near: f32) -> u32 {
     return min(u32(slice), CLUSTERS.z - 1u);
 }
 
-// The first word of a cluster's lights.
-fn cluster_start(cluster: vec3u, light_count: u32) -> u32 {
-    let index = (cluster.z * CLUSTERS.y + cluster.y) * CLUSTERS.x + cluster.x;
-    return index * ((light_count + 31u) / 32u);
+// The texel that holds a word of a cluster's lights.
+fn cluster_texel(cluster: vec3u, word: u32, light_count: u32) -> vec2u {
+    let words = (light_count + 31u) / 32u;
+    return vec2u(cluster.y * CLUSTERS.x + cluster.x, cluster.z * words + word);
 }

@@ -1,8 +1,8 @@
 // Finds the lights that reach each cluster: a thread for 32 lights of one.
 #import shadowgraph::view::{view, lights, Light, LIGHT_DIRECTIONAL}
-#import shadowgraph::cluster_grid::{CLUSTERS, slice_begin, cluster_start}
+#import shadowgraph::cluster_grid::{CLUSTERS, slice_begin, cluster_texel}
 
-@group(0) @binding(2) var<storage, read_write> cluster_lights: array<u32>;
+@group(0) @binding(2) var cluster_lights: texture_storage_2d<r32uint, write>;
 
 struct Box {
     low: vec3f,
@@ -61,5 +61,5 @@ fn cs_clusters(@builtin(global_invocation_id) id: vec3u) {
             mask |= 1u << bit;
         }
     }
-    cluster_lights[cluster_start(cluster, view.light_count) + word] = mask;
+    textureStore(cluster_lights, cluster_texel(cluster, word, view.light_count), vec4u(mask));
 }

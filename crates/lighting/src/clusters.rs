@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-use shadowgraph_core::{BufferDesc, ComputeShader, Contents, Frame};
+use shadowgraph_core::{ComputeShader, Contents, Format, Frame, TextureDesc};
 
 use crate::{Error, ViewBuffers};
 
-/// Boxes of a view: `CLUSTERS` of `cluster_grid.wgsl`.
-const CLUSTERS: u64 = 16 * 9 * 24;
+/// Boxes of a view in a slice, and slices: `CLUSTERS` of `cluster_grid.wgsl`.
+const CLUSTERS: [u32; 2] = [16 * 9, 24];
 /// Threads of a workgroup of `clusters.wgsl`.
-const WORKGROUP: u64 = 64;
+const WORKGROUP: u32 = 64;
 
 /// The pass that cuts the view into boxes and finds the lights that reach each (Olsson, Billeter and Assarsson, "Clustered
 /// Deferred and Forward Shading", 2012). A bit for each light and box: 14 KiB for 32 lights, 432 KiB for 1,000.
@@ -36,15 +36,16 @@ impl Clusters {
     /// pixel's box. The picture is the same, as a light gives nothing beyond its range; lights without a range and directional
     /// ones reach everywhere.
     pub fn add_to(&self, frame: &mut Frame<'_>, view: &ViewBuffers, light_count: usize) -> ViewBuffers {
-        let words = CLUSTERS * (light_count as u64).div_ceil(32).max(1);
-        let mut clusters = frame.create_buffer("cluster lights", BufferDesc { bytes: words * 4 });
-        let workgroups = words.div_ceil(WORKGROUP) as u32;
+        let [boxes, slices] = CLUSTERS;
+        let height = slices * (light_count as u32).div_ceil(32).max(1);
+        let mut clusters =
+            frame.create_texture("cluster lights", TextureDesc::d2(boxes, height, Format::R32Uint));
         frame
             .compute("light clusters", &self.shader)
             .storage(&view.view)
             .storage(&view.lights)
-            .storage_mut(&mut clusters, Contents::Cover)
-            .dispatch([workgroups, 1, 1]);
+            .storage_texture_mut(&mut clusters, Contents::Cover)
+            .dispatch([(boxes * height).div_ceil(WORKGROUP), 1, 1]);
         ViewBuffers { clusters: Some(clusters), ..view.clone() }
     }
 }

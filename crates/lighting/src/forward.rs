@@ -34,8 +34,6 @@ pub enum Shows {
 
 /// Pipelines and nodes of forward lighting with one shadow technique.
 pub struct Forward {
-    view_layouts: ViewLayouts,
-    shadow_layout: wgpu::BindGroupLayout,
     recipe: Arc<Recipe>,
     /// The technique's modules in each of its variants.
     modules: Vec<Vec<ModuleSource>>,
@@ -59,6 +57,7 @@ struct LitKey {
 pub struct LitPipelines {
     recipe: Arc<Recipe>,
     shader: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
     key: LitKey,
     /// By [`MaterialKey::index`].
     made: Vec<OnceLock<wgpu::RenderPipeline>>,
@@ -67,7 +66,7 @@ pub struct LitPipelines {
 impl LitPipelines {
     /// Returns what draws of a key are drawn with.
     pub fn get(&self, key: MaterialKey) -> DrawWith<'_> {
-        let make = || self.recipe.pipeline(&self.shader, self.key, key);
+        let make = || self.recipe.pipeline(&self.shader, &self.layout, self.key, key);
         DrawWith { pipeline: self.made[key.index()].get_or_init(make), reads_material: true }
     }
 }
@@ -75,8 +74,10 @@ impl LitPipelines {
 /// What all pipelines of a pass share.
 struct Recipe {
     device: wgpu::Device,
-    /// By [`Extras::index`].
-    layouts: [wgpu::PipelineLayout; 4],
+    view_layouts: ViewLayouts,
+    shadow_layout: wgpu::BindGroupLayout,
+    /// The materials' and the draws'.
+    material_layouts: [wgpu::BindGroupLayout; 2],
     target: LitTarget,
 }
 
@@ -103,28 +104,14 @@ impl Forward {
         technique: &dyn ShadowTechnique,
         target: LitTarget,
     ) -> Result<Self, Error> {
-        let view_layouts = ViewLayouts::new(device);
-        let shadow_layout = shadow_layout(device, technique);
-        let layout = |view_layout| {
-            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("forward"),
-                bind_group_layouts: &[
-                    Some(view_layout),
-                    Some(&shadow_layout),
-                    Some(&layouts.material),
-                    Some(&layouts.draw),
-                ],
-                immediate_size: 0,
-            })
-        };
         let forward = Self {
             recipe: Arc::new(Recipe {
                 device: device.clone(),
-                layouts: Extras::ALL.map(|extras| layout(view_layouts.of(extras))),
+                view_layouts: ViewLayouts::new(device),
+                shadow_layout: shadow_layout(device, technique),
+                material_layouts: [layouts.material.clone(), layouts.draw.clone()],
                 target,
             }),
-            view_layouts,
-            shadow_layout,
             modules: (0..technique.variant_count()).map(|variant| technique.modules(variant)).collect(),
             lit: Mutex::default(),
         };
@@ -159,19 +146,20 @@ impl Forward {
         });
         let recipe = self.recipe.clone();
         let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
-        let pipelines = Arc::new(LitPipelines { recipe, shader, key, made });
+        let layout = recipe.layout(key.extras);
+        let pipelines = Arc::new(LitPipelines { recipe, shader, layout, key, made });
         known.insert(key, pipelines.clone());
         Ok(pipelines)
     }
 
     /// Returns the layout of group 1 of the lit pass: the technique's.
     pub fn shadow_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.shadow_layout
+        &self.recipe.shadow_layout
     }
 
     /// Returns the layout of group 0 of the lit pass: the buffers of the view and of the lights.
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
-        self.view_layouts.of(Extras::default())
+        self.recipe.view_layouts.of(Extras::default())
     }
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where
@@ -235,8 +223,8 @@ impl Forward {
         pass.depth_read(depth);
         pass.color(light, Contents::Preserve);
         pass.body(move |ctx| {
-            let view = view.bind_group(ctx, &self.view_layouts)?;
-            let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
+            let view = view.bind_group(ctx, &self.recipe.view_layouts)?;
+            let shadows = shadows.bind_group(ctx, &self.recipe.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
             let draws = &geometry.draws.blend;
@@ -287,8 +275,8 @@ impl Forward {
             }
         }
         pass.body(move |ctx| {
-            let view = view.bind_group(ctx, &self.view_layouts)?;
-            let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
+            let view = view.bind_group(ctx, &self.recipe.view_layouts)?;
+            let shadows = shadows.bind_group(ctx, &self.recipe.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
             let blend: &[Draw] =
@@ -334,13 +322,33 @@ enum Depth<'d> {
 }
 
 impl Recipe {
-    fn pipeline(&self, shader: &wgpu::ShaderModule, lit: LitKey, key: MaterialKey) -> wgpu::RenderPipeline {
+    fn layout(&self, extras: Extras) -> wgpu::PipelineLayout {
+        let [material, draw] = &self.material_layouts;
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("forward"),
+            bind_group_layouts: &[
+                Some(self.view_layouts.of(extras)),
+                Some(&self.shadow_layout),
+                Some(material),
+                Some(draw),
+            ],
+            immediate_size: 0,
+        })
+    }
+
+    fn pipeline(
+        &self,
+        shader: &wgpu::ShaderModule,
+        layout: &wgpu::PipelineLayout,
+        lit: LitKey,
+        key: MaterialKey,
+    ) -> wgpu::RenderPipeline {
         let constants = self.target.constants(lit.debug_light);
         // Only light is drawn for what is blended.
         let blended = key.alpha == AlphaKey::Blend && self.target.shows == Shows::Light;
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("forward"),
-            layout: Some(&self.layouts[lit.extras.index()]),
+            layout: Some(layout),
             vertex: wgpu::VertexState {
                 module: shader,
                 entry_point: Some("vs_forward"),

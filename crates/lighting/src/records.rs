@@ -79,7 +79,7 @@ pub struct ViewBuffers {
     /// [`GpuLight`]s; one of zeros where there is no light.
     pub lights: Buffer,
     /// Which lights reach which part of the view, where that was found out ([`Clusters`](crate::Clusters)).
-    pub clusters: Option<Buffer>,
+    pub clusters: Option<Texture>,
     /// How much of the light from all around reaches what is seen, where that was found out ([`Occlusion`](crate::post::Occlusion)).
     pub occlusion: Option<Texture>,
     /// What pixels are shifted by in this frame ([`Jitter`]).

@@ -34,30 +34,35 @@ impl Extras {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        let texture = |sample_type| wgpu::BindingType::Texture {
+            sample_type,
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
         };
-        let entry =
-            |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
         let (both, fragment) = (wgpu::ShaderStages::VERTEX_FRAGMENT, wgpu::ShaderStages::FRAGMENT);
-        let mut entries = vec![entry(0, both, buffer), entry(1, both, buffer)];
-        // Those that are not asked for are bound all the same where the last one is, so that numbers stay: by the lights.
-        if self.clusters || self.occlusion {
-            entries.push(entry(2, fragment, buffer));
+        let mut bindings = vec![(both, buffer), (both, buffer)];
+        if self.clusters {
+            bindings.push((fragment, texture(wgpu::TextureSampleType::Uint)));
         }
         if self.occlusion {
-            entries.push(entry(3, fragment, texture));
+            bindings.push((fragment, texture(wgpu::TextureSampleType::Float { filterable: false })));
         }
+        let entry =
+            |(binding, (visibility, ty))| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+        let entries: Vec<_> = (0..).zip(bindings).map(entry).collect();
         let label = Some("view");
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
     }
 
     /// The modules of a technique, with those of what is there.
     pub(crate) fn with(self, modules: &[ModuleSource]) -> Vec<ModuleSource> {
-        let extras = [self.clusters.then_some(CLUSTERED), self.occlusion.then_some(OCCLUDED)];
-        modules.iter().cloned().chain(extras.into_iter().flatten()).collect()
+        let mut all = modules.to_vec();
+        all.extend(self.clusters.then_some(CLUSTERED));
+        if self.occlusion {
+            let number = if self.clusters { "3" } else { "2" };
+            all.push(ModuleSource::new(OCCLUDED.file, OCCLUDED.source.replace("OCCLUSION", number)));
+        }
+        all
     }
 }
 
@@ -78,7 +83,7 @@ impl ViewLayouts {
 pub(crate) struct ViewTokens {
     view: BufferToken,
     lights: BufferToken,
-    clusters: Option<BufferToken>,
+    clusters: Option<TextureToken>,
     occlusion: Option<TextureToken>,
 }
 
@@ -93,7 +98,7 @@ impl ViewBuffers {
         ViewTokens {
             view: pass.storage_buffer(&self.view),
             lights: pass.storage_buffer(&self.lights),
-            clusters: self.clusters.as_ref().map(|clusters| pass.storage_buffer(clusters)),
+            clusters: self.clusters.as_ref().map(|clusters| pass.sample(clusters)),
             occlusion: self.occlusion.as_ref().map(|occlusion| pass.sample(occlusion)),
         }
     }
@@ -106,15 +111,13 @@ impl ViewTokens {
         layouts: &ViewLayouts,
     ) -> Result<wgpu::BindGroup, GraphError> {
         let extras = Extras { clusters: self.clusters.is_some(), occlusion: self.occlusion.is_some() };
-        let (view, lights) = (Bind::Buffer(self.view), Bind::Buffer(self.lights));
-        let clusters = Bind::Buffer(self.clusters.unwrap_or(self.lights));
-        let layout = layouts.of(extras);
-        match (self.occlusion, extras.clusters) {
-            (Some(occlusion), _) => {
-                resources.bind_group(layout, &[view, lights, clusters, Bind::Texture(occlusion)])
+        let (view, lights, layout) = (Bind::Buffer(self.view), Bind::Buffer(self.lights), layouts.of(extras));
+        match (self.clusters.map(Bind::Texture), self.occlusion.map(Bind::Texture)) {
+            (None, None) => resources.bind_group(layout, &[view, lights]),
+            (Some(one), None) | (None, Some(one)) => resources.bind_group(layout, &[view, lights, one]),
+            (Some(clusters), Some(occlusion)) => {
+                resources.bind_group(layout, &[view, lights, clusters, occlusion])
             }
-            (None, true) => resources.bind_group(layout, &[view, lights, clusters]),
-            (None, false) => resources.bind_group(layout, &[view, lights]),
         }
     }
 }

@@ -67,7 +67,8 @@ fn every_built_in_pipeline_draws_the_demo_scene_alike_in_colour() {
     let scene = demo_scene();
     let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [320, 180]);
     let forward = draw(Pipeline::forward());
-    for name in BUILT_IN {
+    // All but the one that shows something else.
+    for name in BUILT_IN.iter().filter(|name| **name != "debug_cascades") {
         let pipeline: Pipeline = name.parse().unwrap();
         let share = differing(&forward, &draw(pipeline));
         // A G-buffer keeps eight bits of a colour; a screen mask eight of visibility.

@@ -37,9 +37,9 @@ impl Default for FogSettings {
     fn default() -> Self {
         Self {
             albedo: [1.0; 3],
-            density: 0.02,
+            density: 0.01,
             height_m: 4.0,
-            falloff: 0.2,
+            falloff: 0.1,
             anisotropy: 0.4,
             distance_m: 80.0,
             steps: 24,
@@ -120,8 +120,7 @@ impl Fog {
         pass.body(move |ctx| {
             let view = view.bind_group(ctx, &self.pass.view_layouts)?;
             let shadows = shadows.bind_group(ctx, &self.pass.shadow_layout)?;
-            let own =
-                ctx.bind_group(&self.pass.own_layout, &[Bind::Texture(depth), Bind::Uniform(block)])?;
+            let own = ctx.bind_group(&self.pass.own_layout, &[Bind::Texture(depth), Bind::Uniform(block)])?;
             ctx.pass.set_pipeline(&pipeline);
             for (index, group) in (0..).zip([&view, &shadows, &own]) {
                 ctx.pass.set_bind_group(index, group, &[]);
