@@ -47,6 +47,53 @@ fn pixel(picture: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {
 }
 
 #[test]
+fn every_small_example_runs_and_writes_its_picture() {
+    if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
+        return skip("examples", "no graphics driver is installed");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let picture = |file: &str| image::open(folder.path().join("out").join(file)).unwrap().into_rgba8();
+    let told = |name: &str, arguments: &[&str]| {
+        let outcome = run(Command::new(example(name)).args(arguments).current_dir(folder.path()));
+        assert_eq!(outcome.code, Some(0), "{name}: {}", outcome.stderr);
+        outcome.stdout
+    };
+    told("minimal_graph", &[]);
+    let disc = picture("minimal_graph.png");
+    assert!(pixel(&disc, 160, 90)[0] > 200 && pixel(&disc, 5, 5)[0] < 100);
+
+    told("post_chain", &[]);
+    let lamps = picture("post_chain.png");
+    // In a lamp, in its glow, between lamps.
+    let brightness = |x, y| pixel(&lamps, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
+    assert!(brightness(20, 20) > brightness(30, 20) && brightness(30, 20) > brightness(40, 40));
+
+    let plan = told("compute_only", &[]);
+    assert!(plan.contains("101 passes") && plan.contains("101 resources in 2 slots"), "{plan}");
+    let alive = picture("compute_only.png").pixels().filter(|pixel| pixel.0[0] == 255).count();
+    assert!((100..8_000).contains(&alive), "{alive} cells are alive");
+
+    told("two_views", &[]);
+    assert_eq!(picture("two_views.png").dimensions(), (640, 360));
+
+    let lights = told("many_lights", &[]);
+    assert!(lights.contains("the pictures are equal: true"), "{lights}");
+
+    told("day_cycle", &["3"]);
+    let day = [0, 1, 2].map(|number| picture(&format!("day_cycle/{number:02}.png")));
+    assert!(pixel(&day[1], 160, 150) != pixel(&day[0], 160, 150), "noon is not morning");
+
+    told("temporal", &[]);
+    // In the penumbra one frame is black or white, and many are grey.
+    let greys = |file: &str| picture(file).pixels().filter(|pixel| (40..215).contains(&pixel.0[0])).count();
+    assert!(greys("temporal_1.png") == 0 && greys("temporal_64.png") > 2_000);
+
+    let why = told("explain", &[]);
+    assert!(why.contains("does not run: nothing reads `glow`"), "{why}");
+    assert!(folder.path().join("out/explain.html").is_file());
+}
+
+#[test]
 fn custom_pipeline_gives_equal_plans_and_pictures_from_a_file_and_from_a_script() {
     if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
         return skip("pipelines", "no graphics driver is installed");

@@ -1,0 +1,40 @@
+//! A frame that is not as meant, and how the graph tells why: a pass that is culled, two passes that do not merge, an order.
+//!
+//! `cargo run -p shadowgraph-examples --example explain` prints it, and writes out/explain.html. It needs no GPU.
+
+#![allow(clippy::print_stdout, reason = "an example is a program")]
+
+use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut frame = Frame::new();
+    let texture = |frame: &mut Frame<'_>, name: &str, format| {
+        frame.create_texture(name, TextureDesc::d2(640, 360, format))
+    };
+    let mut scene = texture(&mut frame, "scene", Format::Rgba16Float);
+    let mut glow = texture(&mut frame, "glow", Format::Rgba16Float);
+    let mut depth = texture(&mut frame, "depth", Format::Depth32Float);
+    let mut picture = texture(&mut frame, "picture", Format::Rgba8UnormSrgb);
+
+    let mut opaque = frame.render_pass("opaque");
+    opaque.color(&mut scene, Contents::clear_color([0.0; 4]));
+    opaque.depth(&mut depth, Contents::clear_depth(0.0));
+    let mut particles = frame.render_pass("particles");
+    particles.color(&mut scene, Contents::Preserve);
+    // Somebody meant this one to be seen, and forgot to read what it draws.
+    let mut blur = frame.render_pass("blur");
+    blur.sample(&scene);
+    blur.color(&mut glow, Contents::Cover);
+    let mut tonemap = frame.render_pass("tonemap");
+    tonemap.sample(&scene);
+    tonemap.color(&mut picture, Contents::Cover);
+    frame.export_texture(&picture);
+
+    let plan = frame.compile()?.into_plan();
+    for name in ["blur", "particles", "glow"] {
+        println!("{}", plan.explain(name)?);
+    }
+    println!("{}", plan.explain_order("opaque", "tonemap")?);
+    std::fs::create_dir_all("out")?;
+    Ok(std::fs::write("out/explain.html", plan.to_html())?)
+}

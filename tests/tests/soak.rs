@@ -1,0 +1,167 @@
+//! Many frames with everything changing: pipelines, techniques, sizes, lights. `SHADOWGRAPH_SOAK` says how many, 120 by default.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+use shadowgraph::options::{AdapterChoice, Aov};
+use shadowgraph::pipelines::Choices;
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::shadows::Technique;
+use shadowgraph::{Gpu, Method, Pipeline, Registry, Renderer, ViewOptions};
+use shadowgraph_tests::skip;
+
+/// Frames where nobody asks for more.
+const FRAMES: u32 = 120;
+
+/// Numbers that are the same in every run (xorshift, Marsaglia 2003).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % end
+    }
+
+    fn flip(&mut self) -> bool {
+        self.below(2) == 1
+    }
+}
+
+/// A pipeline file with some of the nodes that can be left out.
+fn pipeline(random: &mut Random) -> String {
+    let deferred = random.flip();
+    let mut nodes = vec![
+        format!("(name: \"view\", kind: \"view\", settings: {{\"jitter\": {}}})", random.flip()),
+        "(name: \"geometry\", kind: \"geometry\", inputs: {\"view\": \"view\"})".into(),
+        format!(
+            "(name: \"shadows\", kind: \"shadows\", inputs: {{\"surfaces\": \"geometry\"}}, settings: {{\"collected\": {}}})",
+            random.flip()
+        ),
+    ];
+    let mut lit_by = "view";
+    for (name, kind, inputs) in [
+        ("clusters", "clusters", "\"view\": \"view\""),
+        ("occlusion", "ssao", "\"view\": [\"clusters\", \"view\"], \"depth\": \"geometry\""),
+    ] {
+        let inputs = if name == "occlusion" {
+            inputs.replace("[\"clusters\", \"view\"]", &format!("\"{lit_by}\""))
+        } else {
+            inputs.into()
+        };
+        if random.flip() {
+            nodes.push(format!("(name: \"{name}\", kind: \"{kind}\", inputs: {{{inputs}}})"));
+            lit_by = name;
+        }
+    }
+    let lit = format!("\"view\": \"{lit_by}.view\", \"shadows\": \"shadows\", \"depth\": \"geometry\"");
+    if deferred {
+        nodes.push(
+            "(name: \"gbuffer\", kind: \"gbuffer\", inputs: {\"view\": \"view\", \"depth\": \"geometry\"})"
+                .into(),
+        );
+        nodes.push(format!(
+            "(name: \"lit\", kind: \"deferred\", inputs: {{{lit}, \"gbuffer\": \"gbuffer\"}})"
+        ));
+    } else {
+        nodes.push(format!("(name: \"lit\", kind: \"forward\", inputs: {{{lit}}})"));
+    }
+    let mut light = "lit".to_owned();
+    for kind in ["sky", "fog", "taa", "bloom"] {
+        if !random.flip() {
+            continue;
+        }
+        let more = match kind {
+            "sky" | "taa" => ", \"view\": \"view\", \"depth\": \"geometry\"",
+            "fog" => ", \"view\": \"view\", \"depth\": \"geometry\", \"shadows\": \"shadows\"",
+            _ => "",
+        };
+        let settings = if kind == "fog" { "\"steps\": 4" } else { "" };
+        nodes.push(format!(
+            "(name: \"{kind}\", kind: \"{kind}\", inputs: {{\"light\": \"{light}.light\"{more}}}, settings: {{{settings}}})"
+        ));
+        light = kind.into();
+    }
+    nodes.push(format!("(name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"{light}.light\"}})"));
+    let mut picture = "picture";
+    if random.flip() {
+        nodes.push("(name: \"smooth\", kind: \"fxaa\", inputs: {\"picture\": \"picture\"})".into());
+        picture = "smooth";
+    }
+    format!("(nodes: [{}], outputs: {{\"picture\": \"{picture}\"}})", nodes.join(",\n"))
+}
+
+/// Memory of this process, MiB; `None` where it cannot be told.
+fn memory_mib() -> Option<u64> {
+    let pages = std::fs::read_to_string("/proc/self/statm").ok()?;
+    Some(pages.split_whitespace().nth(1)?.parse::<u64>().ok()? / 256)
+}
+
+/// How many frames are asked for.
+fn frames() -> u32 {
+    std::env::var("SHADOWGRAPH_SOAK").map_or(FRAMES, |frames| frames.parse().unwrap())
+}
+
+/// Draws frames by ever other pipelines, techniques, sizes and lights. `each` is called when the renderer of some frames is gone,
+/// with the part of the frames that are drawn, in quarters.
+fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
+    let Registry { nodes, techniques } = Registry::built_in();
+    let kinds = techniques.kinds().iter().map(|kind| kind.name);
+    let names: Vec<&str> = kinds.filter(|name| *name != "raytraced").collect();
+    let folder = tempfile::tempdir().unwrap();
+    let scene = demo_scene();
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut drawn = 0;
+    while drawn < frames {
+        let file = folder.path().join("soak.ron");
+        let text = pipeline(&mut random);
+        std::fs::write(&file, &text).unwrap();
+        let pipeline = Pipeline::load(&file, &nodes, &techniques, &Choices::default())
+            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let name = names[random.below(names.len() as u64) as usize];
+        let technique: Technique = techniques.find(name).unwrap();
+        let method = Method { technique: Some(technique), pipeline, samples: 1 };
+        let mut own = scene.clone();
+        own.lights.truncate(random.below(own.lights.len() as u64 + 1) as usize);
+        let camera = scene.cameras[random.below(scene.cameras.len() as u64) as usize].clone();
+        let mut renderer = Renderer::with(gpu, own, &camera, Aov::Color, method).unwrap();
+        let mut size_px = [256, 144];
+        for _ in 0..8 + random.below(16) {
+            if random.below(6) == 0 {
+                size_px = [1 + random.below(256) as u32, 1 + random.below(144) as u32];
+            }
+            let mut options = ViewOptions { camera: camera.clone(), size_px, shadows: Default::default() };
+            options.shadows.cascades.map_size_px = 512;
+            options.shadows.atlas.map_size_px = 512;
+            options.shadows.atlas.cache = random.flip();
+            let view = renderer.draw(gpu, &options).unwrap_or_else(|error| panic!("{error}, {name}\n{text}"));
+            assert_eq!(view.picture.rgba8.len(), (size_px[0] * size_px[1] * 4) as usize);
+            drawn += 1;
+        }
+        drop(renderer);
+        gpu.device.poll(shadowgraph::wgpu::PollType::wait_indefinitely()).unwrap();
+        each((4 * u64::from(drawn) / u64::from(frames)).min(3) as usize);
+    }
+}
+
+/// On the device that draws nothing, the process's memory is ours and wgpu's: it stays. On a software driver, the device's memory
+/// comes back; that of the process is not looked at, as Mesa keeps the code of shaders whose pipelines are gone.
+#[test]
+fn ever_other_pipelines_sizes_techniques_and_lights_leave_no_memory_behind() {
+    let mut most = [0; 4];
+    let note = |quarter: usize| most[quarter] = most[quarter].max(memory_mib().unwrap_or_default());
+    soak(&Gpu::noop().unwrap(), frames() * 2, note);
+    println!("most memory by quarter of the frames: {most:?} MiB");
+    assert!(most[3] <= most[1].max(most[0]) * 5 / 4 + 16, "{most:?} MiB");
+
+    let gpu = match Gpu::open(&AdapterChoice::Cpu) {
+        Ok(gpu) => gpu,
+        Err(error) => return skip("soak", &error.to_string()),
+    };
+    let allocated =
+        || gpu.device.generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
+    let before = allocated();
+    soak(&gpu, frames(), |_| {
+        let now = allocated();
+        assert!(now <= before + (1 << 20), "{now} bytes are allocated, and {before} were before");
+    });
+}
