@@ -17,3 +17,31 @@ fn row_36_nodes_prints_the_numbers_of_shader_permutations() {
         assert!(text.contains(name), "{text}");
     }
 }
+
+/// What `nodes` prints with these arguments.
+fn told(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let program = shadowgraph_tests::program().unwrap();
+    let output = Command::new(program).arg("nodes").args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn nodes_tells_all_about_a_node_a_pipeline_a_technique_and_the_shared_settings() {
+    let (code, text, _) = told(&["bloom"]);
+    assert!(code == Some(0) && text.contains("set    strength           0.06; 0 to 1"), "{text}");
+    let (_, text, _) = told(&["deferred"]);
+    assert!(text.starts_with("pipeline deferred, as a file") && text.contains("takes  gbuffer"), "{text}");
+    let (_, text, _) = told(&["pcss"]);
+    assert!(text.contains("filter_taps") && text.contains("24; 1 to 64"), "{text}");
+    let (_, text, _) = told(&["settings"]);
+    assert!(text.contains("distance_m") && text.contains("150.0; 0.001 to 1000000 (metres)"), "{text}");
+    let (code, _, error) = told(&["blom"]);
+    assert!(
+        code == Some(1) && error.lines().count() == 1 && error.ends_with("did you mean `bloom`?\n"),
+        "{error}"
+    );
+    let (_, schema, _) = told(&["--schema"]);
+    let schema: serde_json::Value = serde_json::from_str(&schema).unwrap();
+    assert_eq!(schema["required"], serde_json::json!(["nodes"]));
+}

@@ -2,10 +2,10 @@
 
 use crate::stage::gpu;
 use shadowgraph::options::{Aov, ShadowDistance, SunChoice};
-use shadowgraph::pipelines::BUILT_IN;
+use shadowgraph::pipelines::{BUILT_IN, Choices};
 use shadowgraph::scene::Scene;
 use shadowgraph::scene::demo::demo_scene;
-use shadowgraph::{Gpu, Method, Picture, Pipeline, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Method, Picture, Pipeline, Registry, Renderer, ViewOptions};
 use std::path::PathBuf;
 
 fn options(scene: &Scene, size_px: [u32; 2]) -> ViewOptions {
@@ -75,6 +75,22 @@ fn every_built_in_pipeline_draws_the_demo_scene_alike_in_colour() {
         assert!(share < 0.01, "{name}: {share}");
     }
     assert!(forward == draw(Pipeline::forward_plus()), "clusters leave out only lights that give nothing");
+}
+
+#[test]
+fn what_is_not_fed_has_a_stand_in() {
+    let Some(gpu) = gpu() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plain.ron");
+    let fed = "inputs: {\"picture\": \"picture\", \"colors\": \"debug\"}";
+    let text = Pipeline::text_of("debug_cascades").unwrap();
+    assert!(text.contains(fed));
+    std::fs::write(&file, text.replace(fed, "inputs: {\"picture\": \"picture\"}")).unwrap();
+    let Registry { nodes, techniques } = Registry::built_in();
+    let plain = Pipeline::load(&file, &nodes, &techniques, &Choices::default()).unwrap();
+    let scene = demo_scene();
+    let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [160, 90]);
+    assert!(differing(&draw(plain), &draw(Pipeline::forward())) == 0.0, "nothing lies over the picture");
 }
 
 #[test]

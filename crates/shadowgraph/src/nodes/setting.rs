@@ -124,7 +124,7 @@ impl Settings {
         Self { kind, values }
     }
 
-    fn get<T>(&self, name: &str, read: impl FnOnce(&Value) -> Option<T>) -> Result<T, Error> {
+    fn get<'s, T>(&'s self, name: &str, read: impl FnOnce(&'s Value) -> Option<T>) -> Result<T, Error> {
         let found = self.values.iter().find(|(known, _)| *known == name);
         found.and_then(|(_, value)| read(value)).ok_or_else(|| Error::NodeKind {
             kind: self.kind,
@@ -161,11 +161,7 @@ impl Settings {
     /// # Errors
     /// As [`toggle`](Self::toggle).
     pub fn text(&self, name: &str) -> Result<&str, Error> {
-        let found = self.values.iter().find(|(known, _)| *known == name);
-        found.and_then(|(_, value)| value.as_str()).ok_or_else(|| Error::NodeKind {
-            kind: self.kind,
-            fault: format!("it reads a setting `{name}` that it does not describe, or not of that type"),
-        })
+        self.get(name, Value::as_str)
     }
 
     /// Returns the value of an [`Allows::Color`].

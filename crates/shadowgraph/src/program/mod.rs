@@ -9,6 +9,7 @@ mod commands;
 mod console;
 mod dump;
 mod failure;
+mod limits;
 mod measure;
 mod nodes;
 mod progress;

@@ -5,10 +5,12 @@ use std::fmt::Write as _;
 use super::args::NodesArgs;
 use super::console;
 use super::failure::Failure;
+use super::limits::{Check, check_own, check_shared, rows, shared};
 use crate::nodes::near_words;
 use crate::pipelines::{BUILT_IN, Pipeline, schema};
-use crate::shadows::{TechniqueKind, Techniques};
+use crate::shadows::{ShadowSettings, TechniqueKind, Techniques};
 use crate::{Registry, permutations};
+use serde_json::Value;
 
 /// Prints all that there is, one of it, or the schema of files.
 pub(crate) fn nodes(args: &NodesArgs, registry: &Registry) -> Result<(), Failure> {
@@ -28,7 +30,9 @@ fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     if let Some(text) = Pipeline::text_of(name) {
         let _ = write!(told, "pipeline {name}, as a file\n\n{text}");
     }
-    for text in [nodes.describe(name).ok(), kind.map(technique)].into_iter().flatten() {
+    let of_technique = kind.map(|kind| technique(kind, techniques)).transpose()?;
+    let of_all = (name == SHARED).then(shared_settings).transpose()?;
+    for text in [nodes.describe(name).ok(), of_technique, of_all].into_iter().flatten() {
         told += if told.is_empty() { "" } else { "\n" };
         told += &text;
     }
@@ -43,10 +47,37 @@ fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     Ok(told)
 }
 
-fn technique(kind: &TechniqueKind) -> String {
+/// What the settings that all techniques share are asked for by.
+const SHARED: &str = "settings";
+
+fn technique(kind: &TechniqueKind, techniques: &Techniques) -> Result<String, Failure> {
     let mut out = format!("technique {}: {}\n", kind.name, kind.summary);
-    settings(&mut out, kind.name, kind.default_settings());
-    out
+    let settings = ShadowSettings::default();
+    if let Some(own) = techniques.own_settings(kind.name, &settings) {
+        let check = |value: &Value| check_own(techniques, kind.name, &settings, value);
+        table(&mut out, &own?, &check);
+    }
+    Ok(out)
+}
+
+fn shared_settings() -> Result<String, Failure> {
+    let mut out = String::from("settings of all techniques, as a file of --settings has them\n");
+    table(&mut out, &shared(&ShadowSettings::default())?, &check_shared);
+    Ok(out)
+}
+
+/// Settings with their defaults and what they may be.
+fn table(out: &mut String, root: &Value, check: Check<'_>) {
+    for (name, default, limit) in rows(root, check) {
+        let words = limit.words();
+        let allowed = if words.is_empty() { String::new() } else { format!("; {words}") };
+        // Most are single floats, which have few digits as such.
+        let default = match default.as_f64().filter(|_| default.is_f64()) {
+            Some(number) => format!("{:?}", number as f32),
+            None => default.to_string(),
+        };
+        let _ = writeln!(out, "  set    {name:<32} {default}{allowed}");
+    }
 }
 
 fn all(registry: &Registry) -> Result<String, Failure> {
@@ -59,7 +90,7 @@ fn all(registry: &Registry) -> Result<String, Failure> {
     for kind in nodes.kinds() {
         let _ = writeln!(out, "  {:<16}{}", kind.name, kind.about);
     }
-    out.push_str("\ntechniques, and their own settings as they are by default\n");
+    out.push_str("\ntechniques, and their own settings as they are by default; `nodes NAME` and `nodes settings` tell of ranges\n");
     for kind in techniques.kinds() {
         let _ = writeln!(out, "  {:<16}{}", kind.name, kind.summary);
         settings(&mut out, kind.name, kind.default_settings());

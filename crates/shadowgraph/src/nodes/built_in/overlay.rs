@@ -17,7 +17,7 @@ impl Node for Overlay {
     const ABOUT: &'static str = "lays colours over a finished picture";
     const INPUTS: &'static [Port] = &[
         Port::texture("picture", "behind the tonemap").of(Format::Rgba8UnormSrgb),
-        Port::texture("colors", "as they are to be seen"),
+        Port::texture("colors", "as they are to be seen").or_texel([0.0; 4]),
     ];
     const OUTPUTS: &'static [Port] = &[Port::texture("picture", "both").of(Format::Rgba8UnormSrgb)];
     const SETTINGS: &'static [Setting] =
@@ -33,7 +33,7 @@ impl Node for Overlay {
         view: &'f View<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let (picture, colors) = (ports.texture("picture")?, ports.texture("colors")?);
+        let (picture, colors) = (ports.texture("picture")?, ports.texture_or_stand_in("colors", frame)?);
         let mut target = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
         self.pass.add_to(frame, [&picture, &colors], &mut target, self.strength);
         ports.set("picture", target);

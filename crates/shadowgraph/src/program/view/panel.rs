@@ -2,7 +2,6 @@
 
 mod edit;
 mod graph;
-mod limits;
 mod settings;
 
 use std::path::PathBuf;

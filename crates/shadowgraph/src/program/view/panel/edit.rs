@@ -3,7 +3,7 @@
 use egui::{CollapsingHeader, ComboBox, DragValue, Label, RichText, Ui};
 use serde_json::Value;
 
-use super::limits::{Check, Limit, Limits};
+use crate::program::limits::{Check, Limit, Limits};
 
 /// Shows a form for all fields, and tells whether one was changed.
 pub(super) fn edit(ui: &mut Ui, root: &mut Value, limits: &mut Limits, check: Check<'_>) -> bool {

@@ -8,8 +8,8 @@ use serde_json::Value;
 use super::super::stage::Stage;
 use super::Wish;
 use super::edit::edit;
-use super::limits::Limits;
-use crate::shadows::{OwnSettings, ShadowSettings};
+use crate::program::limits::{Limits, check_own, check_shared, shared};
+use crate::shadows::ShadowSettings;
 
 #[derive(Default)]
 pub(super) struct SettingsPanel {
@@ -56,29 +56,10 @@ impl SettingsPanel {
             return;
         };
         let (techniques, settings) = (&stage.registry.techniques, &stage.settings);
-        let check = |value: &Value| {
-            let set = techniques.set_own_settings(name, &mut settings.clone(), value.clone());
-            set.map_err(|error| error.to_string())
-        };
+        let check = |value: &Value| check_own(techniques, name, settings, value);
         if edit(ui, &mut value, self.limits.entry(name).or_default(), &check) {
             // What is out of range stays as it was.
             let _refused = stage.registry.techniques.set_own_settings(name, &mut stage.settings, value);
         }
     }
-}
-
-/// The settings that all techniques share, as JSON.
-pub(super) fn shared(settings: &ShadowSettings) -> Result<Value, serde_json::Error> {
-    let settings = ShadowSettings { techniques: OwnSettings::default(), ..settings.clone() };
-    let mut value = serde_json::to_value(settings)?;
-    if let Some(fields) = value.as_object_mut() {
-        fields.remove("techniques");
-    }
-    Ok(value)
-}
-
-/// Checks them.
-pub(super) fn check_shared(value: &Value) -> Result<(), String> {
-    let read: ShadowSettings = serde_json::from_value(value.clone()).map_err(|error| error.to_string())?;
-    read.validate().map_err(|error| error.to_string())
 }

@@ -1,34 +1,102 @@
-//! What values a setting may have, found out by trying: the checks themselves are asked, so what the panel says is what they
-//! hold to, for techniques of other crates too.
+//! What values a setting may have, found out by trying: the checks themselves are asked, so what `nodes` and the window say is what
+//! they hold to, for techniques of other crates too.
 
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
+use crate::shadows::{OwnSettings, ShadowSettings, Techniques};
+
 /// What a setting may be.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Limit {
+pub(crate) struct Limit {
     /// Lowest and highest number.
-    pub(super) range: Option<(f64, f64)>,
+    pub(crate) range: Option<(f64, f64)>,
     /// The range and its unit in words, as the check says them.
-    pub(super) allowed: String,
+    pub(crate) allowed: String,
     /// Whether numbers are whole.
-    pub(super) whole: bool,
-    /// Names to choose from, with a value for each.
-    pub(super) variants: Vec<(String, Value)>,
+    pub(crate) whole: bool,
+    /// Names to choose from, with a value for each of which one was found that is taken now.
+    pub(crate) variants: Vec<(String, Value)>,
+    /// All names.
+    pub(crate) names: Vec<String>,
 }
 
 /// Limits by the setting's path.
 #[derive(Default)]
-pub(super) struct Limits(BTreeMap<String, Limit>);
+pub(crate) struct Limits(BTreeMap<String, Limit>);
 
 /// Checks settings; an error says what is wrong.
-pub(super) type Check<'c> = &'c dyn Fn(&Value) -> Result<(), String>;
+pub(crate) type Check<'c> = &'c dyn Fn(&Value) -> Result<(), String>;
 
 impl Limits {
     /// Returns what the value at `path` (a JSON pointer) of `root` may be.
-    pub(super) fn of(&mut self, root: &Value, path: &str, check: Check<'_>) -> &Limit {
+    pub(crate) fn of(&mut self, root: &Value, path: &str, check: Check<'_>) -> &Limit {
         self.0.entry(path.to_owned()).or_insert_with(|| find(root, path, check))
+    }
+}
+
+/// The settings that all techniques share, as JSON.
+pub(crate) fn shared(settings: &ShadowSettings) -> Result<Value, serde_json::Error> {
+    let settings = ShadowSettings { techniques: OwnSettings::default(), ..settings.clone() };
+    let mut value = serde_json::to_value(settings)?;
+    if let Some(fields) = value.as_object_mut() {
+        fields.remove("techniques");
+    }
+    Ok(value)
+}
+
+/// Checks them.
+pub(crate) fn check_shared(value: &Value) -> Result<(), String> {
+    let read: ShadowSettings = serde_json::from_value(value.clone()).map_err(|error| error.to_string())?;
+    read.validate().map_err(|error| error.to_string())
+}
+
+/// Checks the settings of one technique.
+pub(crate) fn check_own(
+    techniques: &Techniques,
+    name: &str,
+    settings: &ShadowSettings,
+    value: &Value,
+) -> Result<(), String> {
+    let set = techniques.set_own_settings(name, &mut settings.clone(), value.clone());
+    set.map_err(|error| error.to_string())
+}
+
+/// Every setting below `path` with its value and what it may be, in the order of the value's fields.
+pub(crate) fn rows(root: &Value, check: Check<'_>) -> Vec<(String, Value, Limit)> {
+    let mut limits = Limits::default();
+    let mut found = Vec::new();
+    collect(root, "", check, &mut limits, &mut found);
+    found
+}
+
+fn collect(
+    root: &Value,
+    path: &str,
+    check: Check<'_>,
+    limits: &mut Limits,
+    found: &mut Vec<(String, Value, Limit)>,
+) {
+    let Some(value) = root.pointer(path) else { return };
+    let limit = if path.is_empty() { Limit::default() } else { limits.of(root, path, check).clone() };
+    match value {
+        Value::Object(fields) if limit.names.is_empty() => {
+            for name in fields.keys() {
+                collect(root, &format!("{path}/{name}"), check, limits, found);
+            }
+        }
+        value => found.push((path.trim_start_matches('/').replace('/', "."), value.clone(), limit)),
+    }
+}
+
+impl Limit {
+    /// What it may be, in words; empty where that is not known.
+    pub(crate) fn words(&self) -> String {
+        match &self.names[..] {
+            [] => self.allowed.clone(),
+            names => format!("one of {}", names.join(", ")),
+        }
     }
 }
 
@@ -59,7 +127,8 @@ fn find(root: &Value, path: &str, check: Check<'_>) -> Limit {
                 let value = variant(&name, &error)?;
                 Some((name, value))
             };
-            Limit { variants: names.into_iter().filter_map(value).collect(), ..Limit::default() }
+            let variants = names.iter().cloned().filter_map(value).collect();
+            Limit { variants, names, ..Limit::default() }
         }
         _ => Limit::default(),
     }
@@ -118,8 +187,6 @@ fn variant(name: &str, error: &dyn Fn(Value) -> String) -> Option<Value> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::program::view::panel::settings::{check_shared, shared};
-    use crate::shadows::{ShadowSettings, Techniques};
 
     #[test]
     fn ranges_units_and_names_are_those_of_the_checks() {
@@ -147,11 +214,23 @@ mod tests {
         let techniques = Techniques::built_in();
         let settings = ShadowSettings::default();
         let root = techniques.own_settings("pcss", &settings).unwrap().unwrap();
-        let check = |value: &Value| {
-            let set = techniques.set_own_settings("pcss", &mut settings.clone(), value.clone());
-            set.map_err(|error| error.to_string())
-        };
+        let check = |value: &Value| check_own(&techniques, "pcss", &settings, value);
         let taps = Limits::default().of(&root, "/filter_taps", &check).clone();
         assert_eq!((taps.range, taps.whole), (Some((1.0, 64.0)), true));
+    }
+
+    #[test]
+    fn all_settings_are_told_with_what_they_may_be() {
+        let rows = rows(&shared(&ShadowSettings::default()).unwrap(), &check_shared);
+        let of = |name: &str| rows.iter().find(|(path, ..)| path == name).unwrap().2.words();
+        assert_eq!(of("cascades.count"), "0 to 8");
+        assert_eq!(of("atlas.tiles"), "one of Even, ByImportance");
+        assert!(of("cascades.split").starts_with("one of Standard, Ratios"));
+        let untold: Vec<&str> = rows
+            .iter()
+            .filter(|(_, value, limit)| value.is_number() && limit.words().is_empty())
+            .map(|row| &*row.0)
+            .collect();
+        assert!(untold.is_empty(), "{untold:?}");
     }
 }
