@@ -10,6 +10,16 @@ pub enum Error {
         /// How many were asked for.
         samples: u32,
     },
+    /// A pipeline has a node that cannot be drawn with several samples a pixel.
+    #[error(
+        "--samples {samples}: the pipeline's `{kind}` has one sample a pixel: leave the node out, or draw with one"
+    )]
+    OneSample {
+        /// The kind of node.
+        kind: &'static str,
+        /// How many were asked for.
+        samples: u32,
+    },
     /// There is no adapter to draw with.
     #[error("no usable graphics adapter ({wanted}): {reason}")]
     NoAdapter {

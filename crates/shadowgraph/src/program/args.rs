@@ -310,7 +310,7 @@ impl DrawArgs {
             Pipeline::built_in(&self.pipeline, &choices)
         } else {
             let near = near_words(&self.pipeline, BUILT_IN.iter().copied());
-            let reason = format!("there is no pipeline `{}`{near} Files end in .ron", self.pipeline);
+            let reason = format!("there is no pipeline `{}` (files end in .ron){near}", self.pipeline);
             return Err(OptionError::new("--pipeline", reason));
         };
         pipeline.map_err(|error| OptionError::new("--pipeline", error.to_string()))
@@ -405,7 +405,7 @@ mod tests {
             ("--pipeline;my.ron", "--pipeline: my.ron: cannot be read: "),
             (
                 "--pipeline;mine",
-                "--pipeline: there is no pipeline `mine`; did you mean `minimal`? Files end in .ron",
+                "--pipeline: there is no pipeline `mine` (files end in .ron); did you mean `minimal`?",
             ),
             ("--size;0x4", "--size: the width 0"),
             ("--sun;dir=0,0,0", "--sun: dir has no length"),

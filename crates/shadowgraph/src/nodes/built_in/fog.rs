@@ -37,7 +37,7 @@ impl Node for Fog {
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         if build.lit.samples != 1 {
-            return Err(Error::Samples { samples: build.lit.samples });
+            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
         }
         let own = FogSettings {
             albedo: settings.color("albedo")?,

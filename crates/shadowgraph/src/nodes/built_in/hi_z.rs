@@ -21,7 +21,7 @@ impl Node for HiZ {
 
     fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
         if build.lit.samples != 1 {
-            return Err(Error::Samples { samples: build.lit.samples });
+            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
         }
         Ok(Self { passes: DepthPyramid::new(build.device)? })
     }

@@ -36,7 +36,7 @@ impl Node for Sky {
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         if build.lit.samples != 1 {
-            return Err(Error::Samples { samples: build.lit.samples });
+            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
         }
         let settings = SkySettings { disc_rad: settings.number("disc_rad")?, haze: settings.number("haze")? };
         Ok(Self { pass: SkyPass::new(build.device)?, settings })

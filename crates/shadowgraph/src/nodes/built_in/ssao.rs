@@ -34,7 +34,7 @@ impl Node for Ssao {
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         if build.lit.samples != 1 {
-            return Err(Error::Samples { samples: build.lit.samples });
+            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
         }
         let settings = OcclusionSettings {
             radius_m: settings.number("radius_m")?,

@@ -27,7 +27,7 @@ impl Node for Taa {
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         if build.lit.samples != 1 {
-            return Err(Error::Samples { samples: build.lit.samples });
+            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
         }
         Ok(Self { pass: Temporal::new(build.device)?, fresh: settings.number("fresh")? })
     }

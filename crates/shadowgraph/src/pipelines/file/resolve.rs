@@ -68,8 +68,14 @@ impl Document {
         let outputs = wires.outputs(name)?;
         for &(output, node, port) in &outputs {
             let place = present[node].first + port;
-            if let Some((_, taker)) = takers.iter().find(|(taken, _)| *taken == place) {
-                return Err(wires.taken_output(output, &present[*taker]));
+            let taker =
+                |place| takers.iter().find(|(taken, _)| *taken == place).map(|(_, taker)| &present[*taker]);
+            let mut last = taker(place);
+            while let Some(next) = last.and_then(|node| taker(node.first)) {
+                last = Some(next);
+            }
+            if let Some(last) = last {
+                return Err(wires.taken_output(output, &present[node], port, last));
             }
         }
         let mut placed = Vec::new();
@@ -209,7 +215,9 @@ impl Wires<'_, '_> {
             });
             fits.map(move |output| format!("{}.{}", giver.entry.name.value, output.name))
         });
-        let givers: Vec<String> = givers.take(4).collect();
+        let mut givers: Vec<String> = givers.collect();
+        // What is called alike is likelier meant.
+        givers.sort_by_key(|giver| !giver.ends_with(&format!(".{}", port.name)));
         let way_out = if givers.is_empty() {
             format!("add a node that gives a {}", port.kind.name())
         } else {
@@ -271,14 +279,22 @@ impl Wires<'_, '_> {
         }
     }
 
-    fn taken_output(&self, output: &str, taker: &Present<'_>) -> PipelineError {
+    /// `last` is the last of the nodes that draw over a node's output.
+    fn taken_output(
+        &self,
+        output: &str,
+        node: &Present<'_>,
+        port: usize,
+        last: &Present<'_>,
+    ) -> PipelineError {
         let feed = self.document.outputs.iter().find(|(name, _)| name.value == output);
-        let taker = &taker.entry.name;
-        let place = feed.map_or(&taker.place, |(name, _)| &name.place);
-        place.error(format!(
-            "`{0}` draws over that: name an output of `{0}`, or of what comes behind it",
-            taker.value
-        ))
+        let place = feed.map_or(&node.entry.name.place, |(name, _)| &name.place);
+        let name = |node: &Present<'_>, port: usize| {
+            format!("{}.{}", node.entry.name.value, node.kind.outputs[port].name)
+        };
+        let (taken, right) = (name(node, port), name(last, 0));
+        place
+            .error(format!("`{taken}` is drawn over: name \"{right}\", or an output of what comes behind it"))
     }
 
     fn outputs(&self, file: &str) -> Result<Vec<(&'static str, usize, usize)>, PipelineError> {

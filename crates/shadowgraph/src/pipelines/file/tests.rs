@@ -157,6 +157,28 @@ fn a_file_includes_nodes_of_another_and_replaces_its_parameters() {
 }
 
 #[test]
+fn what_is_drawn_over_is_read_before_and_named_by_what_draws_last() {
+    let sky = |name: &str, from: &str| {
+        format!(
+            "(name: \"{name}\", kind: \"sky\", inputs: {{\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"{from}\"}}),\n        "
+        )
+    };
+    let with = |nodes: &str, light: &str| {
+        changed(&[
+            ("(name: \"picture\"", &format!("{nodes}(name: \"picture\"")),
+            ("\"light\": \"lighting\", \"depth\"", &format!("\"light\": \"{light}\", \"depth\"")),
+        ])
+    };
+    let two = sky("late", "early") + &sky("early", "lighting");
+    assert!(load(&with(&two, "late")).is_ok());
+    let error = load(&with(&two, "lighting")).err().unwrap();
+    assert!(error.contains("`lighting.light` is drawn over: name \"late.light\""), "{error}");
+    let twice = sky("one", "lighting") + &sky("other", "lighting");
+    let error = load(&with(&twice, "one")).err().unwrap();
+    assert!(error.contains("draws over what feeds its `light`, and so does `one`"), "{error}");
+}
+
+#[test]
 fn the_schema_has_every_kind_with_its_ports_and_ranges() {
     let schema = schema(&Nodes::built_in());
     let kinds = schema["properties"]["nodes"]["items"]["anyOf"].as_array().unwrap();

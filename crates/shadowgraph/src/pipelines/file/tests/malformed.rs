@@ -30,7 +30,7 @@
     (&[("name: \"picture\"", "name: \"a/b\"")], "without . / $"),
     // What feeds what.
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"ligth\": \"lighting\"}")], "mine.ron:8:53: `picture` (tonemap) has no input `ligth`; did you mean `light`?"),
-    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {}")], "mine.ron:8:16: input `light` of `picture` (scene-linear, exposure applied) has to be fed, such as \"light\": \"geometry.depth\""),
+    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {}")], "mine.ron:8:16: input `light` of `picture` (scene-linear, exposure applied) has to be fed, such as \"light\": \"lighting.light\""),
     (&[("(name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"lighting\"})", "(name: \"picture\", kind: \"tonemap\")")], "input `light` of `picture`"),
     (&[("\"shadows\": \"shadows\", ", "")], "input `shadows` of `lighting` (the shadows) has to be fed, such as \"shadows\": \"shadows.shadows\""),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"lightning\"}")], "there is no node `lightning`; did you mean `lighting`?"),
