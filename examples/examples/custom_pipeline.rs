@@ -113,11 +113,7 @@ impl Wiring for Script {
             self.vignette.draw(frame, &bloomed, &mut target);
             target
         });
-        let picture = frame.node("picture", |frame| {
-            let mut picture = view.picture(frame);
-            self.tonemap.add_to(frame, &darker, &mut picture);
-            picture
-        });
+        let picture = view.tonemapped(frame, &self.tonemap, &darker);
         Ok(Output { picture, light: Some(lit), depth: Some(depth), view: Some(buffers), shadows })
     }
 }

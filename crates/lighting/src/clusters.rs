@@ -1,9 +1,8 @@
 //! Which lights reach which part of the view.
 
-use std::borrow::Cow;
-
 use shadowgraph_core::{ComputeShader, Contents, Format, Frame, TextureDesc};
 
+use crate::shader::module;
 use crate::{Error, ViewBuffers};
 
 /// Boxes of a view in a slice, and slices: `CLUSTERS` of `cluster_grid.wgsl`.
@@ -24,11 +23,7 @@ impl Clusters {
     /// None with the WGSL that Shadowgraph comes with.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let file = "clusters.wgsl";
-        let module = shadowgraph_shaders::compose(file, &[])?;
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(file),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
+        let module = module(device, file, &[])?;
         Ok(Self { shader: ComputeShader::module(file, &module) })
     }
 

@@ -1,6 +1,5 @@
 //! Forward lighting: one pass for all lights and materials.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -11,6 +10,7 @@ use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 use shadowgraph_shaders::ModuleSource;
 
 use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::shader::module;
 use crate::view_group::{Extras, ViewLayouts};
 use crate::{Error, ViewBuffers};
 
@@ -139,11 +139,7 @@ impl Forward {
             return Ok(pipelines.clone());
         }
         let modules = key.extras.with(self.modules_of(key.variant));
-        let module = shadowgraph_shaders::compose("forward.wgsl", &modules)?;
-        let shader = self.recipe.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("forward.wgsl"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
+        let shader = module(&self.recipe.device, "forward.wgsl", &modules)?;
         let recipe = self.recipe.clone();
         let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
         let layout = recipe.layout(key.extras);

@@ -1,12 +1,12 @@
 //! The surfaces that a view sees, as deferred lighting reads them.
 
-use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
 
 use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::shader::module;
 use crate::view_group::{Extras, ViewLayouts};
 use crate::{Error, ViewBuffers};
 
@@ -46,11 +46,7 @@ impl GBufferPass {
     /// # Errors
     /// None with the WGSL that Shadowgraph comes with.
     pub fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
-        let module = shadowgraph_shaders::compose("gbuffer.wgsl", &[])?;
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("gbuffer.wgsl"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
+        let shader = module(device, "gbuffer.wgsl", &[])?;
         let view_layouts = ViewLayouts::new(device);
         let none = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("no shadows"),

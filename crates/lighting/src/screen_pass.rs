@@ -1,6 +1,5 @@
 //! Passes over the whole picture that ask for shadows.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -9,6 +8,7 @@ use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowTechnique, shadow_layout};
 
 use crate::Error;
+use crate::shader::module;
 use crate::view_group::{Extras, ViewLayouts};
 
 /// What such passes are made of: a built-in file with `vs` and `fs` entry points. Group 0 is the view's, 1 the technique's, 2 its own.
@@ -89,11 +89,7 @@ impl ScreenPass {
         let ScreenShader { file, entries: [vertex, fragment], format, blend } = self.shader;
         let modules = self.modules.get(key.variant as usize).or(self.modules.first());
         let modules = key.extras.with(modules.map_or(&[], Vec::as_slice));
-        let module = shadowgraph_shaders::compose(file, &modules)?;
-        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(file),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        });
+        let module = module(&self.device, file, &modules)?;
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(file),
             bind_group_layouts: &[

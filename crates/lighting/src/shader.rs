@@ -1,10 +1,24 @@
-//! Shaders of passes that draw over the whole picture.
+//! Shader modules, and what passes over the whole picture share.
 
 use std::borrow::Cow;
 
 use shadowgraph_core::FullscreenShader;
+use shadowgraph_shaders::ModuleSource;
 
 use crate::Error;
+
+/// Composes a built-in file with these modules.
+pub(crate) fn module(
+    device: &wgpu::Device,
+    file: &'static str,
+    modules: &[ModuleSource],
+) -> Result<wgpu::ShaderModule, Error> {
+    let module = shadowgraph_shaders::compose(file, modules)?;
+    Ok(device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(file),
+        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+    }))
+}
 
 /// Composes a built-in file whose fragment shader `entry` is drawn over a target.
 pub(crate) fn fullscreen(
@@ -12,11 +26,7 @@ pub(crate) fn fullscreen(
     file: &'static str,
     entry: &'static str,
 ) -> Result<FullscreenShader, Error> {
-    let module = shadowgraph_shaders::compose(file, &[])?;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(file),
-        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-    });
+    let module = module(device, file, &[])?;
     Ok(FullscreenShader::module(file, &module).entry(entry))
 }
 

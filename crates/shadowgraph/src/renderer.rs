@@ -1,99 +1,17 @@
-//! Drawing a scene: what stays from frame to frame, and what one view needs.
+//! Drawing a scene: what stays from frame to frame.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use shadowgraph_core::{Buffer, Compiled, Executed, Format, Frame, Graph, Part, Plan, Texture, Timer};
 use shadowgraph_lighting::{Ambience, Key, LitTarget, Shows};
 use shadowgraph_scene::gpu::GpuScene;
-use shadowgraph_scene::{Camera, Light, Scene, origin_near, visible};
-use shadowgraph_shadows::{
-    ShadowOutputs, ShadowSettings, ShadowTechnique, Technique, TechniqueKind, Unshadowed,
-};
+use shadowgraph_scene::{Camera, Light, Scene, origin_near};
+use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, Unshadowed};
 
-use crate::options::{Aov, ShadowDistance};
+use crate::options::Aov;
 use crate::picture::{Drawn, Picture};
 use crate::pipelines::{Build, Output, View, Wiring};
-use crate::{Error, Gpu, Pipeline, SceneCasters, Show, techniques};
-
-/// What a view shows, and how.
-#[derive(Clone, Debug)]
-pub struct ViewOptions {
-    /// Who looks.
-    pub camera: Camera,
-    /// Width and height of the picture, pixels.
-    pub size_px: [u32; 2],
-    /// What the user chose of shadows.
-    pub shadows: ShadowSettings,
-}
-
-impl ViewOptions {
-    /// Sets how far shadows reach. `Auto` is so far that all that is seen of the scene lies before their fade, at
-    /// most the far plane.
-    pub fn with_shadow_distance(mut self, distance: ShadowDistance, scene: &Scene) -> Self {
-        self.shadows.distance_m = match distance {
-            ShadowDistance::Metres(metres) => metres as f32,
-            ShadowDistance::Auto => self.automatic_distance_m(scene) as f32,
-        };
-        self
-    }
-
-    pub(crate) fn aspect(&self) -> f64 {
-        f64::from(self.size_px[0]) / f64::from(self.size_px[1])
-    }
-
-    fn automatic_distance_m(&self, scene: &Scene) -> f64 {
-        let bounds: Vec<_> = (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect();
-        let view_from_world = self.camera.view_from_world();
-        let seen = visible(scene, &bounds, &self.camera.volume(self.aspect()));
-        let corners = seen.iter().flat_map(|&instance| bounds[instance as usize].corners());
-        let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
-        let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
-        let near = self.camera.near();
-        with_fade.min(self.camera.far().unwrap_or(f64::INFINITY)).clamp(near * 1.001 + 0.001, 1.0e6)
-    }
-}
-
-/// How pictures are drawn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Method {
-    /// The shadows; `None`: those that the pipeline says, `pcf` where it says nothing.
-    pub technique: Option<Technique>,
-    /// The passes.
-    pub pipeline: Pipeline,
-    /// How many samples each pixel has while colours are drawn: 1, or 4 for smooth edges.
-    pub samples: u32,
-}
-
-impl Default for Method {
-    fn default() -> Self {
-        Self { technique: None, pipeline: Pipeline::default(), samples: 1 }
-    }
-}
-
-impl Method {
-    /// Returns the technique that shadows are made with, without what the pipeline adds to it.
-    pub fn technique(&self) -> Technique {
-        self.technique.or(self.pipeline.technique()).unwrap_or_default()
-    }
-}
-
-impl From<Technique> for Method {
-    fn from(technique: Technique) -> Self {
-        Self { technique: Some(technique), ..Self::default() }
-    }
-}
-
-impl From<TechniqueKind> for Method {
-    fn from(kind: TechniqueKind) -> Self {
-        Technique::from(kind).into()
-    }
-}
-
-impl From<Pipeline> for Method {
-    fn from(pipeline: Pipeline) -> Self {
-        Self { pipeline, ..Self::default() }
-    }
-}
+use crate::{Error, Gpu, Method, Pipeline, SceneCasters, Show, ViewOptions, techniques};
 
 /// Draws one scene by one method.
 pub struct Renderer {

@@ -47,11 +47,7 @@ impl Wiring for Forward {
             .node("lighting", |frame| self.lighting.lit(frame, &buffers, &shadows, &depth, geometry, sky))?;
 
         // The picture.
-        let picture = frame.node("picture", |frame| {
-            let mut picture = view.picture(frame);
-            self.tonemap.add_to(frame, &light, &mut picture);
-            picture
-        });
+        let picture = view.tonemapped(frame, &self.tonemap, &light);
         Ok(Output { picture, light: Some(light), depth: Some(depth), view: Some(buffers), shadows })
     }
 }

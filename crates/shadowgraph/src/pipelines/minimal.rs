@@ -46,11 +46,7 @@ impl Wiring for Minimal {
         })?;
 
         // The picture.
-        let picture = frame.node("picture", |frame| {
-            let mut picture = view.picture(frame);
-            self.tonemap.add_to(frame, &light, &mut picture);
-            picture
-        });
+        let picture = view.tonemapped(frame, &self.tonemap, &light);
         Ok(Output { picture, light: Some(light), depth: Some(depth), view: Some(buffers), shadows })
     }
 }

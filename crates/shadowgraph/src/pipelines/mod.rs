@@ -51,6 +51,19 @@ pub struct Build<'b> {
     pub lit: LitTarget,
 }
 
+impl Build<'_> {
+    /// Refuses several samples a pixel, for a kind of node that reads texels one by one.
+    ///
+    /// # Errors
+    /// [`Error::OneSample`].
+    pub fn one_sample(&self, kind: &'static str) -> Result<(), Error> {
+        match self.lit.samples {
+            1 => Ok(()),
+            samples => Err(Error::OneSample { kind, samples }),
+        }
+    }
+}
+
 /// What a pipeline gives.
 pub struct Output<'f> {
     /// What is to be seen, as large as the view.

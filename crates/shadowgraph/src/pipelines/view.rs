@@ -1,7 +1,7 @@
 //! One view of a frame.
 
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::{Ambience, Geometry, Shows, ViewRecords};
+use shadowgraph_lighting::{Ambience, Geometry, Shows, Tonemap, ViewRecords};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_scene::{Camera, Light};
 use shadowgraph_shadows::{Screen, ShadowInputs, ShadowOutputs, ShadowTechnique, add_shadows};
@@ -80,6 +80,15 @@ impl<'v> View<'v> {
     pub fn texture_desc(&self, format: Format) -> TextureDesc {
         let [width, height] = self.options.size_px;
         TextureDesc::d2(width, height, format)
+    }
+
+    /// Adds the node that makes the picture of light, for pipelines that end with it.
+    pub fn tonemapped(&self, frame: &mut Frame<'_>, tonemap: &Tonemap, light: &Texture) -> Texture {
+        frame.node("picture", |frame| {
+            let mut picture = self.picture(frame);
+            tonemap.add_to(frame, light, &mut picture);
+            picture
+        })
     }
 
     /// Imports the texture that the picture goes to, or creates one of the frame.

@@ -3,6 +3,7 @@
 use super::*;
 use shadowgraph_core::StoreReason;
 use shadowgraph_scene::demo::demo_scene;
+use shadowgraph_shadows::ShadowSettings;
 use wgpu::TextureUsages;
 
 fn target(gpu: &Gpu, size_px: [u32; 2], format: Format, usage: TextureUsages) -> wgpu::Texture {

@@ -36,9 +36,7 @@ impl Node for Fog {
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        if build.lit.samples != 1 {
-            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
-        }
+        build.one_sample(Self::NAME)?;
         let own = FogSettings {
             albedo: settings.color("albedo")?,
             density: settings.number("density")?,

@@ -19,8 +19,7 @@ impl Node for Fxaa {
     const OUTPUTS: &'static [Port] =
         &[Port::texture("picture", "the same with smooth edges").of(Format::Rgba8UnormSrgb)];
 
-    fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        let _none = settings;
+    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
         Ok(Self { pass: FxaaPass::new(build.device)? })
     }
 

@@ -20,9 +20,7 @@ impl Node for HiZ {
         &[Port::texture("pyramid", "with all mips down to one texel").of(Format::R32Float)];
 
     fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        if build.lit.samples != 1 {
-            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
-        }
+        build.one_sample(Self::NAME)?;
         Ok(Self { passes: DepthPyramid::new(build.device)? })
     }
 

@@ -22,8 +22,7 @@ impl Node for ShadowDebug {
     const OUTPUTS: &'static [Port] =
         &[Port::texture("colors", "as they are to be seen, alpha 0 where nothing is").of(Format::Rgba8Unorm)];
 
-    fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        let _none = settings;
+    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
         let Build { device, layouts, technique, lit } = *build;
         let target = LitTarget { format: Format::Rgba8Unorm, shows: Shows::Debug, ..lit };
         Ok(Self { passes: Forward::new(device, layouts, technique, target)? })

@@ -35,9 +35,7 @@ impl Node for Sky {
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        if build.lit.samples != 1 {
-            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
-        }
+        build.one_sample(Self::NAME)?;
         let settings = SkySettings { disc_rad: settings.number("disc_rad")?, haze: settings.number("haze")? };
         Ok(Self { pass: SkyPass::new(build.device)?, settings })
     }

@@ -33,9 +33,7 @@ impl Node for Ssao {
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        if build.lit.samples != 1 {
-            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
-        }
+        build.one_sample(Self::NAME)?;
         let settings = OcclusionSettings {
             radius_m: settings.number("radius_m")?,
             power: settings.number("power")?,
@@ -48,10 +46,9 @@ impl Node for Ssao {
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        _view: &'f View<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let _ = view;
         let found = self.passes.add_to(frame, &ports.view("view")?, &ports.texture("depth")?, &self.settings);
         if let Some(occlusion) = &found.occlusion {
             ports.set("occlusion", occlusion.clone());

@@ -26,9 +26,7 @@ impl Node for Taa {
         &[Setting::new("fresh", Allows::Number(0.1, 0.01, 1.0), "the part of this frame")];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        if build.lit.samples != 1 {
-            return Err(Error::OneSample { kind: Self::NAME, samples: build.lit.samples });
-        }
+        build.one_sample(Self::NAME)?;
         Ok(Self { pass: Temporal::new(build.device)?, fresh: settings.number("fresh")? })
     }
 

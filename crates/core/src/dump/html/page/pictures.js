@@ -37,7 +37,8 @@ function paintPicture(canvas, picture, texels, opaque, only = null) {
   const grey = channels === 1 || picture.depth || only != null;
   // Light is toned down; all else is stretched, each channel over its own range.
   const light = picture.floats && !grey && channels > 2 && !picture.integers && texels.every((value) => !(value < 0));
-  const ranges = [0, 1, 2].map((channel) => (grey || channel < channels ? rangeOf(picture, texels, grey ? only : channel) : null));
+  const wanted = (channel) => picture.floats && !light && (grey ? channel === 0 : channel < channels);
+  const ranges = [0, 1, 2].map((channel) => (wanted(channel) ? rangeOf(picture, texels, grey ? only : channel) : null));
   for (let index = 0; index < width * height; index += 1) {
     const at = (channel) => texels[index * channels + channel];
     const out = image.data.subarray(index * 4, index * 4 + 4);
@@ -47,7 +48,7 @@ function paintPicture(canvas, picture, texels, opaque, only = null) {
       if (!grey && channel >= channels) out[channel] = 0;
       else if (!picture.floats) out[channel] = value;
       else if (Number.isNaN(value)) [out[0], out[1], out[2]] = [255, 0, 255];
-      else if (!light) out[channel] = value === 0 && picture.depth ? 0 : stretch(value, ranges[channel]);
+      else if (!light) out[channel] = value === 0 && picture.depth ? 0 : stretch(value, ranges[grey ? 0 : channel]);
       // Light without an upper end (Reinhard et al., 2002).
       else out[channel] = encode(Math.max(0, value) / (1 + Math.max(0, value)));
     }
