@@ -151,6 +151,15 @@ pub enum Error {
     /// wgpu objects to what passes record; found by `Compiled::execute_checked`.
     #[error("SG0606: wgpu refuses what {passes} records: {message}")]
     Refused { passes: String, message: String },
+    /// The device has no memory left for a texture or buffer.
+    #[error(
+        "SG0607: there is no memory left on the device for `{resource}` ({bytes} bytes): make it smaller, or let go of \
+         something else; the graph has let go of what it kept"
+    )]
+    OutOfMemory { resource: String, bytes: u64 },
+    /// The device is lost.
+    #[error("SG0608: the device is lost: open another, and make the graph and all else that was on it anew")]
+    DeviceLost,
     /// Neither a pass nor a resource has the name.
     #[error("SG0701: the frame has no pass and no resource `{name}`{hint}")]
     NoSuchName { name: String, hint: String },
@@ -196,6 +205,8 @@ impl Error {
             Self::Shader { .. } => "SG0604",
             Self::FormatSupport { .. } => "SG0605",
             Self::Refused { .. } => "SG0606",
+            Self::OutOfMemory { .. } => "SG0607",
+            Self::DeviceLost => "SG0608",
             Self::NoSuchName { .. } => "SG0701",
             Self::Dump { .. } => "SG0702",
         }

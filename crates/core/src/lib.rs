@@ -45,6 +45,8 @@ mod compile;
 mod compiled;
 mod declaration;
 mod desc;
+#[cfg(feature = "gpu")]
+mod device;
 mod dump;
 mod error;
 #[cfg(feature = "gpu")]
@@ -70,6 +72,8 @@ pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
 pub use compiled::Compiled;
 pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
+#[cfg(feature = "gpu")]
+pub use device::device_is_lost;
 pub use dump::{
     Diff, Difference, Drawing, Dump, HtmlPage, Outline, PageTable, Picture, PictureTile, Subject,
     TexelValues, Texels,

@@ -1,5 +1,7 @@
 //! Finding an adapter and opening a device.
 
+use shadowgraph_core::device_is_lost;
+
 use crate::Error;
 use crate::options::AdapterChoice;
 
@@ -102,7 +104,8 @@ impl Gpu {
 }
 
 impl Gpu {
-    /// Runs `work`, and returns what the device found wrong with it as an error: by default wgpu ends the program.
+    /// Runs `work`, and returns what the device found wrong with it as an error: by default wgpu ends the program. Whatever
+    /// goes wrong on a lost device does so for that.
     pub(crate) fn checked<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
         let scopes = [Internal, OutOfMemory, Validation].map(|filter| self.device.push_error_scope(filter));
@@ -110,11 +113,19 @@ impl Gpu {
         // Scopes end in reverse order, all of them.
         let errors: Vec<_> =
             scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
-        match errors.first() {
-            Some(error) => Err(Error::Gpu(error.to_string())),
-            None => done,
+        match (errors.first(), done) {
+            (None, Ok(done)) => Ok(done),
+            _ if device_is_lost(&self.device) => Err(shadowgraph_core::Error::DeviceLost.into()),
+            (Some(error), _) => Err(Error::Gpu(one_line(&error.to_string()))),
+            (None, Err(error)) => Err(error),
         }
     }
+}
+
+/// wgpu's words in one line.
+pub(crate) fn one_line(words: &str) -> String {
+    let lines: Vec<_> = words.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    lines.join("; ")
 }
 
 /// The best adapter of those that are asked for.

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use glam::DVec3;
 use shadowgraph_core::{Buffer, Compiled, Executed, Format, Frame, Graph, Part, Plan, Texture, Timer};
 use shadowgraph_lighting::{Ambience, Key, LitTarget, Shows};
 use shadowgraph_scene::gpu::GpuScene;
@@ -62,13 +63,57 @@ impl Renderer {
             // Data is not mixed.
             method.samples = 1;
         }
-        gpu.checked(|| Self::unchecked(gpu, scene, eye, aov, method))
+        Self::on(gpu, scene, origin_near(eye.position_world()), aov, method)
     }
 
-    fn unchecked(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov, method: Method) -> Result<Self, Error> {
+    /// Makes anew on another device all that this renderer has on its own, to go on after [`DeviceLost`]: the scene and what it
+    /// is drawn by stay, what passes kept from frame to frame is forgotten. Give up the lost device's [`Gpu`] for another
+    /// by [`Gpu::open`].
+    ///
+    /// ```
+    /// use shadowgraph::options::Aov;
+    /// use shadowgraph::scene::demo::demo_scene;
+    /// use shadowgraph::{Gpu, Renderer, ViewOptions};
+    /// # let open = Gpu::noop;
+    /// let (mut gpu, scene) = (open()?, demo_scene());
+    /// let camera = scene.cameras[0].clone();
+    /// let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color)?;
+    /// let options = ViewOptions { camera, size_px: [64, 36], shadows: Default::default() };
+    /// # gpu.device.destroy();
+    /// let mut drawn = renderer.draw(&gpu, &options);
+    /// if let Err(shadowgraph::Error::Graph(shadowgraph::core::Error::DeviceLost)) = drawn {
+    ///     gpu = open()?;
+    ///     renderer.move_to(&gpu)?;
+    ///     drawn = renderer.draw(&gpu, &options);
+    /// }
+    /// assert!(drawn.is_ok());
+    /// # Ok::<(), shadowgraph::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`with`](Self::with); the renderer is as it was then.
+    ///
+    /// [`DeviceLost`]: shadowgraph_core::Error::DeviceLost
+    pub fn move_to(&mut self, gpu: &Gpu) -> Result<(), Error> {
+        let (scene, origin_world) = (self.scene.clone(), self.casters.scene.origin_world());
+        let moved = Self::on(gpu, scene, origin_world, self.aov.clone(), self.method.clone())?;
+        *self = Self { shadow_camera: self.shadow_camera.take(), ..moved };
+        Ok(())
+    }
+
+    fn on(gpu: &Gpu, scene: Scene, origin_world: DVec3, aov: Aov, method: Method) -> Result<Self, Error> {
+        gpu.checked(|| Self::unchecked(gpu, scene, origin_world, aov, method))
+    }
+
+    fn unchecked(
+        gpu: &Gpu,
+        scene: Scene,
+        origin_world: DVec3,
+        aov: Aov,
+        method: Method,
+    ) -> Result<Self, Error> {
         let device = &gpu.device;
         let method = Method { pipeline: method.pipeline.on(gpu.adapter.device_type)?, ..method };
-        let origin_world = origin_near(eye.position_world());
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
         let technique = techniques::make(&method, gpu, &scene, origin_world)?;
         let (shows, format) = shows(&aov, &scene.lights)?;
@@ -133,7 +178,9 @@ impl Renderer {
     /// Draws a view and reads the picture back.
     ///
     /// # Errors
-    /// Settings out of range, a camera that sees nothing, a picture over the adapter's limits, or a failure of the GPU.
+    /// Settings out of range, a camera that sees nothing, a picture over the adapter's limits, or a failure of the GPU: after
+    /// [`OutOfMemory`](shadowgraph_core::Error::OutOfMemory) smaller pictures and shadow maps can be drawn, and after
+    /// [`DeviceLost`](shadowgraph_core::Error::DeviceLost) the renderer can [move](Self::move_to) to another device.
     pub fn draw(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<Drawn, Error> {
         self.draw_timed(gpu, options, None)
     }

@@ -6,6 +6,7 @@ mod aovs;
 mod captured;
 mod casters;
 mod hostile;
+mod lost;
 mod maps;
 mod measure;
 mod pipelines;

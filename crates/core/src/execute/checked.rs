@@ -55,7 +55,10 @@ impl Compiled<'_> {
         queue: &wgpu::Queue,
     ) -> Result<Executed, Box<FailedFrame>> {
         let plan = self.plan.clone();
-        record(self, graph, device, queue).map_err(|error| Box::new(FailedFrame { error, plan }))
+        record(self, graph, device, queue).map_err(|error| {
+            let error = graph.device.explain(device, error);
+            Box::new(FailedFrame { error, plan })
+        })
     }
 }
 

@@ -97,7 +97,9 @@ impl Compiled<'_> {
     /// Records the frame into `encoder`, with textures and buffers of `graph`. Nothing is submitted.
     ///
     /// # Errors
-    /// A limit of the device, or the failure of a pass body; the encoder is then to be dropped.
+    /// A limit of the device, or the failure of a pass body; the encoder is then to be dropped. Two that one can go on after,
+    /// with other settings or another device: [`Error::OutOfMemory`], and [`Error::DeviceLost`] where that is noticed: wgpu
+    /// drops what is recorded for a lost device in silence.
     pub fn execute(
         self,
         graph: &mut Graph,
@@ -138,6 +140,7 @@ impl Compiled<'_> {
         device: &wgpu::Device,
         threads: usize,
     ) -> Result<(Executed, Vec<wgpu::CommandBuffer>), Error> {
-        threads::record(self, &mut graph.device, device, threads)
+        let pool = &mut graph.device;
+        threads::record(self, pool, device, threads).map_err(|error| pool.explain(device, error))
     }
 }

@@ -42,6 +42,17 @@ pub(super) type Watch<'w> =
     dyn FnMut(&Recording<'_>, PassId, &mut wgpu::CommandEncoder) -> Result<(), Error> + 'w;
 
 pub(super) fn record(
+    compiled: Compiled<'_>,
+    pool: &mut Pool,
+    device: &wgpu::Device,
+    encoder: &mut wgpu::CommandEncoder,
+    timer: Option<&mut Timer>,
+    watch: Option<&mut Watch<'_>>,
+) -> Result<Executed, Error> {
+    follow(compiled, pool, device, encoder, timer, watch).map_err(|error| pool.explain(device, error))
+}
+
+fn follow(
     mut compiled: Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,

@@ -44,6 +44,11 @@ impl Histories {
         self.all.iter().map(|history| 2 * history.known.desc.bytes()).sum()
     }
 
+    /// Drops what was made for a frame that failed.
+    pub(crate) fn forget_fresh(&mut self) {
+        self.fresh.clear();
+    }
+
     /// Puts the textures of the frame's histories among its objects. Where they are not there yet or will not do, new
     /// ones are made, and the encoder carries over the contents that fit.
     pub(crate) fn arrive(

@@ -18,6 +18,7 @@ pub(crate) use uniforms::UniformBuffer;
 pub(crate) use views::{Purpose, Views, view};
 
 use crate::compiled::Compiled;
+use crate::device::device_is_lost;
 use crate::error::Error;
 use crate::execute::{Pattern, Realised};
 use crate::internal::RegionClears;
@@ -105,6 +106,29 @@ impl Pool {
     pub(crate) fn end_frame(&mut self, compiled: &Compiled<'_>) {
         let oldest = self.oldest();
         self.histories.leave(compiled, self.frame, oldest);
+    }
+
+    /// The error that a frame ended with, in the words that help most: whatever fails on a lost device fails for that. Where
+    /// memory ran out, all goes that the next frame can make anew.
+    pub(crate) fn explain(&mut self, device: &wgpu::Device, error: Error) -> Error {
+        match error {
+            Error::OutOfMemory { .. } => self.let_go(),
+            Error::DeviceLost => {}
+            _ if device_is_lost(device) => return Error::DeviceLost,
+            _ => {}
+        }
+        error
+    }
+
+    /// Drops all textures and buffers but histories and uniform blocks.
+    fn let_go(&mut self) {
+        self.slots = Slots::default();
+        self.staging = Staging::default();
+        self.histories.forget_fresh();
+        self.realised.clear();
+        let mut caches = self.caches();
+        (caches.views, caches.bind_groups) = Default::default();
+        caches.pattern = Pattern::default();
     }
 
     /// Returns an empty pool that has the pipelines of this one, for a frame that shall leave nothing but pipelines

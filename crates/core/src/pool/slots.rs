@@ -2,6 +2,7 @@
 
 use super::limit;
 use crate::desc::{BufferDesc, ResourceDesc, TextureDesc};
+use crate::device::make;
 use crate::error::Error;
 use crate::plan::Slot;
 use rustc_hash::FxHashMap;
@@ -130,17 +131,18 @@ fn create(device: &wgpu::Device, slot: &Slot, label: &str) -> Result<Physical, E
         }
         ResourceDesc::Buffer(desc) => {
             check_buffer(device, label, &desc, slot.buffer_usage)?;
-            Ok(Physical::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
+            let desc = wgpu::BufferDescriptor {
                 label: Some(label),
                 size: desc.bytes,
                 usage: slot.buffer_usage,
                 mapped_at_creation: false,
-            })))
+            };
+            Ok(Physical::Buffer(make(device, label, desc.size, |device| device.create_buffer(&desc))?))
         }
     }
 }
 
-/// Creates a texture, unless the device's limits forbid it.
+/// Creates a texture, unless the device's limits or its memory forbid it.
 pub(crate) fn create_texture(
     device: &wgpu::Device,
     desc: &TextureDesc,
@@ -151,7 +153,8 @@ pub(crate) fn create_texture(
     let usage = if desc.samples > 1 { usage | TextureUsages::RENDER_ATTACHMENT } else { usage };
     check_texture(device, label, desc)?;
     check_format(device, label, desc, usage)?;
-    Ok(device.create_texture(&wgpu::TextureDescriptor {
+    let bytes = desc.bytes();
+    let desc = wgpu::TextureDescriptor {
         label: Some(label),
         size: desc.size,
         mip_level_count: desc.mip_levels,
@@ -160,7 +163,8 @@ pub(crate) fn create_texture(
         format: desc.format,
         usage,
         view_formats: &[],
-    }))
+    };
+    make(device, label, bytes, |device| device.create_texture(&desc))
 }
 
 fn check_texture(device: &wgpu::Device, name: &str, desc: &TextureDesc) -> Result<(), Error> {

@@ -1,5 +1,6 @@
 //! Mapped memory through which a frame's bytes reach the GPU.
 
+use crate::device::make;
 use crate::error::Error;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -138,10 +139,11 @@ fn create(device: &wgpu::Device, bytes: u64, class: u64) -> Result<wgpu::Buffer,
     // The limit need be no multiple of 4, which the size of a mapped buffer has to be.
     let largest = device.limits().max_buffer_size & !(wgpu::COPY_BUFFER_ALIGNMENT - 1);
     super::limit("frame uploads", "max_buffer_size", bytes, largest)?;
-    Ok(device.create_buffer(&wgpu::BufferDescriptor {
+    let desc = wgpu::BufferDescriptor {
         label: Some("frame uploads"),
         size: class.min(largest),
         usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: true,
-    }))
+    };
+    make(device, "frame uploads", desc.size, |device| device.create_buffer(&desc))
 }

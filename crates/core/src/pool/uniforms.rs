@@ -1,6 +1,7 @@
 //! The buffer that holds a frame's uniform blocks.
 
 use super::staging::Chunk;
+use crate::device::make;
 use crate::error::Error;
 
 /// The smallest buffer in bytes.
@@ -32,12 +33,13 @@ impl UniformBuffer {
         super::limit("uniform blocks", "max_buffer_size", bytes, largest)?;
         let class = bytes.checked_next_power_of_two().unwrap_or(u64::MAX).max(MIN_BYTES);
         use wgpu::BufferUsages as Usage;
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        let desc = wgpu::BufferDescriptor {
             label: Some("uniform blocks"),
             size: class.min(largest),
             usage: Usage::UNIFORM | Usage::STORAGE | Usage::COPY_DST,
             mapped_at_creation: false,
-        });
+        };
+        let buffer = make(device, "uniform blocks", desc.size, |device| device.create_buffer(&desc))?;
         self.buffer = Some(buffer.clone());
         Ok(buffer)
     }

@@ -1,13 +1,12 @@
 //! Shaders as they are handed over.
 
+use crate::device::now;
 use crate::error::Error;
 use rustc_hash::FxHasher;
 use std::borrow::Cow;
 use std::error::Error as _;
 use std::hash::{Hash, Hasher};
-use std::pin::pin;
 use std::sync::Arc;
-use std::task::{Context, Poll, Waker};
 
 /// A string that need not be copied where it stands in the program.
 type Text = Cow<'static, str>;
@@ -86,15 +85,6 @@ fn words(objection: &wgpu::Error) -> String {
     let words = causes.map(|cause| cause.to_string().trim().to_owned());
     let words: Vec<_> = words.filter(|words| !words.starts_with("In ")).collect();
     if words.is_empty() { objection.to_string() } else { words.join(": ") }
-}
-
-/// The result of a future that is ready at once. In browsers error scopes are not, and there the mistake goes to the
-/// console instead.
-fn now<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
-    match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
-        Poll::Ready(result) => result,
-        Poll::Pending => None,
-    }
 }
 
 macro_rules! shader {

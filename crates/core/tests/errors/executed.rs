@@ -10,16 +10,50 @@ fn mistake(
     declare: impl FnOnce(&mut Frame<'_>),
 ) -> Mistake {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    mistake_on(&device, code, words, declare)
+}
+
+fn mistake_on(
+    device: &wgpu::Device,
+    code: &'static str,
+    words: &'static [&'static str],
+    declare: impl FnOnce(&mut Frame<'_>),
+) -> Mistake {
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut graph = Graph::new();
     let mut frame = graph.frame();
     declare(&mut frame);
     let compiled = graph.compile(frame);
     let error = match compiled {
-        Ok(compiled) => compiled.execute(&mut graph, &device, &mut encoder).err(),
+        Ok(compiled) => compiled.execute(&mut graph, device, &mut encoder).err(),
         Err(error) => Some(error),
     };
     Mistake { code, error: error.expect("a mistake"), words }
+}
+
+/// A quarter of a TiB: within the default limits, and beyond any device. `None` where no driver can say so.
+fn out_of_memory() -> Option<Mistake> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = pollster::block_on(instance.request_adapter(&Default::default())).ok()?;
+    let (device, _queue) = pollster::block_on(adapter.request_device(&Default::default())).ok()?;
+    let desc = TextureDesc::d2(8192, 8192, Format::Rgba32Float).layers(256);
+    let words = &["no memory left", "`voxels` (274877906944 bytes)", "make it smaller"];
+    Some(mistake_on(&device, "SG0607", words, |frame| {
+        let mut voxels = frame.create_texture("voxels", desc);
+        let mut pass = frame.compute_pass("voxelize");
+        pass.storage_texture_mut(&mut voxels, Contents::Cover);
+        pass.keep();
+    }))
+}
+
+fn lost() -> Mistake {
+    let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    device.destroy();
+    mistake_on(&device, "SG0608", &["device is lost", "open another"], |frame| {
+        let mut picture = frame.create_texture("picture", square());
+        frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.0; 4]));
+        frame.export_texture(&picture);
+    })
 }
 
 /// A pass in a node draws without a pipeline, which only wgpu knows is wrong.
@@ -47,8 +81,9 @@ fn refused() -> Mistake {
 }
 
 pub(crate) fn mistakes() -> Vec<Mistake> {
-    vec![
+    let mut mistakes = vec![
         refused(),
+        lost(),
         mistake(
             "SG0104",
             &["pass `b` touches `a` without", "belongs to `first`", "declare the access on `b`"],
@@ -97,5 +132,7 @@ pub(crate) fn mistakes() -> Vec<Mistake> {
             frame.fullscreen("red", &red).draw(&mut picture);
             frame.export_texture(&picture);
         }),
-    ]
+    ];
+    mistakes.extend(out_of_memory());
+    mistakes
 }

@@ -12,6 +12,7 @@ pub(crate) use request::Requested;
 pub(crate) use source::TexturePart;
 
 use crate::desc::TextureDesc;
+use crate::device::{device_is_lost, make};
 use crate::error::Error;
 use arrival::{Arrival, Outcome};
 use std::ops::Range;
@@ -126,7 +127,8 @@ impl ReadBack {
     /// Blocks until the bytes are here, and returns them. Submit the encoder before, or from another thread.
     ///
     /// # Errors
-    /// As the future, and when no submission comes within a second after the GPU has run out of work.
+    /// As the future, [`Error::DeviceLost`] where that is why the bytes do not come, and when no submission comes within a
+    /// second after the GPU has run out of work.
     pub fn wait(self, device: &wgpu::Device) -> Result<Vec<u8>, Error> {
         let (steps, step) = PATIENCE;
         for _ in 0..steps {
@@ -135,7 +137,8 @@ impl ReadBack {
             // Not there means not submitted, or that another thread has taken the callback and not run it yet,
             // or that it has submitted and not asked for the mapping yet. The last two take no time worth naming.
             if let Some(outcome) = self.arrival.outcome_within(step) {
-                return self.bytes(outcome);
+                let lost = |error| if device_is_lost(device) { Error::DeviceLost } else { error };
+                return self.bytes(outcome).map_err(lost);
             }
         }
         Err(self.problem("the encoder that copies it was not submitted: submit it before waiting".into()))
@@ -185,10 +188,11 @@ impl Rows {
 
 fn target(device: &wgpu::Device, name: &str, size: u64) -> Result<wgpu::Buffer, Error> {
     crate::pool::limit(name, "max_buffer_size", size, device.limits().max_buffer_size)?;
-    Ok(device.create_buffer(&wgpu::BufferDescriptor {
+    let desc = wgpu::BufferDescriptor {
         label: Some(name),
         size,
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
-    }))
+    };
+    make(device, name, size, |device| device.create_buffer(&desc))
 }

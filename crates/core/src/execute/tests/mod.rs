@@ -10,6 +10,7 @@ mod frames;
 mod gpu;
 mod history;
 mod imports;
+mod lost;
 mod merged;
 mod parts;
 mod poison;

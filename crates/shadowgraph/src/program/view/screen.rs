@@ -194,9 +194,7 @@ impl Screen {
 
 /// What a window that was taken away comes to.
 fn gone(reason: impl std::fmt::Display) -> Error {
-    let reason = reason.to_string();
-    let lines: Vec<&str> = reason.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    Error::Gpu(format!("the window is gone: {}", lines.join("; ")))
+    Error::Gpu(format!("the window is gone: {reason}"))
 }
 
 fn target(device: &wgpu::Device, [width, height]: [u32; 2], format: Format) -> wgpu::Texture {

@@ -1,0 +1,73 @@
+//! A device that is lost while a frame is drawn.
+
+use crate::stage::gpu;
+use shadowgraph::core::{Error::DeviceLost, Frame};
+use shadowgraph::options::{AdapterChoice, Aov};
+use shadowgraph::pipelines::{Build, Forward, Output, View, Wiring};
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::{Error, Gpu, Pipeline, Renderer, ViewOptions, wgpu};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// The forward pipeline, with a pass in the middle of the frame that destroys the device in the last of some frames.
+struct Breaks {
+    forward: Forward,
+    device: wgpu::Device,
+    frames: Arc<AtomicU32>,
+}
+
+impl Wiring for Breaks {
+    fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
+        let mut pass = frame.encoder_pass("break");
+        pass.keep();
+        pass.body(|_| {
+            if self.frames.fetch_sub(1, Ordering::Relaxed) == 1 {
+                self.device.destroy();
+            }
+            Ok(())
+        });
+        self.forward.add(frame, view)
+    }
+}
+
+fn breaks(frames: u32) -> Pipeline {
+    let frames = Arc::new(AtomicU32::new(frames));
+    Pipeline::script("forward", move |build: &Build<'_>| {
+        let (forward, device) = (Forward::new(build)?, build.device.clone());
+        Ok(Box::new(Breaks { forward, device, frames: frames.clone() }))
+    })
+}
+
+fn is_lost<T>(result: Result<T, Error>) -> bool {
+    matches!(result, Err(Error::Graph(DeviceLost)))
+}
+
+#[test]
+fn a_device_lost_in_the_middle_of_a_frame_is_an_error_and_the_same_picture_is_drawn_on_another() {
+    let Some(known) = gpu() else { return };
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let options = ViewOptions { camera, size_px: [128, 72], shadows: Default::default() };
+    let make = |gpu: &Gpu, pipeline: Pipeline| {
+        Renderer::with(gpu, scene.clone(), &options.camera, Aov::Color, pipeline)
+    };
+    let expected = make(known, Pipeline::forward()).unwrap().draw(known, &options).unwrap().picture;
+
+    let choice = AdapterChoice::Name(known.adapter.name.clone());
+    for frames in [1, 3] {
+        let mut gpu = Gpu::open(&choice).unwrap();
+        let mut renderer = make(&gpu, breaks(frames)).unwrap();
+        for _ in 1..frames {
+            assert!(renderer.draw(&gpu, &options).unwrap().picture == expected);
+        }
+        assert!(is_lost(renderer.draw(&gpu, &options)));
+        assert!(is_lost(renderer.draw(&gpu, &options)), "it stays lost");
+        assert!(is_lost(make(&gpu, Pipeline::forward())), "nothing is made on it");
+        assert!(is_lost(renderer.move_to(&gpu)), "nothing is moved to it");
+
+        gpu = Gpu::open(&choice).unwrap();
+        renderer.move_to(&gpu).unwrap();
+        let again = renderer.draw(&gpu, &options).unwrap().picture;
+        assert!(again == expected, "frames before: {frames}");
+    }
+}
