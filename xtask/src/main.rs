@@ -1,4 +1,4 @@
-//! The project's two commands: `cargo xtask demo` and `cargo xtask test`.
+//! The project's commands: `cargo xtask demo` and `cargo xtask test`, and what is run now and then.
 //!
 //! Nothing but the standard library, so that it builds at once and can prepare a machine for the rest.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool talks to its user")]
@@ -7,18 +7,23 @@ mod child;
 mod demo;
 mod driver;
 mod report;
+mod soak;
 mod suite;
 mod tally;
 
 use std::process::ExitCode;
 
 const HELP: &str = "\
-Shadowgraph's two commands:
+Shadowgraph's commands:
 
   cargo xtask demo    draw the built-in scene and dump its render graph into out/
   cargo xtask test    format, lints, every test, documentation: what a change must pass
 
-Both see to a Vulkan driver first (Linux): a software one is installed when there is none and
+  cargo xtask soak    read a million broken files, and draw 10000 frames of ever other pipelines, sizes, techniques and
+                      lights: on two cores about 40 minutes;
+                      another number: cargo xtask soak 2000
+
+All see to a Vulkan driver first (Linux): a software one is installed when there is none and
 apt-get may be used; otherwise the one line to run is printed.
 
 The program itself:  cargo run -- help
@@ -33,6 +38,14 @@ fn main() -> ExitCode {
         }
         ["demo"] => demo::run(),
         ["test"] => suite::run(),
+        ["soak"] => soak::run(soak::FRAMES),
+        ["soak", frames] => match frames.parse() {
+            Ok(frames @ 1..) => soak::run(frames),
+            _ => {
+                eprintln!("error: `cargo xtask soak {frames}`: give a number of frames, from 1 up");
+                ExitCode::from(2)
+            }
+        },
         other => {
             eprintln!("error: `cargo xtask {}` is not a command\n", other.join(" "));
             eprint!("{HELP}");

@@ -58,6 +58,7 @@ pub mod pipelines;
 pub mod program;
 mod registry;
 mod renderer;
+mod ron_file;
 mod show;
 mod surfaces;
 mod techniques;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use shadowgraph_scene::{Camera, Light, Projection, trials};
 
-use crate::Error;
+use crate::{Error, ron_file};
 
 /// Many cases: each scene under each of its suns from each of its views.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -102,13 +102,17 @@ impl CaseSet {
     /// # Errors
     /// [`Error::Cases`] with line and column, or the value that is out of range and its range.
     pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
-        let place = place.display().to_string();
-        let failed = |reason: String| Error::Cases { place: place.clone(), reason };
-        let set: Self = ron::from_str(text).map_err(|error| failed(error.to_string()))?;
+        let file = place.display().to_string();
+        let set: Self = ron_file::read(&file, text)?;
         if set.cases.is_empty() {
-            return Err(failed("there is no case; give at least one".into()));
+            return Err(
+                ron_file::wrong_field(&file, text, "cases", "there is no case; give at least one").into()
+            );
         }
-        set.cases.iter().try_for_each(|case| case.check().map_err(failed))?;
+        for (index, case) in set.cases.iter().enumerate() {
+            let wrong = |problem| ron_file::wrong_field(&file, text, &format!("cases.{index}"), problem);
+            case.check().map_err(wrong)?;
+        }
         Ok(set)
     }
 }
@@ -181,12 +185,16 @@ mod tests {
     #[test]
     fn a_wrong_case_is_refused_in_one_line_that_says_what_and_where() {
         let text = r#"(cases: [(scene: Trial("castle"))])"#;
-        assert!(problem(text).contains("my.ron: there is no trial `castle`; there is: cube, slats"));
+        assert!(problem(text).contains("my.ron:1:10: there is no trial `castle`; there is: cube, slats"));
         let text = r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [95], views: [])])"#;
         assert!(problem(text).contains("cube: sun_elevations_deg is 95; give heights above 0 and up to 90"));
         let text = r#"(cases: [(scene: Trial("cube"), suns: [])])"#;
-        assert!(problem(text).contains("my.ron: 1:") && problem(text).contains("suns"), "{}", problem(text));
-        assert!(problem("(cases: [])").contains("my.ron: there is no case"));
+        assert!(
+            problem(text).contains("my.ron:1:33: ") && problem(text).contains("suns"),
+            "{}",
+            problem(text)
+        );
+        assert!(problem("(cases: [])").contains("my.ron:1:9: there is no case"));
         let view = r#"(name: "a", eye: (NaN, 1, 2), target: (0, 1, 2))"#;
         let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
         assert!(problem(&text).contains("cube, view a: eye and target have NaN; give coordinates"));

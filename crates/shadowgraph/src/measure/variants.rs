@@ -6,7 +6,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use shadowgraph_shadows::{ShadowSettings, Techniques};
 
-use crate::Error;
+use crate::options::wrong_setting;
+use crate::{Error, ron_file};
 
 /// Shadow settings with a name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,20 +33,26 @@ impl VariantSet {
     /// # Errors
     /// [`Error::Cases`] with line and column, or the variant and what is wrong with it.
     pub fn parse(text: &str, place: &Path, techniques: &Techniques) -> Result<Self, Error> {
-        let failed = |reason: String| Error::Cases { place: place.display().to_string(), reason };
-        let set: Self = ron::from_str(text).map_err(|error| failed(error.to_string()))?;
+        let file = place.display().to_string();
+        let wrong = |path: &str, problem: &str| ron_file::wrong_field(&file, text, path, problem);
+        let set: Self = ron_file::read(&file, text)?;
         if set.variants.is_empty() {
-            return Err(failed("there is no variant; give at least one".into()));
+            return Err(wrong("variants", "there is no variant; give at least one").into());
         }
         let mut names = BTreeSet::new();
-        for Variant { name, settings } in &set.variants {
+        for (index, Variant { name, settings }) in set.variants.iter().enumerate() {
+            let at = format!("variants.{index}.name");
             if name.trim().is_empty() {
-                return Err(failed("a variant has no name".into()));
+                return Err(wrong(&at, "a variant has no name; give it one, for the tables").into());
             }
             if !names.insert(name) {
-                return Err(failed(format!("there are two variants `{name}`")));
+                return Err(
+                    wrong(&at, &format!("there are two variants `{name}`; call one otherwise")).into()
+                );
             }
-            techniques.check(settings).map_err(|error| failed(format!("`{name}`: {error}")))?;
+            let parents = format!("variants.{index}.settings.");
+            let checked = techniques.check(settings);
+            checked.map_err(|error| wrong_setting(&file, text, &parents, &error))?;
         }
         Ok(set)
     }
@@ -84,15 +91,18 @@ mod tests {
     #[test]
     fn mistakes_are_one_line_that_names_file_and_variant() {
         for (text, part) in [
-            ("(variants: [])", "there is no variant"),
-            (r#"(variants: [(name: " ", settings: ())])"#, "a variant has no name"),
-            (r#"(variants: [(name: "a", settings: ()), (name: "a", settings: ())])"#, "two variants `a`"),
-            (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, "`a`: shadow setting `distance_m`"),
+            ("(variants: [])", "mine.ron:1:12: there is no variant"),
+            (r#"(variants: [(name: " ", settings: ())])"#, "mine.ron:1:20: a variant has no name"),
+            (
+                r#"(variants: [(name: "a", settings: ()), (name: "a", settings: ())])"#,
+                "mine.ron:1:47: there are two variants `a`",
+            ),
+            (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, ":48: shadow setting `distance_m`"),
             (r#"(variants: [(name: "a", settings: (distance: 1.0))])"#, "distance"),
         ] {
             let error = error_of(text);
             assert!(
-                error.starts_with("mine.ron: ") && error.contains(part) && error.lines().count() == 1,
+                error.starts_with("mine.ron:1:") && error.contains(part) && error.lines().count() == 1,
                 "{error}"
             );
         }

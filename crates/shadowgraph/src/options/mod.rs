@@ -30,6 +30,7 @@ pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
 pub use error::OptionError;
 pub use settings::SettingsFile;
+pub(crate) use settings::wrong_setting;
 pub use size::Size;
 pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
 

@@ -1,6 +1,7 @@
 //! `--settings FILE`: shadow settings in RON.
 
 use super::OptionError;
+use crate::ron_file;
 use serde::Deserialize;
 use shadowgraph_shadows::{ShadowSettings, Techniques};
 use std::path::Path;
@@ -26,10 +27,29 @@ impl SettingsFile {
         let refused = |reason: String| OptionError::new(OPTION, format!("{}: {reason}", file.display()));
         let text =
             std::fs::read_to_string(file).map_err(|error| refused(format!("cannot be read: {error}")))?;
-        let settings: ShadowSettings = ron::from_str(&text).map_err(|error| refused(error.to_string()))?;
-        techniques.check(&settings).map_err(|error| refused(error.to_string()))?;
+        let name = file.display().to_string();
+        let refused = |wrong: ron_file::Wrong| OptionError::new(OPTION, wrong.to_string());
+        let settings: ShadowSettings = ron_file::read(&name, &text).map_err(refused)?;
+        techniques.check(&settings).map_err(|error| refused(wrong_setting(&name, &text, "", &error)))?;
         Ok(Self { settings, has_distance: has_distance(&text) })
     }
+}
+
+/// An error of checked settings, with the place of the field that it is about; `parents` is the path of the settings in the
+/// file, with a point behind each.
+pub(crate) fn wrong_setting(
+    file: &str,
+    text: &str,
+    parents: &str,
+    error: &shadowgraph_shadows::Error,
+) -> ron_file::Wrong {
+    use shadowgraph_shadows::Error::{NoTechnique, Setting, Technique};
+    let field = match error {
+        Setting { field, .. } => (*field).to_owned(),
+        Technique { technique: name, .. } | NoTechnique { name, .. } => format!("techniques.{name}"),
+        _ => String::new(),
+    };
+    ron_file::wrong_field(file, text, &format!("{parents}{field}"), error)
 }
 
 /// The one field for which it matters whether it was left out.
@@ -42,7 +62,7 @@ fn has_distance(text: &str) -> bool {
     fn absent() -> f64 {
         f64::NAN
     }
-    ron::from_str(text).is_ok_and(|distance: Distance| !distance.distance_m.is_nan())
+    ron_file::read_at(text).is_ok_and(|distance: Distance| !distance.distance_m.is_nan())
 }
 
 #[cfg(test)]
@@ -74,9 +94,24 @@ mod tests {
     }
 
     #[test]
+    fn what_is_wrong_is_told_with_file_line_column_and_the_way_out() {
+        let cases: &[(&str, &str)] = include!("settings/malformed.rs");
+        assert!(cases.len() >= 59, "{}", cases.len());
+        let mut wrong = Vec::new();
+        for (text, expected) in cases {
+            let error = load(text).err().unwrap_or_else(|| "it is taken".into());
+            let error = error.replace("settings.ron", "s.ron");
+            if !error.contains(expected) || error.lines().count() != 1 {
+                wrong.push(format!("{text}\n  {error}\n  expected: {expected}"));
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+
+    #[test]
     fn an_unknown_field_is_named_with_the_file_and_the_place() {
         let error = load("(no_such_field: 3)").unwrap_err();
-        assert!(error.contains("settings.ron: 1:") && error.contains("no_such_field"), "{error}");
+        assert!(error.contains("settings.ron:1:") && error.contains("no_such_field"), "{error}");
         assert_eq!(error.lines().count(), 1);
     }
 

@@ -48,6 +48,7 @@ pub struct CascadeSettings {
 
 /// How the shadow distance is divided among the cascades.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum SplitScheme {
     /// Fixed ratios for the number of cascades: 0.25 for two, 0.1 and 0.35 for three, 0.067, 0.2 and 0.467 for four;
     /// equal lengths for others.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::data::Report;
 use super::metric::{METRICS, Metric, metric};
 use super::summary::{mean, off, shown, worst};
-use crate::Error;
+use crate::{Error, ron_file};
 
 /// What the numbers of a report may be at most.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,11 +39,12 @@ impl Bounds {
     /// # Errors
     /// [`Error::Cases`] with line and column, or the metric that there is not.
     pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
-        let failed = |reason: String| Error::Cases { place: place.display().to_string(), reason };
-        let options =
-            ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-        let bounds: Self = options.from_str(text).map_err(|error| failed(error.to_string()))?;
-        bounds.bounds.iter().try_for_each(Bound::check).map_err(failed)?;
+        let file = place.display().to_string();
+        let bounds: Self = ron_file::read(&file, text)?;
+        for (index, bound) in bounds.bounds.iter().enumerate() {
+            let wrong = |problem| ron_file::wrong_field(&file, text, &format!("bounds.{index}"), problem);
+            bound.check().map_err(wrong)?;
+        }
         Ok(bounds)
     }
 
@@ -150,7 +151,10 @@ mod tests {
     #[test]
     fn wrong_bounds_are_refused_in_one_line() {
         let error = bounds(r#"(bounds: [(technique: "pcf", metric: "blur", worst: 1)])"#).unwrap_err();
-        assert!(error.starts_with("my.ron: there is no metric `blur`; there is: wrong_percent, "), "{error}");
+        assert!(
+            error.starts_with("my.ron:1:11: there is no metric `blur`; there is: wrong_percent, "),
+            "{error}"
+        );
         for (given, expected) in [
             ("worst: NaN", "pcf seam: worst is NaN; give a number of 0 or above"),
             ("mean: -1", "pcf seam: mean is -1; give"),
@@ -161,6 +165,6 @@ mod tests {
             assert!(error.contains(expected), "{error}");
         }
         let error = bounds("(bounds: [(technique: 3)])").unwrap_err();
-        assert!(error.starts_with("my.ron: 1:") && error.lines().count() == 1, "{error}");
+        assert!(error.starts_with("my.ron:1:") && error.lines().count() == 1, "{error}");
     }
 }
