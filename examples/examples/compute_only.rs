@@ -1,14 +1,14 @@
 //! A graph without a single draw: Conway's game of life, a hundred generations in one frame. Two buffers take turns, and the graph
 //! finds out that two are enough.
 //!
-//! `cargo run -p shadowgraph-examples --example compute_only` writes out/compute_only.png and tells of the memory.
-
+//! `cargo run -p shadowgraph-examples --example compute_only` writes out/compute_only.png and tells of the memory; with
+//! `-- --window` a hundred generations follow each frame.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
-use shadowgraph::Gpu;
-use shadowgraph::core::{BufferDesc, ComputeShader, Contents, Graph, Part};
-use shadowgraph::options::AdapterChoice;
-use shadowgraph::output::{Pixels, write_png};
+use shadowgraph::core::{BufferDesc, ComputeShader, Contents, Format, Graph, TextureDesc};
+use shadowgraph::{Gpu, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
 const SIDE: u32 = 128;
 const GENERATIONS: u32 = 100;
@@ -36,31 +36,66 @@ const LIFE: &str = "
         after[y * SIDE + x] = u32(lives);
     }";
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let life = ComputeShader::wgsl("life", LIFE);
-    let cells = SIDE * SIDE;
-    let mut graph = Graph::new();
-    let mut frame = graph.frame();
-    // Any pattern will do: the bits of a multiplied number.
-    let first: Vec<u8> =
-        (0..cells).flat_map(|i| (i.wrapping_mul(2_654_435_761) >> 30 & 1).to_le_bytes()).collect();
-    let mut now = frame.upload_buffer("first", first);
-    for generation in 1..=GENERATIONS {
-        let bytes = u64::from(cells) * 4;
-        let mut next = frame.create_buffer(format_args!("generation {generation}"), BufferDesc { bytes });
-        let pass = frame.compute(format_args!("live {generation}"), &life).storage(&now);
-        pass.storage_mut(&mut next, Contents::Cover).dispatch([SIDE / 8, SIDE / 8, 1]);
-        now = next;
-    }
-    let read = frame.read_back_buffer(&now, Part::WHOLE);
+const SHOW: &str = "
+    @group(0) @binding(0) var<storage, read> cells: array<u32>;
+    @group(0) @binding(1) var picture: texture_storage_2d<rgba8unorm, write>;
 
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
-    let read = executed.read_back(read).ok_or("nothing was read")?;
-    gpu.queue.submit([encoder.finish()]);
-    let cells = read.wait(&gpu.device)?;
-    println!("{}", executed.plan().to_text().lines().next().unwrap_or_default());
-    let grey: Vec<u8> = cells.chunks_exact(4).flat_map(|cell| [cell[0] * 255; 3]).collect();
-    Ok(write_png("out/compute_only.png".as_ref(), SIDE, SIDE, Pixels::Rgb, &grey)?)
+    @compute @workgroup_size(8, 8)
+    fn show(@builtin(global_invocation_id) id: vec3u) {
+        let cell = id.xy * 128u / textureDimensions(picture);
+        textureStore(picture, id.xy, vec4f(vec3f(f32(cells[cell.y * 128u + cell.x])), 1.0));
+    }";
+
+struct Life {
+    graph: Graph,
+    live: ComputeShader,
+    show: ComputeShader,
+}
+
+impl Example for Life {
+    const NAME: &'static str = "compute_only";
+    const SIZE_PX: [u32; 2] = [SIDE; 2];
+
+    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+        let (live, show) = (ComputeShader::wgsl("life", LIFE), ComputeShader::wgsl("show", SHOW));
+        Ok(Self { graph: Graph::new(), live, show })
+    }
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        number: u32,
+    ) -> Result<(), Failure> {
+        let mut frame = self.graph.frame();
+        // Any pattern will do: the bits of a multiplied number.
+        let cell = |i: u32| (i + number).wrapping_mul(2_654_435_761) >> 30 & 1;
+        let first: Vec<u8> = (0..SIDE * SIDE).flat_map(|i| cell(i).to_le_bytes()).collect();
+        let mut now = frame.upload_buffer("first", first);
+        for generation in 1..=GENERATIONS {
+            let bytes = u64::from(SIDE * SIDE) * 4;
+            let mut next = frame.create_buffer(format_args!("generation {generation}"), BufferDesc { bytes });
+            let pass = frame.compute(format_args!("live {generation}"), &self.live).storage(&now);
+            pass.storage_mut(&mut next, Contents::Cover).dispatch([SIDE / 8, SIDE / 8, 1]);
+            now = next;
+        }
+        let (width, height) = (target.width(), target.height());
+        let mut cells = frame.create_texture("cells", TextureDesc::d2(width, height, Format::Rgba8Unorm));
+        let pass =
+            frame.compute("show", &self.show).storage(&now).storage_texture_mut(&mut cells, Contents::Cover);
+        pass.dispatch([width.div_ceil(8), height.div_ceil(8), 1]);
+        let mut picture = frame.import_texture("picture", target, false);
+        frame.copy_pass("copy").texture(&cells, &mut picture);
+
+        let executed = self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
+        if number == 0 {
+            println!("{}", executed.plan().to_text().lines().next().unwrap_or_default());
+        }
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Life>()
 }

@@ -1,14 +1,15 @@
 //! A day: the sun goes its way, and each of its places is a PNG. Shadows lengthen, and exposure follows the light.
 //!
-//! `cargo run -p shadowgraph-examples --example day_cycle -- 24` writes out/day_cycle/00.png to 23.png.
+//! `cargo run -p shadowgraph-examples --example day_cycle` writes out/day_cycle/00.png to 23.png; `-- --window` goes
+//! through it again and again.
 
 use glam::{DVec3, Vec3};
-use indicatif::ProgressBar;
-use shadowgraph::options::{AdapterChoice, Aov};
-use shadowgraph::output::{Pixels, write_png};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
 /// The sun at a part of the day, 0 at its rise and 1 at its set: lower is redder and weaker.
 fn sun(day: f64) -> Light {
@@ -26,23 +27,41 @@ fn sun(day: f64) -> Light {
     }
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let count: u32 = std::env::args().nth(1).map_or(Ok(24), |count| count.parse())?;
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let scene = demo_scene();
-    let lamps = scene.lights[1..].to_vec();
-    let size_px = [320, 180];
-    let options = ViewOptions { camera: scene.cameras[0].clone(), size_px, shadows: Default::default() };
-    let mut renderer = Renderer::new(&gpu, scene, &options.camera, Aov::Color)?;
-    let progress = ProgressBar::new(count.into());
-    for number in 0..count {
-        let day = f64::from(number) / f64::from(count.max(2) - 1);
-        renderer.set_lights(std::iter::once(sun(day)).chain(lamps.clone()).collect())?;
-        let picture = renderer.draw(&gpu, &options)?.picture;
-        let file = format!("out/day_cycle/{number:02}.png");
-        write_png(file.as_ref(), size_px[0], size_px[1], Pixels::Rgba, &picture.rgba8)?;
-        progress.inc(1);
+struct Day {
+    renderer: Renderer,
+    options: ViewOptions,
+    lamps: Vec<Light>,
+}
+
+impl Example for Day {
+    const NAME: &'static str = "day_cycle";
+    const SIZE_PX: [u32; 2] = [320, 180];
+    const FRAMES: u32 = 24;
+    const SEQUENCE: bool = true;
+
+    fn new(gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+        let scene = demo_scene();
+        let lamps = scene.lights[1..].to_vec();
+        let camera = scene.cameras[0].clone();
+        let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
+        let renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color)?;
+        Ok(Self { renderer, options, lamps })
     }
-    progress.finish();
-    Ok(())
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        number: u32,
+    ) -> Result<(), Failure> {
+        let day = f64::from(number % Self::FRAMES) / f64::from(Self::FRAMES - 1);
+        self.renderer.set_lights(std::iter::once(sun(day)).chain(self.lamps.clone()).collect())?;
+        self.renderer.record(gpu, encoder, target, &self.options)?;
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Day>()
 }

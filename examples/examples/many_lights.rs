@@ -1,17 +1,19 @@
 //! A thousand lamps. With the pipeline `forward_plus` each pixel asks only those that reach its part of the view, and the picture is the
 //! same to the bit as with `forward`, which asks them all.
 //!
-//! `cargo run -p shadowgraph-examples --example many_lights` writes out/many_lights.png and tells how long both took on the GPU.
-
+//! `cargo run -p shadowgraph-examples --example many_lights` writes out/many_lights.png and tells how long the lighting took on the
+//! GPU; with `-- forward` it is drawn by that pipeline, and with `-- --window` it is a window.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use glam::{DVec3, Vec3};
 use shadowgraph::core::{PassTime, Timer};
-use shadowgraph::options::{AdapterChoice, Aov};
-use shadowgraph::output::{Pixels, write_png};
+use shadowgraph::options::Aov;
+use shadowgraph::pipelines::Choices;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
-use shadowgraph::{Gpu, Method, Pipeline, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Method, Pipeline, Renderer, ViewOptions, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
 const LAMPS: u32 = 1_000;
 
@@ -27,30 +29,47 @@ fn lamp(number: u32) -> Light {
     Light { name: None, kind, color, intensity: 12.0, casts_shadow: false }
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let mut scene = demo_scene();
-    // Moonlight.
-    scene.lights.truncate(1);
-    scene.lights[0].intensity = 0.6;
-    scene.lights.extend((0..LAMPS).map(lamp));
-    let size_px = [320, 180];
-    let options = ViewOptions { camera: scene.cameras[0].clone(), size_px, shadows: Default::default() };
+struct Lamps {
+    renderer: Renderer,
+    options: ViewOptions,
+}
 
-    let mut pictures = Vec::new();
-    for pipeline in [Pipeline::forward(), Pipeline::forward_plus()] {
-        let name = pipeline.name().to_owned();
-        let mut renderer =
-            Renderer::with(&gpu, scene.clone(), &options.camera, Aov::Color, Method::from(pipeline))?;
+impl Example for Lamps {
+    const NAME: &'static str = "many_lights";
+    const SIZE_PX: [u32; 2] = [320, 180];
+
+    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure> {
+        let mut scene = demo_scene();
+        // Moonlight.
+        scene.lights.truncate(1);
+        scene.lights[0].intensity = 0.6;
+        scene.lights.extend((0..LAMPS).map(lamp));
+        let camera = scene.cameras[0].clone();
+        let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
+        let name = words.first().map_or("forward_plus", String::as_str);
+        let method = Method::from(Pipeline::built_in(name, &Choices::default())?);
+        let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method)?;
         // A driver may compile shaders at the first draw.
-        renderer.draw(&gpu, &options)?;
-        let drawn = renderer.draw_timed(&gpu, &options, Some(&mut Timer::new()))?;
+        renderer.draw(gpu, &options)?;
+        let drawn = renderer.draw_timed(gpu, &options, Some(&mut Timer::new()))?;
         let lighting = drawn.times.iter().filter(|time| !time.pass.starts_with("shadows/"));
         let milliseconds: Option<f64> = lighting.map(PassTime::gpu_share_ms).sum();
         println!("{name}: {:.1} ms", milliseconds.unwrap_or(f64::NAN));
-        pictures.push(drawn.picture);
+        Ok(Self { renderer, options })
     }
-    println!("the pictures are equal: {}", pictures[0] == pictures[1]);
-    let [width, height] = size_px;
-    Ok(write_png("out/many_lights.png".as_ref(), width, height, Pixels::Rgba, &pictures[1].rgba8)?)
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        _number: u32,
+    ) -> Result<(), Failure> {
+        self.renderer.record(gpu, encoder, target, &self.options)?;
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Lamps>()
 }

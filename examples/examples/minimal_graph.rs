@@ -1,11 +1,11 @@
-//! The smallest graph: one pass that clears a texture, another that draws over it, and the picture read back.
+//! The smallest graph: one pass that clears a texture, and another that draws over it.
 //!
-//! `cargo run -p shadowgraph-examples --example minimal_graph` writes out/minimal_graph.png.
+//! `cargo run -p shadowgraph-examples --example minimal_graph` writes out/minimal_graph.png, and with `-- --window` it is a window.
 
-use shadowgraph::Gpu;
-use shadowgraph::core::{Contents, Format, FullscreenShader, Graph, Part, TextureDesc};
-use shadowgraph::options::AdapterChoice;
-use shadowgraph::output::{Pixels, write_png};
+use shadowgraph::core::{Contents, FullscreenShader, Graph};
+use shadowgraph::{Gpu, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
 const DISC: &str = "
     @fragment
@@ -17,21 +17,35 @@ const DISC: &str = "
         return vec4f(1.0, 0.5 + uv.y * 0.5, 0.2, 1.0);
     }";
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let disc = FullscreenShader::wgsl("disc", DISC);
-    let mut graph = Graph::new();
+struct Disc {
+    graph: Graph,
+    shader: FullscreenShader,
+}
 
-    let mut frame = graph.frame();
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(320, 180, Format::Rgba8UnormSrgb));
-    frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.05, 0.1, 0.2, 1.0]));
-    frame.fullscreen("disc", &disc).draw_over(&mut picture, None);
-    let texels = frame.read_back_texture(&picture, Part::WHOLE);
+impl Example for Disc {
+    const NAME: &'static str = "minimal_graph";
+    const SIZE_PX: [u32; 2] = [320, 180];
 
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
-    let texels = executed.read_back(texels).ok_or("nothing was read")?;
-    gpu.queue.submit([encoder.finish()]);
-    let bytes = texels.wait(&gpu.device)?;
-    Ok(write_png("out/minimal_graph.png".as_ref(), 320, 180, Pixels::Rgba, &bytes)?)
+    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+        Ok(Self { graph: Graph::new(), shader: FullscreenShader::wgsl("disc", DISC) })
+    }
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        _number: u32,
+    ) -> Result<(), Failure> {
+        let mut frame = self.graph.frame();
+        let mut picture = frame.import_texture("picture", target, false);
+        frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.05, 0.1, 0.2, 1.0]));
+        frame.fullscreen("disc", &self.shader).draw_over(&mut picture, None);
+        self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Disc>()
 }

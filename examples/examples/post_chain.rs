@@ -2,12 +2,10 @@
 //!
 //! `cargo run -p shadowgraph-examples --example post_chain` writes out/post_chain.png.
 
-use shadowgraph::Gpu;
-use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Part, Texture, TextureDesc};
-use shadowgraph::options::AdapterChoice;
-use shadowgraph::output::{Pixels, write_png};
-
-const SIZE_PX: [u32; 2] = [320, 180];
+use shadowgraph::core::{Format, FullscreenShader, Graph, TextureDesc};
+use shadowgraph::{Gpu, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
 const LAMPS: &str = "
     @fragment
@@ -45,32 +43,46 @@ const MIX: &str = "
         return vec4f(light / (light + 1.0), 1.0);
     }";
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let [lamps, blur, join] = [("lamps", LAMPS), ("blur", BLUR), ("join", MIX)]
-        .map(|(name, text)| FullscreenShader::wgsl(name, text));
-    let [width, height] = SIZE_PX;
-    let texture = |frame: &mut Frame<'_>, name: &str, format| -> Texture {
-        frame.create_texture(name, TextureDesc::d2(width, height, format))
-    };
-    let along = |x: i32, y: i32| [x, y].map(i32::to_le_bytes).concat();
+struct Chain {
+    graph: Graph,
+    shaders: [FullscreenShader; 3],
+}
 
-    let mut graph = Graph::new();
-    let mut frame = graph.frame();
-    let mut sharp = texture(&mut frame, "sharp", Format::Rgba16Float);
-    frame.fullscreen("lamps", &lamps).draw(&mut sharp);
-    let mut across = texture(&mut frame, "across", Format::Rgba16Float);
-    frame.fullscreen("across", &blur).sample(&sharp).uniform(&along(1, 0)[..]).draw(&mut across);
-    let mut soft = texture(&mut frame, "soft", Format::Rgba16Float);
-    frame.fullscreen("down", &blur).sample(&across).uniform(&along(0, 1)[..]).draw(&mut soft);
-    let mut picture = texture(&mut frame, "picture", Format::Rgba8UnormSrgb);
-    frame.fullscreen("join", &join).sample(&sharp).sample(&soft).draw(&mut picture);
-    let texels = frame.read_back_texture(&picture, Part::WHOLE);
+impl Example for Chain {
+    const NAME: &'static str = "post_chain";
+    const SIZE_PX: [u32; 2] = [320, 180];
 
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
-    let texels = executed.read_back(texels).ok_or("nothing was read")?;
-    gpu.queue.submit([encoder.finish()]);
-    let bytes = texels.wait(&gpu.device)?;
-    Ok(write_png("out/post_chain.png".as_ref(), width, height, Pixels::Rgba, &bytes)?)
+    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+        let shaders = [("lamps", LAMPS), ("blur", BLUR), ("join", MIX)]
+            .map(|(name, text)| FullscreenShader::wgsl(name, text));
+        Ok(Self { graph: Graph::new(), shaders })
+    }
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        _number: u32,
+    ) -> Result<(), Failure> {
+        let [lamps, blur, join] = &self.shaders;
+        let desc = TextureDesc::d2(target.width(), target.height(), Format::Rgba16Float);
+        let along = |x: i32, y: i32| [x, y].map(i32::to_le_bytes).concat();
+
+        let mut frame = self.graph.frame();
+        let mut sharp = frame.create_texture("sharp", desc);
+        frame.fullscreen("lamps", lamps).draw(&mut sharp);
+        let mut across = frame.create_texture("across", desc);
+        frame.fullscreen("across", blur).sample(&sharp).uniform(&along(1, 0)[..]).draw(&mut across);
+        let mut soft = frame.create_texture("soft", desc);
+        frame.fullscreen("down", blur).sample(&across).uniform(&along(0, 1)[..]).draw(&mut soft);
+        let mut picture = frame.import_texture("picture", target, false);
+        frame.fullscreen("join", join).sample(&sharp).sample(&soft).draw(&mut picture);
+        self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Chain>()
 }

@@ -1,26 +1,45 @@
 //! Coloured shadows: a window of stained glass, drawn with the technique that is named, or `pcf`.
 //!
-//! `cargo run -p shadowgraph-examples --example stained_glass -- raytraced`
-#![allow(clippy::print_stdout, reason = "an example is a program")]
+//! `cargo run -p shadowgraph-examples --example stained_glass -- raytraced` writes out/stained_glass.png; with `--window` too it is
+//! a window.
 
-use shadowgraph::options::{AdapterChoice, Aov};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::trials::stained_glass;
-use shadowgraph::shadows::{ShadowSettings, Techniques};
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::shadows::Techniques;
+use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let name = std::env::args().nth(1).unwrap_or_else(|| "pcf".into());
-    let technique = Techniques::built_in().find(&name)?;
-    let scene = stained_glass();
-    let camera = scene.cameras[0].clone();
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let options = ViewOptions { camera, size_px: [960, 540], shadows: ShadowSettings::default() };
-    let mut renderer = Renderer::with(&gpu, scene, &options.camera, Aov::Color, technique)?;
-    let picture = renderer.draw(&gpu, &options)?.picture;
-    let [width, height] = options.size_px;
-    let file = format!("out/stained_glass_{name}.png");
-    std::fs::create_dir_all("out")?;
-    image::save_buffer(&file, &picture.rgba8, width, height, image::ColorType::Rgba8)?;
-    println!("wrote {file}");
-    Ok(())
+struct StainedGlass {
+    renderer: Renderer,
+    options: ViewOptions,
+}
+
+impl Example for StainedGlass {
+    const NAME: &'static str = "stained_glass";
+    const SIZE_PX: [u32; 2] = [960, 540];
+
+    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure> {
+        let technique = Techniques::built_in().find(words.first().map_or("pcf", String::as_str))?;
+        let scene = stained_glass();
+        let camera = scene.cameras[0].clone();
+        let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
+        let renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, technique)?;
+        Ok(Self { renderer, options })
+    }
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        _number: u32,
+    ) -> Result<(), Failure> {
+        self.renderer.record(gpu, encoder, target, &self.options)?;
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<StainedGlass>()
 }

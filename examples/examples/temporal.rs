@@ -1,13 +1,12 @@
 //! A history: noise that is averaged over frames. The graph keeps what a frame left for the next, and says whether it is there.
 //!
-//! `cargo run -p shadowgraph-examples --example temporal` writes out/temporal_1.png and out/temporal_64.png.
+//! `cargo run -p shadowgraph-examples --example temporal` writes out/temporal.png after 64 frames; `-- --frames 1` shows the noise
+//! of one, and `-- --window` how it settles.
 
-use shadowgraph::Gpu;
-use shadowgraph::core::{Format, FullscreenShader, Graph, Part, Resize, TextureDesc};
-use shadowgraph::options::AdapterChoice;
-use shadowgraph::output::{Pixels, write_png};
-
-const SIZE_PX: [u32; 2] = [320, 180];
+use shadowgraph::core::{Format, FullscreenShader, Graph, Resize, TextureDesc};
+use shadowgraph::{Gpu, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
 
 /// Points in a disc's penumbra, one a frame: one frame is noise, many are soft.
 const ACCUMULATE: &str = "
@@ -37,34 +36,47 @@ const SHOW: &str = "
         return vec4f(textureLoad(mean, vec2u(position.xy), 0).rrr, 1.0);
     }";
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gpu = Gpu::open(&AdapterChoice::Auto)?;
-    let accumulate = FullscreenShader::wgsl("accumulate", ACCUMULATE);
-    let show = FullscreenShader::wgsl("show", SHOW);
-    let [width, height] = SIZE_PX;
-    let mut graph = Graph::new();
-    let mut frames = 0;
-    for number in 1..=64u32 {
-        let mut frame = graph.frame();
-        let mut mean = frame.history("mean", TextureDesc::d2(width, height, Format::R32Float), Resize::Reset);
-        // After a resize there is nothing before, and the mean begins anew.
-        frames = if mean.valid { frames + 1 } else { 1 };
-        let block: Vec<u8> =
-            [number as f32, 1.0 / frames as f32].iter().flat_map(|v| v.to_le_bytes()).collect();
-        let pass = frame.fullscreen("accumulate", &accumulate).sample(&mean.previous).uniform(&block[..]);
-        pass.draw(&mut mean.current);
-        let mut picture = frame.create_texture("picture", TextureDesc::d2(width, height, Format::Rgba8Unorm));
-        frame.fullscreen("show", &show).sample(&mean.current).draw(&mut picture);
-        let texels = frame.read_back_texture(&picture, Part::WHOLE);
+struct Mean {
+    graph: Graph,
+    accumulate: FullscreenShader,
+    show: FullscreenShader,
+    /// How many frames are in it.
+    frames: u32,
+}
 
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
-        let texels = executed.read_back(texels).ok_or("nothing was read")?;
-        gpu.queue.submit([encoder.finish()]);
-        if number == 1 || number == 64 {
-            let file = format!("out/temporal_{number}.png");
-            write_png(file.as_ref(), width, height, Pixels::Rgba, &texels.wait(&gpu.device)?)?;
-        }
+impl Example for Mean {
+    const NAME: &'static str = "temporal";
+    const SIZE_PX: [u32; 2] = [320, 180];
+    const FRAMES: u32 = 64;
+
+    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+        let accumulate = FullscreenShader::wgsl("accumulate", ACCUMULATE);
+        let show = FullscreenShader::wgsl("show", SHOW);
+        Ok(Self { graph: Graph::new(), accumulate, show, frames: 0 })
     }
-    Ok(())
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        number: u32,
+    ) -> Result<(), Failure> {
+        let desc = TextureDesc::d2(target.width(), target.height(), Format::R32Float);
+        let mut frame = self.graph.frame();
+        let mut mean = frame.history("mean", desc, Resize::Reset);
+        // After a resize there is nothing before, and the mean begins anew.
+        self.frames = if mean.valid { self.frames + 1 } else { 1 };
+        let block = [number as f32, 1.0 / self.frames as f32].map(f32::to_le_bytes).concat();
+        let pass = frame.fullscreen("accumulate", &self.accumulate);
+        pass.sample(&mean.previous).uniform(&block[..]).draw(&mut mean.current);
+        let mut picture = frame.import_texture("picture", target, false);
+        frame.fullscreen("show", &self.show).sample(&mean.current).draw(&mut picture);
+        self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Mean>()
 }

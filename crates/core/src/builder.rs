@@ -204,8 +204,8 @@ impl Pass<'_, '_, Encoding> {
 }
 
 impl Pass<'_, '_, Copying> {
-    /// Copies a texture to another, or mip 0 of each if they have several. For parts of the same size see
-    /// [`texture_parts`](Self::texture_parts).
+    /// Copies the bytes of a texture to another, or mip 0 of each if they have several; the formats may differ in being sRGB. For
+    /// parts of the same size see [`texture_parts`](Self::texture_parts).
     pub fn texture(&mut self, source: &Texture, target: &mut Texture) -> &mut Self {
         let (from, to) = (self.first_mip(source), self.first_mip(target));
         self.texture_parts(source, from, target, to)

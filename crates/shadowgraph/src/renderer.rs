@@ -303,17 +303,58 @@ impl Renderer {
         options: &ViewOptions,
         timer: Option<&mut Timer>,
     ) -> Result<Executed, Error> {
-        let options = ViewOptions { size_px: [target.width(), target.height()], ..options.clone() };
+        let options = options_for(target, options);
         self.check_target(target.format())?;
         self.move_origin(gpu, &options)?;
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
-        let output = self.add(&mut frame, &view)?;
+        self.add_into(&mut frame, &view, target)?;
+        self.execute(frame, gpu, encoder, timer)
+    }
+
+    /// Records several views in one frame, each into a target of its own, such as the halves of a split screen or two eyes: each
+    /// has its own shadow maps.
+    ///
+    /// # Errors
+    /// As [`record`](Self::record); views whose GPU space cannot be the same, as they are kilometres apart.
+    pub fn record_views(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        views: &[(&wgpu::Texture, &ViewOptions)],
+    ) -> Result<Executed, Error> {
+        let all: Vec<_> = views.iter().map(|(target, options)| options_for(target, options)).collect();
+        views.iter().try_for_each(|(target, _)| self.check_target(target.format()))?;
+        if let Some(first) = all.first() {
+            self.move_origin(gpu, first)?;
+        }
+        let planned: Vec<(View<'_>, &wgpu::Texture)> = (0u32..)
+            .zip(all.iter().zip(views))
+            .map(|(number, (options, (target, _)))| {
+                (View { number, ..self.view(options, Some(target)) }, *target)
+            })
+            .collect();
+        let mut frame = self.graph().frame();
+        for (view, target) in &planned {
+            let name = format_args!("view {}", view.number);
+            frame.node(name, |frame| self.add_into(frame, view, target))?;
+        }
+        self.execute(frame, gpu, encoder, None)
+    }
+
+    /// Adds the passes of a view whose picture goes to `target`.
+    fn add_into<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f View<'f>,
+        target: &wgpu::Texture,
+    ) -> Result<(), Error> {
+        let output = self.add(frame, view)?;
         if self.aov != Aov::Color {
             let mut target = frame.import_texture("target", target, false);
             frame.copy_pass("copy to target").texture(&output.picture, &mut target);
         }
-        self.execute(frame, gpu, encoder, timer)
+        Ok(())
     }
 
     /// Compiles the frame of a view without drawing it. Any device will do, [`Gpu::noop`] too.
@@ -440,6 +481,11 @@ impl Renderer {
             None => compiled.execute(&mut graph, &gpu.device, encoder)?,
         })
     }
+}
+
+/// The options of a view that is as large as its target.
+fn options_for(target: &wgpu::Texture, options: &ViewOptions) -> ViewOptions {
+    ViewOptions { size_px: [target.width(), target.height()], ..options.clone() }
 }
 
 /// What a view gives.

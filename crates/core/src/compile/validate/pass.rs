@@ -266,7 +266,9 @@ fn fits(from: &End, to: &End) -> bool {
         (ResourceDesc::Texture(a), ResourceDesc::Texture(b)) => {
             let (size, other) = (copy_extent(&from.part, &a), copy_extent(&to.part, &b));
             let whole = copies_in_part(&from.part, &a) && copies_in_part(&to.part, &b);
-            size.is_some() && size == other && (a.format, a.samples) == (b.format, b.samples) && whole
+            // Bytes are copied, so what they stand for need not be the same.
+            let shape = |desc: &TextureDesc| (desc.format.remove_srgb_suffix(), desc.samples);
+            size.is_some() && size == other && shape(&a) == shape(&b) && whole
         }
         (ResourceDesc::Buffer(a), ResourceDesc::Buffer(b)) => {
             let range = |part: &Part, bytes| part.bytes.unwrap_or((0, bytes));
@@ -290,7 +292,7 @@ fn misfit(from: &End, to: &End) -> String {
                 .into()
         }
         (ResourceDesc::Texture(_), ResourceDesc::Texture(_)) => {
-            "size, format and samples must agree: narrow both to parts of one size with `texture_parts`"
+            "size, samples and format (but for sRGB) must agree: narrow both to parts of one size with `texture_parts`"
                 .into()
         }
         (ResourceDesc::Texture(desc), _) => match padded_bytes(&from.part, desc) {

@@ -11,6 +11,24 @@ fn bytes(words: impl IntoIterator<Item = u32>) -> Vec<u8> {
 }
 
 #[test]
+fn bytes_are_copied_between_a_format_and_its_srgb_form() {
+    for gpu in Gpu::all() {
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let desc = TextureDesc::d2(16, 16, Format::Rgba8Unorm);
+        let mut plain = frame.create_texture("plain", desc);
+        frame.render_pass("clear").color(&mut plain, Contents::clear_color([0.5, 0.0, 0.0, 1.0]));
+        let mut encoded =
+            frame.create_texture("encoded", TextureDesc { format: Format::Rgba8UnormSrgb, ..desc });
+        frame.copy_pass("copy").texture(&plain, &mut encoded);
+        let encoded = frame.export_texture(&encoded);
+        let executed = gpu.run(&mut graph, frame);
+        let texels = gpu.texels(executed.texture(encoded).unwrap(), 0, 0);
+        assert!(texels.iter().all(|&texel| matches!(texel, 0xff00_007f | 0xff00_0080)), "{texels:x?}");
+    }
+}
+
+#[test]
 fn parts_of_textures_are_copied_to_parts_of_others() {
     for gpu in Gpu::all() {
         let draw = gpu.draw("place", NUMBERS);

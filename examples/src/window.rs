@@ -1,54 +1,43 @@
-//! The built-in scene in a window: each frame the graph draws into the texture that the surface gives.
-//!
-//! `cargo run -p shadowgraph-examples --example window`; with `-- --frames N` it ends after N frames.
-#![allow(clippy::print_stderr, reason = "an example is a program")]
+//! The same frames in a window: each is drawn into a texture, and a graph draws that into the texture that the surface gives.
 
-use glam::{DQuat, DVec3};
-use shadowgraph::options::Aov;
-use shadowgraph::scene::{Camera, Projection, demo::demo_scene};
-use shadowgraph::shadows::ShadowSettings;
-use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
-use std::{process::ExitCode, sync::Arc};
+use crate::{Arguments, Example, Failure, target};
+use shadowgraph::core::{FullscreenShader, Graph};
+use shadowgraph::{Gpu, wgpu};
+use std::sync::Arc;
 use winit::application::ApplicationHandler;
-use winit::dpi::{LogicalSize, PhysicalSize};
+use winit::dpi::{PhysicalSize, Size};
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::window::{Window, WindowAttributes, WindowId};
 
-type Failure = Box<dyn std::error::Error>;
+const SHOW: &str = "
+    @group(0) @binding(0) var picture: texture_2d<f32>;
 
-fn main() -> ExitCode {
-    let Err(error) = run() else { return ExitCode::SUCCESS };
-    eprintln!("error: {error}");
-    ExitCode::FAILURE
-}
+    @fragment
+    fn show(@builtin(position) position: vec4f) -> @location(0) vec4f {
+        return textureLoad(picture, vec2u(position.xy), 0);
+    }";
 
-fn run() -> Result<(), Failure> {
-    let arguments: Vec<_> = std::env::args().skip(1).collect();
-    let frames = match &arguments[..] {
-        [] => u64::MAX,
-        [name, count] if name == "--frames" => count.parse().map_err(|_| "--frames needs a number")?,
-        _ => return Err("usage: window [--frames N]".into()),
-    };
+pub(crate) fn run<E: Example>(arguments: &Arguments) -> Result<(), Failure> {
     let event_loop = EventLoop::new().map_err(|error| format!("there is no display: {error}"))?;
     let display = Box::new(event_loop.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
-    let mut app = App { instance, frames, screen: None, failure: None };
+    let mut app = App::<E> { instance, arguments, screen: None, failure: None };
     event_loop.run_app(&mut app)?;
     app.failure.map_or(Ok(()), Err)
 }
 
-struct App {
+struct App<'a, E> {
     instance: wgpu::Instance,
-    frames: u64,
+    arguments: &'a Arguments,
     /// There is no window before the event loop runs.
-    screen: Option<Screen>,
+    screen: Option<Screen<E>>,
     failure: Option<Failure>,
 }
 
-impl ApplicationHandler for App {
+impl<E: Example> ApplicationHandler for App<'_, E> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        match Screen::new(event_loop, &self.instance) {
+        match Screen::new(event_loop, &self.instance, &self.arguments.words) {
             Ok(screen) => self.screen = Some(screen),
             Err(failure) => self.fail(event_loop, failure),
         }
@@ -60,7 +49,7 @@ impl ApplicationHandler for App {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::Resized(size) => screen.resize(size),
             WindowEvent::RedrawRequested => match screen.draw() {
-                Ok(()) if screen.drawn >= self.frames => event_loop.exit(),
+                Ok(()) if Some(screen.drawn) == self.arguments.frames => event_loop.exit(),
                 Ok(()) => screen.window.request_redraw(),
                 Err(failure) => self.fail(event_loop, failure),
             },
@@ -69,26 +58,33 @@ impl ApplicationHandler for App {
     }
 }
 
-impl App {
+impl<E> App<'_, E> {
     fn fail(&mut self, event_loop: &ActiveEventLoop, failure: Failure) {
         self.failure = Some(failure);
         event_loop.exit();
     }
 }
 
-struct Screen {
+struct Screen<E> {
+    example: E,
     window: Arc<Window>,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     gpu: Gpu,
-    renderer: Renderer,
-    drawn: u64,
+    graph: Graph,
+    show: FullscreenShader,
+    picture: wgpu::Texture,
+    drawn: u32,
 }
 
-impl Screen {
-    fn new(event_loop: &ActiveEventLoop, instance: &wgpu::Instance) -> Result<Self, Failure> {
-        let attributes = WindowAttributes::default().with_title("Shadowgraph");
-        let attributes = attributes.with_inner_size(LogicalSize::new(960, 540));
+impl<E: Example> Screen<E> {
+    fn new(
+        event_loop: &ActiveEventLoop,
+        instance: &wgpu::Instance,
+        words: &[String],
+    ) -> Result<Self, Failure> {
+        let size = Size::Physical(E::SIZE_PX.into());
+        let attributes = WindowAttributes::default().with_title(E::NAME).with_inner_size(size);
         let window = Arc::new(event_loop.create_window(attributes)?);
         let surface = instance.create_surface(window.clone())?;
         let wanted = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
@@ -102,8 +98,17 @@ impl Screen {
         let srgb = surface.get_capabilities(&adapter).formats.into_iter().find(|format| format.is_srgb());
         config.format = srgb.ok_or("this window has no sRGB format")?;
         config.present_mode = wgpu::PresentMode::Fifo;
-        let renderer = Renderer::new(&gpu, demo_scene(), &camera(0), Aov::Color)?;
-        let mut screen = Self { window, surface, config, gpu, renderer, drawn: 0 };
+        let mut screen = Self {
+            example: E::new(&gpu, words)?,
+            window,
+            surface,
+            config,
+            graph: Graph::new(),
+            show: FullscreenShader::wgsl("show", SHOW),
+            picture: target(&gpu.device, E::SIZE_PX),
+            gpu,
+            drawn: 0,
+        };
         screen.resize(PhysicalSize { width, height });
         Ok(screen)
     }
@@ -112,6 +117,7 @@ impl Screen {
         // A minimised window has no size, and a surface must have one.
         (self.config.width, self.config.height) = (size.width.max(1), size.height.max(1));
         self.surface.configure(&self.gpu.device, &self.config);
+        self.picture = target(&self.gpu.device, [self.config.width, self.config.height]);
         self.window.request_redraw();
     }
 
@@ -127,23 +133,16 @@ impl Screen {
             // Hidden or late: the next frame may do better.
             _ => return Ok(()),
         };
-        let size_px = [self.config.width, self.config.height];
-        let options = ViewOptions { camera: camera(self.drawn), size_px, shadows: ShadowSettings::default() };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        // Imports the surface's texture into the frame. Work of your own can go before and after.
-        self.renderer.record(&self.gpu, &mut encoder, &surface_texture.texture, &options)?;
+        self.example.draw(&self.gpu, &mut encoder, &self.picture, self.drawn)?;
+        let mut frame = self.graph.frame();
+        let picture = frame.import_texture("picture", &self.picture, true);
+        let mut surface = frame.import_texture("surface", &surface_texture.texture, false);
+        frame.fullscreen("show", &self.show).sample(&picture).draw(&mut surface);
+        self.graph.compile(frame)?.execute(&mut self.graph, &self.gpu.device, &mut encoder)?;
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(surface_texture);
         self.drawn += 1;
         Ok(())
     }
-}
-
-/// Swings slowly around the courtyard.
-fn camera(frame: u64) -> Camera {
-    let target = DVec3::new(-2.3, 1.7, -4.6);
-    let angle = 0.3 * (frame as f64 * 0.01).sin();
-    let eye = target + DQuat::from_rotation_y(angle) * DVec3::new(11.9, 3.2, 19.0);
-    let projection = Projection::Perspective { fov_y: 0.8, near: 0.1, far: Some(320.0) };
-    Camera::look_at(eye, target, DVec3::Y, projection)
 }

@@ -1,0 +1,67 @@
+//! A pipeline of one's own, as a file and as a script, with a node of one's own in it: both give the same plan and pictures.
+//!
+//! `cargo run -p shadowgraph-examples --example custom_pipeline` writes out/custom_pipeline.png as the file draws it, and
+//! `-- script` as the script does; with `--window` too it is a window.
+#![allow(clippy::print_stdout, reason = "an example is a program")]
+
+mod script;
+mod vignette;
+
+use script::Script;
+use shadowgraph::options::Aov;
+use shadowgraph::pipelines::{Choices, Pipeline};
+use shadowgraph::scene::demo::demo_scene;
+use shadowgraph::shadows::EVSM;
+use shadowgraph::{Gpu, Method, Registry, Renderer, ViewOptions, wgpu};
+use shadowgraph_examples::{Example, Failure, main_of};
+use std::process::ExitCode;
+use vignette::Vignette;
+
+struct Mine {
+    /// The one that is seen comes last.
+    renderers: [Renderer; 2],
+    options: ViewOptions,
+}
+
+impl Example for Mine {
+    const NAME: &'static str = "custom_pipeline";
+    // Pixels look at another place in each frame, so edges are smooth after some.
+    const FRAMES: u32 = 8;
+
+    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure> {
+        let Registry { mut nodes, techniques } = Registry::built_in();
+        nodes.register::<Vignette>()?;
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/custom_pipeline/pipeline.ron");
+        let file = Pipeline::load(path.as_ref(), &nodes, &techniques, &Choices::default())?;
+        let script = Pipeline::script("script", |build| Ok(Box::new(Script::new(build)?)));
+        let script = Method { technique: Some(EVSM.into()), ..Method::from(script) };
+        let scene = demo_scene();
+        let camera = scene.cameras[0].clone();
+        let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
+        let renderer =
+            |method: Method| Renderer::with(gpu, scene.clone(), &options.camera, Aov::Color, method);
+        let mut renderers = [renderer(script)?, renderer(file.into())?];
+        if words.first().is_some_and(|word| word == "script") {
+            renderers.reverse();
+        }
+        Ok(Self { renderers, options })
+    }
+
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        number: u32,
+    ) -> Result<(), Failure> {
+        let [first, last] = &mut self.renderers;
+        let first = first.record(gpu, encoder, target, &self.options)?;
+        let last = last.record(gpu, encoder, target, &self.options)?;
+        println!("frame {number}: the plans are equal: {}", first.plan() == last.plan());
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    main_of::<Mine>()
+}

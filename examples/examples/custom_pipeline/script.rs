@@ -1,0 +1,72 @@
+//! The pipeline of `pipeline.ron` in Rust.
+
+use crate::vignette::Vignette;
+use shadowgraph::Error;
+use shadowgraph::core::{Format, Frame};
+use shadowgraph::lighting::post::{Bloom, Jitters, Occlusion, OcclusionSettings, Sky, SkySettings, Temporal};
+use shadowgraph::lighting::{Forward, Tonemap};
+use shadowgraph::nodes::GeometryNode;
+use shadowgraph::pipelines::{Build, Output, View, Wiring};
+
+/// What the pipeline keeps from frame to frame; each frame is one call per step.
+pub(crate) struct Script {
+    jitters: Jitters,
+    geometry: GeometryNode,
+    occlusion: Occlusion,
+    lighting: Forward,
+    sky: Sky,
+    temporal: Temporal,
+    bloom: Bloom,
+    vignette: Vignette,
+    tonemap: Tonemap,
+}
+
+impl Script {
+    pub(crate) fn new(build: &Build<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            jitters: Jitters::default(),
+            geometry: GeometryNode::new(build)?,
+            occlusion: Occlusion::new(build.device)?,
+            lighting: Forward::new(build.device, build.layouts, build.technique, build.lit)?,
+            sky: Sky::new(build.device)?,
+            temporal: Temporal::new(build.device)?,
+            bloom: Bloom::new(build.device)?,
+            vignette: Vignette::with(0.6),
+            tonemap: Tonemap::new(build.device)?,
+        })
+    }
+}
+
+impl Wiring for Script {
+    fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
+        let (geometry, camera) = (view.geometry(), (view.number, &view.options.camera));
+        let light =
+            |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
+
+        let buffers = view.records().shifted(self.jitters.next(view.number)).upload(frame);
+        let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
+        let shadows = view.shadows(frame, screen.as_ref())?;
+        let occluded = frame.node("occlusion", |frame| {
+            self.occlusion.add_to(frame, &buffers, &depth, &OcclusionSettings::default())
+        });
+        let mut lit = frame.node("lighting", |frame| {
+            self.lighting.lit(frame, &occluded, &shadows, &depth, geometry, view.background())
+        })?;
+        frame
+            .node("sky", |frame| self.sky.add_to(frame, &buffers, &depth, &mut lit, &SkySettings::default()));
+        let steady = frame
+            .node("temporal", |frame| self.temporal.add_to(frame, [&lit, &depth], camera, &buffers, 0.1));
+        let bloomed = frame.node("bloom", |frame| {
+            let mut target = light(frame);
+            self.bloom.add_to(frame, &steady, &mut target, 0.06, 6);
+            target
+        });
+        let darker = frame.node("vignette", |frame| {
+            let mut target = light(frame);
+            self.vignette.draw(frame, &bloomed, &mut target);
+            target
+        });
+        let picture = view.tonemapped(frame, &self.tonemap, &darker);
+        Ok(Output { picture, light: Some(lit), depth: Some(depth), view: Some(buffers), shadows })
+    }
+}

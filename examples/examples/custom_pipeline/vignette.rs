@@ -1,0 +1,48 @@
+//! A node of one's own, for files and for scripts.
+
+use shadowgraph::Error;
+use shadowgraph::core::{Format, Frame, FullscreenShader, Texture};
+use shadowgraph::nodes::{Allows, Node, Port, Ports, Setting, Settings};
+use shadowgraph::pipelines::{Build, View};
+
+/// Darkens the corners of the picture.
+pub(crate) struct Vignette {
+    shader: FullscreenShader,
+    strength: f32,
+}
+
+impl Node for Vignette {
+    const NAME: &'static str = "vignette";
+    const ABOUT: &'static str = "darkens the corners of the picture";
+    const INPUTS: &'static [Port] = &[Port::texture("light", "what is lit")];
+    const OUTPUTS: &'static [Port] = &[Port::texture("light", "the same, darker in the corners")];
+    const SETTINGS: &'static [Setting] =
+        &[Setting::new("strength", Allows::Number(0.5, 0.0, 1.0), "how dark corners are")];
+
+    fn new(_build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
+        Ok(Self::with(settings.number("strength")?))
+    }
+
+    fn add<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f View<'f>,
+        ports: &mut Ports<'_, 'f>,
+    ) -> Result<(), Error> {
+        let mut darker = ports.create("light", frame, view.texture_desc(Format::Rgba16Float));
+        self.draw(frame, &ports.texture("light")?, &mut darker);
+        ports.set("light", darker);
+        Ok(())
+    }
+}
+
+impl Vignette {
+    pub(crate) fn with(strength: f32) -> Self {
+        Self { shader: FullscreenShader::wgsl("vignette", include_str!("vignette.wgsl")), strength }
+    }
+
+    pub(crate) fn draw(&self, frame: &mut Frame<'_>, light: &Texture, darker: &mut Texture) {
+        let pass = frame.fullscreen("vignette", &self.shader).sample(light);
+        pass.uniform(&self.strength.to_le_bytes()).draw(darker);
+    }
+}
