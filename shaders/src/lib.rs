@@ -36,3 +36,7 @@ pub use source::{
     CLUSTERED, EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, OCCLUDED, PCSS, PREFILTER,
     RAYTRACED, SCREEN, builtin, builtin_files,
 };
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -121,7 +121,14 @@ fn entry_points_have_the_names_that_pipelines_use() {
     );
     assert_eq!(names("forward.wgsl"), ["vs_forward", "fs_forward"]);
     assert_eq!(names("tonemap.wgsl"), ["vs_tonemap", "fs_tonemap"]);
-    let show = ["vs_show_depth", "vs_show_texture", "fs_show_depth", "fs_show_atlas", "fs_show_texture"];
+    let show = [
+        "vs_show_depth",
+        "vs_show_texture",
+        "fs_show_depth",
+        "fs_show_atlas",
+        "fs_show_texture",
+        "fs_show_grey",
+    ];
     assert_eq!(names("show.wgsl"), show);
 }
 

@@ -4,6 +4,7 @@
 //   vs_show_depth, fs_show_depth    the camera's depth: white near, dark far, black where nothing is drawn
 //   vs_show_depth, fs_show_atlas    raw depth, stretched to what the texture holds; black where it is empty
 //   vs_show_texture, fs_show_texture    any float texture
+//   vs_show_texture, fs_show_grey       one of a single channel
 #import shadowgraph::view::view_depth_from_depth
 #import shadowgraph::fullscreen::fullscreen_vertex
 
@@ -92,4 +93,10 @@ fn fs_show_atlas(in: ShowVertex) -> @location(0) vec4f {
 fn fs_show_texture(in: ShowVertex) -> @location(0) vec4f {
     let texel = textureLoad(float_texture, texel_at(in.uv, textureDimensions(float_texture)), 0);
     return vec4f(texel.rgb, 1.0);
+}
+
+@fragment
+fn fs_show_grey(in: ShowVertex) -> @location(0) vec4f {
+    let texel = textureLoad(float_texture, texel_at(in.uv, textureDimensions(float_texture)), 0);
+    return vec4f(texel.rrr, 1.0);
 }

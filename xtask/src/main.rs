@@ -5,6 +5,7 @@
 
 mod child;
 mod demo;
+mod docs;
 mod driver;
 mod report;
 mod soak;
@@ -19,9 +20,11 @@ Shadowgraph's commands:
   cargo xtask demo    draw the built-in scene and dump its render graph into out/
   cargo xtask test    format, lints, every test, documentation: what a change must pass
 
+and what is run now and then:
+
+  cargo xtask docs    draw the pictures of the documents anew, and make the book of them (with mdbook) in out/book
   cargo xtask soak    read a million broken files, and draw 10000 frames of ever other pipelines, sizes, techniques and
-                      lights: on two cores about 40 minutes;
-                      another number: cargo xtask soak 2000
+                      lights; another number: cargo xtask soak 2000
 
 All see to a Vulkan driver first (Linux): a software one is installed when there is none and
 apt-get may be used; otherwise the one line to run is printed.
@@ -37,6 +40,7 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         ["demo"] => demo::run(),
+        ["docs"] => docs::run(),
         ["test"] => suite::run(),
         ["soak"] => soak::run(soak::FRAMES),
         ["soak", frames] => match frames.parse() {

@@ -34,3 +34,7 @@ pub use gbuffer::{GBuffer, GBufferPass};
 pub use prepass::{Geometry, Prepass};
 pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
 pub use tonemap::Tonemap;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -36,3 +36,7 @@ pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
 pub use scene::{Instance, Scene};
 pub use srgb::light_from_srgb;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

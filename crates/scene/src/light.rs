@@ -64,6 +64,20 @@ impl LightKind {
 }
 
 impl Light {
+    /// Makes a white light from infinitely far away that casts shadows: the way it travels, any length, and its strength in lux
+    /// (full sunlight is about 100,000).
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use shadowgraph_scene::Light;
+    /// assert!(Light::sun(DVec3::new(-1.0, -2.0, -0.5), 100_000.0).is_usable());
+    /// ```
+    #[must_use]
+    pub fn sun(direction: DVec3, lux: f32) -> Self {
+        let kind = LightKind::Directional { direction: direction.normalize_or(DVec3::NEG_Y) };
+        Self { name: None, kind, color: Vec3::ONE, intensity: lux, casts_shadow: true }
+    }
+
     /// Returns how far the light reaches, metres; `None` for directional lights.
     ///
     /// That is the given range, else the distance at which its illuminance falls under

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 use crate::Aabb;
+use crate::solids::shape;
 
 mod normals;
 mod tangents;
@@ -68,6 +69,19 @@ impl Mesh {
     pub fn new(name: impl Into<String>, vertices: Vec<Vertex>, indices: Vec<u32>) -> Self {
         let bounds = Aabb::from_points(vertices.iter().map(position));
         Self { name: name.into(), vertices, indices, bounds }
+    }
+
+    /// Makes a box from one corner to the opposite one, metres.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use shadowgraph_scene::Mesh;
+    /// let cube = Mesh::cuboid(DVec3::splat(-0.5), DVec3::splat(0.5));
+    /// assert_eq!(cube.indices.len(), 6 * 2 * 3);
+    /// ```
+    #[must_use]
+    pub fn cuboid(min: DVec3, max: DVec3) -> Self {
+        shape::cuboid(min.min(max), min.max(max)).finish("box")
     }
 }
 

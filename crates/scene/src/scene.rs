@@ -53,6 +53,25 @@ impl Scene {
         bounds.unwrap_or(Aabb::EMPTY)
     }
 
+    /// Adds a mesh in a material where `world_from_local` puts it, and returns the index of the instance.
+    ///
+    /// ```
+    /// use glam::{DAffine3, DVec3};
+    /// use shadowgraph_scene::{Material, Mesh, Scene};
+    /// let mut scene = Scene::default();
+    /// let cube = Mesh::cuboid(DVec3::ZERO, DVec3::ONE);
+    /// scene.add(cube, Material::default(), DAffine3::from_translation(DVec3::X));
+    /// assert_eq!(scene.bounds().max.x, 2.0);
+    /// ```
+    pub fn add(&mut self, mesh: Mesh, material: Material, world_from_local: DAffine3) -> usize {
+        let name = mesh.name.clone();
+        self.meshes.push(mesh);
+        self.materials.push(material);
+        let (mesh, material) = (self.meshes.len() - 1, self.materials.len() - 1);
+        self.instances.push(Instance { name, mesh, material, world_from_local });
+        self.instances.len() - 1
+    }
+
     /// Adds a light after the others of its kind, and returns its index.
     ///
     /// ```

@@ -71,6 +71,16 @@ pub enum Error {
         /// The names there are.
         known: String,
     },
+    /// A texture that is no picture.
+    #[error(
+        "--aov {name}: {format:?} holds whole numbers, which are no picture; `dump -o frame.html` shows them"
+    )]
+    NoPicture {
+        /// The texture's name.
+        name: String,
+        /// Its format.
+        format: shadowgraph_core::Format,
+    },
     /// A pipeline is not right.
     #[error(transparent)]
     Pipeline(#[from] crate::pipelines::PipelineError),

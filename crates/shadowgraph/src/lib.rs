@@ -87,13 +87,18 @@ pub use shadowgraph_shaders as shaders;
 pub use shadowgraph_shadows as shadows;
 
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-mod readme {}
+mod readme {
+    #[doc = include_str!("../README.md")]
+    mod own {}
+    #[doc = include_str!("../../../README.md")]
+    mod project {}
+}
 
+/// The pages of the book whose code is tested here; `docs/errors.md` is the core's.
 #[cfg(doctest)]
-#[doc = include_str!("../../../docs/guide.md")]
-mod guide {}
-
-#[cfg(doctest)]
-#[doc = include_str!("../../../docs/pipelines.md")]
-mod pipelines_document {}
+mod book {
+    #[doc = include_str!("../../../docs/graph.md")]
+    mod graph {}
+    #[doc = include_str!("../../../docs/pipelines.md")]
+    mod pipelines {}
+}

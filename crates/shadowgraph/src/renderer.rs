@@ -409,6 +409,7 @@ impl Renderer {
             }
             Aov::Texture(name) => {
                 let texture = frame.find_texture(name).ok_or_else(|| no_texture(frame, name))?;
+                has_picture(frame, &texture, name)?;
                 let buffers = buffers()?;
                 Ok(frame.node("picture", |frame| self.show.textures(frame, buffers, &[&texture], size_px)))
             }
@@ -496,6 +497,18 @@ pub(crate) struct Shown {
     pub(crate) records: Option<[Buffer; 2]>,
     /// The lights that are to cast shadows but have none, and why.
     pub(crate) unshadowed: Vec<Unshadowed>,
+}
+
+/// An error for textures of whole numbers.
+fn has_picture(frame: &Frame<'_>, texture: &Texture, name: &str) -> Result<(), Error> {
+    let desc = frame.texture_desc(texture);
+    let Some(format) = desc.map(|desc| desc.format).filter(|format| !format.is_depth_stencil_format()) else {
+        return Ok(());
+    };
+    match format.sample_type(None, None) {
+        Some(wgpu::TextureSampleType::Float { .. }) => Ok(()),
+        _ => Err(Error::NoPicture { name: name.into(), format }),
+    }
 }
 
 fn no_texture(frame: &Frame<'_>, name: &str) -> Error {

@@ -20,6 +20,7 @@ pub struct Show {
     camera_depth: wgpu::RenderPipeline,
     raw_depth: wgpu::RenderPipeline,
     float: wgpu::RenderPipeline,
+    grey: wgpu::RenderPipeline,
 }
 
 impl Show {
@@ -55,6 +56,7 @@ impl Show {
             camera_depth: make([&view_layout, &depth_layout], "vs_show_depth", "fs_show_depth", PLAIN),
             raw_depth: make([&view_layout, &depth_layout], "vs_show_depth", "fs_show_atlas", PLAIN),
             float: make([&view_layout, &float_layout], "vs_show_texture", "fs_show_texture", SRGB),
+            grey: make([&view_layout, &float_layout], "vs_show_texture", "fs_show_grey", SRGB),
             view_layout,
             depth_layout,
             float_layout,
@@ -73,7 +75,7 @@ impl Show {
     }
 
     /// Adds the pass that shows textures side by side, each as large as it fits: depth as it lies in the texture,
-    /// stretched to the range that is used; colours as they are.
+    /// stretched to the range that is used; a single channel grey; colours as they are.
     pub fn textures<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -82,7 +84,11 @@ impl Show {
         size_px: [u32; 2],
     ) -> Texture {
         let depth = textures.iter().any(|texture| is_depth(frame, texture));
-        let (pipeline, format) = if depth { (&self.raw_depth, PLAIN) } else { (&self.float, SRGB) };
+        let (pipeline, format) = match depth {
+            true => (&self.raw_depth, PLAIN),
+            false if textures.iter().all(|texture| has_one_channel(frame, texture)) => (&self.grey, SRGB),
+            false => (&self.float, SRGB),
+        };
         self.show(frame, view, textures, pipeline, format, size_px)
     }
 
@@ -122,6 +128,10 @@ impl Show {
 
 fn is_depth(frame: &Frame<'_>, texture: &Texture) -> bool {
     frame.texture_desc(texture).is_some_and(|desc| desc.format.is_depth_stencil_format())
+}
+
+fn has_one_channel(frame: &Frame<'_>, texture: &Texture) -> bool {
+    frame.texture_desc(texture).is_some_and(|desc| desc.format.components() == 1)
 }
 
 fn size_of_texture(frame: &Frame<'_>, texture: &Texture) -> [f32; 2] {

@@ -72,3 +72,7 @@ pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
     NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView, TilePlace,
 };
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -3,9 +3,10 @@
 use crate::stage::{camera, cube_on_floor, draw, gpu, sun, view};
 use glam::DVec3;
 use shadowgraph::options::{Aov, ShadowDistance};
+use shadowgraph::pipelines::Choices;
 use shadowgraph::scene::Scene;
 use shadowgraph::scene::demo::demo_scene;
-use shadowgraph::{Error, Picture, Renderer, ViewOptions};
+use shadowgraph::{Error, Method, Picture, Pipeline, Registry, Renderer, ViewOptions};
 use std::collections::HashSet;
 
 fn cube() -> (Scene, ViewOptions) {
@@ -95,6 +96,25 @@ fn any_texture_of_the_graph_can_be_shown_and_an_unknown_one_lists_those_there_ar
     let error = renderer.draw(gpu, &options).unwrap_err();
     assert!(matches!(error, Error::NoTexture { .. }));
     assert!(error.to_string().contains("it has: ") && error.to_string().contains("lit"), "{error}");
+}
+
+#[test]
+fn a_texture_of_whole_numbers_is_refused_and_one_of_a_single_channel_is_grey() {
+    let Some(gpu) = gpu() else { return };
+    let draw = |name: &str, pipeline: Pipeline| {
+        let (scene, options) = cube();
+        let aov = Aov::Texture(name.into());
+        let mut renderer = Renderer::with(gpu, scene, &options.camera, aov, Method::from(pipeline)).unwrap();
+        renderer.draw(gpu, &options).map(|drawn| drawn.picture)
+    };
+    let error = draw("normals", Pipeline::deferred()).unwrap_err().to_string();
+    assert!(error.starts_with("--aov normals: Rg32Uint holds whole numbers"), "{error}");
+    let everything = shadowgraph_tests::repository().join("docs/everything.ron");
+    let Registry { nodes, techniques } = Registry::built_in();
+    let choices = Choices { parameters: vec![("ssao".into(), true.into())], ..Choices::default() };
+    let pipeline = Pipeline::load(&everything, &nodes, &techniques, &choices).unwrap();
+    let occlusion = draw("occlusion", pipeline).unwrap();
+    assert!(occlusion.rgba8.chunks(4).all(|texel| texel[0] == texel[1] && texel[1] == texel[2]));
 }
 
 #[test]
