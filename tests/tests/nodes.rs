@@ -29,7 +29,10 @@ fn told(arguments: &[&str]) -> (Option<i32>, String, String) {
 #[test]
 fn nodes_tells_all_about_a_node_a_pipeline_a_technique_and_the_shared_settings() {
     let (code, text, _) = told(&["bloom"]);
-    assert!(code == Some(0) && text.contains("set    strength           0.06; 0 to 1"), "{text}");
+    assert!(
+        code == Some(0) && text.contains("set    strength           0.06; a number from 0 to 1"),
+        "{text}"
+    );
     let (_, text, _) = told(&["deferred"]);
     assert!(text.starts_with("pipeline deferred, as a file") && text.contains("takes  gbuffer"), "{text}");
     let (_, text, _) = told(&["pcss"]);

@@ -50,8 +50,8 @@ impl Setting {
     pub fn allowed(&self) -> String {
         let range = match self.allows {
             Allows::Toggle(_) => return "true or false".into(),
-            Allows::Integer(_, low, high) => format!("{low} to {high}, a whole number"),
-            Allows::Number(_, low, high) => format!("{low} to {high}"),
+            Allows::Integer(_, low, high) => format!("a whole number from {low} to {high}"),
+            Allows::Number(_, low, high) => format!("a number from {low} to {high}"),
             Allows::Choice(_, of) => return format!("one of {}", of.join(", ")),
             Allows::Text(_) => return "a text".into(),
             Allows::Color(_) => return "three numbers from 0 on, such as (1.0, 0.5, 0.0)".into(),

@@ -50,7 +50,10 @@ fn a_kind_that_contradicts_itself_is_refused() {
     assert!(refused::<Known>().contains("a kind of that name already"));
     assert!(refused::<TwoInputs>().contains("two inputs `x`"));
     assert!(refused::<TwoOutputs>().contains("two outputs `x`"));
-    assert!(refused::<Default_>().contains("a default is out of its range: n is 9; it can be 0 to 8"));
+    assert!(
+        refused::<Default_>()
+            .contains("a default is out of its range: n is 9; it can be a whole number from 0 to 8")
+    );
     assert!(refused::<StandIn>().contains("only textures have stand-ins"));
 }
 
@@ -60,7 +63,7 @@ fn a_kind_is_told_with_ports_ranges_and_defaults() {
     nodes.register::<Good>().unwrap();
     let text = nodes.describe("e").unwrap();
     assert!(text.contains("takes  x") && text.contains("texture: what is read"), "{text}");
-    assert!(text.contains("8; 0 to 8, a whole number: how many"), "{text}");
+    assert!(text.contains("8; a whole number from 0 to 8: how many"), "{text}");
     assert!(nodes.describe("tonemapp").unwrap_err().to_string().ends_with("did you mean `tonemap`?"));
     assert!(nodes.describe("?").unwrap_err().to_string().contains("there is: view"));
 }
@@ -86,7 +89,7 @@ fn values_out_of_range_or_of_another_type_are_told_with_what_is_allowed() {
     assert!(fault(Allows::Toggle(true), json!(1)).unwrap().contains("true or false"));
     assert_eq!(fault(Allows::Number(0.5, 0.0, 1.0), json!(1)), None);
     let high = fault(Allows::Number(0.5, 0.0, 1.0), json!(1.5)).unwrap();
-    assert_eq!(high, "n is 1.5; it can be 0 to 1 (m)");
+    assert_eq!(high, "n is 1.5; it can be a number from 0 to 1 (m)");
     assert!(fault(Allows::Integer(1, 0, 4), json!(0.5)).is_some());
     assert!(fault(Allows::Choice("a", &["a", "b"]), json!("c")).unwrap().contains("one of a, b"));
     assert_eq!(fault(Allows::Text(""), json!("any")), None);

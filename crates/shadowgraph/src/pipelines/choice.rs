@@ -160,6 +160,14 @@ impl Pipeline {
         }
     }
 
+    /// Returns whether its file has a node of this name whose `when` does not hold.
+    pub(crate) fn leaves_out(&self, node: &str) -> bool {
+        match &*self.0 {
+            Kind::File { file, .. } => file.left_out().any(|name| name == node),
+            Kind::Script { .. } => false,
+        }
+    }
+
     /// Returns the technique that its file names.
     pub fn technique(&self) -> Option<Technique> {
         match &*self.0 {

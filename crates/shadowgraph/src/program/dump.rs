@@ -10,8 +10,9 @@ use super::progress::Progress;
 use super::report::{self, Planned};
 use crate::core::{Dump, HtmlPage, trace_json};
 use crate::inspect::lights;
+use crate::options::OptionError;
 use crate::output::write_text;
-use crate::{Drawn, Gpu, Registry, Renderer};
+use crate::{Drawn, Gpu, Pipeline, Registry, Renderer};
 
 /// What pages are called, with the scene's file behind it.
 const TITLE: &str = "Shadowgraph frame";
@@ -112,11 +113,17 @@ fn usage(message: &str) -> Failure {
 
 /// `shadowgraph explain`
 pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Failure> {
-    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input(&args.draw, registry)?)?;
-    console::print(&match &args.before {
-        Some(after) => plan.explain_order(&args.name, after)?,
-        None => plan.explain(&args.name)?,
-    })?;
+    let input = input(&args.draw, registry)?;
+    let pipeline = input.options.method().pipeline;
+    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input)?;
+    let told = match &args.before {
+        Some(after) => plan.explain_order(&args.name, after),
+        None => plan.explain(&args.name),
+    };
+    console::print(&told.map_err(|error| match pipeline.leaves_out(&args.name) {
+        true => Failure::from(OptionError::new("explain", left_out(&args.name, &pipeline))),
+        false => error.into(),
+    })?)?;
     let asked = [Some(&args.name), args.before.as_ref()];
     let is = |pass: &str, name: &str| pass == name || pass.rsplit('/').next() == Some(name);
     times.retain(|time| asked.iter().flatten().any(|name| is(&time.pass, name)));
@@ -125,6 +132,11 @@ pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Fai
     } else {
         console::print(&format!("\n{}", report::times(&times, &gpu.adapter)))
     }
+}
+
+fn left_out(node: &str, pipeline: &Pipeline) -> String {
+    let name = pipeline.name();
+    format!("the node `{node}` of {name} is left out, as its `when` does not hold: see --set and --tier")
 }
 
 /// A plan needs no GPU, but times do, and an adapter that is named is to be there.

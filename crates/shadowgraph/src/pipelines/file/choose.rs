@@ -1,5 +1,7 @@
 //! Parameters, tiers and conditions: what of a document is there.
 
+use std::fmt;
+
 use serde_json::Value;
 
 use super::document::{Condition, Document, Pairs};
@@ -15,6 +17,15 @@ pub struct Choices {
     pub tier: Option<String>,
     /// The kind of device: `cpu`, `integrated`, `discrete`, `virtual` or `other`; `None` where it is not known.
     pub device: Option<&'static str>,
+}
+
+/// As they stand on the command line, in brackets behind something else; nothing for none.
+impl fmt::Display for Choices {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let set = self.parameters.iter().map(|(name, value)| format!("--set {name}={value}"));
+        let words: Vec<_> = set.chain(self.tier.iter().map(|tier| format!("--tier {tier}"))).collect();
+        if words.is_empty() { Ok(()) } else { write!(f, " (with {})", words.join(" ")) }
+    }
 }
 
 /// Kinds of devices that a file can have a tier for.

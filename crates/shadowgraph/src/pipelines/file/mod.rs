@@ -84,7 +84,15 @@ impl PipelineFile {
         for tier in document.all_choices() {
             Self::chosen(name, &document, nodes, techniques, &tier)?;
         }
+        // What the file says by itself is right by now.
         Self::chosen(name, &document, nodes, techniques, choices)
+            .map_err(|error| PipelineError { problem: format!("{}{choices}", error.problem), ..error })
+    }
+
+    /// Returns the nodes whose `when` does not hold.
+    pub(super) fn left_out(&self) -> impl Iterator<Item = &str> {
+        let names = self.document.nodes.iter().map(|entry| entry.name.value.as_str());
+        names.filter(|name| self.resolved.nodes.iter().all(|node| node.name != *name))
     }
 
     fn chosen(

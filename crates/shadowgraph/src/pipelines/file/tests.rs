@@ -125,7 +125,7 @@ fn a_choice_that_the_file_does_not_have_is_told_with_those_that_it_has() {
     let parameter =
         |name: &str, value| Choices { parameters: vec![(name.into(), value)], ..Choices::default() };
     let error = choose(parameter("prepas", json!(true)));
-    assert!(error.ends_with("there is no parameter `prepas`; did you mean `prepass`?"), "{error}");
+    assert!(error.contains("there is no parameter `prepas`; did you mean `prepass`?"), "{error}");
     let error = choose(parameter("prepass", json!(3)));
     assert!(
         error.contains("parameter `prepass`: 3 is a number, and the parameter is true or false"),
@@ -187,4 +187,24 @@ fn the_schema_has_every_kind_with_its_ports_and_ranges() {
     assert_eq!(forward["properties"]["inputs"]["required"], json!(["view", "shadows"]));
     let shadows = kinds.iter().find(|kind| kind["properties"]["kind"]["const"] == "shadows").unwrap();
     assert_eq!(shadows["properties"]["settings"]["properties"]["collected"]["default"], json!(false));
+}
+
+#[test]
+fn what_is_wrong_with_a_choice_is_told_with_the_option_and_a_node_left_out_is_known() {
+    let text = changed(&[
+        ("nodes: [", "parameters: {\"blur\": 0.1, \"on\": false},\n nodes: ["),
+        (
+            "(name: \"picture\"",
+            "(name: \"glow\", kind: \"bloom\", when: On(\"on\"), inputs: {\"light\": \"lighting\"}, settings: {\"strength\": \"$blur\"}),\n(name: \"picture\"",
+        ),
+        ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": [\"glow\", \"lighting\"]})"),
+    ]);
+    let choose = |blur: f64, on: bool| Choices {
+        parameters: vec![("blur".into(), json!(blur)), ("on".into(), json!(on))],
+        ..Choices::default()
+    };
+    let error = load_beside(&text, "", &choose(5.0, true)).unwrap_err();
+    assert!(error.ends_with("it can be a number from 0 to 1 (with --set blur=5.0 --set on=true)"), "{error}");
+    assert!(load_beside(&text, "", &choose(0.5, false)).unwrap().leaves_out("glow"));
+    assert!(!load_beside(&text, "", &choose(0.5, true)).unwrap().leaves_out("glow"));
 }
