@@ -9,6 +9,7 @@ use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::Technique;
 use shadowgraph::{Gpu, Method, Pipeline, Registry, Renderer, ViewOptions};
 use shadowgraph_tests::skip;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Frames where nobody asks for more.
 const FRAMES: u32 = 120;
@@ -157,20 +158,36 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
     }
 }
 
-/// Runs this program for each share of the frames.
+/// Runs this program for each share of the frames, as many at a time as there are cores, up to four: they take some GiB each.
 fn in_processes(frames: u32) {
-    for seed in 0..frames.div_ceil(SHARE) {
-        let share = SHARE.min(frames - seed * SHARE);
-        println!("soak: frames {} to {} of {frames}", seed * SHARE + 1, seed * SHARE + share);
-        let mut program = std::process::Command::new(std::env::current_exe().unwrap());
-        let variables = [("SHADOWGRAPH_SOAK", share), ("SHADOWGRAPH_SOAK_SEED", seed)];
-        program.arg("--nocapture").envs(variables.map(|(name, number)| (name, number.to_string())));
-        let done = program.output().unwrap();
-        let text = String::from_utf8_lossy(&done.stdout);
-        text.lines().filter(|line| line.contains("soak: ")).for_each(|line| println!("{line}"));
-        let said = String::from_utf8_lossy(&done.stderr);
-        assert!(done.status.success(), "{variables:?}\n{text}\n{said}");
-    }
+    let processes = frames.div_ceil(SHARE);
+    let next = AtomicU32::new(0);
+    let work = || {
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= processes {
+                return;
+            }
+            // Those that are left over when all have the same go to the first.
+            in_process(seed, frames / processes + u32::from(seed < frames % processes));
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| (0..cores.min(4)).for_each(|_| drop(scope.spawn(work))));
+    println!("soak: {frames} frames, nothing wrong");
+}
+
+fn in_process(seed: u32, share: u32) {
+    let mut program = std::process::Command::new(std::env::current_exe().unwrap());
+    let variables = [("SHADOWGRAPH_SOAK", share), ("SHADOWGRAPH_SOAK_SEED", seed)];
+    program.arg("--nocapture").envs(variables.map(|(name, number)| (name, number.to_string())));
+    let done = program.output().unwrap();
+    let text = String::from_utf8_lossy(&done.stdout);
+    let told: Vec<_> =
+        text.lines().filter_map(|line| line.split_once("soak: ")).map(|(_, told)| told).collect();
+    println!("soak: seed {seed}: {}", told.join("; "));
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{variables:?}\n{text}\n{said}");
 }
 
 /// On the device that draws nothing, the process's memory is ours and wgpu's: it stays. On a software driver, the device's memory
