@@ -5,9 +5,9 @@
 //! `-- --window` a hundred generations follow each frame.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
+use shadowgraph::Gpu;
 use shadowgraph::core::{BufferDesc, ComputeShader, Contents, Format, Graph, TextureDesc};
-use shadowgraph::{Gpu, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 const SIDE: u32 = 128;
@@ -61,13 +61,7 @@ impl Example for Life {
         Ok(Self { graph: Graph::new(), live, show })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let mut frame = self.graph.frame();
         // Any pattern will do: the bits of a multiplied number.
         let cell = |i: u32| (i + number).wrapping_mul(2_654_435_761) >> 30 & 1;

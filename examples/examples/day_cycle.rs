@@ -7,8 +7,8 @@ use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
-use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 /// The sun at a part of the day, 0 at its rise and 1 at its set: lower is redder and weaker.
@@ -48,13 +48,7 @@ impl Example for Day {
         Ok(Self { renderer, options, lamps })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let day = f64::from(number % Self::FRAMES) / f64::from(Self::FRAMES - 1);
         self.renderer.set_lights(std::iter::once(sun(day)).chain(self.lamps.clone()).collect())?;
         self.renderer.record(gpu, encoder, target, &self.options)?;

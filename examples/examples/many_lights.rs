@@ -11,8 +11,8 @@ use shadowgraph::options::Aov;
 use shadowgraph::pipelines::Choices;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
-use shadowgraph::{Gpu, Method, Pipeline, Renderer, ViewOptions, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph::{Gpu, Method, Pipeline, Renderer, ViewOptions};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 const LAMPS: u32 = 1_000;
@@ -58,13 +58,7 @@ impl Example for Lamps {
         Ok(Self { renderer, options })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        _number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, .. }: Canvas<'_>) -> Result<(), Failure> {
         self.renderer.record(gpu, encoder, target, &self.options)?;
         Ok(())
     }

@@ -2,9 +2,9 @@
 //!
 //! `cargo run -p shadowgraph-examples --example minimal_graph` writes out/minimal_graph.png, and with `-- --window` it is a window.
 
+use shadowgraph::Gpu;
 use shadowgraph::core::{Contents, FullscreenShader, Graph};
-use shadowgraph::{Gpu, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 const DISC: &str = "
@@ -30,13 +30,7 @@ impl Example for Disc {
         Ok(Self { graph: Graph::new(), shader: FullscreenShader::wgsl("disc", DISC) })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        _number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, .. }: Canvas<'_>) -> Result<(), Failure> {
         let mut frame = self.graph.frame();
         let mut picture = frame.import_texture("picture", target, false);
         frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.05, 0.1, 0.2, 1.0]));

@@ -2,9 +2,9 @@
 //!
 //! `cargo run -p shadowgraph-examples --example post_chain` writes out/post_chain.png.
 
+use shadowgraph::Gpu;
 use shadowgraph::core::{Format, FullscreenShader, Graph, TextureDesc};
-use shadowgraph::{Gpu, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 const LAMPS: &str = "
@@ -58,13 +58,7 @@ impl Example for Chain {
         Ok(Self { graph: Graph::new(), shaders })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        _number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, .. }: Canvas<'_>) -> Result<(), Failure> {
         let [lamps, blur, join] = &self.shaders;
         let desc = TextureDesc::d2(target.width(), target.height(), Format::Rgba16Float);
         let along = |x: i32, y: i32| [x, y].map(i32::to_le_bytes).concat();

@@ -7,7 +7,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Camera, Projection};
 use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
-use shadowgraph_examples::{Example, FORMAT, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, FORMAT, Failure, main_of};
 use std::process::ExitCode;
 
 /// Where two people stand, and where they look.
@@ -34,13 +34,7 @@ impl Example for SplitScreen {
         Ok(Self { renderer, views })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        _number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, .. }: Canvas<'_>) -> Result<(), Failure> {
         let size = wgpu::Extent3d { width: (target.width() / 2).max(1), ..target.size() };
         let halves = [(); 2].map(|()| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {

@@ -6,8 +6,8 @@
 use shadowgraph::options::Aov;
 use shadowgraph::scene::trials::stained_glass;
 use shadowgraph::shadows::Techniques;
-use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 struct StainedGlass {
@@ -28,13 +28,7 @@ impl Example for StainedGlass {
         Ok(Self { renderer, options })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        _number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, .. }: Canvas<'_>) -> Result<(), Failure> {
         self.renderer.record(gpu, encoder, target, &self.options)?;
         Ok(())
     }

@@ -3,9 +3,9 @@
 //! `cargo run -p shadowgraph-examples --example temporal` writes out/temporal.png after 64 frames; `-- --frames 1` shows the noise
 //! of one, and `-- --window` how it settles.
 
+use shadowgraph::Gpu;
 use shadowgraph::core::{Format, FullscreenShader, Graph, Resize, TextureDesc};
-use shadowgraph::{Gpu, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 /// Points in a disc's penumbra, one a frame: one frame is noise, many are soft.
@@ -55,13 +55,7 @@ impl Example for Mean {
         Ok(Self { graph: Graph::new(), accumulate, show, frames: 0 })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let desc = TextureDesc::d2(target.width(), target.height(), Format::R32Float);
         let mut frame = self.graph.frame();
         let mut mean = frame.history("mean", desc, Resize::Reset);

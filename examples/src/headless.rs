@@ -1,6 +1,6 @@
 //! Pictures without a window.
 
-use crate::{Arguments, Example, Failure, target};
+use crate::{Arguments, Canvas, Example, Failure, target};
 use indicatif::ProgressBar;
 use shadowgraph::core::{Graph, Part};
 use shadowgraph::output::{Pixels, write_png};
@@ -13,7 +13,7 @@ pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Fa
     let progress = if frames > 1 { ProgressBar::new(frames.into()) } else { ProgressBar::hidden() };
     for number in 0..frames {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        example.draw(gpu, &mut encoder, &picture, number)?;
+        example.draw(Canvas { gpu, encoder: &mut encoder, target: &picture, number })?;
         gpu.queue.submit([encoder.finish()]);
         let file = match E::SEQUENCE {
             true => format!("out/{}/{number:02}.png", E::NAME),

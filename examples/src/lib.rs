@@ -32,18 +32,23 @@ pub trait Example: Sized {
     /// Whatever the example cannot do.
     fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure>;
 
-    /// Draws frame `number`, from 0, over all of `target`, which can be drawn into and copied to. The encoder is submitted by
-    /// the caller.
+    /// Draws a frame over all of the canvas.
     ///
     /// # Errors
     /// Whatever the example cannot do.
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        number: u32,
-    ) -> Result<(), Failure>;
+    fn draw(&mut self, canvas: Canvas<'_>) -> Result<(), Failure>;
+}
+
+/// What an example draws into.
+pub struct Canvas<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// Into which the frame is recorded; whoever has it submits it.
+    pub encoder: &'a mut wgpu::CommandEncoder,
+    /// The texture, of [`FORMAT`], which can be drawn into and copied to.
+    pub target: &'a wgpu::Texture,
+    /// The frame's number, from 0.
+    pub number: u32,
 }
 
 /// The format of the textures that examples draw into.

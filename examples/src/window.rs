@@ -1,6 +1,6 @@
 //! The same frames in a window: each is drawn into a texture, and a graph draws that into the texture that the surface gives.
 
-use crate::{Arguments, Example, Failure, target};
+use crate::{Arguments, Canvas, Example, Failure, target};
 use shadowgraph::core::{FullscreenShader, Graph};
 use shadowgraph::{Gpu, wgpu};
 use std::sync::Arc;
@@ -134,7 +134,8 @@ impl<E: Example> Screen<E> {
             _ => return Ok(()),
         };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.example.draw(&self.gpu, &mut encoder, &self.picture, self.drawn)?;
+        let (gpu, target, number) = (&self.gpu, &self.picture, self.drawn);
+        self.example.draw(Canvas { gpu, encoder: &mut encoder, target, number })?;
         let mut frame = self.graph.frame();
         let picture = frame.import_texture("picture", &self.picture, true);
         let mut surface = frame.import_texture("surface", &surface_texture.texture, false);

@@ -111,3 +111,17 @@ fn the_book_builds() {
         assert!(folder.path().join(page).is_file(), "{page} is missing");
     }
 }
+
+#[test]
+fn every_kind_of_node_and_every_example_has_its_place() {
+    let page = |name: &str| std::fs::read_to_string(repository().join("docs").join(name)).unwrap();
+    let (nodes, examples) = (page("nodes.md"), page("examples.md"));
+    for kind in shadowgraph::Registry::built_in().nodes.kinds() {
+        assert!(nodes.contains(&format!("**`{}`**", kind.name)), "{} is not in nodes.md", kind.name);
+    }
+    for entry in std::fs::read_dir(repository().join("examples/examples")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_string_lossy();
+        assert!(examples.contains(&format!("| `{name}` |")), "{name} is not in examples.md");
+    }
+}

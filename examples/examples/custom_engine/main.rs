@@ -10,12 +10,12 @@ mod pipelines;
 use engine::Engine;
 use glam::{DVec3, Mat4, Vec3, Vec4};
 use shadowgraph::Gpu;
-use shadowgraph::core::{Bind, Contents, Format, Graph, TextureDesc, wgpu};
+use shadowgraph::core::{Bind, Contents, Format, Graph, TextureDesc};
 use shadowgraph::scene::{Camera, Light, LightKind, Projection};
 use shadowgraph::shadows::{
     PCF, ShadowInputs, ShadowSettings, ShadowTechnique, Technique, TechniqueContext, add_shadows,
 };
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
 #[repr(C)]
@@ -42,13 +42,7 @@ impl Example for Tower {
         Ok(Self { technique, engine, graph: Graph::new() })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let (width, height) = (target.width(), target.height());
         let aspect = f64::from(width) / f64::from(height);
         let eye = glam::DQuat::from_rotation_y(f64::from(number) * 0.02) * DVec3::new(7.0, 5.0, 9.0);

@@ -12,8 +12,8 @@ use shadowgraph::options::Aov;
 use shadowgraph::pipelines::{Choices, Pipeline};
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::EVSM;
-use shadowgraph::{Gpu, Method, Registry, Renderer, ViewOptions, wgpu};
-use shadowgraph_examples::{Example, Failure, main_of};
+use shadowgraph::{Gpu, Method, Registry, Renderer, ViewOptions};
+use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 use vignette::Vignette;
 
@@ -47,13 +47,7 @@ impl Example for Mine {
         Ok(Self { renderers, options })
     }
 
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        number: u32,
-    ) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let [first, last] = &mut self.renderers;
         let first = first.record(gpu, encoder, target, &self.options)?;
         let last = last.record(gpu, encoder, target, &self.options)?;
