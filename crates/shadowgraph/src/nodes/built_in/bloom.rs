@@ -16,7 +16,8 @@ pub(super) struct Bloom {
 impl Node for Bloom {
     const NAME: &'static str = "bloom";
     const ABOUT: &'static str = "spreads some of the light over its surroundings, as a lens does";
-    const INPUTS: &'static [Port] = &[Port::texture("light", "scene-linear, exposure applied")];
+    const INPUTS: &'static [Port] =
+        &[Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float)];
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "the same, with what spread").of(Format::Rgba16Float)];
     const SETTINGS: &'static [Setting] = &[

@@ -20,7 +20,7 @@ impl Node for Fog {
         Port::new("view", PortKind::View, "the camera and the lights"),
         Port::new("shadows", PortKind::Shadows, "the shadows"),
         Port::texture("depth", "of what is drawn, of one sample").of(Format::Depth32Float),
-        Port::texture("light", "scene-linear, exposure applied").taken(),
+        Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float).taken(),
     ];
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "the same, with fog before it").of(Format::Rgba16Float)];

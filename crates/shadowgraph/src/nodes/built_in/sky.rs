@@ -20,7 +20,7 @@ impl Node for Sky {
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera and the lights"),
         Port::texture("depth", "of what is drawn, of one sample").of(Format::Depth32Float),
-        Port::texture("light", "scene-linear, exposure applied").taken(),
+        Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float).taken(),
     ];
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "the same, with the sky behind it").of(Format::Rgba16Float)];

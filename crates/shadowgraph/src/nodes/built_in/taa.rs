@@ -19,7 +19,7 @@ impl Node for Taa {
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera"),
         Port::texture("depth", "of what is drawn, of one sample").of(Format::Depth32Float),
-        Port::texture("light", "scene-linear, exposure applied"),
+        Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float),
     ];
     const OUTPUTS: &'static [Port] = &[Port::texture("light", "of several frames").of(Format::Rgba16Float)];
     const SETTINGS: &'static [Setting] =

@@ -14,7 +14,8 @@ pub(super) struct Tonemap {
 impl Node for Tonemap {
     const NAME: &'static str = "tonemap";
     const ABOUT: &'static str = "makes a picture of light, by a filmic curve";
-    const INPUTS: &'static [Port] = &[Port::texture("light", "scene-linear, exposure applied")];
+    const INPUTS: &'static [Port] =
+        &[Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float)];
     const OUTPUTS: &'static [Port] =
         &[Port::texture("picture", "eight bits a channel").of(Format::Rgba8UnormSrgb)];
 

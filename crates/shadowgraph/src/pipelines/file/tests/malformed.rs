@@ -37,10 +37,11 @@
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"lighting.lit\"}")], "`lighting` has no output `lit`; there is: light, depth"),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"geometry\"}")], "`geometry` gives depth and surfaces: say which, such as \"geometry.depth\""),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"view\"}")], "`light` of `picture` takes a texture, and `view.view` is a view"),
+    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"geometry.depth\"}")], "`light` of `picture` takes Rgba16Float, and `geometry.depth` has Depth32Float"),
     (&[("\"depth\": \"geometry\"}),", "\"depth\": \"picture\"}),")], "`depth` of `lighting` takes Depth32Float, and `picture.picture` has Rgba8UnormSrgb"),
     (&[("\"view\": \"view\", \"shadows\": \"shadows\"", "\"view\": \"shadows\", \"shadows\": \"shadows\"")], "takes a view, and `shadows.shadows` is a shadows"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "inputs: {\"surfaces\": \"geometry.depth\"}")], "takes a surfaces, and `geometry.depth` is a texture"),
-    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"picture\"}")], "mine.ron:8:16: nodes feed each other in a circle: picture -> picture"),
+    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"picture\"}")], "mine.ron:8:53: `light` of `picture` takes Rgba16Float, and `picture.picture` has Rgba8UnormSrgb"),
     (&[("\"depth\": \"geometry\"}),", "\"depth\": \"lighting\"}),")], "in a circle: lighting -> lighting"),
     (&[
         ("(name: \"picture\"", "(name: \"late\", kind: \"forward\", inputs: {\"view\": \"view\", \"shadows\": \"shadows\", \"depth\": \"lighting\"}),\n        (name: \"picture\""),
