@@ -56,7 +56,7 @@ impl Example for Life {
     const NAME: &'static str = "compute_only";
     const SIZE_PX: [u32; 2] = [SIDE; 2];
 
-    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         let (live, show) = (ComputeShader::wgsl("life", LIFE), ComputeShader::wgsl("show", SHOW));
         Ok(Self { graph: Graph::new(), live, show })
     }

@@ -39,7 +39,7 @@ impl Example for Day {
     const FRAMES: u32 = 24;
     const SEQUENCE: bool = true;
 
-    fn new(gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         let scene = demo_scene();
         let lamps = scene.lights[1..].to_vec();
         let camera = scene.cameras[0].clone();

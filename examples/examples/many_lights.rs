@@ -36,9 +36,10 @@ struct Lamps {
 
 impl Example for Lamps {
     const NAME: &'static str = "many_lights";
+    const WORD: &'static str = "a pipeline's name";
     const SIZE_PX: [u32; 2] = [320, 180];
 
-    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure> {
         let mut scene = demo_scene();
         // Moonlight.
         scene.lights.truncate(1);
@@ -46,7 +47,7 @@ impl Example for Lamps {
         scene.lights.extend((0..LAMPS).map(lamp));
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
-        let name = words.first().map_or("forward_plus", String::as_str);
+        let name = word.unwrap_or("forward_plus");
         let method = Method::from(Pipeline::built_in(name, &Choices::default())?);
         let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method)?;
         // A driver may compile shaders at the first draw.

@@ -26,7 +26,7 @@ impl Example for Disc {
     const NAME: &'static str = "minimal_graph";
     const SIZE_PX: [u32; 2] = [320, 180];
 
-    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         Ok(Self { graph: Graph::new(), shader: FullscreenShader::wgsl("disc", DISC) })
     }
 

@@ -52,7 +52,7 @@ impl Example for Chain {
     const NAME: &'static str = "post_chain";
     const SIZE_PX: [u32; 2] = [320, 180];
 
-    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         let shaders = [("lamps", LAMPS), ("blur", BLUR), ("join", MIX)]
             .map(|(name, text)| FullscreenShader::wgsl(name, text));
         Ok(Self { graph: Graph::new(), shaders })

@@ -24,7 +24,7 @@ struct SplitScreen {
 impl Example for SplitScreen {
     const NAME: &'static str = "split_screen";
 
-    fn new(gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
         let views = VIEWS.map(|[eye, target]| {
             let camera = Camera::look_at(eye, target, DVec3::Y, projection);

@@ -17,10 +17,11 @@ struct StainedGlass {
 
 impl Example for StainedGlass {
     const NAME: &'static str = "stained_glass";
+    const WORD: &'static str = "a technique's name";
     const SIZE_PX: [u32; 2] = [960, 540];
 
-    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure> {
-        let technique = Techniques::built_in().find(words.first().map_or("pcf", String::as_str))?;
+    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure> {
+        let technique = Techniques::built_in().find(word.unwrap_or("pcf"))?;
         let scene = stained_glass();
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };

@@ -49,7 +49,7 @@ impl Example for Mean {
     const SIZE_PX: [u32; 2] = [320, 180];
     const FRAMES: u32 = 64;
 
-    fn new(_gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         let accumulate = FullscreenShader::wgsl("accumulate", ACCUMULATE);
         let show = FullscreenShader::wgsl("show", SHOW);
         Ok(Self { graph: Graph::new(), accumulate, show, frames: 0 })

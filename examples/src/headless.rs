@@ -7,7 +7,7 @@ use shadowgraph::output::{Pixels, write_png};
 use shadowgraph::{Gpu, wgpu};
 
 pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Failure> {
-    let mut example = E::new(gpu, &arguments.words)?;
+    let mut example = E::new(gpu, arguments.word.as_deref())?;
     let frames = arguments.frames.unwrap_or(E::FRAMES);
     let picture = target(&gpu.device, E::SIZE_PX);
     let progress = if frames > 1 { ProgressBar::new(frames.into()) } else { ProgressBar::hidden() };

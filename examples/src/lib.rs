@@ -1,7 +1,7 @@
 //! What the examples share: a program that draws one picture, or many, without a window, and the same in a window.
 //!
 //! An example draws into a texture that it is given. Without a word that texture is written to `out/NAME.png`; with `--window` it is
-//! shown, frame by frame. Other words go to the example.
+//! shown, frame by frame.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "examples are programs")]
 
 mod headless;
@@ -26,11 +26,14 @@ pub trait Example: Sized {
     /// Whether each frame is a picture of its own, and not the last alone.
     const SEQUENCE: bool = false;
 
-    /// Makes what it keeps from frame to frame. `words` are those of the command line that mean nothing to all examples.
+    /// What the one word of the command line says that is the example's own; empty where there is none.
+    const WORD: &'static str = "";
+
+    /// Makes what it keeps from frame to frame, by its word.
     ///
     /// # Errors
     /// Whatever the example cannot do.
-    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure>;
+    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure>;
 
     /// Draws a frame over all of the canvas.
     ///
@@ -58,13 +61,13 @@ pub const FORMAT: Format = Format::Rgba8UnormSrgb;
 struct Arguments {
     window: bool,
     frames: Option<u32>,
-    words: Vec<String>,
+    word: Option<String>,
 }
 
 /// Runs an example as the command line says; the main function of its program.
 pub fn main_of<E: Example>() -> ExitCode {
     let run = || -> Result<(), Failure> {
-        let arguments = arguments(std::env::args().skip(1))?;
+        let arguments = arguments::<E>(std::env::args().skip(1))?;
         match arguments.window {
             true => window::run::<E>(&arguments),
             false => headless::run::<E>(&Gpu::open(&AdapterChoice::Auto)?, &arguments),
@@ -75,8 +78,8 @@ pub fn main_of<E: Example>() -> ExitCode {
     ExitCode::FAILURE
 }
 
-fn arguments(mut given: impl Iterator<Item = String>) -> Result<Arguments, Failure> {
-    let mut arguments = Arguments { window: false, frames: None, words: Vec::new() };
+fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Arguments, Failure> {
+    let mut arguments = Arguments { window: false, frames: None, word: None };
     while let Some(word) = given.next() {
         match word.as_str() {
             "--window" => arguments.window = true,
@@ -84,7 +87,11 @@ fn arguments(mut given: impl Iterator<Item = String>) -> Result<Arguments, Failu
                 Some(Ok(frames @ 1..)) => arguments.frames = Some(frames),
                 _ => return Err("--frames: give a number, from 1 up".into()),
             },
-            _ => arguments.words.push(word),
+            _ if E::WORD.is_empty() || arguments.word.is_some() || word.starts_with('-') => {
+                let own = if E::WORD.is_empty() { String::new() } else { format!(", and {}", E::WORD) };
+                return Err(format!("`{word}`: {} takes --window, --frames N{own}", E::NAME).into());
+            }
+            _ => arguments.word = Some(word),
         }
     }
     Ok(arguments)

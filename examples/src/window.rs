@@ -37,7 +37,7 @@ struct App<'a, E> {
 
 impl<E: Example> ApplicationHandler for App<'_, E> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        match Screen::new(event_loop, &self.instance, &self.arguments.words) {
+        match Screen::new(event_loop, &self.instance, self.arguments.word.as_deref()) {
             Ok(screen) => self.screen = Some(screen),
             Err(failure) => self.fail(event_loop, failure),
         }
@@ -81,7 +81,7 @@ impl<E: Example> Screen<E> {
     fn new(
         event_loop: &ActiveEventLoop,
         instance: &wgpu::Instance,
-        words: &[String],
+        word: Option<&str>,
     ) -> Result<Self, Failure> {
         let size = Size::Physical(E::SIZE_PX.into());
         let attributes = WindowAttributes::default().with_title(E::NAME).with_inner_size(size);
@@ -99,7 +99,7 @@ impl<E: Example> Screen<E> {
         config.format = srgb.ok_or("this window has no sRGB format")?;
         config.present_mode = wgpu::PresentMode::Fifo;
         let mut screen = Self {
-            example: E::new(&gpu, words)?,
+            example: E::new(&gpu, word)?,
             window,
             surface,
             config,

@@ -35,7 +35,7 @@ struct Tower {
 impl Example for Tower {
     const NAME: &'static str = "custom_engine";
 
-    fn new(gpu: &Gpu, _words: &[String]) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
         // The line that chooses the technique.
         let technique = Technique::from(PCF).make(&TechniqueContext::new(&gpu.device))?;
         let engine = Engine::new(&gpu.device, &gpu.queue, technique.as_ref())?;

@@ -25,10 +25,11 @@ struct Mine {
 
 impl Example for Mine {
     const NAME: &'static str = "custom_pipeline";
+    const WORD: &'static str = "`file` or `script`";
     // Pixels look at another place in each frame, so edges are smooth after some.
     const FRAMES: u32 = 8;
 
-    fn new(gpu: &Gpu, words: &[String]) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure> {
         let Registry { mut nodes, techniques } = Registry::built_in();
         nodes.register::<Vignette>()?;
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/custom_pipeline/pipeline.ron");
@@ -41,8 +42,10 @@ impl Example for Mine {
         let renderer =
             |method: Method| Renderer::with(gpu, scene.clone(), &options.camera, Aov::Color, method);
         let mut renderers = [renderer(script)?, renderer(file.into())?];
-        if words.first().is_some_and(|word| word == "script") {
-            renderers.reverse();
+        match word {
+            None | Some("file") => {}
+            Some("script") => renderers.reverse(),
+            Some(other) => return Err(format!("`{other}`: it is `file` or `script`").into()),
         }
         Ok(Self { renderers, options })
     }
