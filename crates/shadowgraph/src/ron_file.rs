@@ -43,7 +43,7 @@ pub(crate) fn read<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<
 /// Where it is wrong, in bytes from the begin, and what is.
 pub(crate) fn read_at<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, (usize, String)> {
     options().from_str(text).map_err(|error| match error.code {
-        _ if text.trim().is_empty() => (0, "there is nothing in the file: write at least ()".to_owned()),
+        _ if text.trim().is_empty() => (0, "there is nothing in the file".to_owned()),
         ron::Error::Eof => (text.trim_end().len(), problem(&error.code)),
         code => (offset_of_error(text, error.span.start), one_line(&problem(&code))),
     })
@@ -179,14 +179,21 @@ fn problem(error: &ron::Error) -> String {
         E::ExpectedFloat | E::UnderscoreAtBeginning | E::FloatUnderscore => {
             "a number has to stand here, such as 0.5"
         }
-        E::IntegerOutOfBounds => "the number is too large or too small for what stands here",
+        E::IntegerOutOfBounds => {
+            "the number is too large or too small: a whole number from 0 on has to stand here"
+        }
         E::ExpectedString => "a text in quotes has to stand here, such as \"pcf\"",
         E::ExpectedStringEnd => "the text is not closed: a quote is missing",
-        E::ExpectedIdentifier => "a name has to stand here, such as a field's",
+        E::ExpectedIdentifier | E::InvalidIdentifier(_) | E::SuggestRawIdentifier(_) => {
+            "a name without quotes has to stand here, such as count in (count: 4), On(\"bloom\"), or Tent5"
+        }
+        E::ExpectedDifferentStructName { .. } => "a record in brackets has to stand here, such as (field: 1)",
         E::TrailingCharacters => {
             "there is more behind the end of the file's value: is a bracket closed too early?"
         }
         E::UnclosedBlockComment => "the comment is not closed: */ is missing",
+        E::UnexpectedChar('#') => "'#' cannot stand here; comments begin with //",
+        E::UnexpectedChar('$') => "'$' cannot stand here; \"$name\" in quotes stands for a parameter",
         E::UnexpectedChar(found) => return format!("{found:?} cannot stand here"),
         E::ExceededRecursionLimit => "the brackets are nested too deep",
         other => return other.to_string(),

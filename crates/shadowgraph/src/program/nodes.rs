@@ -61,7 +61,9 @@ fn technique(kind: &TechniqueKind, techniques: &Techniques) -> Result<String, Fa
 }
 
 fn shared_settings() -> Result<String, Failure> {
-    let mut out = String::from("settings of all techniques, as a file of --settings has them\n");
+    let mut out = String::from(
+        "settings of all techniques, by the path in a file of --settings, with defaults as JSON has them\n",
+    );
     table(&mut out, &shared(&ShadowSettings::default())?, &check_shared);
     Ok(out)
 }

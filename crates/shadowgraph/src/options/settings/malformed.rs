@@ -1,7 +1,7 @@
 // Settings files that people get wrong, and what the error has to say.
 &[
     // What is no file of the format.
-    ("", "s.ron:1:1: there is nothing in the file: write at least ()"),
+    ("", "s.ron:1:1: there is nothing in the file"),
     ("(", "s.ron:1:2: the file ends too early: close what is open"),
     ("distance_m: 100.0", "s.ron:1:"),
     ("{distance_m: 100.0}", "s.ron:1:1: a record has to stand here, such as (field: 1)"),
@@ -28,11 +28,14 @@
     ("(cascades: (count: 4.5))", "s.ron:1:"),
     ("(cascades: (count: -1))", "s.ron:1:"),
     ("(cascades: (count: four))", "s.ron:1:20: a whole number has to stand here, such as 4"),
-    ("(cascades: (count: 99999999999))", "s.ron:1:20: the number is too large or too small for what stands here"),
+    ("(cascades: (count: 99999999999))", "s.ron:1:20: the number is too large or too small"),
     ("(cascades: (cache: 1))", "s.ron:1:20: true or false has to stand here"),
     ("(cascades: (cache: True))", "s.ron:1:20: true or false has to stand here"),
     ("(cascades: (depth: Depth8))", "s.ron:1:20: there is no `Depth8` here; did you mean `Depth"),
     ("(cascades: (filter: tent5))", "there is no `tent5` here; did you mean `Tent5`?"),
+    ("(cascades: (split: Practical(0.85)))", "s.ron:1:30: a name without quotes has to stand here"),
+    ("(cascades: (filter: \"Tent5\"))", "s.ron:1:21: a name without quotes has to stand here, such as"),
+    ("distance_m: 80.0", "s.ron:1:1: a record in brackets has to stand here, such as (field: 1)"),
     ("(cascades: (split: Practical))", "s.ron:1:"),
     ("(cascades: (split: Practical(lamda: 0.5)))", "s.ron:1:30: there is no field `lamda` here; did you mean `lambda`?"),
     ("(cascades: (split: Metres(10.0, 30.0)))", "s.ron:1:27: a list has to stand here, such as [1, 2]"),

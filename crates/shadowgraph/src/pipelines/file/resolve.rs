@@ -310,6 +310,13 @@ impl Wires<'_, '_> {
             if port.kind != crate::nodes::PortKind::Texture {
                 return Err(name.error(format!("`{known}` is a texture, and `{}` is not one", port.name)));
             }
+            if let Some(format) = port.format.filter(|format| *known == "picture" && !format.is_srgb()) {
+                let of = &self.present[node].entry.name.value;
+                return Err(name.error(format!(
+                    "`picture` is what is seen, and `{of}.{}` has {format:?}: put a `tonemap` behind it",
+                    port.name
+                )));
+            }
             found.push((*known, node, output));
         }
         if found.is_empty() {

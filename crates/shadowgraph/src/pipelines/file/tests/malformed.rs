@@ -53,6 +53,7 @@
     (&[("outputs: {\"picture\": \"picture\", ", "outputs: {")], "mine.ron: its outputs name no `picture`"),
     (&[("\"light\": \"lighting\", \"depth\": \"geometry\"},\n", "\"ligth\": \"lighting\"},\n")], "a pipeline has no output `ligth`; did you mean `light`?"),
     (&[("outputs: {\"picture\": \"picture\"", "outputs: {\"picture\": \"shadows\"")], "`picture` is a texture, and `shadows` is not one"),
+    (&[("outputs: {\"picture\": \"picture\"", "outputs: {\"picture\": \"lighting.light\"")], "`picture` is what is seen, and `lighting.light` has Rgba16Float: put a `tonemap` behind it"),
     (&[("outputs: {\"picture\": \"picture\"", "outputs: {\"picture\": \"pictures\"")], "there is no node `pictures`; did you mean `picture`?"),
     (&[("outputs: {\"picture\": \"picture\", \"light\": \"lighting\", \"depth\": \"geometry\"},", "")], "it has no outputs: say which node's output is to be seen"),
     (&[("outputs: {\"picture\": \"picture\"", "outputs: {\"picture\": \"picture\", \"picture\": \"picture\"")], "the output `picture` stands here twice"),
