@@ -251,8 +251,7 @@ fn a_strangers_technique_is_drawn_measured_and_dumped() {
     assert!(dump.stdout.contains("esm/cascades"), "{}", dump.stdout);
     std::fs::write(folder.path().join("mine.ron"), "(techniques: {\"esm\": (falloff_m: 0.0)})").unwrap();
     let refused = program(&["render", "--settings", "mine.ron"]);
-    let expected =
-        "technique `esm`: its settings: shadow setting `falloff_m` is 0; allowed: 0.001 to 10 (metres)";
+    let expected = "technique `esm`: shadow setting `falloff_m` is 0; allowed: 0.001 to 10 (metres)";
     assert!(refused.code == Some(1) && refused.stderr.contains(expected), "{}", refused.stderr);
     let drawn = program(&["render", "--technique", "esm+contact", "--size", "320x180", "-o", "esm.png"]);
     assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use ron::Options;
+use ron::error::SpannedError;
 use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::de::{MapAccess, SeqAccess, Visitor};
@@ -42,11 +43,29 @@ pub(crate) fn read<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<
 /// # Errors
 /// Where it is wrong, in bytes from the begin, and what is.
 pub(crate) fn read_at<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, (usize, String)> {
-    options().from_str(text).map_err(|error| match error.code {
-        _ if text.trim().is_empty() => (0, "there is nothing in the file".to_owned()),
-        ron::Error::Eof => (text.trim_end().len(), problem(&error.code)),
-        code => (offset_of_error(text, error.span.start), one_line(&problem(&code))),
+    options().from_str(text).map_err(|error| match text.trim() {
+        "" => (0, "there is nothing in the file".to_owned()),
+        _ => told(text, &error),
     })
+}
+
+/// Where a text is wrong, in bytes from the begin, and what is.
+fn told(text: &str, error: &SpannedError) -> (usize, String) {
+    if error.code == ron::Error::Eof {
+        return (text.trim_end().len(), problem(&error.code));
+    }
+    let offset = offset_of_error(text, error.span.start);
+    let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
+    let name = before.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+    use ron::Error as E;
+    let words = match &error.code {
+        E::ExpectedComma if after.starts_with('.') => problem(&E::ExpectedInteger),
+        E::ExpectedStructLike | E::ExpectedNamedStructLike(_) if !name.is_empty() => {
+            format!("`{name}` needs its values in brackets here: {name}(...)")
+        }
+        code => problem(code),
+    };
+    (offset, one_line(&words))
 }
 
 /// Where the parser stood, and from there the next thing that is no blank.
@@ -75,23 +94,53 @@ pub(crate) fn place(file: &str, text: &str, offset: usize) -> String {
 /// What is wrong with the value behind a path of fields and indices, such as `cases.0.views`. The place is that of the nearest
 /// value around it that stands in the text, or the file where that is none.
 pub(crate) fn wrong_field(file: &str, text: &str, path: &str, problem: impl fmt::Display) -> Wrong {
-    let mut found = None;
-    let mut part = text;
-    for field in path.split('.') {
-        let Ok(Fields(fields)) = options().from_str::<Fields<'_>>(part) else { break };
-        let Some((_, value)) = fields.into_iter().find(|(name, _)| name == field) else { break };
-        part = value.get_ron();
-        found = Some(offset_of(text, value));
-    }
-    let place = found.map_or_else(|| file.to_owned(), |offset| place(file, text, offset));
+    let place = match values(text, path).last() {
+        Some(value) => place(file, text, offset_of(text, value)),
+        None => file.to_owned(),
+    };
     Wrong { place, problem: one_line(&problem.to_string()) }
 }
 
-/// Where a raw part of a text begins, in bytes. Raw values are slices of the text that they were read from.
+/// What is wrong inside the value behind a path, which was read by itself with this error; `whose` begins the words.
+pub(crate) fn wrong_inside(file: &str, text: &str, path: &str, whose: &str, error: &SpannedError) -> Wrong {
+    let Some(value) = values(text, path).pop() else {
+        return Wrong {
+            place: file.to_owned(),
+            problem: one_line(&format!("{whose}: {}", problem(&error.code))),
+        };
+    };
+    let (offset, problem) = told(value.get_ron(), error);
+    Wrong { place: place(file, text, start_of(text, value) + offset), problem: format!("{whose}: {problem}") }
+}
+
+/// The values behind a path of fields and indices, from the outermost to the innermost that stands in the text.
+fn values<'t>(text: &'t str, path: &str) -> Vec<&'t RawValue> {
+    let mut found: Vec<&RawValue> = Vec::new();
+    for field in path.split('.') {
+        let part = found.last().map_or(text, |value| value.get_ron());
+        let Ok(Fields(fields)) = options().from_str::<Fields<'_>>(part) else { break };
+        let Some((_, value)) = fields.into_iter().find(|(name, _)| name == field) else { break };
+        found.push(value);
+    }
+    found
+}
+
+/// The value behind a path of fields and indices, as it stands in a text; `None` where it does not.
+pub(crate) fn value<'t>(text: &'t str, path: &str) -> Option<&'t str> {
+    let found = values(text, path);
+    (found.len() == path.split('.').count()).then(|| found.last().map(|value| value.get_ron().trim()))?
+}
+
+/// Where a raw part of a text begins, in bytes, blanks before the value included. Raw values are slices of the text that they were
+/// read from.
+pub(crate) fn start_of(text: &str, raw: &RawValue) -> usize {
+    (raw.get_ron().as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
+}
+
+/// Where the value of a raw part of a text begins, in bytes.
 pub(crate) fn offset_of(text: &str, raw: &RawValue) -> usize {
     let inner = raw.get_ron();
-    let blank = inner.len() - inner.trim_start().len();
-    (inner.as_ptr() as usize).saturating_sub(text.as_ptr() as usize) + blank
+    start_of(text, raw) + inner.len() - inner.trim_start().len()
 }
 
 /// The fields of a record, the entries of a map with names, or the elements of a list by index.

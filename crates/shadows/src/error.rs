@@ -19,6 +19,8 @@ pub enum Error {
         "shadow setting `lights.light` is {light}; the scene has no light of that name or number, but {count}, numbered from 0"
     )]
     NoSuchLight {
+        /// Which entry of `lights` names it, from 0.
+        entry: usize,
         /// Its number, or its name in quotes.
         light: String,
         /// How many lights there are.
@@ -27,6 +29,8 @@ pub enum Error {
     /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) says two things of one light.
     #[error("shadow setting `lights` has two entries for light {light}; allowed: one for each light")]
     LightTwice {
+        /// The second entry of `lights`, from 0.
+        entry: usize,
         /// Its number.
         light: usize,
     },
@@ -48,6 +52,29 @@ pub enum Error {
         technique: String,
         /// What is wrong with it.
         fault: String,
+    },
+    /// The settings of a technique are not of the form that it reads.
+    #[error(
+        "technique `{technique}`: its settings: {} (line {}, column {} of them)",
+        reason.code, reason.span.start.line, reason.span.start.col
+    )]
+    UnreadSettings {
+        /// Its name.
+        technique: String,
+        /// What is wrong, and where in the text of its settings alone.
+        reason: Box<ron::error::SpannedError>,
+    },
+    /// A value of a technique's own settings is not allowed.
+    #[error("technique `{technique}`: shadow setting `{field}` is {value}; allowed: {allowed}")]
+    OwnSetting {
+        /// Its name.
+        technique: String,
+        /// The field's path in its settings.
+        field: &'static str,
+        /// The value it has.
+        value: String,
+        /// The values it can have.
+        allowed: &'static str,
     },
     /// There is no technique of this name.
     #[error("there is no technique `{name}`; there is: {known}")]

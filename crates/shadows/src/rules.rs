@@ -99,17 +99,17 @@ pub(crate) fn of_lights<'s>(
     lights: &[Light],
 ) -> Result<Vec<Option<&'s LightShadows>>, Error> {
     let mut of_lights = vec![None; lights.len()];
-    for own in &settings.lights {
+    for (entry, own) in settings.lights.iter().enumerate() {
         let index = match &own.light {
             LightRef::Index(index) => Some(*index as usize),
             LightRef::Name(name) => lights.iter().position(|light| light.name.as_ref() == Some(name)),
         };
         let slot = index.and_then(|index| Some((index, of_lights.get_mut(index)?)));
         let Some((light, slot)) = slot else {
-            return Err(Error::NoSuchLight { light: own.light.to_string(), count: lights.len() });
+            return Err(Error::NoSuchLight { entry, light: own.light.to_string(), count: lights.len() });
         };
         if slot.replace(own).is_some() {
-            return Err(Error::LightTwice { light });
+            return Err(Error::LightTwice { entry, light });
         }
     }
     Ok(of_lights)

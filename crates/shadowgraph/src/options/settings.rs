@@ -33,6 +33,12 @@ impl SettingsFile {
         techniques.check(&settings).map_err(|error| refused(wrong_setting(&name, &text, "", &error)))?;
         Ok(Self { settings, has_distance: has_distance(&text) })
     }
+
+    /// What is wrong with settings that this file gave.
+    pub(crate) fn wrong(file: &Path, error: &shadowgraph_shadows::Error) -> OptionError {
+        let text = std::fs::read_to_string(file).unwrap_or_default();
+        OptionError::new(OPTION, wrong_setting(&file.display().to_string(), &text, "", error).to_string())
+    }
 }
 
 /// An error of checked settings, with the place of the field that it is about; `parents` is the path of the settings in the
@@ -43,10 +49,22 @@ pub(crate) fn wrong_setting(
     parents: &str,
     error: &shadowgraph_shadows::Error,
 ) -> ron_file::Wrong {
-    use shadowgraph_shadows::Error::{NoTechnique, Setting, Technique};
+    use shadowgraph_shadows::Error as E;
     let field = match error {
-        Setting { field, .. } => (*field).to_owned(),
-        Technique { technique: name, .. } | NoTechnique { name, .. } => format!("techniques.{name}"),
+        E::Setting { field, .. } => (*field).to_owned(),
+        E::OwnSetting { technique, field, .. } => format!("techniques.{technique}.{field}"),
+        E::Technique { technique: name, .. } | E::NoTechnique { name, .. } => format!("techniques.{name}"),
+        E::NoSuchLight { entry, .. } | E::LightTwice { entry, .. } => format!("lights.{entry}.light"),
+        E::UnreadSettings { technique, reason } => {
+            let whose = format!("technique `{technique}`");
+            return ron_file::wrong_inside(
+                file,
+                text,
+                &format!("{parents}techniques.{technique}"),
+                &whose,
+                reason,
+            );
+        }
         _ => String::new(),
     };
     ron_file::wrong_field(file, text, &format!("{parents}{field}"), error)

@@ -5,8 +5,9 @@ use crate::Registry;
 use crate::nodes::near_words;
 use crate::options::{OptionError, Options, SettingsFile, ShadowDistance};
 use crate::pipelines::{BUILT_IN, Choices, Pipeline};
+use crate::scene::Scene;
+use crate::shadows::{ShadowSettings, Technique, Techniques};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use shadowgraph_shadows::{Technique, Techniques};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -259,6 +260,18 @@ impl DrawArgs {
     #[cfg(feature = "view")]
     pub(crate) fn settings_file(&self) -> Option<&Path> {
         self.settings.as_deref()
+    }
+
+    /// Checks that the scene has the lights that the settings name.
+    ///
+    /// # Errors
+    /// One line with the file, the place and the light.
+    pub(crate) fn check_lights(&self, settings: &ShadowSettings, scene: &Scene) -> Result<(), OptionError> {
+        let wrong = settings.check_lights(&scene.lights).err();
+        match (wrong, &self.settings) {
+            (Some(error), Some(file)) => Err(SettingsFile::wrong(file, &error)),
+            _ => Ok(()),
+        }
     }
 
     /// Returns whether times are asked for.

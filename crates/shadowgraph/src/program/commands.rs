@@ -79,6 +79,7 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     if let Some(note) = options.sun.apply(&mut scene) {
         console::warning(&note);
     }
+    args.check_lights(&options.settings, &scene)?;
     let camera = options.camera.of(&scene, options.size.aspect())?;
     Ok(Input { options, scene, camera })
 }

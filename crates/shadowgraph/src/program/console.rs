@@ -31,7 +31,7 @@ fn line(kind: &str, message: &str) {
 }
 
 /// Makes one line of any text: names in a file may hold line ends and terminal codes.
-fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     let words = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let joined = words.collect::<Vec<_>>().join("; ");
     joined.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()

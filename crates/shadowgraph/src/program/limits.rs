@@ -63,8 +63,8 @@ pub(crate) fn check_own(
     set.map_err(|error| error.to_string())
 }
 
-/// Every setting below `path` with its value and what it may be, in the order of the value's fields.
-pub(crate) fn rows(root: &Value, check: Check<'_>) -> Vec<(String, Value, Limit)> {
+/// Every setting with what it may be, by its path, in the order of the value's fields.
+pub(crate) fn rows(root: &Value, check: Check<'_>) -> Vec<(String, Limit)> {
     let mut limits = Limits::default();
     let mut found = Vec::new();
     collect(root, "", check, &mut limits, &mut found);
@@ -76,7 +76,7 @@ fn collect(
     path: &str,
     check: Check<'_>,
     limits: &mut Limits,
-    found: &mut Vec<(String, Value, Limit)>,
+    found: &mut Vec<(String, Limit)>,
 ) {
     let Some(value) = root.pointer(path) else { return };
     let limit = if path.is_empty() { Limit::default() } else { limits.of(root, path, check).clone() };
@@ -86,17 +86,20 @@ fn collect(
                 collect(root, &format!("{path}/{name}"), check, limits, found);
             }
         }
-        value => found.push((path.trim_start_matches('/').replace('/', "."), value.clone(), limit)),
+        _ => found.push((path.trim_start_matches('/').replace('/', "."), limit)),
     }
 }
 
 impl Limit {
-    /// What it may be, in words; empty where that is not known.
+    /// What it may be, in words; empty where that is not known. `(...)` follows names that have values.
     pub(crate) fn words(&self) -> String {
-        match &self.names[..] {
-            [] => self.allowed.clone(),
-            names => format!("one of {}", names.join(", ")),
+        if self.names.is_empty() {
+            return self.allowed.clone();
         }
+        let has_values =
+            |name: &String| self.variants.iter().any(|(of, value)| of == name && !value.is_string());
+        let form = |name: &String| if has_values(name) { format!("{name}(...)") } else { name.clone() };
+        format!("one of {}", self.names.iter().map(form).collect::<Vec<_>>().join(", "))
     }
 }
 
@@ -168,19 +171,21 @@ fn variant(name: &str, error: &dyn Fn(Value) -> String) -> Option<Value> {
     let plain = Value::String(name.to_owned());
     let with = payloads.into_iter().map(|payload| serde_json::json!({ name: payload }));
     let found = std::iter::once(plain).chain(with).find(|value| error(value.clone()).is_empty());
-    found.or_else(|| {
-        // A variant with fields: those that are missed are added.
-        let mut fields = serde_json::Map::new();
-        for _ in 0..8 {
-            let value = serde_json::json!({ name: fields });
-            let problem = error(value.clone());
-            match problem.split_once("missing field `").and_then(|(_, rest)| rest.split_once('`')) {
-                Some((field, _)) => fields.insert(field.to_owned(), 0.5.into()),
-                None => return problem.is_empty().then_some(value),
-            };
-        }
-        None
-    })
+    found.or_else(|| [0.5.into(), 64.into()].into_iter().find_map(|fill| with_fields(name, &fill, error)))
+}
+
+/// A variant with fields: those that are missed are added.
+fn with_fields(name: &str, fill: &Value, error: &dyn Fn(Value) -> String) -> Option<Value> {
+    let mut fields = serde_json::Map::new();
+    for _ in 0..8 {
+        let value = serde_json::json!({ name: fields });
+        let problem = error(value.clone());
+        match problem.split_once("missing field `").and_then(|(_, rest)| rest.split_once('`')) {
+            Some((field, _)) => fields.insert(field.to_owned(), fill.clone()),
+            None => return problem.is_empty().then_some(value),
+        };
+    }
+    None
 }
 
 #[cfg(test)]
@@ -221,16 +226,23 @@ mod tests {
 
     #[test]
     fn all_settings_are_told_with_what_they_may_be() {
-        let rows = rows(&shared(&ShadowSettings::default()).unwrap(), &check_shared);
-        let of = |name: &str| rows.iter().find(|(path, ..)| path == name).unwrap().2.words();
+        let root = shared(&ShadowSettings::default()).unwrap();
+        let rows = rows(&root, &check_shared);
+        let of = |name: &str| rows.iter().find(|(path, _)| path == name).unwrap().1.words();
         assert_eq!(of("cascades.count"), "0 to 8");
-        assert_eq!(of("atlas.tiles"), "one of Even, ByImportance");
+        assert_eq!(of("atlas.tiles"), "one of Even, ByImportance(...)");
         assert!(of("cascades.split").starts_with("one of Standard, Ratios"));
         let untold: Vec<&str> = rows
             .iter()
-            .filter(|(_, value, limit)| value.is_number() && limit.words().is_empty())
-            .map(|row| &*row.0)
+            .filter(|(path, limit)| {
+                let value = root.pointer(&format!("/{}", path.replace('.', "/"))).unwrap();
+                value.is_number() && limit.words().is_empty()
+            })
+            .map(|(path, _)| &**path)
             .collect();
         assert!(untold.is_empty(), "{untold:?}");
+        // The window can go from each variant to each other.
+        let lost = rows.iter().find(|(_, limit)| limit.variants.len() != limit.names.len());
+        assert_eq!(lost, None);
     }
 }

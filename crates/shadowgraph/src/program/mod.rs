@@ -81,7 +81,44 @@ fn runtime_folder() {
 
 /// Help and version go to standard output with code 0, wrong usage to standard error with code 2.
 fn tell_usage(usage: &clap::Error) -> ExitCode {
+    if usage.use_stderr() {
+        console::error(&wrong_usage(usage));
+        return ExitCode::from(Failure::USAGE);
+    }
     // Nobody may be left to read it.
     let _unread = usage.print();
-    if usage.use_stderr() { ExitCode::from(Failure::USAGE) } else { ExitCode::SUCCESS }
+    ExitCode::SUCCESS
+}
+
+/// What is wrong and what may be meant, without the paragraphs on how the command is used.
+fn wrong_usage(usage: &clap::Error) -> String {
+    let words = usage.render().to_string();
+    let wrong = ["\n\nUsage:", "\n\nFor more information"]
+        .into_iter()
+        .fold(&*words, |words, end| words.split(end).next().unwrap_or_default());
+    format!("{}\n--help tells all", wrong.trim_start_matches("error: "))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn wrong_usage_is_one_line_with_what_may_be_meant() {
+        for (line, expected) in [
+            ("rendr", "unrecognized subcommand 'rendr'; tip: a similar subcommand exists: 'render'"),
+            ("render --frames 3", "unexpected argument '--frames' found; tip: a similar argument exists: "),
+            (
+                "dump --format gif",
+                "invalid value 'gif' for '--format <FORMAT>'; [possible values: text, json,",
+            ),
+            ("explain", "the following required arguments were not provided:; <NAME>"),
+            ("bench --frames many", "invalid value 'many' for '--frames <N>': "),
+        ] {
+            let words = std::iter::once("shadowgraph").chain(line.split(' '));
+            let told = console::one_line(&wrong_usage(&Cli::try_parse_from(words).unwrap_err()));
+            assert!(told.starts_with(expected) && told.ends_with("; --help tells all"), "{told}");
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::limits::{Check, check_own, check_shared, rows, shared};
 use crate::nodes::near_words;
 use crate::pipelines::{BUILT_IN, Pipeline, schema};
 use crate::shadows::{ShadowSettings, TechniqueKind, Techniques};
-use crate::{Registry, permutations};
+use crate::{Registry, permutations, ron_file};
 use serde_json::Value;
 
 /// Prints all that there is, one of it, or the schema of files.
@@ -55,29 +55,25 @@ fn technique(kind: &TechniqueKind, techniques: &Techniques) -> Result<String, Fa
     let settings = ShadowSettings::default();
     if let Some(own) = techniques.own_settings(kind.name, &settings) {
         let check = |value: &Value| check_own(techniques, kind.name, &settings, value);
-        table(&mut out, &own?, &check);
+        table(&mut out, &own?, &kind.default_settings().unwrap_or_default(), &check);
     }
     Ok(out)
 }
 
 fn shared_settings() -> Result<String, Failure> {
-    let mut out = String::from(
-        "settings of all techniques, by the path in a file of --settings, with defaults as JSON has them\n",
-    );
-    table(&mut out, &shared(&ShadowSettings::default())?, &check_shared);
+    let mut out =
+        String::from("settings of all techniques, by the path in a file of --settings, with defaults\n");
+    let defaults = ShadowSettings::default();
+    table(&mut out, &shared(&defaults)?, &ron::to_string(&defaults)?, &check_shared);
     Ok(out)
 }
 
-/// Settings with their defaults and what they may be.
-fn table(out: &mut String, root: &Value, check: Check<'_>) {
-    for (name, default, limit) in rows(root, check) {
+/// Settings with their defaults, as files have them, and what they may be.
+fn table(out: &mut String, root: &Value, defaults: &str, check: Check<'_>) {
+    for (name, limit) in rows(root, check) {
         let words = limit.words();
         let allowed = if words.is_empty() { String::new() } else { format!("; {words}") };
-        // Most are single floats, which have few digits as such.
-        let default = match default.as_f64().filter(|_| default.is_f64()) {
-            Some(number) => format!("{:?}", number as f32),
-            None => default.to_string(),
-        };
+        let default = spaced(ron_file::value(defaults, &name).unwrap_or_default());
         let _ = writeln!(out, "  set    {name:<32} {default}{allowed}");
     }
 }
@@ -129,6 +125,11 @@ fn permutation_table(out: &mut String, techniques: &Techniques) -> Result<(), Fa
 /// What a settings file has in its `techniques`.
 fn settings(out: &mut String, name: &str, defaults: Option<String>) {
     if let Some(defaults) = defaults {
-        let _ = writeln!(out, "  {:<16}\"{name}\": {}", "", defaults.replace(':', ": ").replace(',', ", "));
+        let _ = writeln!(out, "  {:<16}\"{name}\": {}", "", spaced(&defaults));
     }
+}
+
+/// RON as people write it.
+fn spaced(ron: &str) -> String {
+    ron.replace(':', ": ").replace(',', ", ")
 }

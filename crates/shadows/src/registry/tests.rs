@@ -235,7 +235,7 @@ fn settings_of_techniques_are_checked_with_the_others() {
     let kind = error(r#"(techniques: {"pcss": (filter_taps: 2.5)})"#);
     assert!(
         kind.starts_with("technique `pcss`: its settings: ")
-            && kind.ends_with("in `(filter_taps: 2.5)`")
+            && kind.ends_with("(line 1, column 16 of them)")
             && kind.lines().count() == 1,
         "{kind}"
     );

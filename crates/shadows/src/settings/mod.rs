@@ -23,7 +23,10 @@ pub use own::{OwnSettings, TechniqueSettings};
 
 use serde::{Deserialize, Serialize};
 
+use shadowgraph_scene::Light;
+
 use crate::Error;
+use crate::rules::of_lights;
 pub(crate) use check::{in_range, setting};
 
 /// All settings of shadows: those of the shadow maps, and those that single techniques add. Files may leave out what they do
@@ -87,5 +90,14 @@ impl ShadowSettings {
         self.atlas.validate()?;
         self.bias.validate()?;
         self.lights.iter().try_for_each(LightShadows::validate)
+    }
+
+    /// Checks that a scene has each light that [`lights`](Self::lights) names, and that none is named twice.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoSuchLight`] or [`Error::LightTwice`], with the entry.
+    pub fn check_lights(&self, lights: &[Light]) -> Result<(), Error> {
+        of_lights(self, lights).map(drop)
     }
 }

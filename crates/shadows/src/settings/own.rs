@@ -44,10 +44,13 @@ impl OwnSettings {
     /// Names the technique and the field, and what it may be.
     pub fn get<T: TechniqueSettings>(&self) -> Result<T, Error> {
         let settings: T = match self.0.get(T::NAME) {
-            Some(own) => read(own).map_err(|error| failed(T::NAME, &error))?,
+            Some(own) => own.into_rust().map_err(|reason| Error::UnreadSettings {
+                technique: T::NAME.to_owned(),
+                reason: Box::new(reason),
+            })?,
             None => T::default(),
         };
-        settings.validate().map_err(|error| failed(T::NAME, &error))?;
+        validate(&settings)?;
         Ok(settings)
     }
 
@@ -56,7 +59,7 @@ impl OwnSettings {
     /// # Errors
     /// As [`get`](Self::get), and for settings that RON cannot tell.
     pub fn set<T: TechniqueSettings>(&mut self, settings: &T) -> Result<(), Error> {
-        settings.validate().map_err(|error| failed(T::NAME, &error))?;
+        validate(settings)?;
         let own = RawValue::from_rust(settings).map_err(|error| failed(T::NAME, &error))?;
         self.0.insert(T::NAME.to_owned(), own);
         Ok(())
@@ -68,12 +71,13 @@ impl OwnSettings {
     }
 }
 
-/// Reads RON; what is wrong is told with the line that it is in.
-fn read<T: DeserializeOwned>(text: &RawValue) -> Result<T, String> {
-    let text = text.get_ron();
-    ron::from_str(text).map_err(|error| {
-        let line = text.lines().nth(error.span.start.line.saturating_sub(1)).unwrap_or_default();
-        format!("{}, in `{}`", error.code, line.trim())
+/// Checks every value; an error names the technique too.
+fn validate<T: TechniqueSettings>(settings: &T) -> Result<(), Error> {
+    settings.validate().map_err(|error| match error {
+        Error::Setting { field, value, allowed } => {
+            Error::OwnSetting { technique: T::NAME.to_owned(), field, value, allowed }
+        }
+        other => failed(T::NAME, &other),
     })
 }
 

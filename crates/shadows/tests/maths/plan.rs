@@ -255,7 +255,7 @@ fn a_light_with_two_entries_is_an_error() {
     let entry = || LightShadows::new(LightRef::Index(0));
     let settings = ShadowSettings { lights: vec![entry(), entry()], ..ShadowSettings::default() };
     let refused = try_plan(&look(), &[sun(DOWN, 1.0)], &Boxes(Vec::new()), &settings).unwrap_err();
-    assert_eq!(refused, Error::LightTwice { light: 0 });
+    assert_eq!(refused, Error::LightTwice { entry: 1, light: 0 });
 }
 
 #[test]

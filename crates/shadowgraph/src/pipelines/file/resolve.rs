@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use super::choose::Chosen;
+use super::choose::{Chosen, parameter_of};
 use super::document::{Document, Entry, Feed};
 use super::source::{PipelineError, Spot};
 use crate::nodes::{Need, NodeKind, Nodes, Port, Settings, near_words};
@@ -335,7 +335,8 @@ fn settings(entry: &Entry, kind: &NodeKind, chosen: &Chosen<'_>) -> Result<Setti
         let value =
             given.map_or_else(|| setting.default_value(), |(_, value)| chosen.value(&value.value).clone());
         if let (Some(fault), Some((_, spot))) = (setting.fault(&value), given) {
-            return Err(spot.error(format!("`{}`: {fault}", entry.name.value)));
+            let by = parameter_of(&spot.value).map(|name| format!(", by the parameter `{name}`"));
+            return Err(spot.error(format!("`{}`: {fault}{}", entry.name.value, by.unwrap_or_default())));
         }
         values.push((setting.name, value));
     }

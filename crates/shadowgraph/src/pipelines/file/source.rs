@@ -77,7 +77,6 @@ pub(super) fn read<'t, T: Deserialize<'t>>(
     source: &Arc<Source>,
     raw: &'t RawValue,
 ) -> Result<Spot<T>, PipelineError> {
-    let inner = raw.get_ron();
-    let start = (inner.as_ptr() as usize).saturating_sub(source.text.as_ptr() as usize);
-    Ok(Spot { value: parse(source, inner, start)?, place: place_of(source, raw) })
+    let start = ron_file::start_of(&source.text, raw);
+    Ok(Spot { value: parse(source, raw.get_ron(), start)?, place: place_of(source, raw) })
 }

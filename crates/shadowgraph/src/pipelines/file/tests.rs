@@ -204,7 +204,12 @@ fn what_is_wrong_with_a_choice_is_told_with_the_option_and_a_node_left_out_is_kn
         ..Choices::default()
     };
     let error = load_beside(&text, "", &choose(5.0, true)).unwrap_err();
-    assert!(error.ends_with("it can be a number from 0 to 1 (with --set blur=5.0 --set on=true)"), "{error}");
+    assert!(
+        error.ends_with(
+            "it can be a number from 0 to 1, by the parameter `blur` (with --set blur=5.0 --set on=true)"
+        ),
+        "{error}"
+    );
     assert!(load_beside(&text, "", &choose(0.5, false)).unwrap().leaves_out("glow"));
     assert!(!load_beside(&text, "", &choose(0.5, true)).unwrap().leaves_out("glow"));
 }

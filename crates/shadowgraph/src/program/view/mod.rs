@@ -49,6 +49,9 @@ fn check_folder(folder: &Path) -> Result<(), Failure> {
 }
 
 fn no_display(error: &dyn std::fmt::Display) -> Failure {
-    let reason = error.to_string().replace('\n', " ");
+    let words = error.to_string().replace('\n', " ");
+    // Without the place in the window library's code.
+    let behind = words.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    let reason = behind.map_or(&*words, |(_, reason)| reason);
     Failure { code: Failure::INPUT, message: format!("there is no display to open a window on: {reason}") }
 }

@@ -65,6 +65,7 @@
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"$sun\"}")], "setting `technique`: there is no parameter `sun`; there is none"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"pcf\", \"technique\": \"msm\"}")], "the setting `technique` stands here twice"),
     // Parameters, tiers and conditions.
+    (&[("nodes: [", "parameters: {\"a\": 1},\n nodes: ["), ("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"collected\": \"$a\"}")], "`shadows`: collected is 1; it can be true or false, by the parameter `a`"),
     (&[("nodes: [", "parameters: {\"a\": 1, \"a\": 2},\n nodes: [")], "the parameter `a` stands here twice"),
     (&[("nodes: [", "tiers: {\"low\": {\"a\": 1}},\n nodes: [")], "there is no parameter `a`"),
     (&[("nodes: [", "parameters: {\"a\": true}, tiers: {\"low\": {\"a\": 1}},\n nodes: [")], "tier `low`: 1 is a number, and the parameter is true or false"),
