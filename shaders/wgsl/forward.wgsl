@@ -1,11 +1,8 @@
 // The forward lit pass: every light, every material, whatever the shadow technique.
-#import shadowgraph::view::{view, direction_to_camera}
+#import shadowgraph::view::view
 #import shadowgraph::draw::Vertex
-#import shadowgraph::mesh::{MeshVertex, mesh_vertex, shading_normal, receiver_of}
-#import shadowgraph::material::{
-    MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_UNSHADOWED, TextureCoordinates, material_has,
-    base_color, metallic_roughness, occlusion, emissive, is_hole,
-}
+#import shadowgraph::mesh::{MeshVertex, mesh_vertex, mesh_surface}
+#import shadowgraph::material::{MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_UNSHADOWED, material_has}
 #import shadowgraph::surface::pack_normal
 #import shadowgraph::lighting::surface_of
 #import shadowgraph::shade::{lit, visibility_shown, debug_shown}
@@ -30,42 +27,29 @@ fn vs_forward(vertex: Vertex) -> MeshVertex {
 
 @fragment
 fn fs_forward(in: MeshVertex, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
-    // Everything that needs the neighbouring pixels comes before the first branch that they may not share.
-    let ddx_position = dpdx(in.from_camera);
-    let ddy_position = dpdy(in.from_camera);
-    let uv = TextureCoordinates(in.uv_first, in.uv_second);
-    let color = base_color(uv, in.color);
-    let metal_rough = metallic_roughness(uv);
-    let open = occlusion(uv);
-    let glow = emissive(uv);
-    let to_camera = direction_to_camera(in.from_camera);
-    let normal = shading_normal(in, uv, front_facing, to_camera);
-
-    if material_has(MATERIAL_MASK) && is_hole(color.a) {
-        discard;
-    }
+    let mesh = mesh_surface(in, front_facing);
+    let receiver = mesh.receiver;
     let blended = material_has(MATERIAL_BLEND);
     let unshadowed = material_has(MATERIAL_UNSHADOWED);
-    let receiver = receiver_of(in, ddx_position, ddy_position, normal, to_camera, front_facing);
     if AOV == AOV_VISIBILITY {
         return visibility_shown(AOV_LIGHT, receiver, unshadowed);
     }
     if AOV == AOV_CASCADE {
-        return debug_shown(AOV_LIGHT, receiver, to_camera, unshadowed);
+        return debug_shown(AOV_LIGHT, receiver, mesh.to_camera, unshadowed);
     }
     if AOV == AOV_NORMAL {
-        return vec4f(normal * 0.5 + 0.5, 1.0);
+        return vec4f(mesh.normal * 0.5 + 0.5, 1.0);
     }
     if AOV == AOV_SURFACE {
         return vec4f(receiver.position, pack_normal(receiver.geometric_normal));
     }
 
     // Unlit colours and glow are what the picture shows: exposure, which follows the lights, does not change them.
-    var radiance = color.rgb;
+    var radiance = mesh.color.rgb;
     if !material_has(MATERIAL_UNLIT) {
-        let surface = surface_of(color.rgb, metal_rough, open, normal, to_camera);
-        radiance = lit(surface, receiver, unshadowed) * view.exposure + glow;
+        let surface = surface_of(mesh.color.rgb, mesh.metal_rough, mesh.open, mesh.normal, mesh.to_camera);
+        radiance = lit(surface, receiver, unshadowed) * view.exposure + mesh.glow;
     }
-    let alpha = select(1.0, saturate(color.a), blended);
+    let alpha = select(1.0, saturate(mesh.color.a), blended);
     return vec4f(min(radiance, vec3f(BRIGHTEST)) * alpha, alpha);
 }

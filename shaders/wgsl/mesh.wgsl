@@ -5,7 +5,8 @@
     Vertex, world_position, world_normal, world_direction, handedness, clip_position,
 }
 #import shadowgraph::material::{
-    MATERIAL_BLEND, MATERIAL_NORMAL_MAP, TextureCoordinates, material_has, normal_in_tangent_space,
+    MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_NORMAL_MAP, TextureCoordinates, material_has,
+    base_color, metallic_roughness, occlusion, emissive, normal_in_tangent_space, is_hole,
 }
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_BACK_FACE}
 
@@ -33,6 +34,41 @@ fn mesh_vertex(vertex: Vertex) -> MeshVertex {
         vertex.uv_second,
         vertex.color,
     );
+}
+
+// What a fragment of a mesh is.
+struct MeshSurface {
+    // Linear.
+    color: vec4f,
+    // x: metallic, y: perceptual roughness.
+    metal_rough: vec2f,
+    // 1: all of the ambient light arrives.
+    open: f32,
+    // Radiance, before exposure.
+    glow: vec3f,
+    to_camera: vec3f,
+    // Shading normal.
+    normal: vec3f,
+    receiver: Receiver,
+}
+
+// For fragments: the holes of masked materials are discarded. Call in uniform control flow.
+fn mesh_surface(in: MeshVertex, front_facing: bool) -> MeshSurface {
+    // Everything that needs the neighbouring pixels comes before the first branch that they may not share.
+    let ddx_position = dpdx(in.from_camera);
+    let ddy_position = dpdy(in.from_camera);
+    let uv = TextureCoordinates(in.uv_first, in.uv_second);
+    let color = base_color(uv, in.color);
+    let metal_rough = metallic_roughness(uv);
+    let open = occlusion(uv);
+    let glow = emissive(uv);
+    let to_camera = direction_to_camera(in.from_camera);
+    let normal = shading_normal(in, uv, front_facing, to_camera);
+    if material_has(MATERIAL_MASK) && is_hole(color.a) {
+        discard;
+    }
+    let receiver = receiver_of(in, ddx_position, ddy_position, normal, to_camera, front_facing);
+    return MeshSurface(color, metal_rough, open, glow, to_camera, normal, receiver);
 }
 
 // `fallback` where the direction has no length.
