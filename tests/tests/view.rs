@@ -228,7 +228,8 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     view.until("the camera to rest", |view| {
         let before = view.picture();
         std::thread::sleep(Duration::from_secs(1));
-        changed(&before, &view.picture()) == 0.0
+        // But for the times in the panel.
+        changed(&before, &view.picture()) < 0.005
     });
     let moved = view.keep("2 moved");
 
