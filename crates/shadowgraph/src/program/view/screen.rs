@@ -24,6 +24,8 @@ pub(super) struct Screen {
     painter: egui_wgpu::Renderer,
     panel: Panel,
     picture: Option<Picture>,
+    /// The window's title, which not every window system tells.
+    title: String,
 }
 
 /// The texture that the scene is drawn into, as the panel's library knows it.
@@ -59,7 +61,8 @@ impl Screen {
         let input =
             egui_winit::State::new(context, ViewportId::ROOT, &window, None, window.theme(), Some(limit));
         let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, RendererOptions::default());
-        Ok(Self { window, surface, config, gpu, input, painter, panel: Panel::default(), picture: None })
+        let (panel, picture, title) = (Panel::default(), None, String::new());
+        Ok(Self { window, surface, config, gpu, input, painter, panel, picture, title })
     }
 
     pub(super) fn resize(&mut self, size: PhysicalSize<u32>) -> Result<(), Error> {
@@ -70,10 +73,11 @@ impl Screen {
     }
 
     /// Says in the title what is shown.
-    pub(super) fn name(&self, stage: &Stage) {
+    pub(super) fn name(&mut self, stage: &Stage) {
         let title = format!("Shadowgraph: {}, {}", stage.technique.name(), stage.pipeline.name());
-        if self.window.title() != title {
+        if self.title != title {
             self.window.set_title(&title);
+            self.title = title;
         }
     }
 
