@@ -72,7 +72,8 @@ impl<'a> Textures<'a> {
     pub(super) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
         let device = self.device;
         let made = self.samplers.entry(sampler);
-        made.or_insert_with(|| device.create_sampler(&sampler_descriptor(&sampler))).clone()
+        let anisotropy = anisotropy(device.adapter_info().device_type);
+        made.or_insert_with(|| device.create_sampler(&sampler_descriptor(&sampler, anisotropy))).clone()
     }
 
     fn upload(&mut self, image: &Image, reading: Reading) -> wgpu::TextureView {
@@ -119,7 +120,13 @@ fn extent(width: u32, height: u32) -> wgpu::Extent3d {
     wgpu::Extent3d { width, height, depth_or_array_layers: 1 }
 }
 
-fn sampler_descriptor(sampler: &Sampler) -> wgpu::SamplerDescriptor<'static> {
+/// How many samples a smooth filter takes on a kind of device. Mesa's software driver goes through every texel below a pixel,
+/// so that a floor that is seen on its edge, stretched up to the horizon, takes it minutes for a frame, or for ever.
+fn anisotropy(device: wgpu::DeviceType) -> u16 {
+    if device == wgpu::DeviceType::Cpu { 1 } else { ANISOTROPY }
+}
+
+fn sampler_descriptor(sampler: &Sampler, anisotropy: u16) -> wgpu::SamplerDescriptor<'static> {
     let wrap = |wrap: Wrap| match wrap {
         Wrap::Repeat => wgpu::AddressMode::Repeat,
         Wrap::MirrorRepeat => wgpu::AddressMode::MirrorRepeat,
@@ -142,7 +149,7 @@ fn sampler_descriptor(sampler: &Sampler) -> wgpu::SamplerDescriptor<'static> {
         },
         // Below half a level the nearest one is the largest.
         lod_max_clamp: if sampler.mip.is_some() { 32.0 } else { 0.25 },
-        anisotropy_clamp: if smooth { ANISOTROPY } else { 1 },
+        anisotropy_clamp: if smooth { anisotropy } else { 1 },
         ..wgpu::SamplerDescriptor::default()
     }
 }
@@ -154,8 +161,14 @@ mod tests {
     #[test]
     fn sampler_without_mips_stays_on_the_largest_level_and_smooth_ones_are_anisotropic() {
         let flat = Sampler { mip: None, ..Sampler::default() };
-        assert!(sampler_descriptor(&flat).lod_max_clamp < 0.5);
-        assert_eq!(sampler_descriptor(&flat).anisotropy_clamp, 1);
-        assert_eq!(sampler_descriptor(&Sampler::default()).anisotropy_clamp, ANISOTROPY);
+        assert!(sampler_descriptor(&flat, ANISOTROPY).lod_max_clamp < 0.5);
+        assert_eq!(sampler_descriptor(&flat, ANISOTROPY).anisotropy_clamp, 1);
+        assert_eq!(sampler_descriptor(&Sampler::default(), ANISOTROPY).anisotropy_clamp, ANISOTROPY);
+    }
+
+    #[test]
+    fn a_software_driver_takes_one_sample_however_grazing_the_angle() {
+        assert_eq!(anisotropy(wgpu::DeviceType::Cpu), 1);
+        assert_eq!(anisotropy(wgpu::DeviceType::IntegratedGpu), ANISOTROPY);
     }
 }
