@@ -71,9 +71,11 @@ impl<'a> Textures<'a> {
     /// The sampler with these properties.
     pub(super) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
         let device = self.device;
-        let made = self.samplers.entry(sampler);
-        let anisotropy = anisotropy(device.adapter_info().device_type);
-        made.or_insert_with(|| device.create_sampler(&sampler_descriptor(&sampler, anisotropy))).clone()
+        let make = || {
+            let anisotropy = anisotropy(device.adapter_info().device_type);
+            device.create_sampler(&sampler_descriptor(&sampler, anisotropy))
+        };
+        self.samplers.entry(sampler).or_insert_with(make).clone()
     }
 
     fn upload(&mut self, image: &Image, reading: Reading) -> wgpu::TextureView {
