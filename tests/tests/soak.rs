@@ -9,13 +9,19 @@ use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::Technique;
 use shadowgraph::{Gpu, Method, Pipeline, Registry, Renderer, ViewOptions};
 use shadowgraph_tests::skip;
+use std::io::Write;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::Duration;
 
 /// Frames where nobody asks for more.
 const FRAMES: u32 = 120;
 
 /// The most frames of one process.
 const SHARE: u32 = 120;
+
+/// No frame takes as long, pipelines and a busy machine included.
+const FRAME_LIMIT: Duration = Duration::from_secs(300);
 
 /// Numbers that are the same in every run (xorshift, Marsaglia 2003).
 struct Random(u64);
@@ -116,6 +122,26 @@ fn asked(variable: &str, default: u32) -> u32 {
     std::env::var(variable).map_or(default, |number| number.parse().unwrap())
 }
 
+/// Ends the process where what was last sent is not followed in time: a driver that never comes back cannot be asked to.
+fn watch(limit: Duration) -> Sender<String> {
+    let (sender, doing) = channel::<String>();
+    std::thread::spawn(move || {
+        let mut now = String::from("the start");
+        loop {
+            match doing.recv_timeout(limit) {
+                Ok(next) => now = next,
+                Err(RecvTimeoutError::Disconnected) => return,
+                Err(RecvTimeoutError::Timeout) => {
+                    // Not `eprintln!`: that would be captured, and end with the process.
+                    let _ = writeln!(std::io::stderr(), "soak: not done after {} s: {now}", limit.as_secs());
+                    std::process::exit(1);
+                }
+            }
+        }
+    });
+    sender
+}
+
 /// Draws frames by ever other pipelines, techniques, sizes and lights. `each` is called when the renderer of some frames is gone,
 /// with the part of the frames that are drawn, in quarters.
 fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
@@ -126,6 +152,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
     let scene = demo_scene();
     let mut random = Random::new(asked("SHADOWGRAPH_SOAK_SEED", 0));
     let mut drawn = 0;
+    let watched = watch(FRAME_LIMIT);
     while drawn < frames {
         let file = folder.path().join("soak.ron");
         let text = pipeline(&mut random);
@@ -138,6 +165,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
         let mut own = scene.clone();
         own.lights.truncate(random.below(own.lights.len() as u64 + 1) as usize);
         let camera = scene.cameras[random.below(scene.cameras.len() as u64) as usize].clone();
+        watched.send(format!("the renderer of frame {drawn}, {name}\n{text}")).unwrap();
         let mut renderer = Renderer::with(gpu, own, &camera, Aov::Color, method).unwrap();
         let mut size_px = [256, 144];
         for _ in 0..8 + random.below(16) {
@@ -148,6 +176,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
             options.shadows.cascades.map_size_px = 512;
             options.shadows.atlas.map_size_px = 512;
             options.shadows.atlas.cache = random.flip();
+            watched.send(format!("frame {drawn}, {name}, {size_px:?} px\n{text}")).unwrap();
             let view = renderer.draw(gpu, &options).unwrap_or_else(|error| panic!("{error}, {name}\n{text}"));
             assert_eq!(view.picture.rgba8.len(), (size_px[0] * size_px[1] * 4) as usize);
             drawn += 1;
