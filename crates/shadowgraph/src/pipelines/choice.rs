@@ -160,6 +160,15 @@ impl Pipeline {
         }
     }
 
+    /// Tells what is right in its file and yet not as one may expect, a line each: nodes that lead to no output, and parameters that
+    /// nothing asks for. They change nothing in a picture.
+    pub fn warnings(&self) -> Vec<PipelineError> {
+        match &*self.0 {
+            Kind::File { file, .. } => file.warnings(),
+            Kind::Script { .. } => Vec::new(),
+        }
+    }
+
     /// Returns whether its file has a node of this name whose `when` does not hold.
     pub(crate) fn leaves_out(&self, node: &str) -> bool {
         match &*self.0 {

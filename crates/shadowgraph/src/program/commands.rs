@@ -74,6 +74,10 @@ fn check_output(file: &Path) -> Result<(), Failure> {
 /// Parses the options, loads the scene and applies the options to it.
 pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failure> {
     let options = args.options(registry)?;
+    // A texture that is asked for may be of a node that nothing else leads to.
+    if !matches!(options.aov, Aov::Texture(_)) {
+        options.pipeline.warnings().iter().for_each(|note| console::warning(&note.to_string()));
+    }
     let mut scene = load(args.scene.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
     if let Some(note) = options.sun.apply(&mut scene) {

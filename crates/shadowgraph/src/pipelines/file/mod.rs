@@ -6,6 +6,7 @@ mod include;
 mod resolve;
 mod schema;
 mod source;
+mod unused;
 mod wiring;
 
 #[cfg(test)]
@@ -93,6 +94,11 @@ impl PipelineFile {
     pub(super) fn left_out(&self) -> impl Iterator<Item = &str> {
         let names = self.document.nodes.iter().map(|entry| entry.name.value.as_str());
         names.filter(|name| self.resolved.nodes.iter().all(|node| node.name != *name))
+    }
+
+    /// Tells what serves nothing.
+    pub(super) fn warnings(&self) -> Vec<PipelineError> {
+        self.document.unused(&self.nodes, &self.resolved)
     }
 
     fn chosen(

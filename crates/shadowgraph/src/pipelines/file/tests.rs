@@ -4,6 +4,8 @@ use super::*;
 use crate::pipelines::Pipeline;
 use serde_json::json;
 
+mod unused;
+
 const FORWARD: &str = include_str!("../../../pipelines/forward.ron");
 
 /// Loads a file of this text, from a folder where `part.ron` is another.

@@ -115,6 +115,9 @@ impl Stage {
                 Ok(pipeline) => {
                     (self.pipeline, self.refused) = (pipeline, None);
                     self.note = format!("{} was read again", self.pipeline.name());
+                    for warning in self.pipeline.warnings() {
+                        self.note += &format!("; {warning}");
+                    }
                 }
                 Err(error) => self.refused = Some(error.to_string()),
             }
