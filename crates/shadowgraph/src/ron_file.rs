@@ -56,10 +56,16 @@ fn told(text: &str, error: &SpannedError) -> (usize, String) {
     }
     let offset = offset_of_error(text, error.span.start);
     let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
-    let name = before.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+    let no_letter = |c: char| !c.is_alphanumeric() && c != '_';
+    let name = before.rsplit(no_letter).next().unwrap_or_default();
+    let word = after.split(no_letter).next().unwrap_or_default();
     use ron::Error as E;
     let words = match &error.code {
         E::ExpectedComma if after.starts_with('.') => problem(&E::ExpectedInteger),
+        E::ExpectedComma if before.trim_end().ends_with('"') && !word.is_empty() => {
+            "a comma is missing here, or a quote before it".to_owned()
+        }
+        E::ExpectedString if !word.is_empty() => format!("a text stands in quotes: \"{word}\""),
         E::ExpectedStructLike | E::ExpectedNamedStructLike(_) if !name.is_empty() => {
             format!("`{name}` needs its values in brackets here: {name}(...)")
         }
@@ -231,7 +237,7 @@ fn problem(error: &ron::Error) -> String {
         E::IntegerOutOfBounds => {
             "the number is too large or too small: a whole number from 0 on has to stand here"
         }
-        E::ExpectedString => "a text in quotes has to stand here, such as \"pcf\"",
+        E::ExpectedString => "a text in quotes has to stand here, such as \"name\"",
         E::ExpectedStringEnd => "the text is not closed: a quote is missing",
         E::ExpectedIdentifier | E::InvalidIdentifier(_) | E::SuggestRawIdentifier(_) => {
             "a name without quotes has to stand here, such as count in (count: 4), On(\"bloom\"), or Tent5"

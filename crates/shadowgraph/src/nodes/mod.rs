@@ -9,7 +9,7 @@ mod ports;
 mod setting;
 
 pub use built_in::Geometry as GeometryNode;
-pub(crate) use built_in::Shadows as ShadowsNode;
+pub(crate) use built_in::{Shadows as ShadowsNode, Taa as TaaNode, ViewRecords as ViewNode};
 pub use port::{Need, Port, PortKind, Value};
 pub use ports::Ports;
 pub use setting::{Allows, Setting, Settings};
@@ -281,8 +281,13 @@ impl Nodes {
 /// `; did you mean ...?`, or which there are.
 pub(crate) fn near_words<'n>(wanted: &str, known: impl Iterator<Item = &'n str>) -> String {
     let known: Vec<&str> = known.collect();
-    let rated =
-        known.iter().map(|name| (strsim::jaro_winkler(&name.to_lowercase(), &wanted.to_lowercase()), *name));
+    let wanted = wanted.to_lowercase();
+    let alike = |name: &str| match name.to_lowercase() {
+        // One slip in a short name weighs too much otherwise.
+        name if name.len() > 2 && strsim::osa_distance(&name, &wanted) == 1 => 0.95,
+        name => strsim::jaro_winkler(&name, &wanted),
+    };
+    let rated = known.iter().map(|name| (alike(name), *name));
     let nearest = rated.filter(|(alike, _)| *alike > 0.75).max_by(|a, b| a.0.total_cmp(&b.0));
     match nearest {
         Some((_, name)) => format!("; did you mean `{name}`?"),

@@ -160,8 +160,8 @@ impl Pipeline {
         }
     }
 
-    /// Tells what is right in its file and yet not as one may expect, a line each: nodes that lead to no output, and parameters that
-    /// nothing asks for. They change nothing in a picture.
+    /// Tells what is right in its file and yet not as one may expect, a line each: nodes that lead to no output, parameters that
+    /// nothing asks for, and temporal anti-aliasing without a camera that jitters or the other way round.
     pub fn warnings(&self) -> Vec<PipelineError> {
         match &*self.0 {
             Kind::File { file, .. } => file.warnings(),

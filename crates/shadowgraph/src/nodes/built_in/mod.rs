@@ -21,12 +21,14 @@ mod view;
 
 pub use geometry::Geometry;
 pub(crate) use shadows::Shadows;
+pub(crate) use taa::Taa;
+pub(crate) use view::ViewRecords;
 
 use super::NodeKind;
 
 pub(super) fn kinds() -> [NodeKind; 18] {
     [
-        NodeKind::of::<view::ViewRecords>(),
+        NodeKind::of::<ViewRecords>(),
         NodeKind::of::<geometry::Geometry>(),
         NodeKind::of::<surfaces::Surfaces>(),
         NodeKind::of::<shadows::Shadows>(),
@@ -39,7 +41,7 @@ pub(super) fn kinds() -> [NodeKind; 18] {
         NodeKind::of::<fog::Fog>(),
         NodeKind::of::<hi_z::HiZ>(),
         NodeKind::of::<bloom::Bloom>(),
-        NodeKind::of::<taa::Taa>(),
+        NodeKind::of::<Taa>(),
         NodeKind::of::<tonemap::Tonemap>(),
         NodeKind::of::<fxaa::Fxaa>(),
         NodeKind::of::<shadow_debug::ShadowDebug>(),

@@ -7,7 +7,7 @@ use crate::Error;
 use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
 use crate::pipelines::{Build, View};
 
-pub(super) struct Taa {
+pub(crate) struct Taa {
     pass: Temporal,
     fresh: f32,
 }

@@ -7,8 +7,13 @@ use crate::Error;
 use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
 use crate::pipelines::{Build, View};
 
-pub(super) struct ViewRecords {
+pub(crate) struct ViewRecords {
     jitters: Option<Jitters>,
+}
+
+impl ViewRecords {
+    /// The setting that makes the camera jitter.
+    pub(crate) const JITTER: &'static str = "jitter";
 }
 
 impl Node for ViewRecords {
@@ -17,14 +22,14 @@ impl Node for ViewRecords {
     const INPUTS: &'static [Port] = &[];
     const OUTPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera and the lights")];
     const SETTINGS: &'static [Setting] = &[Setting::new(
-        "jitter",
+        Self::JITTER,
         Allows::Toggle(false),
         "whether pixels look at another place in each frame, for `taa`",
     )];
     const GROUPS_ITSELF: bool = true;
 
     fn new(_build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { jitters: settings.toggle("jitter")?.then(Jitters::default) })
+        Ok(Self { jitters: settings.toggle(Self::JITTER)?.then(Jitters::default) })
     }
 
     fn add<'f>(

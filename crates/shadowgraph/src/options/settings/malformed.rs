@@ -42,7 +42,7 @@
     ("(cascades: (blend: Soft))", "s.ron:1:24: `Soft` needs its values in brackets here: Soft(...)"),
     ("(lights: (light: 0))", "s.ron:1:10: a list has to stand here, such as [1, 2]"),
     ("(techniques: (pcss: ()))", "s.ron:1:14: a map has to stand here, such as {\"name\": 1}"),
-    ("(techniques: {pcss: ()})", "s.ron:1:15: a text in quotes has to stand here, such as \"pcf\""),
+    ("(techniques: {pcss: ()})", "s.ron:1:15: a text stands in quotes: \"pcss\""),
     // Values out of range.
     ("(distance_m: 0.0)", "s.ron:1:14: shadow setting `distance_m` is 0; allowed: 0.001 to 1000000"),
     ("(distance_m: -5.0)", "s.ron:1:14: shadow setting `distance_m` is -5; allowed:"),

@@ -92,17 +92,27 @@ impl Document {
 
     fn parameter(&self, name: &Spot<String>) -> Result<&Spot<Value>, PipelineError> {
         let found = self.parameters.iter().find(|(known, _)| known.value == name.value);
-        found.map(|(_, value)| value).ok_or_else(|| {
-            let near = near_words(&name.value, self.parameters.iter().map(|(known, _)| &*known.value));
-            name.error(format!("there is no parameter `{}`{near}", name.value))
-        })
+        found.map(|(_, value)| value).ok_or_else(|| name.error(self.no_parameter(&name.value)))
+    }
+
+    fn no_parameter(&self, name: &str) -> String {
+        match self.parameters.is_empty() {
+            true => format!("there is no parameter `{name}`: the pipeline has none"),
+            false => {
+                let near = near_words(name, self.parameters.iter().map(|(known, _)| &*known.value));
+                format!("there is no parameter `{name}`{near}")
+            }
+        }
     }
 
     fn tier(&self, name: &str) -> Result<&Pairs<Value>, String> {
         let found = self.tiers.iter().find(|(known, _)| known.value == name);
-        found.map(|(_, values)| values).ok_or_else(|| {
-            let near = near_words(name, self.tiers.iter().map(|(known, _)| &*known.value));
-            format!("there is no tier `{name}`{near}")
+        found.map(|(_, values)| values).ok_or_else(|| match self.tiers.is_empty() {
+            true => format!("there is no tier `{name}`: the pipeline has none"),
+            false => {
+                let near = near_words(name, self.tiers.iter().map(|(known, _)| &*known.value));
+                format!("there is no tier `{name}`{near}")
+            }
         })
     }
 
@@ -134,8 +144,7 @@ impl Document {
         for (parameter, value) in &choices.parameters {
             let Some((_, default)) = self.parameters.iter().find(|(known, _)| known.value == *parameter)
             else {
-                let near = near_words(parameter, self.parameters.iter().map(|(known, _)| &*known.value));
-                return Err(refused(format!("there is no parameter `{parameter}`{near}")));
+                return Err(refused(self.no_parameter(parameter)));
             };
             let spot = Spot { value: value.clone(), place: default.place.clone() };
             same_type(default, &spot)

@@ -3,6 +3,7 @@
 mod choose;
 mod document;
 mod include;
+mod jitter;
 mod resolve;
 mod schema;
 mod source;
@@ -96,9 +97,11 @@ impl PipelineFile {
         names.filter(|name| self.resolved.nodes.iter().all(|node| node.name != *name))
     }
 
-    /// Tells what serves nothing.
+    /// Tells what serves nothing, or not what it is for.
     pub(super) fn warnings(&self) -> Vec<PipelineError> {
-        self.document.unused(&self.nodes, &self.resolved)
+        let mut told = self.document.unused(&self.nodes, &self.resolved);
+        told.extend(self.document.jitter_alone(&self.resolved));
+        told
     }
 
     fn chosen(

@@ -190,9 +190,14 @@ impl Wires<'_, '_> {
             if let (Some(wanted), Some(has)) = (port.format, given.format)
                 && wanted != has
             {
+                let (own, of) = (&node.entry.name.value, &self.present[giver].entry.name.value);
+                let mut fitting = self.fitting(port).into_iter();
+                let fits = fitting.find(|fits| !fits.starts_with(&format!("{own}.")));
                 return Err(place.error(format!(
-                    "`{}` of `{}` takes {wanted:?}, and `{}.{}` has {has:?}",
-                    port.name, node.entry.name.value, self.present[giver].entry.name.value, given.name
+                    "`{}` of `{own}` takes {wanted:?}, and `{of}.{}` has {has:?}{}",
+                    port.name,
+                    given.name,
+                    fits.map_or(String::new(), |fits| format!("; `{fits}` fits"))
                 )));
             }
             wired.push((*port, Some(self.present[giver].first + output), Some(giver)));
@@ -209,15 +214,7 @@ impl Wires<'_, '_> {
                 port.name, from.join("`, `")
             ));
         }
-        let givers = self.present.iter().flat_map(|giver| {
-            let fits = giver.kind.outputs.iter().filter(|output| {
-                output.kind == port.kind && (output.format == port.format || port.format.is_none())
-            });
-            fits.map(move |output| format!("{}.{}", giver.entry.name.value, output.name))
-        });
-        let mut givers: Vec<String> = givers.collect();
-        // What is called alike is likelier meant.
-        givers.sort_by_key(|giver| !giver.ends_with(&format!(".{}", port.name)));
+        let givers = self.fitting(port);
         let way_out = if givers.is_empty() {
             format!("add a node that gives a {}", port.kind.name())
         } else {
@@ -226,6 +223,19 @@ impl Wires<'_, '_> {
         node.entry
             .name
             .error(format!("input `{}` of `{name}` ({}) has to be fed, {way_out}", port.name, port.about))
+    }
+
+    /// The outputs that fit a port; first those that are called as it is, which are likelier meant.
+    fn fitting(&self, port: &Port) -> Vec<String> {
+        let givers = self.present.iter().flat_map(|giver| {
+            let fits = giver.kind.outputs.iter().filter(|output| {
+                output.kind == port.kind && (output.format == port.format || port.format.is_none())
+            });
+            fits.map(move |output| format!("{}.{}", giver.entry.name.value, output.name))
+        });
+        let mut givers: Vec<String> = givers.collect();
+        givers.sort_by_key(|giver| !giver.ends_with(&format!(".{}", port.name)));
+        givers
     }
 
     /// The first of what is named that is there: the node among those present, and its output.
@@ -424,6 +434,12 @@ fn cycle_error(present: &[Present<'_>], graph: &DiGraph<usize, ()>, cycle: &[Nod
     }
     let name = |node: &NodeIndex| present[graph[*node]].entry.name.value.as_str();
     let names: Vec<&str> = path.iter().chain(std::iter::once(&first)).map(name).collect();
-    let place = &present[graph[first]].entry.name;
-    place.error(format!("nodes feed each other in a circle: {}", names.join(" -> ")))
+    let entry = &present[graph[first]].entry;
+    let feeds = |from: &Spot<String>| from.value.split('.').next() == path.last().map(name);
+    let closing = entry.inputs.iter().find(|(_, from)| from.iter().any(feeds));
+    let place = closing.map_or(&entry.name, |(input, _)| input);
+    place.error(format!(
+        "nodes feed each other in a circle: {}; feed one of them from elsewhere",
+        names.join(" -> ")
+    ))
 }

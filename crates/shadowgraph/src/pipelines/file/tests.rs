@@ -4,7 +4,7 @@ use super::*;
 use crate::pipelines::Pipeline;
 use serde_json::json;
 
-mod unused;
+mod warnings;
 
 const FORWARD: &str = include_str!("../../../pipelines/forward.ron");
 

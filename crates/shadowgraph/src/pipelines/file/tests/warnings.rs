@@ -1,4 +1,4 @@
-//! What is valid and serves nothing.
+//! What is valid and serves nothing, or not what it is for.
 
 use super::*;
 
@@ -61,6 +61,33 @@ fn parameters_that_nothing_asks_for_are_told_and_those_for_an_included_node_are_
     let told = warnings(text, part);
     let problem = "mine.ron:1:58: nothing asks for the parameter `bloom`: a setting does by \"$bloom\", or a node by `when`";
     assert_eq!(told, [problem]);
+}
+
+#[test]
+fn temporal_anti_aliasing_without_jitter_is_told_and_so_is_jitter_without_it() {
+    const TAA: (&str, &str) = (
+        "(name: \"picture\"",
+        "(name: \"temporal\", kind: \"taa\", inputs: {\"view\": \"view\", \"light\": \"lighting\", \"depth\": \"geometry\"}),
+        (name: \"picture\"",
+    );
+    const TAKEN: (&str, &str) = ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": \"temporal\"})");
+    const JITTER: (&str, &str) = ("kind: \"view\"", "kind: \"view\", settings: {\"jitter\": true}");
+    let still = "mine.ron:8:16: `temporal` (taa) smooths no edge without jitter: give `view` settings: {\"jitter\": true}";
+    assert_eq!(warnings(&changed(&[TAKEN, TAA]), ""), [still]);
+    assert_eq!(warnings(&changed(&[TAKEN, TAA, JITTER]), ""), [""; 0]);
+    // By way of a node that passes the camera on.
+    let through = [
+        TAKEN,
+        (
+            TAA.0,
+            "(name: \"clusters\", kind: \"clusters\", inputs: {\"view\": \"view\"}),\n(name: \"picture\"",
+        ),
+        (TAA.0, &*TAA.1.replacen("\"view\": \"view\"", "\"view\": \"clusters\"", 1)),
+        JITTER,
+    ];
+    assert_eq!(warnings(&changed(&through), ""), [""; 0]);
+    let swims = "mine.ron:4:49: `view` jitters and no `taa` takes it, so edges swim: add one, or take the setting out";
+    assert_eq!(warnings(&changed(&[JITTER]), ""), [swims]);
 }
 
 #[test]
