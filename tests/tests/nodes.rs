@@ -37,6 +37,13 @@ fn nodes_tells_all_about_a_node_a_pipeline_a_technique_and_the_shared_settings()
     assert!(text.starts_with("pipeline deferred, as a file") && text.contains("takes  gbuffer"), "{text}");
     let (_, text, _) = told(&["pcss"]);
     assert!(text.contains("filter_taps") && text.contains("24; 1 to 64"), "{text}");
+    let (_, text, _) = told(&["pcf+contact"]);
+    assert!(
+        text.contains("technique pcf: ")
+            && text.contains("technique +contact: ")
+            && text.contains("length_m"),
+        "{text}"
+    );
     let (_, text, _) = told(&["settings"]);
     assert!(text.contains("distance_m") && text.contains("150.0; 0.001 to 1000000 (metres)"), "{text}");
     let (code, _, error) = told(&["blom"]);

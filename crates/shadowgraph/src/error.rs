@@ -64,12 +64,12 @@ pub enum Error {
         there_are: String,
     },
     /// A texture that the graph does not have.
-    #[error("--aov {name}: the graph has no such texture; it has: {known}")]
+    #[error("--aov {name}: there is no such output or texture{hint}")]
     NoTexture {
         /// The name asked for.
         name: String,
-        /// The names there are.
-        known: String,
+        /// A name that is like it, or all.
+        hint: String,
     },
     /// A texture that is no picture.
     #[error(

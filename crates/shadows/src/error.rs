@@ -77,12 +77,12 @@ pub enum Error {
         allowed: &'static str,
     },
     /// There is no technique of this name.
-    #[error("there is no technique `{name}`; there is: {known}")]
+    #[error("there is no technique `{name}`{hint}")]
     NoTechnique {
         /// What was asked for.
         name: String,
-        /// The names there are.
-        known: String,
+        /// A name that is like it, or all.
+        hint: String,
     },
     /// A shader does not compose.
     #[error(transparent)]

@@ -86,16 +86,20 @@ fn the_atlas_shows_both_maps_and_only_what_they_need_runs() {
 }
 
 #[test]
-fn any_texture_of_the_graph_can_be_shown_and_an_unknown_one_lists_those_there_are() {
+fn any_texture_of_the_graph_can_be_shown_and_an_unknown_one_is_told_with_what_it_may_be() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = cube();
     let lit = draw(gpu, scene, Aov::Texture("lit".into()), &options).picture;
     assert_ne!(lit.pixel(TOP.0, TOP.1), lit.pixel(SKY.0, SKY.1));
-    let (scene, options) = cube();
-    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Texture("light".into())).unwrap();
-    let error = renderer.draw(gpu, &options).unwrap_err();
-    assert!(matches!(error, Error::NoTexture { .. }));
-    assert!(error.to_string().contains("it has: ") && error.to_string().contains("lit"), "{error}");
+    for (name, hint) in
+        [("visibilty:0", "did you mean `visibility:0`?"), ("?", "there is: color, visibility:0, ")]
+    {
+        let (scene, options) = cube();
+        let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Texture(name.into())).unwrap();
+        let error = renderer.draw(gpu, &options).unwrap_err();
+        assert!(matches!(error, Error::NoTexture { .. }), "{error}");
+        assert!(error.to_string().contains(hint), "{error}");
+    }
 }
 
 #[test]

@@ -79,6 +79,33 @@ fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
 }
 
 #[test]
+fn render_draws_as_many_frames_as_it_is_asked_for_and_writes_the_last() {
+    let Some(_gpu) = gpu() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let picture = |frames: &str, taa: &str| {
+        let (file, pipeline) =
+            (folder.path().join("p.png"), concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron"));
+        let mut command = std::process::Command::new(shadowgraph_tests::program().unwrap());
+        command.args([
+            "render",
+            "--size",
+            "160x90",
+            "--pipeline",
+            pipeline,
+            "--set",
+            taa,
+            "--frames",
+            frames,
+        ]);
+        let output = command.arg("-o").arg(&file).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read(file).unwrap()
+    };
+    assert_ne!(picture("1", "taa=true"), picture("6", "taa=true"));
+    assert_eq!(picture("1", "taa=false"), picture("6", "taa=false"));
+}
+
+#[test]
 fn bloom_spreads_light_and_keeps_how_much_there_is() {
     let Some(gpu) = gpu() else { return };
     let bloom = |strength: f32| {

@@ -27,6 +27,11 @@ pub enum Aov {
     Texture(String),
 }
 
+impl Aov {
+    /// What there is besides the textures of the graph.
+    pub(crate) const NAMES: [&str; 6] = ["color", "visibility:0", "cascade", "depth", "normal", "atlas"];
+}
+
 impl fmt::Display for Aov {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

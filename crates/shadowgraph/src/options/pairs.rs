@@ -55,7 +55,9 @@ impl<'a> Pairs<'a> {
         let mut pairs: Vec<(&str, &str)> = Vec::new();
         for word in text.split_whitespace() {
             let Some((key, value)) = word.split_once('=') else {
-                return Err(OptionError::new(option, format!("`{word}` is not of the form key=value")));
+                let reason =
+                    format!("`{word}` is not of the form key=value; the keys are {}", known.join(", "));
+                return Err(OptionError::new(option, reason));
             };
             if !known.contains(&key) {
                 let reason = format!("there is no key `{key}`; the keys are {}", known.join(", "));

@@ -51,6 +51,10 @@ pub(crate) enum Command {
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
+    /// How many frames are drawn; the last is the picture. One shows nothing of a node that mixes frames, such as taa
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) frames: u32,
     /// The PNG; a missing folder is created
     #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
     pub(crate) output: PathBuf,
@@ -61,7 +65,7 @@ pub(crate) struct RenderArgs {
 pub(crate) struct DumpArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// The form of the dump. Default: that of the ending of --output (html, json, dot or mmd), else text
+    /// The form of the dump. Default: that of the ending of --output (html, json, dot or mmd), text for txt and without one
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Show what differs between two dumps in JSON, as text, json or html, instead of a frame
@@ -74,16 +78,26 @@ pub(crate) struct DumpArgs {
 
 impl DumpArgs {
     /// Returns the form that is asked for, by name or by the ending of the file.
-    pub(crate) fn format(&self) -> Format {
+    ///
+    /// # Errors
+    /// For an ending that names no form where none is asked for by name.
+    pub(crate) fn format(&self) -> Result<Format, OptionError> {
+        if let Some(format) = self.format {
+            return Ok(format);
+        }
         let ending = self.output.as_ref().and_then(|file| file.extension());
-        let by_ending = match ending.map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
+        Ok(match ending.map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
             Some("html" | "htm") => Format::Html,
             Some("json") => Format::Json,
             Some("dot" | "gv") => Format::Dot,
             Some("mmd") => Format::Mermaid,
-            _ => Format::Text,
-        };
-        self.format.unwrap_or(by_ending)
+            Some("txt") | None => Format::Text,
+            Some(other) => {
+                let reason =
+                    format!("`.{other}` is no form of a dump: txt, html, json, dot or mmd, or say --format");
+                return Err(OptionError::new("--output", reason));
+            }
+        })
     }
 }
 
@@ -165,7 +179,7 @@ pub(crate) struct MeasureArgs {
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     pub(crate) shadow_distance: Option<String>,
     /// Size of the pictures, pixels. Default: 1280x720, with --quick 640x360
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<String>,
     /// Which GPU; cpu insists on a software driver. Default: auto
     #[arg(long, value_name = "auto|NAME|cpu")]
@@ -225,7 +239,7 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
     /// Size of the picture, pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    #[arg(long, value_name = "WxH", default_value = "1280x720", allow_hyphen_values = true)]
     size: String,
     /// A camera of the file by index or name, or "eye=X,Y,Z target=X,Y,Z fov_deg=F near=N far=F"
     /// (fov_deg is vertical). Default: the file's first, else one that frames the scene
@@ -476,6 +490,32 @@ mod tests {
         for line in ["--frames 0", "--frames 1000001", "--frames -1", "--frames many"] {
             assert!(bench(line).unwrap_err().contains("--frames"), "{line}");
         }
+    }
+
+    fn format(line: &str) -> Result<Format, String> {
+        let words = ["shadowgraph", "dump"].into_iter().chain(line.split_whitespace());
+        let Ok(Cli { command: Some(Command::Dump(args)) }) = Cli::try_parse_from(words) else {
+            panic!("{line}")
+        };
+        args.format().map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_form_of_a_dump_is_that_of_the_files_ending_unless_the_option_says_another() {
+        for (line, form) in [
+            ("", Format::Text),
+            ("-o frame", Format::Text),
+            ("-o frame.TXT", Format::Text),
+            ("-o a.b/frame.html", Format::Html),
+            ("-o frame.log --format json", Format::Json),
+        ] {
+            assert_eq!(format(line), Ok(form), "{line}");
+        }
+        let error = format("-o frame.htlm").unwrap_err();
+        assert_eq!(
+            error,
+            "--output: `.htlm` is no form of a dump: txt, html, json, dot or mmd, or say --format"
+        );
     }
 
     #[test]

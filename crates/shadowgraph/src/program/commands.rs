@@ -26,7 +26,7 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     check_output(&args.output)?;
     let input = input(&args.draw, registry)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-    let drawn = draw(&gpu, input)?;
+    let drawn = draw(&gpu, input, args.frames)?;
     let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
     let [width, height] = drawn.size_px;
     write_png(&args.output, width, height, pixels, &bytes)?;
@@ -45,8 +45,9 @@ pub(super) struct DrawnView {
     timings: bool,
 }
 
-pub(super) fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
-    let _drawing = Progress::if_slow("drawing");
+/// Draws so many frames, and gives the last.
+pub(super) fn draw(gpu: &Gpu, input: Input, frames: u32) -> Result<DrawnView, Failure> {
+    let drawing = Progress::if_slow("drawing");
     let Options { aov, timings, .. } = input.options.clone();
     let (view, method) = (view_options(&input), input.options.method());
     let mut renderer = Renderer::with(gpu, input.scene, &input.camera, aov.clone(), method)?;
@@ -54,6 +55,10 @@ pub(super) fn draw(gpu: &Gpu, input: Input) -> Result<DrawnView, Failure> {
     if timings {
         // A software driver compiles shaders at the first draw.
         renderer.draw(gpu, &view)?;
+    }
+    for number in 1..frames {
+        renderer.draw(gpu, &view)?;
+        drawing.set(&format!("frame {number} of {frames}"), number as f32 / frames as f32);
     }
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
     report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));

@@ -33,7 +33,7 @@ fn line(kind: &str, message: &str) {
 /// Makes one line of any text: names in a file may hold line ends and terminal codes.
 pub(crate) fn one_line(text: &str) -> String {
     let words = text.lines().map(str::trim).filter(|line| !line.is_empty());
-    let joined = words.collect::<Vec<_>>().join("; ");
+    let joined = words.collect::<Vec<_>>().join("; ").replace(":; ", ": ");
     joined.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn a_message_of_several_lines_becomes_one() {
-        assert_eq!(one_line("a\n  b\r\n\nc"), "a; b; c");
+        assert_eq!(one_line("a\n  b\r\n\nc:\n  d"), "a; b; c: d");
     }
 
     #[test]

@@ -19,13 +19,16 @@ const TITLE: &str = "Shadowgraph frame";
 
 /// `shadowgraph dump`
 pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> {
-    let text = match (&args.diff, args.format()) {
+    let text = match (&args.diff, args.format()?) {
         (Some(files), format) => diff(files, format)?,
         (None, Format::Html) => page(&args.draw, input(&args.draw, registry)?)?,
         (None, format) => plan_text(args, format, input(&args.draw, registry)?)?,
     };
     match &args.output {
-        Some(file) => Ok(write_text(file, &text)?),
+        Some(file) => {
+            write_text(file, &text)?;
+            console::print(&format!("wrote {}\n", file.display()))
+        }
         None => console::print(&text),
     }
 }
@@ -104,7 +107,7 @@ fn read(file: &Path) -> Result<Dump, Failure> {
         message: format!("--diff {}: {problem}", file.display()),
     };
     let text = std::fs::read_to_string(file).map_err(|error| failed(format!("cannot be read: {error}")))?;
-    Dump::of_json(&text).map_err(|error| failed(error.to_string()))
+    Dump::of_json(&text).map_err(|error| failed(format!("{error}; `dump -o frame.json` writes one")))
 }
 
 fn usage(message: &str) -> Failure {
@@ -143,7 +146,7 @@ fn left_out(node: &str, pipeline: &Pipeline) -> String {
 fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let Drawn { plan, times, unshadowed, .. } = draw(&gpu, input)?.view;
+        let Drawn { plan, times, unshadowed, .. } = draw(&gpu, input, 1)?.view;
         return Ok((gpu, Planned { plan, times, unshadowed }));
     }
     let gpu = if args.names_adapter() {

@@ -15,7 +15,7 @@ impl Failure {
     /// The command line is not one.
     pub(crate) const USAGE: u8 = 2;
     /// There is nothing to draw with.
-    const NO_ADAPTER: u8 = 3;
+    pub(crate) const NO_ADAPTER: u8 = 3;
 
     /// No device could be opened.
     pub(crate) fn no_device(error: crate::Error) -> Self {

@@ -115,7 +115,7 @@ fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, Option
 
 fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
     if let Some(file) = &args.cases {
-        let set = CaseSet::parse(&read(file)?, file)?;
+        let set = CaseSet::parse(&read("--cases", file)?, file)?;
         let folder = file.parent().unwrap_or(Path::new("")).to_owned();
         return Ok(Work::Cases { cases: set.cases, folder });
     }
@@ -179,7 +179,7 @@ impl Work {
 
 fn variants(file: Option<&Path>, techniques: &Techniques) -> Result<Vec<Variant>, Failure> {
     let Some(file) = file else { return Ok(Vec::new()) };
-    Ok(VariantSet::parse(&read(file)?, file, techniques)?.variants)
+    Ok(VariantSet::parse(&read("--variants", file)?, file, techniques)?.variants)
 }
 
 fn bounds(
@@ -188,7 +188,7 @@ fn bounds(
     variants: &[Variant],
 ) -> Result<Option<(PathBuf, Bounds)>, Failure> {
     let Some(file) = file else { return Ok(None) };
-    let bounds = Bounds::parse(&read(file)?, file)?;
+    let bounds = Bounds::parse(&read("--check", file)?, file)?;
     let is_measured = |bound: &Bound| {
         let (technique, variant) = match bound.technique.split_once(": ") {
             Some((technique, variant)) => (technique, Some(variant)),
@@ -211,10 +211,10 @@ fn bounds(
     }
 }
 
-fn read(file: &Path) -> Result<String, Failure> {
+fn read(option: &str, file: &Path) -> Result<String, Failure> {
     let failed = |error| Failure {
         code: Failure::INPUT,
-        message: format!("{}: cannot be read: {error}", file.display()),
+        message: format!("{option}: {}: cannot be read: {error}", file.display()),
     };
     std::fs::read_to_string(file).map_err(failed)
 }

@@ -1,6 +1,6 @@
 //! The `shadowgraph` program, for those who add techniques and nodes of their own to it.
 //!
-//! Exit codes: 0 done, 1 the input or a setting is wrong, 2 usage, 3 no usable adapter. Whatever is wrong
+//! Exit codes: 0 done, 1 the input or a setting is wrong, 2 usage, 3 nothing to draw with: no usable adapter, or no display. Whatever is wrong
 //! is told in one line on standard error that starts with `error:`.
 
 mod args;
@@ -108,12 +108,12 @@ mod tests {
     fn wrong_usage_is_one_line_with_what_may_be_meant() {
         for (line, expected) in [
             ("rendr", "unrecognized subcommand 'rendr'; tip: a similar subcommand exists: 'render'"),
-            ("render --frames 3", "unexpected argument '--frames' found; tip: a similar argument exists: "),
+            ("render --sise 3", "unexpected argument '--sise' found; tip: a similar argument exists: "),
             (
                 "dump --format gif",
                 "invalid value 'gif' for '--format <FORMAT>'; [possible values: text, json,",
             ),
-            ("explain", "the following required arguments were not provided:; <NAME>"),
+            ("explain", "the following required arguments were not provided: <NAME>"),
             ("bench --frames many", "invalid value 'many' for '--frames <N>': "),
         ] {
             let words = std::iter::once("shadowgraph").chain(line.split(' '));

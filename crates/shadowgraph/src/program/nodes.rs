@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::limits::{Check, check_own, check_shared, rows, shared};
 use crate::nodes::near_words;
 use crate::pipelines::{BUILT_IN, Pipeline, schema};
-use crate::shadows::{ShadowSettings, TechniqueKind, Techniques};
+use crate::shadows::{ShadowSettings, Techniques};
 use crate::{Registry, permutations, ron_file};
 use serde_json::Value;
 
@@ -25,12 +25,11 @@ pub(crate) fn nodes(args: &NodesArgs, registry: &Registry) -> Result<(), Failure
 /// All about a pipeline, a kind of node or a technique.
 fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     let Registry { techniques, nodes } = registry;
-    let kind = techniques.kinds().iter().find(|kind| kind.name == name);
     let mut told = String::new();
     if let Some(text) = Pipeline::text_of(name) {
         let _ = write!(told, "pipeline {name}, as a file\n\n{text}");
     }
-    let of_technique = kind.map(|kind| technique(kind, techniques)).transpose()?;
+    let of_technique = techniques.find(name).is_ok().then(|| technique(name, techniques)).transpose()?;
     let of_all = (name == SHARED).then(shared_settings).transpose()?;
     for text in [nodes.describe(name).ok(), of_technique, of_all].into_iter().flatten() {
         told += if told.is_empty() { "" } else { "\n" };
@@ -38,8 +37,9 @@ fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     }
     if told.is_empty() {
         let kinds = nodes.kinds().iter().map(|kind| kind.name);
-        let all =
-            BUILT_IN.iter().copied().chain(kinds).chain(techniques.kinds().iter().map(|kind| kind.name));
+        let of_techniques = techniques.kinds().iter().map(|kind| kind.name);
+        let tops = Techniques::combinations().map(|(top, ..)| top);
+        let all = BUILT_IN.iter().copied().chain(kinds).chain(of_techniques).chain(tops).chain([SHARED]);
         let near = near_words(name, all);
         let message = format!("there is no pipeline, kind of node or technique `{name}`{near}");
         return Err(Failure { code: Failure::INPUT, message });
@@ -50,13 +50,30 @@ fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
 /// What the settings that all techniques share are asked for by.
 const SHARED: &str = "settings";
 
-fn technique(kind: &TechniqueKind, techniques: &Techniques) -> Result<String, Failure> {
-    let mut out = format!("technique {}: {}\n", kind.name, kind.summary);
-    let settings = ShadowSettings::default();
-    if let Some(own) = techniques.own_settings(kind.name, &settings) {
-        let check = |value: &Value| check_own(techniques, kind.name, &settings, value);
-        table(&mut out, &own?, &kind.default_settings().unwrap_or_default(), &check);
+/// A technique and what is on top of it, each with its own settings.
+fn technique(name: &str, techniques: &Techniques) -> Result<String, Failure> {
+    let mut out = String::new();
+    for part in name.split('+').map(str::trim) {
+        let kind = techniques.kinds().iter().find(|kind| kind.name == part);
+        let top = || Techniques::combinations().find(|(top, ..)| *top == part);
+        let (title, summary, defaults) = match kind {
+            Some(kind) => (part.to_owned(), kind.summary, kind.default_settings()),
+            None => match top() {
+                Some((_, summary, defaults)) => (format!("+{part}"), summary, Some(defaults)),
+                None => continue,
+            },
+        };
+        let _ = writeln!(out, "technique {title}: {summary}");
+        let settings = ShadowSettings::default();
+        match techniques.own_settings(part, &settings) {
+            Some(own) => {
+                let check = |value: &Value| check_own(techniques, part, &settings, value);
+                table(&mut out, &own?, &defaults.unwrap_or_default(), &check);
+            }
+            None => out.push_str("  without settings of its own\n"),
+        }
     }
+    out.push_str("`nodes settings` lists those that all techniques share\n");
     Ok(out)
 }
 
@@ -71,9 +88,14 @@ fn shared_settings() -> Result<String, Failure> {
 /// Settings with their defaults, as files have them, and what they may be.
 fn table(out: &mut String, root: &Value, defaults: &str, check: Check<'_>) {
     for (name, limit) in rows(root, check) {
-        let words = limit.words();
-        let allowed = if words.is_empty() { String::new() } else { format!("; {words}") };
         let default = spaced(ron_file::value(defaults, &name).unwrap_or_default());
+        let words = match (limit.words(), &*default) {
+            (words, _) if !words.is_empty() => words,
+            (_, "true" | "false") => "true or false".to_owned(),
+            (_, list) if list.starts_with('[') => "a list".to_owned(),
+            _ => String::new(),
+        };
+        let allowed = if words.is_empty() { String::new() } else { format!("; {words}") };
         let _ = writeln!(out, "  set    {name:<32} {default}{allowed}");
     }
 }

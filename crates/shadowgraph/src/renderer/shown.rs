@@ -7,6 +7,7 @@ use shadowgraph_shadows::{ShadowOutputs, Unshadowed};
 
 use super::Renderer;
 use crate::Error;
+use crate::nodes::near_words;
 use crate::options::Aov;
 use crate::pipelines::{Output, View};
 
@@ -81,8 +82,10 @@ fn has_picture(frame: &Frame<'_>, texture: &Texture, name: &str) -> Result<(), E
 }
 
 fn no_texture(frame: &Frame<'_>, name: &str) -> Error {
-    let known: Vec<_> = frame.texture_names().collect();
-    Error::NoTexture { name: name.into(), known: known.join(", ") }
+    // Not the texels that stand in for what is not fed.
+    let textures =
+        frame.texture_names().filter(|name| !name.starts_with("no ") && !Aov::NAMES.contains(name));
+    Error::NoTexture { name: name.into(), hint: near_words(name, Aov::NAMES.into_iter().chain(textures)) }
 }
 
 /// What the lit pass writes for an output, and in which format.

@@ -89,7 +89,7 @@ impl Techniques {
     /// one where it stands alone.
     ///
     /// # Errors
-    /// [`Error::NoTechnique`] with the names there are.
+    /// [`Error::NoTechnique`] with a name that is like it, or all.
     pub fn find(&self, name: &str) -> Result<Technique, Error> {
         let over = |part: &str| TOPS.iter().find(|top| top.settings.name == part).map(|top| top.over);
         let base = |part: &str| self.kinds.iter().find(|kind| kind.name == part).copied();
@@ -106,12 +106,15 @@ impl Techniques {
     }
 
     fn unknown(&self, name: &str) -> Error {
-        let names: Vec<_> = self.kinds.iter().map(|kind| kind.name).collect();
-        let overs = TOPS.map(|top| format!("+{}", top.settings.name)).join(" or ");
-        Error::NoTechnique {
-            name: name.into(),
-            known: format!("{}; each also with {overs}", names.join(", ")),
-        }
+        let names: Vec<_> = self.kinds.iter().map(|kind| kind.name.to_owned()).collect();
+        let overs = TOPS.map(|top| format!("+{}", top.settings.name));
+        let of_place = if name.starts_with('+') { &overs[..] } else { &names[..] };
+        let near: Vec<_> = of_place.iter().filter(|known| strsim::osa_distance(known, name) == 1).collect();
+        let hint = match near[..] {
+            [near] => format!("; did you mean `{near}`?"),
+            _ => format!("; there is: {}; each also with {}", names.join(", "), overs.join(" or ")),
+        };
+        Error::NoTechnique { name: name.into(), hint }
     }
 
     /// Returns the names of all that has settings of its own: techniques, and what can be put on top of them.

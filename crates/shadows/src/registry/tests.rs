@@ -107,6 +107,12 @@ fn what_is_no_technique_is_refused_with_the_part_that_is_none_and_what_there_is(
         let error = techniques.find(name).unwrap_err().to_string();
         assert!(error.starts_with(&format!("there is no technique `{part}`; there is: pcf, ")), "{error}");
     }
+    for (name, part, near) in
+        [("pfc", "pfc", "pcf"), ("evms", "evms", "evsm"), ("msm+scren", "+scren", "+screen")]
+    {
+        let error = techniques.find(name).unwrap_err().to_string();
+        assert_eq!(error, format!("there is no technique `{part}`; did you mean `{near}`?"));
+    }
 }
 
 #[test]

@@ -53,5 +53,8 @@ fn no_display(error: &dyn std::fmt::Display) -> Failure {
     // Without the place in the window library's code.
     let behind = words.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
     let reason = behind.map_or(&*words, |(_, reason)| reason);
-    Failure { code: Failure::INPUT, message: format!("there is no display to open a window on: {reason}") }
+    Failure {
+        code: Failure::NO_ADAPTER,
+        message: format!("there is no display to open a window on: {reason}"),
+    }
 }
