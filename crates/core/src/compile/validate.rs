@@ -21,7 +21,7 @@ const MOST_BYTES: u64 = 1 << 44;
 pub(super) fn validate(decl: &Declaration) -> Result<(), Error> {
     for (index, resource) in decl.resources.iter().enumerate() {
         if let Some(problem) = shape_problem(resource.origin, &resource.desc) {
-            let resource = decl.resource_name(ResourceId(index as u32)).into();
+            let resource = decl.resource_path(ResourceId(index as u32));
             return Err(Error::Shape { resource, problem });
         }
     }

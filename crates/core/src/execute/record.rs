@@ -157,7 +157,7 @@ impl<'a> Recording<'a> {
 
     /// Only an import that was declared without an object has nothing behind it.
     pub(super) fn absent(&self, id: ResourceId) -> Error {
-        Error::NoImport { resource: self.plan.decl.resource_name(id).into() }
+        Error::NoImport { resource: self.plan.decl.resource_path(id) }
     }
 
     /// Records some of the steps; `take` gives the body of each pass, asked for in order.

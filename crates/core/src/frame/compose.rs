@@ -27,13 +27,14 @@ impl Frame<'_> {
     pub fn node<R>(&mut self, name: impl Name, build: impl FnOnce(&mut Self) -> R) -> R {
         let parent = self.node;
         let id = NodeId(self.decl.nodes.len() as u32);
-        let passes = self.decl.passes.len();
+        let declared = |frame: &Self| (frame.decl.passes.len(), frame.decl.resources.len());
+        let before = declared(self);
         let name = self.decl.names.push(name);
         self.decl.nodes.push(NodeDecl { name, parent });
         self.node = Some(id);
         let result = build(self);
         self.node = parent;
-        let bare = self.decl.passes.len() == passes && self.decl.nodes.len() == id.index() + 1;
+        let bare = declared(self) == before && self.decl.nodes.len() == id.index() + 1;
         if bare && self.view != Some(id) {
             self.decl.nodes.pop();
         }

@@ -183,7 +183,7 @@ impl<'f> Frame<'f> {
         if self.is_stale(*version) {
             let error = Error::TwoWriters {
                 pass: self.decl.pass_path(pass),
-                resource: self.decl.resource_name(version.resource).into(),
+                resource: self.decl.resource_path(version.resource),
                 version: version.version,
                 writer: self.writer_after(*version),
             };
@@ -266,7 +266,7 @@ impl<'f> Frame<'f> {
         if let Some(problem) = part.problem(&resource.desc) {
             let error = Error::Part {
                 pass: self.decl.pass_path(pass),
-                resource: self.decl.resource_name(version.resource).into(),
+                resource: self.decl.resource_path(version.resource),
                 part: part.words(),
                 problem,
             };
@@ -286,7 +286,7 @@ impl<'f> Frame<'f> {
     fn stale_read(&self, place: String, version: Version) -> Error {
         Error::StaleRead {
             place,
-            resource: self.decl.resource_name(version.resource).into(),
+            resource: self.decl.resource_path(version.resource),
             version: version.version,
             writer: self.writer_after(version),
             latest: self.decl.resource(version.resource).version,

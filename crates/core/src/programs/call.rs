@@ -271,7 +271,7 @@ impl Call<'_, '_, Compute> {
         if own && !offset.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
             let error = Error::Part {
                 pass: self.pass.frame.decl.pass_path(self.pass.id),
-                resource: self.pass.frame.decl.resource_name(arguments.id()).into(),
+                resource: self.pass.frame.decl.resource_path(arguments.id()),
                 part: part.words(),
                 problem: "arguments of a dispatch begin at a multiple of 4",
             };

@@ -3,6 +3,7 @@
 mod block;
 mod call;
 mod declared;
+mod objection;
 mod pipelines;
 mod record;
 mod shader;

@@ -1,10 +1,10 @@
 //! Shaders as they are handed over.
 
+use super::objection::words;
 use crate::device::now;
 use crate::error::Error;
 use rustc_hash::FxHasher;
 use std::borrow::Cow;
-use std::error::Error as _;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
@@ -77,14 +77,6 @@ impl Program {
             Some(objection) => Err(self.refused(format!("{place}{}", words(&objection)))),
         }
     }
-}
-
-/// What wgpu says, in one line but for what a compiler shows of a text, without saying which of its functions says it.
-fn words(objection: &wgpu::Error) -> String {
-    let causes = std::iter::successors(objection.source(), |&cause| cause.source());
-    let words = causes.map(|cause| cause.to_string().trim().to_owned());
-    let words: Vec<_> = words.filter(|words| !words.starts_with("In ")).collect();
-    if words.is_empty() { objection.to_string() } else { words.join(": ") }
 }
 
 macro_rules! shader {

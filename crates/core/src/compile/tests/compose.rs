@@ -25,6 +25,20 @@ fn a_node_that_declares_nothing_leaves_nothing() {
 }
 
 #[test]
+fn a_resource_is_of_its_node_even_where_the_node_has_no_pass() {
+    let mut frame = Frame::new();
+    let mut a = frame.node("targets", |frame| color(frame, "a"));
+    frame.node("scene", |frame| draw(frame, "draw", &mut a, BLACK));
+    frame.export_texture(&a);
+    let plan = plan(frame);
+    let (id, _) = plan.resources().next().unwrap();
+    assert_eq!(plan.resource_path(id), "targets/a");
+    let mut alone = Frame::new();
+    alone.node("targets", |frame| color(frame, "unused"));
+    assert!(alone.compile().unwrap().into_plan().to_text().contains("unused"));
+}
+
+#[test]
 fn what_a_condition_leaves_out_costs_nothing() {
     let glow = |frame: &mut Frame<'_>| {
         let mut glow = color(frame, "glow");

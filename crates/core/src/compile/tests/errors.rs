@@ -183,9 +183,10 @@ fn a_texture_without_extent_is_refused() {
 }
 
 #[test]
-fn errors_name_the_nodes_around_a_pass() {
+fn errors_name_the_nodes_around_a_pass_and_a_resource() {
     let mut frame = Frame::new();
-    let a = color(&mut frame, "a");
+    let a = frame.node("tone", |frame| color(frame, "light"));
     frame.node("post", |frame| frame.node("bloom", |frame| filter(frame, "down", &a)));
-    assert!(message(frame).contains("`post/bloom/down`"));
+    let text = message(frame);
+    assert!(text.contains("`post/bloom/down`") && text.contains("`tone/light`"), "{text}");
 }

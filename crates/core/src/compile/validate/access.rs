@@ -8,7 +8,7 @@ use crate::handle::PassId;
 
 pub(super) fn check(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Result<(), Error> {
     let resource = decl.resource(access.resource);
-    let names = || (decl.pass_path(pass), decl.resource_name(access.resource).to_owned());
+    let names = || (decl.pass_path(pass), decl.resource_path(access.resource));
     if let ResourceDesc::Texture(desc) = &resource.desc
         && let Some(problem) = format_problem(access.access, desc)
     {

@@ -22,7 +22,7 @@ impl Contents {
         }
         for access in decl.accesses(pass).iter().filter(|access| access.contents.writes()) {
             if matches!(decl.resource(access.resource).origin, Origin::Previous { .. }) {
-                let (pass, resource) = (decl.pass_path(pass), decl.resource_name(access.resource).into());
+                let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
                 return Err(Error::PreviousWritten { pass, resource });
             }
             self.0[access.resource.index()].add(decl.area(access));
@@ -64,7 +64,7 @@ impl Contents {
 }
 
 fn undefined(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Error {
-    let (pass, resource) = (decl.pass_path(pass), decl.resource_name(access.resource).into());
+    let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
     let part = decl.part(access).words();
     if access.contents == Change::Preserve {
         Error::UndefinedPreserve { pass, resource, part }

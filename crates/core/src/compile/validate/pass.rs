@@ -36,7 +36,7 @@ impl<'d> Check<'d> {
     }
 
     fn name(&self, access: &AccessDecl) -> String {
-        self.decl.resource_name(access.resource).into()
+        self.decl.resource_path(access.resource)
     }
 
     fn texture(&self, access: &AccessDecl) -> Option<TextureDesc> {

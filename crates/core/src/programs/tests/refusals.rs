@@ -31,7 +31,21 @@ fn a_text_that_is_no_wgsl_is_an_error_that_shows_the_place() {
         let shader = FullscreenShader::wgsl("broken", "fn half( -> f32 { return 0.5; }");
         draw(frame, &shader, Format::Rgba8Unorm);
     });
-    says(&error, "broken", &["fn half( -> f32", "expected identifier"]);
+    says(
+        &error,
+        "broken",
+        &["line 1, column 10: expected identifier, found \"->\", in `fn half( -> f32 { return 0.5; }`"],
+    );
+    let error = refusal(|_, frame| {
+        let text = "@fragment fn half() -> @location(0) vec4f {\n    return vec2f(0.5);\n}";
+        draw(frame, &FullscreenShader::wgsl("half", text), Format::Rgba8Unorm);
+    });
+    says(
+        &error,
+        "half",
+        &["line 2, column 12: ", "does not match the declared return type", "in `return vec2f(0.5);`"],
+    );
+    assert_eq!(error.to_string().lines().count(), 1, "{error}");
     assert!(!error.to_string().contains("Device::"), "{error}");
 }
 
