@@ -12,13 +12,14 @@ pub struct ViewOptions {
     pub camera: Camera,
     /// Width and height of the picture, pixels.
     pub size_px: [u32; 2],
-    /// What the user chose of shadows.
+    /// What the user chose of shadows. They reach 150 m by default; the program sets another distance, see
+    /// [`with_shadow_distance`](Self::with_shadow_distance).
     pub shadows: ShadowSettings,
 }
 
 impl ViewOptions {
     /// Sets how far shadows reach. `Auto` is so far that all that is seen of the scene lies before their fade, at
-    /// most the far plane.
+    /// most the far plane, and what the program does by default.
     pub fn with_shadow_distance(mut self, distance: ShadowDistance, scene: &Scene) -> Self {
         self.shadows.distance_m = match distance {
             ShadowDistance::Metres(metres) => metres as f32,

@@ -59,7 +59,7 @@ impl Temporal {
             let mut known = self.before.lock().unwrap_or_else(PoisonError::into_inner);
             known.insert(number, now)
         };
-        let mut history = frame.history("light before", desc, Resize::Reset);
+        let mut history = frame.history("mixed light", desc, Resize::Reset);
         let block = Block {
             before_from_now: (before.unwrap_or(now) * now.inverse()).as_mat4(),
             shift_px: view.shift_px,

@@ -259,7 +259,9 @@ impl Nodes {
                 let need = match port.need {
                     Need::Required => String::new(),
                     Need::Optional => ", optional".into(),
-                    Need::StandIn(color) => format!(", {color:?} where it is not fed"),
+                    Need::StandIn([red, green, blue, alpha]) => {
+                        format!(", ({red:?}, {green:?}, {blue:?}, {alpha:?}) where it is not fed")
+                    }
                 };
                 let _ = writeln!(
                     out,
@@ -271,7 +273,11 @@ impl Nodes {
             }
         }
         for setting in kind.settings {
-            let (default, allowed) = (setting.default_value(), setting.allowed());
+            let allowed = setting.allowed();
+            let default = match setting.allows {
+                Allows::Color([red, green, blue]) => format!("({red:?}, {green:?}, {blue:?})"),
+                _ => setting.default_value().to_string(),
+            };
             let _ = writeln!(out, "  set    {:<18} {default}; {allowed}: {}", setting.name, setting.about);
         }
         Ok(out)
