@@ -53,6 +53,12 @@ window.addEventListener('load', async () => {
   expect(units().length === data.passes.length, `opened: ${units().length} boxes for ${data.passes.length} passes`);
   expect(all('.unit.culled', graph).length === data.passes.filter((pass) => !pass.place).length, 'culled passes are not all faint');
   readable('opened');
+  click(one('#fit'));
+  await wait(60);
+  const paper = box(one('svg.canvas'));
+  const beyond = units().map((unit) => box(unit.querySelector('rect'))).filter((unit) =>
+    unit.left < paper.left || unit.top < paper.top || unit.right > paper.right || unit.bottom > paper.bottom);
+  expect(beyond.length === 0, `fitted, ${beyond.length} boxes are out of sight`);
   click(one('#close-all'));
   await wait(60);
   expect(units().length === facts.boxes, 'closed again, there are other boxes');

@@ -66,12 +66,12 @@ fn assert_sound(found: &Value) {
 fn the_page_of_the_demo_frame_shows_every_view_and_its_pictures() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("demo.html");
-    let status = Command::new(program().unwrap())
+    let output = Command::new(program().unwrap())
         .args(["dump", "--size", "320x180", "--format", "html", "-o"])
         .arg(&file)
-        .status()
+        .output()
         .unwrap();
-    assert!(status.success());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let page = fs::read_to_string(&file).unwrap();
     keep(&page, "demo");
     let Some(found) = used(&page) else { return };

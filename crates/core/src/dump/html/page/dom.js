@@ -41,6 +41,8 @@ const passLink = (pass) => h('button', { class: 'link', onclick: () => choose({ 
 const resourceLink = (resource) => h('button', { class: 'link', onclick: () => choose({ resource }) }, resourceName(resource));
 const counted = (number, one, many) => `${number} ${number === 1 ? one : many}`;
 const clip = (text, length) => (text.length > length ? `${text.slice(0, length - 1)}…` : text);
+// The end of a path tells most.
+const clipFront = (text, length) => (text.length > length ? `…${text.slice(1 - length)}` : text);
 // A colour for a name, the same in every frame (FNV-1a, Fowler, Noll and Vo).
 function hueOf(name) {
   let hash = 0x811c9dc5;

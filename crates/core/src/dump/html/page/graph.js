@@ -39,6 +39,7 @@ const graphView = {
 
   build(panel) {
     this.note = h('span', { class: 'hint', 'aria-live': 'polite' });
+    this.beyond = h('span', { class: 'hint', hidden: true }, 'Drag to see the rest, or Fit.');
     this.reachBox = h('select', { 'aria-label': 'How far from what is chosen', onchange: (event) => {
       this.reach = Number(event.target.value);
       this.draw();
@@ -53,8 +54,8 @@ const graphView = {
         h('button', { id: 'close-all', onclick: () => this.openAll(false) }, 'Close all'),
         h('button', { onclick: () => this.zoom(1.25), 'aria-label': 'Zoom in' }, '+'),
         h('button', { onclick: () => this.zoom(0.8), 'aria-label': 'Zoom out' }, '−'),
-        h('button', { id: 'fit', onclick: () => this.fit() }, 'Fit'),
-        this.note),
+        h('button', { id: 'fit', onclick: () => this.fit(true) }, 'Fit'),
+        this.note, this.beyond),
       h('div', { class: 'split' }, this.outline, this.svg));
     this.buildOutline();
     this.listen();
@@ -232,12 +233,14 @@ const graphView = {
     this.content.setAttribute('transform', `translate(${x} ${y}) scale(${scale})`);
   },
 
-  fit() {
+  fit(all = false) {
+    this.all = all;
     const { width, height } = this.svg.getBoundingClientRect();
     if (!width) return;
     const whole = Math.min(1.15, (width - 40) / this.size.width, (height - 50) / this.size.height);
-    // Never so small that names cannot be read: what does not fit is dragged into sight.
-    const scale = whole < 0.6 ? 0.8 : whole;
+    // Not so small that names cannot be read, unless all is asked for.
+    const scale = whole < 0.6 && !all ? 0.8 : whole;
+    this.beyond.hidden = scale <= whole;
     this.view = { x: Math.max(20, (width - this.size.width * scale) / 2), y: Math.max(24, (height - this.size.height * scale) / 2), scale };
     if (this.size.height * scale > height) this.view.y = 24;
     this.centre(width, height);

@@ -111,7 +111,7 @@ function start() {
       choose(null);
     }
   });
-  window.addEventListener('resize', () => { if (shownView() === graphView) graphView.fit(); });
+  window.addEventListener('resize', () => { if (shownView() === graphView) graphView.fit(graphView.all); });
   window.addEventListener('hashchange', fromAddress);
   fromAddress();
 }

@@ -1,6 +1,8 @@
 // Passes across, resources down: when each is in use, and by whom.
 
-const CELL = { width: 20, height: 20, names: 230, heads: 150 };
+const CELL = { width: 20, height: 20, heads: 150 };
+// Of the names of resources, in pixels.
+const NAMES = { letter: 7.4, most: 310 };
 
 const timelineView = {
   name: 'Timeline',
@@ -9,13 +11,15 @@ const timelineView = {
     const used = resources.map((_, index) => index).filter((index) => users[index].some((use) => passes[use.pass].place));
     const first = (resource) => Math.min(...users[resource].filter((use) => passes[use.pass].place).map((use) => passes[use.pass].place.order));
     used.sort((a, b) => first(a) - first(b) || a - b);
-    const width = CELL.names + order.length * CELL.width + 140;
+    const longest = Math.max(0, ...used.map((resource) => resourceName(resource).length));
+    this.names = Math.min(NAMES.most, 24 + NAMES.letter * longest);
+    const width = this.names + order.length * CELL.width + 140;
     const height = CELL.heads + used.length * CELL.height + 10;
     // Names stay in sight while the rest is scrolled.
     const paper = (wide, high) => s('rect', { width: wide, height: high, fill: 'var(--card)' });
     const heads = s('g', {}, paper(width, CELL.heads), order.map((pass, place) => this.head(pass, place)));
-    const names = s('g', {}, paper(CELL.names - 4, height), used.map((resource, row) => this.label(resource, row)));
-    const corner = s('g', {}, paper(CELL.names - 4, CELL.heads));
+    const names = s('g', {}, paper(this.names - 4, height), used.map((resource, row) => this.label(resource, row)));
+    const corner = s('g', {}, paper(this.names - 4, CELL.heads));
     this.svg = s('svg', { width, height, role: 'group', 'aria-label': 'When each resource is in use' },
       order.map((pass, place) => this.column(pass, place, height)),
       used.map((resource, row) => this.row(resource, row, width)), names, heads, corner);
@@ -33,7 +37,7 @@ const timelineView = {
   },
 
   column(pass, place, height) {
-    const x = CELL.names + place * CELL.width;
+    const x = this.names + place * CELL.width;
     const { place: at } = passes[pass];
     const shade = at.step % 2 ? 'var(--wash)' : 'transparent';
     return s('g', { class: 'col' }, s('rect', { x, y: CELL.heads, width: CELL.width, height: height - CELL.heads, fill: shade }));
@@ -42,16 +46,16 @@ const timelineView = {
   head(pass, place) {
     const { place: at } = passes[pass];
     return s('text', {
-      class: 'unit', tabindex: '0', role: 'button', transform: `translate(${CELL.names + place * CELL.width + 14} ${CELL.heads - 6}) rotate(-55)`,
+      class: 'unit', tabindex: '0', role: 'button', transform: `translate(${this.names + place * CELL.width + 14} ${CELL.heads - 6}) rotate(-55)`,
       ...press(() => choose({ pass })), ...hint(`${passPath(pass)}\nstep ${at.step}: ${at.why}`),
     }, clip(passes[pass].name, 26));
   },
 
   label(resource, row) {
     return s('text', {
-      class: 'unit', tabindex: '0', role: 'button', x: CELL.names - 12, y: CELL.heads + row * CELL.height + 14, 'text-anchor': 'end',
+      class: 'unit', tabindex: '0', role: 'button', x: this.names - 12, y: CELL.heads + row * CELL.height + 14, 'text-anchor': 'end',
       ...press(() => choose({ resource })), ...hint(`${resourceName(resource)}: ${resources[resource].shape}, ${bytes(resources[resource].bytes)}\n${resources[resource].origin}`),
-    }, clip(resourceName(resource), 34));
+    }, clipFront(resourceName(resource), Math.floor((NAMES.most - 24) / NAMES.letter)));
   },
 
   row(resource, row, width) {
@@ -59,7 +63,7 @@ const timelineView = {
     const uses = users[resource].filter((use) => passes[use.pass].place)
       .map((use) => ({ ...use, at: passes[use.pass].place.order })).sort((a, b) => a.at - b.at);
     const [start, end] = [uses[0].at, uses.at(-1).at];
-    const centre = (place) => CELL.names + place * CELL.width + CELL.width / 2;
+    const centre = (place) => this.names + place * CELL.width + CELL.width / 2;
     const mark = (use) => {
       const { writes, keeps } = use.access;
       const words = `${passPath(use.pass)} ${use.access.does} ${resourceName(resource)}${use.access.as}, ${versionOf(use.access)}`
