@@ -316,7 +316,7 @@ fn without_a_display_it_says_so_in_one_line() {
         .output()
         .unwrap();
     let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert_eq!(output.status.code(), Some(3), "{error}");
     assert!(error.starts_with("error: there is no display") && error.lines().count() == 1, "{error}");
     assert!(!error.contains(".rs"), "{error}");
 }

@@ -185,8 +185,8 @@ fn a_texture_without_extent_is_refused() {
 #[test]
 fn errors_name_the_nodes_around_a_pass_and_a_resource() {
     let mut frame = Frame::new();
-    let a = frame.node("tone", |frame| color(frame, "light"));
+    let a = frame.node("tone", |frame| color(frame, "value"));
     frame.node("post", |frame| frame.node("bloom", |frame| filter(frame, "down", &a)));
     let text = message(frame);
-    assert!(text.contains("`post/bloom/down`") && text.contains("`tone/light`"), "{text}");
+    assert!(text.contains("`post/bloom/down`") && text.contains("`tone/value`"), "{text}");
 }

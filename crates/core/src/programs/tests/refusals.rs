@@ -37,7 +37,7 @@ fn a_text_that_is_no_wgsl_is_an_error_that_shows_the_place() {
         &["line 1, column 10: expected identifier, found \"->\", in `fn half( -> f32 { return 0.5; }`"],
     );
     let error = refusal(|_, frame| {
-        let text = "@fragment fn half() -> @location(0) vec4f {\n    return vec2f(0.5);\n}";
+        let text = "fn half() -> vec4f {\n    return vec2f(0.5);\n}";
         draw(frame, &FullscreenShader::wgsl("half", text), Format::Rgba8Unorm);
     });
     says(
