@@ -28,12 +28,26 @@ fn in_a_line(words: &str) -> String {
     let mut place = place.rsplitn(3, ':');
     let (Some(column), Some(line)) = (place.next(), place.next()) else { return joined(words) };
     let what = heading.split_once(" error: ").map_or(heading, |(_, what)| what);
-    let number = line.to_owned() + " │ ";
-    let text = drawn.lines().find_map(|drawn| drawn.trim_start().strip_prefix(&number));
     let notes = drawn.lines().filter_map(|drawn| drawn.trim_start().strip_prefix("= "));
     let notes: String = notes.map(|note| format!(" ({note})")).collect();
-    let text = text.map_or(String::new(), |text| format!(", in `{}`", text.trim()));
-    format!("line {line}, column {column}: {}{notes}{text}", joined(what))
+    match marked(drawn) {
+        Some((number, text)) if number == line => {
+            format!("line {line}, column {column}: {}{notes}, in `{text}`", joined(what))
+        }
+        // Of several lines, the one in which the mistake is.
+        Some((number, text)) => format!("line {number}: {}{notes}, in `{text}`", joined(what)),
+        None => format!("line {line}, column {column}: {}{notes}", joined(what)),
+    }
+}
+
+/// The number and the text of the line above the first mark `^`. Lines on the left tie together what spans several lines.
+fn marked(drawn: &str) -> Option<(&str, &str)> {
+    let lines = || drawn.lines();
+    let is_mark =
+        |line: &str| line.trim_start().starts_with('│') && line.contains('^') && !line.contains('╰');
+    let mark = lines().position(is_mark)?;
+    let (number, text) = lines().nth(mark.checked_sub(1)?)?.trim_start().split_once(" │ ")?;
+    Some((number, text.trim_start_matches(['│', '╭', ' ']).trim_end()))
 }
 
 #[cfg(test)]
@@ -43,10 +57,21 @@ mod tests {
     #[test]
     fn what_is_drawn_below_a_mistake_becomes_words() {
         let drawn = "\nShader 'red' parsing error: no definition in scope for identifier: `hallf`\n  ┌─ wgsl:12:50\n   │\n\
-                     12 │   let a = hallf();\n   │           ^^^^^ unknown identifier\n   │\n   = note: it is not there\n";
+                     12 │   let a = 1 ^ hallf();\n   │               ^^^^^ unknown identifier\n   │\n   = note: it is not there\n";
         assert_eq!(
             in_a_line(drawn),
-            "line 12, column 50: no definition in scope for identifier: `hallf` (note: it is not there), in `let a = hallf();`"
+            "line 12, column 50: no definition in scope for identifier: `hallf` (note: it is not there), in `let a = 1 ^ hallf();`"
+        );
+    }
+
+    #[test]
+    fn of_several_lines_the_one_with_the_mistake_is_told() {
+        let drawn = "Shader validation error: Function [0] 'half' is invalid\n  ┌─ half:1:1\n  │  \n1 │ ╭ fn half() -> vec4f {\n\
+                     2 │ │     return vec2f(0.5);\n  │ │            ^^^^^^^^^^ naga::ir::Expression [1]\n3 │ │ }\n\
+                       │ ╰─^ naga::ir::Function [0]\n  │  \n  = The types differ\n";
+        assert_eq!(
+            in_a_line(drawn),
+            "line 2: Function [0] 'half' is invalid (The types differ), in `return vec2f(0.5);`"
         );
     }
 

@@ -43,7 +43,11 @@ fn a_text_that_is_no_wgsl_is_an_error_that_shows_the_place() {
     says(
         &error,
         "half",
-        &["line 2, column 12: ", "does not match the declared return type", "in `return vec2f(0.5);`"],
+        &[
+            "line 2: Function [0] 'half' is invalid",
+            "does not match the declared return type",
+            "in `return vec2f(0.5);`",
+        ],
     );
     assert_eq!(error.to_string().lines().count(), 1, "{error}");
     assert!(!error.to_string().contains("Device::"), "{error}");
