@@ -97,6 +97,13 @@ mod tests {
     }
 
     #[test]
+    fn none_of_the_names_is_looked_for_among_the_textures_of_the_graph() {
+        for name in Aov::NAMES {
+            assert!(!matches!(name.parse().unwrap(), Aov::Texture(_)), "{name}");
+        }
+    }
+
+    #[test]
     fn visibility_without_a_lights_number_is_refused() {
         for text in ["visibility", "visibility:", "visibility:sun", "visibility:-1", "visibility:99999999999"]
         {

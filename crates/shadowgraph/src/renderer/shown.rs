@@ -82,9 +82,7 @@ fn has_picture(frame: &Frame<'_>, texture: &Texture, name: &str) -> Result<(), E
 }
 
 fn no_texture(frame: &Frame<'_>, name: &str) -> Error {
-    // Not the texels that stand in for what is not fed.
-    let textures =
-        frame.texture_names().filter(|name| !name.starts_with("no ") && !Aov::NAMES.contains(name));
+    let textures = frame.texture_names().filter(|name| !Aov::NAMES.contains(name));
     Error::NoTexture { name: name.into(), hint: near_words(name, Aov::NAMES.into_iter().chain(textures)) }
 }
 

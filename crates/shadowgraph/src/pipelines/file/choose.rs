@@ -96,24 +96,12 @@ impl Document {
     }
 
     fn no_parameter(&self, name: &str) -> String {
-        match self.parameters.is_empty() {
-            true => format!("there is no parameter `{name}`: the pipeline has none"),
-            false => {
-                let near = near_words(name, self.parameters.iter().map(|(known, _)| &*known.value));
-                format!("there is no parameter `{name}`{near}")
-            }
-        }
+        none_such("parameter", name, &self.parameters)
     }
 
     fn tier(&self, name: &str) -> Result<&Pairs<Value>, String> {
         let found = self.tiers.iter().find(|(known, _)| known.value == name);
-        found.map(|(_, values)| values).ok_or_else(|| match self.tiers.is_empty() {
-            true => format!("there is no tier `{name}`: the pipeline has none"),
-            false => {
-                let near = near_words(name, self.tiers.iter().map(|(known, _)| &*known.value));
-                format!("there is no tier `{name}`{near}")
-            }
-        })
+        found.map(|(_, values)| values).ok_or_else(|| none_such("tier", name, &self.tiers))
     }
 
     /// Returns every choice of a tier, and none: what a file is checked for.
@@ -153,6 +141,14 @@ impl Document {
         }
         Ok(Chosen(chosen))
     }
+}
+
+fn none_such<T>(what: &str, name: &str, known: &[(Spot<String>, T)]) -> String {
+    let near = match known {
+        [] => ": the pipeline has none".to_owned(),
+        known => near_words(name, known.iter().map(|(known, _)| &*known.value)),
+    };
+    format!("there is no {what} `{name}`{near}")
 }
 
 fn set<'d>(chosen: &mut [(&'d str, &'d Value)], name: &str, value: &'d Value) {
