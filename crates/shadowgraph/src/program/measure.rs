@@ -153,11 +153,10 @@ impl Work {
         quick: bool,
         work: &mut dyn FnMut(f32, &Subject) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let views_named = matches!(self, Self::Scene { views_named: true, .. });
-        let mut one = |part: f32, mut subject: Subject| {
+        let mut one = |part: f32, mut subject: Subject, light: usize, views_named: bool| {
             if quick {
-                let second = subject.lights.len().min(2).saturating_sub(1);
-                subject.lights = subject.lights.split_off(second);
+                let last = subject.lights.len().saturating_sub(1);
+                subject.lights = subject.lights.split_off(light.min(last));
                 subject.lights.truncate(1);
                 if !views_named {
                     subject.views.truncate(1);
@@ -166,12 +165,16 @@ impl Work {
             work(part, &subject)
         };
         match self {
-            Self::Scene { subject, .. } => one(0.0, *subject),
+            // The first light is the sun of `--sun`.
+            Self::Scene { subject, views_named } => one(0.0, *subject, 0, views_named),
             Self::Cases { cases, folder } => {
                 let count = cases.len() as f32;
                 let mut numbered = cases.iter().enumerate();
-                numbered
-                    .try_for_each(|(index, case)| one(index as f32 / count, Subject::of_case(case, &folder)?))
+                numbered.try_for_each(|(index, case)| {
+                    // The second of a case's suns, which is neither low nor high in the built-in ones.
+                    let light = usize::from(!case.sun_elevations_deg.is_empty());
+                    one(index as f32 / count, Subject::of_case(case, &folder)?, light, false)
+                })
             }
         }
     }
@@ -308,7 +311,28 @@ fn file_name(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::scene::{Light, LightKind, Scene};
+
+    #[test]
+    fn quick_work_on_a_scene_looks_at_its_sun_whatever_other_lights_it_has() {
+        let sun = crate::options::default_sun();
+        let point = LightKind::Point { position_world: glam::DVec3::Y, range: None };
+        let mut scene = Scene::default();
+        scene.add_light(Light { kind: point, ..sun.clone() });
+        let views = vec![("front".to_owned(), scene.framing_camera(1.0))];
+        scene.add_light(sun);
+        let subject = Box::new(Subject::new("scene", scene, views).unwrap());
+        let mut seen = Vec::new();
+        let work = Work::Scene { subject, views_named: true };
+        let each = work.each(true, &mut |_, subject| {
+            seen.extend(subject.lights.iter().map(|light| light.name.clone()));
+            Ok(())
+        });
+        assert!(each.is_ok());
+        assert_eq!(seen, ["sun 0"]);
+    }
 
     #[test]
     fn names_of_scenes_become_names_of_files() {
