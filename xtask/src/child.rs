@@ -72,6 +72,27 @@ pub(crate) fn output_of(program: &str, arguments: &[&str]) -> String {
     output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default()
 }
 
+/// Returns whether a program of that name can be started.
+pub(crate) fn on_path(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).any(|dir| dir.join(program).is_file())
+}
+
+/// Returns whether programs find a shared library of that name (Linux).
+pub(crate) fn has_library(name: &str) -> bool {
+    let cached = |ldconfig: &str| output_of(ldconfig, &["-p"]).contains(name);
+    if cached("ldconfig") || cached("/sbin/ldconfig") {
+        return true;
+    }
+    let listed = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
+    let mut dirs: Vec<PathBuf> = std::env::split_paths(&listed).collect();
+    let triplet = format!("{}-linux-gnu", std::env::consts::ARCH);
+    for base in ["/lib", "/usr/lib", "/lib64", "/usr/lib64", "/usr/local/lib", "/run/opengl-driver/lib"] {
+        dirs.extend([PathBuf::from(base), Path::new(base).join(&triplet)]);
+    }
+    dirs.iter().any(|dir| dir.join(name).exists())
+}
+
 fn start_error(command: &Command, error: &std::io::Error) -> String {
     format!("cannot start `{}`: {error}", command.get_program().to_string_lossy())
 }

@@ -1,7 +1,8 @@
 //! `cargo xtask demo`: the built-in scene as a picture and its graph as a page, text, JSON and DOT.
 
 use crate::child::{self, RuntimeFolder};
-use crate::driver::{self, Need};
+use crate::driver::Driver;
+use crate::machine::{self, Need};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -23,7 +24,7 @@ Try next:
 ";
 
 pub(crate) fn run() -> ExitCode {
-    if let Err(error) = driver::ensure(Need::Any) {
+    if let Err(error) = machine::prepare(Need::Driver(Driver::Any)) {
         eprintln!("error: {error}");
         return ExitCode::from(3);
     }

@@ -1,7 +1,8 @@
 //! `cargo xtask docs`: the pictures of the book, and the book.
 
 use crate::child::{self, RuntimeFolder};
-use crate::driver::{self, Need};
+use crate::driver::Driver;
+use crate::machine::{self, Need};
 use std::process::ExitCode;
 
 /// Pictures of `docs/images/` by the program: the file, and what `render` is asked for.
@@ -50,7 +51,7 @@ pub(crate) fn run() -> ExitCode {
 }
 
 fn draw() -> Result<(), String> {
-    driver::ensure(Need::Any)?;
+    machine::prepare(Need::Driver(Driver::Any))?;
     let runtime = RuntimeFolder::new();
     let cargo = |arguments: &[&str]| {
         println!("cargo {}", arguments.join(" "));

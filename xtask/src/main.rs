@@ -3,10 +3,12 @@
 //! Nothing but the standard library, so that it builds at once and can prepare a machine for the rest.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool talks to its user")]
 
+mod apt;
 mod child;
 mod demo;
 mod docs;
 mod driver;
+mod machine;
 mod report;
 mod soak;
 mod suite;

@@ -2,7 +2,8 @@
 //! changes.
 
 use crate::child::{self, RuntimeFolder};
-use crate::driver::{self, Need};
+use crate::driver::Driver;
+use crate::machine::{self, Need};
 use std::process::ExitCode;
 
 /// Frames where nobody asks for fewer or more.
@@ -24,7 +25,7 @@ pub(crate) fn run(frames: u32) -> ExitCode {
 
 /// Whether both tests passed.
 fn soak(frames: u32) -> Result<bool, String> {
-    driver::ensure(Need::Software)?;
+    machine::prepare(Need::Driver(Driver::Software))?;
     let runtime = RuntimeFolder::new();
     let files = FILES.saturating_mul(frames);
     let tests: [(&[&str], &str, u32); 2] = [

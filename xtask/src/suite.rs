@@ -1,7 +1,7 @@
 //! `cargo xtask test`: every check of the project, one step after the other.
 
 use crate::child::{self, RuntimeFolder};
-use crate::driver::{self, Need};
+use crate::machine::{self, Need};
 use crate::report::{Report, Step};
 use crate::tally::Tally;
 use std::path::PathBuf;
@@ -10,8 +10,8 @@ use std::time::Instant;
 
 /// What a step runs.
 enum Work {
-    /// Makes sure of a software driver.
-    Driver,
+    /// Makes sure that the machine has what tests need.
+    Machine,
     /// A cargo command and what it adds to the environment.
     Check(&'static [&'static str], &'static [(&'static str, &'static str)]),
     /// A `cargo test` command, whose tests are counted.
@@ -22,7 +22,7 @@ enum Work {
 const UNOPTIMIZED: &str = r#"--config=profile.dev.package."*".opt-level=0"#;
 
 const STEPS: [(&str, Work); 6] = [
-    ("driver", Work::Driver),
+    ("machine", Work::Machine),
     ("format", Work::Check(&["fmt", "--all", "--check"], &[])),
     (
         "lints",
@@ -46,7 +46,7 @@ pub(crate) fn run() -> ExitCode {
         heading(number + 1, name, work);
         let start = Instant::now();
         let (result, tally) = match work {
-            Work::Driver => (driver::ensure(Need::Software), Tally::default()),
+            Work::Machine => (machine::prepare(Need::Tests), Tally::default()),
             Work::Check(arguments, variables) => (check(arguments, variables), Tally::default()),
             Work::Tests(arguments) => tests(arguments, &runtime),
         };
@@ -61,7 +61,7 @@ pub(crate) fn run() -> ExitCode {
 
 fn heading(number: usize, name: &str, work: &Work) {
     let what = match work {
-        Work::Driver => "a Vulkan driver".to_owned(),
+        Work::Machine => "a software Vulkan driver, and the programs that tests start".to_owned(),
         Work::Check(arguments, _) | Work::Tests(arguments) => format!("cargo {}", arguments.join(" ")),
     };
     println!("\n=== {number}/{} {name}: {what}", STEPS.len());
