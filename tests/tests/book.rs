@@ -1,10 +1,9 @@
-//! The book: every page is in it, no link is dead, and it builds.
+//! The book: every page is in it, its includes and links lead somewhere, and mdBook can read it.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
-use shadowgraph_tests::{on_path, repository, skip};
+use shadowgraph_tests::repository;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 fn pages() -> Vec<PathBuf> {
     let files = std::fs::read_dir(repository().join("docs")).unwrap().map(|entry| entry.unwrap().path());
@@ -13,24 +12,24 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// The text of a page without its code.
+/// Returns the text of a page without its code.
 fn prose(page: &Path) -> String {
     let text = std::fs::read_to_string(page).unwrap();
-    let mut inside = false;
+    let mut in_code = false;
     let lines = text.lines().filter(|line| {
         let fence = line.trim_start().starts_with("```");
-        inside ^= fence;
-        !inside && !fence
+        in_code ^= fence;
+        !in_code && !fence
     });
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What a text links to.
+/// Returns the targets of a text's links.
 fn links(text: &str) -> Vec<&str> {
     text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect()
 }
 
-/// The anchors of a page's headings.
+/// Returns the anchors of a page's headings.
 fn anchors(page: &Path) -> BTreeSet<String> {
     let text = prose(page);
     let headings =
@@ -81,13 +80,13 @@ fn no_link_of_the_documents_is_dead() {
 }
 
 #[test]
-fn every_picture_of_the_documents_is_used() {
+fn every_image_of_the_documents_is_used() {
     let texts: String = pages().iter().map(|page| prose(page)).collect();
-    let mut folders = vec![repository().join("docs/images")];
-    while let Some(folder) = folders.pop() {
-        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+    let mut dirs = vec![repository().join("docs/images")];
+    while let Some(dir) = dirs.pop() {
+        for path in std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()) {
             if path.is_dir() {
-                folders.push(path);
+                dirs.push(path);
                 continue;
             }
             let name = path.strip_prefix(repository().join("docs")).unwrap().to_string_lossy().into_owned();
@@ -96,24 +95,82 @@ fn every_picture_of_the_documents_is_used() {
     }
 }
 
-#[test]
-fn the_book_builds() {
-    if !on_path("mdbook") {
-        return skip("book", "mdbook is not installed");
+/// Returns the targets of a page's `{{#include target}}`, the page's only preprocessor command.
+fn includes(page: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(page).unwrap();
+    let commands = text.split("{{#").skip(1).map(|rest| rest.split("}}").next().unwrap());
+    commands
+        .map(|command| {
+            command.strip_prefix("include ").unwrap_or_else(|| panic!("{}: {command}", page.display())).into()
+        })
+        .collect()
+}
+
+/// Returns the text that mdBook includes for a target: a file, or the part of it between `ANCHOR: x` and `ANCHOR_END: x`.
+fn included(target: &str) -> String {
+    let (file, anchor) = target.split_once(':').unwrap_or((target, ""));
+    let text = std::fs::read_to_string(repository().join("docs").join(file))
+        .unwrap_or_else(|error| panic!("{target}: {error}"));
+    if anchor.is_empty() {
+        return text;
     }
-    let folder = tempfile::tempdir().unwrap();
-    let mut command = Command::new("mdbook");
-    let output =
-        command.arg("build").arg(repository().join("docs")).arg("-d").arg(folder.path()).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && !said.contains("WARN") && !said.contains("ERROR"), "{said}");
-    for page in ["index.html", "errors.html", "design.html"] {
-        assert!(folder.path().join(page).is_file(), "{page} is missing");
+    let is_mark = |line: &str, mark: &str| {
+        line.split_once(mark).is_some_and(|(_, rest)| rest.split_whitespace().next() == Some(anchor))
+    };
+    let mut after = text.lines().skip_while(|line| !is_mark(line, "ANCHOR: ")).skip(1);
+    let mut part = Vec::new();
+    loop {
+        let line = after.next().unwrap_or_else(|| panic!("{target}: no such part"));
+        if is_mark(line, "ANCHOR_END: ") {
+            return part.join("\n");
+        }
+        part.push(line);
     }
 }
 
 #[test]
-fn every_kind_of_node_and_every_example_has_its_place() {
+fn every_included_file_and_part_exists_and_its_links_hold_in_the_book() {
+    let targets: Vec<String> = pages().iter().flat_map(|page| includes(page)).collect();
+    assert!(targets.len() >= 3, "{targets:?}");
+    for target in targets {
+        let text = included(&target);
+        assert!(!text.trim().is_empty(), "{target} is empty");
+        for link in links(&text).into_iter().filter(|link| !link.starts_with("https://")) {
+            let file = link.split_once('#').map_or(link, |(file, _)| file);
+            let in_book = !file.starts_with("..") && repository().join("docs").join(file).exists();
+            assert!(in_book, "{target}: {link} leads out of the book");
+        }
+    }
+}
+
+/// The rules by which mdBook reads the list of chapters.
+#[test]
+fn the_summary_is_a_list_of_links_each_of_them_once() {
+    let summary = std::fs::read_to_string(repository().join("docs/SUMMARY.md")).unwrap();
+    let mut seen = BTreeSet::new();
+    let mut depth = 0;
+    for line in summary.lines().filter(|line| !line.is_empty() && !line.starts_with("# ")) {
+        let item = line.trim_start();
+        let indent = line.len() - item.len();
+        assert!(indent % 2 == 0 && indent <= depth + 2, "{line}");
+        depth = indent;
+        let link = item.strip_prefix("- [").and_then(|item| item.strip_suffix(".md)"));
+        assert!(link.is_some_and(|link| link.matches("](").count() == 1), "{line}");
+        assert!(seen.insert(links(item)[0]), "duplicate chapter: {line}");
+    }
+}
+
+#[test]
+fn every_code_block_of_a_page_is_closed() {
+    for page in pages() {
+        let text = std::fs::read_to_string(&page).unwrap();
+        let fences = text.lines().filter(|line| line.trim_start().starts_with("```")).count();
+        assert_eq!(fences % 2, 0, "{}", page.display());
+    }
+}
+
+#[test]
+fn every_node_kind_and_every_example_is_documented() {
     let page = |name: &str| std::fs::read_to_string(repository().join("docs").join(name)).unwrap();
     let (nodes, examples) = (page("nodes.md"), page("examples.md"));
     for kind in shadowgraph::Registry::built_in().nodes.kinds() {
