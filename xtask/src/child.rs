@@ -1,19 +1,19 @@
-//! Child processes: cargo and the program, started in the repository's root.
+//! Child processes: cargo and other programs, started in the repository's root.
 
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 
-/// The repository's root: the folder above this crate, as cargo says it now. Where checkouts share a target folder, the one that
-/// this program was built in may be another.
+/// Returns the repository's root: the directory above this crate, as cargo names it when it runs this program. Where several
+/// checkouts share a target directory, this program may have been built in another one.
 pub(crate) fn root() -> PathBuf {
     let here = std::env::var_os("CARGO_MANIFEST_DIR")
         .map_or_else(|| env!("CARGO_MANIFEST_DIR").into(), PathBuf::from);
     here.parent().unwrap_or(&here).to_path_buf()
 }
 
-/// A cargo command in the repository's root, by the cargo that runs this program.
+/// Returns a cargo command in the repository's root, of the cargo that runs this program.
 pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = command(cargo);
@@ -21,14 +21,14 @@ pub(crate) fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// A command in the repository's root.
+/// Returns a command in the repository's root.
 pub(crate) fn command(program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(program);
     command.current_dir(root());
     command
 }
 
-/// Runs to the end with the terminal's own output.
+/// Runs a command to its end; it writes to the terminal.
 ///
 /// # Errors
 /// One line when it could not start.
@@ -36,7 +36,7 @@ pub(crate) fn stream(command: &mut Command) -> Result<ExitStatus, String> {
     command.status().map_err(|error| start_error(command, &error))
 }
 
-/// Runs to the end, shows each line of standard output as it comes and hands it to `line`.
+/// Runs a command to its end, prints each line of its standard output and passes it to `line`.
 ///
 /// # Errors
 /// One line when it could not start or its output could not be read.
@@ -59,17 +59,31 @@ pub(crate) fn stream_lines(command: &mut Command, mut line: impl FnMut(&str)) ->
     child.wait().map_err(|error| format!("cannot wait for it: {error}"))
 }
 
-/// Whether a command runs and succeeds, in silence.
+/// Returns whether a command succeeds, without showing its output.
 pub(crate) fn succeeds(program: &str, arguments: &[&str]) -> bool {
     let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())
 }
 
-/// What a command prints, empty when it cannot run.
+/// Returns what a command prints to standard output; empty if it cannot start.
 pub(crate) fn output_of(program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program).args(arguments).stdin(Stdio::null()).output();
     output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default()
+}
+
+/// Returns what a command that succeeds prints to standard output.
+///
+/// # Errors
+/// One line when it could not start or failed.
+pub(crate) fn stdout_of(command: &mut Command) -> Result<String, String> {
+    let output = command.output().map_err(|error| start_error(command, &error))?;
+    if output.status.success() {
+        return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
+    }
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let program = command.get_program().to_string_lossy().into_owned();
+    Err(format!("`{program}` failed ({}): {}", output.status, errors.trim()))
 }
 
 /// Returns whether a program of that name can be started.
@@ -97,21 +111,21 @@ fn start_error(command: &Command, error: &std::io::Error) -> String {
     format!("cannot start `{}`: {error}", command.get_program().to_string_lossy())
 }
 
-/// A private folder for the children's sockets where the session has none: without one, graphics
-/// libraries print complaints that concern nobody. Removed at the end.
-pub(crate) struct RuntimeFolder(Option<PathBuf>);
+/// A private directory for the sockets of child processes where the session has none: without one, graphics
+/// libraries print warnings. Removed when dropped.
+pub(crate) struct RuntimeDir(Option<PathBuf>);
 
-impl RuntimeFolder {
-    /// Makes the folder if `XDG_RUNTIME_DIR` is unset on a system that looks for it.
-    pub(crate) fn new() -> RuntimeFolder {
+impl RuntimeDir {
+    /// Creates the directory if `XDG_RUNTIME_DIR` is unset on a system that uses it.
+    pub(crate) fn new() -> RuntimeDir {
         if !cfg!(target_os = "linux") || std::env::var_os("XDG_RUNTIME_DIR").is_some() {
-            return RuntimeFolder(None);
+            return RuntimeDir(None);
         }
         let path = std::env::temp_dir().join(format!("shadowgraph-runtime-{}", std::process::id()));
-        RuntimeFolder(create_private(&path).then_some(path))
+        RuntimeDir(create_private(&path).then_some(path))
     }
 
-    /// Tells a child of the folder.
+    /// Sets the variable for a child process.
     pub(crate) fn apply<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         if let Some(path) = &self.0 {
             command.env("XDG_RUNTIME_DIR", path);
@@ -120,10 +134,10 @@ impl RuntimeFolder {
     }
 }
 
-impl Drop for RuntimeFolder {
+impl Drop for RuntimeDir {
     fn drop(&mut self) {
         if let Some(path) = &self.0 {
-            // A folder left in the temporary files harms nobody.
+            // A directory that stays among the temporary files does no harm.
             let _left = std::fs::remove_dir_all(path);
         }
     }

@@ -1,18 +1,18 @@
-//! `cargo xtask demo`: the built-in scene as a picture and its graph as a page, text, JSON and DOT.
+//! `cargo xtask demo`: renders the built-in scene and dumps its graph as a page, text, JSON and DOT.
 
-use crate::child::{self, RuntimeFolder};
+use crate::child::{self, RuntimeDir};
 use crate::driver::Driver;
 use crate::machine::{self, Need};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The program's arguments, the file that they write, and what it is.
+/// Arguments of the program, the file that each writes, and what the file shows.
 const PRODUCTS: [(&[&str], &str, &str); 5] = [
     (&["render"], "out/demo.png", "the built-in scene"),
     (&["dump", "--format", "html"], "out/demo.html", "its render graph as a page for any browser"),
-    (&["dump", "--format", "text"], "out/demo.txt", "the same as a table, with reasons"),
-    (&["dump", "--format", "json"], "out/demo.json", "the same as data"),
-    (&["dump", "--format", "dot"], "out/demo.dot", "the same for Graphviz"),
+    (&["dump", "--format", "text"], "out/demo.txt", "the graph as a table, with reasons"),
+    (&["dump", "--format", "json"], "out/demo.json", "the graph as data"),
+    (&["dump", "--format", "dot"], "out/demo.dot", "the graph for Graphviz"),
 ];
 
 const NEXT: &str = "\
@@ -42,12 +42,12 @@ fn draw() -> Result<(), (u8, String)> {
     let built =
         child::stream(&mut child::cargo(&["build", "--package", "shadowgraph"])).map_err(|e| (1, e))?;
     if !built.success() {
-        return Err((1, "the program does not build".to_owned()));
+        return Err((1, "the program failed to build".to_owned()));
     }
-    let runtime = RuntimeFolder::new();
+    let runtime = RuntimeDir::new();
     let program = program().map_err(|error| (1, error))?;
     for (arguments, file, _) in PRODUCTS {
-        // What an earlier run wrote must not pass for this run's work.
+        // A file of an earlier run must not pass for the output of this run.
         let _absent = std::fs::remove_file(child::root().join(file));
         let mut command = child::command(&program);
         command.args(arguments).args(["-o", file]);
@@ -57,15 +57,15 @@ fn draw() -> Result<(), (u8, String)> {
             return Err((code, format!("`shadowgraph {} -o {file}` failed ({status})", arguments.join(" "))));
         }
     }
-    tell()
+    list()
 }
 
-fn tell() -> Result<(), (u8, String)> {
+fn list() -> Result<(), (u8, String)> {
     println!("\nWritten:");
     for (_, file, what) in PRODUCTS {
         let bytes = std::fs::metadata(child::root().join(file)).map_or(0, |data| data.len());
         if bytes == 0 {
-            return Err((1, format!("the program ended well but {file} is missing or empty")));
+            return Err((1, format!("the program succeeded, but {file} is missing or empty")));
         }
         println!("  {file:<14} {:>5} KiB  {what}", bytes.div_ceil(1024));
     }
@@ -73,12 +73,12 @@ fn tell() -> Result<(), (u8, String)> {
     Ok(())
 }
 
-/// The built program: cargo puts it beside this one.
+/// Returns the path of the built program: cargo writes it next to this one.
 fn program() -> Result<PathBuf, String> {
     let here =
-        std::env::current_exe().map_err(|error| format!("cannot tell where this program lies: {error}"))?;
-    let folder = here.parent().unwrap_or(Path::new("."));
-    let program = folder.join(format!("shadowgraph{}", std::env::consts::EXE_SUFFIX));
+        std::env::current_exe().map_err(|error| format!("cannot find the path of this program: {error}"))?;
+    let dir = here.parent().unwrap_or(Path::new("."));
+    let program = dir.join(format!("shadowgraph{}", std::env::consts::EXE_SUFFIX));
     if program.is_file() {
         Ok(program)
     } else {

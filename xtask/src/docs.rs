@@ -1,11 +1,11 @@
-//! `cargo xtask docs`: the pictures of the book, and the book.
+//! `cargo xtask docs`: renders the images of the book and builds the book.
 
-use crate::child::{self, RuntimeFolder};
+use crate::child::{self, RuntimeDir};
 use crate::driver::Driver;
 use crate::machine::{self, Need};
 use std::process::ExitCode;
 
-/// Pictures of `docs/images/` by the program: the file, and what `render` is asked for.
+/// Images in `docs/images/` that the program renders: the name of each file, and the options of `render`.
 const RENDERED: [(&str, &[&str]); 14] = [
     ("demo", &["--size", "960x540"]),
     ("nodes/geometry", &["--aov", "depth"]),
@@ -23,10 +23,10 @@ const RENDERED: [(&str, &[&str]); 14] = [
     ("nodes/shadow_debug", &["--pipeline", "debug_cascades"]),
 ];
 
-/// A pipeline in which every node can be switched on.
+/// A pipeline in which every node can be enabled.
 const EVERYTHING: &str = "docs/everything.ron";
 
-/// The examples that draw, and the frame that is shown of those that draw many.
+/// Examples that write images, and the frame that is shown of those that write many.
 const EXAMPLES: [(&str, &str); 10] = [
     ("minimal_graph", ""),
     ("post_chain", ""),
@@ -52,7 +52,7 @@ pub(crate) fn run() -> ExitCode {
 
 fn draw() -> Result<(), String> {
     machine::prepare(Need::Driver(Driver::Any))?;
-    let runtime = RuntimeFolder::new();
+    let runtime = RuntimeDir::new();
     let cargo = |arguments: &[&str]| {
         println!("cargo {}", arguments.join(" "));
         let status = child::stream(runtime.apply(&mut child::cargo(arguments)))?;
@@ -71,17 +71,17 @@ fn draw() -> Result<(), String> {
         cargo(&["run", "--quiet", "--package", "shadowgraph-examples", "--example", name])?;
         let root = child::root();
         let (from, to) = (format!("out/{name}{frame}.png"), format!("docs/images/examples/{name}.png"));
-        let folder = root.join("docs/images/examples");
-        std::fs::create_dir_all(&folder)
+        let dir = root.join("docs/images/examples");
+        std::fs::create_dir_all(&dir)
             .and_then(|()| std::fs::copy(root.join(&from), root.join(&to)))
-            .map_err(|error| format!("{from} cannot be copied to {to}: {error}"))?;
+            .map_err(|error| format!("cannot copy {from} to {to}: {error}"))?;
     }
     Ok(())
 }
 
 fn book() -> Result<(), String> {
     if !child::succeeds("mdbook", &["--version"]) {
-        return Err("the pictures are made, but the book needs mdbook: cargo install mdbook --locked".into());
+        return Err("the images are rendered, but building the book needs mdbook; to install: cargo install mdbook --locked".into());
     }
     let status = child::stream(child::command("mdbook").args(["build", "docs"]))?;
     if !status.success() {

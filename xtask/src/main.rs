@@ -1,16 +1,19 @@
-//! The project's commands: `cargo xtask demo` and `cargo xtask test`, and what is run now and then.
+//! The project's commands: `cargo xtask demo`, `check` and `test`, and two that are needed less often.
 //!
-//! Nothing but the standard library, so that it builds at once and can prepare a machine for the rest.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool talks to its user")]
+//! This program uses only the standard library, so that it builds within seconds and can prepare a machine for the others.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool prints for its user")]
 
 mod apt;
+mod check;
 mod child;
 mod demo;
 mod docs;
 mod driver;
 mod machine;
+mod members;
 mod report;
 mod soak;
+mod steps;
 mod suite;
 mod tally;
 
@@ -19,17 +22,20 @@ use std::process::ExitCode;
 const HELP: &str = "\
 Shadowgraph's commands:
 
-  cargo xtask demo    draw the built-in scene and dump its render graph into out/
-  cargo xtask test    format, lints, every test, documentation: what a change must pass
+  cargo xtask demo    render the built-in scene and dump its render graph into out/
+  cargo xtask check   while you work: format, lints, and the tests without a GPU of the packages that
+                      changed and of those that depend on them
+  cargo xtask test    what a change must pass: format, lints, documentation, every test
 
-and what is run now and then:
+Needed less often:
 
-  cargo xtask docs    draw the pictures of the documents anew, and make the book of them (with mdbook) in out/book
-  cargo xtask soak    read a million broken files, and draw 10000 frames of ever other pipelines, sizes, techniques and
-                      lights; another number: cargo xtask soak 2000
+  cargo xtask docs    render the images of the documents, and build the book (with mdbook) in out/book
+  cargo xtask soak    parse a million broken files, and render 10000 frames of random pipelines, sizes,
+                      techniques and lights; for another number of frames: cargo xtask soak 2000
 
-All see to a Vulkan driver first (Linux): a software one is installed when there is none and
-apt-get may be used; otherwise the one line to run is printed.
+On Linux, all but `check` first make sure of a Vulkan driver, and `test` of the programs that tests start
+(Xvfb, Graphviz, Chromium). What is missing is installed with apt-get if you are root or sudo needs no
+password; otherwise the line to run is printed.
 
 The program itself:  cargo run -- help
 ";
@@ -44,16 +50,17 @@ fn main() -> ExitCode {
         ["demo"] => demo::run(),
         ["docs"] => docs::run(),
         ["test"] => suite::run(),
+        ["check"] => check::run(),
         ["soak"] => soak::run(soak::FRAMES),
         ["soak", frames] => match frames.parse() {
             Ok(frames @ 1..) => soak::run(frames),
             _ => {
-                eprintln!("error: `cargo xtask soak {frames}`: give a number of frames, from 1 up");
+                eprintln!("error: `cargo xtask soak {frames}`: expected a number of frames, at least 1");
                 ExitCode::from(2)
             }
         },
         other => {
-            eprintln!("error: `cargo xtask {}` is not a command\n", other.join(" "));
+            eprintln!("error: unknown command `cargo xtask {}`\n", other.join(" "));
             eprint!("{HELP}");
             ExitCode::from(2)
         }

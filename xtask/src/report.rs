@@ -1,9 +1,9 @@
-//! The end of a test run: time per step, every skip, and one closing line.
+//! The summary of a test run: the time of each step, every skip, and one closing line.
 
 use crate::tally::{Tally, allowed_skips};
 use std::process::ExitCode;
 
-/// One step that ran.
+/// A step that ran.
 pub(crate) struct Step {
     pub(crate) name: &'static str,
     pub(crate) seconds: f64,
@@ -11,7 +11,7 @@ pub(crate) struct Step {
     pub(crate) tally: Tally,
 }
 
-/// All steps that ran.
+/// The steps that ran.
 #[derive(Default)]
 pub(crate) struct Report {
     pub(crate) steps: Vec<Step>,
@@ -20,9 +20,9 @@ pub(crate) struct Report {
 impl Report {
     /// Prints the summary; `list` is the text of the committed list of skips.
     pub(crate) fn finish(&self, list: Result<String, String>) -> ExitCode {
-        let (text, good) = self.text(list);
+        let (text, succeeded) = self.text(list);
         print!("{text}");
-        if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        if succeeded { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
     fn text(&self, list: Result<String, String>) -> (String, bool) {
@@ -53,7 +53,7 @@ impl Report {
         (lines.join("\n") + "\n", problems.is_empty())
     }
 
-    /// A step that failed with no test to show for it counts as one failure.
+    /// Counts the steps that failed without a failed test: one failure each.
     fn failures_without_tests(&self) -> usize {
         self.steps.iter().filter(|step| step.error.is_some() && step.tally.failed == 0).count()
     }
@@ -81,11 +81,11 @@ mod tests {
     }
 
     #[test]
-    fn a_good_run_ends_in_the_plain_line() {
+    fn a_successful_run_ends_with_its_counts() {
         let ran =
             step("tests", None, &["test result: ok. 5 passed; 0 failed; 0 ignored"], "SKIP a: absent\n");
-        let (text, good) = Report { steps: vec![ran] }.text(Ok("a: where it is absent".to_owned()));
-        assert!(good);
+        let (text, succeeded) = Report { steps: vec![ran] }.text(Ok("a: where it is absent".to_owned()));
+        assert!(succeeded);
         assert_eq!(last(&text), "4 passed, 0 failed, 1 skipped");
         assert!(text.contains("skipped a: absent"));
     }
@@ -94,8 +94,8 @@ mod tests {
     fn a_skip_that_is_not_in_the_list_fails_the_run() {
         let ran =
             step("tests", None, &["test result: ok. 5 passed; 0 failed; 0 ignored"], "SKIP a: absent\n");
-        let (text, good) = Report { steps: vec![ran] }.text(Ok(String::new()));
-        assert!(!good);
+        let (text, succeeded) = Report { steps: vec![ran] }.text(Ok(String::new()));
+        assert!(!succeeded);
         assert!(text.contains("FAILED the skip of a is not in tests/skips.txt"), "{text}");
     }
 
@@ -103,14 +103,14 @@ mod tests {
     fn a_failed_step_without_tests_counts_as_one_failure_and_hides_nothing() {
         let lints = step("lints", Some("cargo clippy"), &[], "");
         let ran = step("tests", None, &["test result: ok. 5 passed; 0 failed; 0 ignored"], "");
-        let (text, good) = Report { steps: vec![lints, ran] }.text(Ok(String::new()));
-        assert!(!good);
+        let (text, succeeded) = Report { steps: vec![lints, ran] }.text(Ok(String::new()));
+        assert!(!succeeded);
         assert_eq!(last(&text), "5 passed, 1 failed, 0 skipped");
     }
 
     #[test]
     fn a_missing_list_fails_the_run() {
-        let (text, good) = Report::default().text(Err("tests/skips.txt: not found".to_owned()));
-        assert!(!good && text.contains("FAILED tests/skips.txt: not found"), "{text}");
+        let (text, succeeded) = Report::default().text(Err("tests/skips.txt: not found".to_owned()));
+        assert!(!succeeded && text.contains("FAILED tests/skips.txt: not found"), "{text}");
     }
 }

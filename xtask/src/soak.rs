@@ -1,15 +1,14 @@
-//! `cargo xtask soak`: the long forms of two tests. Broken files of every kind are read, and frames are drawn while everything
-//! changes.
+//! `cargo xtask soak`: long runs of two tests, which parse broken files of every kind and render frames of random pipelines.
 
-use crate::child::{self, RuntimeFolder};
+use crate::child::{self, RuntimeDir};
 use crate::driver::Driver;
 use crate::machine::{self, Need};
 use std::process::ExitCode;
 
-/// Frames where nobody asks for fewer or more.
+/// The default number of frames.
 pub(crate) const FRAMES: u32 = 10_000;
 
-/// Broken files of each kind for a frame.
+/// The number of broken files of each kind for every frame.
 const FILES: u32 = 20;
 
 pub(crate) fn run(frames: u32) -> ExitCode {
@@ -23,19 +22,19 @@ pub(crate) fn run(frames: u32) -> ExitCode {
     }
 }
 
-/// Whether both tests passed.
+/// Returns whether both tests passed.
 fn soak(frames: u32) -> Result<bool, String> {
     machine::prepare(Need::Driver(Driver::Software))?;
-    let runtime = RuntimeFolder::new();
+    let runtime = RuntimeDir::new();
     let files = FILES.saturating_mul(frames);
     let tests: [(&[&str], &str, u32); 2] = [
         (&["--lib", "broken_files"], "SHADOWGRAPH_FUZZ", files),
         (&["--test", "soak"], "SHADOWGRAPH_SOAK", frames),
     ];
-    for (test, variable, many) in tests {
+    for (test, variable, count) in tests {
         let arguments = [&["test", "--quiet", "--workspace"], test, &["--", "--nocapture"]].concat();
         let mut command = child::cargo(&arguments);
-        command.env(variable, many.to_string());
+        command.env(variable, count.to_string());
         if !child::stream(runtime.apply(&mut command))?.success() {
             return Ok(false);
         }

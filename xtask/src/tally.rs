@@ -1,11 +1,11 @@
-//! Counts of tests and skips, read from what test programs print and log.
+//! Counts of tests and skips, read from the output and the log of test programs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What test programs did, added up.
+/// Sums over test programs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
-    /// Tests that ran and passed, those that skipped themselves included.
+    /// Tests that passed, including those that skipped themselves.
     returned: usize,
     /// Tests that failed.
     pub(crate) failed: usize,
@@ -16,7 +16,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Takes in one line that a test program printed.
+    /// Reads one line of a test program's output.
     pub(crate) fn read_line(&mut self, line: &str) {
         if let Some(counts) = line.strip_prefix("test result: ") {
             self.returned += count_before(counts, "passed");
@@ -26,7 +26,7 @@ impl Tally {
         }
     }
 
-    /// Takes in the log to which tests append `SKIP <id>: <reason>`.
+    /// Reads the log to which tests append `SKIP <id>: <reason>`.
     pub(crate) fn read_log(&mut self, log: &str) {
         for line in log.lines().filter_map(|line| line.strip_prefix("SKIP ")) {
             let (id, reason) = line.split_once(": ").unwrap_or((line, "no reason given"));
@@ -36,7 +36,7 @@ impl Tally {
         }
     }
 
-    /// Tests that ran to their end: a skip is not a pass.
+    /// Returns the number of tests that ran to their end: a skip is not a pass.
     pub(crate) fn passed(&self) -> usize {
         self.returned.saturating_sub(self.logged)
     }
@@ -64,7 +64,7 @@ fn ignored_test(line: &str) -> Option<(&str, &str)> {
     }
 }
 
-/// The skips that may happen: the committed list, `<id>` or `<id>: <why>` a line, `#` for comments.
+/// Returns the ids of the allowed skips in the committed list: `<id>` or `<id>: <why>` on each line, `#` for comments.
 pub(crate) fn allowed_skips(list: &str) -> BTreeSet<String> {
     let lines = list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     lines.map(|line| line.split_once(": ").map_or(line, |(id, _)| id).trim().to_owned()).collect()
