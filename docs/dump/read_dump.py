@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Reads a dump in JSON and says what is in it: an example of how to use one.
+"""Reads a JSON dump and prints a summary: an example of how to use dumps.
 
     shadowgraph dump model.glb --format json -o frame.json
     python3 read_dump.py frame.json
 
-`schema.json` beside this file describes every field.
+`schema.json` next to this file describes every field.
 """
 
 import json
@@ -14,14 +14,14 @@ SCHEMA = 3
 
 
 def node_path(nodes, node):
-    """The name of a node with the nodes around it before it."""
+    """Returns the path of a node: its name after those of its parents."""
     if node is None:
         return ""
     return node_path(nodes, nodes[node]["parent"]) + nodes[node]["name"] + "/"
 
 
 def byte_count(desc):
-    """The bytes of a buffer, or of a texture of a format with a known size."""
+    """Returns the size of a buffer, or of a texture whose format has a known size."""
     if "Buffer" in desc:
         return desc["Buffer"]["bytes"]
     texture = desc["Texture"]
@@ -43,11 +43,11 @@ def main(file):
     try:
         with open(file, encoding="utf-8") as source:
             dump = json.load(source)
-    except (OSError, ValueError) as problem:
-        sys.exit(f"{file}: {problem}")
+    except (OSError, ValueError) as error:
+        sys.exit(f"{file}: {error}")
     schema = dump.get("schema") if isinstance(dump, dict) else None
     if schema != SCHEMA:
-        sys.exit(f"{file}: schema {schema}, and this reads {SCHEMA}")
+        sys.exit(f"{file}: unsupported schema {schema}; expected {SCHEMA}")
     plan, summary = dump["plan"], dump["summary"]
     ran = summary["passes"] - summary["culled"]
     print(f"{ran} passes in {summary['steps']} steps, {summary['culled']} culled")
@@ -56,8 +56,8 @@ def main(file):
     for step, passes in enumerate(plan["order"]):
         names = []
         for index in passes["passes"]:
-            own = plan["passes"][index]
-            names.append(node_path(plan["nodes"], own["node"]) + own["name"])
+            entry = plan["passes"][index]
+            names.append(node_path(plan["nodes"], entry["node"]) + entry["name"])
         print(f"  {step:>3}  {', '.join(names)}")
 
     print("\nlargest resources")
