@@ -2,7 +2,7 @@
 
 use shadowgraph::Error;
 use shadowgraph::core::{Format, Frame, FullscreenShader, Texture};
-use shadowgraph::nodes::{Allows, Node, Port, Ports, Setting, Settings};
+use shadowgraph::nodes::{Node, Port, Ports, Setting, SettingType, Settings};
 use shadowgraph::pipelines::{Build, View};
 
 /// Darkens the corners of the picture.
@@ -17,7 +17,7 @@ impl Node for Vignette {
     const INPUTS: &'static [Port] = &[Port::texture("light", "what is lit")];
     const OUTPUTS: &'static [Port] = &[Port::texture("light", "the same, darker in the corners")];
     const SETTINGS: &'static [Setting] =
-        &[Setting::new("strength", Allows::Number(0.5, 0.0, 1.0), "how dark corners are")];
+        &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "how dark corners are")];
 
     fn new(_build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         Ok(Self::with(settings.number("strength")?))

@@ -12,7 +12,7 @@ pub use built_in::Geometry as GeometryNode;
 pub(crate) use built_in::{Shadows as ShadowsNode, Taa as TaaNode, ViewRecords as ViewNode};
 pub use port::{Need, Port, PortKind, Value};
 pub use ports::Ports;
-pub use setting::{Allows, Setting, Settings};
+pub use setting::{Setting, SettingType, Settings};
 
 use serde_json::json;
 use shadowgraph_core::Frame;
@@ -24,7 +24,7 @@ use crate::pipelines::{Build, View};
 ///
 /// ```
 /// use shadowgraph::core::{Format, Frame, FullscreenShader, TextureDesc};
-/// use shadowgraph::nodes::{Allows, Node, Nodes, Port, Ports, Setting, Settings};
+/// use shadowgraph::nodes::{SettingType, Node, Nodes, Port, Ports, Setting, Settings};
 /// use shadowgraph::pipelines::{Build, View};
 /// use shadowgraph::Error;
 ///
@@ -39,7 +39,7 @@ use crate::pipelines::{Build, View};
 ///     const INPUTS: &'static [Port] = &[Port::texture("light", "what is lit")];
 ///     const OUTPUTS: &'static [Port] = &[Port::texture("light", "the same, darker in the corners")];
 ///     const SETTINGS: &'static [Setting] =
-///         &[Setting::new("strength", Allows::Number(0.5, 0.0, 1.0), "how dark corners are")];
+///         &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "how dark corners are")];
 ///
 ///     fn new(_build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
 ///         let shader = FullscreenShader::wgsl("vignette", "
@@ -274,8 +274,8 @@ impl Nodes {
         }
         for setting in kind.settings {
             let allowed = setting.allowed();
-            let default = match setting.allows {
-                Allows::Color([red, green, blue]) => format!("({red:?}, {green:?}, {blue:?})"),
+            let default = match setting.ty {
+                SettingType::Color([red, green, blue]) => format!("({red:?}, {green:?}, {blue:?})"),
                 _ => setting.default_value().to_string(),
             };
             let _ = writeln!(out, "  set    {:<18} {default}; {allowed}: {}", setting.name, setting.about);

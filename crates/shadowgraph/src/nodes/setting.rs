@@ -10,7 +10,7 @@ pub struct Setting {
     /// What it is called.
     pub name: &'static str,
     /// What it may be, and what it is if nothing is said.
-    pub allows: Allows,
+    pub ty: SettingType,
     /// What it is measured in; empty for none.
     pub unit: &'static str,
     /// What it does, in a phrase.
@@ -19,7 +19,7 @@ pub struct Setting {
 
 /// What a setting may be; each begins with the default.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Allows {
+pub enum SettingType {
     /// Yes or no.
     Toggle(bool),
     /// A whole number from the second to the third.
@@ -36,8 +36,8 @@ pub enum Allows {
 
 impl Setting {
     /// Describes a setting without a unit.
-    pub const fn new(name: &'static str, allows: Allows, about: &'static str) -> Self {
-        Self { name, allows, unit: "", about }
+    pub const fn new(name: &'static str, ty: SettingType, about: &'static str) -> Self {
+        Self { name, ty, unit: "", about }
     }
 
     /// Says what it is measured in.
@@ -48,53 +48,55 @@ impl Setting {
 
     /// Returns what it may be, in words.
     pub fn allowed(&self) -> String {
-        let range = match self.allows {
-            Allows::Toggle(_) => return "true or false".into(),
-            Allows::Integer(_, low, high) => format!("a whole number from {low} to {high}"),
-            Allows::Number(_, low, high) => format!("a number from {low} to {high}"),
-            Allows::Choice(_, of) => return format!("one of {}", of.join(", ")),
-            Allows::Text(_) => return "a text".into(),
-            Allows::Color(_) => return "three numbers from 0 on, such as (1.0, 0.5, 0.0)".into(),
+        let range = match self.ty {
+            SettingType::Toggle(_) => return "true or false".into(),
+            SettingType::Integer(_, low, high) => format!("a whole number from {low} to {high}"),
+            SettingType::Number(_, low, high) => format!("a number from {low} to {high}"),
+            SettingType::Choice(_, of) => return format!("one of {}", of.join(", ")),
+            SettingType::Text(_) => return "a text".into(),
+            SettingType::Color(_) => return "three numbers from 0 on, such as (1.0, 0.5, 0.0)".into(),
         };
         if self.unit.is_empty() { range } else { format!("{range} ({})", self.unit) }
     }
 
     /// Returns the default.
     pub fn default_value(&self) -> Value {
-        match self.allows {
-            Allows::Toggle(value) => value.into(),
-            Allows::Integer(value, ..) => value.into(),
-            Allows::Number(value, ..) => value.into(),
-            Allows::Choice(value, _) | Allows::Text(value) => value.into(),
-            Allows::Color(value) => json!(value),
+        match self.ty {
+            SettingType::Toggle(value) => value.into(),
+            SettingType::Integer(value, ..) => value.into(),
+            SettingType::Number(value, ..) => value.into(),
+            SettingType::Choice(value, _) | SettingType::Text(value) => value.into(),
+            SettingType::Color(value) => json!(value),
         }
     }
 
     /// Says what is wrong with a value; `None` if nothing is.
     pub fn fault(&self, value: &Value) -> Option<String> {
         let number = |low: f64, high: f64| value.as_f64().is_some_and(|value| (low..=high).contains(&value));
-        let fits = match self.allows {
-            Allows::Toggle(_) => value.is_boolean(),
-            Allows::Integer(_, low, high) => {
+        let fits = match self.ty {
+            SettingType::Toggle(_) => value.is_boolean(),
+            SettingType::Integer(_, low, high) => {
                 value.as_i64().is_some_and(|value| (low..=high).contains(&value))
             }
-            Allows::Number(_, low, high) => number(low, high),
-            Allows::Choice(_, of) => value.as_str().is_some_and(|value| of.contains(&value)),
-            Allows::Text(_) => value.is_string(),
-            Allows::Color(_) => color(value).is_some(),
+            SettingType::Number(_, low, high) => number(low, high),
+            SettingType::Choice(_, of) => value.as_str().is_some_and(|value| of.contains(&value)),
+            SettingType::Text(_) => value.is_string(),
+            SettingType::Color(_) => color(value).is_some(),
         };
         (!fits).then(|| format!("{} is {value}; it can be {}", self.name, self.allowed()))
     }
 
     /// Returns the JSON Schema of its values.
     pub fn schema(&self) -> Value {
-        let mut schema = match self.allows {
-            Allows::Toggle(_) => json!({ "type": "boolean" }),
-            Allows::Integer(_, low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
-            Allows::Number(_, low, high) => json!({ "type": "number", "minimum": low, "maximum": high }),
-            Allows::Choice(_, of) => json!({ "enum": of }),
-            Allows::Text(_) => json!({ "type": "string" }),
-            Allows::Color(_) => json!({
+        let mut schema = match self.ty {
+            SettingType::Toggle(_) => json!({ "type": "boolean" }),
+            SettingType::Integer(_, low, high) => {
+                json!({ "type": "integer", "minimum": low, "maximum": high })
+            }
+            SettingType::Number(_, low, high) => json!({ "type": "number", "minimum": low, "maximum": high }),
+            SettingType::Choice(_, of) => json!({ "enum": of }),
+            SettingType::Text(_) => json!({ "type": "string" }),
+            SettingType::Color(_) => json!({
                 "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3,
             }),
         };
@@ -132,7 +134,7 @@ impl Settings {
         })
     }
 
-    /// Returns the value of an [`Allows::Toggle`].
+    /// Returns the value of an [`SettingType::Toggle`].
     ///
     /// # Errors
     /// If the kind describes no such setting; so of all of these.
@@ -140,7 +142,7 @@ impl Settings {
         self.get(name, Value::as_bool)
     }
 
-    /// Returns the value of an [`Allows::Integer`].
+    /// Returns the value of an [`SettingType::Integer`].
     ///
     /// # Errors
     /// As [`toggle`](Self::toggle).
@@ -148,7 +150,7 @@ impl Settings {
         self.get(name, Value::as_i64)
     }
 
-    /// Returns the value of an [`Allows::Number`].
+    /// Returns the value of an [`SettingType::Number`].
     ///
     /// # Errors
     /// As [`toggle`](Self::toggle).
@@ -156,7 +158,7 @@ impl Settings {
         self.get(name, |value| value.as_f64().map(|value| value as f32))
     }
 
-    /// Returns the value of an [`Allows::Choice`] or an [`Allows::Text`].
+    /// Returns the value of an [`SettingType::Choice`] or an [`SettingType::Text`].
     ///
     /// # Errors
     /// As [`toggle`](Self::toggle).
@@ -164,7 +166,7 @@ impl Settings {
         self.get(name, Value::as_str)
     }
 
-    /// Returns the value of an [`Allows::Color`].
+    /// Returns the value of an [`SettingType::Color`].
     ///
     /// # Errors
     /// As [`toggle`](Self::toggle).

@@ -31,14 +31,14 @@ macro_rules! kind {
 kind!(Known, "tonemap", &[], &[], &[]);
 kind!(TwoInputs, "a", &[Port::texture("x", ""), Port::texture("x", "")], &[], &[]);
 kind!(TwoOutputs, "b", &[], &[Port::texture("x", ""), Port::texture("x", "")], &[]);
-kind!(Default_, "c", &[], &[], &[Setting::new("n", Allows::Integer(9, 0, 8), "")]);
+kind!(Default_, "c", &[], &[], &[Setting::new("n", SettingType::Integer(9, 0, 8), "")]);
 kind!(StandIn, "d", &[Port::new("x", PortKind::Buffer, "").or_texel([0.0; 4])], &[], &[]);
 kind!(
     Good,
     "e",
     &[Port::texture("x", "what is read")],
     &[],
-    &[Setting::new("n", Allows::Integer(8, 0, 8), "how many")]
+    &[Setting::new("n", SettingType::Integer(8, 0, 8), "how many")]
 );
 
 fn refused<N: Node>() -> String {
@@ -85,17 +85,17 @@ fn every_kind_that_comes_along_is_right_and_has_a_phrase_for_everything() {
 #[test]
 fn values_out_of_range_or_of_another_type_are_told_with_what_is_allowed() {
     let fault = |allows, value| Setting::new("n", allows, "").in_units("m").fault(&value);
-    assert_eq!(fault(Allows::Toggle(true), json!(false)), None);
-    assert!(fault(Allows::Toggle(true), json!(1)).unwrap().contains("true or false"));
-    assert_eq!(fault(Allows::Number(0.5, 0.0, 1.0), json!(1)), None);
-    let high = fault(Allows::Number(0.5, 0.0, 1.0), json!(1.5)).unwrap();
+    assert_eq!(fault(SettingType::Toggle(true), json!(false)), None);
+    assert!(fault(SettingType::Toggle(true), json!(1)).unwrap().contains("true or false"));
+    assert_eq!(fault(SettingType::Number(0.5, 0.0, 1.0), json!(1)), None);
+    let high = fault(SettingType::Number(0.5, 0.0, 1.0), json!(1.5)).unwrap();
     assert_eq!(high, "n is 1.5; it can be a number from 0 to 1 (m)");
-    assert!(fault(Allows::Integer(1, 0, 4), json!(0.5)).is_some());
-    assert!(fault(Allows::Choice("a", &["a", "b"]), json!("c")).unwrap().contains("one of a, b"));
-    assert_eq!(fault(Allows::Text(""), json!("any")), None);
-    assert_eq!(fault(Allows::Color([0.0; 3]), json!([1, 0.5, 0])), None);
+    assert!(fault(SettingType::Integer(1, 0, 4), json!(0.5)).is_some());
+    assert!(fault(SettingType::Choice("a", &["a", "b"]), json!("c")).unwrap().contains("one of a, b"));
+    assert_eq!(fault(SettingType::Text(""), json!("any")), None);
+    assert_eq!(fault(SettingType::Color([0.0; 3]), json!([1, 0.5, 0])), None);
     for wrong in [json!([1, 2]), json!([1, 2, 3, 4]), json!([1, 2, -1]), json!([1, 2, "3"]), json!("red")] {
-        assert!(fault(Allows::Color([0.0; 3]), wrong).is_some());
+        assert!(fault(SettingType::Color([0.0; 3]), wrong).is_some());
     }
 }
 

@@ -4,7 +4,7 @@ use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::Bloom as BloomPasses;
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(super) struct Bloom {
@@ -21,8 +21,8 @@ impl Node for Bloom {
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "the same, with what spread").of(Format::Rgba16Float)];
     const SETTINGS: &'static [Setting] = &[
-        Setting::new("strength", Allows::Number(0.06, 0.0, 1.0), "the part that spreads"),
-        Setting::new("levels", Allows::Integer(6, 1, 10), "how far it spreads: each doubles it"),
+        Setting::new("strength", SettingType::Number(0.06, 0.0, 1.0), "the part that spreads"),
+        Setting::new("levels", SettingType::Integer(6, 1, 10), "how far it spreads: each doubles it"),
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {

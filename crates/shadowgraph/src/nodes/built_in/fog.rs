@@ -5,7 +5,7 @@ use shadowgraph_lighting::Shows;
 use shadowgraph_lighting::post::{Fog as FogPass, FogSettings};
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(super) struct Fog {
@@ -25,14 +25,24 @@ impl Node for Fog {
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "the same, with fog before it").of(Format::Rgba16Float)];
     const SETTINGS: &'static [Setting] = &[
-        Setting::new("albedo", Allows::Color([1.0; 3]), "the part of light that is scattered, not swallowed"),
-        Setting::new("density", Allows::Number(0.01, 0.0, 10.0), "how much is lost").in_units("per m"),
-        Setting::new("height_m", Allows::Number(4.0, -1e5, 1e5), "up to where it is dense").in_units("m"),
-        Setting::new("falloff", Allows::Number(0.1, 0.0, 100.0), "how fast it gets thinner above")
+        Setting::new(
+            "albedo",
+            SettingType::Color([1.0; 3]),
+            "the part of light that is scattered, not swallowed",
+        ),
+        Setting::new("density", SettingType::Number(0.01, 0.0, 10.0), "how much is lost").in_units("per m"),
+        Setting::new("height_m", SettingType::Number(4.0, -1e5, 1e5), "up to where it is dense")
+            .in_units("m"),
+        Setting::new("falloff", SettingType::Number(0.1, 0.0, 100.0), "how fast it gets thinner above")
             .in_units("per m"),
-        Setting::new("anisotropy", Allows::Number(0.4, -0.95, 0.95), "-1: back to the light, 1: onwards"),
-        Setting::new("distance_m", Allows::Number(80.0, 0.01, 1e6), "how far it is looked for").in_units("m"),
-        Setting::new("steps", Allows::Integer(24, 1, 256), "in how many steps"),
+        Setting::new(
+            "anisotropy",
+            SettingType::Number(0.4, -0.95, 0.95),
+            "-1: back to the light, 1: onwards",
+        ),
+        Setting::new("distance_m", SettingType::Number(80.0, 0.01, 1e6), "how far it is looked for")
+            .in_units("m"),
+        Setting::new("steps", SettingType::Integer(24, 1, 256), "in how many steps"),
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {

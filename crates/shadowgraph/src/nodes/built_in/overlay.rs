@@ -4,7 +4,7 @@ use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::Overlay as OverlayPass;
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(super) struct Overlay {
@@ -21,7 +21,7 @@ impl Node for Overlay {
     ];
     const OUTPUTS: &'static [Port] = &[Port::texture("picture", "both").of(Format::Rgba8UnormSrgb)];
     const SETTINGS: &'static [Setting] =
-        &[Setting::new("strength", Allows::Number(0.5, 0.0, 1.0), "1: nothing but the colours")];
+        &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "1: nothing but the colours")];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         Ok(Self { pass: OverlayPass::new(build.device)?, strength: settings.number("strength")? })

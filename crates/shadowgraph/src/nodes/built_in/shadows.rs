@@ -3,7 +3,7 @@
 use shadowgraph_core::Frame;
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 /// By whatever technique: a pipeline is made with it.
@@ -23,10 +23,14 @@ impl Node for Shadows {
         &[Port::new("surfaces", PortKind::Surfaces, "for techniques that ask for them").optional()];
     const OUTPUTS: &'static [Port] = &[Port::new("shadows", PortKind::Shadows, "for whoever lights")];
     const SETTINGS: &'static [Setting] = &[
-        Setting::new(Self::TECHNIQUE, Allows::Text(""), "a technique by name; empty: that of --technique"),
+        Setting::new(
+            Self::TECHNIQUE,
+            SettingType::Text(""),
+            "a technique by name; empty: that of --technique",
+        ),
         Setting::new(
             Self::COLLECTED,
-            Allows::Toggle(false),
+            SettingType::Toggle(false),
             "whether shadows are collected in a screen mask first",
         ),
     ];

@@ -5,7 +5,7 @@ use shadowgraph_lighting::Shows;
 use shadowgraph_lighting::post::{Sky as SkyPass, SkySettings};
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(super) struct Sky {
@@ -27,11 +27,11 @@ impl Node for Sky {
     const SETTINGS: &'static [Setting] = &[
         Setting::new(
             "disc_rad",
-            Allows::Number(0.012, 0.0, 0.5),
+            SettingType::Number(0.012, 0.0, 0.5),
             "radius of the discs; the sun's is 0.00465",
         )
         .in_units("rad"),
-        Setting::new("haze", Allows::Number(0.8, 0.0, 10.0), "how much brighter the horizon is"),
+        Setting::new("haze", SettingType::Number(0.8, 0.0, 10.0), "how much brighter the horizon is"),
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {

@@ -4,7 +4,7 @@ use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::{Occlusion, OcclusionSettings};
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(super) struct Ssao {
@@ -25,11 +25,15 @@ impl Node for Ssao {
         Port::texture("occlusion", "1 where all of it arrives").of(Format::R8Unorm),
     ];
     const SETTINGS: &'static [Setting] = &[
-        Setting::new("radius_m", Allows::Number(0.8, 0.01, 100.0), "how far surroundings matter")
+        Setting::new("radius_m", SettingType::Number(0.8, 0.01, 100.0), "how far surroundings matter")
             .in_units("m"),
-        Setting::new("power", Allows::Number(1.0, 0.1, 8.0), "over 1 corners are darker"),
-        Setting::new("slices", Allows::Integer(3, 1, 8), "in how many directions horizons are looked for"),
-        Setting::new("steps", Allows::Integer(4, 1, 16), "in how many steps each way"),
+        Setting::new("power", SettingType::Number(1.0, 0.1, 8.0), "over 1 corners are darker"),
+        Setting::new(
+            "slices",
+            SettingType::Integer(3, 1, 8),
+            "in how many directions horizons are looked for",
+        ),
+        Setting::new("steps", SettingType::Integer(4, 1, 16), "in how many steps each way"),
     ];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {

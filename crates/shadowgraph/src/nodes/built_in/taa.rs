@@ -4,7 +4,7 @@ use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::Temporal;
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(crate) struct Taa {
@@ -23,7 +23,7 @@ impl Node for Taa {
     ];
     const OUTPUTS: &'static [Port] = &[Port::texture("light", "of several frames").of(Format::Rgba16Float)];
     const SETTINGS: &'static [Setting] =
-        &[Setting::new("fresh", Allows::Number(0.1, 0.01, 1.0), "the part of this frame")];
+        &[Setting::new("fresh", SettingType::Number(0.1, 0.01, 1.0), "the part of this frame")];
 
     fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
         build.one_sample(Self::NAME)?;

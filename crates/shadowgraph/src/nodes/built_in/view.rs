@@ -4,7 +4,7 @@ use shadowgraph_core::Frame;
 use shadowgraph_lighting::post::Jitters;
 
 use crate::Error;
-use crate::nodes::{Allows, Node, Port, PortKind, Ports, Setting, Settings};
+use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
 pub(crate) struct ViewRecords {
@@ -23,7 +23,7 @@ impl Node for ViewRecords {
     const OUTPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera and the lights")];
     const SETTINGS: &'static [Setting] = &[Setting::new(
         Self::JITTER,
-        Allows::Toggle(false),
+        SettingType::Toggle(false),
         "whether pixels look at another place in each frame, for `taa`",
     )];
     const GROUPS_ITSELF: bool = true;
