@@ -19,7 +19,8 @@ struct Shaders {
 
 impl Shaders {
     fn new() -> Self {
-        let mean = |entry| FullscreenShader::wgsl(entry, include_str!("accumulation_mean.wgsl")).entry(entry);
+        let mean =
+            |entry| FullscreenShader::wgsl(entry, include_str!("accumulation_mean.wgsl")).entry_point(entry);
         Self {
             noisy: FullscreenShader::wgsl("noisy", include_str!("accumulation.wgsl")),
             mean: mean("mean"),

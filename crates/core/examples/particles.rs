@@ -13,7 +13,7 @@ const STEPS: u32 = 60;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (device, queue) = common::open()?;
-    let shader = |entry| ComputeShader::wgsl(entry, include_str!("particles.wgsl")).entry(entry);
+    let shader = |entry| ComputeShader::wgsl(entry, include_str!("particles.wgsl")).entry_point(entry);
     let (scatter, move_on) = (shader("scatter"), shader("move_on"));
     let pipeline = pipeline(&device);
     let layout = pipeline.get_bind_group_layout(0);

@@ -20,7 +20,8 @@ struct Shaders {
 
 impl Shaders {
     fn new(device: &wgpu::Device) -> Self {
-        let chain = |entry| FullscreenShader::wgsl(entry, include_str!("post_process.wgsl")).entry(entry);
+        let chain =
+            |entry| FullscreenShader::wgsl(entry, include_str!("post_process.wgsl")).entry_point(entry);
         Self {
             points: chain("points"),
             bright: chain("bright"),

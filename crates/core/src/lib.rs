@@ -62,7 +62,7 @@ mod plan;
 #[cfg(feature = "gpu")]
 mod pool;
 #[cfg(feature = "gpu")]
-mod programs;
+mod shader_pass;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
 mod times;
@@ -81,8 +81,8 @@ pub use dump::{
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Bind, BodyResult, Capture, Captured, ComputeContext, EncoderContext, Executed, FailedFrame, ReadBack,
-    ReadBackRequest, RenderContext, Resources, Timer,
+    Bind, BodyResult, ComputeContext, EncoderContext, Executed, FailedFrame, FrameCapture, PendingCapture,
+    ReadBack, ReadBackRequest, RenderContext, Resources, Timer,
 };
 pub use frame::{Frame, History, Resize};
 pub use graph::{Graph, PlanCounts};
@@ -100,8 +100,8 @@ pub use plan::{
 #[cfg(feature = "gpu")]
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
-pub use programs::{Block, Call, ComputeShader, FullscreenShader};
-pub use times::{PassTime, TimeHistory, TimeSpread, TimeSummary, trace_json};
+pub use shader_pass::{ComputeShader, FullscreenShader, ShaderPassBuilder, UniformSource};
+pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary, trace_json};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

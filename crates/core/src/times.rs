@@ -25,7 +25,7 @@ pub struct PassTime {
     /// How many passes `gpu_ms` is the time of: 1, or more where passes were merged and the device cannot tell them
     /// apart. Each of them then shows the same time.
     pub shared_by: u32,
-    /// Draw calls, where the body told of them by `Resources::note_draws`; `None` where it did not.
+    /// Draw calls, where the body told of them by `Resources::report_draws`; `None` where it did not.
     pub draws: Option<u32>,
     /// Triangles that were drawn, before what is outside the view was cut off; `None` where the device cannot tell.
     pub triangles: Option<u64>,
@@ -80,16 +80,16 @@ pub struct TimeSummary {
     /// The node it belongs to; empty for none.
     pub node: String,
     /// Milliseconds on the CPU.
-    pub cpu_ms: TimeSpread,
+    pub cpu_ms: TimeStats,
     /// Milliseconds on the GPU; `None` where the device cannot tell.
-    pub gpu_ms: Option<TimeSpread>,
+    pub gpu_ms: Option<TimeStats>,
     /// As [`PassTime::shared_by`], in the last frame.
     pub shared_by: u32,
 }
 
 /// How times spread.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct TimeSpread {
+pub struct TimeStats {
     /// Half of the frames took less.
     pub median: f64,
     /// One frame in twenty took longer: the 95th percentile.
@@ -128,16 +128,16 @@ impl TimeHistory {
         let summary = |(place, time): (usize, &PassTime)| TimeSummary {
             pass: time.pass.clone(),
             node: time.node.clone(),
-            cpu_ms: TimeSpread::of(of(place).map(|time| time.cpu_ms).collect())
-                .unwrap_or(TimeSpread { median: time.cpu_ms, high: time.cpu_ms }),
-            gpu_ms: TimeSpread::of(of(place).filter_map(|time| time.gpu_ms).collect()),
+            cpu_ms: TimeStats::of(of(place).map(|time| time.cpu_ms).collect())
+                .unwrap_or(TimeStats { median: time.cpu_ms, high: time.cpu_ms }),
+            gpu_ms: TimeStats::of(of(place).filter_map(|time| time.gpu_ms).collect()),
             shared_by: time.shared_by,
         };
         last.iter().enumerate().map(summary).collect()
     }
 }
 
-impl TimeSpread {
+impl TimeStats {
     /// By the nearest rank; `None` of no times.
     fn of(mut times: Vec<f64>) -> Option<Self> {
         times.sort_by(f64::total_cmp);
@@ -159,7 +159,7 @@ mod tests {
         let mut history = TimeHistory::new(100);
         (0..300).for_each(|number| history.add(&frame("draw", f64::from(number))));
         let draw = &history.summary()[0];
-        assert_eq!((history.frames(), draw.cpu_ms), (100, TimeSpread { median: 249.0, high: 294.0 }));
+        assert_eq!((history.frames(), draw.cpu_ms), (100, TimeStats { median: 249.0, high: 294.0 }));
         assert_eq!(draw.gpu_ms, None);
     }
 

@@ -225,7 +225,7 @@ impl Forward {
             ctx.pass.set_bind_group(1, &shadows, &[]);
             let draws = &geometry.draws.blend;
             let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
-            ctx.note_draws(draws);
+            ctx.report_draws(draws);
             Ok(())
         });
         Ok(())
@@ -279,7 +279,7 @@ impl Forward {
                 if self.recipe.target.shows == Shows::Light { &geometry.draws.blend } else { &[] };
             for draws in [&geometry.draws.solid, blend] {
                 let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
-                ctx.note_draws(draws);
+                ctx.report_draws(draws);
             }
             Ok(())
         });

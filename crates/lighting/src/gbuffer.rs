@@ -104,7 +104,7 @@ impl GBufferPass {
                 Some(DrawWith { pipeline, reads_material: true })
             };
             let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
-            ctx.note_draws(draws);
+            ctx.report_draws(draws);
             Ok(())
         });
         buffer

@@ -59,7 +59,7 @@ impl Prepass {
             ctx.pass.set_bind_group(0, &group, &[0]);
             let with = |draw: &Draw| Some(self.pipelines.get(draw.key));
             let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
-            ctx.note_draws(draws);
+            ctx.report_draws(draws);
             Ok(())
         });
         depth

@@ -27,7 +27,7 @@ pub(crate) fn fullscreen(
     entry: &'static str,
 ) -> Result<FullscreenShader, Error> {
     let module = module(device, file, &[])?;
-    Ok(FullscreenShader::module(file, &module).entry(entry))
+    Ok(FullscreenShader::module(file, &module).entry_point(entry))
 }
 
 /// A sampler that filters and ends at the edges.

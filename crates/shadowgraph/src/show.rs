@@ -118,7 +118,7 @@ impl Show {
                 ctx.pass.set_bind_group(1, &texture, &[]);
                 ctx.pass.set_viewport(x, y, width, height, 0.0, 1.0);
                 ctx.pass.draw(0..3, 0..1);
-                ctx.note_draws(1);
+                ctx.report_draws(1);
             }
             Ok(())
         });

@@ -84,7 +84,7 @@ impl Example for Tower {
         // Depth is reversed: far is 0.
         pass.depth(&mut depth, Contents::clear_depth(0.0));
         pass.body(move |ctx| {
-            let boxes = Bind::OwnBuffer(&engine.buffer);
+            let boxes = Bind::ExternalBuffer(&engine.buffer);
             let own = ctx.bind_group(&engine.view_layout, &[Bind::Uniform(view), boxes])?;
             let shadows = shadows.bind_group(ctx, &engine.shadow_layout)?;
             ctx.pass.set_pipeline(&engine.lit);

@@ -4,7 +4,7 @@ use super::context::Resources;
 use crate::error::Error;
 use crate::handle::{BufferToken, TextureToken, Uniform};
 use crate::pool::{Bound, Caches, GroupKey, Purpose};
-use crate::programs::Program;
+use crate::shader_pass::Program;
 use arrayvec::ArrayVec;
 use std::borrow::Borrow;
 use std::num::NonZeroU64;
@@ -25,9 +25,9 @@ pub enum Bind<'a> {
     /// A sampler of yours.
     Sampler(&'a wgpu::Sampler),
     /// A view of yours that is not part of the graph.
-    View(&'a wgpu::TextureView),
+    ExternalView(&'a wgpu::TextureView),
     /// A buffer of yours that is not part of the graph.
-    OwnBuffer(&'a wgpu::Buffer),
+    ExternalBuffer(&'a wgpu::Buffer),
 }
 
 /// Entries of most groups fit in here, so that looking one up allocates nothing.
@@ -154,8 +154,8 @@ impl Resources<'_> {
                 Bound::Buffer(buffer, uniform.start.into(), NonZeroU64::new(uniform.size.into()))
             }
             Bind::Sampler(sampler) => Bound::Sampler(sampler),
-            Bind::View(view) => Bound::View(view),
-            Bind::OwnBuffer(buffer) => Bound::Buffer(buffer, 0, None),
+            Bind::ExternalView(view) => Bound::View(view),
+            Bind::ExternalBuffer(buffer) => Bound::Buffer(buffer, 0, None),
         })
     }
 

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::handle::{BufferToken, PassId, ResourceId, TextureToken, Token, Uniform};
 use crate::part::Part;
 use crate::pool::{Caches, Purpose};
-use crate::programs::Calls;
+use crate::shader_pass::ShaderPasses;
 use std::ops::{Deref, DerefMut, Range};
 use std::sync::MutexGuard;
 
@@ -21,7 +21,7 @@ pub(crate) enum Body<'f> {
     Compute(Box<dyn for<'a> FnOnce(&mut ComputeContext<'a>) -> BodyResult + Send + 'f>),
     Encoder(Box<dyn for<'a> FnOnce(&mut EncoderContext<'a>) -> BodyResult + Send + 'f>),
     /// Which of the frame's calls of a shader.
-    Call(u32),
+    ShaderPass(u32),
 }
 
 /// The declared resources of one pass, and bind groups of them.
@@ -72,7 +72,7 @@ impl<'a> Resources<'a> {
 
     /// Tells a [`Timer`](crate::Timer) how many draw calls the body has recorded, for [`PassTime::draws`](crate::PassTime::draws). Adds up;
     /// without a timer it does nothing.
-    pub fn note_draws(&self, draws: u32) {
+    pub fn report_draws(&self, draws: u32) {
         if let Some(timer) = self.recording.timer {
             timer.draws(self.pass, draws);
         }
@@ -111,7 +111,7 @@ impl<'a> Resources<'a> {
         self.recording.pool.caches()
     }
 
-    pub(crate) fn calls(&self) -> &'a Calls {
+    pub(crate) fn calls(&self) -> &'a ShaderPasses {
         self.recording.calls
     }
 }

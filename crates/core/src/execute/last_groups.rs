@@ -87,7 +87,7 @@ impl Kept {
                 Some(Self::Uniform(buffer, uniform.start..uniform.start + uniform.size))
             }
             Bind::Sampler(sampler) => Some(Self::Sampler((*sampler).clone())),
-            Bind::View(_) | Bind::OwnBuffer(_) => None,
+            Bind::ExternalView(_) | Bind::ExternalBuffer(_) => None,
         }
     }
 

@@ -20,7 +20,7 @@ mod timer;
 mod tests;
 
 pub use bind::Bind;
-pub use capture::{Capture, Captured};
+pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
 pub(crate) use context::Body;
 pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
 use crate::pool::{Physical, Pool};
-use crate::programs::{self, Calls};
+use crate::shader_pass::{self, ShaderPasses};
 use std::ops::Range;
 use std::time::Instant;
 
@@ -25,7 +25,7 @@ pub(crate) struct Recording<'a> {
     pub(super) uniforms: Option<&'a wgpu::Buffer>,
     pub(super) uploads: &'a Uploads,
     pub(super) timer: Option<&'a Timer>,
-    pub(super) calls: &'a Calls,
+    pub(super) calls: &'a ShaderPasses,
     /// Bind group slots that the device has.
     pub(super) groups: u32,
 }
@@ -219,7 +219,7 @@ impl<'a> Recording<'a> {
         let mut context = ComputeContext { pass, resources };
         match body {
             Body::Compute(body) => self.timed(id, || body(&mut context))?,
-            Body::Call(call) => self.timed(id, || programs::dispatch(&mut context, call))?,
+            Body::ShaderPass(call) => self.timed(id, || shader_pass::dispatch(&mut context, call))?,
             Body::None | Body::Render(_) | Body::Encoder(_) => {}
         }
         Ok(())

@@ -10,7 +10,7 @@ use crate::handle::PassId;
 use crate::internal::{RegionClear, Targets};
 use crate::part::{Aspect, Rect};
 use crate::plan::{AccessPlan, AttachmentOps, LoadAction};
-use crate::programs;
+use crate::shader_pass;
 use crate::{Access, Contents, Extent};
 
 impl<'a> Recording<'a> {
@@ -70,7 +70,7 @@ impl<'a> Recording<'a> {
         }
         match body {
             Body::Render(body) => self.timed(id, || body(context))?,
-            Body::Call(call) => self.timed(id, || programs::draw(context, call))?,
+            Body::ShaderPass(call) => self.timed(id, || shader_pass::draw(context, call))?,
             Body::None | Body::Compute(_) | Body::Encoder(_) => {}
         }
         if counted.is_some() {

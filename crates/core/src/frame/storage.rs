@@ -29,7 +29,7 @@ pub(crate) struct Work<'f> {
     #[cfg(feature = "gpu")]
     pub(crate) read_backs: Vec<crate::execute::Requested>,
     #[cfg(feature = "gpu")]
-    pub(crate) calls: crate::programs::Calls,
+    pub(crate) calls: crate::shader_pass::ShaderPasses,
 }
 
 impl Work<'_> {

@@ -22,7 +22,7 @@ use crate::device::device_is_lost;
 use crate::error::Error;
 use crate::execute::{Pattern, Realised};
 use crate::internal::RegionClears;
-use crate::programs::Pipelines;
+use crate::shader_pass::Pipelines;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// How long and how much a graph keeps beyond what a frame needs.

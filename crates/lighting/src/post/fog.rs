@@ -126,7 +126,7 @@ impl Fog {
                 ctx.pass.set_bind_group(index, group, &[]);
             }
             ctx.pass.draw(0..3, 0..1);
-            ctx.note_draws(1);
+            ctx.report_draws(1);
             Ok(())
         });
         Ok(light)

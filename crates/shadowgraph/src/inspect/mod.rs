@@ -3,7 +3,7 @@
 mod above;
 pub(crate) mod lights;
 
-use shadowgraph_core::{Buffer, Capture, Captured, HtmlPage, Picture as CorePicture, Timer};
+use shadowgraph_core::{Buffer, FrameCapture, HtmlPage, PendingCapture, Picture as CorePicture, Timer};
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowLight, ShadowView};
 
@@ -32,7 +32,7 @@ impl Renderer {
         // A driver may compile shaders at the first draw.
         self.draw(gpu, options)?;
         let drawn = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;
-        let mut capture: Option<Capture> = None;
+        let mut capture: Option<PendingCapture> = None;
         let (_, records) = self.draw_by(gpu, options, |compiled, graph, encoder| {
             let (executed, taken) = compiled.execute_captured(graph, &gpu.device, encoder)?;
             capture = Some(taken);
@@ -40,13 +40,13 @@ impl Renderer {
         })?;
         let captured = match capture {
             Some(capture) => capture.wait(&gpu.device)?,
-            None => Captured::default(),
+            None => FrameCapture::default(),
         };
         let (views, lights) = match &records {
             Some([views, lights]) => (records_of(&captured, views), records_of(&captured, lights)),
             None => (Vec::new(), Vec::new()),
         };
-        Ok(Inspected { drawn, pictures: captured.pictures, views, lights })
+        Ok(Inspected { drawn, pictures: captured.textures, views, lights })
     }
 }
 
@@ -61,7 +61,7 @@ impl Inspected {
 }
 
 /// The last bytes of a buffer, as records. A buffer may be larger than what is in it.
-fn records_of<R: bytemuck::AnyBitPattern>(captured: &Captured, buffer: &Buffer) -> Vec<R> {
+fn records_of<R: bytemuck::AnyBitPattern>(captured: &FrameCapture, buffer: &Buffer) -> Vec<R> {
     let last = captured.buffers.iter().rev().find(|(id, _)| *id == buffer.id());
     let bytes = last.map_or(&[][..], |(_, bytes)| bytes);
     bytes.chunks_exact(size_of::<R>()).map(bytemuck::pod_read_unaligned).collect()

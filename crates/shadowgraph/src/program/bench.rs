@@ -145,7 +145,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
     use crate::bench::Counts;
-    use crate::core::TimeSpread;
+    use crate::core::TimeStats;
 
     fn comparison(micros: u64) -> Comparison {
         let step = Duration::from_micros(micros);
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn passes_are_told_in_order_with_their_sum() {
-        let spread = |ms: f64| TimeSpread { median: ms, high: ms };
+        let spread = |ms: f64| TimeStats { median: ms, high: ms };
         let pass = |pass: &str, gpu_ms: Option<f64>, shared_by| TimeSummary {
             pass: pass.into(),
             node: String::new(),

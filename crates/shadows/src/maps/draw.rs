@@ -219,7 +219,7 @@ impl ShadowMaps {
             let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
             ctx.pass.set_bind_group(0, &group, &[view * VIEW_BYTES as u32]);
             let draws = all.draw(&mut ctx.pass, &caster_view, &casters);
-            ctx.note_draws(draws);
+            ctx.report_draws(draws);
             then(rect);
             Ok(())
         });

@@ -62,7 +62,7 @@ enum Given {
 fn given(frame: &Frame<'_>, binding: &ShadowBinding<'_>) -> Given {
     use wgpu::TextureViewDimension::{D2, D2Array};
     match binding {
-        ShadowBinding::Buffer(_) | ShadowBinding::OwnBuffer(_) => Given::Storage,
+        ShadowBinding::Buffer(_) | ShadowBinding::ExternalBuffer(_) => Given::Storage,
         ShadowBinding::Uniform(_) => Given::Uniform,
         ShadowBinding::Sampler(_) => Given::Sampler,
         ShadowBinding::Texture(texture) => Given::Texture(frame.texture_desc(texture), D2),

@@ -36,7 +36,7 @@ pub enum ShadowBinding<'f> {
     /// A sampled texture, as a 2D array.
     TextureArray(Texture),
     /// A storage buffer of the technique's own, read.
-    OwnBuffer(&'f wgpu::Buffer),
+    ExternalBuffer(&'f wgpu::Buffer),
     /// A sampler of the technique's.
     Sampler(&'f wgpu::Sampler),
     /// A uniform block of the frame.
@@ -50,7 +50,7 @@ enum Token<'f> {
     Buffer(BufferToken),
     Texture(TextureToken),
     TextureArray(TextureToken),
-    OwnBuffer(&'f wgpu::Buffer),
+    ExternalBuffer(&'f wgpu::Buffer),
     Sampler(&'f wgpu::Sampler),
     Uniform(Uniform),
 }
@@ -61,7 +61,7 @@ impl Token<'_> {
             Token::Buffer(buffer) => Bind::Buffer(*buffer),
             Token::Texture(texture) => Bind::Texture(*texture),
             Token::TextureArray(texture) => Bind::TextureArray(*texture),
-            Token::OwnBuffer(buffer) => Bind::OwnBuffer(buffer),
+            Token::ExternalBuffer(buffer) => Bind::ExternalBuffer(buffer),
             Token::Sampler(sampler) => Bind::Sampler(sampler),
             Token::Uniform(uniform) => Bind::Uniform(*uniform),
         }
@@ -75,7 +75,7 @@ impl<'f> ShadowOutputs<'f> {
             ShadowBinding::Buffer(buffer) => Token::Buffer(pass.storage_buffer(buffer)),
             ShadowBinding::Texture(texture) => Token::Texture(pass.sample(texture)),
             ShadowBinding::TextureArray(texture) => Token::TextureArray(pass.sample(texture)),
-            ShadowBinding::OwnBuffer(buffer) => Token::OwnBuffer(buffer),
+            ShadowBinding::ExternalBuffer(buffer) => Token::ExternalBuffer(buffer),
             ShadowBinding::Sampler(sampler) => Token::Sampler(sampler),
             ShadowBinding::Uniform(uniform) => Token::Uniform(*uniform),
         };

@@ -26,16 +26,16 @@ const BUFFER_BYTES: u64 = 65_536;
 
 /// What the passes of a frame wrote, on its way to the CPU.
 #[must_use = "the pictures come only to whoever calls `wait`"]
-pub struct Capture {
+pub struct PendingCapture {
     shots: Vec<Shot>,
     buffers: Vec<(ResourceId, ReadBack)>,
 }
 
 /// What the passes of a frame wrote.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Captured {
+pub struct FrameCapture {
     /// Every texture at each version, in the order of the passes. At most 320 texels of a side are kept, evenly spread.
-    pub pictures: Vec<Picture>,
+    pub textures: Vec<Picture>,
     /// The bytes of every buffer of at most 64 KiB, behind each pass that wrote it, in the order of the passes.
     pub buffers: Vec<(ResourceId, Vec<u8>)>,
 }
@@ -76,7 +76,7 @@ impl Compiled<'_> {
     /// let (executed, capture) = graph.compile(frame)?.execute_captured(&mut graph, &device, &mut encoder)?;
     /// queue.submit([encoder.finish()]);
     /// let mut page = HtmlPage::new(executed.plan());
-    /// page.pictures = capture.wait(&device)?.pictures;
+    /// page.pictures = capture.wait(&device)?.textures;
     /// assert_eq!(page.pictures.len(), 1);
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
@@ -88,10 +88,10 @@ impl Compiled<'_> {
         graph: &mut Graph,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-    ) -> Result<(Executed, Capture), Error> {
+    ) -> Result<(Executed, PendingCapture), Error> {
         let plan = self.plan.clone();
         self.plan = Arc::new(capturing(&plan));
-        let mut capture = Capture { shots: Vec::new(), buffers: Vec::new() };
+        let mut capture = PendingCapture { shots: Vec::new(), buffers: Vec::new() };
         let mut watch = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
             capture.behind(recording, pass, encoder)
         };
@@ -100,15 +100,15 @@ impl Compiled<'_> {
     }
 }
 
-impl Capture {
+impl PendingCapture {
     /// Waits for the submitted frame and returns what it wrote.
     ///
     /// # Errors
     /// When the device is lost, or the encoder was not submitted.
-    pub fn wait(self, device: &wgpu::Device) -> Result<Captured, Error> {
-        let mut captured = Captured::default();
+    pub fn wait(self, device: &wgpu::Device) -> Result<FrameCapture, Error> {
+        let mut captured = FrameCapture::default();
         for shot in self.shots {
-            shot.develop(device, &mut captured.pictures)?;
+            shot.develop(device, &mut captured.textures)?;
         }
         for (buffer, bytes) in self.buffers {
             captured.buffers.push((buffer, bytes.wait(device)?));

@@ -3,7 +3,7 @@
 use super::gpu::Gpu;
 use crate::dump::{Picture, TexelValues};
 use crate::test_device::valid;
-use crate::{Captured, Contents, Format, Frame, Graph, Part, Plan, Rect, TextureDesc};
+use crate::{Contents, Format, Frame, FrameCapture, Graph, Part, Plan, Rect, TextureDesc};
 
 fn small() -> TextureDesc {
     TextureDesc::d2(8, 8, Format::Rgba8Unorm)
@@ -13,7 +13,7 @@ fn gray(value: f64) -> Contents {
     Contents::clear_color([value; 4])
 }
 
-fn capture<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Plan, Captured) {
+fn capture<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Plan, FrameCapture) {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
     declare(&mut frame);
@@ -58,7 +58,7 @@ fn every_version_of_a_texture_has_a_picture_behind_the_pass_that_wrote_it() {
             frame.export_texture(&scene);
         });
         let seen: Vec<_> = captured
-            .pictures
+            .textures
             .iter()
             .map(|p| (plan.resource(p.resource).name, p.version, plan.pass(p.pass.unwrap()).name))
             .collect();
@@ -69,7 +69,7 @@ fn every_version_of_a_texture_has_a_picture_behind_the_pass_that_wrote_it() {
         );
         assert_eq!(seen.len(), plan.order().len());
         if gpu.draws {
-            let third = captured.pictures.iter().find(|picture| picture.version == 3).unwrap();
+            let third = captured.textures.iter().find(|picture| picture.version == 3).unwrap();
             assert_eq!(ends(third), [153.0, 153.0]);
         }
     }
@@ -93,7 +93,7 @@ fn a_pass_that_draws_over_another_has_a_picture_of_its_own() {
         frame.export_texture(&scene);
     });
     assert_eq!(plan.steps().len(), 1, "merged as without");
-    let [cleared, drawn] = &captured.pictures[..] else { panic!("{captured:?}") };
+    let [cleared, drawn] = &captured.textures[..] else { panic!("{captured:?}") };
     assert_eq!((ends(cleared), ends(drawn)), ([51.0, 51.0], [51.0, 255.0]));
 }
 
@@ -109,10 +109,10 @@ fn tiles_are_shown_together_with_the_names_of_their_passes() {
             }
             frame.export_texture(&atlas);
         });
-        let last = captured.pictures.last().unwrap();
+        let last = captured.textures.last().unwrap();
         let names: Vec<_> = last.tiles.iter().map(|tile| (&*tile.name, tile.rect.x)).collect();
         assert_eq!(names, [("left", 0), ("right", 8)]);
-        assert!(captured.pictures.iter().filter(|p| !p.tiles.is_empty()).count() == 1, "one for both tiles");
+        assert!(captured.textures.iter().filter(|p| !p.tiles.is_empty()).count() == 1, "one for both tiles");
         if gpu.draws {
             assert_eq!(ends(last), [0.25, 0.5]);
             assert!(last.texels.as_ref().unwrap().is_depth);
@@ -132,13 +132,13 @@ fn mips_and_layers_have_pictures_of_their_own() {
             }
             frame.export_texture(&texture);
         });
-        let parts: Vec<_> = captured.pictures.iter().map(|p| (p.part.words(), p.full_px)).collect();
+        let parts: Vec<_> = captured.textures.iter().map(|p| (p.part.words(), p.full_px)).collect();
         let whole = |layer| (format!("mip 0, layer {layer}"), [8, 8]);
         let half = |layer| (format!("mip 1, layer {layer}"), [4, 4]);
         assert_eq!(parts, [whole(0), half(0), whole(1), half(1)]);
         if gpu.draws {
             assert_eq!(
-                captured.pictures.iter().map(|p| ends(p)[0]).collect::<Vec<_>>(),
+                captured.textures.iter().map(|p| ends(p)[0]).collect::<Vec<_>>(),
                 [0.0, 51.0, 102.0, 153.0]
             );
         }
@@ -159,7 +159,7 @@ fn what_cannot_be_copied_says_why_instead() {
             frame.export_texture(&resolved);
             frame.export_texture(&depth);
         });
-        let [samples, resolved, depth] = &captured.pictures[..] else { panic!("{captured:?}") };
+        let [samples, resolved, depth] = &captured.textures[..] else { panic!("{captured:?}") };
         assert!(samples.texels.as_ref().is_err_and(|why| why.contains("4 samples")));
         assert!(resolved.texels.is_ok());
         assert!(depth.texels.as_ref().is_err_and(|why| why.contains("Depth32Float")), "{depth:?}");
@@ -177,7 +177,7 @@ fn depth_and_stencil_together_are_shown_by_their_depth() {
         frame.render_pass("clear").depth(&mut depth, Contents::clear_depth_stencil(0.75, 3));
         frame.export_texture(&depth);
     });
-    assert_eq!(ends(&captured.pictures[0]), [0.75, 0.75]);
+    assert_eq!(ends(&captured.textures[0]), [0.75, 0.75]);
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl Raytraced {
         let size_px = screen.size_px;
         pass.body(move |ctx| {
             let Trace { view_layout, rays_layout, screen_layout, pipeline } = &self.trace;
-            let mut rays: Vec<_> = self.rays.iter().map(Bind::OwnBuffer).collect();
+            let mut rays: Vec<_> = self.rays.iter().map(Bind::ExternalBuffer).collect();
             rays.push(Bind::Buffer(traced));
             let groups = [
                 ctx.bind_group(view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
@@ -156,7 +156,7 @@ impl ShadowTechnique for Raytraced {
             let mask = self.mask(frame, screen, &traced, (inputs.lights, &settings));
             let bound =
                 mask.clone().unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
-            let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::OwnBuffer).collect();
+            let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::ExternalBuffer).collect();
             bindings.push(ShadowBinding::Buffer(traced));
             bindings.push(ShadowBinding::TextureArray(bound.clone()));
             ShadowOutputs { bindings, mask, debug: vec![("shadow mask", bound)], ..ShadowOutputs::default() }

@@ -93,11 +93,11 @@ impl Gpu {
     ) -> Result<wgpu::BindGroup, Error> {
         let texture = |index| match tokens.textures.get(index) {
             Some(&token) => Bind::Texture(token),
-            None => Bind::View(&self.no_texture),
+            None => Bind::ExternalView(&self.no_texture),
         };
         let buffer = |index| match tokens.buffers.get(index) {
             Some(&token) => Bind::Buffer(token),
-            None => Bind::OwnBuffer(&self.no_buffer),
+            None => Bind::ExternalBuffer(&self.no_buffer),
         };
         let mut entries = vec![Bind::Uniform(tokens.params), texture(0), texture(1), buffer(0), buffer(1)];
         entries.extend(written);

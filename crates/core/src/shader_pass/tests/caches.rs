@@ -33,7 +33,7 @@ fn scales(
 fn equal_shaders_share_a_pipeline() {
     let mut gpu = Gpu::noop();
     for name in ["one", "other"] {
-        let shader = FullscreenShader::wgsl(name, TEXT.to_owned()).entry("gradient");
+        let shader = FullscreenShader::wgsl(name, TEXT.to_owned()).entry_point("gradient");
         let frame = draws(&gpu, &shader, &[Format::Rgba8Unorm, Format::Rgba8Unorm]);
         gpu.run(frame).unwrap();
         assert_eq!(gpu.cached().0, 1);

@@ -1,4 +1,4 @@
-//! Calls of shaders as a frame declares them: flat, so that declaring allocates nothing.
+//! ShaderPasses of shaders as a frame declares them: flat, so that declaring allocates nothing.
 
 use super::shader::Program;
 use crate::desc::Format;
@@ -12,7 +12,7 @@ const COLORS: usize = 8;
 
 /// All of a frame's calls.
 #[derive(Default)]
-pub(crate) struct Calls {
+pub(crate) struct ShaderPasses {
     all: Vec<Declared>,
     entries: Vec<Entry>,
 }
@@ -57,7 +57,7 @@ pub(super) enum Entry {
     Uniform(Uniform),
     Sampler(wgpu::Sampler),
     View(wgpu::TextureView),
-    OwnBuffer(wgpu::Buffer),
+    ExternalBuffer(wgpu::Buffer),
 }
 
 impl Entry {
@@ -67,13 +67,13 @@ impl Entry {
             Self::Buffer(token) => Bind::Buffer(*token),
             Self::Uniform(uniform) => Bind::Uniform(*uniform),
             Self::Sampler(sampler) => Bind::Sampler(sampler),
-            Self::View(view) => Bind::View(view),
-            Self::OwnBuffer(buffer) => Bind::OwnBuffer(buffer),
+            Self::View(view) => Bind::ExternalView(view),
+            Self::ExternalBuffer(buffer) => Bind::ExternalBuffer(buffer),
         }
     }
 }
 
-impl Calls {
+impl ShaderPasses {
     /// Begins a call and returns its number.
     pub(super) fn begin(&mut self, program: Arc<Program>, work: Work) -> u32 {
         let end = self.entries.len() as u32;

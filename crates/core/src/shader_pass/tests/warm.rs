@@ -121,7 +121,7 @@ fn warming_draws_into_nothing_of_the_callers_and_moves_no_history() {
 /// A shader that no driver has seen and kept on disk.
 fn unseen(name: &'static str, entry: &'static str, salt: u128) -> FullscreenShader {
     let text = TEXT.replace("vec4f(uv, 0.0, 1.0)", &format!("vec4f(uv, uv.x * {salt}e-20, 1.0)"));
-    FullscreenShader::wgsl(name, text).entry(entry)
+    FullscreenShader::wgsl(name, text).entry_point(entry)
 }
 
 /// A chain of passes of different shaders; returns the time from declaring to the GPU's being done.

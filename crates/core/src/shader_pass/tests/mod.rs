@@ -16,11 +16,11 @@ use crate::{Texture, TextureDesc};
 const TEXT: &str = include_str!("../../../tests/programs.wgsl");
 
 fn fragment(entry: &'static str) -> FullscreenShader {
-    FullscreenShader::wgsl(entry, TEXT).entry(entry)
+    FullscreenShader::wgsl(entry, TEXT).entry_point(entry)
 }
 
 fn kernel(entry: &'static str) -> ComputeShader {
-    ComputeShader::wgsl(entry, TEXT).entry(entry)
+    ComputeShader::wgsl(entry, TEXT).entry_point(entry)
 }
 
 struct Gpu {

@@ -1,6 +1,6 @@
 //! Shaders as they are handed over.
 
-use super::objection::words;
+use super::validation::words;
 use crate::device::now;
 use crate::error::Error;
 use rustc_hash::FxHasher;
@@ -99,7 +99,7 @@ macro_rules! shader {
             }
 
             #[doc = concat!("Chooses the entry point; needed where there is more than one of the ", $stage, " stage.")]
-            pub fn entry(self, entry: impl Into<Cow<'static, str>>) -> Self {
+            pub fn entry_point(self, entry: impl Into<Cow<'static, str>>) -> Self {
                 self.with(|program| program.entry = Some(entry.into()))
             }
 

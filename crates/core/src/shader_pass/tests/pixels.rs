@@ -39,7 +39,7 @@ fn a_module_of_the_callers_draws_like_a_text() {
     let mut frame = gpu.graph.frame();
     let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
     frame
-        .fullscreen("gradient", &FullscreenShader::module("own", &module).entry("gradient"))
+        .fullscreen("gradient", &FullscreenShader::module("own", &module).entry_point("gradient"))
         .draw(&mut picture);
     let read = whole(&mut frame, &picture);
     assert_eq!(gpu.bytes(frame, [read]), [gradient(4)]);

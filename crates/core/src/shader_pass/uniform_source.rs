@@ -4,32 +4,32 @@ use crate::handle::Uniform;
 
 /// What a uniform binding is filled with: bytes, or a block that several passes share.
 #[derive(Clone, Copy, Debug)]
-pub enum Block<'a> {
+pub enum UniformSource<'a> {
     /// Bytes of this pass alone, laid out as the shader has them.
     Bytes(&'a [u8]),
     /// A block from [`Frame::uniform`](crate::Frame::uniform).
     Shared(Uniform),
 }
 
-impl<'a> From<&'a [u8]> for Block<'a> {
+impl<'a> From<&'a [u8]> for UniformSource<'a> {
     fn from(bytes: &'a [u8]) -> Self {
         Self::Bytes(bytes)
     }
 }
 
-impl<'a, const N: usize> From<&'a [u8; N]> for Block<'a> {
+impl<'a, const N: usize> From<&'a [u8; N]> for UniformSource<'a> {
     fn from(bytes: &'a [u8; N]) -> Self {
         Self::Bytes(bytes)
     }
 }
 
-impl<'a> From<&'a Vec<u8>> for Block<'a> {
+impl<'a> From<&'a Vec<u8>> for UniformSource<'a> {
     fn from(bytes: &'a Vec<u8>) -> Self {
         Self::Bytes(bytes)
     }
 }
 
-impl From<Uniform> for Block<'_> {
+impl From<Uniform> for UniformSource<'_> {
     fn from(uniform: Uniform) -> Self {
         Self::Shared(uniform)
     }

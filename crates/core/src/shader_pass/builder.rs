@@ -1,8 +1,8 @@
 //! Declaring a pass in one line.
 
-use super::block::Block;
-use super::declared::{Attachments, Depth, Entry, Work};
+use super::declaration::{Attachments, Depth, Entry, Work};
 use super::shader::{ComputeShader, FullscreenShader, Program};
+use super::uniform_source::UniformSource;
 use crate::access::Contents;
 use crate::builder::{Compute, Pass, Rendering, ShaderPass};
 use crate::desc::TextureDesc;
@@ -23,7 +23,7 @@ const ARGUMENTS: u64 = 12;
 /// [`Frame::fullscreen`] and [`Frame::compute`] begin one. The pass is one like any other: it is culled, ordered,
 /// merged and dumped as if it had been declared with `render_pass` or `compute_pass` and a body.
 #[must_use = "nothing is recorded until it is told where to draw or how much to dispatch"]
-pub struct Call<'p, 'f, K> {
+pub struct ShaderPassBuilder<'p, 'f, K> {
     pass: Pass<'p, 'f, K>,
     part: Part,
 }
@@ -37,9 +37,13 @@ impl<'f> Frame<'f> {
     /// # Errors
     /// `compile` returns what it returns for any pass, `execute` returns [`Error::Shader`] with wgpu's words for a
     /// shader that does not compile, or does not fit what is bound and drawn into.
-    pub fn fullscreen(&mut self, name: impl Name, shader: &FullscreenShader) -> Call<'_, 'f, Rendering> {
+    pub fn fullscreen(
+        &mut self,
+        name: impl Name,
+        shader: &FullscreenShader,
+    ) -> ShaderPassBuilder<'_, 'f, Rendering> {
         let attachments = Attachments { samples: 1, ..Default::default() };
-        Call::new(self.render_pass(name), shader.0.clone(), Work::Draw(attachments))
+        ShaderPassBuilder::new(self.render_pass(name), shader.0.clone(), Work::Draw(attachments))
     }
 
     /// Declares a pass that dispatches a compute shader.
@@ -50,15 +54,15 @@ impl<'f> Frame<'f> {
     /// `compile` returns what it returns for any pass, `execute` returns [`Error::Shader`] with wgpu's words for a
     /// shader that does not compile, or does not fit what is bound, and [`Error::Limit`] for more workgroups than
     /// the device allows.
-    pub fn compute(&mut self, name: impl Name, shader: &ComputeShader) -> Call<'_, 'f, Compute> {
-        Call::new(self.compute_pass(name), shader.0.clone(), Work::Dispatch([0; 3]))
+    pub fn compute(&mut self, name: impl Name, shader: &ComputeShader) -> ShaderPassBuilder<'_, 'f, Compute> {
+        ShaderPassBuilder::new(self.compute_pass(name), shader.0.clone(), Work::Dispatch([0; 3]))
     }
 }
 
-impl<'p, 'f, K> Call<'p, 'f, K> {
+impl<'p, 'f, K> ShaderPassBuilder<'p, 'f, K> {
     fn new(pass: Pass<'p, 'f, K>, program: Arc<Program>, work: Work) -> Self {
         let call = pass.frame.work.calls.begin(program, work);
-        pass.frame.work.bodies[pass.id.index()] = Body::Call(call);
+        pass.frame.work.bodies[pass.id.index()] = Body::ShaderPass(call);
         Self { pass, part: Part::WHOLE }
     }
 
@@ -101,10 +105,10 @@ impl<'p, 'f, K> Call<'p, 'f, K> {
     /// Binds bytes as a uniform block (or as a small read-only storage block): `&params`, or a
     /// [`Uniform`](crate::Uniform) that other passes bind too. All blocks of a frame reach the GPU by one copy, and
     /// frames in flight each keep their own.
-    pub fn uniform<'a>(self, block: impl Into<Block<'a>>) -> Self {
+    pub fn uniform<'a>(self, block: impl Into<UniformSource<'a>>) -> Self {
         let uniform = match block.into() {
-            Block::Shared(uniform) => uniform,
-            Block::Bytes(bytes) => self.pass.frame.uniform(bytes),
+            UniformSource::Shared(uniform) => uniform,
+            UniformSource::Bytes(bytes) => self.pass.frame.uniform(bytes),
         };
         if uniform.size_bytes() == 0 {
             let resource =
@@ -122,17 +126,17 @@ impl<'p, 'f, K> Call<'p, 'f, K> {
     }
 
     /// Binds a view of yours, of a texture that is not part of the graph.
-    pub fn own_view(self, view: &wgpu::TextureView) -> Self {
+    pub fn external_view(self, view: &wgpu::TextureView) -> Self {
         self.bind(Entry::View(view.clone()))
     }
 
     /// Binds a buffer of yours that is not part of the graph, all of it.
-    pub fn own_buffer(self, buffer: &wgpu::Buffer) -> Self {
-        self.bind(Entry::OwnBuffer(buffer.clone()))
+    pub fn external_buffer(self, buffer: &wgpu::Buffer) -> Self {
+        self.bind(Entry::ExternalBuffer(buffer.clone()))
     }
 }
 
-impl<K: ShaderPass> Call<'_, '_, K> {
+impl<K: ShaderPass> ShaderPassBuilder<'_, '_, K> {
     /// Binds a texture to sample or load from; of a combined depth-stencil format its depth, unless the part is the
     /// stencil.
     pub fn sample(mut self, texture: &Texture) -> Self {
@@ -173,7 +177,7 @@ impl<K: ShaderPass> Call<'_, '_, K> {
     }
 }
 
-impl Call<'_, '_, Rendering> {
+impl ShaderPassBuilder<'_, '_, Rendering> {
     /// Draws over a target, or over the part of it that [`on`](Self::on) chose, and ends the declaration.
     ///
     /// The shader covers it: every texel gets what the shader returns, unblended, and nothing that was there before
@@ -255,7 +259,7 @@ impl Call<'_, '_, Rendering> {
     }
 }
 
-impl Call<'_, '_, Compute> {
+impl ShaderPassBuilder<'_, '_, Compute> {
     /// Dispatches this many workgroups in x, y and z, and ends the declaration. For one invocation per item divide by
     /// the shader's workgroup size and round up: `items.div_ceil(64)`.
     pub fn dispatch(self, workgroups: [u32; 3]) -> PassId {

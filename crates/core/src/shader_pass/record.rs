@@ -1,6 +1,6 @@
 //! Recording calls of shaders.
 
-use super::declared::{Declared, Work};
+use super::declaration::{Declared, Work};
 use crate::error::Error;
 use crate::execute::{BodyResult, ComputeContext, RenderContext, Resources};
 use crate::handle::BufferToken;
@@ -18,7 +18,7 @@ pub(crate) fn draw(context: &mut RenderContext<'_>, call: u32) -> BodyResult {
         context.pass.set_bind_group(0, group, &[]);
     }
     context.pass.draw(0..3, 0..1);
-    context.note_draws(1);
+    context.report_draws(1);
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! Pipelines by what they are made of.
 
-use super::declared::{Attachments, Depth};
+use super::declaration::{Attachments, Depth};
 use super::shader::{Program, Source};
 use crate::error::Error;
 use crate::internal;
