@@ -60,8 +60,8 @@ impl Deferred {
         let mut light = frame.create_texture("lit", desc);
         let mut pass = frame.render_pass("deferred");
         let (shadows, view) = (shadows.read_in(&mut pass), view.read_in(&mut pass));
-        let GBuffer { base_color, material, normals, glow } = gbuffer;
-        let texels = [depth, base_color, material, normals, glow].map(|texture| pass.sample(texture));
+        let GBuffer { base_color, material, normals, emissive } = gbuffer;
+        let texels = [depth, base_color, material, normals, emissive].map(|texture| pass.sample(texture));
         pass.color(&mut light, Contents::clear_color(background));
         pass.body(move |ctx| {
             let view = view.bind_group(ctx, &self.pass.view_layouts)?;

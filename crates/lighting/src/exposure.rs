@@ -5,7 +5,7 @@ use shadowgraph_scene::{Aabb, Light, LightKind};
 
 /// How much light a scene's light sources give where they matter, lux.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Key {
+pub struct KeyLight {
     /// The directional lights together.
     pub directional_lx: f32,
     /// Spot and point lights together, on the middle one of the things that they light, from dim to bright.
@@ -15,9 +15,9 @@ pub struct Key {
 /// Of more things than this only some are looked at.
 const MAX_THINGS: usize = 4_096;
 
-impl Key {
+impl KeyLight {
     /// Estimates the key light of things within these bounds. Shadows are not looked at.
-    pub fn of(lights: &[Light], things: &[Aabb]) -> Self {
+    pub fn estimate(lights: &[Light], things: &[Aabb]) -> Self {
         let lights: Vec<&Light> = lights.iter().filter(|light| light.is_usable()).collect();
         let strength = |light: &&Light| f64::from(light.intensity) * f64::from(light.color.max_element());
         let is_sun = |light: &&&Light| matches!(light.kind, LightKind::Directional { .. });
@@ -56,7 +56,7 @@ fn local_share(light: &Light, thing: &Aabb) -> f64 {
 
 /// The light from all around, and how much of all light the picture takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ambience {
+pub struct AmbientLight {
     /// Radiance of the sky straight above, linear RGB.
     pub sky: Vec3,
     /// Radiance of the ground straight below, linear RGB.
@@ -65,19 +65,19 @@ pub struct Ambience {
     pub exposure: f32,
 }
 
-impl Ambience {
+impl AmbientLight {
     /// Chooses an exposure at which white in the full key light is a little under white in the picture, and a
     /// sky and ground that fill shadows with some of the light. The sky goes with the directional lights: lamps
     /// light it little.
     ///
     /// ```
-    /// use shadowgraph_lighting::{Ambience, Key};
-    /// let day = Ambience::for_key(Key { directional_lx: 100_000.0, local_lx: 50.0 });
-    /// let night = Ambience::for_key(Key { directional_lx: 0.3, local_lx: 50.0 });
+    /// use shadowgraph_lighting::{AmbientLight, KeyLight};
+    /// let day = AmbientLight::for_key_light(KeyLight { directional_lx: 100_000.0, local_lx: 50.0 });
+    /// let night = AmbientLight::for_key_light(KeyLight { directional_lx: 0.3, local_lx: 50.0 });
     /// assert!(day.exposure < night.exposure && day.sky.x > night.sky.x);
     /// ```
-    pub fn for_key(key: Key) -> Self {
-        let Key { directional_lx, local_lx } = key;
+    pub fn for_key_light(key: KeyLight) -> Self {
+        let KeyLight { directional_lx, local_lx } = key;
         // The radiance of white in one lux.
         let white = std::f32::consts::FRAC_1_PI;
         let around = (directional_lx + LAMPS_AROUND * local_lx).max(DARKEST_LX) * white;
@@ -115,7 +115,7 @@ mod tests {
         let lamp =
             |intensity| light(LightKind::Point { position_world: DVec3::ZERO, range: None }, intensity);
         let thing = |x: f64| Aabb { min: DVec3::new(x, -0.1, -0.1), max: DVec3::new(x + 0.2, 0.1, 0.1) };
-        let key = Key::of(
+        let key = KeyLight::estimate(
             &[sun.clone(), sun, lamp(40.0)],
             &[thing(0.0), thing(1.9), thing(9.9), thing(9.9), thing(900.0)],
         );
@@ -127,12 +127,15 @@ mod tests {
     fn a_lamp_inside_a_thing_lights_it_from_no_nearer_than_its_size() {
         let lamp = light(LightKind::Point { position_world: DVec3::ZERO, range: None }, 100.0);
         let room = Aabb { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
-        assert!(Key::of(&[lamp], &[room]).local_lx < 2.0);
+        assert!(KeyLight::estimate(&[lamp], &[room]).local_lx < 2.0);
     }
 
     #[test]
     fn a_scene_without_light_has_a_finite_exposure_all_the_same() {
-        let ambience = Ambience::for_key(Key::of(&[], &[]));
-        assert!(ambience.exposure.is_finite() && ambience.background().iter().all(|value| value.is_finite()));
+        let ambient_light = AmbientLight::for_key_light(KeyLight::estimate(&[], &[]));
+        assert!(
+            ambient_light.exposure.is_finite()
+                && ambient_light.background().iter().all(|value| value.is_finite())
+        );
     }
 }

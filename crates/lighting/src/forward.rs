@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
+use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialKey, MaterialLayouts, vertex_layout};
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 
 use shadowgraph_shaders::ModuleSource;
@@ -16,7 +16,7 @@ use crate::{Error, ViewBuffers};
 
 /// What the lit pass writes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shows {
+pub enum LitOutput {
     /// Light, scene-linear, exposure applied.
     #[default]
     Light,
@@ -65,9 +65,9 @@ pub struct LitPipelines {
 
 impl LitPipelines {
     /// Returns what draws of a key are drawn with.
-    pub fn get(&self, key: MaterialKey) -> DrawWith<'_> {
+    pub fn get(&self, key: MaterialKey) -> DrawPipeline<'_> {
         let make = || self.recipe.pipeline(&self.shader, &self.layout, self.key, key);
-        DrawWith { pipeline: self.made[key.index()].get_or_init(make), reads_material: true }
+        DrawPipeline { pipeline: self.made[key.index()].get_or_init(make), reads_material: true }
     }
 }
 
@@ -87,7 +87,7 @@ pub struct LitTarget {
     /// The format of what it writes.
     pub format: Format,
     /// What it writes.
-    pub shows: Shows,
+    pub output: LitOutput,
     /// How many samples each pixel has while it is drawn, 1 or 4; in the end it has one. Shadows are asked for once a pixel
     /// and surface, and a screen mask has one answer for all surfaces of a pixel.
     pub samples: u32,
@@ -208,7 +208,7 @@ impl Forward {
         geometry: Geometry<'f>,
         light: &mut Texture,
     ) -> Result<(), Error> {
-        if geometry.draws.blend.is_empty() || self.recipe.target.shows != Shows::Light {
+        if geometry.draws.blend.is_empty() || self.recipe.target.output != LitOutput::Light {
             return Ok(());
         }
         let (variant, debug_light) = self.recipe.target.variant(shadows);
@@ -246,8 +246,8 @@ impl Forward {
         let extras = view.extras();
         let pipelines = self.pipelines_of(LitKey { variant, debug_light, writes_depth, extras })?;
         let [width, height] = geometry.size_px;
-        let (texture, pass) = match self.recipe.target.shows {
-            Shows::Surface => ("surfaces", "surfaces"),
+        let (texture, pass) = match self.recipe.target.output {
+            LitOutput::Surface => ("surfaces", "surfaces"),
             _ => ("lit", "forward"),
         };
         let LitTarget { format, samples, .. } = self.recipe.target;
@@ -276,7 +276,7 @@ impl Forward {
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
             let blend: &[Draw] =
-                if self.recipe.target.shows == Shows::Light { &geometry.draws.blend } else { &[] };
+                if self.recipe.target.output == LitOutput::Light { &geometry.draws.blend } else { &[] };
             for draws in [&geometry.draws.solid, blend] {
                 let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
                 ctx.report_draws(draws);
@@ -290,20 +290,20 @@ impl Forward {
 impl LitTarget {
     /// Which variant of the technique a pass asks for, and whose debug colours it shows. Those are not in every variant.
     pub(crate) fn variant(&self, shadows: &ShadowOutputs<'_>) -> (u32, u32) {
-        match self.shows {
-            Shows::Debug => (0, shadows.debug_light),
+        match self.output {
+            LitOutput::Debug => (0, shadows.debug_light),
             _ => (shadows.variant, 0),
         }
     }
 
     /// The numbers of `AOV` and `AOV_LIGHT` in the shaders.
     pub(crate) fn constants(&self, debug_light: u32) -> [(&'static str, f64); 2] {
-        let (aov, light) = match self.shows {
-            Shows::Light => (0, 0),
-            Shows::Visibility(light) => (1, light),
-            Shows::Debug => (2, debug_light),
-            Shows::Normal => (3, 0),
-            Shows::Surface => (4, 0),
+        let (aov, light) = match self.output {
+            LitOutput::Light => (0, 0),
+            LitOutput::Visibility(light) => (1, light),
+            LitOutput::Debug => (2, debug_light),
+            LitOutput::Normal => (3, 0),
+            LitOutput::Surface => (4, 0),
         };
         [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))]
     }
@@ -341,7 +341,7 @@ impl Recipe {
     ) -> wgpu::RenderPipeline {
         let constants = self.target.constants(lit.debug_light);
         // Only light is drawn for what is blended.
-        let blended = key.alpha == AlphaKey::Blend && self.target.shows == Shows::Light;
+        let blended = key.alpha == AlphaKey::Blend && self.target.output == LitOutput::Light;
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("forward"),
             layout: Some(layout),

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawWith, MaterialKey, MaterialLayouts, vertex_layout};
+use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialKey, MaterialLayouts, vertex_layout};
 
 use crate::prepass::{DEPTH_FORMAT, Geometry};
 use crate::shader::module;
@@ -20,7 +20,7 @@ pub struct GBuffer {
     /// The shading and the geometric normal, each as two numbers of 16 bits.
     pub normals: Texture,
     /// What the surface gives off.
-    pub glow: Texture,
+    pub emissive: Texture,
 }
 
 impl GBuffer {
@@ -80,19 +80,21 @@ impl GBufferPass {
         geometry: Geometry<'f>,
     ) -> GBuffer {
         let [width, height] = geometry.size_px;
-        let [base_color, material, normals, glow] = GBuffer::FORMATS;
+        let [base_color, material, normals, emissive] = GBuffer::FORMATS;
         let mut texture =
             |name: &str, format| frame.create_texture(name, TextureDesc::d2(width, height, format));
         let mut buffer = GBuffer {
             base_color: texture("base color", base_color),
             material: texture("material", material),
             normals: texture("normals", normals),
-            glow: texture("glow", glow),
+            emissive: texture("glow", emissive),
         };
         let mut pass = frame.render_pass("G-buffer");
         let view = ViewBuffers { clusters: None, occlusion: None, ..view.clone() }.read_in(&mut pass);
         pass.depth_read(depth);
-        for texture in [&mut buffer.base_color, &mut buffer.material, &mut buffer.normals, &mut buffer.glow] {
+        for texture in
+            [&mut buffer.base_color, &mut buffer.material, &mut buffer.normals, &mut buffer.emissive]
+        {
             pass.color(texture, Contents::clear_color([0.0; 4]));
         }
         pass.body(move |ctx| {
@@ -101,7 +103,7 @@ impl GBufferPass {
             ctx.pass.set_bind_group(1, &self.empty, &[]);
             let with = |draw: &Draw| {
                 let pipeline = self.made[draw.key.index()].get_or_init(|| self.pipeline(draw.key));
-                Some(DrawWith { pipeline, reads_material: true })
+                Some(DrawPipeline { pipeline, reads_material: true })
             };
             let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
             ctx.report_draws(draws);

@@ -2,7 +2,7 @@
 //!
 //! A frame is lit in a few calls, each of which adds passes to the graph:
 //!
-//! 1. [`ViewRecords::upload`] writes the camera and the lights;
+//! 1. [`ViewUniforms::upload`] writes the camera and the lights;
 //! 2. [`Prepass::add_to`] draws depth;
 //! 3. the shadow technique adds its maps (`shadowgraph_shadows::add_shadows`);
 //! 4. [`Forward::lit`] draws the scene, every light and material, asking `shadow_visibility` for each light;
@@ -19,21 +19,21 @@ mod forward;
 mod gbuffer;
 pub mod post;
 mod prepass;
-mod records;
 mod screen_pass;
 mod shader;
 mod tonemap;
+mod uniforms;
 mod view_group;
 
 pub use clusters::Clusters;
 pub use deferred::Deferred;
 pub use error::Error;
-pub use exposure::{Ambience, Key};
-pub use forward::{Forward, LitPipelines, LitTarget, Shows};
+pub use exposure::{AmbientLight, KeyLight};
+pub use forward::{Forward, LitOutput, LitPipelines, LitTarget};
 pub use gbuffer::{GBuffer, GBufferPass};
 pub use prepass::{Geometry, Prepass};
-pub use records::{GpuLight, GpuView, ViewBuffers, ViewRecords};
 pub use tonemap::Tonemap;
+pub use uniforms::{GpuLight, GpuView, ViewBuffers, ViewUniforms};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -162,7 +162,7 @@ impl Camera {
 
     /// Returns the space that the camera sees, in absolute world space: four sides, near, and far if it is finite.
     #[must_use]
-    pub fn volume(&self, aspect: f64) -> ConvexVolume {
+    pub fn frustum(&self, aspect: f64) -> ConvexVolume {
         let sides = match self.projection {
             Projection::Perspective { .. } => {
                 let half = self.half_size(aspect, 1.0);

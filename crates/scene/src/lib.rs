@@ -28,14 +28,14 @@ pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, CameraError, Projection};
-pub use cull::{BoundingSphere, Cone, CullTree, CullVolume, visible};
+pub use cull::{BoundingSphere, Cone, CullTree, CullVolume, visible_instances};
 pub use error::Error;
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
 pub use material::{AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap};
 pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
 pub use scene::{Instance, Scene};
-pub use srgb::light_from_srgb;
+pub use srgb::linear_from_srgb;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

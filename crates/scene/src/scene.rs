@@ -110,7 +110,7 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::{LightKind, Vertex, visible};
+    use crate::{LightKind, Vertex, visible_instances};
 
     fn light(name: &str, kind: LightKind) -> Light {
         Light { name: Some(name.into()), kind, color: Vec3::ONE, intensity: 1.0, casts_shadow: true }
@@ -174,6 +174,6 @@ mod tests {
         let camera = scene.framing_camera(1.5);
         scene.instances.insert(1, instance(camera.position_world() * 3.0));
         let bounds: Vec<Aabb> = (0..3).map(|i| scene.instance_bounds(i)).collect();
-        assert_eq!(visible(&scene, &bounds, &camera.volume(1.5)), [0, 2]);
+        assert_eq!(visible_instances(&scene, &bounds, &camera.frustum(1.5)), [0, 2]);
     }
 }

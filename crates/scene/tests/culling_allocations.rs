@@ -12,7 +12,7 @@ fn boxes() -> Vec<Aabb> {
 fn volumes() -> Vec<CullVolume> {
     let eye = DVec3::new(50.0, 2.0, 50.0);
     let projection = Projection::Perspective { fov_y: 0.8, near: 0.1, far: Some(40.0) };
-    let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection).volume(1.5);
+    let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection).frustum(1.5);
     let sphere = BoundingSphere { center_world: eye, radius_m: 30.0 };
     let cone = Cone { tip_world: eye, axis: DVec3::X, half_angle: 0.1, length_m: 8.0 };
     vec![

@@ -78,12 +78,12 @@ fn lists(boxes: &[Aabb]) -> Result<(), Failure> {
     let (mut numbers, mut list) = (Vec::new(), DrawList::default());
     let mut frame = |frame: usize| {
         let camera = camera(frame);
-        let volume = camera.volume(1.5).into();
+        let volume = camera.frustum(1.5).into();
         let begin = Instant::now();
         let allocated = allocation_counter::measure(|| {
             numbers.clear();
             scene.cull(&volume, &mut numbers);
-            scene.list(&numbers, camera.position_world(), &mut list);
+            scene.draw_list_into(&numbers, camera.position_world(), &mut list);
         });
         (begin.elapsed(), allocated.count_total, list.solid.len())
     };

@@ -40,7 +40,7 @@ impl SceneCasters {
             Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        let casts = |number: u32| scene.draw_of(number).is_some_and(|draw| draw.casts != CasterMode::Off);
+        let casts = |number: u32| scene.draw_for(number).is_some_and(|draw| draw.casts != CasterMode::Off);
         let (mut all, mut some_off) = (Aabb::EMPTY, false);
         for (number, bounds) in (0..).zip(scene.bounds()) {
             if casts(number) { all = all.union(bounds) } else { some_off = true }
@@ -50,7 +50,7 @@ impl SceneCasters {
 
     /// Returns how many triangles some casters have.
     pub fn triangle_count(&self, casters: &[u32]) -> u64 {
-        let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
+        let draws = casters.iter().filter_map(|&number| self.scene.draw_for(number));
         draws.map(|draw| u64::from(self.scene.triangle_count(draw))).sum()
     }
 }
@@ -64,7 +64,7 @@ impl ShadowCasters for SceneCasters {
             let mut index = 0;
             casters.retain(|&caster| {
                 index += 1;
-                index <= first || self.scene.draw_of(caster).is_some_and(casts)
+                index <= first || self.scene.draw_for(caster).is_some_and(casts)
             });
         }
     }
@@ -79,7 +79,7 @@ impl ShadowCasters for SceneCasters {
     }
 
     fn tints(&self, caster: u32) -> bool {
-        self.scene.draw_of(caster).is_some_and(|draw| draw.casts == CasterMode::Tint)
+        self.scene.draw_for(caster).is_some_and(|draw| draw.casts == CasterMode::Tint)
     }
 
     fn receivers(&self) -> Aabb {
@@ -94,7 +94,7 @@ impl ShadowCasters for SceneCasters {
         let made = self.pipelines.iter().find(|(format, _)| *format == view.target.format);
         // Maps have no other formats.
         let Some((_, pipelines)) = made else { return 0 };
-        let draws = casters.iter().filter_map(|&number| self.scene.draw_of(number));
+        let draws = casters.iter().filter_map(|&number| self.scene.draw_for(number));
         self.scene.draw(pass, draws, &|draw| match view.target.pass {
             CasterPass::Depth => pipelines.get(draw.casts),
             CasterPass::TintDepth => Some(pipelines.solid()),

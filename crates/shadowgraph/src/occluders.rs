@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use shadowgraph_scene::{
-    AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap, light_from_srgb,
+    AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap, linear_from_srgb,
 };
 use shadowgraph_shadows::Error;
 use shadowgraph_shadows::rays::{self, ChannelTexture, Cut, Occluder, RayScene, Surface, Tint};
@@ -119,7 +119,7 @@ impl Textures {
         for &channel in channels {
             let texels = image.rgba8.chunks_exact(4).map(|texel| match channel {
                 3 => texel[3],
-                _ => (light_from_srgb(texel[channel]) * 255.0).round() as u8,
+                _ => (linear_from_srgb(texel[channel]) * 255.0).round() as u8,
             });
             let texture = ChannelTexture::new([image.width, image.height], texels.collect(), wrap, filter);
             self.all.push(texture.map_err(shadowgraph_shadows::Error::from)?);

@@ -5,13 +5,13 @@ mod record;
 mod shown;
 
 pub(crate) use draw::nothing_read;
-use shown::shows;
+use shown::lit_output;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use shadowgraph_core::{Format, Graph, Plan};
-use shadowgraph_lighting::{Ambience, Key, LitTarget, Shows};
+use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near};
 use shadowgraph_shadows::{ShadowTechnique, Unshadowed};
@@ -27,7 +27,7 @@ pub struct Renderer {
     method: Method,
     wiring: Box<dyn Wiring>,
     show: Show,
-    shows: Shows,
+    output: LitOutput,
     scene: Scene,
     aov: Aov,
     /// Whose view shadows are made for, where that is not the one who looks.
@@ -122,8 +122,8 @@ impl Renderer {
         let method = Method { pipeline: method.pipeline.on(gpu.adapter.device_type)?, ..method };
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
         let technique = techniques::make(&method, gpu, &scene, origin_world)?;
-        let (shows, format) = shows(&aov, &scene.lights)?;
-        let lit = LitTarget { format, shows, samples: method.samples };
+        let (output, format) = lit_output(&aov, &scene.lights)?;
+        let lit = LitTarget { format, output, samples: method.samples };
         let layouts = uploaded.layouts();
         let wiring = method.pipeline.make(&Build { device, layouts, technique: technique.as_ref(), lit })?;
         Ok(Self {
@@ -132,7 +132,7 @@ impl Renderer {
             method,
             wiring,
             show: Show::new(device)?,
-            shows,
+            output,
             scene,
             aov,
             shadow_camera: None,
@@ -150,7 +150,7 @@ impl Renderer {
     /// # Errors
     /// If pictures show the visibility of a light that is not among them.
     pub fn set_lights(&mut self, lights: Vec<Light>) -> Result<(), Error> {
-        shows(&self.aov, &lights)?;
+        lit_output(&self.aov, &lights)?;
         self.scene.lights = lights;
         Ok(())
     }
@@ -202,19 +202,19 @@ impl Renderer {
     ) -> View<'v> {
         let gpu_scene = &self.casters.scene;
         let mut seen = Vec::new();
-        gpu_scene.cull(&options.camera.volume(options.aspect()).into(), &mut seen);
+        gpu_scene.cull(&options.camera.frustum(options.aspect()).into(), &mut seen);
         let draws = gpu_scene.draw_list(&seen, options.camera.position_world());
-        let key = Key::of(&self.scene.lights, gpu_scene.bounds());
+        let key = KeyLight::estimate(&self.scene.lights, gpu_scene.bounds());
         View {
             number: 0,
             options,
             draws,
-            ambience: Ambience::for_key(key),
+            ambient_light: AmbientLight::for_key_light(key),
             lights: &self.scene.lights,
             casters: &self.casters,
             technique: self.technique.as_ref(),
             shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
-            shows: self.shows,
+            output: self.output,
             target: target.filter(|_| self.aov == Aov::Color),
         }
     }

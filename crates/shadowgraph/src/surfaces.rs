@@ -1,7 +1,7 @@
 //! Drawing the surfaces that a view sees.
 
 use shadowgraph_core::{Format, Frame, Texture};
-use shadowgraph_lighting::{Forward, Geometry, LitTarget, Prepass, Shows, ViewBuffers};
+use shadowgraph_lighting::{Forward, Geometry, LitOutput, LitTarget, Prepass, ViewBuffers};
 use shadowgraph_scene::gpu::MaterialLayouts;
 use shadowgraph_shadows::{NoShadows, Screen, ShadowOutputs};
 
@@ -15,7 +15,7 @@ pub(crate) struct SurfaceDrawer {
 
 impl SurfaceDrawer {
     pub(crate) fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
-        let target = LitTarget { format: Format::Rgba32Float, shows: Shows::Surface, samples: 1 };
+        let target = LitTarget { format: Format::Rgba32Float, output: LitOutput::Surface, samples: 1 };
         let forward = Forward::new(device, layouts, &NoShadows, target)?;
         Ok(Self { prepass: Prepass::new(device, layouts, 1)?, forward })
     }

@@ -1,6 +1,6 @@
 //! What one view needs.
 
-use shadowgraph_scene::{Camera, Scene, visible};
+use shadowgraph_scene::{Camera, Scene, visible_instances};
 use shadowgraph_shadows::ShadowSettings;
 
 use crate::options::ShadowDistance;
@@ -35,7 +35,7 @@ impl ViewOptions {
     fn automatic_distance_m(&self, scene: &Scene) -> f64 {
         let bounds: Vec<_> = (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect();
         let view_from_world = self.camera.view_from_world();
-        let seen = visible(scene, &bounds, &self.camera.volume(self.aspect()));
+        let seen = visible_instances(scene, &bounds, &self.camera.frustum(self.aspect()));
         let corners = seen.iter().flat_map(|&instance| bounds[instance as usize].corners());
         let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
         let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);

@@ -64,7 +64,7 @@ impl Reach<'_> {
 
     /// Whether a sphere may reach into it.
     fn touches(&self, sphere: BoundingSphere) -> bool {
-        let mut volume: ConvexVolume = self.camera.volume(self.aspect);
+        let mut volume: ConvexVolume = self.camera.frustum(self.aspect);
         let forward = self.camera.forward_world();
         let end = self.camera.position_world() + forward * self.distance_m;
         volume.planes.push(Plane::through(end, -forward));

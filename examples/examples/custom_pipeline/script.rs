@@ -43,7 +43,7 @@ impl Wiring for Script {
         let light =
             |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
 
-        let buffers = view.records().shifted(self.jitters.next(view.number)).upload(frame);
+        let buffers = view.uniforms().jittered(self.jitters.next(view.number)).upload(frame);
         let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
         let shadows = view.shadows(frame, screen.as_ref())?;
         let occluded = frame.node("occlusion", |frame| {

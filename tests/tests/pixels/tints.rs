@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
 use shadowgraph::scene::trials::stained_glass;
-use shadowgraph::scene::{CasterMode, Scene, light_from_srgb};
+use shadowgraph::scene::{CasterMode, Scene, linear_from_srgb};
 use shadowgraph::shadows::{EVSM, MSM, NONE, PCF, PCSS, Pcf, RAYTRACED, SDSM, ShadowFilter, Technique};
 use shadowgraph::{Gpu, Renderer, SceneCasters, ViewOptions};
 
@@ -25,7 +25,7 @@ fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -
     let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
     let picture = renderer.draw(gpu, options).unwrap().picture;
     let color =
-        |rgba: &[u8]| Vec3::from([rgba[0], rgba[1], rgba[2]].map(|byte| light_from_srgb(byte) as f32));
+        |rgba: &[u8]| Vec3::from([rgba[0], rgba[1], rgba[2]].map(|byte| linear_from_srgb(byte) as f32));
     picture.rgba8.chunks_exact(4).map(color).collect()
 }
 

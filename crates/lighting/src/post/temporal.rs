@@ -62,7 +62,7 @@ impl Temporal {
         let mut history = frame.history("mixed light", desc, Resize::Reset);
         let block = Block {
             before_from_now: (before.unwrap_or(now) * now.inverse()).as_mat4(),
-            shift_px: view.shift_px,
+            shift_px: view.jitter_px,
             fresh: fresh.clamp(0.01, 1.0),
             valid: f32::from(u8::from(history.valid && before.is_some())),
         };
@@ -84,7 +84,7 @@ impl Jitter {
     pub const FRAMES: u32 = 16;
 
     /// Returns the place of a frame.
-    pub fn of_frame(frame: u32) -> Self {
+    pub fn for_frame(frame: u32) -> Self {
         Self { frame: frame % Self::FRAMES }
     }
 
@@ -92,18 +92,18 @@ impl Jitter {
     ///
     /// ```
     /// use shadowgraph_lighting::post::Jitter;
-    /// let places: Vec<_> = (0..Jitter::FRAMES).map(|frame| Jitter::of_frame(frame).shift_px()).collect();
+    /// let places: Vec<_> = (0..Jitter::FRAMES).map(|frame| Jitter::for_frame(frame).offset_px()).collect();
     /// let mean = places.iter().copied().sum::<glam::Vec2>() / 16.0;
     /// assert!(mean.length() < 0.05 && places.iter().all(|place| place.abs().max_element() <= 0.5));
     /// ```
-    pub fn shift_px(self) -> Vec2 {
+    pub fn offset_px(self) -> Vec2 {
         Vec2::new(halton(self.frame + 1, 2) - 0.5, halton(self.frame + 1, 3) - 0.5)
     }
 
     /// Returns what shifts clip space so, in a picture of this size.
-    pub fn clip_shift(self, size_px: [u32; 2]) -> Mat4 {
+    pub fn clip_translation(self, size_px: [u32; 2]) -> Mat4 {
         let [width, height] = size_px.map(|px| px.max(1) as f32);
-        let shift = self.shift_px();
+        let shift = self.offset_px();
         // Pixels go down, clip space up.
         Mat4::from_translation(Vec3::new(2.0 * shift.x / width, -2.0 * shift.y / height, 0.0))
     }
@@ -118,7 +118,7 @@ impl Jitters {
     pub fn next(&self, view: u32) -> Jitter {
         let mut frames = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let frame = frames.entry(view).or_default();
-        let jitter = Jitter::of_frame(*frame);
+        let jitter = Jitter::for_frame(*frame);
         *frame = (*frame + 1) % Jitter::FRAMES;
         jitter
     }

@@ -101,7 +101,7 @@ fn framing_copes_with_a_point_and_with_nothing() {
         let camera = Camera::framing(&bounds, 1.5);
         assert!(camera.world_from_view.is_finite());
         assert!(camera.near() > 0.0 && camera.far().unwrap() > camera.near());
-        assert!(camera.volume(1.5).contains_point(bounds.center()));
+        assert!(camera.frustum(1.5).contains_point(bounds.center()));
     }
 }
 
@@ -118,7 +118,7 @@ proptest! {
         // Points on the border may fall to either side.
         let border = [clip.w - clip.x.abs(), clip.w - clip.y.abs(), clip.z, clip.w - clip.z];
         prop_assume!(border.iter().all(|distance| distance.abs() > 1e-9));
-        prop_assert_eq!(camera.volume(aspect).contains_point(point), inside);
+        prop_assert_eq!(camera.frustum(aspect).contains_point(point), inside);
     }
 
     #[test]
@@ -130,7 +130,7 @@ proptest! {
         let (center, half) = (DVec3::from(center), DVec3::from(half));
         let bounds = Aabb { min: center - half, max: center + half };
         let point = (center + half * DVec3::from(at)).clamp(bounds.min, bounds.max);
-        let volume = camera.volume(aspect);
+        let volume = camera.frustum(aspect);
         prop_assert!(!volume.contains_point(point) || volume.intersects(&bounds));
     }
 }

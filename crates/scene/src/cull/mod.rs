@@ -14,5 +14,5 @@ mod visible;
 mod volume;
 
 pub use tree::CullTree;
-pub use visible::visible;
+pub use visible::visible_instances;
 pub use volume::{BoundingSphere, Cone, CullVolume};

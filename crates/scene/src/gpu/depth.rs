@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::num::NonZeroU64;
 
 use super::upload::vertex_layout;
-use super::{AlphaKey, DrawWith, MaterialKey, MaterialLayouts};
+use super::{AlphaKey, DrawPipeline, MaterialKey, MaterialLayouts};
 use crate::{CasterMode, Error};
 
 /// What depth pipelines draw into, and how.
@@ -79,9 +79,9 @@ impl DepthPipelines {
 
     /// Returns what draws of a key are drawn with.
     #[must_use]
-    pub fn get(&self, key: MaterialKey) -> DrawWith<'_> {
+    pub fn get(&self, key: MaterialKey) -> DrawPipeline<'_> {
         let reads_material = key.alpha != AlphaKey::Opaque;
-        DrawWith { pipeline: &self.pipelines[key.index()], reads_material }
+        DrawPipeline { pipeline: &self.pipelines[key.index()], reads_material }
     }
 
     /// Returns the layout of group 0: at binding 0 a storage buffer, read by vertices, at a dynamic offset, that
@@ -126,27 +126,27 @@ impl CasterPipelines {
     /// Returns what the depth of draws of a mode is drawn with; `None` for those that cast no shadow. [`CasterMode::Tint`] is cut at
     /// one half, as it is where nothing is tinted.
     #[must_use]
-    pub fn get(&self, mode: CasterMode) -> Option<DrawWith<'_>> {
+    pub fn get(&self, mode: CasterMode) -> Option<DrawPipeline<'_>> {
         let (pipeline, reads_material) = match mode {
             CasterMode::On => (&self.solid, false),
             CasterMode::Clip | CasterMode::Tint => (&self.clip, true),
             CasterMode::Dither => (&self.dither, true),
             CasterMode::Off => return None,
         };
-        Some(DrawWith { pipeline, reads_material })
+        Some(DrawPipeline { pipeline, reads_material })
     }
 
     /// Returns what depth is drawn with, whatever its alpha.
     #[must_use]
-    pub fn solid(&self) -> DrawWith<'_> {
-        DrawWith { pipeline: &self.solid, reads_material: false }
+    pub fn solid(&self) -> DrawPipeline<'_> {
+        DrawPipeline { pipeline: &self.solid, reads_material: false }
     }
 
     /// Returns what multiplies a target of [`DepthTarget::tint_format`] by the light that passes. It is tested against depth and does not
     /// write it.
     #[must_use]
-    pub fn tint(&self) -> DrawWith<'_> {
-        DrawWith { pipeline: &self.tint, reads_material: true }
+    pub fn tint(&self) -> DrawPipeline<'_> {
+        DrawPipeline { pipeline: &self.tint, reads_material: true }
     }
 }
 

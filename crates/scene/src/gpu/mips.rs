@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use super::coverage::Coverage;
-use crate::{Image, light_from_srgb};
+use crate::{Image, linear_from_srgb};
 
 /// How the colour of an image is written. Alpha is always linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -85,7 +85,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(Tables::new);
 
 impl Tables {
     fn new() -> Self {
-        let light = |byte: usize| (light_from_srgb(byte as u8) * 65535.0).round() as u32;
+        let light = |byte: usize| (linear_from_srgb(byte as u8) * 65535.0).round() as u32;
         let byte = |step: usize| {
             let light = (step as f64 + 0.5) / 16384.0;
             let value =

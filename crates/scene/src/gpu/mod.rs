@@ -34,7 +34,7 @@ pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
 pub use draw_list::{Draw, DrawList};
 pub use key::{AlphaKey, MaterialKey};
 pub use materials::MaterialLayouts;
-pub use scene::{DrawWith, GpuScene};
+pub use scene::{DrawPipeline, GpuScene};
 pub use upload::vertex_layout;
 
 #[cfg(test)]

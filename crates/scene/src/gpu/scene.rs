@@ -112,7 +112,7 @@ impl GpuScene {
 
     /// Returns what there is to draw of an instance.
     #[must_use]
-    pub fn draw_of(&self, number: u32) -> Option<&Draw> {
+    pub fn draw_for(&self, number: u32) -> Option<&Draw> {
         self.draws.get(number as usize)
     }
 
@@ -127,12 +127,12 @@ impl GpuScene {
     #[must_use]
     pub fn draw_list(&self, numbers: &[u32], eye_world: DVec3) -> DrawList {
         let mut list = DrawList::default();
-        self.list(numbers, eye_world, &mut list);
+        self.draw_list_into(numbers, eye_world, &mut list);
         list
     }
 
     /// Lists as [`draw_list`](Self::draw_list) does into a list of before: once it has been as long, nothing is allocated.
-    pub fn list(&self, numbers: &[u32], eye_world: DVec3, list: &mut DrawList) {
+    pub fn draw_list_into(&self, numbers: &[u32], eye_world: DVec3, list: &mut DrawList) {
         let draws = numbers.iter().filter_map(|&number| self.draws.get(number as usize));
         list.fill(draws.copied(), |number| squared_distance(&self.bounds[number as usize], eye_world));
     }
@@ -144,7 +144,7 @@ impl GpuScene {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         draws: impl IntoIterator<Item = &'p Draw>,
-        pipeline_for: &dyn Fn(&Draw) -> Option<DrawWith<'p>>,
+        pipeline_for: &dyn Fn(&Draw) -> Option<DrawPipeline<'p>>,
     ) -> u32 {
         let mut draws = draws.into_iter().peekable();
         if draws.peek().is_none() {
@@ -184,7 +184,7 @@ impl GpuScene {
 
 /// What something is drawn with.
 #[derive(Clone, Copy, Debug)]
-pub struct DrawWith<'p> {
+pub struct DrawPipeline<'p> {
     /// The pipeline.
     pub pipeline: &'p wgpu::RenderPipeline,
     /// Whether it reads group 2, the material.

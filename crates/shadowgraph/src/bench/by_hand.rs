@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use shadowgraph_core::Format;
 use shadowgraph_lighting::{
-    Forward, GpuLight, GpuView, LitPipelines, LitTarget, Prepass, Shows, ViewRecords,
+    Forward, GpuLight, GpuView, LitOutput, LitPipelines, LitTarget, Prepass, ViewUniforms,
 };
 use shadowgraph_shadows::{
     CasterPass, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT, plan_shadows,
@@ -48,7 +48,7 @@ struct Groups {
 
 /// What a frame needs of the CPU before anything is encoded.
 struct Records {
-    view: ViewRecords,
+    view: ViewUniforms,
     shadows: ShadowPlan,
 }
 
@@ -75,8 +75,8 @@ impl<'v> ByHand<'v> {
         };
         let maps = [map(&records.shadows.cascades), map(&records.shadows.atlas)];
         let (layouts, technique) = (renderer.casters.scene.layouts(), renderer.technique.as_ref());
-        let (format, shows) = (Format::Rgba16Float, Shows::Light);
-        let forward = Forward::new(device, layouts, technique, LitTarget { format, shows, samples: 1 })?;
+        let (format, output) = (Format::Rgba16Float, LitOutput::Light);
+        let forward = Forward::new(device, layouts, technique, LitTarget { format, output, samples: 1 })?;
         let prepass = Prepass::new(device, layouts, 1)?;
         let tonemap = tonemap(device, target.format())?;
         Ok(Self {
@@ -161,7 +161,7 @@ impl<'v> ByHand<'v> {
     }
 
     fn lit(&self, encoder: &mut wgpu::CommandEncoder) {
-        let background = self.view.ambience.background();
+        let background = self.view.ambient_light.background();
         let mut pass = begin(encoder, "forward", Some((&self.lit, background)), Some((&self.depth, false)));
         pass.set_bind_group(0, &self.groups.view, &[]);
         pass.set_bind_group(1, &self.groups.shadows, &[]);
@@ -255,7 +255,7 @@ fn records(renderer: &Renderer, view: &View<'_>) -> Result<Records, Error> {
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
     let inputs = ShadowInputs { view: 0, camera, aspect, lights, casters, origin_world, settings };
     Ok(Records {
-        view: ViewRecords::new(camera, size_px, lights, origin_world, &view.ambience),
+        view: ViewUniforms::new(camera, size_px, lights, origin_world, &view.ambient_light),
         shadows: plan_shadows(&inputs)?,
     })
 }

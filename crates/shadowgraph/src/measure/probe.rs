@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use shadowgraph_core::{
     Bind, Contents, Format, Frame, Graph, Part, PassTime, Plan, ResourceDesc, TextureDesc, Timer,
 };
-use shadowgraph_lighting::{Geometry, ViewRecords};
+use shadowgraph_lighting::{Geometry, ViewUniforms};
 use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
 
 use super::Surfaces;
@@ -165,7 +165,7 @@ impl Probe {
         let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
         let mut frame = graph.frame();
         let records =
-            ViewRecords::new(&options.camera, options.size_px, lights, origin_world, &view.ambience);
+            ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
         let buffers = records.upload(&mut frame);
         let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
         let screen = self.surfaces.as_ref().map(|drawer| drawer.screen_alone(&mut frame, &buffers, geometry));

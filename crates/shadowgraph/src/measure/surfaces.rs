@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use shadowgraph_core::Part;
-use shadowgraph_lighting::{Geometry, ViewRecords};
+use shadowgraph_lighting::{Geometry, ViewUniforms};
 
 use crate::renderer::nothing_read;
 use crate::surfaces::SurfaceDrawer;
@@ -50,8 +50,13 @@ impl SurfaceReader {
             let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
             let mut graph = renderer.graph();
             let mut frame = graph.frame();
-            let records =
-                ViewRecords::new(&options.camera, options.size_px, lights, origin_world, &view.ambience);
+            let records = ViewUniforms::new(
+                &options.camera,
+                options.size_px,
+                lights,
+                origin_world,
+                &view.ambient_light,
+            );
             let buffers = records.upload(&mut frame);
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
             let screen = self.drawer.screen_alone(&mut frame, &buffers, geometry)?;

@@ -9,7 +9,7 @@ mod ports;
 mod setting;
 
 pub use built_in::Geometry as GeometryNode;
-pub(crate) use built_in::{Shadows as ShadowsNode, Taa as TaaNode, ViewRecords as ViewNode};
+pub(crate) use built_in::{Shadows as ShadowsNode, Taa as TaaNode, ViewUniforms as ViewNode};
 pub use port::{Need, Port, PortKind, Value};
 pub use ports::Ports;
 pub use setting::{Setting, SettingType, Settings};

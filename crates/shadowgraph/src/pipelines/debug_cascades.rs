@@ -2,7 +2,7 @@
 
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::Overlay;
-use shadowgraph_lighting::{Forward as Lighting, LitTarget, Shows, Tonemap};
+use shadowgraph_lighting::{Forward as Lighting, LitOutput, LitTarget, Tonemap};
 
 use super::{Build, Output, View, Wiring};
 use crate::Error;
@@ -27,7 +27,7 @@ impl DebugCascades {
     /// If the technique's WGSL does not compose.
     pub fn new(build: &Build<'_>) -> Result<Self, Error> {
         let Build { device, layouts, technique, lit } = *build;
-        let debug = LitTarget { format: Format::Rgba8Unorm, shows: Shows::Debug, ..lit };
+        let debug = LitTarget { format: Format::Rgba8Unorm, output: LitOutput::Debug, ..lit };
         Ok(Self {
             geometry: GeometryNode::new(build)?,
             lighting: Lighting::new(device, layouts, technique, lit)?,
@@ -40,7 +40,7 @@ impl DebugCascades {
 
 impl Wiring for DebugCascades {
     fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
-        let buffers = view.records().upload(frame);
+        let buffers = view.uniforms().upload(frame);
         let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
         let shadows = view.shadows(frame, screen.as_ref())?;
 

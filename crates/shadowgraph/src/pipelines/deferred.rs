@@ -37,7 +37,7 @@ impl Deferred {
 
 impl Wiring for Deferred {
     fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
-        let buffers = view.records().upload(frame);
+        let buffers = view.uniforms().upload(frame);
         let geometry = view.geometry();
 
         // What is seen: its depth, then its colours, materials and normals.

@@ -33,7 +33,7 @@ impl Forward {
 impl Wiring for Forward {
     fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
         // The camera and the lights, for every shader.
-        let buffers = view.records().upload(frame);
+        let buffers = view.uniforms().upload(frame);
 
         // What is seen: its depth, and where the technique asks for it, its surfaces.
         let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;

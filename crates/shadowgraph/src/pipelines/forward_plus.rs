@@ -32,7 +32,7 @@ impl ForwardPlus {
 
 impl Wiring for ForwardPlus {
     fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
-        let buffers = view.records().upload(frame);
+        let buffers = view.uniforms().upload(frame);
         let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
         let shadows = view.shadows(frame, screen.as_ref())?;
 

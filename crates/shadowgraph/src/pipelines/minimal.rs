@@ -31,7 +31,7 @@ impl Minimal {
 
 impl Wiring for Minimal {
     fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
-        let buffers = view.records().upload(frame);
+        let buffers = view.uniforms().upload(frame);
         let geometry = view.geometry();
 
         // A technique that asks for surfaces needs them before anything is lit.

@@ -1,7 +1,7 @@
 //! One view of a frame.
 
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::{Ambience, Geometry, Shows, Tonemap, ViewRecords};
+use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, Tonemap, ViewUniforms};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_scene::{Camera, Light};
 use shadowgraph_shadows::{Screen, ShadowInputs, ShadowOutputs, ShadowTechnique, add_shadows};
@@ -18,7 +18,7 @@ pub struct View<'v> {
     /// What of the scene is seen.
     pub draws: DrawList,
     /// The light from all around, and the exposure.
-    pub ambience: Ambience,
+    pub ambient_light: AmbientLight,
     /// The scene's lights.
     pub lights: &'v [Light],
     /// The scene on the GPU.
@@ -28,17 +28,17 @@ pub struct View<'v> {
     /// Whose view shadows are made for.
     pub shadow_camera: &'v Camera,
     /// What lit passes write.
-    pub shows: Shows,
+    pub output: LitOutput,
     /// Where a colour picture goes: a texture of the caller's, as large as the view; `None`: one of the frame.
     pub target: Option<&'v wgpu::Texture>,
 }
 
 impl<'v> View<'v> {
     /// Returns the records of the camera and of the lights, for every shader.
-    pub fn records(&self) -> ViewRecords {
+    pub fn uniforms(&self) -> ViewUniforms {
         let ViewOptions { camera, size_px, .. } = self.options;
         let origin_world = self.casters.scene.origin_world();
-        ViewRecords::new(camera, *size_px, self.lights, origin_world, &self.ambience)
+        ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light)
     }
 
     /// Returns what is drawn.
@@ -73,7 +73,7 @@ impl<'v> View<'v> {
 
     /// Returns what is where nothing is drawn, in the terms of lit passes: only pictures of light have a sky.
     pub fn background(&self) -> [f64; 4] {
-        if self.shows == Shows::Light { self.ambience.background() } else { [0.0; 4] }
+        if self.output == LitOutput::Light { self.ambient_light.background() } else { [0.0; 4] }
     }
 
     /// Returns the shape of a texture as large as the view.

@@ -1,7 +1,7 @@
 //! What of a frame is shown.
 
 use shadowgraph_core::{Buffer, Format, Frame, Texture};
-use shadowgraph_lighting::Shows;
+use shadowgraph_lighting::LitOutput;
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowOutputs, Unshadowed};
 
@@ -87,7 +87,7 @@ fn no_texture(frame: &Frame<'_>, name: &str) -> Error {
 }
 
 /// What the lit pass writes for an output, and in which format.
-pub(super) fn shows(aov: &Aov, lights: &[Light]) -> Result<(Shows, Format), Error> {
+pub(super) fn lit_output(aov: &Aov, lights: &[Light]) -> Result<(LitOutput, Format), Error> {
     Ok(match aov {
         Aov::Visibility(light) if *light as usize >= lights.len() => {
             let there_are = match lights.len() {
@@ -97,9 +97,9 @@ pub(super) fn shows(aov: &Aov, lights: &[Light]) -> Result<(Shows, Format), Erro
             };
             return Err(Error::NoLight { light: *light, there_are });
         }
-        Aov::Visibility(light) => (Shows::Visibility(*light), Format::Rgba8Unorm),
-        Aov::Cascade => (Shows::Debug, Format::Rgba8Unorm),
-        Aov::Normal => (Shows::Normal, Format::Rgba8Unorm),
-        Aov::Color | Aov::Depth | Aov::Atlas | Aov::Texture(_) => (Shows::Light, Format::Rgba16Float),
+        Aov::Visibility(light) => (LitOutput::Visibility(*light), Format::Rgba8Unorm),
+        Aov::Cascade => (LitOutput::Debug, Format::Rgba8Unorm),
+        Aov::Normal => (LitOutput::Normal, Format::Rgba8Unorm),
+        Aov::Color | Aov::Depth | Aov::Atlas | Aov::Texture(_) => (LitOutput::Light, Format::Rgba16Float),
     })
 }

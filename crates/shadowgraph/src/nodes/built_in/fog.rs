@@ -1,7 +1,7 @@
 //! `fog`
 
 use shadowgraph_core::{Format, Frame};
-use shadowgraph_lighting::Shows;
+use shadowgraph_lighting::LitOutput;
 use shadowgraph_lighting::post::{Fog as FogPass, FogSettings};
 
 use crate::Error;
@@ -66,7 +66,7 @@ impl Node for Fog {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let mut light = ports.texture("light")?;
-        if view.shows == Shows::Light {
+        if view.output == LitOutput::Light {
             let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);
             let (depth, origin_y) = (ports.texture("depth")?, view.casters.scene.origin_world().y);
             let textures = [&depth, &light];

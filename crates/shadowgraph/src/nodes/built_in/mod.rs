@@ -22,13 +22,13 @@ mod view;
 pub use geometry::Geometry;
 pub(crate) use shadows::Shadows;
 pub(crate) use taa::Taa;
-pub(crate) use view::ViewRecords;
+pub(crate) use view::ViewUniforms;
 
 use super::NodeKind;
 
 pub(super) fn kinds() -> [NodeKind; 18] {
     [
-        NodeKind::of::<ViewRecords>(),
+        NodeKind::of::<ViewUniforms>(),
         NodeKind::of::<geometry::Geometry>(),
         NodeKind::of::<surfaces::Surfaces>(),
         NodeKind::of::<shadows::Shadows>(),

@@ -1,7 +1,7 @@
 //! `shadow_debug`
 
 use shadowgraph_core::{Format, Frame};
-use shadowgraph_lighting::{Forward, LitTarget, Shows};
+use shadowgraph_lighting::{Forward, LitOutput, LitTarget};
 
 use crate::Error;
 use crate::nodes::{Node, Port, PortKind, Ports, Settings};
@@ -24,7 +24,7 @@ impl Node for ShadowDebug {
 
     fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
         let Build { device, layouts, technique, lit } = *build;
-        let target = LitTarget { format: Format::Rgba8Unorm, shows: Shows::Debug, ..lit };
+        let target = LitTarget { format: Format::Rgba8Unorm, output: LitOutput::Debug, ..lit };
         Ok(Self { passes: Forward::new(device, layouts, technique, target)? })
     }
 

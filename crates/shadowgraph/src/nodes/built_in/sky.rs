@@ -1,7 +1,7 @@
 //! `sky`
 
 use shadowgraph_core::{Format, Frame};
-use shadowgraph_lighting::Shows;
+use shadowgraph_lighting::LitOutput;
 use shadowgraph_lighting::post::{Sky as SkyPass, SkySettings};
 
 use crate::Error;
@@ -47,7 +47,7 @@ impl Node for Sky {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let mut light = ports.texture("light")?;
-        if view.shows == Shows::Light {
+        if view.output == LitOutput::Light {
             let (buffers, depth) = (ports.view("view")?, ports.texture("depth")?);
             self.pass.add_to(frame, &buffers, &depth, &mut light, &self.settings);
         }

@@ -7,16 +7,16 @@ use crate::Error;
 use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
 use crate::pipelines::{Build, View};
 
-pub(crate) struct ViewRecords {
+pub(crate) struct ViewUniforms {
     jitters: Option<Jitters>,
 }
 
-impl ViewRecords {
+impl ViewUniforms {
     /// The setting that makes the camera jitter.
     pub(crate) const JITTER: &'static str = "jitter";
 }
 
-impl Node for ViewRecords {
+impl Node for ViewUniforms {
     const NAME: &'static str = "view";
     const ABOUT: &'static str = "writes the camera and the lights for every shader";
     const INPUTS: &'static [Port] = &[];
@@ -38,12 +38,12 @@ impl Node for ViewRecords {
         view: &'f View<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let records = view.records();
-        let records = match &self.jitters {
-            Some(jitters) => records.shifted(jitters.next(view.number)),
-            None => records,
+        let uniforms = view.uniforms();
+        let uniforms = match &self.jitters {
+            Some(jitters) => uniforms.jittered(jitters.next(view.number)),
+            None => uniforms,
         };
-        ports.set("view", records.upload(frame));
+        ports.set("view", uniforms.upload(frame));
         Ok(())
     }
 }

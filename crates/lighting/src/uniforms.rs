@@ -7,7 +7,7 @@ use shadowgraph_core::{Buffer, Frame, Texture};
 use crate::post::Jitter;
 use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 
-use crate::Ambience;
+use crate::AmbientLight;
 
 /// The camera of a frame, 256 bytes. World space here is relative to the frame's origin.
 #[repr(C)]
@@ -62,13 +62,13 @@ pub struct GpuLight {
 }
 
 /// A frame's camera and lights.
-pub struct ViewRecords {
+pub struct ViewUniforms {
     /// The camera.
     pub view: GpuView,
     /// The lights, in the scene's order.
     pub lights: Vec<GpuLight>,
     /// What pixels are shifted by.
-    pub shift_px: Vec2,
+    pub jitter_px: Vec2,
 }
 
 /// What bind group 0 of passes that light holds.
@@ -83,36 +83,36 @@ pub struct ViewBuffers {
     /// How much of the light from all around reaches what is seen, where that was found out ([`Occlusion`](crate::post::Occlusion)).
     pub occlusion: Option<Texture>,
     /// What pixels are shifted by in this frame ([`Jitter`]).
-    pub shift_px: Vec2,
+    pub jitter_px: Vec2,
 }
 
-impl ViewRecords {
+impl ViewUniforms {
     /// Describes what `camera` sees of `lights` in a picture of `size_px`, relative to `origin_world`.
     pub fn new(
         camera: &Camera,
         size_px: [u32; 2],
         lights: &[Light],
         origin_world: DVec3,
-        ambience: &Ambience,
+        ambient_light: &AmbientLight,
     ) -> Self {
         let view = GpuView {
-            ambient_sky: ambience.sky,
-            ambient_ground: ambience.ground,
-            exposure: ambience.exposure,
+            ambient_sky: ambient_light.sky,
+            ambient_ground: ambient_light.ground,
+            exposure: ambient_light.exposure,
             light_count: lights.len() as u32,
             ..GpuView::of_camera(camera, size_px, origin_world)
         };
         let lights = lights.iter().map(|light| GpuLight::new(light, origin_world)).collect();
-        Self { view, lights, shift_px: Vec2::ZERO }
+        Self { view, lights, jitter_px: Vec2::ZERO }
     }
 
     /// Has pixels look beside their middles, for anti-aliasing over several frames.
     #[must_use]
-    pub fn shifted(mut self, jitter: Jitter) -> Self {
+    pub fn jittered(mut self, jitter: Jitter) -> Self {
         let [width, height] = self.view.size_px.to_array().map(|px| px as u32);
-        self.view.clip_from_world = jitter.clip_shift([width, height]) * self.view.clip_from_world;
+        self.view.clip_from_world = jitter.clip_translation([width, height]) * self.view.clip_from_world;
         self.view.world_from_clip = self.view.clip_from_world.inverse();
-        self.shift_px = jitter.shift_px();
+        self.jitter_px = jitter.offset_px();
         self
     }
 
@@ -125,7 +125,7 @@ impl ViewRecords {
             lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
             clusters: None,
             occlusion: None,
-            shift_px: self.shift_px,
+            jitter_px: self.jitter_px,
         })
     }
 }
@@ -250,8 +250,9 @@ mod tests {
         let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
         let camera = Camera::look_at(eye, eye + DVec3::NEG_Z, DVec3::Y, projection);
         let origin_world = shadowgraph_scene::origin_near(eye);
-        let ambience = Ambience::for_key(crate::Key { directional_lx: 1.0, local_lx: 0.0 });
-        let records = ViewRecords::new(&camera, [64, 64], &[], origin_world, &ambience);
+        let ambient_light =
+            AmbientLight::for_key_light(crate::KeyLight { directional_lx: 1.0, local_lx: 0.0 });
+        let records = ViewUniforms::new(&camera, [64, 64], &[], origin_world, &ambient_light);
         assert_eq!(records.view.position.as_dvec3() + origin_world, eye);
         let clip = records.view.clip_from_world * (records.view.position + Vec3::NEG_Z * 0.1).extend(1.0);
         assert!((clip.z / clip.w - 1.0).abs() < 1e-4, "the near plane has depth 1: {clip}");
