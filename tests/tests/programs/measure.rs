@@ -1,5 +1,4 @@
 //! The program's `measure`: that shadows are within the stored bounds, and what it says if they are not.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use shadowgraph::options::AdapterChoice;
 use shadowgraph::{Gpu, measure::report::CaseReport, measure::report::Report};

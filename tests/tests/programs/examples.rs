@@ -1,5 +1,4 @@
 //! The examples run, and draw what they say.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use serde_json::Value;
 use shadowgraph_tests::watch::{self, Limits, Outcome};

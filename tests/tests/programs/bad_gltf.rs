@@ -1,5 +1,4 @@
 //! Malformed and hostile glTF files: each is drawn or refused in one line, quickly and in little memory.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 use shadowgraph_tests::watch::{Limits, Outcome, run};
 use shadowgraph_tests::{program, shared, skip};

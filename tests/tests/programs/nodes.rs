@@ -1,5 +1,4 @@
 //! `shadowgraph nodes`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 use std::process::Command;
 

@@ -1,5 +1,4 @@
 //! Pages about frames, used in headless Chromium by `driver.js`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod frames;
 

@@ -1,6 +1,4 @@
 //! `shadowgraph view` in a window on a display of its own.
-#![cfg(target_os = "linux")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use shadowgraph_tests::{on_path, program, repository, skip};
 use std::io::{BufRead as _, BufReader, Read as _};

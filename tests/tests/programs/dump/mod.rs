@@ -1,5 +1,4 @@
 //! What `shadowgraph dump` prints for the demo scene.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod diff;
 mod schema;

@@ -1,0 +1,11 @@
+//! Tests that start built programs: `shadowgraph`, the examples, a browser. One test program, so that cargo is asked for them once.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
+
+mod bad_gltf;
+mod dump;
+mod examples;
+mod measure;
+mod nodes;
+mod pages;
+#[cfg(target_os = "linux")]
+mod view;
