@@ -88,7 +88,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/layers.wgsl"),
     file!("shadows/lookup.wgsl"),
     file!("shadows/maps.wgsl"),
-    file!("shadows/moment_rules.wgsl"),
+    file!("shadows/moment_params.wgsl"),
     file!("shadows/pcf.wgsl"),
     file!("shadows/tent.wgsl"),
     file!("shadows/tiles.wgsl"),

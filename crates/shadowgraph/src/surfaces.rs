@@ -3,7 +3,7 @@
 use shadowgraph_core::{Format, Frame, Texture};
 use shadowgraph_lighting::{Forward, Geometry, LitOutput, LitTarget, Prepass, ViewBuffers};
 use shadowgraph_scene::gpu::MaterialLayouts;
-use shadowgraph_shadows::{NoShadows, Screen, ShadowOutputs};
+use shadowgraph_shadows::{NoShadows, ShadowOutputs, SurfaceBuffers};
 
 use crate::Error;
 
@@ -39,7 +39,7 @@ impl SurfaceDrawer {
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
         geometry: Geometry<'f>,
-    ) -> Result<Screen, Error> {
+    ) -> Result<SurfaceBuffers, Error> {
         frame.node("one sample", |frame| {
             let depth = self.prepass.add_to(frame, view, geometry);
             self.screen(frame, view, &depth, geometry)
@@ -53,10 +53,10 @@ impl SurfaceDrawer {
         view: &ViewBuffers,
         depth: &Texture,
         geometry: Geometry<'f>,
-    ) -> Result<Screen, Error> {
+    ) -> Result<SurfaceBuffers, Error> {
         let surfaces = self.add_to(frame, view, depth, geometry)?;
         let (view, lights) = (view.view.clone(), view.lights.clone());
         let has_blended = !geometry.draws.blend.is_empty();
-        Ok(Screen { size_px: geometry.size_px, view, lights, surfaces, has_blended })
+        Ok(SurfaceBuffers { size_px: geometry.size_px, view, lights, surfaces, has_blended })
     }
 }

@@ -2,7 +2,7 @@
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
-use crate::TilePart;
+use crate::TileKind;
 
 /// The things that can cast shadows. Implement it for a scene of your own.
 ///
@@ -90,7 +90,7 @@ pub struct CasterView {
     /// Whose tile it is, by place in the scene's list of lights.
     pub light: u32,
     /// Which of its tiles.
-    pub part: TilePart,
+    pub kind: TileKind,
     /// Width and height of the tile, pixels.
     pub size_px: [u32; 2],
     /// The width of a texel in the world, metres; for spot and point lights at 1 m along the tile's axis. Detail that is

@@ -18,7 +18,7 @@ pub enum Error {
     #[error(
         "shadow setting `lights.light` is {light}; the scene has no light of that name or number, but {count}, numbered from 0"
     )]
-    NoSuchLight {
+    UnknownLight {
         /// Which entry of `lights` names it, from 0.
         entry: usize,
         /// Its number, or its name in quotes.
@@ -28,7 +28,7 @@ pub enum Error {
     },
     /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) says two things of one light.
     #[error("shadow setting `lights` has two entries for light {light}; allowed: one for each light")]
-    LightTwice {
+    DuplicateLight {
         /// The second entry of `lights`, from 0.
         entry: usize,
         /// Its number.
@@ -41,24 +41,24 @@ pub enum Error {
     #[error(
         "the technique `{technique}` reads the surfaces of the picture: draw them first and pass them to its `add_to`"
     )]
-    NoSurfaces {
+    MissingSurfaceBuffers {
         /// The technique's name.
         technique: String,
     },
     /// A technique is not what it says, or has settings that it cannot have.
-    #[error("technique `{technique}`: {fault}")]
+    #[error("technique `{technique}`: {reason}")]
     Technique {
         /// Its name.
         technique: String,
         /// What is wrong with it.
-        fault: String,
+        reason: String,
     },
     /// The settings of a technique are not of the form that it reads.
     #[error(
         "technique `{technique}`: its settings: {} (line {}, column {} of them)",
         reason.code, reason.span.start.line, reason.span.start.col
     )]
-    UnreadSettings {
+    MalformedSettings {
         /// Its name.
         technique: String,
         /// What is wrong, and where in the text of its settings alone.
@@ -66,7 +66,7 @@ pub enum Error {
     },
     /// A value of a technique's own settings is not allowed.
     #[error("technique `{technique}`: shadow setting `{field}` is {value}; allowed: {allowed}")]
-    OwnSetting {
+    TechniqueSetting {
         /// Its name.
         technique: String,
         /// The field's path in its settings.
@@ -77,8 +77,8 @@ pub enum Error {
         allowed: &'static str,
     },
     /// There is no technique of this name.
-    #[error("there is no technique `{name}`{hint}")]
-    NoTechnique {
+    #[error("unknown technique `{name}`{hint}")]
+    UnknownTechnique {
         /// What was asked for.
         name: String,
         /// A name that is like it, or all.

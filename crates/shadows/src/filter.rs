@@ -38,7 +38,7 @@ impl ShadowFilter {
 
     /// Returns how far from the point it is asked for it reads, in texels of the map: 1 to 4. Tiles have a border as wide.
     #[must_use]
-    pub fn reach_texels(self) -> f32 {
+    pub fn kernel_radius_texels(self) -> f32 {
         self.taps() as f32
     }
 
@@ -97,7 +97,7 @@ fn tent_integral(x: f64, half: f64) -> f64 {
 /// What shared services must know about a technique: how wide it reads, how it moves its lookups, and how far
 /// from a receiver it looks for things that block light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Needs {
+pub struct Requirements {
     /// Texels around the point that the filter reads, 0 to 24: borders of tiles are as wide.
     pub kernel_radius_texels: f32,
     /// The longest way that a lookup is moved sideways in its tile, texels.
@@ -109,7 +109,7 @@ pub struct Needs {
     pub fits_on_gpu: bool,
 }
 
-impl Needs {
+impl Requirements {
     /// Those of a technique without maps.
     pub const NONE: Self =
         Self { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0, fits_on_gpu: false };

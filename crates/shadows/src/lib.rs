@@ -14,7 +14,7 @@
 //! Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0). Directional tiles move through the
 //! world in whole texels, so shadows do not flicker when the camera moves.
 
-mod allot;
+mod allocation;
 mod atlas;
 mod basis;
 mod budget;
@@ -23,13 +23,13 @@ mod casters;
 mod cull;
 mod error;
 mod filter;
+mod light_params;
 mod maps;
 mod ortho;
 mod plan;
 mod planner;
 pub mod rays;
 mod registry;
-mod rules;
 mod select;
 mod settings;
 mod spot;
@@ -37,18 +37,18 @@ mod technique;
 mod techniques;
 mod views;
 
-pub use allot::{AllotRules, Allotment, Granted, TileWish, allot};
+pub use allocation::{AtlasAllocation, AtlasConfig, TileAllocation, TileRequest, allocate_tiles};
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
 pub use basis::light_from_world;
-pub use budget::{BudgetRules, Quality, QualityController};
+pub use budget::{BudgetConfig, QualityController, QualityLevel};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
 pub use casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TINT_FORMAT, caster_view_layout};
-pub use cull::{ReceiverHull, Served, ServedCasters, ViewInLight};
+pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use error::Error;
-pub use filter::{Needs, ShadowFilter, filter_taps};
+pub use filter::{Requirements, ShadowFilter, filter_taps};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
-pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePart, TilePlan, plan_shadows, plan_shadows_after};
+pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TileKind, TilePlan, plan_shadows, plan_shadows_after};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind, Techniques,
 };
@@ -60,8 +60,8 @@ pub use settings::{
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{
-    Record, Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens, add_shadows, binding,
-    shadow_layout,
+    GpuStruct, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens, SurfaceBuffers, add_shadows,
+    binding, shadow_layout,
 };
 pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, MAX_MASK_LAYERS, Msm, MsmSettings,
@@ -70,7 +70,8 @@ pub use techniques::{
 };
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
-    NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView, TilePlace,
+    NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,
+    TilePlacement,
 };
 
 #[cfg(doctest)]

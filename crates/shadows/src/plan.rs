@@ -4,12 +4,12 @@
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Light};
 
+use crate::light_params::LightShadowParams;
 use crate::planner::Planner;
-use crate::rules::LightRules;
 use crate::techniques::PcfVariant;
 use crate::{
-    Allotment, CasterPass, CasterTarget, CasterView, DepthFormat, Error, Needs, ShadowCasters, ShadowLight,
-    ShadowSettings, ShadowView, TileRect, Unshadowed,
+    AtlasAllocation, CasterPass, CasterTarget, CasterView, DepthFormat, Error, Requirements, ShadowCasters,
+    ShadowLight, ShadowSettings, ShadowView, TileRect, Unshadowed,
 };
 
 /// What shadows are planned for.
@@ -46,9 +46,9 @@ pub struct ShadowPlan {
     /// The lights that are to cast shadows but have none in this frame, in the scene's order.
     pub unshadowed: Vec<Unshadowed>,
     /// Which tiles of the atlas lights have, for the next frame.
-    pub allotment: Allotment,
+    pub atlas_allocation: AtlasAllocation,
     /// What the technique needs of shared services.
-    pub needs: Needs,
+    pub requirements: Requirements,
 }
 
 /// A shadow map.
@@ -72,7 +72,7 @@ pub struct TilePlan {
     /// Index of its [`ShadowView`] in [`ShadowPlan::views`].
     pub view: u32,
     /// Which of its light's tiles it is.
-    pub part: TilePart,
+    pub kind: TileKind,
     /// Viewport and scissor.
     pub rect: TileRect,
     /// The casters to draw, as [`ShadowCasters::cull`] gave them, without those that tint. Can be empty: cleared means lit.
@@ -99,7 +99,7 @@ impl TilePlan {
         CasterView {
             target: CasterTarget { pass, format, perspective: view.light.w != 0.0 },
             light: self.light,
-            part: self.part,
+            kind: self.kind,
             size_px: [self.rect.width, self.rect.height],
             texel_world: view.texel_world,
         }
@@ -108,7 +108,7 @@ impl TilePlan {
 
 /// What of a light's surroundings a tile shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TilePart {
+pub enum TileKind {
     /// All that it has.
     Whole,
     /// A cascade, from 0 for the nearest to the camera.
@@ -164,11 +164,11 @@ pub enum TilePart {
 /// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for a view that is
 /// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
 pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
-    plan_shadows_after(inputs, None, &Needs::NONE)
+    plan_shadows_after(inputs, None, &Requirements::NONE)
 }
 
 /// Plans the shadows of a frame that follows another one: lights keep the size and the place of their tiles
-/// ([`ShadowPlan::allotment`]) as far as they can. `needs` are the technique's, where they are more than those of the settings'
+/// ([`ShadowPlan::atlas_allocation`]) as far as they can. `requirements` are the technique's, where they are more than those of the settings'
 /// filter.
 ///
 /// # Errors
@@ -176,10 +176,10 @@ pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
 /// As [`plan_shadows`].
 pub fn plan_shadows_after(
     inputs: &ShadowInputs<'_>,
-    before: Option<&Allotment>,
-    needs: &Needs,
+    before: Option<&AtlasAllocation>,
+    requirements: &Requirements,
 ) -> Result<ShadowPlan, Error> {
-    Ok(Planner::new(inputs, before, needs)?.plan())
+    Ok(Planner::new(inputs, before, requirements)?.plan())
 }
 
 impl ShadowPlan {
@@ -192,8 +192,8 @@ impl ShadowPlan {
             views: Vec::new(),
             lights: vec![ShadowLight::default(); light_count],
             unshadowed: Vec::new(),
-            allotment: Allotment::default(),
-            needs: needs(settings),
+            atlas_allocation: AtlasAllocation::default(),
+            requirements: requirements(settings),
         }
     }
 
@@ -230,14 +230,14 @@ impl ShadowPlan {
 }
 
 /// What the `pcf` technique needs of shared services: the most that any light does.
-pub(crate) fn needs(settings: &ShadowSettings) -> Needs {
+pub(crate) fn requirements(settings: &ShadowSettings) -> Requirements {
     let all = [true, false].into_iter().flat_map(|has_cascades| {
         let owns = settings.lights.iter().map(Some).chain([None]);
-        owns.map(move |own| LightRules::new(settings, own, has_cascades))
+        owns.map(move |own| LightShadowParams::new(settings, own, has_cascades))
     });
-    all.fold(Needs::NONE, |most, rules| Needs {
-        kernel_radius_texels: most.kernel_radius_texels.max(rules.filter.reach_texels()),
-        bias_texels: most.bias_texels.max(rules.normal_texels()),
+    all.fold(Requirements::NONE, |most, params| Requirements {
+        kernel_radius_texels: most.kernel_radius_texels.max(params.filter.kernel_radius_texels()),
+        bias_texels: most.bias_texels.max(params.normal_texels()),
         ..most
     })
 }

@@ -8,24 +8,24 @@ use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
 use culling::Seen;
 
-use crate::rules::{self, LightRules};
-use crate::select::{Candidate, Reach, Shape, candidate};
+use crate::light_params::{self, LightShadowParams};
+use crate::select::{Candidate, ShadowRange, Shape, candidate};
 use crate::{
-    Allotment, Error, LightShadows, Needs, ShadowInputs, ShadowLight, ShadowPlan, TilePlace, TileRect,
-    Unshadowed, UnshadowedReason,
+    AtlasAllocation, Error, LightShadows, Requirements, ShadowInputs, ShadowLight, ShadowPlan, TilePlacement,
+    TileRect, Unshadowed, UnshadowedReason,
 };
 
 /// A plan in the making.
 pub(crate) struct Planner<'a> {
     inputs: ShadowInputs<'a>,
-    reach: Reach<'a>,
+    range: ShadowRange<'a>,
     seen: Seen,
     /// Of each light of the scene.
     own: Vec<Option<&'a LightShadows>>,
     /// The tiles of the last frame.
-    before: Option<&'a Allotment>,
+    before: Option<&'a AtlasAllocation>,
     /// What the technique needs beyond what the settings do.
-    needs: Needs,
+    requirements: Requirements,
     plan: ShadowPlan,
 }
 
@@ -33,22 +33,22 @@ impl<'a> Planner<'a> {
     /// Checks the inputs.
     pub(crate) fn new(
         inputs: &ShadowInputs<'a>,
-        before: Option<&'a Allotment>,
-        needs: &Needs,
+        before: Option<&'a AtlasAllocation>,
+        requirements: &Requirements,
     ) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
         settings.validate()?;
-        let own = rules::of_lights(settings, inputs.lights)?;
+        let own = light_params::of_lights(settings, inputs.lights)?;
         camera.check(aspect)?;
         let distance_m = f64::from(settings.distance_m);
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
         let near_m = camera.near();
         // Not before the near plane, however small the scene.
         let fit_m = farthest_m(&inputs.casters.receivers(), camera).max(near_m * 1.01 + 1e-3).min(distance_m);
-        let reach = Reach { camera, aspect, near_m, distance_m, fit_m };
+        let range = ShadowRange { camera, aspect, near_m, distance_m, fit_m };
         let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
-        let seen = Seen::new(inputs, &reach);
-        Ok(Self { inputs: *inputs, reach, seen, own, before, needs: *needs, plan })
+        let seen = Seen::new(inputs, &range);
+        Ok(Self { inputs: *inputs, range, seen, own, before, requirements: *requirements, plan })
     }
 
     /// Makes the plan.
@@ -78,9 +78,9 @@ impl<'a> Planner<'a> {
             if !source.casts_shadow || own.is_some_and(|own| !own.casts || own.strength == 0.0) {
                 continue;
             }
-            match candidate(light, source, own, &self.reach) {
-                Ok(_) if no_caster => self.skip(light, UnshadowedReason::NoCasterInReach),
-                Ok(_) if self.reach.is_empty() => self.skip(light, UnshadowedReason::OutOfReach),
+            match candidate(light, source, own, &self.range) {
+                Ok(_) if no_caster => self.skip(light, UnshadowedReason::NoCasterInRange),
+                Ok(_) if self.range.is_empty() => self.skip(light, UnshadowedReason::OutOfView),
                 Ok(found) => candidates.push(found),
                 Err(reason) => self.skip(light, reason),
             }
@@ -88,8 +88,8 @@ impl<'a> Planner<'a> {
         candidates
     }
 
-    fn rules(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightRules {
-        LightRules::new(self.inputs.settings, candidate.own, has_cascades).needing(&self.needs)
+    fn params(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightShadowParams {
+        LightShadowParams::new(self.inputs.settings, candidate.own, has_cascades).needing(&self.requirements)
     }
 
     fn cull(&self, volume: &CullVolume) -> Vec<u32> {
@@ -111,19 +111,24 @@ impl<'a> Planner<'a> {
     fn set_light(
         &mut self,
         light: u32,
-        rules: &LightRules,
+        params: &LightShadowParams,
         (map, first_view, view_count): (u32, u32, u32),
     ) -> &mut ShadowLight {
         let record = &mut self.plan.lights[light as usize];
-        let distance_m = self.reach.distance_m;
-        *record = ShadowLight { map, first_view, view_count, ..ShadowLight::with_rules(rules, distance_m) };
+        let distance_m = self.range.distance_m;
+        *record = ShadowLight { map, first_view, view_count, ..ShadowLight::with_params(params, distance_m) };
         record
     }
 }
 
 /// Where a tile is.
-fn place(rect: TileRect, map_size_px: [u32; 2], rules: &LightRules, depth_step: f32) -> TilePlace {
-    TilePlace { rect, map_size_px, border_px: rules.border_px(), depth_step }
+fn place(
+    rect: TileRect,
+    map_size_px: [u32; 2],
+    params: &LightShadowParams,
+    depth_step: f32,
+) -> TilePlacement {
+    TilePlacement { rect, map_size_px, border_px: params.border_px(), depth_step }
 }
 
 /// How far it is from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per factor

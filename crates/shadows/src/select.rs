@@ -24,9 +24,9 @@ pub enum UnshadowedReason {
     /// More important lights have all the tiles of the atlas.
     AtlasFull,
     /// Nothing that casts a shadow is in its reach.
-    NoCasterInReach,
+    NoCasterInRange,
     /// It lights nothing that the camera sees within the shadow distance.
-    OutOfReach,
+    OutOfView,
     /// It gives no light.
     NoLight,
     /// Its direction has no length, or a number in it is not finite.
@@ -39,8 +39,8 @@ impl UnshadowedReason {
     pub fn text(self) -> &'static str {
         match self {
             Self::AtlasFull => "the shadow atlas is full: more important lights have its tiles",
-            Self::NoCasterInReach => "no shadow caster in reach",
-            Self::OutOfReach => "nothing in view within the shadow distance is lit",
+            Self::NoCasterInRange => "no shadow caster in reach",
+            Self::OutOfView => "nothing in view within the shadow distance is lit",
             Self::NoLight => "no light is given",
             Self::Unusable => "a direction without length, or a number that is not usable",
         }
@@ -48,7 +48,7 @@ impl UnshadowedReason {
 }
 
 /// The part of the view in which there are shadows.
-pub(crate) struct Reach<'a> {
+pub(crate) struct ShadowRange<'a> {
     pub(crate) camera: &'a Camera,
     pub(crate) aspect: f64,
     pub(crate) near_m: f64,
@@ -57,7 +57,7 @@ pub(crate) struct Reach<'a> {
     pub(crate) fit_m: f64,
 }
 
-impl Reach<'_> {
+impl ShadowRange<'_> {
     pub(crate) fn is_empty(&self) -> bool {
         self.near_m >= self.distance_m
     }
@@ -125,7 +125,7 @@ pub(crate) fn candidate<'s>(
     light: u32,
     source: &Light,
     own: Option<&'s LightShadows>,
-    reach: &Reach<'_>,
+    range: &ShadowRange<'_>,
 ) -> Result<Candidate<'s>, UnshadowedReason> {
     if !source.is_usable() {
         return Err(UnshadowedReason::Unusable);
@@ -139,10 +139,10 @@ pub(crate) fn candidate<'s>(
     let importance = match shape {
         // Directional lights are everywhere: before any other light.
         Shape::Directional { .. } => (f64::INFINITY, weight * brightness),
-        Shape::Spot { cone, .. } => local_importance(cone.bounding_sphere(), weight, brightness, reach)?,
+        Shape::Spot { cone, .. } => local_importance(cone.bounding_sphere(), weight, brightness, range)?,
         Shape::Point { position_world, range_m } => {
             let sphere = BoundingSphere { center_world: position_world, radius_m: range_m };
-            local_importance(sphere, weight, brightness, reach)?
+            local_importance(sphere, weight, brightness, range)?
         }
     };
     Ok(Candidate { light, shape, own, importance })
@@ -170,12 +170,12 @@ fn local_importance(
     sphere: BoundingSphere,
     weight: f64,
     brightness: f64,
-    reach: &Reach<'_>,
+    range: &ShadowRange<'_>,
 ) -> Result<(f64, f64), UnshadowedReason> {
-    if !reach.touches(sphere) {
-        return Err(UnshadowedReason::OutOfReach);
+    if !range.touches(sphere) {
+        return Err(UnshadowedReason::OutOfView);
     }
-    let distance_m = reach.camera.position_world().distance(sphere.center_world);
+    let distance_m = range.camera.position_world().distance(sphere.center_world);
     let coverage = sphere.radius_m / distance_m.max(sphere.radius_m);
     Ok((weight * coverage, brightness / (distance_m * distance_m).max(1e-6)))
 }

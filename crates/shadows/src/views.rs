@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadowgraph_scene::BoundingSphere;
 
-use crate::rules::LightRules;
+use crate::light_params::LightShadowParams;
 use crate::{BiasMethod, CascadeBlend, CascadeSelection, OrthoFit, ShadowSettings, SpotFit, TileRect};
 
 /// One tile, 256 bytes: the dynamic offset at which it is bound to draw into it, and what is needed to look
@@ -144,7 +144,7 @@ impl ShadowView {
 
     /// Describes a directional light's tile.
     #[must_use]
-    pub fn directional(fit: &OrthoFit, tile: &TilePlace, origin_world: DVec3) -> Self {
+    pub fn directional(fit: &OrthoFit, tile: &TilePlacement, origin_world: DVec3) -> Self {
         let towards_light = fit.light_from_world.transpose().z_axis;
         Self {
             light: towards_light.as_vec3().extend(0.0),
@@ -160,7 +160,7 @@ impl ShadowView {
 
     /// Describes a spot light's tile.
     #[must_use]
-    pub fn spot(fit: &SpotFit, tile: &TilePlace, origin_world: DVec3) -> Self {
+    pub fn spot(fit: &SpotFit, tile: &TilePlacement, origin_world: DVec3) -> Self {
         let sphere = fit.cone.bounding_sphere();
         Self {
             light: (fit.cone.position_world - origin_world).as_vec3().extend(1.0),
@@ -175,8 +175,8 @@ impl ShadowView {
         .around(sphere, origin_world)
     }
 
-    fn tile(clip_from_world: &DMat4, tile: &TilePlace) -> Self {
-        let TilePlace { rect, map_size_px, border_px, depth_step } = *tile;
+    fn tile(clip_from_world: &DMat4, tile: &TilePlacement) -> Self {
+        let TilePlacement { rect, map_size_px, border_px, depth_step } = *tile;
         let (uv_min, uv_max) = rect.inner_uv(map_size_px, border_px);
         Self {
             clip_from_world: clip_from_world.as_mat4(),
@@ -198,7 +198,7 @@ impl ShadowView {
 }
 
 /// See [`ShadowView::noise_px`]; `center_texels` is what the tile's centre shows, y down.
-fn noise_px(tile: &TilePlace, center_texels: DVec2) -> [u32; 2] {
+fn noise_px(tile: &TilePlacement, center_texels: DVec2) -> [u32; 2] {
     let TileRect { x, y, width, height, .. } = tile.rect;
     let center_px = DVec2::new(f64::from(x + width / 2), f64::from(y + height / 2));
     let offset = (center_texels - center_px).rem_euclid(DVec2::splat(1024.0));
@@ -207,7 +207,7 @@ fn noise_px(tile: &TilePlace, center_texels: DVec2) -> [u32; 2] {
 
 /// Where a view's tile is, and in which map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TilePlace {
+pub struct TilePlacement {
     /// The tile, border and all.
     pub rect: TileRect,
     /// Width and height of the map, pixels.
@@ -223,27 +223,27 @@ impl ShadowLight {
     /// `distance_m` (above 0) as the settings say.
     #[must_use]
     pub fn new(settings: &ShadowSettings, distance_m: f64) -> Self {
-        Self::with_rules(&LightRules::new(settings, None, true), distance_m)
+        Self::with_params(&LightShadowParams::new(settings, None, true), distance_m)
     }
 
-    pub(crate) fn with_rules(rules: &LightRules, distance_m: f64) -> Self {
-        let half = rules.filter.half_width_texels();
+    pub(crate) fn with_params(params: &LightShadowParams, distance_m: f64) -> Self {
+        let half = params.filter.half_width_texels();
         Self {
-            filter_taps: rules.filter.taps(),
-            bias_method: match rules.bias.method {
+            filter_taps: params.filter.taps(),
+            bias_method: match params.bias.method {
                 BiasMethod::Plane => BIAS_PLANE,
                 BiasMethod::Slope => BIAS_SLOPE,
                 BiasMethod::Gradient => BIAS_GRADIENT,
             },
-            normal_sine: u32::from(rules.normal_sine()),
-            strength: rules.strength,
-            normal_bias_texels: rules.normal_texels(),
-            slope_bias: rules.bias.slope,
-            min_slope: rules.bias.min_slope,
-            max_slope: rules.bias.max_slope,
-            depth_bias_texels: rules.bias.depth_texels,
+            normal_sine: u32::from(params.normal_sine()),
+            strength: params.strength,
+            normal_bias_texels: params.normal_texels(),
+            slope_bias: params.bias.slope,
+            min_slope: params.bias.min_slope,
+            max_slope: params.bias.max_slope,
+            depth_bias_texels: params.bias.depth_texels,
             fade_end_m: distance_m as f32,
-            fade_per_m: (1.0 / (distance_m * f64::from(rules.fade_fraction))) as f32,
+            fade_per_m: (1.0 / (distance_m * f64::from(params.fade_fraction))) as f32,
             filter_half: half as f32,
             ..Self::default()
         }

@@ -6,8 +6,9 @@ use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
 use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind};
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{
-    CasterView, Error, Needs, Screen, ShadowBinding, ShadowCasters, ShadowInputs, ShadowOutputs,
-    ShadowSettings, ShadowTechnique, Technique, TechniqueContext, Techniques, add_shadows, binding,
+    CasterView, Error, Requirements, ShadowBinding, ShadowCasters, ShadowInputs, ShadowOutputs,
+    ShadowSettings, ShadowTechnique, SurfaceBuffers, Technique, TechniqueContext, Techniques, add_shadows,
+    binding,
 };
 
 struct Nothing;
@@ -39,8 +40,8 @@ impl ShadowTechnique for Liar {
         "liar"
     }
 
-    fn needs(&self, _: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(Needs::NONE)
+    fn requirements(&self, _: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(Requirements::NONE)
     }
 
     fn modules(&self, _: u32) -> Vec<ModuleSource> {
@@ -55,7 +56,7 @@ impl ShadowTechnique for Liar {
         &'f self,
         frame: &mut Frame<'f>,
         _: &ShadowInputs<'f>,
-        _: Option<&Screen>,
+        _: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let buffer = ShadowBinding::Buffer(frame.upload_buffer("records", vec![0; 16]));
         let format = if matches!(self, Self::OtherFormat) { Format::R32Float } else { Format::Depth32Float };
@@ -97,7 +98,7 @@ fn added(technique: &dyn ShadowTechnique, settings: &ShadowSettings) -> Result<(
     let mut frame = Frame::new();
     let mut surfaces = frame.create_texture("surfaces", TextureDesc::d2(64, 64, Format::Rgba32Float));
     frame.render_pass("surfaces").color(&mut surfaces, Contents::clear_color([0.0; 4]));
-    let screen = Screen {
+    let screen = SurfaceBuffers {
         size_px: [64, 64],
         view: frame.upload_buffer("view", vec![0; 256]),
         lights: frame.upload_buffer("lights", vec![0; 64]),

@@ -7,8 +7,8 @@ use shadowgraph::core::Frame;
 use shadowgraph::shaders::{MAPPED, ModuleSource};
 use shadowgraph::shadows::binding::UNIFORM;
 use shadowgraph::shadows::{
-    Error, Needs, Record, Screen, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs, ShadowTechnique,
-    TechniqueKind, TechniqueSettings, record,
+    Error, GpuStruct, Requirements, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs, ShadowTechnique,
+    SurfaceBuffers, TechniqueKind, TechniqueSettings, gpu_struct,
 };
 
 /// What the registry knows: a name, a line about it, how one is made, and its settings.
@@ -61,9 +61,9 @@ impl ShadowTechnique for Esm {
         EsmSettings::NAME
     }
 
-    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
+    fn requirements(&self, _inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
         // Four texels around a point: tiles get a border of two.
-        Ok(Needs { kernel_radius_texels: 2.0, ..Needs::NONE })
+        Ok(Requirements { kernel_radius_texels: 2.0, ..Requirements::NONE })
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
@@ -75,19 +75,19 @@ impl ShadowTechnique for Esm {
         [&ShadowMaps::BINDING_TYPES[..], &[UNIFORM]].concat()
     }
 
-    fn records(&self) -> Vec<Record> {
-        vec![record!(Falloff { per_metre })]
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
+        vec![gpu_struct!(Falloff { per_metre })]
     }
 
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&Screen>,
+        _screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let settings: EsmSettings = inputs.settings.techniques.get()?;
-        let needs = self.needs(inputs)?;
-        let maps = frame.node("esm", |frame| self.maps.add_to(frame, inputs, &needs))?;
+        let requirements = self.requirements(inputs)?;
+        let maps = frame.node("esm", |frame| self.maps.add_to(frame, inputs, &requirements))?;
         let falloff = Falloff { per_metre: 1.0 / settings.falloff_m };
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Uniform(frame.uniform(bytemuck::bytes_of(&falloff))));

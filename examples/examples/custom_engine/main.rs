@@ -1,6 +1,6 @@
 //! Shadows in an engine of one's own: its scene is a list of boxes, its lit shader is its own, and the graph and the shadow
 //! technique are Shadowgraph's. Another technique of maps is another value in one line; those that read the surfaces of the
-//! picture want a [`Screen`](shadowgraph::shadows::Screen) too.
+//! picture want a [`SurfaceBuffers`](shadowgraph::shadows::SurfaceBuffers) too.
 //!
 //! `cargo run -p shadowgraph-examples --example custom_engine` writes out/custom_engine.png; `-- --window` shows it.
 

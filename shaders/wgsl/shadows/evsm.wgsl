@@ -2,17 +2,17 @@
 // one that grows towards it (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008; Annen et al., "Exponential Shadow Maps",
 // 2008). A tail of Chebyshev's inequality bounds how much of what lies around a point is farther away than the point.
 #define_import_path shadowgraph::shadows::encoding
-#import shadowgraph::shadows::moment_rules::MomentRules
+#import shadowgraph::shadows::moment_params::MomentParams
 #import shadowgraph::shadows::evsm_layout::{FOUR, HALF}
 
 // `depth`: 0 nearest to the light, 1 farthest.
-fn warped(rules: MomentRules, depth: f32) -> vec2f {
+fn warped(params: MomentParams, depth: f32) -> vec2f {
     let centred = 2.0 * saturate(depth) - 1.0;
-    return vec2f(exp(rules.exponents.x * centred), -exp(-rules.exponents.y * centred));
+    return vec2f(exp(params.exponents.x * centred), -exp(-params.exponents.y * centred));
 }
 
-fn moments_of(rules: MomentRules, depth: f32) -> vec4f {
-    let warp = warped(rules, depth);
+fn moments_of(params: MomentParams, depth: f32) -> vec4f {
+    let warp = warped(params, depth);
     return vec4f(warp, warp * warp).xzyw;
 }
 
@@ -43,14 +43,14 @@ fn chebyshev(moments: vec2f, depth: f32, least_variance: f32, bleed: f32) -> f32
     return saturate((bound - bleed) / (1.0 - bleed));
 }
 
-fn lit_of(rules: MomentRules, moments: vec4f, depth: f32) -> f32 {
-    let warp = warped(rules, depth);
+fn lit_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
+    let warp = warped(params, depth);
     // Depths that are this close count as one, on the curve of each warp.
-    let close = rules.bias * rules.exponents * warp;
+    let close = params.bias * params.exponents * warp;
     let least = close * close;
-    let lit = chebyshev(moments.xy, warp.x, least.x, rules.bleed);
+    let lit = chebyshev(moments.xy, warp.x, least.x, params.bleed);
     if FOUR {
-        return min(lit, chebyshev(moments.zw, warp.y, least.y, rules.bleed));
+        return min(lit, chebyshev(moments.zw, warp.y, least.y, params.bleed));
     }
     return lit;
 }

@@ -4,13 +4,13 @@
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::encoding::{unpacked, lit_of}
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::moment_rules::{MomentRules, linear_depth}
+#import shadowgraph::shadows::moment_params::{MomentParams, linear_depth}
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
 @group(1) @binding(8) var cascade_moments: texture_2d<u32>;
 @group(1) @binding(9) var atlas_moments: texture_2d<u32>;
-@group(1) @binding(10) var<uniform> rules: MomentRules;
+@group(1) @binding(10) var<uniform> params: MomentParams;
 
 fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
     if map == MAP_CASCADES {
@@ -44,7 +44,7 @@ fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
     if shadow_view.light.w != 0.0 {
         distance = length(shadow_view.light.xyz - receiver.position);
     }
-    let texel_world = shadow_view.texel_world * distance * f32(rules.downscale);
+    let texel_world = shadow_view.texel_world * distance * f32(params.downscale);
     let pixel_world = sqrt(length(receiver.ddx_position) * length(receiver.ddy_position));
     return pixel_world / max(texel_world, 1e-9);
 }
@@ -53,16 +53,16 @@ fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let across = texels_across(shadow_view, receiver);
-    let level = select(0.0, min(log2(across), f32(rules.mips - 1u)), across > 1.0);
+    let level = select(0.0, min(log2(across), f32(params.mips - 1u)), across > 1.0);
     let mip = u32(level);
     var moments = mixed(light.map, lookup.uv, mip);
     if level > f32(mip) {
         moments = mix(moments, mixed(light.map, lookup.uv, mip + 1u), level - f32(mip));
     }
     // A quarter of the way that is read is left to the receiver's own plane, and to the foot of lit walls; tents take more.
-    let reach = 0.25 * f32(rules.downscale * (rules.radius + 1u)) * exp2(level);
+    let reach = 0.25 * f32(params.downscale * (params.radius + 1u)) * exp2(level);
     let slope = lookup.plane.slope;
     let rise = reach * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
     let depth = min(lookup.plane.depth + rise, 1.0);
-    return lit_of(rules, moments, linear_depth(shadow_view, depth));
+    return lit_of(params, moments, linear_depth(shadow_view, depth));
 }

@@ -1,10 +1,10 @@
 // The moments of the technique `msm`: the first four powers of depth, in 16 bits each (Peters and Klein, "Moment Shadow Mapping",
 // 2015). The sharpest bound that four moments allow says how much of what lies around a point is farther away than the point.
 #define_import_path shadowgraph::shadows::encoding
-#import shadowgraph::shadows::moment_rules::MomentRules
+#import shadowgraph::shadows::moment_params::MomentParams
 
 // `depth`: 0 nearest to the light, 1 farthest.
-fn moments_of(rules: MomentRules, depth: f32) -> vec4f {
+fn moments_of(params: MomentParams, depth: f32) -> vec4f {
     let z = saturate(depth);
     let square = z * z;
     return vec4f(z, square, square * z, square * square);
@@ -39,9 +39,9 @@ fn unpacked(texel: vec4u) -> vec4f {
 const SMALLEST: f32 = 1e-12;
 
 // The paper's algorithm 4, *Hamburger four moment shadow mapping*.
-fn lit_of(rules: MomentRules, moments: vec4f, depth: f32) -> f32 {
+fn lit_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
     // Away from what rounding may have made of them: towards moments that any depths could have.
-    let b = mix(moments, vec4f(0.5), rules.bias);
+    let b = mix(moments, vec4f(0.5), params.bias);
     // The Cholesky factors of the moments' matrix.
     let l32_d22 = b.z - b.x * b.y;
     let d22 = b.y - b.x * b.x;
@@ -70,5 +70,5 @@ fn lit_of(rules: MomentRules, moments: vec4f, depth: f32) -> f32 {
     } else if z1 < depth {
         blocked = (depth * z2 - b.x * (depth + z2) + b.y) / max((z2 - z1) * (depth - z1), SMALLEST);
     }
-    return saturate(1.0 - blocked / (1.0 - rules.bleed));
+    return saturate(1.0 - blocked / (1.0 - params.bleed));
 }

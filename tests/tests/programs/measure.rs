@@ -149,7 +149,7 @@ fn wrong_input_is_told_in_one_line_before_anything_is_drawn() {
     let variants = file("variants.ron", variants);
     let cases = file("cases.ron", r#"(cases: [(scene: Trial("castle"))])"#);
     for (arguments, code, expected) in [
-        (vec!["--techniques", "pcf,soft"], 1, "--techniques: there is no technique `soft`"),
+        (vec!["--techniques", "pcf,soft"], 1, "--techniques: unknown technique `soft`"),
         (vec!["--check", &bounds], 1, "there is no metric `blur`"),
         (vec!["--check", &other], 1, "`evsm` is not among --techniques: pcf"),
         (

@@ -1,7 +1,7 @@
 //! Truth between the centres of pixels.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
-use shadowgraph_shadows::rays::{RayScene, ReceiverPoint, hard};
+use shadowgraph_shadows::rays::{RayScene, ReceiverPoint, trace_hard};
 
 use super::Surfaces;
 use super::truth::{RayLight, mean};
@@ -51,7 +51,7 @@ impl<'a> Fine<'a> {
         let geometric_normal = self.surfaces.normals[pixel];
         let receiver =
             ReceiverPoint { position, geometric_normal, view_distance_m: position.distance(self.eye) };
-        Some(mean(hard(self.rays, &self.light.shape, &receiver, false).visibility))
+        Some(mean(trace_hard(self.rays, &self.light.shape, &receiver, false).visibility))
     }
 
     /// The point of a pixel's tangent plane that is seen beside its centre, relative to the frame's origin.

@@ -115,7 +115,7 @@ impl Probe {
             cache: None,
         });
         let layouts = renderer.casters.scene.layouts();
-        let reads = renderer.technique.reads_surfaces();
+        let reads = renderer.technique.reads_surface_buffers();
         let surfaces = reads.then(|| SurfaceDrawer::new(device, layouts)).transpose()?;
         Ok(Self { view_layout, shadow_layout, points_layout, pipeline, surfaces })
     }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use shadowgraph_scene::{Light, LightKind};
-use shadowgraph_shadows::rays::{LightShape, RayScene, ReceiverPoint, hard, soft};
+use shadowgraph_shadows::rays::{LightShape, RayScene, ReceiverPoint, trace_hard, trace_soft};
 
 use super::Surfaces;
 use super::parallel::rows;
@@ -97,7 +97,7 @@ impl Truth {
                 light.direction_from(surfaces.positions[pixel]).filter(|_| surfaces.is_drawn(pixel));
             let Some(to_light) = to_light else { return dark };
             let n_dot_l = surfaces.normals[pixel].dot(to_light);
-            let truth = hard(scene, &light.shape, &receiver(surfaces, pixel, eye), true);
+            let truth = trace_hard(scene, &light.shape, &receiver(surfaces, pixel, eye), true);
             (mean(truth.visibility), truth.blocker_m.unwrap_or(f32::INFINITY), n_dot_l, to_light)
         });
         Self {
@@ -126,7 +126,7 @@ impl Truth {
                 return 0.0;
             }
             let receiver = receiver(surfaces, pixel, eye);
-            let seen = |rays| mean(soft(scene, &light.shape, &receiver, rays));
+            let seen = |rays| mean(trace_soft(scene, &light.shape, &receiver, rays));
             let scouted = seen(SCOUTS);
             if scouted == hard[pixel] { scouted } else { seen(rays) }
         })

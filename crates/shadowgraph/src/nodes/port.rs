@@ -2,7 +2,7 @@
 
 use shadowgraph_core::{Buffer, Format, Texture};
 use shadowgraph_lighting::{GBuffer, ViewBuffers};
-use shadowgraph_shadows::{Screen, ShadowOutputs};
+use shadowgraph_shadows::{ShadowOutputs, SurfaceBuffers};
 
 /// What a port hands on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +109,7 @@ pub enum Value<'f> {
     /// The camera and the lights.
     View(ViewBuffers),
     /// What the picture shows.
-    Surfaces(Screen),
+    Surfaces(SurfaceBuffers),
     /// Shadows.
     Shadows(ShadowOutputs<'f>),
     /// What deferred lighting reads.
@@ -148,8 +148,8 @@ impl From<ViewBuffers> for Value<'_> {
     }
 }
 
-impl From<Screen> for Value<'_> {
-    fn from(screen: Screen) -> Self {
+impl From<SurfaceBuffers> for Value<'_> {
+    fn from(screen: SurfaceBuffers) -> Self {
         Self::Surfaces(screen)
     }
 }

@@ -2,7 +2,7 @@
 
 use shadowgraph_core::{Buffer, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{GBuffer, ViewBuffers};
-use shadowgraph_shadows::{Screen, ShadowOutputs};
+use shadowgraph_shadows::{ShadowOutputs, SurfaceBuffers};
 
 use super::port::{Need, Port, Value};
 use crate::Error;
@@ -97,7 +97,7 @@ impl<'f> Ports<'_, 'f> {
     ///
     /// # Errors
     /// As [`texture`](Self::texture), but for what is not fed.
-    pub fn surfaces(&self, name: &str) -> Result<Option<Screen>, Error> {
+    pub fn surfaces(&self, name: &str) -> Result<Option<SurfaceBuffers>, Error> {
         match self.value(name)? {
             None => Ok(None),
             Some(Value::Surfaces(screen)) => Ok(Some(screen.clone())),

@@ -52,10 +52,12 @@ pub(crate) fn wrong_setting(
     use shadowgraph_shadows::Error as E;
     let field = match error {
         E::Setting { field, .. } => (*field).to_owned(),
-        E::OwnSetting { technique, field, .. } => format!("techniques.{technique}.{field}"),
-        E::Technique { technique: name, .. } | E::NoTechnique { name, .. } => format!("techniques.{name}"),
-        E::NoSuchLight { entry, .. } | E::LightTwice { entry, .. } => format!("lights.{entry}.light"),
-        E::UnreadSettings { technique, reason } => {
+        E::TechniqueSetting { technique, field, .. } => format!("techniques.{technique}.{field}"),
+        E::Technique { technique: name, .. } | E::UnknownTechnique { name, .. } => {
+            format!("techniques.{name}")
+        }
+        E::UnknownLight { entry, .. } | E::DuplicateLight { entry, .. } => format!("lights.{entry}.light"),
+        E::MalformedSettings { technique, reason } => {
             let whose = format!("technique `{technique}`");
             return ron_file::wrong_inside(
                 file,
@@ -170,7 +172,7 @@ mod tests {
         let own: TechniquesOnly = ron::from_str(own).unwrap();
         let techniques = Techniques::built_in();
         let kinds = techniques.kinds().iter().filter_map(|kind| Some((kind.name, kind.default_settings()?)));
-        let tops = Techniques::combinations().map(|(name, _, defaults)| (name, defaults));
+        let tops = Techniques::modifiers().map(|(name, _, defaults)| (name, defaults));
         let defaults: BTreeMap<String, ron::Value> =
             kinds.chain(tops).map(|(name, text)| (name.into(), ron::from_str(&text).unwrap())).collect();
         assert_eq!(own.techniques, defaults);

@@ -20,7 +20,7 @@ impl Minimal {
     /// # Errors
     /// If the technique's WGSL does not compose.
     pub fn new(build: &Build<'_>) -> Result<Self, Error> {
-        let reads = build.technique.reads_surfaces();
+        let reads = build.technique.reads_surface_buffers();
         Ok(Self {
             surfaces: reads.then(|| SurfaceDrawer::new(build.device, build.layouts)).transpose()?,
             lighting: Lighting::new(build.device, build.layouts, build.technique, build.lit)?,

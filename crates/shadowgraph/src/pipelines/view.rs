@@ -4,7 +4,7 @@ use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, Tonemap, ViewUniforms};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_scene::{Camera, Light};
-use shadowgraph_shadows::{Screen, ShadowInputs, ShadowOutputs, ShadowTechnique, add_shadows};
+use shadowgraph_shadows::{ShadowInputs, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
 
 use crate::renderer::PICTURE_FORMAT;
 use crate::{Error, SceneCasters, ViewOptions};
@@ -53,7 +53,7 @@ impl<'v> View<'v> {
     pub fn shadows(
         &'v self,
         frame: &mut Frame<'v>,
-        screen: Option<&Screen>,
+        screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'v>, Error> {
         Ok(add_shadows(self.technique, frame, &self.shadow_inputs(), screen)?)
     }

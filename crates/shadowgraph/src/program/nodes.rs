@@ -38,7 +38,7 @@ fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     if told.is_empty() {
         let kinds = nodes.kinds().iter().map(|kind| kind.name);
         let of_techniques = techniques.kinds().iter().map(|kind| kind.name);
-        let tops = Techniques::combinations().map(|(top, ..)| top);
+        let tops = Techniques::modifiers().map(|(top, ..)| top);
         let all = BUILT_IN.iter().copied().chain(kinds).chain(of_techniques).chain(tops).chain([SHARED]);
         let near = near_words(name, all);
         let message = format!("there is no pipeline, kind of node or technique `{name}`{near}");
@@ -55,7 +55,7 @@ fn technique(name: &str, techniques: &Techniques) -> Result<String, Failure> {
     let mut out = String::new();
     for part in name.split('+').map(str::trim) {
         let kind = techniques.kinds().iter().find(|kind| kind.name == part);
-        let top = || Techniques::combinations().find(|(top, ..)| *top == part);
+        let top = || Techniques::modifiers().find(|(top, ..)| *top == part);
         let (title, summary, defaults) = match kind {
             Some(kind) => (part.to_owned(), kind.summary, kind.default_settings()),
             None => match top() {
@@ -116,7 +116,7 @@ fn all(registry: &Registry) -> Result<String, Failure> {
         settings(&mut out, kind.name, kind.default_settings());
     }
     out.push_str("\non top of each technique, such as pcf+contact\n");
-    for (name, what, defaults) in Techniques::combinations() {
+    for (name, what, defaults) in Techniques::modifiers() {
         let _ = writeln!(out, "  {:<16}{what}", format!("+{name}"));
         settings(&mut out, name, Some(defaults));
     }

@@ -16,7 +16,7 @@ impl Renderer {
     pub(crate) fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Shown, Error> {
         let output = self.wiring.add(frame, view)?;
         let picture = self.shown(frame, view, &output)?;
-        let ShadowOutputs { records, unshadowed, .. } = output.shadows;
+        let ShadowOutputs { debug_buffers: records, unshadowed, .. } = output.shadows;
         Ok(Shown { picture, records, unshadowed })
     }
 

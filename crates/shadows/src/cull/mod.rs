@@ -2,7 +2,7 @@
 //!
 //! - [`ReceiverHull`] is the part of the view in which shadows are seen. [`ReceiverHull::swept_towards`] and
 //!   [`ReceiverHull::hull_with`] are the spaces outside which a caster cannot darken anything in it.
-//! - [`ServedCasters`] tells which casters a cascade does without: those that can darken only what reads a finer
+//! - [`RedundantCasters`] tells which casters a cascade does without: those that can darken only what reads a finer
 //!   cascade, or nothing that is seen.
 //!
 //! Both err on the side of keeping: a caster that is dropped touches no visible point, while some that could
@@ -15,8 +15,8 @@ mod view_in_light;
 mod volumes;
 
 pub use receivers::ReceiverHull;
-pub use served::{Served, ServedCasters};
-pub use view_in_light::ViewInLight;
+pub use served::{CoveredByFinerCascade, RedundantCasters};
+pub use view_in_light::LightSpaceView;
 
 #[cfg(test)]
 mod testing;

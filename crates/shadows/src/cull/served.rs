@@ -3,14 +3,14 @@
 use glam::DVec3;
 use shadowgraph_scene::Aabb;
 
-use super::ViewInLight;
+use super::LightSpaceView;
 use super::supports::rounding_m;
 
 /// Which receivers read a cascade, or one finer. Coordinates are on the light's axes: x and y across the light, z
 /// towards it, metres from the world's origin.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Served {
+pub enum CoveredByFinerCascade {
     /// Those in the box.
     ///
     /// It must already be smaller than what the cascade's map covers by whatever can send a receiver inside to a
@@ -26,7 +26,7 @@ pub enum Served {
     /// Those up to a view depth.
     Depth {
         /// What is left of the visible receivers from that depth (less the width of a blend) on.
-        beyond: ViewInLight,
+        beyond: LightSpaceView,
     },
 }
 
@@ -37,13 +37,13 @@ pub enum Served {
 /// of that column is left once the spaces that finer cascades serve are taken away. So it is kept for receivers
 /// beside those spaces, and further along the light than they reach.
 #[derive(Clone, Copy, Debug)]
-pub struct ServedCasters<'a> {
-    view: &'a ViewInLight,
-    finer: &'a [Served],
+pub struct RedundantCasters<'a> {
+    view: &'a LightSpaceView,
+    finer: &'a [CoveredByFinerCascade],
     reach_m: f64,
 }
 
-impl<'a> ServedCasters<'a> {
+impl<'a> RedundantCasters<'a> {
     /// Asks for the cascade after `finer`, the finest first. `view` is all that is visible.
     ///
     /// `reach_m` (metres, at least 0) is how far from a receiver, across the light and along it, this cascade is
@@ -51,7 +51,7 @@ impl<'a> ServedCasters<'a> {
     ///
     /// Without finer cascades only casters that darken nothing visible are left out.
     #[must_use]
-    pub fn new(view: &'a ViewInLight, finer: &'a [Served], reach_m: f64) -> Self {
+    pub fn new(view: &'a LightSpaceView, finer: &'a [CoveredByFinerCascade], reach_m: f64) -> Self {
         Self { view, finer, reach_m: reach_m.max(0.0) }
     }
 
@@ -60,20 +60,20 @@ impl<'a> ServedCasters<'a> {
     /// ```
     /// use glam::{DMat3, DVec3};
     /// use shadowgraph_scene::Aabb;
-    /// use shadowgraph_shadows::{ReceiverHull, Served, ServedCasters, ViewInLight};
+    /// use shadowgraph_shadows::{ReceiverHull, CoveredByFinerCascade, RedundantCasters, LightSpaceView};
     /// let cube = |half: f64| Aabb { min: DVec3::splat(-half), max: DVec3::splat(half) };
-    /// let view = ViewInLight::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
-    /// let finer = [Served::Box(Aabb { min: DVec3::splat(-5.0), max: DVec3::new(5.0, 5.0, 20.0) })];
-    /// let coarser = ServedCasters::new(&view, &finer, 0.1);
+    /// let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
+    /// let finer = [CoveredByFinerCascade::Box(Aabb { min: DVec3::splat(-5.0), max: DVec3::new(5.0, 5.0, 20.0) })];
+    /// let coarser = RedundantCasters::new(&view, &finer, 0.1);
     /// // What is visible below -5 reads the coarser cascade.
-    /// assert!(!coarser.is_served(&cube(1.0)));
-    /// let finer = [Served::Box(Aabb { min: DVec3::new(-5.0, -5.0, -20.0), max: DVec3::splat(5.0) })];
-    /// let coarser = ServedCasters::new(&view, &finer, 0.1);
-    /// assert!(coarser.is_served(&cube(1.0)));
-    /// assert!(!coarser.is_served(&cube(4.95)));
+    /// assert!(!coarser.is_redundant(&cube(1.0)));
+    /// let finer = [CoveredByFinerCascade::Box(Aabb { min: DVec3::new(-5.0, -5.0, -20.0), max: DVec3::splat(5.0) })];
+    /// let coarser = RedundantCasters::new(&view, &finer, 0.1);
+    /// assert!(coarser.is_redundant(&cube(1.0)));
+    /// assert!(!coarser.is_redundant(&cube(4.95)));
     /// ```
     #[must_use]
-    pub fn is_served(&self, caster_light: &Aabb) -> bool {
+    pub fn is_redundant(&self, caster_light: &Aabb) -> bool {
         let Aabb { min, max } = *caster_light;
         let column =
             Aabb { min: (min.truncate() - self.reach_m).extend(f64::NEG_INFINITY), max: max + self.reach_m };
@@ -82,18 +82,18 @@ impl<'a> ServedCasters<'a> {
 }
 
 /// Whether all that is visible in the box is served.
-fn all_served(piece: &Aabb, view: &ViewInLight, finer: &[Served]) -> bool {
+fn all_served(piece: &Aabb, view: &LightSpaceView, finer: &[CoveredByFinerCascade]) -> bool {
     view.visible_part(piece).is_none_or(|part| part_served(&part, view, finer))
 }
 
 /// The same for a box that has been found to hold something visible.
-fn part_served(part: &Aabb, view: &ViewInLight, finer: &[Served]) -> bool {
+fn part_served(part: &Aabb, view: &LightSpaceView, finer: &[CoveredByFinerCascade]) -> bool {
     // The coarsest of them takes away the most.
     let Some((served, finer)) = finer.split_last() else { return false };
     let inner = match served {
-        Served::Depth { beyond } => return all_served(part, beyond, finer),
-        Served::Box(served) => common(part, served),
-        Served::Sphere { center_light, radius_m } => inscribed(part, *center_light, *radius_m),
+        CoveredByFinerCascade::Depth { beyond } => return all_served(part, beyond, finer),
+        CoveredByFinerCascade::Box(served) => common(part, served),
+        CoveredByFinerCascade::Sphere { center_light, radius_m } => inscribed(part, *center_light, *radius_m),
     };
     match inner {
         Some(inner) => outside(part, &inner).all(|piece| all_served(&piece, view, finer)),

@@ -13,7 +13,7 @@ use super::supports::{parallel, rounding_m};
 /// Interference Detection", SIGGRAPH 1996), for convex hulls instead of boxes. For one hull it misses nothing: every
 /// box apart from it is told to be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ViewInLight {
+pub struct LightSpaceView {
     bounds: Aabb,
     sides: Vec<Side>,
     slopes: Vec<Slope>,
@@ -44,7 +44,7 @@ const SHORT: f64 = 1e-6;
 /// Directions whose z is less are taken to lie across the light.
 const ACROSS: f64 = 1e-9;
 
-impl ViewInLight {
+impl LightSpaceView {
     /// Rotates the hull onto the light's axes. `light_from_world` is a rotation. A hull that is not finite is
     /// taken to be everywhere.
     #[must_use]

@@ -6,7 +6,7 @@ use shadowgraph_core::{Bind, Contents, Format, Frame, Part, Pass, Rendering, Tex
 
 use super::cache::{CachedMap, TileKey};
 use super::{DrawnMap, ShadowMaps, Views};
-use crate::{CasterPass, MapPlan, ShadowCasters, ShadowView, TINT_FORMAT, TilePart, TilePlan, TileRect};
+use crate::{CasterPass, MapPlan, ShadowCasters, ShadowView, TINT_FORMAT, TileKind, TilePlan, TileRect};
 
 /// The bytes of a view: also the step of its dynamic offset.
 const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
@@ -37,13 +37,13 @@ pub(super) struct Source<'v, 'f> {
 }
 
 /// One of the textures of a map.
-struct Sheet<'p> {
+struct MapTexture<'p> {
     name: &'static str,
     pass: CasterPass,
     plan: &'p MapPlan,
 }
 
-impl Sheet<'_> {
+impl MapTexture<'_> {
     fn format(&self) -> Format {
         if self.pass == CasterPass::Tint { TINT_FORMAT } else { self.plan.depth.texture_format() }
     }
@@ -96,40 +96,40 @@ impl ShadowMaps {
         let tiles = plan.iter().flat_map(|plan| &plan.tiles).map(|tile| (tile.rect, tile.view)).collect();
         let is_tinted = |plan: &&MapPlan| plan.tiles.iter().any(|tile| !tile.tints.is_empty());
         let tinted = plan.filter(is_tinted);
-        let mut sheet = |name, pass, plan, lit, depth: Option<&Texture>| match plan {
-            Some(plan) => self.sheet(frame, &Sheet { name, pass, plan }, depth, source),
+        let mut texture_or_lit = |name, pass, plan, lit, depth: Option<&Texture>| match plan {
+            Some(plan) => self.map_texture(frame, &MapTexture { name, pass, plan }, depth, source),
             None => {
                 self.forget(source.view, name);
                 frame.import_texture(format_args!("no {name}"), lit, true)
             }
         };
-        let texture = sheet(names.depth, CasterPass::Depth, plan, &self.lit, None);
-        let tint_depths = sheet(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None);
-        let tints = sheet(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture));
+        let texture = texture_or_lit(names.depth, CasterPass::Depth, plan, &self.lit, None);
+        let tint_depths = texture_or_lit(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None);
+        let tints = texture_or_lit(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture));
         DrawnMap { texture, tints, tint_depths, tiles }
     }
 
     /// Draws one of a map's textures, or those tiles of it that do not hold what they should.
-    fn sheet<'f>(
+    fn map_texture<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        sheet: &Sheet<'_>,
+        map: &MapTexture<'_>,
         depth: Option<&Texture>,
         source: Source<'_, 'f>,
     ) -> Texture {
-        if sheet.plan.cache {
-            return self.update(frame, sheet, depth, source);
+        if map.plan.cache {
+            return self.update(frame, map, depth, source);
         }
-        self.forget(source.view, sheet.name);
-        let [width, height] = sheet.plan.size_px;
-        let mut texture = frame.create_texture(sheet.name, TextureDesc::d2(width, height, sheet.format()));
-        frame.node(sheet.name, |frame| {
+        self.forget(source.view, map.name);
+        let [width, height] = map.plan.size_px;
+        let mut texture = frame.create_texture(map.name, TextureDesc::d2(width, height, map.format()));
+        frame.node(map.name, |frame| {
             // All of the map, as shaders sample it whole and its tiles need not cover it. Tiles do not overlap, so
             // nothing orders them among each other, and all become one render pass that begins with this clear.
-            sheet.clear(frame, &mut texture);
-            for tile in sheet.plan.tiles.iter().filter(|tile| !tile.casters_of(sheet.pass).is_empty()) {
+            map.clear(frame, &mut texture);
+            for tile in map.plan.tiles.iter().filter(|tile| !tile.casters_of(map.pass).is_empty()) {
                 let target = Target { texture: &mut texture, depth, contents: Contents::Preserve };
-                self.tile(frame, sheet, target, tile, source, |_| ());
+                self.tile(frame, map, target, tile, source, |_| ());
             }
         });
         texture
@@ -139,41 +139,41 @@ impl ShadowMaps {
     fn update<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        sheet: &Sheet<'_>,
+        map: &MapTexture<'_>,
         depth: Option<&Texture>,
         source: Source<'_, 'f>,
     ) -> Texture {
-        let cached = self.cached(source.view, sheet);
+        let cached = self.cached(source.view, map);
         let cleared = cached.is_cleared();
-        let mut texture = frame.import_texture(sheet.name, &cached.texture, cleared);
-        frame.node(sheet.name, |frame| {
+        let mut texture = frame.import_texture(map.name, &cached.texture, cleared);
+        frame.node(map.name, |frame| {
             if !cleared {
                 let cached = cached.clone();
-                sheet.clear(frame, &mut texture).body(move |_| {
+                map.clear(frame, &mut texture).body(move |_| {
                     cached.note_clear();
                     Ok(())
                 });
             }
-            for tile in &sheet.plan.tiles {
-                let key = sheet.key(tile, source);
+            for tile in &map.plan.tiles {
+                let key = map.key(tile, source);
                 if key.as_ref().is_some_and(|key| cached.holds(tile.rect, key)) {
                     continue;
                 }
                 // What a pass has drawn is known when it has been recorded, not when it is declared.
                 let cached = cached.clone();
                 let note = move |rect| cached.note(rect, key);
-                let target = Target { texture: &mut texture, depth, contents: sheet.empty() };
-                self.tile(frame, sheet, target, tile, source, note);
+                let target = Target { texture: &mut texture, depth, contents: map.empty() };
+                self.tile(frame, map, target, tile, source, note);
             }
         });
         texture
     }
 
-    fn cached(&self, view: u32, sheet: &Sheet<'_>) -> Arc<CachedMap> {
+    fn cached(&self, view: u32, map: &MapTexture<'_>) -> Arc<CachedMap> {
         let mut all = self.cached.lock().unwrap_or_else(PoisonError::into_inner);
-        let (size_px, format) = (sheet.plan.size_px, sheet.format());
-        let make = || Arc::new(CachedMap::new(&self.device, sheet.name, size_px, format));
-        let cached = all.entry((view, sheet.name)).or_insert_with(make);
+        let (size_px, format) = (map.plan.size_px, map.format());
+        let make = || Arc::new(CachedMap::new(&self.device, map.name, size_px, format));
+        let cached = all.entry((view, map.name)).or_insert_with(make);
         if !cached.fits(size_px, format) {
             *cached = make();
         }
@@ -189,17 +189,17 @@ impl ShadowMaps {
     fn tile<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        sheet: &Sheet<'_>,
+        map: &MapTexture<'_>,
         target: Target<'_>,
         tile: &TilePlan,
         source: Source<'_, 'f>,
         then: impl FnOnce(TileRect) + Send + 'f,
     ) {
         let (light, rect, view) = (tile.light, tile.rect, tile.view);
-        let mut pass = match tile.part {
-            TilePart::Cascade(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
-            TilePart::Face(face) => frame.render_pass(format_args!("light {light} face {face}")),
-            TilePart::Whole => frame.render_pass(format_args!("light {light}")),
+        let mut pass = match tile.kind {
+            TileKind::Cascade(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
+            TileKind::Face(face) => frame.render_pass(format_args!("light {light} face {face}")),
+            TileKind::Whole => frame.render_pass(format_args!("light {light}")),
         };
         let (buffer, views) = source.views;
         let buffer = pass.storage_buffer(buffer);
@@ -212,9 +212,9 @@ impl ShadowMaps {
                 pass.on(part).depth_read(depth)
             }
         };
-        let format = sheet.plan.depth.texture_format();
-        let caster_view = tile.caster_view(&views[view as usize], sheet.pass, format);
-        let (all, casters) = (source.casters, tile.casters_of(sheet.pass).to_vec());
+        let format = map.plan.depth.texture_format();
+        let caster_view = tile.caster_view(&views[view as usize], map.pass, format);
+        let (all, casters) = (source.casters, tile.casters_of(map.pass).to_vec());
         pass.body(move |ctx| {
             let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
             ctx.pass.set_bind_group(0, &group, &[view * VIEW_BYTES as u32]);

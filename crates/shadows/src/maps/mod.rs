@@ -13,8 +13,8 @@ use shadowgraph_core::{Buffer, Frame, Texture};
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE};
 use crate::technique::{ShadowBinding, ShadowOutputs};
 use crate::{
-    Allotment, Error, Needs, PcfVariant, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT, TileRect,
-    Unshadowed, caster_view_layout, plan_shadows_after,
+    AtlasAllocation, Error, PcfVariant, Requirements, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT,
+    TileRect, Unshadowed, caster_view_layout, plan_shadows_after,
 };
 
 /// What techniques of shadow maps have in common: it plans the maps of each frame, and draws casters into their tiles.
@@ -30,7 +30,7 @@ pub struct ShadowMaps {
     untinted: wgpu::Texture,
     device: wgpu::Device,
     /// The tiles that lights had in the last frame, of each view.
-    allotments: Mutex<BTreeMap<u32, Allotment>>,
+    atlas_allocations: Mutex<BTreeMap<u32, AtlasAllocation>>,
     /// The maps that are kept, by view and name.
     cached: Mutex<BTreeMap<(u32, &'static str), Arc<CachedMap>>>,
 }
@@ -78,12 +78,12 @@ impl ShadowMaps {
             lit: texel(device, "no shadows", wgpu::TextureFormat::Depth32Float),
             untinted: texel(device, "no tints", TINT_FORMAT),
             device: device.clone(),
-            allotments: Mutex::default(),
+            atlas_allocations: Mutex::default(),
             cached: Mutex::default(),
         }
     }
 
-    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass. `needs` are the
+    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass. `requirements` are the
     /// technique's.
     ///
     /// # Errors
@@ -92,13 +92,13 @@ impl ShadowMaps {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        needs: &Needs,
+        requirements: &Requirements,
     ) -> Result<DrawnMaps, Error> {
-        self.add_fitted(frame, inputs, needs, |_, _, views, _| views.clone())
+        self.add_fitted(frame, inputs, requirements, |_, _, views, _| views.clone())
     }
 
     /// Adds the passes as [`add_to`](Self::add_to) does, with views that passes write: `fit` gets the plan and the buffers of its views
-    /// and lights, and returns the buffer of views to draw and read by. Needs are to say so ([`Needs::fits_on_gpu`]).
+    /// and lights, and returns the buffer of views to draw and read by. Requirements are to say so ([`Requirements::fits_on_gpu`]).
     ///
     /// # Errors
     /// As `add_to`.
@@ -106,10 +106,10 @@ impl ShadowMaps {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        needs: &Needs,
+        requirements: &Requirements,
         fit: impl FnOnce(&mut Frame<'f>, &ShadowPlan, &Buffer, &Buffer) -> Buffer,
     ) -> Result<DrawnMaps, Error> {
-        let plan = self.plan(inputs, needs)?;
+        let plan = self.plan(inputs, requirements)?;
         let (views, lights) = frame.node("set up views", |frame| {
             let views = frame.upload_buffer("shadow views", plan.view_bytes());
             (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
@@ -123,10 +123,10 @@ impl ShadowMaps {
     }
 
     /// Plans a frame after the last one of the same view.
-    fn plan(&self, inputs: &ShadowInputs<'_>, needs: &Needs) -> Result<ShadowPlan, Error> {
-        let mut allotments = self.allotments.lock().unwrap_or_else(PoisonError::into_inner);
-        let plan = plan_shadows_after(inputs, allotments.get(&inputs.view), needs)?;
-        allotments.insert(inputs.view, plan.allotment.clone());
+    fn plan(&self, inputs: &ShadowInputs<'_>, requirements: &Requirements) -> Result<ShadowPlan, Error> {
+        let mut atlas_allocations = self.atlas_allocations.lock().unwrap_or_else(PoisonError::into_inner);
+        let plan = plan_shadows_after(inputs, atlas_allocations.get(&inputs.view), requirements)?;
+        atlas_allocations.insert(inputs.view, plan.atlas_allocation.clone());
         Ok(plan)
     }
 }
@@ -155,7 +155,7 @@ impl DrawnMaps {
             bindings,
             debug_light: self.main_light,
             debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
-            records: Some([self.views, self.lights]),
+            debug_buffers: Some([self.views, self.lights]),
             unshadowed: self.unshadowed,
             ..ShadowOutputs::default()
         }

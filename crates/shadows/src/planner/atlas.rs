@@ -1,19 +1,19 @@
 //! The atlas.
 
 use super::{Planner, place};
-use crate::rules::LightRules;
-use crate::select::{Candidate, Reach, Shape, point_face};
+use crate::light_params::LightShadowParams;
+use crate::select::{Candidate, ShadowRange, Shape, point_face};
 use crate::views::{SELECT_FACE, SELECT_MAP};
 use crate::{
-    AllotRules, AtlasTiles, MAP_ATLAS, MAX_ATLAS_TILES, MapPlan, OrthoFit, ShadowView, Slice, SpotFit,
-    TilePart, TilePlace, TilePlan, TileRect, TileWish, UnshadowedReason, allot, even_tiles, slice_sphere,
-    smallest_atlas_tile_px,
+    AtlasConfig, AtlasTiles, MAP_ATLAS, MAX_ATLAS_TILES, MapPlan, OrthoFit, ShadowView, Slice, SpotFit,
+    TileKind, TilePlacement, TilePlan, TileRect, TileRequest, UnshadowedReason, allocate_tiles, even_tiles,
+    slice_sphere, smallest_atlas_tile_px,
 };
 
 /// A light that casts shadows, and the casters of each of its tiles.
 struct Asking<'s> {
     candidate: Candidate<'s>,
-    rules: LightRules,
+    params: LightShadowParams,
     casters: Vec<Vec<u32>>,
 }
 
@@ -54,14 +54,14 @@ impl<'a> Planner<'a> {
         };
         let mut asking = Vec::new();
         for candidate in candidates {
-            let rules = self.rules(&candidate, false);
+            let params = self.params(&candidate, false);
             // The smallest tile has the widest margin: what its view misses, a larger tile's misses too.
-            let cull = |tile| self.fit(&candidate.shape, tile, smallest_px, &rules).cull(self, &rules);
+            let cull = |tile| self.fit(&candidate.shape, tile, smallest_px, &params).cull(self, &params);
             let casters: Vec<Vec<u32>> = (0..candidate.shape.tiles()).map(cull).collect();
             if casters.iter().all(Vec::is_empty) {
-                self.skip(candidate.light, UnshadowedReason::NoCasterInReach);
+                self.skip(candidate.light, UnshadowedReason::NoCasterInRange);
             } else {
-                asking.push(Asking { candidate, rules, casters });
+                asking.push(Asking { candidate, params, casters });
             }
         }
         asking
@@ -98,24 +98,24 @@ impl<'a> Planner<'a> {
     /// Tiles as large as the lights are important.
     fn by_importance(&mut self, mut asking: Vec<Asking<'a>>, smallest_px: u32) -> Vec<(Asking<'a>, Tiles)> {
         let map_px = self.inputs.settings.atlas.map_size_px;
-        let rules = AllotRules { map_px, smallest_px, largest_px: map_px };
-        let wishes: Vec<TileWish> = (0u32..)
+        let params = AtlasConfig { map_px, smallest_px, largest_px: map_px };
+        let wishes: Vec<TileRequest> = (0u32..)
             .zip(&asking)
-            .map(|(rank, light)| TileWish {
+            .map(|(rank, light)| TileRequest {
                 owner: light.candidate.light,
                 tiles: light.casters.len() as u32,
                 size_px: f64::from(map_px) * light.candidate.coverage().min(1.0),
                 importance: -f64::from(rank),
             })
             .collect();
-        self.plan.allotment = allot(&rules, &wishes, self.before);
-        for &light in &self.plan.allotment.refused.clone() {
+        self.plan.atlas_allocation = allocate_tiles(&params, &wishes, self.before);
+        for &light in &self.plan.atlas_allocation.rejected.clone() {
             self.skip(light, UnshadowedReason::AtlasFull);
         }
         asking.sort_by_key(|light| light.candidate.light);
         let tiles = |light: Asking<'a>| {
-            let granted = self.plan.allotment.granted_to(light.candidate.light)?;
-            let rects = self.plan.allotment.rects_of(light.candidate.light).to_vec();
+            let granted = self.plan.atlas_allocation.for_owner(light.candidate.light)?;
+            let rects = self.plan.atlas_allocation.rects_for(light.candidate.light).to_vec();
             Some((light, Tiles { map_size_px: [map_px; 2], tile_px: granted.tile_px, rects }))
         };
         asking.into_iter().filter_map(tiles).collect()
@@ -123,29 +123,29 @@ impl<'a> Planner<'a> {
 
     /// Adds a light's views, and returns its tiles.
     fn add_local(&mut self, light: Asking<'_>, tiles: Tiles) -> Vec<TilePlan> {
-        let Asking { candidate, rules, casters } = light;
+        let Asking { candidate, params, casters } = light;
         let depth_step = self.inputs.settings.atlas.depth.step();
         let first_view = self.plan.views.len() as u32;
         let is_point = casters.len() > 1;
-        let record = self.set_light(candidate.light, &rules, (MAP_ATLAS, first_view, casters.len() as u32));
+        let record = self.set_light(candidate.light, &params, (MAP_ATLAS, first_view, casters.len() as u32));
         record.select = if is_point { SELECT_FACE } else { SELECT_MAP };
         let mut planned = Vec::new();
         for ((index, casters), rect) in (0u32..).zip(casters).zip(tiles.rects) {
-            let fit = self.fit(&candidate.shape, index as usize, tiles.tile_px, &rules);
-            let tile = place(rect, tiles.map_size_px, &rules, depth_step);
+            let fit = self.fit(&candidate.shape, index as usize, tiles.tile_px, &params);
+            let tile = place(rect, tiles.map_size_px, &params, depth_step);
             let (casters, tints) = self.opaque_and_tints(casters);
             let is_tinted = u32::from(!tints.is_empty());
             self.plan.views.push(ShadowView { is_tinted, ..fit.view(&tile, self.inputs.origin_world) });
-            let part = if is_point { TilePart::Face(index) } else { TilePart::Whole };
+            let kind = if is_point { TileKind::Face(index) } else { TileKind::Whole };
             let (light, view) = (candidate.light, first_view + index);
-            planned.push(TilePlan { light, view, part, rect, casters, tints });
+            planned.push(TilePlan { light, view, kind, rect, casters, tints });
         }
         planned
     }
 
-    fn fit(&self, shape: &Shape, tile: usize, tile_px: u32, rules: &LightRules) -> TileFit {
-        let margin_px = rules.margin_px(1.0);
-        let near_m = rules.near_m.unwrap_or(f64::from(self.inputs.settings.atlas.spot_near_m));
+    fn fit(&self, shape: &Shape, tile: usize, tile_px: u32, params: &LightShadowParams) -> TileFit {
+        let margin_px = params.margin_px(1.0);
+        let near_m = params.near_m.unwrap_or(f64::from(self.inputs.settings.atlas.spot_near_m));
         let spot = |(cone, light_from_world)| {
             TileFit::Spot(SpotFit::new(cone, light_from_world, near_m, tile_px, margin_px))
         };
@@ -153,10 +153,10 @@ impl<'a> Planner<'a> {
             Shape::Spot { cone, light_from_world } => spot((cone, light_from_world)),
             Shape::Point { position_world, range_m } => spot(point_face(position_world, range_m, tile)),
             Shape::Directional { light_from_world } => {
-                let Reach { camera, aspect, near_m, fit_m, .. } = self.reach;
+                let ShadowRange { camera, aspect, near_m, fit_m, .. } = self.range;
                 let sphere = slice_sphere(&Slice { camera, aspect, near_m, far_m: fit_m });
                 let fit = OrthoFit::new(light_from_world, sphere, tile_px, margin_px);
-                TileFit::Directional(fit.with_near_offset(rules.near_m.unwrap_or(0.0)))
+                TileFit::Directional(fit.with_near_offset(params.near_m.unwrap_or(0.0)))
             }
         }
     }
@@ -169,17 +169,17 @@ enum TileFit {
 }
 
 impl TileFit {
-    fn view(&self, tile: &TilePlace, origin_world: glam::DVec3) -> ShadowView {
+    fn view(&self, tile: &TilePlacement, origin_world: glam::DVec3) -> ShadowView {
         match self {
             Self::Spot(fit) => ShadowView::spot(fit, tile, origin_world),
             Self::Directional(fit) => ShadowView::directional(fit, tile, origin_world),
         }
     }
 
-    fn cull(&self, planner: &Planner<'_>, rules: &LightRules) -> Vec<u32> {
+    fn cull(&self, planner: &Planner<'_>, params: &LightShadowParams) -> Vec<u32> {
         match self {
-            Self::Spot(fit) => planner.cull_local(fit, rules),
-            Self::Directional(fit) => planner.cull_directional(fit, rules),
+            Self::Spot(fit) => planner.cull_local(fit, params),
+            Self::Directional(fit) => planner.cull_directional(fit, params),
         }
     }
 }

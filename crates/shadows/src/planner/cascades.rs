@@ -3,17 +3,17 @@
 use glam::DMat3;
 
 use super::{Planner, place};
-use crate::rules::LightRules;
+use crate::light_params::LightShadowParams;
 use crate::select::{Candidate, Shape};
 use crate::{
-    CascadeFit, CascadeSelection, MAP_CASCADES, MapPlan, ShadowView, TileLayout, TilePart, TilePlan,
+    CascadeFit, CascadeSelection, MAP_CASCADES, MapPlan, ShadowView, TileKind, TileLayout, TilePlan,
     UnshadowedReason, even_tiles, fit_cascades, split_distances,
 };
 
 /// A light's cascades.
 struct Cascades<'s> {
     candidate: Candidate<'s>,
-    rules: LightRules,
+    params: LightShadowParams,
     fits: Vec<CascadeFit>,
     /// Of each cascade.
     casters: Vec<Vec<u32>>,
@@ -34,7 +34,7 @@ impl<'a> Planner<'a> {
                 .map(|light| self.cascades(light, layout.tile_px))
                 .partition(|cascades| cascades.casters.iter().any(|casters| !casters.is_empty()));
             for cascades in &idle {
-                self.skip(cascades.candidate.light, UnshadowedReason::NoCasterInReach);
+                self.skip(cascades.candidate.light, UnshadowedReason::NoCasterInRange);
             }
             if idle.is_empty() {
                 break (layout, kept);
@@ -44,7 +44,7 @@ impl<'a> Planner<'a> {
         let mut map = MapPlan {
             size_px: layout.size_px,
             depth: settings.depth,
-            cache: settings.cache && !self.needs.fits_on_gpu,
+            cache: settings.cache && !self.requirements.fits_on_gpu,
             tiles: Vec::new(),
         };
         for (cascades, rects) in planned.into_iter().zip(layout.tiles.chunks(settings.count as usize)) {
@@ -56,36 +56,41 @@ impl<'a> Planner<'a> {
 
     fn cascades(&self, candidate: Candidate<'a>, tile_px: u32) -> Cascades<'a> {
         let Shape::Directional { light_from_world } = candidate.shape else {
-            let rules = self.rules(&candidate, true);
-            return Cascades { candidate, rules, fits: Vec::new(), casters: Vec::new() };
+            let params = self.params(&candidate, true);
+            return Cascades { candidate, params, fits: Vec::new(), casters: Vec::new() };
         };
-        let rules = self.rules(&candidate, true);
-        let fits = self.fit_cascades(light_from_world, tile_px, &rules);
-        let mut casters = self.cull_cascades(&fits, &rules);
-        if self.needs.fits_on_gpu {
+        let params = self.params(&candidate, true);
+        let fits = self.fit_cascades(light_from_world, tile_px, &params);
+        let mut casters = self.cull_cascades(&fits, &params);
+        if self.requirements.fits_on_gpu {
             let mut all = casters.concat();
             all.sort_unstable();
             all.dedup();
             casters.fill(all);
         }
-        Cascades { candidate, rules, fits, casters }
+        Cascades { candidate, params, fits, casters }
     }
 
-    fn fit_cascades(&self, light_from_world: DMat3, tile_px: u32, rules: &LightRules) -> Vec<CascadeFit> {
-        let reach = &self.reach;
+    fn fit_cascades(
+        &self,
+        light_from_world: DMat3,
+        tile_px: u32,
+        params: &LightShadowParams,
+    ) -> Vec<CascadeFit> {
+        let range = &self.range;
         let settings = &self.inputs.settings.cascades;
-        let ends = split_distances(&settings.split, settings.count, reach.near_m, reach.fit_m);
+        let ends = split_distances(&settings.split, settings.count, range.near_m, range.fit_m);
         let largest_scale = settings.bias_scales.iter().copied().fold(1.0, f32::max);
-        let tile = (tile_px, rules.margin_px(largest_scale));
+        let tile = (tile_px, params.margin_px(largest_scale));
         let fit =
-            |ends: &[f64]| fit_cascades(reach.camera, reach.aspect, ends, light_from_world, tile, settings);
+            |ends: &[f64]| fit_cascades(range.camera, range.aspect, ends, light_from_world, tile, settings);
         let mut fits = fit(&ends);
-        if let Some(last) = fits.last_mut().filter(|_| self.needs.fits_on_gpu) {
+        if let Some(last) = fits.last_mut().filter(|_| self.requirements.fits_on_gpu) {
             // All of the view.
-            *last = fit(&[reach.fit_m])[0];
+            *last = fit(&[range.fit_m])[0];
         }
         fits.into_iter()
-            .map(|cascade| match rules.near_m {
+            .map(|cascade| match params.near_m {
                 Some(offset_m) => CascadeFit { fit: cascade.fit.with_near_offset(offset_m), ..cascade },
                 None => cascade,
             })
@@ -94,16 +99,16 @@ impl<'a> Planner<'a> {
 
     /// Adds a light's views, and returns its tiles.
     fn add_light(&mut self, cascades: Cascades<'_>, layout: TileLayout) -> Vec<TilePlan> {
-        let Cascades { candidate, rules, fits, casters } = cascades;
+        let Cascades { candidate, params, fits, casters } = cascades;
         let mut settings = self.inputs.settings.cascades.clone();
-        if self.needs.fits_on_gpu {
+        if self.requirements.fits_on_gpu {
             settings.select = CascadeSelection::Map;
         }
         let first_view = self.plan.views.len() as u32;
-        let mut begin_m = self.reach.near_m;
+        let mut begin_m = self.range.near_m;
         let mut tiles = Vec::new();
         for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
-            let tile = place(rect, layout.size_px, &rules, settings.depth.step());
+            let tile = place(rect, layout.size_px, &params, settings.depth.step());
             let (casters, tints) = self.opaque_and_tints(casters);
             self.plan.views.push(ShadowView {
                 cascade,
@@ -114,14 +119,14 @@ impl<'a> Planner<'a> {
                 ..ShadowView::directional(&fit.fit, &tile, self.inputs.origin_world)
             });
             begin_m = fit.far_m;
-            let (light, view, part) = (candidate.light, first_view + cascade, TilePart::Cascade(cascade));
-            tiles.push(TilePlan { light, view, part, rect, casters, tints });
+            let (light, view, kind) = (candidate.light, first_view + cascade, TileKind::Cascade(cascade));
+            tiles.push(TilePlan { light, view, kind, rect, casters, tints });
         }
         if settings.select != CascadeSelection::Map {
             self.plan.views.push(ShadowView::nothing());
         }
         let views = (MAP_CASCADES, first_view, tiles.len() as u32);
-        let record = self.set_light(candidate.light, &rules, views);
+        let record = self.set_light(candidate.light, &params, views);
         *record = record.with_cascades(&settings);
         tiles
     }

@@ -4,11 +4,11 @@ use glam::DVec3;
 use shadowgraph_scene::{Aabb, BoundingSphere, Cone, ConvexVolume, CullVolume};
 
 use super::Planner;
-use crate::rules::LightRules;
-use crate::select::Reach;
+use crate::light_params::LightShadowParams;
+use crate::select::ShadowRange;
 use crate::{
-    CascadeFit, CascadeSelection, CascadeSettings, OrthoFit, ReceiverHull, Served, ServedCasters,
-    ShadowInputs, SpotFit, ViewInLight,
+    CascadeFit, CascadeSelection, CascadeSettings, CoveredByFinerCascade, LightSpaceView, OrthoFit,
+    ReceiverHull, RedundantCasters, ShadowInputs, SpotFit,
 };
 
 /// What is seen, to tell which casters matter.
@@ -22,8 +22,8 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    pub(super) fn new(inputs: &ShadowInputs<'_>, reach: &Reach<'_>) -> Self {
-        let view = ReceiverHull::of_view(reach.camera, reach.aspect, reach.near_m, reach.distance_m);
+    pub(super) fn new(inputs: &ShadowInputs<'_>, range: &ShadowRange<'_>) -> Self {
+        let view = ReceiverHull::of_view(range.camera, range.aspect, range.near_m, range.distance_m);
         let bounds = inputs.casters.receivers();
         let origin = inputs.origin_world;
         let farthest = view.corners().iter().map(|corner| corner.distance(origin)).fold(0.0, f64::max);
@@ -50,21 +50,21 @@ fn both([mut first, second]: [ConvexVolume; 2]) -> ConvexVolume {
 
 impl Planner<'_> {
     /// The casters of a directional light's tile.
-    pub(super) fn cull_directional(&self, fit: &OrthoFit, rules: &LightRules) -> Vec<u32> {
+    pub(super) fn cull_directional(&self, fit: &OrthoFit, params: &LightShadowParams) -> Vec<u32> {
         let mut planes = fit.cull_volume();
         if self.inputs.settings.cull.unseen {
             let to_light = fit.light_from_world.transpose().z_axis;
-            planes.planes.extend(self.seen.towards(to_light, rules.reach_m(fit.texel_m, 1.0)).planes);
+            planes.planes.extend(self.seen.towards(to_light, params.reach_m(fit.texel_m, 1.0)).planes);
         }
         self.cull(&planes.into())
     }
 
     /// The casters of a tile of a spot or point light.
-    pub(super) fn cull_local(&self, fit: &SpotFit, rules: &LightRules) -> Vec<u32> {
+    pub(super) fn cull_local(&self, fit: &SpotFit, params: &LightShadowParams) -> Vec<u32> {
         let mut planes = fit.cull_volume();
         let cone = fit.cone;
         if self.inputs.settings.cull.unseen && !self.inputs.settings.atlas.cache {
-            let pad_m = rules.reach_m(fit.texel_per_m() * fit.far_m, 1.0);
+            let pad_m = params.reach_m(fit.texel_per_m() * fit.far_m, 1.0);
             planes.planes.extend(self.seen.around(cone.position_world, pad_m).planes);
         }
         // The pyramid around the cone has corners that the light does not reach, but its filter can.
@@ -85,49 +85,58 @@ impl Planner<'_> {
     }
 
     /// The casters of all cascades of a light.
-    pub(super) fn cull_cascades(&self, fits: &[CascadeFit], rules: &LightRules) -> Vec<Vec<u32>> {
-        let mut casters: Vec<_> = fits.iter().map(|fit| self.cull_directional(&fit.fit, rules)).collect();
+    pub(super) fn cull_cascades(&self, fits: &[CascadeFit], params: &LightShadowParams) -> Vec<Vec<u32>> {
+        let mut casters: Vec<_> = fits.iter().map(|fit| self.cull_directional(&fit.fit, params)).collect();
         let Some(first) = fits.first() else { return casters };
         if !self.inputs.settings.cull.covered {
             return casters;
         }
         let light_from_world = first.fit.light_from_world;
-        let in_light = |hull: &ReceiverHull| ViewInLight::new(hull, light_from_world);
+        let in_light = |hull: &ReceiverHull| LightSpaceView::new(hull, light_from_world);
         let receivers = in_light(&self.seen.receivers);
         let view = in_light(&self.seen.view).within(&receivers);
-        let served = self.served(fits, rules, &receivers);
+        let served = self.served(fits, params, &receivers);
         let axes = glam::DAffine3::from_mat3(light_from_world);
         for (cascade, (fit, casters)) in fits.iter().zip(&mut casters).enumerate().skip(1) {
-            let reach_m = rules.reach_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
-            let query = ServedCasters::new(&view, &served[..cascade], reach_m + self.seen.precision_m);
+            let reach_m = params.reach_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
+            let query = RedundantCasters::new(&view, &served[..cascade], reach_m + self.seen.precision_m);
             let bounds_of = |caster| self.inputs.casters.bounds_of(caster).transformed(&axes);
-            casters.retain(|&caster| !query.is_served(&bounds_of(caster)));
+            casters.retain(|&caster| !query.is_redundant(&bounds_of(caster)));
         }
         casters
     }
 
     /// Which receivers read each cascade or a finer one.
-    fn served(&self, fits: &[CascadeFit], rules: &LightRules, receivers: &ViewInLight) -> Vec<Served> {
+    fn served(
+        &self,
+        fits: &[CascadeFit],
+        params: &LightShadowParams,
+        receivers: &LightSpaceView,
+    ) -> Vec<CoveredByFinerCascade> {
         let settings = &self.inputs.settings.cascades;
         let blend = f64::from(settings.blend.fraction());
         let scale = f64::from(largest_scale(settings));
-        let mut begin_m = self.reach.near_m;
+        let mut begin_m = self.range.near_m;
         let served = |fit: &CascadeFit| {
             let OrthoFit { light_from_world, texel_m, .. } = fit.fit;
-            let slack_m = self.seen.precision_m + texel_m * (scale * f64::from(rules.normal_texels()) + 0.1);
+            let slack_m = self.seen.precision_m + texel_m * (scale * f64::from(params.normal_texels()) + 0.1);
             let length_m = fit.far_m - begin_m;
             begin_m = fit.far_m;
             match settings.select {
-                CascadeSelection::Map => Served::Box(inner_box(&fit.fit, rules, slack_m, blend, scale)),
-                CascadeSelection::Sphere => Served::Sphere {
+                CascadeSelection::Map => {
+                    CoveredByFinerCascade::Box(inner_box(&fit.fit, params, slack_m, blend, scale))
+                }
+                CascadeSelection::Sphere => CoveredByFinerCascade::Sphere {
                     center_light: light_from_world * fit.fit.sphere.center_world,
                     radius_m: fit.fit.sphere.radius_m * (1.0 - blend) - slack_m,
                 },
                 CascadeSelection::Depth => {
                     let from_m = fit.far_m - blend * length_m - slack_m;
-                    let reach = &self.reach;
-                    let beyond = ReceiverHull::of_view(reach.camera, reach.aspect, from_m, reach.distance_m);
-                    Served::Depth { beyond: ViewInLight::new(&beyond, light_from_world).within(receivers) }
+                    let range = &self.range;
+                    let beyond = ReceiverHull::of_view(range.camera, range.aspect, from_m, range.distance_m);
+                    CoveredByFinerCascade::Depth {
+                        beyond: LightSpaceView::new(&beyond, light_from_world).within(receivers),
+                    }
                 }
             }
         };
@@ -137,11 +146,11 @@ impl Planner<'_> {
 
 /// The points that a cascade's map covers wholly, on the light's axes: without its border, its blend, and where bias or the
 /// near plane may send a point to the next.
-fn inner_box(fit: &OrthoFit, rules: &LightRules, slack_m: f64, blend: f64, scale: f64) -> Aabb {
+fn inner_box(fit: &OrthoFit, params: &LightShadowParams, slack_m: f64, blend: f64, scale: f64) -> Aabb {
     let center = fit.center_texels * fit.texel_m;
     let half = fit.half_extent_m();
-    let inner = (half - f64::from(rules.border_px()) * fit.texel_m) * (1.0 - blend) - slack_m;
-    let steepest = f64::from(rules.reach_texels * rules.bias.slope * rules.bias.max_slope) * scale;
+    let inner = (half - f64::from(params.border_px()) * fit.texel_m) * (1.0 - blend) - slack_m;
+    let steepest = f64::from(params.kernel_radius_texels * params.bias.slope * params.bias.max_slope) * scale;
     let rise_m = std::f64::consts::SQRT_2 * steepest * fit.texel_m;
     let depth_m = fit.depth_range_m();
     let faded_m = 0.5 * blend * depth_m + slack_m + 1e-5 * depth_m;

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::{Ray, RayScene, ReceiverPoint};
 
 /// The part of the way to a point light that its rays go: they end just before what may hang around it.
-pub const WAY_TO_LIGHT: f32 = 1.0 - 1.0 / (1 << 12) as f32;
+pub const LIGHT_DISTANCE_FRACTION: f32 = 1.0 - 1.0 / (1 << 12) as f32;
 
 /// The angle from one sample on the light's disc to the next, radians.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
@@ -32,7 +32,7 @@ pub enum LightShape {
 
 /// What a receiver truly sees of a light's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth {
+pub struct GroundTruth {
     /// What of its light it sees, linear red, green and blue: 1 all, 0 none, between behind what is translucent.
     pub visibility: Vec3,
     /// The surface itself faces away from the light or stands edge-on to it: dark without any blocker.
@@ -45,20 +45,25 @@ pub struct Truth {
 /// Finds what the receiver sees of the light's centre, and if `with_blocker` how near the nearest blocker is,
 /// which takes longer.
 #[must_use]
-pub fn hard(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, with_blocker: bool) -> Truth {
+pub fn trace_hard(
+    scene: &RayScene,
+    light: &LightShape,
+    receiver: &ReceiverPoint,
+    with_blocker: bool,
+) -> GroundTruth {
     let Some(ray) = light.ray(scene, receiver, Vec2::ZERO) else {
-        return Truth { visibility: Vec3::ZERO, faces_away: true, blocker_m: None };
+        return GroundTruth { visibility: Vec3::ZERO, faces_away: true, blocker_m: None };
     };
     let blocker_m = if with_blocker { scene.nearest(&ray) } else { None };
     let visibility = if blocker_m.is_some() { Vec3::ZERO } else { scene.passed(&ray) };
-    Truth { visibility, faces_away: false, blocker_m }
+    GroundTruth { visibility, faces_away: false, blocker_m }
 }
 
 /// Returns how much of the light the receiver sees, linear red, green and blue, 0 to 1, by `rays` rays (at least one) to the
 /// points of a Vogel spiral over the light's disc: always the same ones, each for the same area. 0 where the surface faces
 /// away from the light's centre; points of the light below the surface's horizon count as not seen.
 #[must_use]
-pub fn soft(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, rays: u32) -> Vec3 {
+pub fn trace_soft(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, rays: u32) -> Vec3 {
     if light.ray(scene, receiver, Vec2::ZERO).is_none() {
         return Vec3::ZERO;
     }
@@ -87,7 +92,7 @@ impl LightShape {
             Self::Point { position, radius_m } => {
                 let to_center = (position - origin).try_normalize()?;
                 let to_point = position + across(to_center, on_disc) * radius_m - origin;
-                (to_point, to_point.length() * WAY_TO_LIGHT)
+                (to_point, to_point.length() * LIGHT_DISTANCE_FRACTION)
             }
         };
         let direction = to_point.try_normalize()?;

@@ -1,7 +1,7 @@
 //! Shadow rays: the truth that shadow maps are measured against.
 //!
-//! A [`RayScene`] holds [`Occluder`]s (triangles, some [cut](Cut), some [translucent](Tint)) in a tree. [`hard`] and
-//! [`soft`] tell how much of a [`LightShape`] a [`ReceiverPoint`] sees. [`GpuRayScene`] is the same scene for
+//! A [`RayScene`] holds [`Occluder`]s (triangles, some [cut](Cut), some [translucent](Tint)) in a tree. [`trace_hard`] and
+//! [`trace_soft`] tell how much of a [`LightShape`] a [`ReceiverPoint`] sees. [`GpuRayScene`] is the same scene for
 //! `rays.wgsl`, which does the same arithmetic.
 //!
 //! # Where a ray starts
@@ -49,7 +49,7 @@ mod tree;
 pub use channel::{ChannelTexture, Filter, Wrap};
 pub use error::Error;
 pub use gpu::GpuRayScene;
-pub use light::{LightShape, Truth, WAY_TO_LIGHT, hard, soft};
+pub use light::{GroundTruth, LIGHT_DISTANCE_FRACTION, LightShape, trace_hard, trace_soft};
 pub use occluder::{Cut, Occluder, Surface, Tint};
 pub use ray::{Ray, TriangleHit};
 pub use receiver::{OFFSET_PER_COORDINATE, OFFSET_PER_VIEW_DISTANCE, ReceiverPoint};

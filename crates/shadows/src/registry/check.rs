@@ -41,7 +41,11 @@ pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
         let module = compose("check.wgsl", &technique.modules(variant)).map_err(one_line)?;
         // Structs may be left out of variants that do not read them.
         if variant == 0 {
-            technique.records().iter().try_for_each(|record| record.check(&module)).map_err(one_line)?;
+            technique
+                .gpu_structs()
+                .iter()
+                .try_for_each(|described| described.check(&module))
+                .map_err(one_line)?;
         }
         check_bindings(&device, technique.as_ref(), module)
     })

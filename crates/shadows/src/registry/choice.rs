@@ -1,4 +1,4 @@
-//! A technique as users choose it: with what is put on top of it.
+//! A technique as users choose it, with its modifier.
 
 use std::fmt;
 
@@ -11,46 +11,46 @@ use crate::{Error, TechniqueSettings};
 #[derive(Clone, Copy)]
 pub struct Technique {
     base: TechniqueKind,
-    over: Over,
+    modifier: Modifier,
 }
 
-/// What is put on top of a technique.
+/// What is added to a technique.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Over {
+pub(super) enum Modifier {
     #[default]
-    Nothing,
+    None,
     /// Its shadows are collected in a mask.
     Screen,
-    /// They are collected, and short ones are added.
+    /// Its shadows are collected in a mask, and contact shadows are added.
     Contact,
 }
 
 impl Technique {
-    /// Returns its name, with what is put on top of it.
+    /// Returns its name, with the modifier.
     pub fn name(&self) -> String {
         let base = self.base.name;
-        match self.over {
-            Over::Nothing => base.into(),
-            Over::Screen => format!("{base}+{}", ScreenSettings::NAME),
-            Over::Contact => format!("{base}+{}", ContactSettings::NAME),
+        match self.modifier {
+            Modifier::None => base.into(),
+            Modifier::Screen => format!("{base}+{}", ScreenSettings::NAME),
+            Modifier::Contact => format!("{base}+{}", ContactSettings::NAME),
         }
     }
 
     /// Returns the technique with its shadows collected in a screen mask.
     #[must_use]
     pub fn collected(self) -> Self {
-        self.over_with(Over::Screen)
+        self.with_modifier(Modifier::Screen)
     }
 
     /// Returns the technique with its shadows collected in a screen mask, and contact shadows added.
     #[must_use]
     pub fn with_contact(self) -> Self {
-        self.over_with(Over::Contact)
+        self.with_modifier(Modifier::Contact)
     }
 
-    /// Contact shadows are collected already.
-    pub(super) fn over_with(self, over: Over) -> Self {
-        if self.over == Over::Contact { self } else { Self { over, ..self } }
+    /// Returns the technique with a modifier. Contact shadows include the screen mask.
+    pub(super) fn with_modifier(self, modifier: Modifier) -> Self {
+        if self.modifier == Modifier::Contact { self } else { Self { modifier, ..self } }
     }
 
     /// Makes one.
@@ -59,17 +59,17 @@ impl Technique {
     /// As [`TechniqueKind::make`].
     pub fn make(&self, context: &TechniqueContext<'_>) -> Result<Box<dyn ShadowTechnique>, Error> {
         let base = self.base.make(context)?;
-        Ok(match self.over {
-            Over::Nothing => base,
-            Over::Screen => Box::new(ScreenShadows::new(context.device, base)?),
-            Over::Contact => Box::new(ScreenShadows::with_contact(context.device, base)?),
+        Ok(match self.modifier {
+            Modifier::None => base,
+            Modifier::Screen => Box::new(ScreenShadows::new(context.device, base)?),
+            Modifier::Contact => Box::new(ScreenShadows::with_contact(context.device, base)?),
         })
     }
 }
 
 impl From<TechniqueKind> for Technique {
     fn from(base: TechniqueKind) -> Self {
-        Self { base, over: Over::default() }
+        Self { base, modifier: Modifier::default() }
     }
 }
 
@@ -81,7 +81,7 @@ impl Default for Technique {
 
 impl PartialEq for Technique {
     fn eq(&self, other: &Self) -> bool {
-        (self.base.name, self.over) == (other.base.name, other.over)
+        (self.base.name, self.modifier) == (other.base.name, other.modifier)
     }
 }
 

@@ -9,7 +9,7 @@ pub use built_in::{EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM};
 pub use choice::Technique;
 pub use kind::{TechniqueContext, TechniqueKind};
 
-use choice::Over;
+use choice::Modifier;
 use kind::SettingsKind;
 
 use crate::techniques::{ContactSettings, ScreenSettings};
@@ -24,7 +24,7 @@ use serde_json::Value;
 /// assert_eq!(techniques.find("pcf")?, PCF);
 /// assert_eq!(techniques.find("pcss+contact")?.name(), "pcss+contact");
 /// let error = techniques.find("soft").unwrap_err().to_string();
-/// assert!(error.starts_with("there is no technique `soft`; there is: pcf, pcss,"));
+/// assert!(error.starts_with("unknown technique `soft`; expected one of: pcf, pcss,"));
 /// # Ok::<(), shadowgraph_shadows::Error>(())
 /// ```
 #[derive(Clone)]
@@ -32,23 +32,23 @@ pub struct Techniques {
     kinds: Vec<TechniqueKind>,
 }
 
-/// Something that goes on top of a technique.
-struct Top {
+/// What is known of a modifier.
+struct ModifierKind {
     summary: &'static str,
-    over: Over,
+    modifier: Modifier,
     settings: SettingsKind,
 }
 
-/// What can be put on top of a technique, with `+` between. They are called as their settings.
-const TOPS: [Top; 2] = [
-    Top {
+/// The modifiers of techniques, written `technique+modifier`. Their names are those of their settings.
+const MODIFIERS: [ModifierKind; 2] = [
+    ModifierKind {
         summary: "shadows collected in a screen mask before anything is lit, blurred if asked",
-        over: Over::Screen,
+        modifier: Modifier::Screen,
         settings: SettingsKind::of::<ScreenSettings>(),
     },
-    Top {
+    ModifierKind {
         summary: "collected, and short shadows added of what the picture shows",
-        over: Over::Contact,
+        modifier: Modifier::Contact,
         settings: SettingsKind::of::<ContactSettings>(),
     },
 ];
@@ -66,10 +66,11 @@ impl Techniques {
     /// # Errors
     /// [`Error::Technique`] names the technique and what is wrong with it.
     pub fn register(&mut self, kind: TechniqueKind) -> Result<(), Error> {
-        let is_taken = self.kinds.iter().map(|known| known.name).chain(TOPS.map(|top| top.settings.name));
+        let is_taken =
+            self.kinds.iter().map(|known| known.name).chain(MODIFIERS.map(|known| known.settings.name));
         check::name(kind.name, is_taken)
             .and_then(|()| check::kind(&kind))
-            .map_err(|fault| Error::Technique { technique: kind.name.to_owned(), fault })?;
+            .map_err(|reason| Error::Technique { technique: kind.name.to_owned(), reason })?;
         self.kinds.push(kind);
         Ok(())
     }
@@ -79,25 +80,25 @@ impl Techniques {
         &self.kinds
     }
 
-    /// Returns what can be put on top of each, with `+` between: names, what they are, and the settings that they have by
-    /// default.
-    pub fn combinations() -> impl Iterator<Item = (&'static str, &'static str, String)> {
-        TOPS.into_iter().map(|top| (top.settings.name, top.summary, (top.settings.defaults)()))
+    /// Returns the modifiers that can follow the name of a technique after a `+`: names, summaries and default settings.
+    pub fn modifiers() -> impl Iterator<Item = (&'static str, &'static str, String)> {
+        MODIFIERS.into_iter().map(|known| (known.settings.name, known.summary, (known.settings.defaults)()))
     }
 
-    /// Returns the technique of a name, such as `pcf` or `pcf+contact`. What goes on top of others goes on top of the default
-    /// one where it stands alone.
+    /// Returns the technique of a name, such as `pcf` or `pcf+contact`. A modifier alone applies to the default technique.
     ///
     /// # Errors
-    /// [`Error::NoTechnique`] with a name that is like it, or all.
+    /// [`Error::UnknownTechnique`] lists the known names, and a similar one if there is one.
     pub fn find(&self, name: &str) -> Result<Technique, Error> {
-        let over = |part: &str| TOPS.iter().find(|top| top.settings.name == part).map(|top| top.over);
+        let modifier = |part: &str| {
+            MODIFIERS.iter().find(|known| known.settings.name == part).map(|known| known.modifier)
+        };
         let base = |part: &str| self.kinds.iter().find(|kind| kind.name == part).copied();
         let mut found = None;
         for (place, part) in name.split('+').map(str::trim).enumerate() {
-            found = match (base(part), over(part)) {
+            found = match (base(part), modifier(part)) {
                 (Some(kind), _) if place == 0 => Some(Technique::from(kind)),
-                (_, Some(over)) => Some(found.unwrap_or_default().over_with(over)),
+                (_, Some(modifier)) => Some(found.unwrap_or_default().with_modifier(modifier)),
                 _ if place > 0 => return Err(self.unknown(&format!("+{part}"))),
                 _ => return Err(self.unknown(part)),
             };
@@ -107,22 +108,21 @@ impl Techniques {
 
     fn unknown(&self, name: &str) -> Error {
         let names: Vec<_> = self.kinds.iter().map(|kind| kind.name.to_owned()).collect();
-        let overs = TOPS.map(|top| format!("+{}", top.settings.name));
-        let of_place = if name.starts_with('+') { &overs[..] } else { &names[..] };
+        let modifiers = MODIFIERS.map(|known| format!("+{}", known.settings.name));
+        let of_place = if name.starts_with('+') { &modifiers[..] } else { &names[..] };
         let near: Vec<_> = of_place.iter().filter(|known| strsim::osa_distance(known, name) == 1).collect();
-        let hint = match near[..] {
-            [near] => format!("; did you mean `{near}`?"),
-            _ => format!("; there is: {}; each also with {}", names.join(", "), overs.join(" or ")),
-        };
-        Error::NoTechnique { name: name.into(), hint }
+        let near = if let [near] = near[..] { format!("did you mean `{near}`? ") } else { String::new() };
+        let (names, modifiers) = (names.join(", "), modifiers.join(" or "));
+        let hint = format!("; {near}expected one of: {names}; each also with {modifiers}");
+        Error::UnknownTechnique { name: name.into(), hint }
     }
 
-    /// Returns the names of all that has settings of its own: techniques, and what can be put on top of them.
+    /// Returns the names of the techniques and modifiers that have settings of their own.
     pub fn with_settings(&self) -> impl Iterator<Item = &'static str> {
         self.settings_kinds().map(|settings| settings.name)
     }
 
-    /// Returns the settings of a technique, or of what is put on top, as JSON with every field; `None` if it has none.
+    /// Returns the settings of a technique or modifier as JSON with every field; `None` if it has none.
     ///
     /// ```
     /// use shadowgraph_shadows::{ShadowSettings, Techniques};
@@ -154,14 +154,14 @@ impl Techniques {
             Some(known) => (known.set_json)(settings, value),
             None => Err(Error::Technique {
                 technique: name.into(),
-                fault: "it has no settings of its own".into(),
+                reason: "it has no settings of its own".into(),
             }),
         }
     }
 
     fn settings_kinds(&self) -> impl Iterator<Item = SettingsKind> {
         let of_kinds = self.kinds.iter().filter_map(|kind| kind.settings);
-        of_kinds.chain(TOPS.map(|top| top.settings))
+        of_kinds.chain(MODIFIERS.map(|known| known.settings))
     }
 
     /// Checks all settings, those of single techniques too.
@@ -175,8 +175,8 @@ impl Techniques {
                 Some(known) => (known.check)(settings),
                 None => {
                     self.find(name)?;
-                    let fault = "it has no settings of its own".into();
-                    Err(Error::Technique { technique: name.into(), fault })
+                    let reason = "it has no settings of its own".into();
+                    Err(Error::Technique { technique: name.into(), reason })
                 }
             }
         })

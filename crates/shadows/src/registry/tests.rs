@@ -5,8 +5,8 @@ use shadowgraph_shaders::ModuleSource;
 
 use super::*;
 use crate::technique::binding::{FILTERED_MAP, SAMPLER, STORAGE, UNIFORM};
-use crate::technique::{Record, Screen, ShadowOutputs, ShadowTechnique};
-use crate::{Needs, ShadowInputs, TechniqueSettings, record};
+use crate::technique::{GpuStruct, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Requirements, ShadowInputs, TechniqueSettings, gpu_struct};
 
 const HEAD: &str = "#define_import_path shadowgraph::technique\n#import shadowgraph::receiver::Receiver\n";
 const COLOR: &str = "fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f { return vec3f(1.0); }\n";
@@ -17,7 +17,7 @@ struct Liar {
     name: &'static str,
     wgsl: &'static str,
     types: Vec<wgpu::BindingType>,
-    records: Vec<Record>,
+    records: Vec<GpuStruct>,
 }
 
 impl ShadowTechnique for Liar {
@@ -25,8 +25,8 @@ impl ShadowTechnique for Liar {
         self.name
     }
 
-    fn needs(&self, _: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(Needs::NONE)
+    fn requirements(&self, _: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(Requirements::NONE)
     }
 
     fn modules(&self, _: u32) -> Vec<ModuleSource> {
@@ -37,7 +37,7 @@ impl ShadowTechnique for Liar {
         self.types.clone()
     }
 
-    fn records(&self) -> Vec<Record> {
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
         self.records.clone()
     }
 
@@ -45,7 +45,7 @@ impl ShadowTechnique for Liar {
         &'f self,
         _: &mut Frame<'f>,
         _: &ShadowInputs<'f>,
-        _: Option<&Screen>,
+        _: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         Ok(ShadowOutputs::default())
     }
@@ -105,13 +105,15 @@ fn what_is_no_technique_is_refused_with_the_part_that_is_none_and_what_there_is(
     ];
     for (name, part) in wrong {
         let error = techniques.find(name).unwrap_err().to_string();
-        assert!(error.starts_with(&format!("there is no technique `{part}`; there is: pcf, ")), "{error}");
+        assert!(error.starts_with(&format!("unknown technique `{part}`; expected one of: pcf, ")), "{error}");
     }
     for (name, part, near) in
         [("pfc", "pfc", "pcf"), ("evms", "evms", "evsm"), ("msm+scren", "+scren", "+screen")]
     {
         let error = techniques.find(name).unwrap_err().to_string();
-        assert_eq!(error, format!("there is no technique `{part}`; did you mean `{near}`?"));
+        let expected =
+            format!("unknown technique `{part}`; did you mean `{near}`? expected one of: pcf, pcss, ");
+        assert!(error.starts_with(&expected), "{error}");
     }
 }
 
@@ -180,7 +182,7 @@ fn structs_that_lie_otherwise_in_rust_are_told() {
         strength: f32,
     }
     let error = refused(|_| {
-        let records = vec![record!(Mine { far, strength })];
+        let records = vec![gpu_struct!(Mine { far, strength })];
         Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![UNIFORM], records }))
     });
     assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, not 0"), "{error}");
@@ -237,7 +239,7 @@ fn settings_of_techniques_are_checked_with_the_others() {
     );
     assert!(error(r#"(techniques: {"contact": (steps: 99)})"#).contains("1 to 64"));
     assert!(error(r#"(techniques: {"none": ()})"#).contains("no settings of its own"));
-    assert!(error(r#"(techniques: {"soft": ()})"#).starts_with("there is no technique `soft`"));
+    assert!(error(r#"(techniques: {"soft": ()})"#).starts_with("unknown technique `soft`"));
     let kind = error(r#"(techniques: {"pcss": (filter_taps: 2.5)})"#);
     assert!(
         kind.starts_with("technique `pcss`: its settings: ")

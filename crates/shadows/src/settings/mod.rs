@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use shadowgraph_scene::Light;
 
 use crate::Error;
-use crate::rules::of_lights;
+use crate::light_params::of_lights;
 pub(crate) use check::{in_range, setting};
 
 /// All settings of shadows: those of the shadow maps, and those that single techniques add. Files may leave out what they do
@@ -96,7 +96,7 @@ impl ShadowSettings {
     ///
     /// # Errors
     ///
-    /// [`Error::NoSuchLight`] or [`Error::LightTwice`], with the entry.
+    /// [`Error::UnknownLight`] or [`Error::DuplicateLight`], with the entry.
     pub fn check_lights(&self, lights: &[Light]) -> Result<(), Error> {
         of_lights(self, lights).map(drop)
     }

@@ -44,7 +44,7 @@ impl OwnSettings {
     /// Names the technique and the field, and what it may be.
     pub fn get<T: TechniqueSettings>(&self) -> Result<T, Error> {
         let settings: T = match self.0.get(T::NAME) {
-            Some(own) => own.into_rust().map_err(|reason| Error::UnreadSettings {
+            Some(own) => own.into_rust().map_err(|reason| Error::MalformedSettings {
                 technique: T::NAME.to_owned(),
                 reason: Box::new(reason),
             })?,
@@ -75,12 +75,12 @@ impl OwnSettings {
 fn validate<T: TechniqueSettings>(settings: &T) -> Result<(), Error> {
     settings.validate().map_err(|error| match error {
         Error::Setting { field, value, allowed } => {
-            Error::OwnSetting { technique: T::NAME.to_owned(), field, value, allowed }
+            Error::TechniqueSetting { technique: T::NAME.to_owned(), field, value, allowed }
         }
         other => failed(T::NAME, &other),
     })
 }
 
 pub(crate) fn failed(technique: &str, reason: &dyn std::fmt::Display) -> Error {
-    Error::Technique { technique: technique.to_owned(), fault: format!("its settings: {reason}") }
+    Error::Technique { technique: technique.to_owned(), reason: format!("its settings: {reason}") }
 }

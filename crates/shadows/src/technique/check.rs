@@ -3,12 +3,12 @@
 use shadowgraph_core::{Frame, Texture, TextureDesc};
 use shadowgraph_scene::Light;
 
-use super::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
+use super::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use crate::techniques::MASK_FORMAT;
 use crate::{Error, ShadowInputs, masked_lights};
 
 /// Adds the passes of a technique to the frame, and checks what it gives. `screen` has to be there for techniques that
-/// [read surfaces](ShadowTechnique::reads_surfaces).
+/// [read surfaces](ShadowTechnique::reads_surface_buffers).
 ///
 /// # Errors
 /// As [`ShadowTechnique::add_to`]; [`Error::Technique`] for bindings that are not what the technique said, or a mask of the
@@ -17,10 +17,10 @@ pub fn add_shadows<'f>(
     technique: &'f dyn ShadowTechnique,
     frame: &mut Frame<'f>,
     inputs: &ShadowInputs<'f>,
-    screen: Option<&Screen>,
+    screen: Option<&SurfaceBuffers>,
 ) -> Result<ShadowOutputs<'f>, Error> {
     let outputs = technique.add_to(frame, inputs, screen)?;
-    let failed = |fault: String| Error::Technique { technique: technique.name().to_owned(), fault };
+    let failed = |reason: String| Error::Technique { technique: technique.name().to_owned(), reason };
     check_bindings(frame, &outputs.bindings, &technique.binding_types()).map_err(failed)?;
     if let Some(mask) = &outputs.mask {
         check_mask(frame, mask, inputs.lights, screen).map_err(failed)?;
@@ -118,7 +118,7 @@ fn check_mask(
     frame: &Frame<'_>,
     mask: &Texture,
     lights: &[Light],
-    screen: Option<&Screen>,
+    screen: Option<&SurfaceBuffers>,
 ) -> Result<(), String> {
     let (Some(screen), Some(desc)) = (screen, frame.texture_desc(mask)) else {
         return Err("it gives a mask without a picture to mask".into());

@@ -1,20 +1,20 @@
 //! The contract between shadow techniques and whoever lights a scene.
 
 mod check;
+mod gpu_struct;
 mod layout;
 mod outputs;
-mod record;
 
 pub use check::add_shadows;
+pub use gpu_struct::GpuStruct;
 pub(crate) use layout::layout;
 pub use layout::{binding, shadow_layout};
 pub use outputs::{ShadowBinding, ShadowOutputs, ShadowTokens};
-pub use record::Record;
 
 use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_shaders::ModuleSource;
 
-use crate::{Error, Needs, ShadowInputs};
+use crate::{Error, Requirements, ShadowInputs};
 
 /// A way of making shadows: nodes for the graph, and a WGSL module that answers "how much of this light arrives
 /// here".
@@ -34,10 +34,10 @@ pub trait ShadowTechnique: Send + Sync {
     ///
     /// # Errors
     /// For settings of its own that are out of range.
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error>;
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error>;
 
-    /// Whether it reads the surfaces that the picture shows ([`Screen`]).
-    fn reads_surfaces(&self) -> bool {
+    /// Whether it reads the surfaces that the picture shows ([`SurfaceBuffers`]).
+    fn reads_surface_buffers(&self) -> bool {
         false
     }
 
@@ -54,26 +54,26 @@ pub trait ShadowTechnique: Send + Sync {
     fn binding_types(&self) -> Vec<wgpu::BindingType>;
 
     /// Returns the structs that it writes in Rust and reads in WGSL: they are compared when it is registered.
-    fn records(&self) -> Vec<Record> {
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
         Vec::new()
     }
 
     /// Adds its passes to the frame. What is not needed (no shadowed light, no caster in reach) adds no pass.
-    /// `screen` is there if [`reads_surfaces`](Self::reads_surfaces) says so.
+    /// `screen` is there if [`reads_surface_buffers`](Self::reads_surface_buffers) says so.
     ///
     /// # Errors
-    /// For settings, a camera or an aspect ratio that are out of range; [`Error::NoSurfaces`].
+    /// For settings, a camera or an aspect ratio that are out of range; [`Error::MissingSurfaceBuffers`].
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&Screen>,
+        screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error>;
 }
 
 /// What the picture shows, for techniques that ask for it.
 #[derive(Clone, Debug)]
-pub struct Screen {
+pub struct SurfaceBuffers {
     /// Width and height of the picture, pixels.
     pub size_px: [u32; 2],
     /// The camera: the storage buffer `view` of `shadowgraph::view`.

@@ -22,7 +22,7 @@ pub struct ShadowOutputs<'f> {
     pub debug: Vec<(&'static str, Texture)>,
     /// The [`ShadowView`](crate::ShadowView)s and [`ShadowLight`](crate::ShadowLight)s of its maps, for tools that show them; `None`
     /// of a technique without.
-    pub records: Option<[Buffer; 2]>,
+    pub debug_buffers: Option<[Buffer; 2]>,
     /// The lights that are to cast shadows but have none in this frame, and why.
     pub unshadowed: Vec<Unshadowed>,
 }

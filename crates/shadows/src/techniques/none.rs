@@ -3,8 +3,8 @@
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{ModuleSource, NONE};
 
-use crate::technique::{Screen, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, ShadowInputs};
+use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Error, Requirements, ShadowInputs};
 
 /// The technique without shadows.
 pub struct NoShadows;
@@ -14,8 +14,8 @@ impl ShadowTechnique for NoShadows {
         "none"
     }
 
-    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(Needs::NONE)
+    fn requirements(&self, _inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(Requirements::NONE)
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
@@ -30,7 +30,7 @@ impl ShadowTechnique for NoShadows {
         &'f self,
         _frame: &mut Frame<'f>,
         _inputs: &ShadowInputs<'f>,
-        _screen: Option<&Screen>,
+        _screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         Ok(ShadowOutputs::default())
     }

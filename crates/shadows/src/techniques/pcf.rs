@@ -7,8 +7,8 @@ use super::variant::PcfVariant;
 use crate::maps::comparison_sampler;
 use crate::plan;
 use crate::technique::binding::COMPARISON_SAMPLER;
-use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, ShadowInputs, ShadowMaps, ShadowPlan};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Error, Requirements, ShadowInputs, ShadowMaps, ShadowPlan};
 
 /// The default technique; see the modules `shadows/tiles.wgsl` and `shadows/pcf.wgsl` for how its maps are read.
 pub struct Pcf {
@@ -22,10 +22,10 @@ impl Pcf {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        needs: &Needs,
+        requirements: &Requirements,
         fit: impl FnOnce(&mut Frame<'f>, &ShadowPlan, &Buffer, &Buffer) -> Buffer,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let maps = frame.node("shadows", |frame| self.maps.add_fitted(frame, inputs, needs, fit))?;
+        let maps = frame.node("shadows", |frame| self.maps.add_fitted(frame, inputs, requirements, fit))?;
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Sampler(&self.sampler));
         Ok(ShadowOutputs { variant: maps.variant.index(), ..maps.outputs(bindings) })
@@ -42,8 +42,8 @@ impl ShadowTechnique for Pcf {
         "pcf"
     }
 
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(plan::needs(inputs.settings))
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(plan::requirements(inputs.settings))
     }
 
     fn variant_count(&self) -> u32 {
@@ -62,8 +62,8 @@ impl ShadowTechnique for Pcf {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&Screen>,
+        _screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        self.add_fitted(frame, inputs, &Needs::NONE, |_, _, views, _| views.clone())
+        self.add_fitted(frame, inputs, &Requirements::NONE, |_, _, views, _| views.clone())
     }
 }

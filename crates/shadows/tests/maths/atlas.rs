@@ -28,7 +28,7 @@ fn border_is_as_wide_as_the_filter_reaches() {
             let (min, max) = tile.inner_uv(layout.size_px, filter.border_px());
             let size = glam::Vec2::new(layout.size_px[0] as f32, layout.size_px[1] as f32);
             let (min, max) = (min * size, max * size);
-            let reach = filter.reach_texels() - 1e-2;
+            let reach = filter.kernel_radius_texels() - 1e-2;
             assert!(min.x - reach >= tile.x as f32 && min.y - reach >= tile.y as f32);
             assert!(max.x + reach <= (tile.x + tile.width) as f32);
             assert!(max.y + reach <= (tile.y + tile.height) as f32);

@@ -4,8 +4,8 @@ use crate::common::{Analytic, Receiver};
 use glam::DVec3;
 use shadowgraph_scene::{Aabb, BoundingSphere};
 use shadowgraph_shadows::{
-    BiasSettings, OrthoFit, ShadowLight, ShadowSettings, ShadowView, SpotCone, SpotFit, TilePlace, TileRect,
-    light_from_world,
+    BiasSettings, OrthoFit, ShadowLight, ShadowSettings, ShadowView, SpotCone, SpotFit, TilePlacement,
+    TileRect, light_from_world,
 };
 
 const TILE_PX: u32 = 1024;
@@ -38,8 +38,8 @@ fn sun_direction(elevation_deg: f64, azimuth_deg: f64) -> DVec3 {
     -DVec3::new(a.cos() * e.cos(), e.sin(), a.sin() * e.cos())
 }
 
-fn place(rect: TileRect, map_size_px: [u32; 2]) -> TilePlace {
-    TilePlace { rect, map_size_px, border_px: 3, depth_step: 0.0 }
+fn place(rect: TileRect, map_size_px: [u32; 2]) -> TilePlacement {
+    TilePlacement { rect, map_size_px, border_px: 3, depth_step: 0.0 }
 }
 
 fn cube() -> Aabb {

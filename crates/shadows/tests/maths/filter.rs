@@ -91,7 +91,7 @@ fn row_08_filter_stays_in_the_tile_up_to_the_edges_of_its_inner_part() {
             let base = (at + 0.5).floor() - 0.5;
             let first = base - (last - 1.0);
             assert!(first > 0.0 && base + last < width, "{filter:?} {at}");
-            assert!((at - first).max(base + last - at) <= f64::from(filter.reach_texels()));
+            assert!((at - first).max(base + last - at) <= f64::from(filter.kernel_radius_texels()));
         }
     }
 }

@@ -48,7 +48,7 @@ fn usable(settings: &ShadowSettings) -> bool {
     let plan = match plan {
         Ok(plan) => plan,
         // How many lights there are is no matter of settings alone.
-        Err(error) => return matches!(error, Error::NoSuchLight { .. }),
+        Err(error) => return matches!(error, Error::UnknownLight { .. }),
     };
     let is_finite = |view: &ShadowView| {
         view.map_from_world.is_finite()

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use shadowgraph_scene::{Camera, CameraError, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
-    AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, Needs, ShadowInputs,
-    ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TilePart, Unshadowed, UnshadowedReason,
-    plan_shadows, plan_shadows_after,
+    AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, Requirements,
+    ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TileKind, Unshadowed,
+    UnshadowedReason, plan_shadows, plan_shadows_after,
 };
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
@@ -68,8 +68,8 @@ fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
     assert!(cascades.tiles.iter().all(|tile| tile.light == 1));
     assert_eq!(cascades.tiles[3].casters, [0]);
     assert_eq!(
-        cascades.tiles.iter().map(|tile| tile.part).collect::<Vec<_>>(),
-        [0, 1, 2, 3].map(TilePart::Cascade)
+        cascades.tiles.iter().map(|tile| tile.kind).collect::<Vec<_>>(),
+        [0, 1, 2, 3].map(TileKind::Cascade)
     );
     let atlas = plan.atlas.as_ref().unwrap();
     assert_eq!(
@@ -95,7 +95,7 @@ fn views_describe_their_tiles() {
             let view = &plan.views[tile.view as usize];
             let rect = tile.rect;
             assert_eq!(view.tile_px, [rect.x, rect.y, rect.width, rect.height]);
-            let cascade = if let TilePart::Cascade(cascade) = tile.part { cascade } else { NOT_A_CASCADE };
+            let cascade = if let TileKind::Cascade(cascade) = tile.kind { cascade } else { NOT_A_CASCADE };
             assert_eq!(view.cascade, cascade);
             assert_eq!((view.uv_min, view.uv_max), rect.inner_uv(map.size_px, 3));
             assert_eq!(view.light.w, if tile.light == 2 { 1.0 } else { 0.0 });
@@ -129,16 +129,16 @@ fn lights_that_cannot_have_shadows_are_reported() {
     let bright_nan = Light { intensity: f32::NAN, ..sun(DOWN, 1.0) };
     let plan =
         plan(&[sun(DVec3::ZERO, 1.0), sun(DOWN, 0.0), bright_nan, nowhere, too_far, alone, broken, point]);
-    use UnshadowedReason::{NoCasterInReach, NoLight, OutOfReach, Unusable};
+    use UnshadowedReason::{NoCasterInRange, NoLight, OutOfView, Unusable};
     assert_eq!(
         reasons(&plan),
         [
             (0, Unusable),
             (1, NoLight),
             (2, Unusable),
-            (3, OutOfReach),
-            (4, OutOfReach),
-            (5, NoCasterInReach),
+            (3, OutOfView),
+            (4, OutOfView),
+            (5, NoCasterInRange),
             (6, Unusable),
             (7, Unusable),
         ]
@@ -213,7 +213,7 @@ fn view_that_begins_beyond_the_shadow_distance_has_none() {
     let camera = Camera::look_at(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO, DVec3::Y, projection);
     let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
     let plan = try_plan(&camera, &[sun(DOWN, 1.0)], &casters, &ShadowSettings::default()).unwrap();
-    assert_eq!(reasons(&plan), [(0, UnshadowedReason::OutOfReach)]);
+    assert_eq!(reasons(&plan), [(0, UnshadowedReason::OutOfView)]);
 }
 
 #[test]
@@ -255,7 +255,7 @@ fn a_light_with_two_entries_is_an_error() {
     let entry = || LightShadows::new(LightRef::Index(0));
     let settings = ShadowSettings { lights: vec![entry(), entry()], ..ShadowSettings::default() };
     let refused = try_plan(&look(), &[sun(DOWN, 1.0)], &Boxes(Vec::new()), &settings).unwrap_err();
-    assert_eq!(refused, Error::LightTwice { entry: 1, light: 0 });
+    assert_eq!(refused, Error::DuplicateLight { entry: 1, light: 0 });
 }
 
 #[test]
@@ -270,9 +270,12 @@ fn light_at_the_camera_and_a_hemisphere_wide_spot_have_usable_views() {
 fn needs_name_filter_and_bias() {
     let mut settings = ShadowSettings::default();
     settings.bias.normal_texels = 2.0;
-    let needs = ShadowPlan::all_lit(0, &settings).needs;
-    assert_eq!((needs.kernel_radius_texels, needs.bias_texels, needs.blocker_reach_m), (3.0, 2.0, 0.0));
-    assert_eq!(needs.margin_px(), 6.0);
+    let requirements = ShadowPlan::all_lit(0, &settings).requirements;
+    assert_eq!(
+        (requirements.kernel_radius_texels, requirements.bias_texels, requirements.blocker_reach_m),
+        (3.0, 2.0, 0.0)
+    );
+    assert_eq!(requirements.margin_px(), 6.0);
 }
 
 /// The radius of the last cascade of a plan with a cube of this side.
@@ -322,7 +325,7 @@ fn row_38_sixty_four_spot_and_point_lights_share_one_atlas() {
     let plan = try_plan(&look(), &lights, &casters, &settings).unwrap();
     let shadowed = plan.lights.iter().filter(|light| light.view_count > 0).count();
     assert!(
-        shadowed >= 64 && reasons(&plan).iter().all(|(_, reason)| *reason == UnshadowedReason::OutOfReach),
+        shadowed >= 64 && reasons(&plan).iter().all(|(_, reason)| *reason == UnshadowedReason::OutOfView),
         "{shadowed} {:?}",
         reasons(&plan)
     );
@@ -361,7 +364,7 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
     let (lights, casters) = street_lamps(24);
     let settings = ShadowSettings::default();
     let at = |step: f64| camera(DVec3::new(0.3 * step, 2.0, 8.0), DVec3::ZERO);
-    let plan = |step: f64, before: Option<&shadowgraph_shadows::Allotment>| {
+    let plan = |step: f64, before: Option<&shadowgraph_shadows::AtlasAllocation>| {
         let camera = at(step);
         let inputs = ShadowInputs {
             view: 0,
@@ -372,16 +375,16 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
             origin_world: DVec3::ZERO,
             settings: &settings,
         };
-        plan_shadows_after(&inputs, before, &Needs::NONE).unwrap()
+        plan_shadows_after(&inputs, before, &Requirements::NONE).unwrap()
     };
-    let rects = |plan: &ShadowPlan| plan.allotment.rects.clone();
+    let rects = |plan: &ShadowPlan| plan.atlas_allocation.rects.clone();
     let (mut changed, mut changed_without) = (0, 0);
     let first = plan(0.0, None);
     let mut before = first.clone();
     for step in 1..40 {
         // There and back again, by 30 cm each.
         let at = f64::from(step % 2);
-        let next = plan(at, Some(&before.allotment));
+        let next = plan(at, Some(&before.atlas_allocation));
         changed += usize::from(rects(&next) != rects(&before));
         changed_without += usize::from(rects(&plan(at, None)) != rects(&plan(1.0 - at, None)));
         before = next;
@@ -405,8 +408,8 @@ fn casters_beside_the_view_are_drawn_as_far_as_a_technique_looks_for_them() {
         settings: &settings,
     };
     let drawn = |blocker_reach_m| {
-        let needs = Needs { blocker_reach_m, ..Needs::NONE };
-        let plan = plan_shadows_after(&inputs, None, &needs).unwrap();
+        let requirements = Requirements { blocker_reach_m, ..Requirements::NONE };
+        let plan = plan_shadows_after(&inputs, None, &requirements).unwrap();
         plan.cascades.unwrap().tiles.iter().any(|tile| tile.casters.contains(&1))
     };
     assert!(!drawn(0.0) && drawn(10.0));

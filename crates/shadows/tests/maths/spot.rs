@@ -4,7 +4,8 @@ use glam::DVec3;
 use proptest::prelude::*;
 use shadowgraph_scene::Aabb;
 use shadowgraph_shadows::{
-    MAX_SPOT_HALF_ANGLE, ShadowFilter, ShadowView, SpotCone, SpotFit, TilePlace, TileRect, light_from_world,
+    MAX_SPOT_HALF_ANGLE, ShadowFilter, ShadowView, SpotCone, SpotFit, TilePlacement, TileRect,
+    light_from_world,
 };
 
 const MARGIN_PX: f64 = 4.5;
@@ -52,7 +53,7 @@ proptest! {
     fn row_03_uploaded_view_puts_the_cone_in_its_inner_rect(cone in any_cone()) {
         let rect = TileRect { x: 512, y: 0, width: 512, height: 512 };
         let origin = shadowgraph_scene::origin_near(cone.position_world);
-        let tile = TilePlace { rect, map_size_px: [1024, 1024], border_px: 3, depth_step: 0.0 };
+        let tile = TilePlacement { rect, map_size_px: [1024, 1024], border_px: 3, depth_step: 0.0 };
         let view = ShadowView::spot(&fit(cone, 512), &tile, origin);
         for point in rim(&cone, 0.9) {
             let map = view.map_from_world * (point - origin).as_vec3().extend(1.0);

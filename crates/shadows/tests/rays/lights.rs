@@ -1,5 +1,5 @@
 use glam::Vec3;
-use shadowgraph_shadows::rays::{LightShape, RayScene, Truth, hard, soft};
+use shadowgraph_shadows::rays::{GroundTruth, LightShape, RayScene, trace_hard, trace_soft};
 
 use crate::common::{level_square, on_floor, scene};
 
@@ -18,32 +18,32 @@ fn sun(to_light: Vec3) -> LightShape {
 #[test]
 fn the_shadow_of_a_square_is_where_and_how_far_away_it_must_be() {
     let slanted = sun(Vec3::new(1.0, 1.0, 0.0));
-    let truth = |x: f32| hard(&table(), &slanted, &on_floor(Vec3::new(x, 0.0, 0.0)), true);
+    let truth = |x: f32| trace_hard(&table(), &slanted, &on_floor(Vec3::new(x, 0.0, 0.0)), true);
     for (x, visibility) in
         [(-4.01, LIT), (-3.99, DARK), (-3.0, DARK), (-2.01, DARK), (-1.99, LIT), (0.0, LIT)]
     {
         assert_eq!(truth(x).visibility, visibility, "{x}");
     }
     assert!((truth(-3.0).blocker_m.unwrap() - 18f32.sqrt()).abs() < 2e-3);
-    assert_eq!(truth(0.0), Truth { visibility: LIT, faces_away: false, blocker_m: None });
-    let unasked = hard(&table(), &slanted, &on_floor(Vec3::new(-3.0, 0.0, 0.0)), false);
-    assert_eq!(unasked, Truth { visibility: DARK, faces_away: false, blocker_m: None });
+    assert_eq!(truth(0.0), GroundTruth { visibility: LIT, faces_away: false, blocker_m: None });
+    let unasked = trace_hard(&table(), &slanted, &on_floor(Vec3::new(-3.0, 0.0, 0.0)), false);
+    assert_eq!(unasked, GroundTruth { visibility: DARK, faces_away: false, blocker_m: None });
 }
 
 #[test]
 fn a_surface_that_faces_away_is_dark_by_itself() {
     let empty = scene(&[]);
     for light in [sun(Vec3::new(1.0, -0.1, 0.0)), sun(Vec3::X)] {
-        let truth = hard(&empty, &light, &on_floor(Vec3::ZERO), true);
-        assert_eq!(truth, Truth { visibility: DARK, faces_away: true, blocker_m: None });
-        assert_eq!(soft(&empty, &light, &on_floor(Vec3::ZERO), 16), DARK);
+        let truth = trace_hard(&empty, &light, &on_floor(Vec3::ZERO), true);
+        assert_eq!(truth, GroundTruth { visibility: DARK, faces_away: true, blocker_m: None });
+        assert_eq!(trace_soft(&empty, &light, &on_floor(Vec3::ZERO), 16), DARK);
     }
 }
 
 #[test]
 fn what_is_behind_a_point_light_does_not_shade_it() {
     let light = |y: f32| LightShape::Point { position: Vec3::new(0.0, y, 0.0), radius_m: 0.0 };
-    let truth = |y: f32| hard(&table(), &light(y), &on_floor(Vec3::ZERO), true);
+    let truth = |y: f32| trace_hard(&table(), &light(y), &on_floor(Vec3::ZERO), true);
     assert_eq!(truth(2.9).visibility, LIT);
     // The lamp hangs from the square itself.
     assert_eq!(truth(3.0).visibility, LIT);
@@ -57,7 +57,7 @@ fn half_a_light_is_half_a_shadow() {
     let wide = LightShape::Directional { to_light: Vec3::Y, angular_radius: 0.1 };
     let lamp = LightShape::Point { position: Vec3::Y * 6.0, radius_m: 0.5 };
     for light in [wide, lamp] {
-        let at = |x: f32| soft(&half_plane, &light, &on_floor(Vec3::new(x, 0.0, 0.0)), 1024).x;
+        let at = |x: f32| trace_soft(&half_plane, &light, &on_floor(Vec3::new(x, 0.0, 0.0)), 1024).x;
         assert!((at(0.0) - 0.5).abs() < 0.01, "{}", at(0.0));
         assert_eq!((at(-0.6), at(0.6)), (1.0, 0.0));
         assert!(at(-0.1) > at(0.0) && at(0.0) > at(0.1));
@@ -69,7 +69,7 @@ fn a_quarter_of_the_way_into_a_penumbra_hides_the_known_part_of_the_disc() {
     let half_plane =
         scene(&crate::common::quad(Vec3::new(0.0, 10.0, -50.0), Vec3::X * 50.0, Vec3::Z * 100.0));
     let light = LightShape::Directional { to_light: Vec3::Y, angular_radius: 0.1f32.atan() };
-    let seen = soft(&half_plane, &light, &on_floor(Vec3::new(0.5, 0.0, 0.0)), 4096).x;
+    let seen = trace_soft(&half_plane, &light, &on_floor(Vec3::new(0.5, 0.0, 0.0)), 4096).x;
     // Half a radius from the middle cuts off 1/3 - sqrt(3)/(4 pi) of a disc.
     let cut_off = 1.0 / 3.0 - 3f32.sqrt() / (4.0 * std::f32::consts::PI);
     assert!((seen - cut_off).abs() < 0.005, "{seen} {cut_off}");
@@ -78,7 +78,7 @@ fn a_quarter_of_the_way_into_a_penumbra_hides_the_known_part_of_the_disc() {
 #[test]
 fn soft_rays_are_the_same_every_time_and_one_ray_is_allowed() {
     let light = LightShape::Point { position: Vec3::Y * 6.0, radius_m: 2.0 };
-    let at = |rays| soft(&table(), &light, &on_floor(Vec3::new(1.5, 0.0, 0.2)), rays).x;
+    let at = |rays| trace_soft(&table(), &light, &on_floor(Vec3::new(1.5, 0.0, 0.2)), rays).x;
     assert_eq!(at(64), at(64));
     assert!(at(64) > 0.0 && at(64) < 1.0);
     assert_eq!(at(0), at(1));

@@ -1,6 +1,6 @@
 use glam::Vec3;
 use proptest::{prelude::*, strategy::ValueTree};
-use shadowgraph_shadows::rays::{LightShape, Occluder, Ray, ReceiverPoint, hard};
+use shadowgraph_shadows::rays::{LightShape, Occluder, Ray, ReceiverPoint, trace_hard};
 
 use crate::common::scene;
 
@@ -47,7 +47,7 @@ proptest! {
         case.corners = case.corners.map(|corner| corner * largest);
         case.receiver.position *= largest;
         let light = LightShape::Directional { to_light: case.to_light, angular_radius: 0.0 };
-        let truth = hard(&scene(&[Occluder::solid(case.corners)]), &light, &case.receiver, true);
+        let truth = trace_hard(&scene(&[Occluder::solid(case.corners)]), &light, &case.receiver, true);
         prop_assert!(truth.faces_away || truth.visibility == Vec3::ONE, "{:?} {:?}", case, truth);
     }
 }

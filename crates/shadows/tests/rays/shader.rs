@@ -41,7 +41,7 @@ fn the_shader_has_the_records_of_the_buffers() {
 fn the_shader_has_the_constants_of_the_code() {
     assert_eq!(shadowgraph_shadows::rays::MAX_DEPTH, 64);
     assert_eq!(shadowgraph_shadows::rays::TINT, -1.0);
-    assert_eq!(shadowgraph_shadows::rays::WAY_TO_LIGHT, 1.0 - 1.0 / 4096.0);
+    assert_eq!(shadowgraph_shadows::rays::LIGHT_DISTANCE_FRACTION, 1.0 - 1.0 / 4096.0);
     assert_eq!(shadowgraph_shadows::rays::OFFSET_PER_COORDINATE, 1.0 / 1_048_576.0);
     assert_eq!(shadowgraph_shadows::rays::OFFSET_PER_VIEW_DISTANCE, 1.0 / 131_072.0);
     for text in [

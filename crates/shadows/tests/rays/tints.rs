@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 use shadowgraph_shadows::rays::{
-    Error, Filter, LightShape, Occluder, RayScene, Surface, Tint, Wrap, hard, soft,
+    Error, Filter, LightShape, Occluder, RayScene, Surface, Tint, Wrap, trace_hard, trace_soft,
 };
 
 use crate::common::{level_square, on_floor, ray, texture};
@@ -69,10 +69,10 @@ fn truth_is_coloured_and_its_nearest_blocker_is_the_nearest_that_is_opaque() {
     let sun = LightShape::Directional { to_light: Vec3::Y, angular_radius: 0.004 };
     let [under_both, under_glass] = [0.2, 0.8].map(|x| on_floor(Vec3::new(x, 0.0, 0.1)));
     for with_blocker in [false, true] {
-        assert_near(hard(&scene, &sun, &under_glass, with_blocker).visibility, [0.5, 0.125, 0.125]);
-        assert_eq!(hard(&scene, &sun, &under_both, with_blocker).visibility, Vec3::ZERO);
+        assert_near(trace_hard(&scene, &sun, &under_glass, with_blocker).visibility, [0.5, 0.125, 0.125]);
+        assert_eq!(trace_hard(&scene, &sun, &under_both, with_blocker).visibility, Vec3::ZERO);
     }
-    assert_eq!(hard(&scene, &sun, &under_glass, true).blocker_m, None);
-    assert!((hard(&scene, &sun, &under_both, true).blocker_m.unwrap() - 4.0).abs() < 0.01);
-    assert_near(soft(&scene, &sun, &under_glass, 8), [0.5, 0.125, 0.125]);
+    assert_eq!(trace_hard(&scene, &sun, &under_glass, true).blocker_m, None);
+    assert!((trace_hard(&scene, &sun, &under_both, true).blocker_m.unwrap() - 4.0).abs() < 0.01);
+    assert_near(trace_soft(&scene, &sun, &under_glass, 8), [0.5, 0.125, 0.125]);
 }

@@ -5,7 +5,7 @@ use crate::stage::{gpu, sun, sun_direction};
 use shadowgraph::core::Timer;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::Scene;
-use shadowgraph::shadows::{BudgetRules, NONE, PCF, QualityController, TilePlan};
+use shadowgraph::shadows::{BudgetConfig, NONE, PCF, QualityController, TilePlan};
 use shadowgraph::{Renderer, ViewOptions};
 
 /// What a made-up GPU takes for the maps of a view, milliseconds: 1 ns for each pixel that is cleared, 5 us for each draw.
@@ -26,7 +26,8 @@ fn row_28_a_controller_keeps_shadows_within_a_budget_of_time() {
     let best = pillar_view(|settings| settings.cascades.map_size_px = 4096);
     let mut now_ms = time_ms(&scene, &best);
     let budget_ms = now_ms / 6.0;
-    let mut controller = QualityController::new(BudgetRules { budget_ms, ..BudgetRules::default() }).unwrap();
+    let mut controller =
+        QualityController::new(BudgetConfig { budget_ms, ..BudgetConfig::default() }).unwrap();
     let mut options = best.clone();
     let mut times = Vec::new();
     for _ in 0..300 {

@@ -5,7 +5,7 @@ use crate::stage::{camera, gpu, sun};
 use glam::DVec3;
 use shadowgraph::scene::{Aabb, CullVolume};
 use shadowgraph::shadows::{
-    CasterView, CullSettings, Pcf, ShadowCasters, ShadowSettings, TilePart, caster_view_layout,
+    CasterView, CullSettings, Pcf, ShadowCasters, ShadowSettings, TileKind, caster_view_layout,
 };
 use shadowgraph::wgpu;
 use std::sync::Mutex;
@@ -29,7 +29,7 @@ struct Reeds {
     /// By level of detail: 8 segments and 2.
     pipelines: [wgpu::RenderPipeline; 2],
     /// Which level of detail each tile was drawn with.
-    drawn: Mutex<Vec<(TilePart, usize)>>,
+    drawn: Mutex<Vec<(TileKind, usize)>>,
 }
 
 const SEGMENTS: [u32; 2] = [8, 2];
@@ -92,7 +92,7 @@ impl ShadowCasters for Reeds {
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, _casters: &[u32]) -> u32 {
         // Where a texel is as wide as a reed, its bend is not seen.
         let level = usize::from(view.texel_world > 0.02);
-        self.drawn.lock().unwrap().push((view.part, level));
+        self.drawn.lock().unwrap().push((view.kind, level));
         pass.set_pipeline(&self.pipelines[level]);
         pass.draw(0..SEGMENTS[level] * 6, 0..100);
         1
@@ -131,6 +131,6 @@ fn row_39_each_tile_has_its_level_of_detail() {
     map(&reeds);
     let drawn = reeds.drawn.into_inner().unwrap();
     let level =
-        |cascade| drawn.iter().find(|(part, _)| *part == TilePart::Cascade(cascade)).map(|(_, level)| *level);
+        |cascade| drawn.iter().find(|(kind, _)| *kind == TileKind::Cascade(cascade)).map(|(_, level)| *level);
     assert_eq!((level(0), level(3)), (Some(0), Some(1)), "{drawn:?}");
 }

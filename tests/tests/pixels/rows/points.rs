@@ -4,7 +4,7 @@ use super::{count, cube_view, greys, plan, wrong};
 use crate::stage::{add_instance, cube_on_floor, gpu, light, view};
 use glam::DVec3;
 use shadowgraph::scene::{LightKind, Scene};
-use shadowgraph::shadows::{SELECT_FACE, TilePart};
+use shadowgraph::shadows::{SELECT_FACE, TileKind};
 
 /// A lamp in the middle of eight cubes, so that their shadows fall over all faces and edges of its cube.
 fn lamp_among_cubes() -> Scene {
@@ -24,8 +24,8 @@ fn row_37_point_lights_cast_shadows_to_all_sides() {
     let scene = lamp_among_cubes();
     let mut options = cube_view(|_| ());
     let planned = plan(&scene, &options);
-    let parts: Vec<_> = planned.atlas.as_ref().unwrap().tiles.iter().map(|tile| tile.part).collect();
-    assert_eq!(parts, [0, 1, 2, 3, 4, 5].map(TilePart::Face));
+    let parts: Vec<_> = planned.atlas.as_ref().unwrap().tiles.iter().map(|tile| tile.kind).collect();
+    assert_eq!(parts, [0, 1, 2, 3, 4, 5].map(TileKind::Face));
     assert_eq!((planned.lights[0].select, planned.lights[0].view_count), (SELECT_FACE, 6));
     for eye in [DVec3::new(0.0, 9.0, 0.1), DVec3::new(-6.0, 4.0, 5.0), DVec3::new(5.0, 3.0, -6.0)] {
         options.camera = crate::stage::camera(eye, DVec3::ZERO);

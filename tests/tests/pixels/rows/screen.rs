@@ -8,7 +8,8 @@ use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, Scene};
 use shadowgraph::shadows::{
-    CascadeSelection, Pcf, Screen, ScreenSettings, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
+    CascadeSelection, Pcf, ScreenSettings, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
+    SurfaceBuffers,
 };
 use shadowgraph::{Gpu, Picture, Renderer, ViewOptions, wgpu};
 
@@ -125,7 +126,7 @@ fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
     let mut frame = Frame::new();
     let mut surfaces = frame.create_texture("surfaces", TextureDesc::d2(64, 64, Format::Rgba32Float));
     frame.render_pass("surfaces").color(&mut surfaces, Contents::clear_color([0.0; 4]));
-    let screen = Screen {
+    let screen = SurfaceBuffers {
         size_px: [64, 64],
         view: frame.upload_buffer("view", vec![0; 256]),
         lights: frame.upload_buffer("lights", vec![0; 64]),

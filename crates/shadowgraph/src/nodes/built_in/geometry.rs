@@ -2,7 +2,7 @@
 
 use shadowgraph_core::{Format, Frame, Texture};
 use shadowgraph_lighting::{Prepass, ViewBuffers};
-use shadowgraph_shadows::Screen;
+use shadowgraph_shadows::SurfaceBuffers;
 
 use crate::Error;
 use crate::nodes::{Node, Port, PortKind, Ports, Settings};
@@ -22,7 +22,7 @@ impl Geometry {
     /// # Errors
     /// None with the WGSL that Shadowgraph comes with.
     pub fn new(build: &Build<'_>) -> Result<Self, Error> {
-        let reads = build.technique.reads_surfaces();
+        let reads = build.technique.reads_surface_buffers();
         let surfaces = reads.then(|| SurfaceDrawer::new(build.device, build.layouts)).transpose()?;
         let samples = build.lit.samples;
         Ok(Self { prepass: Prepass::new(build.device, build.layouts, samples)?, surfaces, samples })
@@ -37,7 +37,7 @@ impl Geometry {
         frame: &mut Frame<'f>,
         view: &'f View<'f>,
         buffers: &ViewBuffers,
-    ) -> Result<(Texture, Option<Screen>), Error> {
+    ) -> Result<(Texture, Option<SurfaceBuffers>), Error> {
         let geometry = view.geometry();
         let depth = self.prepass.add_to(frame, buffers, geometry);
         let screen = self.surfaces.as_ref().map(|drawer| match self.samples {

@@ -20,7 +20,7 @@ impl Node for Surfaces {
     const GROUPS_ITSELF: bool = true;
 
     fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        let reads = build.technique.reads_surfaces();
+        let reads = build.technique.reads_surface_buffers();
         Ok(Self { drawer: reads.then(|| SurfaceDrawer::new(build.device, build.layouts)).transpose()? })
     }
 

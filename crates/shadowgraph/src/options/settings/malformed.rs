@@ -60,7 +60,7 @@
     ("(bias: (slope: 5))", "s.ron:1:16: shadow setting `bias.slope` is 5; allowed: 0 to 4"),
     ("(lights: [(light: 0, strength: 3)])", "shadow setting `lights.strength` is 3; allowed: 0 to 1"),
     // Settings of techniques.
-    ("(techniques: {\"pcs\": ()})", "s.ron:1:22: there is no technique `pcs`; there is: pcf, pcss,"),
+    ("(techniques: {\"pcs\": ()})", "s.ron:1:22: unknown technique `pcs`; expected one of: pcf, pcss,"),
     ("(techniques: {\"pcf\": ()})", "s.ron:1:22: technique `pcf`: it has no settings of its own"),
     ("(techniques: {\"pcss\": (taps: 4)})", "s.ron:1:24: technique `pcss`: there is no field `taps` here; there is: sun_radius_rad"),
     ("(techniques: {\"pcss\": (\n  sun_radius: 0.1)})", "s.ron:2:3: technique `pcss`: there is no field `sun_radius` here; did you mean `sun_radius_rad`?"),

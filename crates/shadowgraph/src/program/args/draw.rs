@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn a_wrong_value_is_one_line_with_the_option() {
         for (line, start) in [
-            ("--technique;soft", "--technique: there is no technique `soft`; there is: pcf, pcss, "),
+            ("--technique;soft", "--technique: unknown technique `soft`; expected one of: pcf, pcss, "),
             ("--pipeline;my.ron", "--pipeline: my.ron: cannot be read: "),
             (
                 "--pipeline;mine",

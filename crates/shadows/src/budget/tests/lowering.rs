@@ -1,18 +1,18 @@
-//! What levels leave of random settings.
+//! Random settings, lowered by random levels.
 
 use super::*;
 
-pub(super) fn any_quality() -> impl Strategy<Value = Quality> {
+pub(super) fn any_quality() -> impl Strategy<Value = QualityLevel> {
     let scale = proptest::sample::select(vec![1_u32, 2, 4, 8]);
     let distance = prop_oneof![Just(1.0_f32), 0.05_f32..=1.0];
-    (scale, 1_u32..=8, distance).prop_map(|(map_scale, cascades, distance_scale)| Quality {
+    (scale, 1_u32..=8, distance).prop_map(|(map_scale, cascades, distance_scale)| QualityLevel {
         map_scale,
         cascades,
         distance_scale,
     })
 }
 
-/// One end fewer than cascades: parts of `last`, rising.
+/// One end fewer than cascades: fractions of `last`, ascending.
 fn ends(count: u32, last: f32) -> impl Strategy<Value = Vec<f32>> {
     let parts = proptest::collection::btree_set(1_u16..1000, count.saturating_sub(1) as usize);
     parts.prop_map(move |parts| parts.into_iter().map(|part| f32::from(part) / 1000.0 * last).collect())
@@ -52,9 +52,9 @@ pub(super) fn any_settings() -> impl Strategy<Value = ShadowSettings> {
     )
 }
 
-pub(super) fn apply(quality: Quality, settings: &ShadowSettings) -> ShadowSettings {
-    let rules = BudgetRules { levels: vec![quality], ..BudgetRules::default() };
-    QualityController::new(rules).unwrap().apply(settings)
+pub(super) fn apply(quality: QualityLevel, settings: &ShadowSettings) -> ShadowSettings {
+    let config = BudgetConfig { levels: vec![quality], ..BudgetConfig::default() };
+    QualityController::new(config).unwrap().apply(settings)
 }
 
 fn smallest(settings: &ShadowSettings) -> u32 {
@@ -74,7 +74,7 @@ proptest! {
     }
 
     #[test]
-    fn nothing_gets_better_than_chosen(settings in any_settings(), quality in any_quality()) {
+    fn no_setting_gets_better_than_chosen(settings in any_settings(), quality in any_quality()) {
         let lowered = apply(quality, &settings);
         prop_assert!(lowered.distance_m <= settings.distance_m);
         prop_assert!(lowered.cascades.count <= settings.cascades.count);
@@ -84,14 +84,14 @@ proptest! {
     }
 
     #[test]
-    fn what_the_level_asks_for_is_given_up(settings in any_settings(), quality in any_quality()) {
+    fn settings_are_lowered_as_the_level_says(settings in any_settings(), quality in any_quality()) {
         let lowered = apply(quality, &settings);
         let px = |size: u32| (size / quality.map_scale).max(256);
         prop_assert_eq!(lowered.cascades.map_size_px, px(settings.cascades.map_size_px));
         prop_assert_eq!(lowered.atlas.map_size_px, px(settings.atlas.map_size_px));
         prop_assert!(lowered.cascades.count <= quality.cascades);
         prop_assert!(lowered.distance_m <= (settings.distance_m * quality.distance_scale).max(0.001));
-        // But no cascade and no metre more than that, unless a cascade has nothing left to cover.
+        // But by no cascade and no metre more than that, unless a cascade has nothing left to cover.
         prop_assert!(lowered.distance_m >= settings.distance_m * quality.distance_scale);
         if !matches!(settings.cascades.split, SplitScheme::Metres(_)) {
             prop_assert_eq!(lowered.cascades.count, settings.cascades.count.min(quality.cascades));
@@ -99,7 +99,7 @@ proptest! {
     }
 
     #[test]
-    fn all_else_stays(settings in any_settings(), quality in any_quality()) {
+    fn all_other_settings_stay_the_same(settings in any_settings(), quality in any_quality()) {
         let mut lowered = apply(quality, &settings);
         lowered.distance_m = settings.distance_m;
         lowered.atlas.map_size_px = settings.atlas.map_size_px;
@@ -113,7 +113,7 @@ proptest! {
 
     #[test]
     fn the_best_level_changes_nothing(settings in any_settings()) {
-        prop_assert_eq!(apply(Quality::default(), &settings), settings);
+        prop_assert_eq!(apply(QualityLevel::default(), &settings), settings);
     }
 
     #[test]
@@ -129,9 +129,9 @@ proptest! {
 }
 
 #[test]
-fn invalid_settings_come_back_as_they_are() {
+fn invalid_settings_are_returned_unchanged() {
     let mut settings = ShadowSettings { distance_m: 1e7, ..ShadowSettings::default() };
-    let cheap = Quality { map_scale: 8, cascades: 1, distance_scale: 0.05 };
+    let cheap = QualityLevel { map_scale: 8, cascades: 1, distance_scale: 0.05 };
     assert_eq!(apply(cheap, &settings), settings);
     settings = ShadowSettings::default();
     settings.cascades.map_size_px = 300;

@@ -1,12 +1,12 @@
-//! Controllers that measure made-up scenes.
+//! Controllers with simulated scenes.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
-mod back_off;
 mod changes;
+mod config;
 mod convergence;
 mod lowering;
 mod recovery;
-mod rules;
+mod retries;
 mod smoothing;
 mod splits;
 
@@ -17,38 +17,38 @@ use crate::{AtlasTiles, Error, ShadowSettings, SplitScheme};
 
 const BUDGET_MS: f64 = 2.0;
 
-/// What the documentation says, not what the code has.
+/// The numbers of the documentation, not the constants of the code.
 const WINDOW: usize = 9;
 const LATENCY: usize = 3;
 const FIRST_WAIT: usize = 8 * WINDOW;
 const LONGEST_WAIT: usize = 256 * WINDOW;
 
-/// As many levels, that differ in distance.
+/// Returns a controller with this many levels, which differ in distance.
 fn controller(levels: usize) -> QualityController {
-    let level = |i: usize| Quality { distance_scale: 1.0 - i as f32 / 40.0, ..Quality::default() };
+    let level = |i: usize| QualityLevel { distance_scale: 1.0 - i as f32 / 40.0, ..QualityLevel::default() };
     let levels = (0..levels).map(level).collect();
-    QualityController::new(BudgetRules { budget_ms: BUDGET_MS, levels }).unwrap()
+    QualityController::new(BudgetConfig { budget_ms: BUDGET_MS, levels }).unwrap()
 }
 
-/// A scene whose levels cost the same for ever, apart from noise.
+/// A scene whose levels have constant costs, apart from noise.
 #[derive(Clone, Debug)]
 struct Scene {
-    /// Of each level.
+    /// Cost of each level.
     costs_ms: Vec<f64>,
-    /// Up to this part, more or less.
+    /// Largest relative deviation of a frame's time.
     noise: f64,
-    /// At least one of so many frames is not slow; 0: none is slow.
+    /// Every frame with a number divisible by this is slow; 0: none is slow.
     slow_every: usize,
     random: u64,
     frame: usize,
 }
 
 impl Scene {
-    fn calm(costs_ms: &[f64]) -> Self {
+    fn steady(costs_ms: &[f64]) -> Self {
         Self { costs_ms: costs_ms.to_vec(), noise: 0.0, slow_every: 0, random: 0, frame: 0 }
     }
 
-    /// 0 up to 1, the same in every run.
+    /// Returns a number from 0 up to 1, the same in every run.
     fn random(&mut self) -> f64 {
         self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.random;
@@ -65,19 +65,19 @@ impl Scene {
         self.costs_ms[level] * noise * spike
     }
 
-    /// The levels after each of so many frames.
+    /// Runs some frames, and returns the level after each.
     fn play(&mut self, controller: &mut QualityController, frames: usize) -> Vec<usize> {
         let step = |_| {
             let before = controller.level();
             let changed = controller.update(self.measure(before));
-            assert_eq!(changed, controller.level() != before, "the answer is whether the level changed");
+            assert_eq!(changed, controller.level() != before, "`update` returns whether the level changed");
             controller.level()
         };
         (0..frames).map(step).collect()
     }
 }
 
-/// How often the level goes up or down.
+/// Returns how many times the level changes.
 fn changes(levels: &[usize]) -> usize {
     levels.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Costs of levels that fit, each taking up to so many times as long as the next, and all well above the timer's noise.
+/// Costs of levels that fit, each at most `most_ratio` times that of the next, and all well above timer noise.
 fn light(most_ratio: f64) -> impl Strategy<Value = Vec<f64>> {
     let ratios = proptest::collection::vec(1.0..most_ratio, 0..6);
     (ratios, 0.1..0.3 * BUDGET_MS).prop_map(|(ratios, best)| {
@@ -27,7 +27,7 @@ proptest! {
     ) {
         let mut controller = controller(costs.len());
         let heavy: Vec<f64> = costs.iter().map(|cost| cost * load).collect();
-        let mut scene = Scene { noise, random: seed, ..Scene::calm(&heavy) };
+        let mut scene = Scene { noise, random: seed, ..Scene::steady(&heavy) };
         scene.play(&mut controller, frames);
         scene.costs_ms = costs;
         scene.play(&mut controller, 3000);
@@ -35,17 +35,17 @@ proptest! {
     }
 
     #[test]
-    fn heavy_moments_are_forgotten_whenever_they_come_once_the_load_is_lower_for_a_while(
+    fn heavy_moments_are_forgotten_once_the_load_is_lower_for_a_while(
         costs in light(2.0),
         moments in proptest::collection::vec((1..300_usize, 10.0..200.0_f64, 1..100_usize), 1..12),
         noise in 0.0..0.1,
         seed: u64,
     ) {
         let mut controller = controller(costs.len());
-        let mut scene = Scene { noise, random: seed, ..Scene::calm(&costs) };
-        for (calm, load, heavy) in moments {
+        let mut scene = Scene { noise, random: seed, ..Scene::steady(&costs) };
+        for (steady, load, heavy) in moments {
             scene.costs_ms = costs.clone();
-            scene.play(&mut controller, calm);
+            scene.play(&mut controller, steady);
             scene.costs_ms = costs.iter().map(|cost| cost * load).collect();
             scene.play(&mut controller, heavy);
         }
@@ -60,7 +60,7 @@ proptest! {
 }
 
 #[test]
-fn what_ended_just_as_it_went_down_does_not_keep_it_down() {
+fn a_load_that_ends_during_the_step_down_does_not_keep_it_down() {
     let mut controller = controller(2);
     let change = (0..12).filter(|_| controller.update(100.0)).count();
     assert_eq!(change, 1);
@@ -71,19 +71,19 @@ fn what_ended_just_as_it_went_down_does_not_keep_it_down() {
 }
 
 #[test]
-fn a_factor_is_believed_once_going_up_was_taken_back() {
+fn a_ratio_is_trusted_once_a_step_up_was_reverted() {
     let mut controller = controller(2);
-    let levels = Scene::calm(&[6.0, 0.6]).play(&mut controller, 30_000);
-    assert_eq!(changes(&levels), 3, "down, up for a try, and down for good");
-    // At half the load it is not believed any more, but half is still too much for level 0.
-    let levels = Scene::calm(&[3.0, 0.29]).play(&mut controller, 30_000);
+    let levels = Scene::steady(&[6.0, 0.6]).play(&mut controller, 30_000);
+    assert_eq!(changes(&levels), 3, "down, up for a try, and down permanently");
+    // At half the load it is no longer trusted, but half is still too much for level 0.
+    let levels = Scene::steady(&[3.0, 0.29]).play(&mut controller, 30_000);
     assert_eq!(changes(&levels), 2);
-    let levels = Scene::calm(&[1.4, 0.14]).play(&mut controller, 30_000);
+    let levels = Scene::steady(&[1.4, 0.14]).play(&mut controller, 30_000);
     assert_eq!((changes(&levels), controller.level()), (1, 0));
 }
 
 #[test]
-fn a_heavy_moment_in_the_middle_of_a_try_is_believed_until_the_load_changes() {
+fn a_ratio_of_a_heavy_moment_during_a_try_is_trusted_until_the_load_changes() {
     let mut controller = controller(2);
     let mut play = |ms: f64, frames: usize| (0..frames).filter(|_| controller.update(ms)).count();
     assert_eq!(play(100.0, 12), 1);
@@ -95,7 +95,7 @@ fn a_heavy_moment_in_the_middle_of_a_try_is_believed_until_the_load_changes() {
 }
 
 #[test]
-fn a_load_that_ends_in_the_middle_of_a_try_is_not_believed() {
+fn a_ratio_of_a_load_that_ends_during_a_try_is_not_trusted() {
     let mut controller = controller(2);
     let mut play = |ms: f64, frames: usize| (0..frames).filter(|_| controller.update(ms)).count();
     assert_eq!(play(10.0, 12), 1);
@@ -107,7 +107,7 @@ fn a_load_that_ends_in_the_middle_of_a_try_is_not_believed() {
 }
 
 #[test]
-fn a_load_that_doubles_brings_doubt_as_well() {
+fn a_doubled_load_invalidates_the_ratio_as_well() {
     let mut controller = controller(2);
     let mut play = |ms: f64, frames: usize| (0..frames).filter(|_| controller.update(ms)).count();
     assert_eq!(play(100.0, 12), 1);

@@ -1,4 +1,4 @@
-//! What does not count.
+//! Outliers and invalid times.
 
 use super::*;
 
@@ -17,21 +17,21 @@ proptest! {
     }
 
     #[test]
-    fn what_is_not_a_time_is_ignored(
+    fn invalid_times_are_ignored(
         costs in proptest::collection::vec(0.0..2.0 * BUDGET_MS, 4),
         junk in proptest::collection::vec(0..12_usize, 400),
         seed: u64,
     ) {
         let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -f64::MIN_POSITIVE];
-        let mut scene = Scene { noise: 0.5, random: seed, ..Scene::calm(&costs) };
-        let (mut clean, mut soiled) = (controller(4), controller(4));
+        let mut scene = Scene { noise: 0.5, random: seed, ..Scene::steady(&costs) };
+        let (mut clean, mut noisy) = (controller(4), controller(4));
         for junk in junk {
             if let Some(bad) = bad.get(junk) {
-                prop_assert!(!soiled.update(*bad));
+                prop_assert!(!noisy.update(*bad));
             }
             let ms = scene.measure(clean.level());
-            prop_assert_eq!(clean.update(ms), soiled.update(ms));
-            prop_assert_eq!(&clean, &soiled);
+            prop_assert_eq!(clean.update(ms), noisy.update(ms));
+            prop_assert_eq!(&clean, &noisy);
         }
     }
 
@@ -45,7 +45,7 @@ proptest! {
     }
 
     #[test]
-    fn any_number_is_survived(
+    fn no_number_makes_it_panic(
         times in proptest::collection::vec(proptest::num::f64::ANY, 0..400),
         extreme in proptest::collection::vec(proptest::sample::select(vec![0.0, -0.0, 5e-324, f64::MAX]), 0..400),
     ) {
@@ -58,7 +58,7 @@ proptest! {
 }
 
 #[test]
-fn the_first_frames_after_a_change_are_left_out() {
+fn the_first_frames_after_a_change_are_skipped() {
     let mut controller = controller(3);
     let slow = BUDGET_MS * 1.01;
     let to_change = |controller: &mut QualityController| (1..).find(|_| controller.update(slow)).unwrap();

@@ -1,4 +1,4 @@
-//! Which of the user's own cascades are left.
+//! The cascades that remain of a user's list.
 
 use super::lowering::{any_quality, any_settings, apply};
 use super::*;
@@ -10,7 +10,7 @@ fn listed(split: &SplitScheme) -> Option<&[f32]> {
     }
 }
 
-/// Settings with 150 m of shadows.
+/// Returns settings with 150 m of shadows.
 fn with(split: SplitScheme, bias_scales: &[f32]) -> ShadowSettings {
     let mut settings = ShadowSettings::default();
     settings.cascades.count = listed(&split).map_or(4, |ends| ends.len() as u32 + 1);
@@ -19,15 +19,16 @@ fn with(split: SplitScheme, bias_scales: &[f32]) -> ShadowSettings {
     settings
 }
 
-/// The ends that are left.
+/// Returns the remaining ends.
 fn left(settings: &ShadowSettings, cascades: u32, distance_scale: f32) -> Vec<f32> {
-    let lowered = apply(Quality { cascades, distance_scale, ..Quality::default() }, settings).cascades;
+    let lowered =
+        apply(QualityLevel { cascades, distance_scale, ..QualityLevel::default() }, settings).cascades;
     let ends = listed(&lowered.split).unwrap().to_vec();
     assert_eq!(ends.len() as u32 + 1, lowered.count);
     ends
 }
 
-/// By how much texels grow at the worst place, compared with all the ends.
+/// Returns the largest growth of texels, compared with the full list of ends.
 fn worst_growth(all: &[f32], kept: &[f32], last: f32) -> f32 {
     let covers = |end: &f32| kept.iter().find(|kept| *kept >= end).unwrap_or(&last) / end;
     all.iter().map(covers).fold(1.0, f32::max)
@@ -37,7 +38,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1024))]
 
     #[test]
-    fn ends_that_are_left_are_the_users(settings in any_settings(), quality in any_quality()) {
+    fn remaining_ends_are_the_users(settings in any_settings(), quality in any_quality()) {
         let lowered = apply(quality, &settings).cascades;
         let (before, after) = (listed(&settings.cascades.split), listed(&lowered.split));
         prop_assert_eq!(before.is_some(), after.is_some());
@@ -46,13 +47,13 @@ proptest! {
     }
 
     #[test]
-    fn no_cascade_begins_beyond_a_distance_that_got_shorter(settings in any_settings(), quality in any_quality()) {
+    fn no_cascade_begins_beyond_a_shortened_distance(settings in any_settings(), quality in any_quality()) {
         let lowered = apply(quality, &settings);
         if let SplitScheme::Metres(ends) = &lowered.cascades.split
             && lowered.distance_m < settings.distance_m
         {
             prop_assert!(ends.iter().all(|end| *end < lowered.distance_m));
-            // Within it, they go only if there are too many.
+            // Ends within it are removed only if there are too many.
             let within = listed(&settings.cascades.split).unwrap().iter();
             let within = within.filter(|end| **end < lowered.distance_m).count() as u32 + 1;
             prop_assert_eq!(lowered.cascades.count, settings.cascades.count.min(within.min(quality.cascades)));
@@ -60,7 +61,7 @@ proptest! {
     }
 
     #[test]
-    fn leaving_out_one_end_loses_the_least_that_is_possible(settings in any_settings()) {
+    fn removing_one_end_loses_as_little_as_possible(settings in any_settings()) {
         let SplitScheme::Ratios(all) = &settings.cascades.split else { return Ok(()) };
         prop_assume!(settings.cascades.count >= 2);
         let kept = left(&settings, settings.cascades.count - 1, 1.0);
@@ -72,7 +73,7 @@ proptest! {
     }
 
     #[test]
-    fn a_cascade_keeps_its_bias_when_another_goes(settings in any_settings(), quality in any_quality()) {
+    fn a_cascade_keeps_its_bias_when_another_is_removed(settings in any_settings(), quality in any_quality()) {
         let before = &settings.cascades;
         let after = apply(quality, &settings).cascades;
         let (Some(all), Some(kept)) = (listed(&before.split), listed(&after.split)) else { return Ok(()) };
@@ -85,7 +86,7 @@ proptest! {
 }
 
 #[test]
-fn the_end_whose_texels_grow_least_is_left_out_first() {
+fn the_end_whose_texels_grow_least_is_removed_first() {
     let four = with(SplitScheme::Ratios(vec![0.067, 0.2, 0.467]), &[]);
     assert_eq!(left(&four, 3, 1.0), [0.067, 0.2]);
     assert_eq!(left(&four, 2, 1.0), [0.2]);
@@ -100,14 +101,14 @@ fn the_last_cascade_grows_too() {
 }
 
 #[test]
-fn of_equals_the_farthest_is_left_out() {
+fn of_equals_the_farthest_is_removed() {
     let mut engel = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
     engel.distance_m = 270.0;
     assert_eq!(left(&engel, 3, 1.0), [10.0, 30.0]);
 }
 
 #[test]
-fn a_shorter_distance_leaves_metres_where_they_are_and_ratios_follow_it() {
+fn a_shorter_distance_keeps_metres_and_scales_ratios() {
     let metres = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
     assert_eq!(left(&metres, 8, 0.7), [10.0, 30.0, 90.0]);
     assert_eq!(left(&metres, 8, 0.5), [10.0, 30.0]);
@@ -121,9 +122,10 @@ fn a_shorter_distance_leaves_metres_where_they_are_and_ratios_follow_it() {
 #[test]
 fn the_last_cascade_within_the_distance_keeps_its_bias() {
     let metres = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[1.0, 2.0, 3.0, 4.0]);
-    let lowered = apply(Quality { distance_scale: 0.5, ..Quality::default() }, &metres).cascades;
+    let lowered = apply(QualityLevel { distance_scale: 0.5, ..QualityLevel::default() }, &metres).cascades;
     assert_eq!(lowered.bias_scales, [1.0, 2.0, 3.0]);
     // With fewer cascades than that, the one that is merged takes the bias of the farther one.
-    let lowered = apply(Quality { cascades: 2, distance_scale: 0.5, ..Quality::default() }, &metres).cascades;
+    let lowered =
+        apply(QualityLevel { cascades: 2, distance_scale: 0.5, ..QualityLevel::default() }, &metres).cascades;
     assert_eq!((listed(&lowered.split), lowered.bias_scales), (Some(&[10.0][..]), vec![1.0, 3.0]));
 }

@@ -4,7 +4,7 @@ use glam::DMat3;
 use proptest::prelude::*;
 
 use super::super::testing::{CASES, Random, View, randoms};
-use super::super::{ReceiverHull, ViewInLight};
+use super::super::{LightSpaceView, ReceiverHull};
 use super::*;
 
 mod street;
@@ -22,10 +22,10 @@ enum Kind {
 struct Scene {
     view: View,
     rotation: DMat3,
-    prepared: ViewInLight,
+    prepared: LightSpaceView,
     bounds: Option<Aabb>,
-    finer: Vec<Served>,
-    /// The view depths that belong to [`Served::Depth`].
+    finer: Vec<CoveredByFinerCascade>,
+    /// The view depths that belong to [`CoveredByFinerCascade::Depth`].
     ends_m: Vec<f64>,
     reaches_m: Vec<f64>,
 }
@@ -36,13 +36,13 @@ impl Scene {
         let view = random.view(away_m);
         let to_light = random.way_to_light(&view);
         let rotation = random.axes(to_light);
-        let mut prepared = ViewInLight::new(&view.hull(), rotation);
+        let mut prepared = LightSpaceView::new(&view.hull(), rotation);
         let mut bounds = None;
         if random.below(2) == 0 {
             let half = DVec3::from_array([0; 3].map(|_| view.far_m * random.magnitude(-2.0, 0.5)));
             let middle = random.visible(&view);
             let within = Aabb { min: middle - half, max: middle + half };
-            prepared = prepared.within(&ViewInLight::new(&ReceiverHull::of_box(&within), rotation));
+            prepared = prepared.within(&LightSpaceView::new(&ReceiverHull::of_box(&within), rotation));
             bounds = Some(within);
         }
         let count = 1 + random.below(3) as usize;
@@ -73,16 +73,16 @@ impl Scene {
         let tall = if random.below(2) == 0 { DVec3::Z * 2.0 * radius_m } else { DVec3::ZERO };
         let served = match (kind, random.below(3)) {
             (Kind::Boxes, _) | (Kind::Mixed, 0) => {
-                Served::Box(Aabb { min: center_light - half, max: center_light + half + tall })
+                CoveredByFinerCascade::Box(Aabb { min: center_light - half, max: center_light + half + tall })
             }
-            (Kind::Spheres, _) | (Kind::Mixed, 1) => Served::Sphere { center_light, radius_m },
+            (Kind::Spheres, _) | (Kind::Mixed, 1) => CoveredByFinerCascade::Sphere { center_light, radius_m },
             _ => {
                 let rest = ReceiverHull::of_view(camera, *aspect, far_m, *end_m);
-                let mut beyond = ViewInLight::new(&rest, *rotation);
+                let mut beyond = LightSpaceView::new(&rest, *rotation);
                 if let Some(bounds) = &self.bounds {
-                    beyond = beyond.within(&ViewInLight::new(&ReceiverHull::of_box(bounds), *rotation));
+                    beyond = beyond.within(&LightSpaceView::new(&ReceiverHull::of_box(bounds), *rotation));
                 }
-                Served::Depth { beyond }
+                CoveredByFinerCascade::Depth { beyond }
             }
         };
         self.finer.push(served);
@@ -92,10 +92,12 @@ impl Scene {
     /// Which cascade the receiver reads: the first that serves it.
     fn cascade_of(&self, world: DVec3) -> usize {
         let light = self.rotation * world;
-        let serves = |(served, end_m): (&Served, &f64)| match served {
-            Served::Box(served) => served.contains_point(light),
-            Served::Sphere { center_light, radius_m } => center_light.distance(light) <= *radius_m,
-            Served::Depth { .. } => {
+        let serves = |(served, end_m): (&CoveredByFinerCascade, &f64)| match served {
+            CoveredByFinerCascade::Box(served) => served.contains_point(light),
+            CoveredByFinerCascade::Sphere { center_light, radius_m } => {
+                center_light.distance(light) <= *radius_m
+            }
+            CoveredByFinerCascade::Depth { .. } => {
                 -self.view.camera.world_from_view.inverse().transform_point3(world).z < *end_m
             }
         };
@@ -106,8 +108,8 @@ impl Scene {
         self.view.contains(world) && self.bounds.is_none_or(|bounds| bounds.contains_point(world))
     }
 
-    fn served_casters(&self, cascade: usize) -> ServedCasters<'_> {
-        ServedCasters::new(&self.prepared, &self.finer[..cascade], self.reaches_m[cascade])
+    fn served_casters(&self, cascade: usize) -> RedundantCasters<'_> {
+        RedundantCasters::new(&self.prepared, &self.finer[..cascade], self.reaches_m[cascade])
     }
 
     /// Whether taking the caster out of its cascade could change how the receiver looks.
@@ -139,7 +141,7 @@ impl Scene {
             let part = DVec3::new(random.part_or_end(), random.part_or_end(), random.part_or_end());
             let in_caster = caster.min + (caster.max - caster.min) * part;
             let z = match &self.finer[random.below(self.finer.len() as u64) as usize] {
-                Served::Box(served) if random.below(2) == 0 => {
+                CoveredByFinerCascade::Box(served) if random.below(2) == 0 => {
                     let end = if random.below(2) == 0 { served.min.z } else { served.max.z };
                     end + self.view.far_m * random.magnitude(-8.0, -2.0) * random.range(-1.0, 1.0)
                 }
@@ -176,7 +178,7 @@ fn check(random: &mut Random, kind: Kind) -> Result<Counts, String> {
                     && scene.darkens(&caster, cascade, scene.rotation * **world)
             };
             let needing = receivers.iter().find(needs);
-            match (scene.served_casters(cascade).is_served(&caster), needing) {
+            match (scene.served_casters(cascade).is_redundant(&caster), needing) {
                 (true, Some(world)) => {
                     return Err(format!("{caster:?} is missing in {cascade} at {world}: {:?}", scene.finer));
                 }
@@ -253,69 +255,72 @@ fn cube(half: f64) -> Aabb {
 
 #[test]
 fn two_cascades_serve_together_what_neither_does_alone() {
-    let view = ViewInLight::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
-    let left = Served::Box(Aabb { min: DVec3::splat(-20.0), max: DVec3::new(0.5, 20.0, 20.0) });
-    let right = Served::Box(Aabb { min: DVec3::new(-0.5, -20.0, -20.0), max: DVec3::splat(20.0) });
+    let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
+    let left =
+        CoveredByFinerCascade::Box(Aabb { min: DVec3::splat(-20.0), max: DVec3::new(0.5, 20.0, 20.0) });
+    let right =
+        CoveredByFinerCascade::Box(Aabb { min: DVec3::new(-0.5, -20.0, -20.0), max: DVec3::splat(20.0) });
     for finer in [[left.clone(), right.clone()], [right, left]] {
-        assert!(ServedCasters::new(&view, &finer, 0.1).is_served(&cube(3.0)));
-        assert!(!ServedCasters::new(&view, &finer[..1], 0.1).is_served(&cube(3.0)));
+        assert!(RedundantCasters::new(&view, &finer, 0.1).is_redundant(&cube(3.0)));
+        assert!(!RedundantCasters::new(&view, &finer[..1], 0.1).is_redundant(&cube(3.0)));
     }
 }
 
 #[test]
 fn a_cascade_elsewhere_leaves_it_to_the_finer_ones() {
-    let view = ViewInLight::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
-    let here = Served::Box(Aabb { min: DVec3::splat(-20.0), max: DVec3::splat(20.0) });
-    let beside = Served::Box(Aabb { min: DVec3::splat(5.0), max: DVec3::splat(20.0) });
-    assert!(ServedCasters::new(&view, &[here, beside], 0.1).is_served(&cube(3.0)));
+    let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
+    let here = CoveredByFinerCascade::Box(Aabb { min: DVec3::splat(-20.0), max: DVec3::splat(20.0) });
+    let beside = CoveredByFinerCascade::Box(Aabb { min: DVec3::splat(5.0), max: DVec3::splat(20.0) });
+    assert!(RedundantCasters::new(&view, &[here, beside], 0.1).is_redundant(&cube(3.0)));
 }
 
 #[test]
 fn receivers_nearer_to_the_light_than_the_box_keep_their_caster() {
-    let view = ViewInLight::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
-    let low = [Served::Box(Aabb { min: DVec3::splat(-20.0), max: DVec3::new(20.0, 20.0, 5.0) })];
-    let casters = ServedCasters::new(&view, &low, 0.5);
-    assert!(casters.is_served(&Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 4.4) }));
-    assert!(!casters.is_served(&Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 4.6) }));
+    let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
+    let low =
+        [CoveredByFinerCascade::Box(Aabb { min: DVec3::splat(-20.0), max: DVec3::new(20.0, 20.0, 5.0) })];
+    let casters = RedundantCasters::new(&view, &low, 0.5);
+    assert!(casters.is_redundant(&Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 4.4) }));
+    assert!(!casters.is_redundant(&Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 4.6) }));
 }
 
 #[test]
 fn spheres_and_depths_that_hold_all_that_is_visible_serve_every_caster() {
-    let view = ViewInLight::new(&ReceiverHull::of_box(&cube(1.0)), DMat3::IDENTITY);
-    let sphere = |radius_m: f64| [Served::Sphere { center_light: DVec3::ZERO, radius_m }];
-    assert!(ServedCasters::new(&view, &sphere(1.74), 0.0).is_served(&cube(9.0)));
-    assert!(!ServedCasters::new(&view, &sphere(1.72), 0.0).is_served(&cube(9.0)));
-    assert!(!ServedCasters::new(&view, &sphere(-1.74), 0.0).is_served(&cube(9.0)));
+    let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(1.0)), DMat3::IDENTITY);
+    let sphere = |radius_m: f64| [CoveredByFinerCascade::Sphere { center_light: DVec3::ZERO, radius_m }];
+    assert!(RedundantCasters::new(&view, &sphere(1.74), 0.0).is_redundant(&cube(9.0)));
+    assert!(!RedundantCasters::new(&view, &sphere(1.72), 0.0).is_redundant(&cube(9.0)));
+    assert!(!RedundantCasters::new(&view, &sphere(-1.74), 0.0).is_redundant(&cube(9.0)));
     let rest = Aabb { min: DVec3::new(-1.0, -1.0, -1.0), max: DVec3::new(1.0, -0.5, 1.0) };
-    let beyond = ViewInLight::new(&ReceiverHull::of_box(&rest), DMat3::IDENTITY);
-    let depth = [Served::Depth { beyond }];
+    let beyond = LightSpaceView::new(&ReceiverHull::of_box(&rest), DMat3::IDENTITY);
+    let depth = [CoveredByFinerCascade::Depth { beyond }];
     let upper = Aabb { min: DVec3::new(0.0, -0.4, 0.0), max: DVec3::ONE };
-    assert!(ServedCasters::new(&view, &depth, 0.05).is_served(&upper));
-    assert!(!ServedCasters::new(&view, &depth, 0.15).is_served(&upper));
+    assert!(RedundantCasters::new(&view, &depth, 0.05).is_redundant(&upper));
+    assert!(!RedundantCasters::new(&view, &depth, 0.15).is_redundant(&upper));
 }
 
 #[test]
 fn casters_of_nothing_are_left_out_and_unknown_ones_are_kept() {
-    let view = ViewInLight::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
-    let finer = [Served::Box(cube(9.0))];
-    let casters = ServedCasters::new(&view, &finer, 0.1);
-    assert!(casters.is_served(&Aabb::EMPTY));
-    assert!(!casters.is_served(&Aabb { min: DVec3::NAN, max: DVec3::NAN }));
-    assert!(!casters.is_served(&Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY }));
-    let unknown = [Served::Box(Aabb { min: DVec3::NAN, max: DVec3::splat(20.0) })];
-    assert!(!ServedCasters::new(&view, &unknown, 0.1).is_served(&cube(1.0)));
-    let all = [Served::Box(cube(f64::INFINITY))];
-    assert!(ServedCasters::new(&view, &all, 0.1).is_served(&cube(1.0)));
-    let everywhere = ViewInLight::new(&ReceiverHull::new([DVec3::NAN; 8]), DMat3::IDENTITY);
-    assert!(!ServedCasters::new(&everywhere, &finer, 0.1).is_served(&cube(1.0)));
+    let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(10.0)), DMat3::IDENTITY);
+    let finer = [CoveredByFinerCascade::Box(cube(9.0))];
+    let casters = RedundantCasters::new(&view, &finer, 0.1);
+    assert!(casters.is_redundant(&Aabb::EMPTY));
+    assert!(!casters.is_redundant(&Aabb { min: DVec3::NAN, max: DVec3::NAN }));
+    assert!(!casters.is_redundant(&Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY }));
+    let unknown = [CoveredByFinerCascade::Box(Aabb { min: DVec3::NAN, max: DVec3::splat(20.0) })];
+    assert!(!RedundantCasters::new(&view, &unknown, 0.1).is_redundant(&cube(1.0)));
+    let all = [CoveredByFinerCascade::Box(cube(f64::INFINITY))];
+    assert!(RedundantCasters::new(&view, &all, 0.1).is_redundant(&cube(1.0)));
+    let everywhere = LightSpaceView::new(&ReceiverHull::new([DVec3::NAN; 8]), DMat3::IDENTITY);
+    assert!(!RedundantCasters::new(&everywhere, &finer, 0.1).is_redundant(&cube(1.0)));
 }
 
 #[test]
 fn without_finer_cascades_what_darkens_nothing_visible_is_left_out() {
-    let view = ViewInLight::new(&ReceiverHull::of_box(&cube(1.0)), DMat3::IDENTITY);
-    let casters = ServedCasters::new(&view, &[], 0.5);
+    let view = LightSpaceView::new(&ReceiverHull::of_box(&cube(1.0)), DMat3::IDENTITY);
+    let casters = RedundantCasters::new(&view, &[], 0.5);
     let moved = |by: DVec3| Aabb { min: by - 0.1, max: by + 0.1 };
-    assert!(!casters.is_served(&moved(DVec3::Z * 1e6)));
-    assert!(casters.is_served(&moved(DVec3::Z * -1.7)) && !casters.is_served(&moved(DVec3::Z * -1.5)));
-    assert!(casters.is_served(&moved(DVec3::X * 1.7)) && !casters.is_served(&moved(DVec3::X * 1.5)));
+    assert!(!casters.is_redundant(&moved(DVec3::Z * 1e6)));
+    assert!(casters.is_redundant(&moved(DVec3::Z * -1.7)) && !casters.is_redundant(&moved(DVec3::Z * -1.5)));
+    assert!(casters.is_redundant(&moved(DVec3::X * 1.7)) && !casters.is_redundant(&moved(DVec3::X * 1.5)));
 }

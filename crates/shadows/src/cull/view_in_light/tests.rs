@@ -23,10 +23,10 @@ proptest! {
         let view = random.view(away_m);
         let to_light = random.way_to_light(&view);
         let rotation = random.axes(to_light);
-        let prepared = ViewInLight::new(&view.hull(), rotation);
+        let prepared = LightSpaceView::new(&view.hull(), rotation);
         let others = Aabb { min: view.point(random.cube()), max: view.point(random.cube()) };
         let others = Aabb { min: others.min.min(others.max), max: others.min.max(others.max) };
-        let prepared_within = prepared.clone().within(&ViewInLight::new(&ReceiverHull::of_box(&others), rotation));
+        let prepared_within = prepared.clone().within(&LightSpaceView::new(&ReceiverHull::of_box(&others), rotation));
         for _ in 0..20 {
             let world = random.visible(&view);
             let point = rotation * world;
@@ -74,7 +74,7 @@ fn every_box_that_is_apart_is_told_to_be() {
         let to_light = random.way_to_light(&view);
         let rotation = random.axes(to_light);
         let corners = view.hull().corners().map(|corner| rotation * corner);
-        let prepared = ViewInLight::new(&view.hull(), rotation);
+        let prepared = LightSpaceView::new(&view.hull(), rotation);
         for _ in 0..10 {
             let beside = random.visible(&view) + random.unit() * view.far_m * random.magnitude(-3.0, 0.0);
             let size_m = view.far_m * random.magnitude(0.0, 2.0);
@@ -103,8 +103,8 @@ fn receivers_in_bounds_end_where_the_bounds_do() {
     let scene = Aabb { min: DVec3::new(-200.0, 0.0, -200.0), max: DVec3::new(200.0, 5.0, 200.0) };
     // A light from above: the light's z is the world's y.
     let rotation = DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y).transpose();
-    let prepared = ViewInLight::new(&view.hull(), rotation);
-    let within = prepared.clone().within(&ViewInLight::new(&ReceiverHull::of_box(&scene), rotation));
+    let prepared = LightSpaceView::new(&view.hull(), rotation);
+    let within = prepared.clone().within(&LightSpaceView::new(&ReceiverHull::of_box(&scene), rotation));
     let below = rotation * DVec3::new(0.0, -4.0, -50.0);
     let column = Aabb { min: (below - 1.0).with_z(f64::NEG_INFINITY), max: below + 1.0 };
     assert!(prepared.visible_part(&column).is_some());
@@ -116,11 +116,11 @@ fn receivers_in_bounds_end_where_the_bounds_do() {
 
 #[test]
 fn a_hull_that_is_not_finite_is_everywhere_and_empty_boxes_are_nowhere() {
-    let prepared = ViewInLight::new(&ReceiverHull::new([DVec3::NAN; 8]), DMat3::IDENTITY);
+    let prepared = LightSpaceView::new(&ReceiverHull::new([DVec3::NAN; 8]), DMat3::IDENTITY);
     let unit = Aabb { min: DVec3::splat(1e9), max: DVec3::splat(1e9) + 1.0 };
     assert_eq!(prepared.visible_part(&unit), Some(unit));
     assert_eq!(prepared.visible_part(&Aabb::EMPTY), None);
-    let finite = ViewInLight::new(&ReceiverHull::of_box(&unit), DMat3::IDENTITY);
+    let finite = LightSpaceView::new(&ReceiverHull::of_box(&unit), DMat3::IDENTITY);
     assert_eq!(prepared.within(&finite).visible_part(&Aabb { min: DVec3::ZERO, max: DVec3::ONE }), None);
     assert_eq!(finite.visible_part(&Aabb::EMPTY), None);
     // What is not known is taken to be all.

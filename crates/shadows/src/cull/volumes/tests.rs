@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Projection};
 
 use super::super::testing::{CASES, Random, View, least, randoms};
-use super::super::{ReceiverHull, ViewInLight};
+use super::super::{LightSpaceView, ReceiverHull};
 
 /// Tells how far the point is inside the volume, metres: its least distance from a plane.
 fn depth_in(volume: &ConvexVolume, point: DVec3) -> f64 {
@@ -243,7 +243,7 @@ fn timing_of_ten_thousand_casters() {
     let start = Instant::now();
     for round in 0..100 {
         let view = ReceiverHull::of_view(&camera, 1.7, 0.1, 150.0 + f64::from(round));
-        black_box(ViewInLight::new(&view, random.axes(to_light)));
+        black_box(LightSpaceView::new(&view, random.axes(to_light)));
     }
     let prepared = start.elapsed() / 100;
     let view = ReceiverHull::of_view(&camera, 1.7, 0.1, 150.0);

@@ -1,4 +1,4 @@
-//! Screen masks: a picture of shadows, a layer a light.
+//! Screen masks: an image of shadows with a layer for each light.
 
 pub(super) mod pass;
 

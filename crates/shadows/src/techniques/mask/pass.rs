@@ -7,7 +7,7 @@ use shadowgraph_shaders::compose;
 use super::{MASK, MASK_FORMAT, MAX_MASK_LAYERS, TARGET, WORKGROUP_PX, masked_lights};
 use crate::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{Screen, layout};
+use crate::technique::{SurfaceBuffers, layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 
 /// The lights of a mask.
@@ -60,7 +60,7 @@ impl MaskPass {
     pub(in crate::techniques) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        screen: &Screen,
+        screen: &SurfaceBuffers,
         mask: &Texture,
         layers: Layers,
         own: Uniform,
@@ -94,7 +94,7 @@ impl MaskPass {
 pub(in crate::techniques) fn mask_texture(
     frame: &mut Frame<'_>,
     name: impl shadowgraph_core::Name,
-    screen: &Screen,
+    screen: &SurfaceBuffers,
     layers: Layers,
 ) -> Texture {
     let [width, height] = screen.size_px;

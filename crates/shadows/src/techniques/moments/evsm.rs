@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{EVSM, ModuleSource};
 
-use super::{MomentRules, Moments};
+use super::{MomentParams, Moments};
 use crate::settings::in_range;
 use crate::{Error, TechniqueSettings};
 
@@ -82,7 +82,7 @@ impl TechniqueSettings for EvsmSettings {
             }
         }
         in_range("bias", self.bias, 0.0, 0.1, "0 to 0.1 (part of the depth range)")?;
-        self.rules().validate()
+        self.params().validate()
     }
 }
 
@@ -112,8 +112,8 @@ impl Moments for EvsmSettings {
         two + u32::from(self.precision == EvsmPrecision::Half)
     }
 
-    fn rules(&self) -> MomentRules {
-        MomentRules {
+    fn params(&self) -> MomentParams {
+        MomentParams {
             exponents: [self.away, self.towards],
             bleed: self.bleed,
             bias: self.bias,

@@ -16,8 +16,8 @@ use shadowgraph_shaders::{MAPPED, MOMENTS, ModuleSource};
 
 use crate::settings::in_range;
 use crate::technique::binding::UNIFORM;
-use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, Record, ShadowInputs, ShadowMaps, TechniqueSettings, plan, record};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Error, GpuStruct, Requirements, ShadowInputs, ShadowMaps, TechniqueSettings, gpu_struct, plan};
 use prefilter::Prefilter;
 
 /// `evsm`: two or four exponentially warped moments (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008).
@@ -48,13 +48,13 @@ pub trait Moments: TechniqueSettings {
     fn layout(&self) -> u32;
 
     /// Returns what shaders read of them.
-    fn rules(&self) -> MomentRules;
+    fn params(&self) -> MomentParams;
 }
 
-/// `MomentRules` of `moment_rules.wgsl`.
+/// `MomentParams` of `moment_params.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct MomentRules {
+pub struct MomentParams {
     /// By how much depths are warped towards the light and away from it; 0 without a warp.
     pub exponents: [f32; 2],
     /// The part of the light behind a blocker that is taken for light that leaks there.
@@ -71,17 +71,20 @@ pub struct MomentRules {
     pub unused: u32,
 }
 
-impl MomentRules {
+impl MomentParams {
     /// How far around a point the map of depths is read, texels.
-    fn reach_texels(&self) -> f32 {
+    fn kernel_radius_texels(&self) -> f32 {
         let coarsest = 1 << (self.mips - 1);
         self.downscale as f32 * (self.radius as f32 + 1.5 * coarsest as f32)
     }
 
-    /// What a technique with these rules needs.
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Needs {
-        let needs = plan::needs(inputs.settings);
-        Needs { kernel_radius_texels: needs.kernel_radius_texels.max(self.reach_texels()), ..needs }
+    /// What a technique with these params needs.
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Requirements {
+        let requirements = plan::requirements(inputs.settings);
+        Requirements {
+            kernel_radius_texels: requirements.kernel_radius_texels.max(self.kernel_radius_texels()),
+            ..requirements
+        }
     }
 
     /// Checks what all settings of moments have in common.
@@ -94,7 +97,7 @@ impl MomentRules {
         whole("downscale", self.downscale, &[1, 2, 4], "1, 2 or 4 (texels)")?;
         whole("blur_texels", self.radius, &[0, 1, 2, 3, 4], "0 to 4 (texels)")?;
         whole("mips", self.mips, &[1, 2, 3], "1 to 3")?;
-        if self.reach_texels() > 24.0 {
+        if self.kernel_radius_texels() > 24.0 {
             let words = "so few that downscale x (blur_texels + 1.5 x 2^(mips - 1)) is at most 24";
             return Err(crate::settings::setting("blur_texels", self.radius, words));
         }
@@ -118,8 +121,8 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
         S::NAME
     }
 
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(inputs.settings.techniques.get::<S>()?.rules().needs(inputs))
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(inputs.settings.techniques.get::<S>()?.params().requirements(inputs))
     }
 
     fn variant_count(&self) -> u32 {
@@ -134,24 +137,24 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
         [&ShadowMaps::BINDING_TYPES[..], &[prefilter::MOMENT_MAP, prefilter::MOMENT_MAP, UNIFORM]].concat()
     }
 
-    fn records(&self) -> Vec<Record> {
-        vec![record!(MomentRules { exponents, bleed, bias, downscale, radius, mips })]
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
+        vec![gpu_struct!(MomentParams { exponents, bleed, bias, downscale, radius, mips })]
     }
 
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&Screen>,
+        _screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let own: S = inputs.settings.techniques.get()?;
-        let (layout, rules) = (own.layout(), own.rules());
-        let needs = rules.needs(inputs);
+        let (layout, params) = (own.layout(), own.params());
+        let requirements = params.requirements(inputs);
         frame.node("shadows", |frame| {
-            let maps = self.maps.add_to(frame, inputs, &needs)?;
-            let block = frame.uniform(bytemuck::bytes_of(&rules));
+            let maps = self.maps.add_to(frame, inputs, &requirements)?;
+            let block = frame.uniform(bytemuck::bytes_of(&params));
             let mut of =
-                |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &rules, block));
+                |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &params, block));
             let cascades = of("cascade moments", &maps.cascades);
             let atlas = of("atlas moments", &maps.atlas);
             let mut bindings = maps.bindings();

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{MSM, ModuleSource};
 
-use super::{MomentRules, Moments};
+use super::{MomentParams, Moments};
 use crate::settings::in_range;
 use crate::{Error, TechniqueSettings};
 
@@ -36,7 +36,7 @@ impl TechniqueSettings for MsmSettings {
 
     fn validate(&self) -> Result<(), Error> {
         in_range("bias", self.bias, 1e-5, 0.1, "0.00001 to 0.1")?;
-        self.rules().validate()
+        self.params().validate()
     }
 }
 
@@ -55,8 +55,8 @@ impl Moments for MsmSettings {
         0
     }
 
-    fn rules(&self) -> MomentRules {
-        MomentRules {
+    fn params(&self) -> MomentParams {
+        MomentParams {
             exponents: [0.0; 2],
             bleed: self.bleed,
             bias: self.bias,

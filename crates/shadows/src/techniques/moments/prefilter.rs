@@ -3,7 +3,7 @@
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
 
-use super::{MomentRules, Moments};
+use super::{MomentParams, Moments};
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::layout;
 use crate::techniques::compute::{dispatch, pipeline, shader};
@@ -70,7 +70,7 @@ impl Prefilter {
         name: &'static str,
         map: &DrawnMap,
         views: &Buffer,
-        (form, rules, block): (u32, &MomentRules, Uniform),
+        (form, params, block): (u32, &MomentParams, Uniform),
     ) -> Texture {
         let (Some(form), Some(desc)) = (self.forms.get(form as usize), frame.texture_desc(&map.texture))
         else {
@@ -79,7 +79,7 @@ impl Prefilter {
         if map.tiles.is_empty() {
             return frame.import_texture("no moments", &self.no_moments, true);
         }
-        let [width, height] = [desc.size.width, desc.size.height].map(|side| side / rules.downscale);
+        let [width, height] = [desc.size.width, desc.size.height].map(|side| side / params.downscale);
         frame.node(name, |frame| {
             let tiles: Vec<u32> = map.tiles.iter().map(|(_, view)| *view).collect();
             let tiles = frame.upload_buffer("tiles", bytemuck::cast_slice(&tiles).to_vec());
@@ -90,10 +90,10 @@ impl Prefilter {
             let mut across = frame.create_texture("blurred across", unpacked);
             self.step(frame, ("across", &form.across), of, (&resolved, 0), (&mut across, 0));
             let moments =
-                TextureDesc { mip_levels: rules.mips, ..TextureDesc::d2(width, height, form.format) };
+                TextureDesc { mip_levels: params.mips, ..TextureDesc::d2(width, height, form.format) };
             let mut moments = frame.create_texture("moments", moments);
             self.step(frame, ("down", &form.down), of, (&across, 0), (&mut moments, 0));
-            for mip in 1..rules.mips {
+            for mip in 1..params.mips {
                 let finer = moments.clone();
                 self.step(frame, ("halve", &form.halve), of, (&finer, mip - 1), (&mut moments, mip));
             }

@@ -14,8 +14,8 @@ use shadowgraph_shaders::{MAPPED, ModuleSource, PCSS};
 use crate::maps::comparison_sampler;
 use crate::plan;
 use crate::technique::binding::{COMPARISON_SAMPLER, UNIFORM};
-use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, Record, ShadowInputs, ShadowMaps, TechniqueSettings, record};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Error, GpuStruct, Requirements, ShadowInputs, ShadowMaps, TechniqueSettings, gpu_struct};
 
 /// Soft shadows from the maps of [`Pcf`](crate::Pcf); see the module `shadows/pcss.wgsl`.
 pub struct Pcss {
@@ -54,9 +54,12 @@ impl Pcss {
 }
 
 /// What it needs with these settings of its own.
-fn needs(inputs: &ShadowInputs<'_>, own: &PcssSettings) -> Needs {
-    let needs = plan::needs(inputs.settings);
-    Needs { kernel_radius_texels: needs.kernel_radius_texels.max(own.most_texels), ..needs }
+fn requirements(inputs: &ShadowInputs<'_>, own: &PcssSettings) -> Requirements {
+    let requirements = plan::requirements(inputs.settings);
+    Requirements {
+        kernel_radius_texels: requirements.kernel_radius_texels.max(own.most_texels),
+        ..requirements
+    }
 }
 
 impl ShadowTechnique for Pcss {
@@ -64,8 +67,8 @@ impl ShadowTechnique for Pcss {
         PcssSettings::NAME
     }
 
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(needs(inputs, &inputs.settings.techniques.get()?))
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(requirements(inputs, &inputs.settings.techniques.get()?))
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
@@ -76,19 +79,19 @@ impl ShadowTechnique for Pcss {
         [&ShadowMaps::BINDING_TYPES[..], &[COMPARISON_SAMPLER, UNIFORM]].concat()
     }
 
-    fn records(&self) -> Vec<Record> {
-        vec![record!(SoftLights { sun_radius, lamp_radius, most_texels, blocker_taps, filter_taps })]
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
+        vec![gpu_struct!(SoftLights { sun_radius, lamp_radius, most_texels, blocker_taps, filter_taps })]
     }
 
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&Screen>,
+        _screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let own = inputs.settings.techniques.get()?;
-        let needs = needs(inputs, &own);
-        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, &needs))?;
+        let requirements = requirements(inputs, &own);
+        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, &requirements))?;
         let soft = frame.uniform(bytemuck::bytes_of(&SoftLights::new(&own)));
         let mut bindings = maps.bindings();
         bindings.extend([ShadowBinding::Sampler(&self.sampler), ShadowBinding::Uniform(soft)]);

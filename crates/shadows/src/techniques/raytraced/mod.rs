@@ -15,8 +15,8 @@ use super::mask::{MASK, TARGET, masked_lights, no_mask};
 use crate::rays::GpuRayScene;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
 use crate::technique::layout;
-use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, ShadowInputs, TechniqueSettings};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Error, Requirements, ShadowInputs, TechniqueSettings};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;
@@ -74,7 +74,7 @@ impl Raytraced {
     fn trace<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        screen: &Screen,
+        screen: &SurfaceBuffers,
         traced: &Buffer,
         layers: Layers,
     ) -> Texture {
@@ -103,7 +103,7 @@ impl Raytraced {
     fn mask<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        screen: &Screen,
+        screen: &SurfaceBuffers,
         traced: &Buffer,
         (lights, settings): (&[Light], &RaytracedSettings),
     ) -> Option<Texture> {
@@ -125,11 +125,11 @@ impl ShadowTechnique for Raytraced {
         RaytracedSettings::NAME
     }
 
-    fn needs(&self, _inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(Needs::NONE)
+    fn requirements(&self, _inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(Requirements::NONE)
     }
 
-    fn reads_surfaces(&self) -> bool {
+    fn reads_surface_buffers(&self) -> bool {
         true
     }
 
@@ -146,9 +146,9 @@ impl ShadowTechnique for Raytraced {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&Screen>,
+        screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name().into() })?;
+        let screen = screen.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
         let settings: RaytracedSettings = inputs.settings.techniques.get()?;
         let layers = mask_layers(inputs.lights);
         Ok(frame.node("shadows", |frame| {

@@ -8,7 +8,7 @@ use shadowgraph_shaders::compose;
 
 use crate::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{Screen, ShadowOutputs, ShadowTechnique, layout, shadow_layout};
+use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers, layout, shadow_layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 use crate::techniques::mask::TARGET;
 use crate::techniques::mask::pass::{Layers, mask_texture, workgroups};
@@ -60,7 +60,7 @@ impl Collect {
         &'f self,
         frame: &mut Frame<'f>,
         technique: &'f dyn ShadowTechnique,
-        screen: &Screen,
+        screen: &SurfaceBuffers,
         shadows: &ShadowOutputs<'f>,
         layers: Layers,
     ) -> Result<Texture, Error> {

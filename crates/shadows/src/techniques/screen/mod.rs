@@ -12,8 +12,8 @@ use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
 use super::mask::pass::{Layers, MaskPass};
 use super::mask::{MASK, no_mask};
 use crate::technique::binding::UNIFORM;
-use crate::technique::{Screen, ShadowBinding, ShadowOutputs, ShadowTechnique, add_shadows};
-use crate::{Error, Needs, Record, ShadowInputs, ShadowSettings, TechniqueSettings};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
+use crate::{Error, GpuStruct, Requirements, ShadowInputs, ShadowSettings, TechniqueSettings};
 use collect::Collect;
 
 /// Asks another technique once for each pixel and light, in a compute pass, and blurs what it says; a technique that gives a
@@ -72,7 +72,7 @@ impl ScreenShadows {
         &'f self,
         frame: &mut Frame<'f>,
         settings: &ShadowSettings,
-        screen: &Screen,
+        screen: &SurfaceBuffers,
         mut mask: Texture,
         layers: Layers,
     ) -> Result<Texture, Error> {
@@ -100,11 +100,11 @@ impl ShadowTechnique for ScreenShadows {
         &self.name
     }
 
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        self.inner.needs(inputs)
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        self.inner.requirements(inputs)
     }
 
-    fn reads_surfaces(&self) -> bool {
+    fn reads_surface_buffers(&self) -> bool {
         true
     }
 
@@ -138,17 +138,17 @@ impl ShadowTechnique for ScreenShadows {
         types
     }
 
-    fn records(&self) -> Vec<Record> {
-        self.inner.records()
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
+        self.inner.gpu_structs()
     }
 
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&Screen>,
+        screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name.clone() })?;
+        let screen = screen.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name.clone() })?;
         let inner = self.inner.as_ref();
         let mut outputs = add_shadows(inner, frame, inputs, Some(screen))?;
         let layers = Layers::new(frame, inputs.lights);

@@ -6,7 +6,7 @@ use shadowgraph_shaders::compose;
 
 use super::SdsmSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{Screen, layout};
+use crate::technique::{SurfaceBuffers, layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 use crate::{Error, ShadowInputs, ShadowPlan};
 
@@ -72,7 +72,7 @@ impl GpuFit {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'_>,
-        (screen, own): (&Screen, &SdsmSettings),
+        (screen, own): (&SurfaceBuffers, &SdsmSettings),
         plan: &ShadowPlan,
         [views, lights]: [&Buffer; 2],
     ) -> Buffer {
@@ -146,7 +146,7 @@ impl GpuFit {
 
 /// What all steps of a frame read and write.
 struct Steps<'s> {
-    screen: &'s Screen,
+    screen: &'s SurfaceBuffers,
     views: &'s Buffer,
     lights: &'s Buffer,
     block: Uniform,

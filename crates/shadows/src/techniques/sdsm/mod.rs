@@ -13,8 +13,8 @@ use shadowgraph_core::Frame;
 use shadowgraph_shaders::ModuleSource;
 
 use super::Pcf;
-use crate::technique::{Screen, ShadowOutputs, ShadowTechnique};
-use crate::{Error, Needs, ShadowInputs, TechniqueSettings};
+use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::{Error, Requirements, ShadowInputs, TechniqueSettings};
 use fit::GpuFit;
 
 /// The maps of [`Pcf`], with all cascades but the last fitted to the surfaces that are seen. The last covers the whole view: what is
@@ -40,11 +40,11 @@ impl ShadowTechnique for Sdsm {
         SdsmSettings::NAME
     }
 
-    fn needs(&self, inputs: &ShadowInputs<'_>) -> Result<Needs, Error> {
-        Ok(Needs { fits_on_gpu: true, ..self.pcf.needs(inputs)? })
+    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(Requirements { fits_on_gpu: true, ..self.pcf.requirements(inputs)? })
     }
 
-    fn reads_surfaces(&self) -> bool {
+    fn reads_surface_buffers(&self) -> bool {
         true
     }
 
@@ -64,11 +64,12 @@ impl ShadowTechnique for Sdsm {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&Screen>,
+        screen: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or_else(|| Error::NoSurfaces { technique: self.name().into() })?;
-        let (needs, own) = (self.needs(inputs)?, inputs.settings.techniques.get::<SdsmSettings>()?);
-        self.pcf.add_fitted(frame, inputs, &needs, |frame, plan, views, lights| {
+        let screen = screen.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
+        let (requirements, own) =
+            (self.requirements(inputs)?, inputs.settings.techniques.get::<SdsmSettings>()?);
+        self.pcf.add_fitted(frame, inputs, &requirements, |frame, plan, views, lights| {
             self.fit.add_to(frame, inputs, (screen, &own), plan, [views, lights])
         })
     }

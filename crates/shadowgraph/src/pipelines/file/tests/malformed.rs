@@ -61,7 +61,7 @@
     // Settings.
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"colected\": true}")], "`shadows` (shadows) has no setting `colected`; did you mean `collected`?"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"collected\": 1}")], "`shadows`: collected is 1; it can be true or false"),
-    (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"pfc\"}")], "mine.ron:6:68: there is no technique `pfc`; did you mean `pcf`?"),
+    (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"pfc\"}")], "mine.ron:6:68: unknown technique `pfc`; did you mean `pcf`?"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": 3}")], "technique is 3; it can be a text"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"$sun\"}")], "setting `technique`: there is no parameter `sun`: the pipeline has none"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"pcf\", \"technique\": \"msm\"}")], "the setting `technique` stands here twice"),

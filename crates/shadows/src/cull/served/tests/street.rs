@@ -55,34 +55,35 @@ impl Street {
         (self.maps[cascade].max.x - self.maps[cascade].min.x) / TILE_PX
     }
 
-    fn view(&self, near_m: f64) -> ViewInLight {
+    fn view(&self, near_m: f64) -> LightSpaceView {
         let view = ReceiverHull::of_view(&self.camera, 16.0 / 9.0, near_m, ENDS_M[3]);
-        ViewInLight::new(&view, self.rotation)
+        LightSpaceView::new(&view, self.rotation)
     }
 
-    fn scene(&self) -> ViewInLight {
+    fn scene(&self) -> LightSpaceView {
         let bounds = self.casters.iter().fold(Aabb::EMPTY, |all, caster| all.union(caster));
-        ViewInLight::new(&ReceiverHull::of_box(&bounds), self.rotation)
+        LightSpaceView::new(&ReceiverHull::of_box(&bounds), self.rotation)
     }
 
-    fn boxes(&self) -> Vec<Served> {
+    fn boxes(&self) -> Vec<CoveredByFinerCascade> {
         let shrunk = |(cascade, map): (usize, &Aabb)| {
             let by = self.texel_m(cascade) * 8.0;
-            Served::Box(Aabb { min: map.min + by, max: map.max - by })
+            CoveredByFinerCascade::Box(Aabb { min: map.min + by, max: map.max - by })
         };
         self.maps.iter().enumerate().map(shrunk).collect()
     }
 
-    fn spheres(&self) -> Vec<Served> {
+    fn spheres(&self) -> Vec<CoveredByFinerCascade> {
         let inside = |(cascade, map): (usize, &Aabb)| {
             let radius_m = (map.max.x - map.min.x) * 0.5 - self.texel_m(cascade) * 8.0;
-            Served::Sphere { center_light: map.min + radius_m, radius_m }
+            CoveredByFinerCascade::Sphere { center_light: map.min + radius_m, radius_m }
         };
         self.maps.iter().enumerate().map(inside).collect()
     }
 
-    fn depths(&self, scene: &ViewInLight) -> Vec<Served> {
-        let rest = |end_m: &f64| Served::Depth { beyond: self.view(end_m * 0.95).within(scene) };
+    fn depths(&self, scene: &LightSpaceView) -> Vec<CoveredByFinerCascade> {
+        let rest =
+            |end_m: &f64| CoveredByFinerCascade::Depth { beyond: self.view(end_m * 0.95).within(scene) };
         ENDS_M.iter().map(rest).collect()
     }
 
@@ -99,16 +100,16 @@ impl Street {
 
     /// Of the casters in each cascade's map, the share that darkens nothing visible, and the share of the rest
     /// that finer cascades serve.
-    fn shares(&self, view: &ViewInLight, finer: &[Served]) -> [(usize, f64, f64); 4] {
+    fn shares(&self, view: &LightSpaceView, finer: &[CoveredByFinerCascade]) -> [(usize, f64, f64); 4] {
         std::array::from_fn(|cascade| {
             let casters = self.casters_in(cascade);
             let reach_m = REACH_PX * self.texel_m(cascade);
             let (seen, served) = (
-                ServedCasters::new(view, &[], reach_m),
-                ServedCasters::new(view, &finer[..cascade], reach_m),
+                RedundantCasters::new(view, &[], reach_m),
+                RedundantCasters::new(view, &finer[..cascade], reach_m),
             );
-            let unseen = casters.iter().filter(|caster| seen.is_served(caster)).count();
-            let left_out = casters.iter().filter(|caster| served.is_served(caster)).count();
+            let unseen = casters.iter().filter(|caster| seen.is_redundant(caster)).count();
+            let left_out = casters.iter().filter(|caster| served.is_redundant(caster)).count();
             let rest = (casters.len() - unseen) as f64;
             (casters.len(), unseen as f64 / casters.len() as f64, (left_out - unseen) as f64 / rest)
         })
@@ -153,17 +154,17 @@ fn in_a_street_most_of_what_is_kept_is_needed() {
     let world_from_light = street.rotation.transpose();
     for cascade in 1..4 {
         let reach_m = REACH_PX * street.texel_m(cascade);
-        let casters = ServedCasters::new(&view, &finer[..cascade], reach_m);
+        let casters = RedundantCasters::new(&view, &finer[..cascade], reach_m);
         let is_read = |light: DVec3| {
             let world = world_from_light * light;
             let served = finer[..cascade].iter().any(|served| match served {
-                Served::Box(served) => served.contains_point(light),
+                CoveredByFinerCascade::Box(served) => served.contains_point(light),
                 _ => false,
             });
             !served && all.contains_point(world) && eye.contains(world)
         };
         let kept: Vec<Aabb> =
-            street.casters_in(cascade).into_iter().filter(|caster| !casters.is_served(caster)).collect();
+            street.casters_in(cascade).into_iter().filter(|caster| !casters.is_redundant(caster)).collect();
         let needed = kept.iter().filter(|caster| grid_below(caster, &view, reach_m).any(is_read)).count();
         let share = needed as f64 / kept.len() as f64;
         println!("cascade {cascade}: of {} that are kept {:.1} % are needed", kept.len(), share * 100.0);
@@ -172,7 +173,7 @@ fn in_a_street_most_of_what_is_kept_is_needed() {
 }
 
 /// Points all over the column below a caster.
-fn grid_below(caster: &Aabb, view: &ViewInLight, reach_m: f64) -> impl Iterator<Item = DVec3> {
+fn grid_below(caster: &Aabb, view: &LightSpaceView, reach_m: f64) -> impl Iterator<Item = DVec3> {
     let column = Aabb { min: (caster.min - reach_m).with_z(f64::NEG_INFINITY), max: caster.max + reach_m };
     let part = view.visible_part(&column).unwrap_or(column);
     let at = |i: i32, of: i32| (f64::from(i) + 0.5) / f64::from(of);
@@ -201,8 +202,8 @@ fn timing_of_ten_thousand_casters_in_four_cascades() {
             left_out = 0;
             for cascade in 0..4 {
                 let reach_m = REACH_PX * street.texel_m(cascade);
-                let casters = ServedCasters::new(&view, &finer[..cascade], reach_m);
-                left_out += bounds.iter().filter(|caster| casters.is_served(black_box(caster))).count();
+                let casters = RedundantCasters::new(&view, &finer[..cascade], reach_m);
+                left_out += bounds.iter().filter(|caster| casters.is_redundant(black_box(caster))).count();
             }
             best = best.min(start.elapsed());
         }

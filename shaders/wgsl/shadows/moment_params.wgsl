@@ -1,9 +1,9 @@
 // What users choose of shadow maps of moments.
-#define_import_path shadowgraph::shadows::moment_rules
+#define_import_path shadowgraph::shadows::moment_params
 #import shadowgraph::shadows::types::ShadowView
 
 // 32 bytes.
-struct MomentRules {
+struct MomentParams {
     // By how much depths are warped towards the light and away from it; 0 without a warp.
     exponents: vec2f,
     // The part of the light behind a blocker that is taken for light that leaks there.

@@ -1,8 +1,8 @@
-//! Lights that come, go and change over many frames.
+//! Lights that are added, removed and changed over many frames.
 
 use super::*;
 
-/// What happens to a light between two frames.
+/// A change of a light between two frames.
 #[derive(Clone, Copy, Debug)]
 enum Change {
     ComesOrGoes,
@@ -22,19 +22,19 @@ fn any_change() -> impl Strategy<Value = Change> {
     ]
 }
 
-/// For each frame which lights change and how.
+/// For each frame, the lights that change and how.
 fn any_frames() -> impl Strategy<Value = Vec<Vec<(usize, Change)>>> {
     let frame = proptest::collection::vec((any::<usize>(), any_change()), 0..6);
     proptest::collection::vec(frame, 50)
 }
 
-fn change(wish: &mut TileWish, present: &mut bool, change: Change, smallest_px: f64) {
+fn change(request: &mut TileRequest, present: &mut bool, change: Change, smallest_px: f64) {
     match change {
         Change::ComesOrGoes => *present = !*present,
-        Change::Size(size) => wish.size_px = smallest_px * size.exp2(),
-        Change::Grows(by) => wish.size_px *= by.exp2(),
-        Change::Importance(importance) => wish.importance = importance,
-        Change::Tiles(tiles) => wish.tiles = tiles,
+        Change::Size(size) => request.size_px = smallest_px * size.exp2(),
+        Change::Grows(by) => request.size_px *= by.exp2(),
+        Change::Importance(importance) => request.importance = importance,
+        Change::Tiles(tiles) => request.tiles = tiles,
     }
 }
 
@@ -42,27 +42,27 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn every_frame_keeps_every_rule(
-        (rules, mut lights) in rules_and_wishes(24),
+    fn every_frame_obeys_every_rule(
+        (config, mut lights) in config_and_requests(24),
         frames in any_frames(),
     ) {
         let mut present = vec![true; lights.len()];
-        let mut previous: Option<Allotment> = None;
+        let mut previous: Option<AtlasAllocation> = None;
         for changes in frames {
             for (light, what) in changes {
                 let Some(i) = light.checked_rem(lights.len()) else { continue };
-                change(&mut lights[i], &mut present[i], what, rules.smallest_px.into());
+                change(&mut lights[i], &mut present[i], what, config.smallest_px.into());
             }
             let here = lights.iter().zip(&present).filter(|(_, present)| **present);
-            let wishes: Vec<TileWish> = here.map(|(wish, _)| *wish).collect();
-            let got = allot(&rules, &wishes, previous.as_ref());
-            naive::check(&rules, &wishes, previous.as_ref(), &got);
+            let requests: Vec<TileRequest> = here.map(|(request, _)| *request).collect();
+            let got = allocate_tiles(&config, &requests, previous.as_ref());
+            reference::check(&config, &requests, previous.as_ref(), &got);
             previous = Some(got);
         }
     }
 
     #[test]
-    fn a_first_frame_keeps_every_rule((rules, wishes) in rules_and_wishes(40)) {
-        naive::check(&rules, &wishes, None, &allot(&rules, &wishes, None));
+    fn a_first_frame_obeys_every_rule((config, requests) in config_and_requests(40)) {
+        reference::check(&config, &requests, None, &allocate_tiles(&config, &requests, None));
     }
 }

@@ -1,55 +1,57 @@
-//! What a controller is made with.
+//! Configuration of the controller.
 
 use serde::{Deserialize, Serialize};
 
-use crate::settings::setting;
-use crate::{Error, MAX_CASCADES};
+use crate::error::Error;
+use crate::settings::{MAX_CASCADES, setting};
 
-/// How long shadows may take, and what is given up for it.
+/// A time budget for shadows, and the quality levels to choose from.
 ///
 /// ```
-/// use shadowgraph_shadows::BudgetRules;
-/// let rules: BudgetRules = ron::from_str("(budget_ms: 1.5, levels: [(), (map_scale: 2), (map_scale: 2, cascades: 2)])")?;
-/// rules.validate()?;
-/// assert_eq!(rules.levels[1].cascades, 8);
+/// use shadowgraph_shadows::BudgetConfig;
+/// let config: BudgetConfig = ron::from_str("(budget_ms: 1.5, levels: [(), (map_scale: 2), (map_scale: 2, cascades: 2)])")?;
+/// config.validate()?;
+/// assert_eq!(config.levels[1].cascades, 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct BudgetRules {
+pub struct BudgetConfig {
     /// The time that the shadow passes of a frame may take, milliseconds, 0.001 to 1000.
     pub budget_ms: f64,
-    /// The levels, from best to cheapest, 1 to 32. Each is cheaper in something than the one before.
-    pub levels: Vec<Quality>,
+    /// The levels, from best to cheapest, 1 to 32. Each is cheaper in at least one value than the one before.
+    pub levels: Vec<QualityLevel>,
 }
 
-/// What one level leaves of the [`ShadowSettings`](crate::ShadowSettings) that a user chose. Left out: all of it.
+/// The limits that one level puts on the user's [`ShadowSettings`](crate::ShadowSettings). Values that are left out limit nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Quality {
-    /// What the width of the maps is divided by: 1, 2, 4 or 8. Maps stay at least 256 pixels wide.
+pub struct QualityLevel {
+    /// Divisor of the maps' width: 1, 2, 4 or 8. Maps stay at least 256 pixels wide.
     pub map_scale: u32,
-    /// The most cascades that a light has, 1 to 8.
+    /// Largest number of cascades of a light, 1 to 8.
     pub cascades: u32,
-    /// What the shadow distance is multiplied by, 0.05 to 1. It counts only where the distance is not beyond the camera's
-    /// far plane anyway.
+    /// Factor of the shadow distance, 0.05 to 1. It has an effect only where the result is nearer than the camera's
+    /// far plane.
     pub distance_scale: f32,
 }
 
-/// The most levels that there can be.
+/// Largest number of levels.
 const MAX_LEVELS: usize = 32;
 
-impl Default for Quality {
+impl Default for QualityLevel {
     fn default() -> Self {
         Self { map_scale: 1, cascades: MAX_CASCADES, distance_scale: 1.0 }
     }
 }
 
-impl Default for BudgetRules {
-    /// 2 milliseconds, and eight levels: first the distance, which is missed least, then in turn cascades and maps.
+impl Default for BudgetConfig {
+    /// Returns 2 milliseconds and eight levels: they shorten the distance first, which is missed least, then reduce
+    /// cascades and maps in turn.
     fn default() -> Self {
-        let level = |(map_scale, cascades, distance_scale)| Quality { map_scale, cascades, distance_scale };
-        // A single cascade has all of the map, as wide as two: so maps are halved with it.
+        let level =
+            |(map_scale, cascades, distance_scale)| QualityLevel { map_scale, cascades, distance_scale };
+        // A single cascade has the whole map, twice as wide as a tile of two: so maps are halved with it.
         let levels = [
             (1, 8, 1.0),
             (1, 6, 0.8),
@@ -64,7 +66,7 @@ impl Default for BudgetRules {
     }
 }
 
-impl BudgetRules {
+impl BudgetConfig {
     /// Checks every value.
     ///
     /// # Errors
@@ -77,17 +79,18 @@ impl BudgetRules {
         if !(1..=MAX_LEVELS).contains(&self.levels.len()) {
             return Err(setting("levels", format!("a list of {}", self.levels.len()), "1 to 32 levels"));
         }
-        self.levels.iter().try_for_each(Quality::validate)?;
-        // A list from cheapest to best would steer the wrong way.
-        let mistaken = (1..).zip(self.levels.windows(2)).find(|(_, pair)| !pair[1].is_cheaper_than(&pair[0]));
-        mistaken.map_or(Ok(()), |(i, _)| {
-            let value = format!("nowhere cheaper in level {i} than in the one before");
+        self.levels.iter().try_for_each(QualityLevel::validate)?;
+        // With a list from cheapest to best, the controller would step the wrong way.
+        let unordered =
+            (1..).zip(self.levels.windows(2)).find(|(_, pair)| !pair[1].is_cheaper_than(&pair[0]));
+        unordered.map_or(Ok(()), |(i, _)| {
+            let value = format!("in the wrong order: level {i} is not cheaper than the one before");
             Err(setting("levels", value, "from best to cheapest"))
         })
     }
 }
 
-impl Quality {
+impl QualityLevel {
     fn validate(&self) -> Result<(), Error> {
         if !matches!(self.map_scale, 1 | 2 | 4 | 8) {
             return Err(setting("levels.map_scale", self.map_scale, "1, 2, 4 or 8"));
@@ -101,7 +104,7 @@ impl Quality {
         Ok(())
     }
 
-    /// In one thing at least.
+    /// Returns whether at least one value is cheaper.
     fn is_cheaper_than(&self, other: &Self) -> bool {
         self.map_scale > other.map_scale
             || self.cascades < other.cascades

@@ -2,15 +2,17 @@
 
 use shadowgraph_scene::Light;
 
-use crate::{BiasSettings, Error, LightRef, LightShadows, Needs, NormalBias, ShadowFilter, ShadowSettings};
+use crate::{
+    BiasSettings, Error, LightRef, LightShadows, NormalBias, Requirements, ShadowFilter, ShadowSettings,
+};
 
 /// How one light's shadows are made and read.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct LightRules {
+pub(crate) struct LightShadowParams {
     pub(crate) bias: BiasSettings,
     pub(crate) filter: ShadowFilter,
     /// How far from the point it is asked for the technique reads, texels.
-    pub(crate) reach_texels: f32,
+    pub(crate) kernel_radius_texels: f32,
     /// How far beyond that a blocker can be and still matter, metres.
     pub(crate) blocker_reach_m: f64,
     pub(crate) strength: f32,
@@ -19,7 +21,7 @@ pub(crate) struct LightRules {
     pub(crate) importance: f64,
 }
 
-impl LightRules {
+impl LightShadowParams {
     /// Of a light in the map of cascades, or of one in the atlas.
     pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
         let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
@@ -29,7 +31,7 @@ impl LightRules {
             return Self {
                 bias,
                 filter,
-                reach_texels: filter.reach_texels(),
+                kernel_radius_texels: filter.kernel_radius_texels(),
                 blocker_reach_m: 0.0,
                 strength: 1.0,
                 fade_fraction,
@@ -47,7 +49,7 @@ impl LightRules {
         Self {
             bias,
             filter,
-            reach_texels: filter.reach_texels(),
+            kernel_radius_texels: filter.kernel_radius_texels(),
             blocker_reach_m: 0.0,
             strength: own.strength,
             fade_fraction,
@@ -57,9 +59,9 @@ impl LightRules {
     }
 
     /// For a technique that needs more than the settings do.
-    pub(crate) fn needing(self, needs: &Needs) -> Self {
-        let reach_texels = self.reach_texels.max(needs.kernel_radius_texels);
-        Self { reach_texels, blocker_reach_m: f64::from(needs.blocker_reach_m), ..self }
+    pub(crate) fn needing(self, requirements: &Requirements) -> Self {
+        let kernel_radius_texels = self.kernel_radius_texels.max(requirements.kernel_radius_texels);
+        Self { kernel_radius_texels, blocker_reach_m: f64::from(requirements.blocker_reach_m), ..self }
     }
 
     /// How far beside a point things matter, metres, where a texel is `texel_m` wide.
@@ -69,7 +71,7 @@ impl LightRules {
 
     /// The border on each side of a tile, pixels: as wide as is read.
     pub(crate) fn border_px(&self) -> u32 {
-        self.reach_texels.ceil() as u32
+        self.kernel_radius_texels.ceil() as u32
     }
 
     pub(crate) fn normal_sine(&self) -> bool {
@@ -78,15 +80,18 @@ impl LightRules {
 
     /// The longest way along the normal, texels.
     pub(crate) fn normal_texels(&self) -> f32 {
-        let scale =
-            if self.normal_sine() { 1.0 } else { std::f32::consts::SQRT_2 * self.filter.reach_texels() };
+        let scale = if self.normal_sine() {
+            1.0
+        } else {
+            std::f32::consts::SQRT_2 * self.filter.kernel_radius_texels()
+        };
         self.bias.normal_texels * scale
     }
 
     /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that snapping
     /// can be off.
     pub(crate) fn margin_px(&self, bias_scale: f32) -> f64 {
-        f64::from(self.reach_texels + self.normal_texels() * bias_scale.max(1.0)) + 1.0
+        f64::from(self.kernel_radius_texels + self.normal_texels() * bias_scale.max(1.0)) + 1.0
     }
 }
 
@@ -106,10 +111,10 @@ pub(crate) fn of_lights<'s>(
         };
         let slot = index.and_then(|index| Some((index, of_lights.get_mut(index)?)));
         let Some((light, slot)) = slot else {
-            return Err(Error::NoSuchLight { entry, light: own.light.to_string(), count: lights.len() });
+            return Err(Error::UnknownLight { entry, light: own.light.to_string(), count: lights.len() });
         };
         if slot.replace(own).is_some() {
-            return Err(Error::LightTwice { entry, light });
+            return Err(Error::DuplicateLight { entry, light });
         }
     }
     Ok(of_lights)
