@@ -71,13 +71,15 @@ impl Example for Life {
             let bytes = u64::from(SIDE * SIDE) * 4;
             let mut next = frame.create_buffer(format_args!("generation {generation}"), BufferDesc { bytes });
             let pass = frame.compute(format_args!("live {generation}"), &self.live).storage(&now);
-            pass.storage_mut(&mut next, Contents::Cover).dispatch([SIDE / 8, SIDE / 8, 1]);
+            pass.storage_mut(&mut next, Contents::Overwrite).dispatch([SIDE / 8, SIDE / 8, 1]);
             now = next;
         }
         let (width, height) = (target.width(), target.height());
         let mut cells = frame.create_texture("cells", TextureDesc::d2(width, height, Format::Rgba8Unorm));
-        let pass =
-            frame.compute("show", &self.show).storage(&now).storage_texture_mut(&mut cells, Contents::Cover);
+        let pass = frame
+            .compute("show", &self.show)
+            .storage(&now)
+            .storage_texture_mut(&mut cells, Contents::Overwrite);
         pass.dispatch([width.div_ceil(8), height.div_ceil(8), 1]);
         let mut picture = frame.import_texture("picture", target, false);
         frame.copy_pass("copy").texture(&cells, &mut picture);

@@ -69,7 +69,7 @@ fn rings_under_a_lens<'f>(frame: &mut Frame<'f>, pipelines: &'f Pipelines, canva
     let mut rings = frame.create_texture("rings", desc);
     let mut pass = frame.render_pass("rings");
     // The triangle covers every pixel, so what was there before does not matter.
-    pass.color(&mut rings, Contents::Cover);
+    pass.color(&mut rings, Contents::Overwrite);
     pass.body(|ctx| {
         ctx.pass.set_pipeline(&pipelines.rings);
         ctx.pass.draw(0..3, 0..1);

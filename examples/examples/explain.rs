@@ -24,10 +24,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Somebody meant this one to be seen, and forgot to read what it draws.
     let mut blur = frame.render_pass("blur");
     blur.sample(&scene);
-    blur.color(&mut glow, Contents::Cover);
+    blur.color(&mut glow, Contents::Overwrite);
     let mut tonemap = frame.render_pass("tonemap");
     tonemap.sample(&scene);
-    tonemap.color(&mut picture, Contents::Cover);
+    tonemap.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
 
     let plan = frame.compile()?.into_plan();

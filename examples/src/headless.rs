@@ -2,7 +2,7 @@
 
 use crate::{Arguments, Canvas, Example, Failure, target};
 use indicatif::ProgressBar;
-use shadowgraph::core::{Graph, Part};
+use shadowgraph::core::{Graph, Subresource};
 use shadowgraph::output::{Pixels, write_png};
 use shadowgraph::{Gpu, wgpu};
 
@@ -34,7 +34,7 @@ fn texels(gpu: &Gpu, picture: &wgpu::Texture) -> Result<Vec<u8>, Failure> {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
     let picture = frame.import_texture("picture", picture, true);
-    let request = frame.read_back_texture(&picture, Part::WHOLE);
+    let request = frame.read_back_texture(&picture, Subresource::FULL);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
     gpu.queue.submit([encoder.finish()]);

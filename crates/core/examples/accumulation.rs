@@ -6,7 +6,9 @@
 
 mod common;
 
-use shadowgraph_core::{Format, Frame, FullscreenShader, Graph, Part, Resize, Texture, TextureDesc, wgpu};
+use shadowgraph_core::{
+    Format, Frame, FullscreenShader, Graph, Resize, Subresource, Texture, TextureDesc, wgpu,
+};
 
 const SIDE: u32 = 320;
 const FRAMES: u32 = 64;
@@ -67,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .sample(&noisy)
             .sample(&mean)
             .draw(&mut picture);
-        let pixels = frame.read_back_texture(&picture, Part::WHOLE);
+        let pixels = frame.read_back_texture(&picture, Subresource::FULL);
         let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
         queue.submit([encoder.finish()]);
         let pixels = executed.read_back(pixels).ok_or("nothing was read back")?.wait(&device)?;

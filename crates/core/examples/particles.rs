@@ -5,7 +5,9 @@
 
 mod common;
 
-use shadowgraph_core::{Bind, BufferDesc, ComputeShader, Contents, Format, Graph, Part, TextureDesc, wgpu};
+use shadowgraph_core::{
+    Bind, BufferDesc, ComputeShader, Contents, Format, Graph, Subresource, TextureDesc, wgpu,
+};
 
 const SIDE: u32 = 360;
 const PARTICLES: u32 = 32 * 1024;
@@ -23,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Two floats of place and two of velocity each.
     let mut particles = frame.create_buffer("particles", BufferDesc::new(u64::from(PARTICLES) * 16));
     let groups = [PARTICLES / 64, 1, 1];
-    frame.compute("scatter", &scatter).storage_mut(&mut particles, Contents::Cover).dispatch(groups);
+    frame.compute("scatter", &scatter).storage_mut(&mut particles, Contents::Overwrite).dispatch(groups);
     for step in 0..STEPS {
         // Each step reads what the one before it wrote: `Preserve` says so, and orders them.
         let pass = frame.compute(format_args!("step {step}"), &move_on);
@@ -41,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ctx.pass.draw(0..4, 0..PARTICLES);
         Ok(())
     });
-    let pixels = frame.read_back_texture(&picture, Part::WHOLE);
+    let pixels = frame.read_back_texture(&picture, Subresource::FULL);
 
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

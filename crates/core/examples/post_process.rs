@@ -5,7 +5,7 @@
 
 mod common;
 
-use shadowgraph_core::{Format, Frame, FullscreenShader, Graph, Part, Texture, TextureDesc, wgpu};
+use shadowgraph_core::{Format, Frame, FullscreenShader, Graph, Subresource, Texture, TextureDesc, wgpu};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 360;
@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let glow = glow(&mut frame, &shaders, &scene);
     let combine = frame.fullscreen("combine", &shaders.combine);
     combine.sample(&scene).sample(&glow).sampler(&shaders.linear).draw(&mut picture);
-    let pixels = frame.read_back_texture(&picture, Part::WHOLE);
+    let pixels = frame.read_back_texture(&picture, Subresource::FULL);
 
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

@@ -6,7 +6,9 @@
 
 mod common;
 
-use shadowgraph_core::{Format, Frame, FullscreenShader, Graph, Part, Rect, Texture, TextureDesc, wgpu};
+use shadowgraph_core::{
+    Format, Frame, FullscreenShader, Graph, Rect, Subresource, Texture, TextureDesc, wgpu,
+};
 
 const SIDE: u32 = 320;
 
@@ -44,10 +46,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let half = Rect::new(index as u32 * SIDE, 0, SIDE, SIDE);
             let grade = frame.fullscreen("grade", &shaders.grade).sample(&color).sampler(&shaders.linear);
             let tint = tint.map(f32::to_le_bytes).concat();
-            grade.uniform(&tint[..]).on(Part::WHOLE.rect(half)).draw(&mut picture);
+            grade.uniform(&tint[..]).subresource(Subresource::FULL.rect(half)).draw(&mut picture);
         });
     }
-    let pixels = frame.read_back_texture(&picture, Part::WHOLE);
+    let pixels = frame.read_back_texture(&picture, Subresource::FULL);
 
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

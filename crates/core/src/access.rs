@@ -79,8 +79,8 @@ impl Access {
         }
     }
 
-    /// Returns the access in one or two words, as the dumps print it.
-    pub fn word(self) -> &'static str {
+    /// Returns the name of the access, as the dumps print it.
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::Color(_) => "color",
             Self::Resolve(_) => "resolve target",
@@ -96,6 +96,12 @@ impl Access {
             Self::CopySource => "copy source",
             Self::CopyTarget => "copy target",
         }
+    }
+}
+
+impl std::fmt::Display for Access {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.as_str())
     }
 }
 
@@ -116,7 +122,8 @@ pub enum Contents {
     /// The attachment is cleared first, then drawn over. Attachments only.
     Clear(ClearValue),
     /// Every texel or byte is written: what was there does not matter. The graph takes your word for it.
-    Cover,
+    #[serde(rename = "Cover")]
+    Overwrite,
     /// What was there stays where this pass does not write; it must have been defined by an earlier write.
     Preserve,
 }

@@ -4,7 +4,7 @@ use crate::access::{Access, Contents};
 use crate::declaration::CopyOp;
 use crate::frame::Frame;
 use crate::handle::{Buffer, BufferToken, PassId, Texture, TextureToken};
-use crate::part::Part;
+use crate::subresource::Subresource;
 use std::marker::PhantomData;
 
 /// Marks a [`Pass`] that draws.
@@ -23,7 +23,7 @@ pub struct Pass<'p, 'f, K> {
     pub(crate) frame: &'p mut Frame<'f>,
     pub(crate) id: PassId,
     /// What the next access is narrowed to.
-    part: Option<Part>,
+    subresource: Option<Subresource>,
     /// Colour attachments declared so far.
     colors: u32,
     kind: PhantomData<K>,
@@ -31,7 +31,7 @@ pub struct Pass<'p, 'f, K> {
 
 impl<'p, 'f, K> Pass<'p, 'f, K> {
     pub(crate) fn new(frame: &'p mut Frame<'f>, id: PassId) -> Self {
-        Self { frame, id, part: None, colors: 0, kind: PhantomData }
+        Self { frame, id, subresource: None, colors: 0, kind: PhantomData }
     }
 
     /// Returns the pass's id in the plan.
@@ -64,37 +64,43 @@ impl<'p, 'f, K> Pass<'p, 'f, K> {
     /// Narrows the next access to a part of its resource.
     ///
     /// ```
-    /// use shadowgraph_core::{Contents, Format, Frame, Part, TextureDesc};
+    /// use shadowgraph_core::{Contents, Format, Frame, Subresource, TextureDesc};
     /// let mut frame = Frame::new();
     /// let mut cube = frame.create_texture("cube", TextureDesc::d2(64, 64, Format::Depth32Float).layers(6));
     /// for face in 0..6 {
     ///     let mut pass = frame.render_pass(format_args!("face {face}"));
-    ///     pass.on(Part::WHOLE.layer(face)).depth(&mut cube, Contents::clear_depth(0.0));
+    ///     pass.subresource(Subresource::FULL.layer(face)).depth(&mut cube, Contents::clear_depth(0.0));
     /// }
     /// frame.export_texture(&cube);
     /// let plan = frame.compile()?.into_plan();
     /// assert!(plan.dependencies().is_empty(), "faces do not order each other");
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
-    pub fn on(&mut self, part: Part) -> &mut Self {
-        self.part = Some(part);
+    pub fn subresource(&mut self, subresource: Subresource) -> &mut Self {
+        self.subresource = Some(subresource);
         self
     }
 
     fn read_texture(&mut self, texture: &Texture, access: Access) -> TextureToken {
-        TextureToken(self.frame.declare_read(self.id, texture.0, access, &mut self.part))
+        TextureToken(self.frame.declare_read(self.id, texture.0, access, &mut self.subresource))
     }
 
     fn read_buffer(&mut self, buffer: &Buffer, access: Access) -> BufferToken {
-        BufferToken(self.frame.declare_read(self.id, buffer.0, access, &mut self.part))
+        BufferToken(self.frame.declare_read(self.id, buffer.0, access, &mut self.subresource))
     }
 
     fn write_texture(&mut self, texture: &mut Texture, access: Access, contents: Contents) -> TextureToken {
-        TextureToken(self.frame.declare_write(self.id, &mut texture.0, access, contents, &mut self.part))
+        TextureToken(self.frame.declare_write(
+            self.id,
+            &mut texture.0,
+            access,
+            contents,
+            &mut self.subresource,
+        ))
     }
 
     fn write_buffer(&mut self, buffer: &mut Buffer, access: Access, contents: Contents) -> BufferToken {
-        BufferToken(self.frame.declare_write(self.id, &mut buffer.0, access, contents, &mut self.part))
+        BufferToken(self.frame.declare_write(self.id, &mut buffer.0, access, contents, &mut self.subresource))
     }
 }
 
@@ -152,7 +158,7 @@ impl Pass<'_, '_, Rendering> {
     /// Resolves the colour attachment declared last, which is multisampled, into `texture` at the end of the pass.
     pub fn resolve(&mut self, texture: &mut Texture) -> TextureToken {
         let index = self.colors.saturating_sub(1);
-        self.write_texture(texture, Access::Resolve(index), Contents::Cover)
+        self.write_texture(texture, Access::Resolve(index), Contents::Overwrite)
     }
 
     /// Tests and writes a depth(-stencil) attachment.
@@ -205,35 +211,41 @@ impl Pass<'_, '_, Encoding> {
 
 impl Pass<'_, '_, Copying> {
     /// Copies the bytes of a texture to another, or mip 0 of each if they have several; the formats may differ in being sRGB. For
-    /// parts of the same size see [`texture_parts`](Self::texture_parts).
+    /// parts of the same size see [`texture_region`](Self::texture_region).
     pub fn texture(&mut self, source: &Texture, target: &mut Texture) -> &mut Self {
         let (from, to) = (self.first_mip(source), self.first_mip(target));
-        self.texture_parts(source, from, target, to)
+        self.texture_region(source, from, target, to)
     }
 
     /// Copies a part of a texture, of one mip, to a part of another that has the same size and format.
-    pub fn texture_parts(
+    pub fn texture_region(
         &mut self,
         source: &Texture,
-        from: Part,
+        from: Subresource,
         target: &mut Texture,
-        to: Part,
+        to: Subresource,
     ) -> &mut Self {
-        self.on(from).read_texture(source, Access::CopySource);
-        self.on(to).write_texture(target, Access::CopyTarget, Contents::Cover);
+        self.subresource(from).read_texture(source, Access::CopySource);
+        self.subresource(to).write_texture(target, Access::CopyTarget, Contents::Overwrite);
         self.op(CopyOp::TextureToTexture { source: source.id(), target: target.id() })
     }
 
     /// Copies the whole of a buffer to another of the same size.
     pub fn buffer(&mut self, source: &Buffer, target: &mut Buffer) -> &mut Self {
-        self.buffer_parts(source, Part::WHOLE, target, Part::WHOLE)
+        self.buffer_range(source, Subresource::FULL, target, Subresource::FULL)
     }
 
     /// Copies a range of a buffer to a range of another that has as many bytes. Ranges begin and end at multiples
     /// of 4.
-    pub fn buffer_parts(&mut self, source: &Buffer, from: Part, target: &mut Buffer, to: Part) -> &mut Self {
-        self.on(from).read_buffer(source, Access::CopySource);
-        self.on(to).write_buffer(target, Access::CopyTarget, Contents::Cover);
+    pub fn buffer_range(
+        &mut self,
+        source: &Buffer,
+        from: Subresource,
+        target: &mut Buffer,
+        to: Subresource,
+    ) -> &mut Self {
+        self.subresource(from).read_buffer(source, Access::CopySource);
+        self.subresource(to).write_buffer(target, Access::CopyTarget, Contents::Overwrite);
         self.op(CopyOp::BufferToBuffer { source: source.id(), target: target.id() })
     }
 
@@ -241,15 +253,15 @@ impl Pass<'_, '_, Copying> {
     /// picture to the CPU there is `Frame::read_back_texture`.
     pub fn texture_to_buffer(&mut self, source: &Texture, target: &mut Buffer) -> &mut Self {
         let from = self.first_mip(source);
-        self.on(from).read_texture(source, Access::CopySource);
-        self.write_buffer(target, Access::CopyTarget, Contents::Cover);
+        self.subresource(from).read_texture(source, Access::CopySource);
+        self.write_buffer(target, Access::CopyTarget, Contents::Overwrite);
         self.op(CopyOp::TextureToBuffer { source: source.id(), target: target.id() })
     }
 
-    fn first_mip(&self, texture: &Texture) -> Part {
+    fn first_mip(&self, texture: &Texture) -> Subresource {
         match self.frame.texture_desc(texture) {
-            Some(desc) if desc.mip_levels > 1 => Part::WHOLE.mip(0),
-            _ => Part::WHOLE,
+            Some(desc) if desc.mip_levels > 1 => Subresource::FULL.mip(0),
+            _ => Subresource::FULL,
         }
     }
 

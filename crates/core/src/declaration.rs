@@ -7,7 +7,7 @@ use crate::access::{Access, ClearValue, Contents};
 use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId};
 use crate::name::{Names, Text};
-use crate::part::{Area, Part};
+use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use std::ops::Range;
 use wgpu_types::{BufferUsages, TextureUsages};
@@ -26,14 +26,20 @@ pub enum PassKind {
 }
 
 impl PassKind {
-    /// Returns the kind in one word.
-    pub fn word(self) -> &'static str {
+    /// Returns the name of the kind, as the dumps print it.
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::Render => "render",
             Self::Compute => "compute",
             Self::Copy => "copy",
             Self::Encoder => "encoder",
         }
+    }
+}
+
+impl std::fmt::Display for PassKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.as_str())
     }
 }
 
@@ -156,43 +162,43 @@ pub(crate) struct PassDecl {
 pub(crate) struct AccessDecl {
     pub(crate) resource: ResourceId,
     pub(crate) access: Access,
-    pub(crate) contents: Change,
+    pub(crate) contents: WriteMode,
     /// The version read, or written over.
     pub(crate) version: u32,
-    /// Which of the frame's parts; [`WHOLE`] for all of the resource.
-    pub(crate) part: u32,
+    /// Which of the frame's parts; [`ALL_OF_RESOURCE`] for all of the resource.
+    pub(crate) subresource: u32,
 }
 
-pub(crate) const WHOLE: u32 = u32::MAX;
+pub(crate) const ALL_OF_RESOURCE: u32 = u32::MAX;
 
 /// What an access does with the contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Change {
+pub(crate) enum WriteMode {
     /// Nothing: it reads.
-    Read,
+    ReadOnly,
     /// Clears them to one of the frame's clear values.
     Clear(u32),
     /// Covers them.
-    Cover,
+    Overwrite,
     /// Writes among them.
     Preserve,
 }
 
-impl Change {
+impl WriteMode {
     /// Whether the earlier contents are needed.
     pub(crate) fn needs(self) -> bool {
-        matches!(self, Self::Read | Self::Preserve)
+        matches!(self, Self::ReadOnly | Self::Preserve)
     }
 
     pub(crate) fn writes(self) -> bool {
-        self != Self::Read
+        self != Self::ReadOnly
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PartDecl {
-    pub(crate) part: Part,
-    pub(crate) area: Area,
+pub(crate) struct SubresourceDecl {
+    pub(crate) subresource: Subresource,
+    pub(crate) region: Region,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -206,7 +212,7 @@ pub(crate) struct ResourceDecl {
     /// The version that is taken out of the frame.
     pub(crate) exported: Option<u32>,
     /// Whether any access is to a part of it.
-    pub(crate) in_parts: bool,
+    pub(crate) has_partial_accesses: bool,
     /// Usages asked for from outside (exports), or allowed by the caller's object (imports).
     pub(crate) texture_usage: TextureUsages,
     pub(crate) buffer_usage: BufferUsages,
@@ -220,7 +226,7 @@ pub(crate) struct Declaration {
     pub(crate) passes: Vec<PassDecl>,
     pub(crate) accesses: Vec<AccessDecl>,
     pub(crate) nodes: Vec<NodeDecl>,
-    pub(crate) parts: Vec<PartDecl>,
+    pub(crate) subresources: Vec<SubresourceDecl>,
     pub(crate) clears: Vec<ClearValue>,
     pub(crate) copies: Vec<CopyOp>,
     /// Orders asked for by name: the first before the second.
@@ -230,13 +236,14 @@ pub(crate) struct Declaration {
 
 impl Declaration {
     pub(crate) fn clear(&mut self) {
-        let Self { options, resources, passes, accesses, nodes, parts, clears, copies, after, names } = self;
+        let Self { options, resources, passes, accesses, nodes, subresources, clears, copies, after, names } =
+            self;
         *options = Options::default();
         resources.clear();
         passes.clear();
         accesses.clear();
         nodes.clear();
-        parts.clear();
+        subresources.clear();
         clears.clear();
         copies.clear();
         after.clear();
@@ -271,14 +278,14 @@ impl Declaration {
 
     /// The box that the access touches; `None` for all of the resource.
     #[inline]
-    pub(crate) fn area(&self, access: &AccessDecl) -> Option<&Area> {
-        self.parts.get(access.part as usize).map(|part| &part.area)
+    pub(crate) fn region(&self, access: &AccessDecl) -> Option<&Region> {
+        self.subresources.get(access.subresource as usize).map(|subresource| &subresource.region)
     }
 
     /// Whether two accesses to one resource have any of it in common.
     #[inline]
     pub(crate) fn overlap(&self, a: &AccessDecl, b: &AccessDecl) -> bool {
-        match (self.area(a), self.area(b)) {
+        match (self.region(a), self.region(b)) {
             (Some(a), Some(b)) => a.overlaps(b),
             _ => true,
         }
@@ -287,23 +294,25 @@ impl Declaration {
     /// Whether the first of two accesses to one resource touches all that the second does.
     #[inline]
     pub(crate) fn covers(&self, a: &AccessDecl, b: &AccessDecl) -> bool {
-        match (self.area(a), self.area(b)) {
+        match (self.region(a), self.region(b)) {
             (None, _) => true,
             (Some(_), None) => false,
             (Some(a), Some(b)) => a.contains(b),
         }
     }
 
-    pub(crate) fn part(&self, access: &AccessDecl) -> Part {
-        self.parts.get(access.part as usize).map_or(Part::WHOLE, |part| part.part)
+    pub(crate) fn subresource(&self, access: &AccessDecl) -> Subresource {
+        self.subresources
+            .get(access.subresource as usize)
+            .map_or(Subresource::FULL, |subresource| subresource.subresource)
     }
 
     pub(crate) fn contents(&self, access: &AccessDecl) -> Option<Contents> {
         match access.contents {
-            Change::Read => None,
-            Change::Clear(clear) => Some(Contents::Clear(self.clears[clear as usize])),
-            Change::Cover => Some(Contents::Cover),
-            Change::Preserve => Some(Contents::Preserve),
+            WriteMode::ReadOnly => None,
+            WriteMode::Clear(clear) => Some(Contents::Clear(self.clears[clear as usize])),
+            WriteMode::Overwrite => Some(Contents::Overwrite),
+            WriteMode::Preserve => Some(Contents::Preserve),
         }
     }
 
@@ -357,37 +366,38 @@ impl Declaration {
     }
 
     /// Compares two frames. What is short, or often differs, comes first.
-    pub(crate) fn likeness(&self, other: &Self) -> Likeness {
-        let Self { options, resources, passes, accesses, nodes, parts, clears, copies, after, names } = self;
+    pub(crate) fn similarity(&self, other: &Self) -> FrameSimilarity {
+        let Self { options, resources, passes, accesses, nodes, subresources, clears, copies, after, names } =
+            self;
         let alike = resources.len() == other.resources.len()
             && passes.len() == other.passes.len()
             && accesses.len() == other.accesses.len()
             && *options == other.options
             && *clears == other.clears
             && *names == other.names
-            && *parts == other.parts
+            && *subresources == other.subresources
             && *nodes == other.nodes
             && *copies == other.copies
             && *after == other.after
             && *passes == other.passes
             && *accesses == other.accesses;
         if !alike {
-            return Likeness::Other;
+            return FrameSimilarity::Other;
         }
         let pairs = || resources.iter().zip(&other.resources);
         if pairs().all(|(a, b)| a == b) {
-            Likeness::Same
+            FrameSimilarity::Same
         } else if pairs().all(|(a, b)| a.same_but_for_size(b)) {
-            Likeness::OtherSizes
+            FrameSimilarity::OtherSizes
         } else {
-            Likeness::Other
+            FrameSimilarity::Other
         }
     }
 }
 
 /// How two frames compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Likeness {
+pub(crate) enum FrameSimilarity {
     Same,
     /// The same but for the sizes of textures and buffers.
     OtherSizes,

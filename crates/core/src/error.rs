@@ -34,16 +34,16 @@ pub enum Error {
     Undeclared { pass: String, resource: String, declared_by: String },
     /// Nothing has defined what is read.
     #[error(
-        "SG0201: {place} reads {part} of `{resource}`, whose contents are undefined, at least in part: \
+        "SG0201: {place} reads {subresource} of `{resource}`, whose contents are undefined, at least in part: \
          write all of it in earlier passes (clear or cover), or import it as defined"
     )]
-    UndefinedRead { place: String, resource: String, part: String },
+    UndefinedRead { place: String, resource: String, subresource: String },
     /// A preserving write over undefined contents.
     #[error(
-        "SG0202: pass `{pass}` preserves {part} of `{resource}`, whose contents are undefined, at least in \
-         part: use `Contents::Clear` or `Contents::Cover` for the first write"
+        "SG0202: pass `{pass}` preserves {subresource} of `{resource}`, whose contents are undefined, at least in \
+         part: use `Contents::Clear` or `Contents::Overwrite` for the first write"
     )]
-    UndefinedPreserve { pass: String, resource: String, part: String },
+    UndefinedPreserve { pass: String, resource: String, subresource: String },
     /// One pass touches a resource in two ways that exclude each other.
     #[error(
         "SG0203: pass `{pass}` touches `{resource}` as {first} and as {second}, which one pass cannot do: \
@@ -70,10 +70,10 @@ pub enum Error {
     AttachmentMismatch { pass: String, first: String, second: String },
     /// An attachment of more than one mip or layer.
     #[error(
-        "SG0303: pass `{pass}` attaches {part} of `{resource}`, but an attachment is one mip of one layer: \
-         narrow it with `on(Part::WHOLE.mip(..).layer(..))`"
+        "SG0303: pass `{pass}` attaches {subresource} of `{resource}`, but an attachment is one mip of one layer: \
+         narrow it with `subresource(Subresource::FULL.mip(..).layer(..))`"
     )]
-    AttachmentPart { pass: String, resource: String, part: String },
+    AttachmentSubresource { pass: String, resource: String, subresource: String },
     /// A format that cannot be used so.
     #[error("SG0304: pass `{pass}` uses `{resource}` as {access}, but its format {format:?} {problem}")]
     Format {
@@ -100,10 +100,10 @@ pub enum Error {
     CopyMismatch { pass: String, from: String, to: String, problem: String },
     /// A texture or buffer that cannot be.
     #[error("SG0401: `{resource}` cannot be: {problem}")]
-    Shape { resource: String, problem: String },
+    InvalidResource { resource: String, problem: String },
     /// A part that the resource does not have.
-    #[error("SG0402: pass `{pass}` touches {part} of `{resource}`, but {problem}")]
-    Part { pass: String, resource: String, part: String, problem: &'static str },
+    #[error("SG0402: pass `{pass}` touches {subresource} of `{resource}`, but {problem}")]
+    InvalidSubresource { pass: String, resource: String, subresource: String, problem: &'static str },
     /// An imported resource lacks a usage.
     #[error(
         "SG0403: pass `{pass}` uses imported `{resource}` as {access}, but it was created without \
@@ -150,7 +150,7 @@ pub enum Error {
     FormatSupport { resource: String, format: crate::Format, problem: String },
     /// wgpu objects to what passes record; found by `Compiled::execute_checked`.
     #[error("SG0606: wgpu refuses what {passes} records: {message}")]
-    Refused { passes: String, message: String },
+    Validation { passes: String, message: String },
     /// The device has no memory left for a texture or buffer.
     #[error(
         "SG0607: there is no memory left on the device for `{resource}` ({bytes} bytes): make it smaller, or let go of \
@@ -162,7 +162,7 @@ pub enum Error {
     DeviceLost,
     /// Neither a pass nor a resource has the name.
     #[error("SG0701: the frame has no pass and no resource `{name}`{hint}")]
-    NoSuchName { name: String, hint: String },
+    UnknownName { name: String, hint: String },
     /// A text is no dump of a plan, or one that is not read any more.
     #[error("SG0702: not a dump: {problem}")]
     Dump { problem: String },
@@ -187,14 +187,14 @@ impl Error {
             Self::PreviousWritten { .. } => "SG0204",
             Self::NoAttachment { .. } => "SG0301",
             Self::AttachmentMismatch { .. } => "SG0302",
-            Self::AttachmentPart { .. } => "SG0303",
+            Self::AttachmentSubresource { .. } => "SG0303",
             Self::Format { .. } => "SG0304",
             Self::Clear { .. } => "SG0305",
             Self::Resolve { .. } => "SG0306",
             Self::SecondDepth { .. } => "SG0307",
             Self::CopyMismatch { .. } => "SG0308",
-            Self::Shape { .. } => "SG0401",
-            Self::Part { .. } => "SG0402",
+            Self::InvalidResource { .. } => "SG0401",
+            Self::InvalidSubresource { .. } => "SG0402",
             Self::ImportUsage { .. } => "SG0403",
             Self::NoImport { .. } => "SG0404",
             Self::Order { .. } => "SG0501",
@@ -204,10 +204,10 @@ impl Error {
             Self::ReadBack { .. } => "SG0603",
             Self::Shader { .. } => "SG0604",
             Self::FormatSupport { .. } => "SG0605",
-            Self::Refused { .. } => "SG0606",
+            Self::Validation { .. } => "SG0606",
             Self::OutOfMemory { .. } => "SG0607",
             Self::DeviceLost => "SG0608",
-            Self::NoSuchName { .. } => "SG0701",
+            Self::UnknownName { .. } => "SG0701",
             Self::Dump { .. } => "SG0702",
         }
     }

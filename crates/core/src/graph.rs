@@ -48,7 +48,7 @@ impl Graph {
 
     /// Starts a frame in the memory of frames before it.
     pub fn frame<'f>(&self) -> Frame<'f> {
-        Frame::with(Known {
+        Frame::with(PriorState {
             spare: Some(self.spare.clone()),
             #[cfg(feature = "gpu")]
             histories: Some(self.device.histories.known()),
@@ -77,7 +77,7 @@ impl Graph {
 
     /// Switches a debug mode on or off; off at first. While it is on, a transient texture or buffer is filled with a
     /// loud value before the first pass that touches it, and so is an attachment of which a pass covers all or of
-    /// which nothing needs the rest. A read of what no pass has written, such as after a false [`Contents::Cover`],
+    /// which nothing needs the rest. A read of what no pass has written, such as after a false [`Contents::Overwrite`],
     /// then shows at once, while a frame that is right draws the same as without.
     ///
     /// The values: not a number for floats, the largest for unsigned and -1 for signed integers, magenta (0.93, 0.07,
@@ -92,7 +92,7 @@ impl Graph {
     /// graph.set_poison(cfg!(debug_assertions));
     /// let mut frame = graph.frame();
     /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
-    /// frame.render_pass("draws too little").color(&mut color, Contents::Cover);
+    /// frame.render_pass("draws too little").color(&mut color, Contents::Overwrite);
     /// frame.export_texture(&color); // magenta, not black
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
@@ -100,7 +100,7 @@ impl Graph {
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     ///
-    /// [`Contents::Cover`]: crate::Contents::Cover
+    /// [`Contents::Overwrite`]: crate::Contents::Overwrite
     #[cfg(feature = "gpu")]
     pub fn set_poison(&mut self, on: bool) {
         self.device.set_poison(on);
@@ -121,14 +121,14 @@ impl Graph {
 
 /// What a frame knows of the graph that gave it out.
 #[derive(Clone, Default)]
-pub(crate) struct Known {
+pub(crate) struct PriorState {
     spare: Option<Spare>,
-    histories: Option<Arc<Vec<KnownHistory>>>,
+    histories: Option<Arc<Vec<PriorHistory>>>,
 }
 
 /// A history that holds contents.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct KnownHistory {
+pub(crate) struct PriorHistory {
     /// The path of the view; empty for none.
     pub(crate) view: String,
     pub(crate) name: String,
@@ -137,7 +137,7 @@ pub(crate) struct KnownHistory {
     pub(crate) resamples: bool,
 }
 
-impl KnownHistory {
+impl PriorHistory {
     /// Whether this is the history of that name and view.
     pub(crate) fn is(&self, decl: &Declaration, view: Option<NodeId>, resource: ResourceId) -> bool {
         self.name == decl.resource_name(resource) && is_path(decl, view, &self.view)
@@ -173,7 +173,7 @@ fn is_path(decl: &Declaration, node: Option<NodeId>, path: &str) -> bool {
     }
 }
 
-impl Known {
+impl PriorState {
     pub(crate) fn take_storage(&mut self) -> Storage {
         let spare = self.spare.as_ref();
         let taken = spare.and_then(|spare| spare.lock().unwrap_or_else(PoisonError::into_inner).pop());

@@ -15,7 +15,7 @@
 //! frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
 //! let mut tonemap = frame.render_pass("tonemap");
 //! let _scene = tonemap.sample(&scene);
-//! tonemap.color(&mut picture, Contents::Cover);
+//! tonemap.color(&mut picture, Contents::Overwrite);
 //! frame.export_texture(&picture);
 //!
 //! let plan = frame.compile()?.into_plan();
@@ -57,12 +57,12 @@ mod handle;
 #[cfg(feature = "gpu")]
 mod internal;
 mod name;
-mod part;
 mod plan;
 #[cfg(feature = "gpu")]
 mod pool;
 #[cfg(feature = "gpu")]
 mod shader_pass;
+mod subresource;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
 mod times;
@@ -75,8 +75,8 @@ pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 #[cfg(feature = "gpu")]
 pub use device::device_is_lost;
 pub use dump::{
-    Diff, Difference, Drawing, Dump, HtmlPage, Outline, PageTable, Picture, PictureTile, Subject,
-    TexelValues, Texels,
+    Diff, Difference, Drawing, Dump, HtmlPage, Outline, PageTable, SnapshotTile, Subject, TexelValues,
+    Texels, TextureSnapshot,
 };
 pub use error::Error;
 #[cfg(feature = "gpu")]
@@ -91,16 +91,16 @@ pub use handle::{
     TextureToken, Uniform,
 };
 pub use name::Name;
-pub use part::{Aspect, Part, Rect};
 pub use plan::{
     AccessPlan, AttachmentOps, CullReason, Dependency, DependencyKind, LoadAction, LoadReason, MergeReason,
-    NodePlan, PassPlan, PlaceReason, Plan, ResourcePlan, SlotPlan, SlotReason, Step, StoreAction,
+    NodePlan, OrderReason, PassPlan, Plan, ResourcePlan, SlotPlan, SlotReason, Step, StoreAction,
     StoreReason,
 };
 #[cfg(feature = "gpu")]
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
 pub use shader_pass::{ComputeShader, FullscreenShader, ShaderPassBuilder, UniformSource};
+pub use subresource::{Aspect, Rect, Subresource};
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary, trace_json};
 #[cfg(feature = "gpu")]
 pub use wgpu;

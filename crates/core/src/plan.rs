@@ -7,13 +7,13 @@ mod graph;
 mod reasons;
 mod serialize;
 
-pub use reasons::{CullReason, LoadReason, MergeReason, PlaceReason, SlotReason, StoreReason};
+pub use reasons::{CullReason, LoadReason, MergeReason, OrderReason, SlotReason, StoreReason};
 
 use crate::access::{Access, ClearValue, Contents};
 use crate::declaration::{AccessDecl, CopyOp, Declaration, Options, Origin, PassKind};
 use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
-use crate::part::{Area, Part};
+use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use wgpu_types::{BufferUsages, TextureUsages};
 
@@ -26,24 +26,24 @@ pub struct Plan {
     /// The passes that run, in order.
     pub(crate) order: Vec<PassId>,
     /// By place in the order.
-    pub(crate) placed: Vec<PlaceReason>,
+    pub(crate) order_reasons: Vec<OrderReason>,
     /// By place in the order.
-    pub(crate) merges: Vec<MergeReason>,
+    pub(crate) merge_reasons: Vec<MergeReason>,
     /// Runs of the order.
     pub(crate) steps: Vec<(u32, u32)>,
     /// By access.
     pub(crate) ops: Vec<Option<AttachmentOps>>,
     /// By resource.
-    pub(crate) fates: Vec<Fate>,
+    pub(crate) placements: Vec<Placement>,
     pub(crate) slots: Vec<Slot>,
     /// Runs of it belong to slots.
-    pub(crate) tenants: Vec<ResourceId>,
+    pub(crate) slot_resources: Vec<ResourceId>,
     pub(crate) dependencies: Vec<Dependency>,
 }
 
 /// What becomes of a resource.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Fate {
+pub(crate) struct Placement {
     pub(crate) texture_usage: TextureUsages,
     pub(crate) buffer_usage: BufferUsages,
     pub(crate) steps: Option<(u32, u32)>,
@@ -56,7 +56,7 @@ pub(crate) struct Slot {
     pub(crate) desc: ResourceDesc,
     pub(crate) texture_usage: TextureUsages,
     pub(crate) buffer_usage: BufferUsages,
-    pub(crate) tenants: (u32, u32),
+    pub(crate) resources: (u32, u32),
 }
 
 /// A named group of passes.
@@ -91,7 +91,8 @@ pub struct AccessPlan {
     /// What is touched.
     pub resource: ResourceId,
     /// Which part of it.
-    pub part: Part,
+    #[serde(rename = "part")]
+    pub subresource: Subresource,
     /// How.
     pub access: Access,
     /// For writes: what becomes of the earlier contents.
@@ -102,7 +103,7 @@ pub struct AccessPlan {
     /// only tested.
     pub ops: Option<AttachmentOps>,
     #[serde(skip)]
-    pub(crate) area: Area,
+    pub(crate) region: Region,
 }
 
 /// What happens to an attachment at the begin and the end of a pass.
@@ -178,7 +179,8 @@ pub struct SlotPlan<'p> {
     /// For buffers: the usages of all tenants together.
     pub buffer_usage: BufferUsages,
     /// The resources that take turns in it, first one first.
-    pub tenants: &'p [ResourceId],
+    #[serde(rename = "tenants")]
+    pub resources: &'p [ResourceId],
 }
 
 /// One step of the recording: the passes in it share one pass of the encoder.
@@ -251,7 +253,7 @@ impl Plan {
             desc: slot.desc,
             texture_usage: slot.texture_usage,
             buffer_usage: slot.buffer_usage,
-            tenants: &self.tenants[slot.tenants.0 as usize..slot.tenants.1 as usize],
+            resources: &self.slot_resources[slot.resources.0 as usize..slot.resources.1 as usize],
         })
     }
 
@@ -306,12 +308,12 @@ impl Plan {
         let access: &AccessDecl = &self.decl.accesses[index];
         AccessPlan {
             resource: access.resource,
-            part: self.decl.part(access),
+            subresource: self.decl.subresource(access),
             access: access.access,
             contents: self.decl.contents(access),
             version: access.version,
             ops: self.ops[index],
-            area: self.decl.area(access).copied().unwrap_or(Area::EVERYTHING),
+            region: self.decl.region(access).copied().unwrap_or(Region::ALL),
         }
     }
 
@@ -321,29 +323,29 @@ impl Plan {
     /// With an id that is not of this plan, as an index past the end of a list would.
     pub fn resource(&self, id: ResourceId) -> ResourcePlan<'_> {
         let resource = self.decl.resource(id);
-        let fate = &self.fates[id.index()];
+        let placement = &self.placements[id.index()];
         ResourcePlan {
             name: self.decl.names.get(resource.name),
             node: resource.node,
             desc: resource.desc,
             origin: resource.origin,
             exported: resource.exported.is_some(),
-            texture_usage: fate.texture_usage,
-            buffer_usage: fate.buffer_usage,
-            steps: fate.steps,
-            slot: fate.slot,
-            slot_reason: fate.reason,
+            texture_usage: placement.texture_usage,
+            buffer_usage: placement.buffer_usage,
+            steps: placement.steps,
+            slot: placement.slot,
+            slot_reason: placement.reason,
         }
     }
 
     /// Returns why the pass stands where it does in the order; `None` if it is culled.
-    pub fn placement(&self, id: PassId) -> Option<PlaceReason> {
-        self.place(id).map(|place| self.placed[place])
+    pub fn order_reason(&self, id: PassId) -> Option<OrderReason> {
+        self.place(id).map(|place| self.order_reasons[place])
     }
 
     /// Returns why the pass was merged into the render pass before it, or why not; `None` if it is culled.
-    pub fn merging(&self, id: PassId) -> Option<MergeReason> {
-        self.place(id).map(|place| self.merges[place])
+    pub fn merge_reason(&self, id: PassId) -> Option<MergeReason> {
+        self.place(id).map(|place| self.merge_reasons[place])
     }
 
     fn place(&self, id: PassId) -> Option<usize> {
@@ -384,8 +386,9 @@ impl Plan {
 
     /// Returns the bytes that sharing slots saves, against one slot for each resource.
     pub fn saved_bytes(&self) -> u64 {
-        let alone =
-            |slot: &Slot| slot.desc.bytes() * u64::from((slot.tenants.1 - slot.tenants.0).saturating_sub(1));
+        let alone = |slot: &Slot| {
+            slot.desc.bytes() * u64::from((slot.resources.1 - slot.resources.0).saturating_sub(1))
+        };
         self.slots.iter().map(alone).sum()
     }
 }

@@ -104,7 +104,7 @@ mod bodies {
         frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
         let mut pass = frame.render_pass("read");
         pass.sample(&scene);
-        pass.color(&mut picture, Contents::Cover);
+        pass.color(&mut picture, Contents::Overwrite);
         frame.render_pass("go on").color(&mut picture, Contents::Preserve);
         frame.export_texture(&picture);
     }
@@ -135,7 +135,7 @@ mod bodies {
         let compiled = graph.compile(frame).expect("the frame has no mistake");
         let (_, capture) = compiled.execute_captured(&mut graph, &device, &mut encoder).expect("it records");
         queue.submit([encoder.finish()]);
-        assert_eq!(capture.wait(&device).expect("pictures").pictures.len(), 3);
+        assert_eq!(capture.wait(&device).expect("pictures").textures.len(), 3);
         // Of the same device: what it has seen may cost wgpu something.
         assert_eq!(recorded(&device, &queue, &mut graph), recorded(&device, &queue, &mut Graph::new()));
     }

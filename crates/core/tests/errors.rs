@@ -44,7 +44,7 @@ fn check(mistakes: Vec<Mistake>) -> BTreeSet<&'static str> {
         let one_line = !message.contains('\n') && !message.contains("  ");
         assert!(one_line || *code == "SG0604", "{message}");
     }
-    mistakes.iter().map(|mistake| mistake.code).collect()
+    mistakes.iter().map(|report_error| report_error.code).collect()
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn culled() -> Plan {
     frame.render_pass("occlusion").color(&mut raw, Contents::clear_color([1.0; 4]));
     let mut blur = frame.render_pass("blur occlusion");
     blur.sample(&raw);
-    blur.color(&mut blurred, Contents::Cover);
+    blur.color(&mut blurred, Contents::Overwrite);
     let mut lit = frame.create_texture("lit", color());
     let mut light = frame.render_pass("light");
     light.sample(&raw); // `blurred` was meant
@@ -59,7 +59,7 @@ fn a_stale_read_names_the_version_and_who_wrote_it() {
     frame.render_pass("opaque").color(&mut lit, Contents::clear_color([0.0; 4]));
     let mut reflections = frame.render_pass("reflections");
     reflections.sample(&lit);
-    reflections.color(&mut reflected, Contents::Cover);
+    reflections.color(&mut reflected, Contents::Overwrite);
     frame.render_pass("fog").color(&mut lit, Contents::Preserve);
     frame.export_texture(&lit);
     frame.export_texture(&reflected);

@@ -50,7 +50,7 @@ fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Texture {
     let mut to = hdr(frame, name);
     let mut pass = frame.render_pass(name);
     pass.sample(from);
-    pass.color(&mut to, Contents::Cover);
+    pass.color(&mut to, Contents::Overwrite);
     to
 }
 

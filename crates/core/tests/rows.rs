@@ -6,8 +6,8 @@
 use shadowgraph_core::wgpu::{self, TextureUsages};
 use shadowgraph_core::{
     Bind, BufferDesc, ClearValue, Compiled, ComputeShader, Contents, CullReason, DependencyKind, Error,
-    Executed, Format, Frame, FullscreenShader, Graph, LoadAction, MergeReason, Options, OrderPolicy, Part,
-    Plan, Rect, Resize, SlotReason, StoreAction, Texture, TextureDesc,
+    Executed, Format, Frame, FullscreenShader, Graph, LoadAction, MergeReason, Options, OrderPolicy, Plan,
+    Rect, Resize, SlotReason, StoreAction, Subresource, Texture, TextureDesc,
 };
 
 const BLACK: Contents = Contents::Clear(ClearValue::Color([0.0; 4]));
@@ -21,7 +21,7 @@ fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Texture {
     let mut to = color(frame, name);
     let mut pass = frame.render_pass(name);
     pass.sample(from);
-    pass.color(&mut to, Contents::Cover);
+    pass.color(&mut to, Contents::Overwrite);
     to
 }
 
@@ -45,7 +45,8 @@ fn atlas(frame: &mut Frame<'_>) -> Texture {
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(128, 64, Format::Depth32Float));
     for (name, x) in [("left", 0), ("right", 64)] {
         let mut pass = frame.render_pass(name);
-        pass.on(Part::WHOLE.rect(Rect::new(x, 0, 64, 64))).depth(&mut atlas, Contents::clear_depth(0.0));
+        pass.subresource(Subresource::FULL.rect(Rect::new(x, 0, 64, 64)))
+            .depth(&mut atlas, Contents::clear_depth(0.0));
     }
     atlas
 }
@@ -55,12 +56,12 @@ fn contents() {
     let mut frame = Frame::new();
     let mut chain = frame
         .create_texture("chain", TextureDesc { mip_levels: 2, ..TextureDesc::d2(8, 8, Format::R8Unorm) });
-    frame.render_pass("mip 0").on(Part::WHOLE.mip(0)).color(&mut chain, BLACK);
+    frame.render_pass("mip 0").subresource(Subresource::FULL.mip(0)).color(&mut chain, BLACK);
     let mut reader = frame.compute_pass("reads mip 1");
-    reader.on(Part::WHOLE.mip(1)).sample(&chain);
+    reader.subresource(Subresource::FULL.mip(1)).sample(&chain);
     reader.keep();
     let error = frame.compile().err().unwrap();
-    assert!(matches!(&error, Error::UndefinedRead { part, .. } if part == "mip 1"), "{error}");
+    assert!(matches!(&error, Error::UndefinedRead { subresource, .. } if subresource == "mip 1"), "{error}");
 
     let mut frame = Frame::new();
     let atlas = atlas(&mut frame);
@@ -71,7 +72,7 @@ fn contents() {
     let mut bytes = frame.create_buffer("bytes", BufferDesc::new(512));
     for (name, range) in [("low", 0..256), ("high", 256..512)] {
         let mut pass = frame.compute_pass(name);
-        pass.on(Part::WHOLE.bytes(range)).storage_buffer_mut(&mut bytes, Contents::Cover);
+        pass.subresource(Subresource::FULL.bytes(range)).storage_buffer_mut(&mut bytes, Contents::Overwrite);
     }
     frame.export_buffer(&bytes);
     assert!(plan(frame).dependencies().is_empty(), "ranges do not order each other");
@@ -110,7 +111,7 @@ fn order() {
             let mut sum = frame.create_buffer(to, BufferDesc::new(4));
             let mut pass = frame.compute_pass(to);
             pass.sample(from);
-            pass.storage_buffer_mut(&mut sum, Contents::Cover);
+            pass.storage_buffer_mut(&mut sum, Contents::Overwrite);
             frame.export_buffer(&sum);
         }
     };
@@ -150,8 +151,8 @@ fn merge() {
     frame.export_texture(&blurred);
     let plan = plan(frame);
     assert_eq!(plan.steps().map(|step| step.passes.len()).collect::<Vec<_>>(), [2, 1]);
-    assert_eq!(plan.merging(plan.find_pass("glass").unwrap()), Some(MergeReason::Merged));
-    assert_eq!(plan.merging(plan.find_pass("blur").unwrap()), Some(MergeReason::Attachments));
+    assert_eq!(plan.merge_reason(plan.find_pass("glass").unwrap()), Some(MergeReason::Merged));
+    assert_eq!(plan.merge_reason(plan.find_pass("blur").unwrap()), Some(MergeReason::Attachments));
 }
 
 #[test]
@@ -181,7 +182,7 @@ fn history() {
         validity.push(mean.valid);
         let mut pass = frame.render_pass("accumulate");
         pass.sample(&mean.previous);
-        pass.color(&mut mean.current, Contents::Cover);
+        pass.color(&mut mean.current, Contents::Overwrite);
         let compiled = graph.compile(frame).unwrap();
         run(&mut graph, compiled, &gpu);
     }
@@ -215,7 +216,7 @@ fn conditions() {
         });
         let nothing = frame.node("declares nothing", |_frame| 1);
         assert_eq!(nothing, 1);
-        let glow = frame.or_stand_in(glow.as_ref(), Format::Rgba8Unorm, ClearValue::Color([0.0; 4]));
+        let glow = frame.or_placeholder(glow.as_ref(), Format::Rgba8Unorm, ClearValue::Color([0.0; 4]));
         let picture = filter(&mut frame, "combine", &glow);
         frame.export_texture(&picture);
         let plan = plan(frame);
@@ -288,7 +289,7 @@ fn reasons() {
     let plan = plan(frame);
     let waste = plan.pass(plan.find_pass("waste").unwrap());
     assert_eq!(waste.culled, Some(CullReason::Unread(unread.id())));
-    assert_eq!(plan.cull_words(waste.culled.unwrap()), "nothing reads `unread`");
+    assert_eq!(plan.describe_cull(waste.culled.unwrap()), "nothing reads `unread`");
 }
 
 #[test]
@@ -388,7 +389,7 @@ fn outside() {
     let (gpu, mut graph) = (noop(), Graph::new());
     let mut frame = graph.frame();
     let numbers = frame.upload_buffer("numbers", &[1u8, 2, 3, 4][..]);
-    let request = frame.read_back_buffer(&numbers, Part::WHOLE);
+    let request = frame.read_back_buffer(&numbers, Subresource::FULL);
     let compiled = graph.compile(frame).unwrap();
     let mut executed = run(&mut graph, compiled, &gpu);
     // A future; `wait` is for those who would rather block.
@@ -404,8 +405,8 @@ fn poison() {
         let mut frame = graph.frame();
         let mut bytes = frame.create_buffer("bytes", BufferDesc::new(16));
         // It says that it covers the buffer, and writes nothing.
-        frame.encoder_pass("liar").copy_target_buffer(&mut bytes, Contents::Cover);
-        let request = frame.read_back_buffer(&bytes, Part::WHOLE);
+        frame.encoder_pass("liar").copy_target_buffer(&mut bytes, Contents::Overwrite);
+        let request = frame.read_back_buffer(&bytes, Subresource::FULL);
         let compiled = graph.compile(frame).unwrap();
         let mut executed = run(&mut graph, compiled, &gpu);
         let bytes = executed.read_back(request).unwrap().wait(&gpu.0).unwrap();

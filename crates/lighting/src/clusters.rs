@@ -39,7 +39,7 @@ impl Clusters {
             .compute("light clusters", &self.shader)
             .storage(&view.view)
             .storage(&view.lights)
-            .storage_texture_mut(&mut clusters, Contents::Cover)
+            .storage_texture_mut(&mut clusters, Contents::Overwrite)
             .dispatch([(boxes * height).div_ceil(WORKGROUP), 1, 1]);
         ViewBuffers { clusters: Some(clusters), ..view.clone() }
     }

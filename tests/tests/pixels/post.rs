@@ -1,7 +1,7 @@
 //! What is done to light and pictures behind the lit pass.
 
 use crate::stage::gpu;
-use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Part, TextureDesc};
+use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Subresource, TextureDesc};
 use shadowgraph::lighting::post::DepthPyramid;
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::Choices;
@@ -207,7 +207,7 @@ fn a_pyramid_of_depth_has_the_farthest_of_all_below() {
     frame.fullscreen("slope", &slope).draw_depth(&mut depth);
     let levels = pyramid.add_to(&mut frame, &depth);
     let requests: Vec<_> =
-        (0..3).map(|level| frame.read_back_texture(&levels, Part::WHOLE.mip(level))).collect();
+        (0..3).map(|level| frame.read_back_texture(&levels, Subresource::FULL.mip(level))).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut executed = graph.compile(frame).unwrap().execute(&mut graph, &gpu.device, &mut encoder).unwrap();
     gpu.queue.submit([encoder.finish()]);

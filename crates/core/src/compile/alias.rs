@@ -1,19 +1,19 @@
 //! Which resources take turns in one physical texture or buffer: interval colouring over the final order.
 
+use super::csr::Csr;
 use super::lifetime::Use;
-use super::lists::Lists;
 use crate::declaration::{Declaration, Origin, ResourceDecl};
 use crate::desc::{BufferDesc, ResourceDesc};
 use crate::handle::{ResourceId, SlotId};
-use crate::plan::{Fate, Slot, SlotReason};
+use crate::plan::{Placement, Slot, SlotReason};
 use rustc_hash::FxHashMap;
 use wgpu_types::{BufferUsages, TextureDimension, TextureUsages};
 
-/// Where each resource lives, and the slots with their tenants.
+/// Where each resource lives, and the slots with their resources.
 pub(super) struct Aliasing {
-    pub(super) fates: Vec<Fate>,
+    pub(super) placements: Vec<Placement>,
     pub(super) slots: Vec<Slot>,
-    pub(super) tenants: Vec<ResourceId>,
+    pub(super) resources: Vec<ResourceId>,
 }
 
 /// What may share a slot: the same shape, and the same kind of memory.
@@ -54,23 +54,23 @@ pub(super) fn alias(decl: &Declaration, uses: &[Use], steps: usize) -> Aliasing 
 struct Colouring<'d> {
     decl: &'d Declaration,
     uses: &'d [Use],
-    fates: Vec<Fate>,
+    placements: Vec<Placement>,
     slots: Vec<Slot>,
     /// By slot.
     states: Vec<State>,
     keys: FxHashMap<Class, u32>,
     /// By key of a class.
     classes: Vec<Stock>,
-    /// Which slot houses which resource, in order of their begin.
-    housed: Vec<(usize, ResourceId)>,
+    /// Slots with the resources assigned to them, in order of first use.
+    assigned: Vec<(usize, ResourceId)>,
 }
 
 const NONE: u32 = u32::MAX;
 
 struct State {
     class: u32,
-    /// Who is in the slot, or was last.
-    tenant: ResourceId,
+    /// The resource in the slot, or the last one that was.
+    resource: ResourceId,
     /// The slot that is free after this one is taken.
     next_free: u32,
 }
@@ -83,7 +83,7 @@ struct Stock {
 
 impl<'d> Colouring<'d> {
     fn new(decl: &'d Declaration, uses: &'d [Use]) -> Self {
-        let fate = |(own, resource): (&Use, &ResourceDecl)| Fate {
+        let placement = |(own, resource): (&Use, &ResourceDecl)| Placement {
             texture_usage: own.texture_usage,
             buffer_usage: own.buffer_usage,
             steps: own.steps,
@@ -94,10 +94,10 @@ impl<'d> Colouring<'d> {
                 Origin::Transient => SlotReason::Unused,
             },
         };
-        let fates: Vec<Fate> = uses.iter().zip(&decl.resources).map(fate).collect();
+        let placements: Vec<Placement> = uses.iter().zip(&decl.resources).map(placement).collect();
         let (slots, states, classes) = (Vec::new(), Vec::new(), Vec::new());
-        let (keys, housed) = (FxHashMap::default(), Vec::with_capacity(fates.len()));
-        Self { decl, uses, fates, slots, states, keys, classes, housed }
+        let (keys, assigned) = (FxHashMap::default(), Vec::with_capacity(placements.len()));
+        Self { decl, uses, placements, slots, states, keys, classes, assigned }
     }
 
     fn begin(&mut self, resource: ResourceId) {
@@ -111,51 +111,51 @@ impl<'d> Colouring<'d> {
             self.classes.push(Stock { free: NONE, taken_last: NONE });
         }
         let (slot, reason) = self.take(key, resource, class.desc);
-        self.states[slot].tenant = resource;
-        self.housed.push((slot, resource));
-        let fate = &mut self.fates[resource.index()];
+        self.states[slot].resource = resource;
+        self.assigned.push((slot, resource));
+        let placement = &mut self.placements[resource.index()];
         if class.kind == Kind::Transient {
-            fate.texture_usage |= TextureUsages::TRANSIENT_ATTACHMENT;
+            placement.texture_usage |= TextureUsages::TRANSIENT_ATTACHMENT;
         }
-        (fate.slot, fate.reason) = (Some(SlotId(slot as u32)), reason);
-        self.slots[slot].texture_usage |= fate.texture_usage;
-        self.slots[slot].buffer_usage |= fate.buffer_usage;
+        (placement.slot, placement.reason) = (Some(SlotId(slot as u32)), reason);
+        self.slots[slot].texture_usage |= placement.texture_usage;
+        self.slots[slot].buffer_usage |= placement.buffer_usage;
     }
 
     /// Takes the slot of a class that became free last, or a new one.
-    fn take(&mut self, class: u32, tenant: ResourceId, desc: ResourceDesc) -> (usize, SlotReason) {
+    fn take(&mut self, class: u32, resource: ResourceId, desc: ResourceDesc) -> (usize, SlotReason) {
         let stock = &mut self.classes[class as usize];
         let busy = std::mem::replace(&mut stock.taken_last, stock.free);
         if stock.free != NONE {
             let slot = stock.free as usize;
             stock.free = self.states[slot].next_free;
-            return (slot, SlotReason::After(self.states[slot].tenant));
+            return (slot, SlotReason::After(self.states[slot].resource));
         }
         let slot = self.slots.len();
         stock.taken_last = slot as u32;
         let (texture_usage, buffer_usage) = (TextureUsages::empty(), BufferUsages::empty());
-        self.slots.push(Slot { desc, texture_usage, buffer_usage, tenants: (0, 0) });
-        self.states.push(State { class, tenant, next_free: NONE });
+        self.slots.push(Slot { desc, texture_usage, buffer_usage, resources: (0, 0) });
+        self.states.push(State { class, resource, next_free: NONE });
         let reason = match busy {
             NONE => SlotReason::FirstOfClass,
-            busy => SlotReason::AllBusy(self.states[busy as usize].tenant),
+            busy => SlotReason::AllBusy(self.states[busy as usize].resource),
         };
         (slot, reason)
     }
 
     fn end(&mut self, resource: ResourceId) {
-        if let Some(SlotId(slot)) = self.fates[resource.index()].slot {
+        if let Some(SlotId(slot)) = self.placements[resource.index()].slot {
             let state = &mut self.states[slot as usize];
             state.next_free = std::mem::replace(&mut self.classes[state.class as usize].free, slot);
         }
     }
 
     fn finish(mut self) -> Aliasing {
-        let tenants = Lists::new(self.slots.len(), || self.housed.iter().copied());
+        let assigned = Csr::new(self.slots.len(), || self.assigned.iter().copied());
         for (index, slot) in self.slots.iter_mut().enumerate() {
-            slot.tenants = tenants.range(index);
+            slot.resources = assigned.range(index);
         }
-        Aliasing { fates: self.fates, slots: self.slots, tenants: tenants.into_items() }
+        Aliasing { placements: self.placements, slots: self.slots, resources: assigned.into_items() }
     }
 }
 
@@ -196,8 +196,8 @@ fn size_class(bytes: u64) -> u64 {
 }
 
 /// Resources by the step that something happens to them at.
-fn by_step(uses: &[Use], steps: usize, step: impl Fn((u32, u32)) -> u32) -> Lists<ResourceId> {
-    Lists::new(steps, || {
+fn by_step(uses: &[Use], steps: usize, step: impl Fn((u32, u32)) -> u32) -> Csr<ResourceId> {
+    Csr::new(steps, || {
         let resources = (0..).map(ResourceId).zip(uses);
         resources.filter_map(|(resource, own)| Some((step(own.steps?) as usize, resource)))
     })

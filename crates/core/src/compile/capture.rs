@@ -25,14 +25,15 @@ pub(crate) fn capturing(plan: &Plan) -> Plan {
     for ops in ops.iter_mut().flatten() {
         ops.store = StoreAction::Store;
     }
-    let alias::Aliasing { fates, slots, tenants } = alias::alias(&decl, &uses, steps.len());
+    let alias::Aliasing { placements, slots, resources: slot_resources } =
+        alias::alias(&decl, &uses, steps.len());
     Plan {
-        merges: vec![MergeReason::Off; plan.order.len()],
+        merge_reasons: vec![MergeReason::Off; plan.order.len()],
         steps,
         ops,
-        fates,
+        placements,
         slots,
-        tenants,
+        slot_resources,
         decl,
         ..plan.clone()
     }

@@ -1,6 +1,6 @@
 //! How much of a resource something is true of.
 
-use crate::part::{Area, AreaSet};
+use crate::subresource::{Region, RegionSet};
 
 /// None of a resource, all of it, or some parts.
 #[derive(Clone, Debug, Default)]
@@ -8,7 +8,7 @@ pub(super) enum Coverage {
     #[default]
     None,
     All,
-    Parts(AreaSet),
+    Partial(RegionSet),
 }
 
 impl Coverage {
@@ -20,62 +20,62 @@ impl Coverage {
         match self {
             Self::None => true,
             Self::All => false,
-            Self::Parts(parts) => parts.is_empty(),
+            Self::Partial(regions) => regions.is_empty(),
         }
     }
 
     /// Adds a box, or all where there is none.
-    pub(super) fn add(&mut self, area: Option<&Area>) {
-        let Some(area) = area else {
+    pub(super) fn add(&mut self, region: Option<&Region>) {
+        let Some(region) = region else {
             *self = Self::All;
             return;
         };
         match self {
             Self::All => {}
-            Self::None => *self = Self::Parts(AreaSet::from_area(*area)),
-            Self::Parts(parts) => parts.add(*area),
+            Self::None => *self = Self::Partial(RegionSet::from_region(*region)),
+            Self::Partial(regions) => regions.add(*region),
         }
     }
 
     /// Takes out a box, or all where there is none.
-    pub(super) fn subtract(&mut self, area: Option<&Area>) {
-        let Some(area) = area else {
+    pub(super) fn subtract(&mut self, region: Option<&Region>) {
+        let Some(region) = region else {
             *self = Self::None;
             return;
         };
         if let Self::All = self {
-            *self = Self::Parts(AreaSet::from_area(Area::EVERYTHING));
+            *self = Self::Partial(RegionSet::from_region(Region::ALL));
         }
-        if let Self::Parts(parts) = self {
-            parts.subtract(area);
+        if let Self::Partial(regions) = self {
+            regions.subtract(region);
         }
     }
 
-    pub(super) fn overlaps(&self, area: Option<&Area>) -> bool {
+    pub(super) fn overlaps(&self, region: Option<&Region>) -> bool {
         match self {
             Self::None => false,
             Self::All => true,
-            Self::Parts(parts) => parts.overlaps(area.unwrap_or(&Area::EVERYTHING)),
+            Self::Partial(regions) => regions.overlaps(region.unwrap_or(&Region::ALL)),
         }
     }
 
-    pub(super) fn contains(&self, area: Option<&Area>) -> bool {
+    pub(super) fn contains(&self, region: Option<&Region>) -> bool {
         match self {
             Self::None => false,
             Self::All => true,
-            Self::Parts(parts) => parts.contains(area.unwrap_or(&Area::EVERYTHING)),
+            Self::Partial(regions) => regions.contains(region.unwrap_or(&Region::ALL)),
         }
     }
 
-    /// What lies inside `area`.
-    pub(super) fn within(&self, area: &Area) -> AreaSet {
+    /// What lies inside `region`.
+    pub(super) fn within(&self, region: &Region) -> RegionSet {
         match self {
-            Self::None => AreaSet::default(),
-            Self::All => AreaSet::from_area(*area),
-            Self::Parts(parts) => {
-                let mut parts = parts.clone();
-                parts.clip(area);
-                parts
+            Self::None => RegionSet::default(),
+            Self::All => RegionSet::from_region(*region),
+            Self::Partial(regions) => {
+                let mut regions = regions.clone();
+                regions.clip(region);
+                regions
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Which passes run: those whose writes reach a root.
 
 use super::coverage::Coverage;
-use super::lists::Lists;
+use super::csr::Csr;
 use crate::declaration::{AccessDecl, Declaration};
 use crate::handle::PassId;
 use crate::plan::CullReason;
@@ -18,23 +18,23 @@ pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
     for pass in decl.pass_ids().rev() {
         let accesses = decl.accesses(pass);
         let wanted =
-            |a: &&AccessDecl| a.contents.writes() && needed[a.resource.index()].overlaps(decl.area(a));
+            |a: &&AccessDecl| a.contents.writes() && needed[a.resource.index()].overlaps(decl.region(a));
         if !decl.pass(pass).keep && !accesses.iter().any(|a| wanted(&a)) {
             live[pass.index()] = false;
             culled += 1;
             continue;
         }
         for access in accesses.iter().filter(|a| !a.contents.needs()) {
-            needed[access.resource.index()].subtract(decl.area(access));
+            needed[access.resource.index()].subtract(decl.region(access));
         }
         for access in accesses.iter().filter(|a| a.contents.needs()) {
-            needed[access.resource.index()].add(decl.area(access));
+            needed[access.resource.index()].add(decl.region(access));
         }
     }
     let mut reasons = vec![None; live.len()];
     if culled > 0 {
         let of_pass = |pass| decl.accesses(pass).iter().map(move |access| (access.resource.index(), pass));
-        let users = Lists::new(decl.resources.len(), || decl.pass_ids().flat_map(of_pass));
+        let users = Csr::new(decl.resources.len(), || decl.pass_ids().flat_map(of_pass));
         for pass in decl.pass_ids().filter(|pass| !live[pass.index()]) {
             reasons[pass.index()] = Some(reason(decl, pass, &live, &users));
         }
@@ -43,21 +43,21 @@ pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
 }
 
 /// Follows what the pass writes first until all of it is overwritten or some of it is read.
-fn reason(decl: &Declaration, pass: PassId, live: &[bool], users: &Lists<PassId>) -> CullReason {
+fn reason(decl: &Declaration, pass: PassId, live: &[bool], users: &Csr<PassId>) -> CullReason {
     let Some(write) = decl.accesses(pass).iter().find(|a| a.contents.writes()) else {
         return CullReason::WritesNothing;
     };
     let resource = write.resource;
     let mut left = Coverage::default();
-    left.add(decl.area(write));
+    left.add(decl.region(write));
     let users = users.of(resource.index());
     let later = users.partition_point(|user| *user <= pass);
     for &next in &users[later..] {
         let touches = || decl.accesses(next).iter().filter(|a| a.resource == resource);
-        if touches().any(|a| a.contents.needs() && left.overlaps(decl.area(a))) {
+        if touches().any(|a| a.contents.needs() && left.overlaps(decl.region(a))) {
             return CullReason::OnlyCulledReaders(resource, next);
         }
-        touches().for_each(|a| left.subtract(decl.area(a)));
+        touches().for_each(|a| left.subtract(decl.region(a)));
         if left.is_empty() && live[next.index()] {
             return CullReason::Overwritten(resource, next);
         }

@@ -4,7 +4,7 @@ use crate::access::Access;
 use crate::declaration::{Declaration, PassKind};
 use crate::desc::ResourceDesc;
 use crate::handle::PassId;
-use crate::part::Area;
+use crate::subresource::Region;
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// How a frame uses a resource.
@@ -43,7 +43,7 @@ pub(super) fn uses(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) -
                 }
                 let drawn = renders && matches!(access.access, Access::Color(_) | Access::Depth);
                 own.only_drawn &=
-                    drawn && decl.area(access).is_none_or(|area| area.without_rect() == Area::EVERYTHING);
+                    drawn && decl.region(access).is_none_or(|region| region.without_rect() == Region::ALL);
             }
         }
     }

@@ -1,10 +1,10 @@
 //! Which passes share one render pass of the encoder.
 
 use crate::access::Access;
-use crate::declaration::{AccessDecl, Change, Declaration, PassKind};
+use crate::declaration::{AccessDecl, Declaration, PassKind, WriteMode};
 use crate::handle::{PassId, ResourceId};
-use crate::part::Area;
 use crate::plan::MergeReason;
+use crate::subresource::Region;
 
 /// Returns the runs of the order that are recorded as one, and for each place in the order why it joins the run
 /// before it or not.
@@ -85,8 +85,8 @@ impl Group {
     fn hazard(&self, decl: &Declaration, access: &AccessDecl) -> Option<MergeReason> {
         let resource = access.resource;
         if matches!(access.access, Access::Color(_) | Access::Depth | Access::DepthRead) {
-            let clears = matches!(access.contents, Change::Clear(_))
-                && decl.area(access).is_none_or(|area| *area == area.without_rect());
+            let clears = matches!(access.contents, WriteMode::Clear(_))
+                && decl.region(access).is_none_or(|region| *region == region.without_rect());
             return clears.then_some(MergeReason::Clears(resource));
         }
         let mark = self.marks[resource.index()];
@@ -128,7 +128,7 @@ fn attachments(decl: &Declaration, pass: PassId) -> impl Iterator<Item = &Access
 
 /// Whether two accesses attach the same mip, layer and aspects of one texture in the same way.
 fn same_attachment(decl: &Declaration, a: &AccessDecl, b: &AccessDecl) -> bool {
-    let whole = |access| decl.area(access).map_or(Area::EVERYTHING, |area| area.without_rect());
-    let both_whole = || decl.area(a).is_none() && decl.area(b).is_none();
+    let whole = |access| decl.region(access).map_or(Region::ALL, |region| region.without_rect());
+    let both_whole = || decl.region(a).is_none() && decl.region(b).is_none();
     a.access == b.access && a.resource == b.resource && (both_whole() || whole(a) == whole(b))
 }

@@ -4,10 +4,10 @@ mod alias;
 #[cfg(feature = "gpu")]
 mod capture;
 mod coverage;
+mod csr;
 mod cull;
 mod hazards;
 mod lifetime;
-mod lists;
 mod merge;
 mod ops;
 mod order;
@@ -46,11 +46,24 @@ pub(crate) fn resize(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
 ///
 /// Merging comes before lifetimes and slots: passes that share a render pass cannot share an attachment's slot.
 fn schedule(decl: Declaration, culled: Vec<Option<CullReason>>, dependencies: Vec<Dependency>) -> Plan {
-    let (order, placed) = debug_span!("order").in_scope(|| order::order(&decl, &culled, &dependencies));
-    let (steps, merges) = debug_span!("merge").in_scope(|| merge::merge(&decl, &order));
+    let (order, order_reasons) =
+        debug_span!("order").in_scope(|| order::order(&decl, &culled, &dependencies));
+    let (steps, merge_reasons) = debug_span!("merge").in_scope(|| merge::merge(&decl, &order));
     let uses = debug_span!("lifetime").in_scope(|| lifetime::uses(&decl, &order, &steps));
     let ops = debug_span!("ops").in_scope(|| ops::ops(&decl, &order, &steps));
     let aliasing = debug_span!("alias").in_scope(|| alias::alias(&decl, &uses, steps.len()));
-    let alias::Aliasing { fates, slots, tenants } = aliasing;
-    Plan { decl, culled, order, placed, merges, steps, ops, fates, slots, tenants, dependencies }
+    let alias::Aliasing { placements, slots, resources: slot_resources } = aliasing;
+    Plan {
+        decl,
+        culled,
+        order,
+        order_reasons,
+        merge_reasons,
+        steps,
+        ops,
+        placements,
+        slots,
+        slot_resources,
+        dependencies,
+    }
 }

@@ -1,10 +1,10 @@
 //! Load and store operations, from what passes declare of contents.
 
-mod parts;
+mod partial;
 mod whole;
 
 use crate::access::{Access, ClearValue};
-use crate::declaration::{AccessDecl, Change, Declaration, Origin};
+use crate::declaration::{AccessDecl, Declaration, Origin, WriteMode};
 use crate::handle::{PassId, ResourceId};
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
 
@@ -14,8 +14,8 @@ use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReaso
 pub(super) fn ops(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) -> Vec<Option<AttachmentOps>> {
     let mut ops = vec![None; decl.accesses.len()];
     whole::ops(decl, order, steps, &mut ops);
-    if decl.resources.iter().any(|resource| resource.in_parts) {
-        parts::ops(decl, order, steps, &mut ops);
+    if decl.resources.iter().any(|resource| resource.has_partial_accesses) {
+        partial::ops(decl, order, steps, &mut ops);
     }
     ops
 }
@@ -32,8 +32,8 @@ fn zero(access: Access) -> ClearValue {
 
 fn declared_clear(decl: &Declaration, access: &AccessDecl) -> Option<ClearValue> {
     match access.contents {
-        Change::Clear(clear) => Some(decl.clears[clear as usize]),
-        Change::Read | Change::Cover | Change::Preserve => None,
+        WriteMode::Clear(clear) => Some(decl.clears[clear as usize]),
+        WriteMode::ReadOnly | WriteMode::Overwrite | WriteMode::Preserve => None,
     }
 }
 

@@ -4,11 +4,11 @@ mod heap;
 mod memory;
 mod traffic;
 
-use super::lists::Lists;
+use super::csr::Csr;
 use super::merge::{self, Group};
 use crate::declaration::{Declaration, OrderPolicy, PassKind};
 use crate::handle::PassId;
-use crate::plan::{CullReason, Dependency, MergeReason, PlaceReason};
+use crate::plan::{CullReason, Dependency, MergeReason, OrderReason};
 use heap::Ready;
 use memory::Memory;
 use traffic::Traffic;
@@ -29,10 +29,10 @@ pub(super) fn order(
     decl: &Declaration,
     culled: &[Option<CullReason>],
     dependencies: &[Dependency],
-) -> (Vec<PassId>, Vec<PlaceReason>) {
+) -> (Vec<PassId>, Vec<OrderReason>) {
     let declared: Vec<PassId> = decl.pass_ids().filter(|pass| culled[pass.index()].is_none()).collect();
     if decl.options.order == OrderPolicy::Declared {
-        let reasons = vec![PlaceReason::Fixed; declared.len()];
+        let reasons = vec![OrderReason::Fixed; declared.len()];
         return (declared, reasons);
     }
     let traffic = Traffic::new(decl, &declared);
@@ -40,7 +40,7 @@ pub(super) fn order(
     let (order, reasons) = scheduler(Time::Forwards).run();
     let (peak, pass) = memory::peak(&traffic, &order);
     let least = |pass| memory::forced(&traffic, decl.passes.len(), dependencies, pass);
-    let forced = reasons.iter().all(|reason| *reason == PlaceReason::OnlyReady);
+    let forced = reasons.iter().all(|reason| *reason == OrderReason::OnlyReady);
     if forced || pass.is_none_or(|pass| peak - least(pass) <= peak / CLOSE) {
         return (order, reasons);
     }
@@ -50,7 +50,7 @@ pub(super) fn order(
     let mut most_steps = None;
     let mut best = (order, None, peak);
     let others =
-        [(declared, PlaceReason::DeclarationNeedsLess), (backwards, PlaceReason::BackwardsNeedsLess)];
+        [(declared, OrderReason::DeclarationNeedsLess), (backwards, OrderReason::BackwardsNeedsLess)];
     for (other, reason) in others {
         let (peak, _) = memory::peak(&traffic, &other);
         if peak < best.2 && steps(&other) <= *most_steps.get_or_insert_with(|| steps(&best.0)) {
@@ -75,7 +75,7 @@ struct Scheduler<'d> {
     decl: &'d Declaration,
     count: usize,
     /// By pass.
-    successors: Lists<PassId>,
+    successors: Csr<PassId>,
     /// By pass: dependencies that are not done.
     waiting: Vec<u32>,
     ready: Ready,
@@ -98,7 +98,7 @@ impl<'d> Scheduler<'d> {
             Time::Backwards => (dependency.after, dependency.before),
         };
         let pairs = || dependencies.iter().map(ends);
-        let successors = Lists::new(passes, || pairs().map(|(before, after)| (before.index(), after)));
+        let successors = Csr::new(passes, || pairs().map(|(before, after)| (before.index(), after)));
         let mut waiting = vec![0; passes];
         for (_, after) in pairs() {
             waiting[after.index()] += 1;
@@ -112,7 +112,7 @@ impl<'d> Scheduler<'d> {
         Self { decl, count: live.len(), successors, waiting, ready, memory, group, time }
     }
 
-    fn run(mut self) -> (Vec<PassId>, Vec<PlaceReason>) {
+    fn run(mut self) -> (Vec<PassId>, Vec<OrderReason>) {
         let mut order = Vec::with_capacity(self.count);
         let mut reasons = Vec::with_capacity(self.count);
         while let Some((pass, reason)) = self.choose() {
@@ -135,15 +135,15 @@ impl<'d> Scheduler<'d> {
         (order, reasons)
     }
 
-    fn choose(&mut self) -> Option<(PassId, PlaceReason)> {
+    fn choose(&mut self) -> Option<(PassId, OrderReason)> {
         if self.ready.len() == 1 {
-            return self.ready.pop().map(|(pass, _, _)| (pass, PlaceReason::OnlyReady));
+            return self.ready.pop().map(|(pass, _, _)| (pass, OrderReason::OnlyReady));
         }
         if let Some(pass) = self.continuing() {
-            return Some((pass, PlaceReason::ContinuesRenderPass));
+            return Some((pass, OrderReason::ContinuesRenderPass));
         }
         let (pass, score, ahead) = self.ready.pop()?;
-        let reason = if ahead { PlaceReason::FreesMemory(score) } else { PlaceReason::DeclaredFirst };
+        let reason = if ahead { OrderReason::FreesMemory(score) } else { OrderReason::DeclaredFirst };
         Some((pass, reason))
     }
 

@@ -22,7 +22,7 @@ pub(super) fn validate(decl: &Declaration) -> Result<(), Error> {
     for (index, resource) in decl.resources.iter().enumerate() {
         if let Some(problem) = shape_problem(resource.origin, &resource.desc) {
             let resource = decl.resource_path(ResourceId(index as u32));
-            return Err(Error::Shape { resource, problem });
+            return Err(Error::InvalidResource { resource, problem });
         }
     }
     let mut contents = contents::Contents::new(decl);

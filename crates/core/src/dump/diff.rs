@@ -58,7 +58,7 @@ impl Dump {
     ///
     /// ```
     /// use shadowgraph_core::{Dump, Frame};
-    /// let dump = Dump::of_json(&Frame::new().compile()?.plan().to_json()?)?;
+    /// let dump = Dump::from_json(&Frame::new().compile()?.plan().to_json()?)?;
     /// assert!(dump.diff(&dump).is_empty());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

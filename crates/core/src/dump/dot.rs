@@ -29,7 +29,7 @@ impl Plan {
                 None => "after".into(),
             };
             let (before, after) = (dependency.before.0, dependency.after.0);
-            let why = escape(&self.dependency_sentence(dependency));
+            let why = escape(&self.explain_dependency(dependency));
             let _ = writeln!(out, "  p{before} -> p{after} [label=\"{name}\", tooltip=\"{why}\"{style}];");
         }
         for step in self.steps() {
@@ -62,15 +62,15 @@ impl Plan {
 
     fn dot_pass(&self, places: &Places, id: PassId) -> String {
         let pass = self.pass(id);
-        let (label, kind) = (escape(pass.name), pass.kind.word());
+        let (label, kind) = (escape(pass.name), pass.kind.as_str());
         let Some(place) = places.get(id) else {
-            let why = pass.culled.map(|reason| escape(&self.cull_words(reason))).unwrap_or_default();
+            let why = pass.culled.map(|reason| escape(&self.describe_cull(reason))).unwrap_or_default();
             return format!(
                 "label=\"{label}\\nculled\", style=\"rounded,dashed\", color=gray, fontcolor=gray, tooltip=\"{why}\""
             );
         };
         let step = place.step;
-        let why = escape(&self.merge_sentence(place.order));
+        let why = escape(&self.explain_merge(place.order));
         let (merged, colour) = if place.passes > 1 {
             let count = format!(", {} of {}", place.within + 1, place.passes);
             (count, format!(", fillcolor=\"{}\"", GROUPS[step % GROUPS.len()]))

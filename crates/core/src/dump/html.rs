@@ -1,9 +1,9 @@
 //! The plan as one HTML page that needs nothing beside it.
 
 mod data;
-mod picture;
+mod snapshot;
 
-pub use picture::{Drawing, Outline, Picture, PictureTile, TexelValues, Texels};
+pub use snapshot::{Drawing, Outline, SnapshotTile, TexelValues, Texels, TextureSnapshot};
 
 use crate::plan::Plan;
 use crate::times::PassTime;
@@ -69,7 +69,7 @@ pub struct HtmlPage<'p> {
     /// Plots of named outlines.
     pub drawings: Vec<Drawing>,
     /// What textures held.
-    pub pictures: Vec<Picture>,
+    pub snapshots: Vec<TextureSnapshot>,
 }
 
 /// A table with a view of its own.
@@ -86,8 +86,8 @@ pub struct PageTable {
 impl<'p> HtmlPage<'p> {
     /// Begins a page about a frame.
     pub fn new(plan: &'p Plan) -> Self {
-        let (notes, tables, drawings, pictures) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { plan, title: "Frame".into(), times: &[], notes, tables, drawings, pictures }
+        let (notes, tables, drawings, snapshots) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { plan, title: "Frame".into(), times: &[], notes, tables, drawings, snapshots }
     }
 
     /// Names the page.

@@ -32,7 +32,7 @@ impl Plan {
     /// Returns the plan as indented JSON. Same plan, same bytes; `schema` counts incompatible changes.
     ///
     /// Beside the plan's own data, `reasons` has each decision as a sentence: `decision` is one of `culled`,
-    /// `placed`, `merged`, `load`, `clear drawn`, `store` and `slot`, `action` what was decided and `because` why.
+    /// `order_reasons`, `merged`, `load`, `clear drawn`, `store` and `slot`, `action` what was decided and `because` why.
     ///
     /// # Errors
     /// None that a plan can cause; serde_json's, should it have one.

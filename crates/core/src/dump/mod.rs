@@ -12,4 +12,4 @@ mod text;
 mod words;
 
 pub use diff::{Diff, Difference, Dump, Subject};
-pub use html::{Drawing, HtmlPage, Outline, PageTable, Picture, PictureTile, TexelValues, Texels};
+pub use html::{Drawing, HtmlPage, Outline, PageTable, SnapshotTile, TexelValues, Texels, TextureSnapshot};

@@ -6,8 +6,8 @@ use crate::plan::Plan;
 impl Plan {
     /// How many passes, steps, resources and slots there are, and what they take.
     pub(super) fn summary(&self) -> String {
-        let tenants = self.slots().map(|slot| slot.tenants.len()).sum::<usize>();
-        let outside = match self.resources().len() - tenants {
+        let assigned = self.slots().map(|slot| slot.resources.len()).sum::<usize>();
+        let outside = match self.resources().len() - assigned {
             0 => String::new(),
             others => format!(", {others} outside"),
         };
@@ -16,7 +16,7 @@ impl Plan {
             count(self.order().len(), "pass", "passes"),
             count(self.steps().len(), "step", "steps"),
             self.culled_count(),
-            count(tenants, "resource", "resources"),
+            count(assigned, "resource", "resources"),
             count(self.slots().len(), "slot", "slots"),
             bytes(self.slot_bytes()),
             bytes(self.saved_bytes()),

@@ -40,7 +40,7 @@ impl Plan {
         for (id, pass) in self.passes() {
             if let Some(reason) = pass.culled {
                 let path = clip(&self.pass_path(id), 40);
-                let _ = writeln!(out, "  {path:<40}  {}", self.cull_words(reason));
+                let _ = writeln!(out, "  {path:<40}  {}", self.describe_cull(reason));
             }
         }
     }

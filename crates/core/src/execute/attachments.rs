@@ -6,8 +6,8 @@ use crate::desc::{Format, ResourceDesc};
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::internal::Targets;
-use crate::part::Aspect;
 use crate::plan::{AttachmentOps, LoadAction, Plan, StoreAction};
+use crate::subresource::Aspect;
 use arrayvec::ArrayVec;
 
 /// As many colour attachments as any device allows.
@@ -35,7 +35,7 @@ pub(super) fn color_attachments<'a>(
             ResourceDesc::Texture(desc) => desc.dimension == wgpu::TextureDimension::D3,
             ResourceDesc::Buffer(_) => false,
         };
-        let slice = decl.part(access).layers.map_or(0, |(first, _)| first);
+        let slice = decl.subresource(access).layers.map_or(0, |(first, _)| first);
         while colors.len() <= color as usize {
             colors.push(None);
         }
@@ -76,7 +76,7 @@ pub(super) fn depth_attachment<'a>(
         ResourceDesc::Texture(desc) => (desc.format.has_depth_aspect(), desc.format.has_stencil_aspect()),
         ResourceDesc::Buffer(_) => (false, false),
     };
-    let aspect = decl.part(access).aspect;
+    let aspect = decl.subresource(access).aspect;
     let ops = begin.zip(end);
     let depth_ops = ops.filter(|_| has_depth && aspect != Aspect::Stencil).map(|(begin, end)| {
         operations(&begin, &end, |value| match value {

@@ -50,7 +50,7 @@ impl Resources<'_> {
     /// ) {
     ///     let mut pass = frame.render_pass("blur");
     ///     let scene = pass.sample(scene); // a token: it goes into the body, the handle does not
-    ///     pass.color(target, Contents::Cover);
+    ///     pass.color(target, Contents::Overwrite);
     ///     pass.body(move |ctx| {
     ///         let group = ctx.bind_group(layout, &[Bind::Texture(scene), Bind::Sampler(sampler)])?;
     ///         ctx.pass.set_pipeline(pipeline);
@@ -160,7 +160,7 @@ impl Resources<'_> {
     }
 
     fn bound_texture(&self, token: TextureToken, purpose: Purpose) -> Result<Bound<'_>, Error> {
-        let part = crate::Part { rect: None, ..self.part(token.0) };
+        let part = crate::Subresource { rect: None, ..self.part(token.0) };
         Ok(Bound::Texture(self.texture(token)?, part, purpose))
     }
 }

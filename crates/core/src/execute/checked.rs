@@ -47,7 +47,7 @@ impl Compiled<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Refused`] for what wgpu objects to; else as `execute`. Nothing is submitted then.
+    /// [`Error::Validation`] for what wgpu objects to; else as `execute`. Nothing is submitted then.
     pub fn execute_checked(
         self,
         graph: &mut Graph,
@@ -98,5 +98,5 @@ fn refused(plan: &Plan, passes: &[PassId], objection: &wgpu::Error) -> Error {
     let names: Vec<String> = passes.iter().map(|&pass| format!("`{}`", plan.pass_path(pass))).collect();
     let message = objection.to_string();
     let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    Error::Refused { passes: names.join(", "), message: lines.join("; ") }
+    Error::Validation { passes: names.join(", "), message: lines.join("; ") }
 }

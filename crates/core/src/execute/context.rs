@@ -6,9 +6,9 @@ use crate::compiled::resolve;
 use crate::desc::ResourceDesc;
 use crate::error::Error;
 use crate::handle::{BufferToken, PassId, ResourceId, TextureToken, Token, Uniform};
-use crate::part::Part;
 use crate::pool::{Caches, Purpose};
 use crate::shader_pass::ShaderPasses;
+use crate::subresource::Subresource;
 use std::ops::{Deref, DerefMut, Range};
 use std::sync::MutexGuard;
 
@@ -82,9 +82,9 @@ impl<'a> Resources<'a> {
         resolve(self.recording.plan, self.recording.frame, self.pass, token)
     }
 
-    pub(super) fn part(&self, token: Token) -> Part {
+    pub(super) fn part(&self, token: Token) -> Subresource {
         let decl = &self.recording.plan.decl;
-        decl.accesses.get(token.access as usize).map_or(Part::WHOLE, |access| decl.part(access))
+        decl.accesses.get(token.access as usize).map_or(Subresource::FULL, |access| decl.subresource(access))
     }
 
     pub(crate) fn byte_range(&self, token: Token) -> Range<u64> {

@@ -7,8 +7,8 @@ use crate::declaration::{AccessDecl, CopyOp};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::PassId;
-use crate::part::Aspect;
 use crate::pool::{Pool, place};
+use crate::subresource::Aspect;
 
 /// Where the uploads of a frame wait: all in one buffer, copied from there in the order of the plan. Going through
 /// the encoder rather than the queue keeps several recorded frames apart before any is submitted.
@@ -29,7 +29,7 @@ pub(super) fn stage(
     last: Option<&wgpu::CommandEncoder>,
 ) -> Result<(Option<wgpu::Buffer>, Uploads), Error> {
     let (plan, work) = (&compiled.plan, &compiled.frame.work);
-    let live = |target: crate::ResourceId| plan.fates[target.index()].steps.is_some();
+    let live = |target: crate::ResourceId| plan.placements[target.index()].steps.is_some();
     let waiting = plan.decl.copies.iter().filter_map(|copy| match *copy {
         CopyOp::Upload { target, upload } if live(target) => Some(upload as usize),
         _ => None,
@@ -91,8 +91,8 @@ fn transfer(
         CopyOp::Upload { .. } => {}
         CopyOp::BufferToBuffer { source, target } => {
             let all = decl.resource(source).desc.bytes();
-            let (start, end) = decl.part(from).bytes.unwrap_or((0, all));
-            let (to, _) = decl.part(to).bytes.unwrap_or((0, all));
+            let (start, end) = decl.subresource(from).bytes.unwrap_or((0, all));
+            let (to, _) = decl.subresource(to).bytes.unwrap_or((0, all));
             let (source, target) = (recording.buffer(source)?, recording.buffer(target)?);
             encoder.copy_buffer_to_buffer(source, start, target, to, end - start);
         }
@@ -130,7 +130,7 @@ fn extent(recording: &Recording<'_>, access: &AccessDecl) -> Option<wgpu::Extent
         ResourceDesc::Texture(desc) => desc,
         ResourceDesc::Buffer(_) => return None,
     };
-    copy_extent(&recording.plan.decl.part(access), &desc)
+    copy_extent(&recording.plan.decl.subresource(access), &desc)
 }
 
 fn place_of<'t>(
@@ -138,7 +138,7 @@ fn place_of<'t>(
     access: &AccessDecl,
     texture: &'t wgpu::Texture,
 ) -> wgpu::TexelCopyTextureInfo<'t> {
-    let part = recording.plan.decl.part(access);
+    let part = recording.plan.decl.subresource(access);
     wgpu::TexelCopyTextureInfo {
         texture,
         mip_level: part.mips.map_or(0, |(first, _)| first),

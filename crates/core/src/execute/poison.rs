@@ -6,9 +6,9 @@ use crate::access::ClearValue;
 use crate::declaration::Origin;
 use crate::desc::{Format, ResourceDesc};
 use crate::handle::PassId;
-use crate::part::{Aspect, Part};
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, Slot, StoreAction};
 use crate::pool::{Physical, Purpose, view};
+use crate::subresource::{Aspect, Subresource};
 use wgpu::{BufferUsages, TextureDimension, TextureSampleType, TextureUsages};
 
 /// Fills buffers: not a number as `f32`, more than two billion as an integer.
@@ -86,10 +86,10 @@ impl Recording<'_> {
     /// Fills the slots whose tenants begin their life in this step.
     pub(super) fn poison_arrivals(&self, step: usize, encoder: &mut wgpu::CommandEncoder) {
         let begins = |steps: Option<(u32, u32)>| steps.is_some_and(|(first, _)| first as usize == step);
-        for (fate, object) in self.plan.fates.iter().zip(&self.realised.objects) {
+        for (placement, object) in self.plan.placements.iter().zip(&self.realised.objects) {
             match object {
-                _ if fate.slot.is_none() || !begins(fate.steps) => {}
-                Some(Physical::Texture(texture)) => self.fill_texture(encoder, texture, Part::WHOLE),
+                _ if placement.slot.is_none() || !begins(placement.steps) => {}
+                Some(Physical::Texture(texture)) => self.fill_texture(encoder, texture, Subresource::FULL),
                 Some(Physical::Buffer(buffer)) => self.fill_buffer(encoder, buffer),
                 None => {}
             }
@@ -106,7 +106,7 @@ impl Recording<'_> {
                 && decl.resource(access.resource).origin == Origin::Transient
                 && let Ok(texture) = self.texture(access.resource)
             {
-                self.fill_texture(encoder, texture, decl.part(access));
+                self.fill_texture(encoder, texture, decl.subresource(access));
             }
         }
     }
@@ -117,7 +117,7 @@ impl Recording<'_> {
         let resource = self.plan.decl.resource(self.plan.decl.accesses[access].resource);
         if self.pool.poison
             && resource.origin == Origin::Transient
-            && matches!(ops.load_reason, LoadReason::Covered | LoadReason::RestUnneeded)
+            && matches!(ops.load_reason, LoadReason::Overwritten | LoadReason::RestUnneeded)
             && let ResourceDesc::Texture(desc) = resource.desc
         {
             ops.load = LoadAction::Clear(value(desc.format));
@@ -126,7 +126,7 @@ impl Recording<'_> {
     }
 
     /// Fills the mips, layers (of a volume, slices) and aspect of a part.
-    fn fill_texture(&self, encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture, part: Part) {
+    fn fill_texture(&self, encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture, part: Subresource) {
         let usage = texture.usage();
         let (first, end) = part.mips.unwrap_or((0, texture.mip_level_count()));
         for mip in first..end {
@@ -176,7 +176,7 @@ impl Recording<'_> {
 /// Clears one layer of one mip.
 fn draw(encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture, mip: u32, layer: u32, aspect: Aspect) {
     let format = texture.format();
-    let view = view(texture, Part::WHOLE.mip(mip).layer(layer), Purpose::Attachment);
+    let view = view(texture, Subresource::FULL.mip(mip).layer(layer), Purpose::Attachment);
     let (color, depth, stencil) = match value(format) {
         ClearValue::Color([r, g, b, a]) => (Some(wgpu::Color { r, g, b, a }), None, None),
         ClearValue::Depth(depth) => (None, Some(depth), None),

@@ -55,13 +55,14 @@ impl Realised {
         let mut slots = Vec::with_capacity(plan.slots.len());
         let mut behind = Vec::with_capacity(plan.slots.len());
         for (slot, described) in plan.slots.iter().zip(plan.slots()) {
-            let name = described.tenants.first().map_or("", |&tenant| plan.decl.resource_name(tenant));
+            let name = described.resources.first().map_or("", |&tenant| plan.decl.resource_name(tenant));
             let slot = if pool.poison { poison::fillable(*slot, device.features()) } else { *slot };
             let (key, physical) = pool.slots.acquire(device, &slot, name, frame)?;
             slots.push(key);
             behind.push(physical);
         }
-        let objects = plan.fates.iter().map(|fate| Some(behind[fate.slot?.index()].clone())).collect();
+        let objects =
+            plan.placements.iter().map(|placement| Some(behind[placement.slot?.index()].clone())).collect();
         let (labels, plan) = (Labels::new(plan), plan.clone());
         let views = vec![None; plan.decl.accesses.len()];
         let mut own =
@@ -78,7 +79,7 @@ impl Realised {
                 if access.access.is_attachment() && plan.decl.pass(pass).kind == crate::PassKind::Render {
                     match &self.objects[access.resource.index()] {
                         Some(Physical::Texture(texture)) => {
-                            let part = plan.decl.part(access);
+                            let part = plan.decl.subresource(access);
                             self.views[index] = Some(views.get(texture, part, Purpose::Attachment));
                         }
                         _ => self.moving.push(index as u32),
@@ -98,7 +99,7 @@ impl Realised {
         for &index in &self.moving {
             let access = &self.plan.decl.accesses[index as usize];
             let Some(Physical::Texture(texture)) = &self.objects[access.resource.index()] else { continue };
-            let part = self.plan.decl.part(access);
+            let part = self.plan.decl.subresource(access);
             // A view of the caller's is not kept: a surface cannot be configured while one of its texture is.
             let own = matches!(self.plan.decl.resource(access.resource).origin, Origin::Imported { .. });
             self.views[index as usize] = Some(if own {

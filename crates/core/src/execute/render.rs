@@ -4,13 +4,13 @@ use super::attachments::{ColorAttachments, color_attachments, depth_attachment, 
 use super::context::{Body, RenderContext, Resources};
 use super::record::Recording;
 use crate::access::ClearValue;
-use crate::declaration::WHOLE;
+use crate::declaration::ALL_OF_RESOURCE;
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::internal::{RegionClear, Targets};
-use crate::part::{Aspect, Rect};
 use crate::plan::{AccessPlan, AttachmentOps, LoadAction};
 use crate::shader_pass;
+use crate::subresource::{Aspect, Rect};
 use crate::{Access, Contents, Extent};
 
 impl<'a> Recording<'a> {
@@ -87,7 +87,7 @@ impl<'a> Recording<'a> {
 
     /// Draws the clears that no load operation does, and tells whether there were any.
     fn clear_regions(&self, id: PassId, context: &mut RenderContext<'_>) -> bool {
-        if self.plan.decl.parts.is_empty() && !self.pool.poison {
+        if self.plan.decl.subresources.is_empty() && !self.pool.poison {
             return false;
         }
         // Where a loud value stands for what the pass before loads, no clear may count on that.
@@ -112,10 +112,10 @@ impl<'a> Recording<'a> {
                 (_, ClearValue::DepthStencil(depth, stencil)) => (Some(depth), Some(stencil)),
                 _ => (None, None),
             };
-            let aspect = access.part.aspect;
+            let aspect = access.subresource.aspect;
             let (depth, stencil) =
                 (depth.filter(|_| aspect != Aspect::Stencil), stencil.filter(|_| aspect != Aspect::Depth));
-            let rect = access.part.rect.unwrap_or_else(|| whole(self.attachment_size(&access)));
+            let rect = access.subresource.rect.unwrap_or_else(|| whole(self.attachment_size(&access)));
             let clear = RegionClear { colors: &colors, depth, stencil, rect };
             caches.clears.record(self.device, &mut context.pass, &targets, &clear);
         }
@@ -125,13 +125,14 @@ impl<'a> Recording<'a> {
     /// Puts the pass into the state that a body may count on; `touched` tells whether it may be in another.
     fn clean_state(&self, id: PassId, context: &mut RenderContext<'_>, touched: bool) {
         let decl = &self.plan.decl;
-        let in_parts = !decl.parts.is_empty() && decl.accesses(id).iter().any(|access| access.part != WHOLE);
+        let in_parts = !decl.subresources.is_empty()
+            && decl.accesses(id).iter().any(|access| access.subresource != ALL_OF_RESOURCE);
         if !touched && !in_parts {
             return;
         }
         let pass = &mut context.pass;
         let mut attachments = self.plan.accesses(id).filter(|a| a.access.is_attachment());
-        let tile = attachments.clone().find_map(|access| access.part.rect);
+        let tile = attachments.clone().find_map(|access| access.subresource.rect);
         if !touched && tile.is_none() {
             return;
         }
@@ -151,7 +152,7 @@ impl<'a> Recording<'a> {
     fn attachment_size(&self, access: &AccessPlan) -> Extent {
         match self.texture(access.resource) {
             Ok(texture) => {
-                let mip = access.part.mips.map_or(0, |(first, _)| first);
+                let mip = access.subresource.mips.map_or(0, |(first, _)| first);
                 texture.size().mip_level_size(mip, texture.dimension())
             }
             Err(_) => Extent { width: 1, height: 1, depth_or_array_layers: 1 },

@@ -72,7 +72,7 @@ impl Frame<'_> {
     }
 
     /// Runs `build` only if `condition` holds. What it does not declare costs nothing; a node after it that can do
-    /// without takes the `Option`, or a stand-in by [`or_stand_in`](Self::or_stand_in).
+    /// without takes the `Option`, or a stand-in by [`or_placeholder`](Self::or_placeholder).
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};

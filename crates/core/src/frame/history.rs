@@ -62,7 +62,7 @@ impl Frame<'_> {
     ///     frame.history("accumulated", TextureDesc::d2(64, 64, Format::Rgba16Float), Resize::Reset);
     /// let mut pass = frame.render_pass("accumulate");
     /// let _before = pass.sample(&colour.previous);
-    /// pass.color(&mut colour.current, Contents::Cover);
+    /// pass.color(&mut colour.current, Contents::Overwrite);
     /// assert!(!colour.valid, "nothing was there before the first frame");
     /// # frame.compile()?;
     /// # Ok::<(), shadowgraph_core::Error>(())
@@ -77,7 +77,7 @@ impl Frame<'_> {
         if self.work.histories.iter().any(|other| is_same(&self.decl, &own, other)) {
             let resource = self.decl.resource_name(own.current).into();
             let problem = "its view has a history of that name already: give it another".into();
-            self.errors.push(Error::Shape { resource, problem });
+            self.errors.push(Error::InvalidResource { resource, problem });
         }
         self.work.histories.push(own);
         let valid = self.known.history_valid(&self.decl, self.view, current.resource, resize);

@@ -13,12 +13,14 @@ use crate::access::{Access, Contents};
 use crate::builder::{Compute, Copying, Encoding, Pass, Rendering};
 use crate::compile;
 use crate::compiled::Compiled;
-use crate::declaration::{AccessDecl, Change, Declaration, Options, PartDecl, PassDecl, PassKind, WHOLE};
+use crate::declaration::{
+    ALL_OF_RESOURCE, AccessDecl, Declaration, Options, PassDecl, PassKind, SubresourceDecl, WriteMode,
+};
 use crate::error::Error;
-use crate::graph::Known;
+use crate::graph::PriorState;
 use crate::handle::{NodeId, PassId, Token, Version};
 use crate::name::Name;
-use crate::part::Part;
+use crate::subresource::Subresource;
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -37,7 +39,7 @@ pub struct Frame<'f> {
     /// The innermost view around what is being declared.
     view: Option<NodeId>,
     published: HashMap<TypeId, Box<dyn Any + Send>>,
-    known: Known,
+    known: PriorState,
 }
 
 impl Default for Frame<'_> {
@@ -49,17 +51,17 @@ impl Default for Frame<'_> {
 impl<'f> Frame<'f> {
     /// Starts an empty frame.
     pub fn new() -> Self {
-        Self::with(Known::default())
+        Self::with(PriorState::default())
     }
 
-    pub(crate) fn with(mut known: Known) -> Self {
+    pub(crate) fn with(mut known: PriorState) -> Self {
         // Tells handles of different frames apart; it never reaches a plan.
         static FRAMES: AtomicU64 = AtomicU64::new(0);
         let Storage { decl, work, errors } = known.take_storage();
         Self {
             id: FRAMES.fetch_add(1, Ordering::Relaxed),
             decl,
-            work: work.relive(),
+            work: work.recycle(),
             errors,
             node: None,
             view: None,
@@ -120,7 +122,7 @@ impl<'f> Frame<'f> {
 
     /// Notes a mistake made while declaring.
     #[cfg(feature = "gpu")]
-    pub(crate) fn mistake(&mut self, error: Error) {
+    pub(crate) fn report_error(&mut self, error: Error) {
         self.errors.push(error);
     }
 
@@ -147,38 +149,38 @@ impl<'f> Frame<'f> {
         id
     }
 
-    /// Declares a read of the part that is taken out of `part`.
+    /// Declares a read of the part that is taken out of `subresource`.
     pub(crate) fn declare_read(
         &mut self,
         pass: PassId,
         version: Version,
         access: Access,
-        part: &mut Option<Part>,
+        subresource: &mut Option<Subresource>,
     ) -> Token {
         if version.frame != self.id {
-            *part = None;
-            return self.foreign(pass, version);
+            *subresource = None;
+            return self.invalid_token(pass, version);
         }
         if self.is_stale(version) {
             let place = format!("pass `{}`", self.decl.pass_path(pass));
             let error = self.stale_read(place, version);
             self.errors.push(error);
         }
-        self.add_access(pass, version, access, Change::Read, part)
+        self.add_access(pass, version, access, WriteMode::ReadOnly, subresource)
     }
 
-    /// Declares a write to the part that is taken out of `part`.
+    /// Declares a write to the part that is taken out of `subresource`.
     pub(crate) fn declare_write(
         &mut self,
         pass: PassId,
         version: &mut Version,
         access: Access,
         contents: Contents,
-        part: &mut Option<Part>,
+        subresource: &mut Option<Subresource>,
     ) -> Token {
         if version.frame != self.id {
-            *part = None;
-            return self.foreign(pass, *version);
+            *subresource = None;
+            return self.invalid_token(pass, *version);
         }
         if self.is_stale(*version) {
             let error = Error::TwoWriters {
@@ -190,17 +192,17 @@ impl<'f> Frame<'f> {
             self.errors.push(error);
         }
         let change = self.change(contents);
-        let token = self.add_access(pass, *version, access, change, part);
+        let token = self.add_access(pass, *version, access, change, subresource);
         let resource = &mut self.decl.resources[version.resource.index()];
         resource.version += 1;
         version.version = resource.version;
         token
     }
 
-    fn change(&mut self, contents: Contents) -> Change {
+    fn change(&mut self, contents: Contents) -> WriteMode {
         match contents {
-            Contents::Cover => Change::Cover,
-            Contents::Preserve => Change::Preserve,
+            Contents::Overwrite => WriteMode::Overwrite,
+            Contents::Preserve => WriteMode::Preserve,
             Contents::Clear(value) => {
                 let clears = &mut self.decl.clears;
                 // Frames clear to few values, most of them the one before.
@@ -209,13 +211,13 @@ impl<'f> Frame<'f> {
                 if known.is_none() {
                     clears.push(value);
                 }
-                Change::Clear(index as u32)
+                WriteMode::Clear(index as u32)
             }
         }
     }
 
     /// What an access with a handle of another frame returns. It resolves nowhere.
-    fn foreign(&mut self, pass: PassId, version: Version) -> Token {
+    fn invalid_token(&mut self, pass: PassId, version: Version) -> Token {
         let place = format!("pass `{}`", self.decl.pass_path(pass));
         self.errors.push(Error::ForeignHandle { place });
         Token { frame: version.frame, pass, resource: version.resource, access: u32::MAX }
@@ -239,18 +241,18 @@ impl<'f> Frame<'f> {
         pass: PassId,
         version: Version,
         access: Access,
-        contents: Change,
-        part: &mut Option<Part>,
+        contents: WriteMode,
+        subresource: &mut Option<Subresource>,
     ) -> Token {
-        let part = match *part {
-            None => WHOLE,
+        let subresource = match *subresource {
+            None => ALL_OF_RESOURCE,
             Some(own) => {
-                *part = None;
+                *subresource = None;
                 self.add_part(pass, version, own)
             }
         };
         let Version { resource, version, .. } = version;
-        self.decl.accesses.push(AccessDecl { resource, access, contents, version, part });
+        self.decl.accesses.push(AccessDecl { resource, access, contents, version, subresource });
         let end = self.decl.accesses.len() as u32;
         let declared = self.pass_mut(pass);
         declared.accesses.1 = end;
@@ -261,22 +263,22 @@ impl<'f> Frame<'f> {
     }
 
     /// Notes a part, unless it is all of the resource.
-    fn add_part(&mut self, pass: PassId, version: Version, part: Part) -> u32 {
+    fn add_part(&mut self, pass: PassId, version: Version, subresource: Subresource) -> u32 {
         let resource = &mut self.decl.resources[version.resource.index()];
-        if let Some(problem) = part.problem(&resource.desc) {
-            let error = Error::Part {
+        if let Some(problem) = subresource.problem(&resource.desc) {
+            let error = Error::InvalidSubresource {
                 pass: self.decl.pass_path(pass),
                 resource: self.decl.resource_path(version.resource),
-                part: part.words(),
+                subresource: subresource.to_string(),
                 problem,
             };
             self.errors.push(error);
-            return WHOLE;
+            return ALL_OF_RESOURCE;
         }
-        let Some(area) = part.area(&resource.desc) else { return WHOLE };
-        resource.in_parts = true;
-        self.decl.parts.push(PartDecl { part, area });
-        self.decl.parts.len() as u32 - 1
+        let Some(region) = subresource.region(&resource.desc) else { return ALL_OF_RESOURCE };
+        resource.has_partial_accesses = true;
+        self.decl.subresources.push(SubresourceDecl { subresource, region });
+        self.decl.subresources.len() as u32 - 1
     }
 
     fn is_stale(&self, version: Version) -> bool {

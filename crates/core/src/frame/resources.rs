@@ -42,7 +42,7 @@ impl<'f> Frame<'f> {
         let upload = self.work.uploads.len() as u32;
         self.work.uploads.push(bytes);
         let pass = self.add_pass(UploadOf(&name), PassKind::Copy);
-        self.declare_write(pass, &mut buffer.0, Access::CopyTarget, Contents::Cover, &mut None);
+        self.declare_write(pass, &mut buffer.0, Access::CopyTarget, Contents::Overwrite, &mut None);
         self.add_copy(pass, CopyOp::Upload { target: buffer.id(), upload });
         buffer
     }
@@ -114,10 +114,15 @@ impl<'f> Frame<'f> {
     /// use shadowgraph_core::{ClearValue, Format, Frame};
     /// let mut frame = Frame::new();
     /// let white = ClearValue::Color([1.0; 4]);
-    /// let occlusion = frame.or_stand_in(None, Format::R8Unorm, white);
+    /// let occlusion = frame.or_placeholder(None, Format::R8Unorm, white);
     /// assert_eq!(frame.texture_desc(&occlusion).map(|desc| desc.size.width), Some(1));
     /// ```
-    pub fn or_stand_in(&mut self, texture: Option<&Texture>, format: Format, value: ClearValue) -> Texture {
+    pub fn or_placeholder(
+        &mut self,
+        texture: Option<&Texture>,
+        format: Format,
+        value: ClearValue,
+    ) -> Texture {
         if let Some(texture) = texture {
             return texture.clone();
         }
@@ -178,7 +183,7 @@ impl<'f> Frame<'f> {
             origin,
             version: 0,
             exported: None,
-            in_parts: false,
+            has_partial_accesses: false,
             texture_usage: TextureUsages::empty(),
             buffer_usage: BufferUsages::empty(),
         });

@@ -34,19 +34,19 @@ pub(crate) struct Work<'f> {
 
 impl Work<'_> {
     /// Empties everything and gives it another lifetime.
-    pub(crate) fn relive<'g>(self) -> Work<'g> {
+    pub(crate) fn recycle<'g>(self) -> Work<'g> {
         let Self { uploads, mut uniforms, .. } = self;
         uniforms.clear();
         Work {
-            uploads: emptied(uploads),
+            uploads: cleared(uploads),
             uniforms,
             #[cfg(feature = "gpu")]
-            bodies: emptied(self.bodies),
+            bodies: cleared(self.bodies),
             #[cfg(feature = "gpu")]
-            imports: emptied(self.imports),
-            histories: emptied(self.histories),
+            imports: cleared(self.imports),
+            histories: cleared(self.histories),
             #[cfg(feature = "gpu")]
-            read_backs: emptied(self.read_backs),
+            read_backs: cleared(self.read_backs),
             #[cfg(feature = "gpu")]
             calls: self.calls.emptied(),
         }
@@ -59,14 +59,14 @@ impl Drop for Frame<'_> {
         let (mut decl, mut errors) = (std::mem::take(&mut self.decl), std::mem::take(&mut self.errors));
         decl.clear();
         errors.clear();
-        let work = std::mem::take(&mut self.work).relive();
+        let work = std::mem::take(&mut self.work).recycle();
         self.known.give_back(Storage { decl, work, errors });
     }
 }
 
 /// Empties a vector and gives its memory to another of the same layout: collecting in place keeps the allocation,
 /// and a type that differs only in lifetimes has the same layout.
-fn emptied<A, B>(mut vector: Vec<A>) -> Vec<B> {
+fn cleared<A, B>(mut vector: Vec<A>) -> Vec<B> {
     vector.clear();
     vector.into_iter().filter_map(|_| None).collect()
 }
@@ -81,7 +81,7 @@ mod tests {
         let mut work = Work::default();
         work.uploads.extend((0..40).map(|_| Cow::Borrowed(&bytes[..])));
         let (capacity, address) = (work.uploads.capacity(), work.uploads.as_ptr().addr());
-        let next: Work<'static> = work.relive();
+        let next: Work<'static> = work.recycle();
         assert!(next.uploads.is_empty());
         assert_eq!((next.uploads.capacity(), next.uploads.as_ptr().addr()), (capacity, address));
     }

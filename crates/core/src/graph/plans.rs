@@ -1,7 +1,7 @@
 //! Plans found again.
 
 use crate::compile;
-use crate::declaration::{Declaration, Likeness};
+use crate::declaration::{Declaration, FrameSimilarity};
 use crate::error::Error;
 use crate::plan::Plan;
 use std::sync::Arc;
@@ -33,14 +33,14 @@ impl Plans {
     pub(crate) fn plan(&mut self, decl: &mut Declaration) -> Result<Arc<Plan>, Error> {
         let mut alike = None;
         for (index, plan) in self.kept.iter().enumerate() {
-            match plan.decl.likeness(decl) {
-                Likeness::Same => {
+            match plan.decl.similarity(decl) {
+                FrameSimilarity::Same => {
                     self.kept[..=index].rotate_right(1);
                     self.counts.reused += 1;
                     return Ok(self.kept[0].clone());
                 }
-                Likeness::OtherSizes => alike = alike.or(Some(plan)),
-                Likeness::Other => {}
+                FrameSimilarity::OtherSizes => alike = alike.or(Some(plan)),
+                FrameSimilarity::Other => {}
             }
         }
         let plan = match alike {

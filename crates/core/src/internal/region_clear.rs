@@ -3,7 +3,7 @@
 
 use super::{module, scalar, section, uniform, vertex};
 use crate::desc::Format;
-use crate::part::Rect;
+use crate::subresource::Rect;
 use std::collections::HashMap;
 
 /// Colour attachments that a pass has at most, on any device of wgpu's; `internal.wgsl` has the same number.

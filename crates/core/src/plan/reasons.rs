@@ -19,7 +19,7 @@ pub enum CullReason {
 
 /// Why a pass stands where it does in the order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum PlaceReason {
+pub enum OrderReason {
     /// The frame fixes the order of declaration.
     Fixed,
     /// It was the only pass whose dependencies were done.
@@ -69,7 +69,8 @@ pub enum LoadReason {
     /// The pass declares the clear.
     Declared,
     /// The pass covers every texel, and a clear is the cheapest load there is.
-    Covered,
+    #[serde(rename = "Covered")]
+    Overwritten,
     /// The pass draws into a part, and nothing needs what the rest held.
     RestUnneeded,
     /// The pass preserves what this pass wrote.

@@ -1,6 +1,6 @@
 //! The plan as a tree of named fields, for JSON.
 
-use super::{AccessPlan, MergeReason, PassPlan, PlaceReason, Plan};
+use super::{AccessPlan, MergeReason, OrderReason, PassPlan, Plan};
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
 #[derive(serde::Serialize)]
@@ -8,7 +8,8 @@ struct PassDocument<'p> {
     #[serde(flatten)]
     pass: PassPlan<'p>,
     accesses: Vec<AccessPlan>,
-    placed: Option<PlaceReason>,
+    #[serde(rename = "placed")]
+    order: Option<OrderReason>,
     merge: Option<MergeReason>,
 }
 
@@ -23,8 +24,8 @@ impl Serialize for Plan {
             .map(|(id, pass)| PassDocument {
                 pass,
                 accesses: self.accesses(id).collect(),
-                placed: place[id.index()].map(|place| self.placed[place]),
-                merge: place[id.index()].map(|place| self.merges[place]),
+                order: place[id.index()].map(|place| self.order_reasons[place]),
+                merge: place[id.index()].map(|place| self.merge_reasons[place]),
             })
             .collect();
         let mut plan = serializer.serialize_struct("Plan", 7)?;

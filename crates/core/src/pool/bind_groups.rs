@@ -2,7 +2,7 @@
 
 use super::views::Purpose;
 use crate::error::Error;
-use crate::part::Part;
+use crate::subresource::Subresource;
 use rustc_hash::{FxHashMap, FxHasher};
 use slotmap::{SlotMap, new_key_type};
 use std::hash::{Hash, Hasher};
@@ -13,7 +13,7 @@ use std::num::NonZeroU64;
 #[derive(PartialEq, Eq, Hash)]
 pub(crate) enum Bound<'a> {
     /// A part of a texture of the graph; its view is looked up only to create a group.
-    Texture(&'a wgpu::Texture, Part, Purpose),
+    Texture(&'a wgpu::Texture, Subresource, Purpose),
     View(&'a wgpu::TextureView),
     Sampler(&'a wgpu::Sampler),
     Buffer(&'a wgpu::Buffer, u64, Option<NonZeroU64>),
@@ -21,7 +21,7 @@ pub(crate) enum Bound<'a> {
 
 /// What a group was created from.
 enum Kept {
-    Texture(wgpu::Texture, Part, Purpose),
+    Texture(wgpu::Texture, Subresource, Purpose),
     View(wgpu::TextureView),
     Sampler(wgpu::Sampler),
     Buffer(wgpu::Buffer, u64, Option<NonZeroU64>),

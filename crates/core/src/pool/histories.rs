@@ -5,7 +5,7 @@ use crate::compiled::Compiled;
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::frame::{HistoryUse, Resize};
-use crate::graph::KnownHistory;
+use crate::graph::PriorHistory;
 use crate::internal::{Resampler, resamples};
 use crate::plan::Plan;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use wgpu::TextureUsages;
 
 /// One history and its two halves.
 struct History {
-    known: KnownHistory,
+    known: PriorHistory,
     usage: TextureUsages,
     /// First what the last frame wrote: the next one's `previous`.
     halves: [wgpu::Texture; 2],
@@ -30,12 +30,12 @@ pub(crate) struct Histories {
     /// Made for the frame being recorded.
     fresh: Vec<History>,
     resampler: Resampler,
-    known: Arc<Vec<KnownHistory>>,
+    known: Arc<Vec<PriorHistory>>,
 }
 
 impl Histories {
     /// Returns the histories that hold contents.
-    pub(crate) fn known(&self) -> Arc<Vec<KnownHistory>> {
+    pub(crate) fn known(&self) -> Arc<Vec<PriorHistory>> {
         self.known.clone()
     }
 
@@ -125,7 +125,7 @@ impl<'p> Wanted<'p> {
         // Copies carry the contents over when a usage is added.
         let mut usage = TextureUsages::COPY_SRC | TextureUsages::COPY_DST;
         for half in [own.previous, own.current] {
-            usage |= plan.fates[half.index()].texture_usage;
+            usage |= plan.placements[half.index()].texture_usage;
         }
         if own.resize == Resize::Resample && resamples(&desc, features).is_ok() {
             usage |= TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT;
@@ -165,7 +165,7 @@ impl<'p> Wanted<'p> {
         }
         let bound = usage.contains(TextureUsages::TEXTURE_BINDING);
         let resamples = bound && resamples(desc, device.features()).is_ok();
-        let known = KnownHistory { view, name: name.into(), desc: *desc, resamples };
+        let known = PriorHistory { view, name: name.into(), desc: *desc, resamples };
         Ok(History { known, usage, halves, used: 0 })
     }
 }

@@ -1,6 +1,6 @@
 //! Views of textures by the part that they show.
 
-use crate::part::{Aspect, Part};
+use crate::subresource::{Aspect, Subresource};
 use rustc_hash::FxHashMap;
 use wgpu::{TextureAspect, TextureViewDescriptor, TextureViewDimension};
 
@@ -24,7 +24,7 @@ struct Cached {
 #[derive(Default)]
 pub(crate) struct Views {
     frame: u64,
-    views: FxHashMap<(wgpu::Texture, Part, Purpose), Cached>,
+    views: FxHashMap<(wgpu::Texture, Subresource, Purpose), Cached>,
 }
 
 impl Views {
@@ -35,8 +35,13 @@ impl Views {
     }
 
     /// Returns the view of a part.
-    pub(crate) fn get(&mut self, texture: &wgpu::Texture, part: Part, purpose: Purpose) -> wgpu::TextureView {
-        let key = (texture.clone(), Part { rect: None, ..part }, purpose);
+    pub(crate) fn get(
+        &mut self,
+        texture: &wgpu::Texture,
+        part: Subresource,
+        purpose: Purpose,
+    ) -> wgpu::TextureView {
+        let key = (texture.clone(), Subresource { rect: None, ..part }, purpose);
         let new = || Cached { view: view(texture, part, purpose), used: 0 };
         let cached = self.views.entry(key).or_insert_with(new);
         cached.used = self.frame;
@@ -45,7 +50,7 @@ impl Views {
 }
 
 /// Creates a view of a part; a rectangle cannot be told from its mip.
-pub(crate) fn view(texture: &wgpu::Texture, part: Part, purpose: Purpose) -> wgpu::TextureView {
+pub(crate) fn view(texture: &wgpu::Texture, part: Subresource, purpose: Purpose) -> wgpu::TextureView {
     let format = texture.format();
     let aspect = match (purpose, part.aspect) {
         (Purpose::Attachment, _) => TextureAspect::All,

@@ -11,7 +11,7 @@ use crate::execute::Body;
 use crate::frame::Frame;
 use crate::handle::{Buffer, BufferToken, PassId, Texture, TextureToken};
 use crate::name::Name;
-use crate::part::{Aspect, Part};
+use crate::subresource::{Aspect, Subresource};
 use std::sync::Arc;
 
 /// Bytes of the arguments of an indirect dispatch: three numbers of workgroups.
@@ -25,7 +25,7 @@ const ARGUMENTS: u64 = 12;
 #[must_use = "nothing is recorded until it is told where to draw or how much to dispatch"]
 pub struct ShaderPassBuilder<'p, 'f, K> {
     pass: Pass<'p, 'f, K>,
-    part: Part,
+    part: Subresource,
 }
 
 impl<'f> Frame<'f> {
@@ -63,7 +63,7 @@ impl<'p, 'f, K> ShaderPassBuilder<'p, 'f, K> {
     fn new(pass: Pass<'p, 'f, K>, program: Arc<Program>, work: Work) -> Self {
         let call = pass.frame.work.calls.begin(program, work);
         pass.frame.work.bodies[pass.id.index()] = Body::ShaderPass(call);
-        Self { pass, part: Part::WHOLE }
+        Self { pass, part: Subresource::FULL }
     }
 
     /// Keeps the pass even if nothing needs what it writes, for effects that the graph cannot see.
@@ -79,14 +79,14 @@ impl<'p, 'f, K> ShaderPassBuilder<'p, 'f, K> {
     }
 
     /// Narrows the next access to a part of its resource: a mip level to read, a tile to draw into.
-    pub fn on(mut self, part: Part) -> Self {
+    pub fn subresource(mut self, part: Subresource) -> Self {
         self.part = part;
         self
     }
 
     /// The pass, with the part for its next access.
     fn next(&mut self) -> &mut Pass<'p, 'f, K> {
-        self.pass.on(std::mem::take(&mut self.part))
+        self.pass.subresource(std::mem::take(&mut self.part))
     }
 
     fn bind(self, entry: Entry) -> Self {
@@ -113,9 +113,10 @@ impl<'p, 'f, K> ShaderPassBuilder<'p, 'f, K> {
         if uniform.size_bytes() == 0 {
             let resource =
                 format!("a uniform block of pass `{}`", self.pass.frame.decl.pass_path(self.pass.id));
-            self.pass
-                .frame
-                .mistake(Error::Shape { resource, problem: "it has no bytes; give it some".into() });
+            self.pass.frame.report_error(Error::InvalidResource {
+                resource,
+                problem: "it has no bytes; give it some".into(),
+            });
         }
         self.bind(Entry::Uniform(uniform))
     }
@@ -201,7 +202,7 @@ impl ShaderPassBuilder<'_, '_, Rendering> {
         {
             self.part = self.part.aspect(Aspect::Depth);
         }
-        self.next().depth(target, Contents::Cover);
+        self.next().depth(target, Contents::Overwrite);
         self.depth(desc, true, wgpu::CompareFunction::Always);
         self.pass.id()
     }
@@ -209,7 +210,7 @@ impl ShaderPassBuilder<'_, '_, Rendering> {
     /// Draws over one more target, at the shader's next `@location`; the last one is given to [`draw`](Self::draw) or
     /// [`draw_over`](Self::draw_over).
     pub fn target(self, target: &mut Texture) -> Self {
-        self.attach(target, Contents::Cover, None)
+        self.attach(target, Contents::Overwrite, None)
     }
 
     /// Draws onto what is in one more target; see [`draw_over`](Self::draw_over).
@@ -270,18 +271,18 @@ impl ShaderPassBuilder<'_, '_, Compute> {
     /// the declaration.
     pub fn dispatch_indirect(mut self, arguments: &Buffer, offset: u64) -> PassId {
         let end = offset.saturating_add(ARGUMENTS);
-        let part = Part::WHOLE.bytes(offset..end);
+        let part = Subresource::FULL.bytes(offset..end);
         let own = self.pass.frame.buffer_desc(arguments).is_some();
         if own && !offset.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
-            let error = Error::Part {
+            let error = Error::InvalidSubresource {
                 pass: self.pass.frame.decl.pass_path(self.pass.id),
                 resource: self.pass.frame.decl.resource_path(arguments.id()),
-                part: part.words(),
+                subresource: part.to_string(),
                 problem: "arguments of a dispatch begin at a multiple of 4",
             };
-            self.pass.frame.mistake(error);
+            self.pass.frame.report_error(error);
         }
-        let token = self.pass.on(part).indirect_buffer(arguments);
+        let token = self.pass.subresource(part).indirect_buffer(arguments);
         self.work(Work::DispatchIndirect(token, offset))
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Mistake, square};
 use shadowgraph_core::{
-    BufferDesc, ClearValue, Contents, Dump, Error, Format, Frame, Part, Rect, Resize, Texture,
+    BufferDesc, ClearValue, Contents, Dump, Error, Format, Frame, Rect, Resize, Subresource, Texture,
 };
 use shadowgraph_core::{TextureDesc, TextureUsages};
 
@@ -14,7 +14,7 @@ fn error(declare: impl FnOnce(&mut Frame<'_>)) -> Error {
     frame.compile().err().expect("a mistake")
 }
 
-fn mistake(
+fn report_error(
     code: &'static str,
     words: &'static [&'static str],
     declare: impl FnOnce(&mut Frame<'_>),
@@ -38,13 +38,13 @@ fn dumps() -> Vec<Mistake> {
     let plan = Frame::new().compile().expect("an empty frame").into_plan();
     let words = &["`draw`", "`dump` lists them"];
     let unknown = Mistake { code: "SG0701", error: plan.explain("draw").expect_err("no pass"), words };
-    let old = Dump::of_json(r#"{"schema": 1}"#).expect_err("an old dump");
+    let old = Dump::from_json(r#"{"schema": 1}"#).expect_err("an old dump");
     vec![unknown, Mistake { code: "SG0702", error: old, words: &["schema 1", "write it anew"] }]
 }
 
 fn handles() -> Vec<Mistake> {
     vec![
-        mistake(
+        report_error(
             "SG0101",
             &["pass `late` reads version 1 of `a`", "`again` has since written version 2", "read before"],
             |frame| {
@@ -55,13 +55,13 @@ fn handles() -> Vec<Mistake> {
                 frame.compute_pass("late").sample(&stale);
             },
         ),
-        mistake("SG0101", &["the export reads version 1 of `a`", "`again` has since"], |frame| {
+        report_error("SG0101", &["the export reads version 1 of `a`", "`again` has since"], |frame| {
             let mut a = frame.create_texture("a", square());
             frame.render_pass("first").color(&mut a, BLACK);
             frame.export_texture(&a);
             frame.render_pass("again").color(&mut a, BLACK);
         }),
-        mistake(
+        report_error(
             "SG0102",
             &["pass `second` writes version 0 of `a`", "`first` has already", "same handle by `&mut`"],
             |frame| {
@@ -71,7 +71,7 @@ fn handles() -> Vec<Mistake> {
                 frame.render_pass("second").color(&mut twin, BLACK);
             },
         ),
-        mistake("SG0103", &["pass `node/read` uses a handle of another frame", "import"], |frame| {
+        report_error("SG0103", &["pass `node/read` uses a handle of another frame", "import"], |frame| {
             let other = Frame::new().create_texture("a", square());
             frame.node("node", |frame| frame.compute_pass("read").sample(&other));
         }),
@@ -80,20 +80,24 @@ fn handles() -> Vec<Mistake> {
 
 fn contents() -> Vec<Mistake> {
     vec![
-        mistake("SG0201", &["pass `read` reads mip 1 of `a`", "undefined", "earlier pass"], |frame| {
+        report_error("SG0201", &["pass `read` reads mip 1 of `a`", "undefined", "earlier pass"], |frame| {
             let desc = TextureDesc { mip_levels: 2, ..square() };
             let mut a = frame.create_texture("a", desc);
-            frame.render_pass("first").on(Part::WHOLE.mip(0)).color(&mut a, BLACK);
-            frame.compute_pass("read").on(Part::WHOLE.mip(1)).sample(&a);
+            frame.render_pass("first").subresource(Subresource::FULL.mip(0)).color(&mut a, BLACK);
+            frame.compute_pass("read").subresource(Subresource::FULL.mip(1)).sample(&a);
         }),
-        mistake("SG0201", &["the next frame reads all of `h`"], |frame| {
+        report_error("SG0201", &["the next frame reads all of `h`"], |frame| {
             frame.history("h", square(), Resize::Reset);
         }),
-        mistake("SG0202", &["pass `draw` preserves all of `a`", "undefined", "`Contents::Clear`"], |frame| {
-            let mut a = frame.create_texture("a", square());
-            frame.render_pass("draw").color(&mut a, Contents::Preserve);
-        }),
-        mistake(
+        report_error(
+            "SG0202",
+            &["pass `draw` preserves all of `a`", "undefined", "`Contents::Clear`"],
+            |frame| {
+                let mut a = frame.create_texture("a", square());
+                frame.render_pass("draw").color(&mut a, Contents::Preserve);
+            },
+        ),
+        report_error(
             "SG0203",
             &["pass `blur` touches `a` as sampled and as color", "split it", "another texture"],
             |frame| {
@@ -102,16 +106,22 @@ fn contents() -> Vec<Mistake> {
                 let before = a.clone();
                 let mut blur = frame.render_pass("blur");
                 blur.sample(&before);
-                blur.color(&mut a, Contents::Cover);
+                blur.color(&mut a, Contents::Overwrite);
             },
         ),
-        mistake("SG0203", &["as storage write (bytes 0..4) and as storage write (bytes 4..8)"], |frame| {
-            let mut b = frame.create_buffer("b", BufferDesc::new(8));
-            let mut pass = frame.compute_pass("pass");
-            pass.on(Part::WHOLE.bytes(0..4)).storage_buffer_mut(&mut b, Contents::Cover);
-            pass.on(Part::WHOLE.bytes(4..8)).storage_buffer_mut(&mut b, Contents::Cover);
-        }),
-        mistake("SG0204", &["pass `draw` writes `h before`", "`current`"], |frame| {
+        report_error(
+            "SG0203",
+            &["as storage write (bytes 0..4) and as storage write (bytes 4..8)"],
+            |frame| {
+                let mut b = frame.create_buffer("b", BufferDesc::new(8));
+                let mut pass = frame.compute_pass("pass");
+                pass.subresource(Subresource::FULL.bytes(0..4))
+                    .storage_buffer_mut(&mut b, Contents::Overwrite);
+                pass.subresource(Subresource::FULL.bytes(4..8))
+                    .storage_buffer_mut(&mut b, Contents::Overwrite);
+            },
+        ),
+        report_error("SG0204", &["pass `draw` writes `h before`", "`current`"], |frame| {
             let mut h = frame.history("h", square(), Resize::Reset);
             frame.render_pass("draw").color(&mut h.previous, BLACK);
         }),
@@ -120,10 +130,14 @@ fn contents() -> Vec<Mistake> {
 
 fn attachments() -> Vec<Mistake> {
     vec![
-        mistake("SG0301", &["render pass `draw` has no attachment", "or make it a compute pass"], |frame| {
-            frame.render_pass("draw");
-        }),
-        mistake(
+        report_error(
+            "SG0301",
+            &["render pass `draw` has no attachment", "or make it a compute pass"],
+            |frame| {
+                frame.render_pass("draw");
+            },
+        ),
+        report_error(
             "SG0302",
             &["pass `draw`", "`a` is 64x64", "`small` is 32x32 with 4 samples", "same size and sample count"],
             |frame| {
@@ -135,18 +149,22 @@ fn attachments() -> Vec<Mistake> {
                 draw.depth(&mut small, Contents::clear_depth(0.0));
             },
         ),
-        mistake("SG0303", &["pass `draw` attaches all of `cube`", "one mip of one layer", "`on("], |frame| {
-            let mut cube = frame.create_texture("cube", square().layers(6));
-            frame.render_pass("draw").color(&mut cube, BLACK);
-        }),
-        mistake("SG0306", &["pass `draw` resolves into `b`", "`a` has one sample"], |frame| {
+        report_error(
+            "SG0303",
+            &["pass `draw` attaches all of `cube`", "one mip of one layer", "`on("],
+            |frame| {
+                let mut cube = frame.create_texture("cube", square().layers(6));
+                frame.render_pass("draw").color(&mut cube, BLACK);
+            },
+        ),
+        report_error("SG0306", &["pass `draw` resolves into `b`", "`a` has one sample"], |frame| {
             let mut a = frame.create_texture("a", square());
             let mut b = frame.create_texture("b", square());
             let mut draw = frame.render_pass("draw");
             draw.color(&mut a, BLACK);
             draw.resolve(&mut b);
         }),
-        mistake("SG0307", &["pass `draw`", "`near` and `far`", "split it in two"], |frame| {
+        report_error("SG0307", &["pass `draw`", "`near` and `far`", "split it in two"], |frame| {
             let (mut near, mut far) = (depth(frame, "near"), depth(frame, "far"));
             let mut draw = frame.render_pass("draw");
             draw.depth(&mut near, Contents::clear_depth(0.0));
@@ -157,15 +175,15 @@ fn attachments() -> Vec<Mistake> {
 
 fn formats() -> Vec<Mistake> {
     vec![
-        mistake("SG0304", &["pass `draw` uses `d` as color", "Depth32Float", "use `depth`"], |frame| {
+        report_error("SG0304", &["pass `draw` uses `d` as color", "Depth32Float", "use `depth`"], |frame| {
             let mut d = depth(frame, "d");
             frame.render_pass("draw").color(&mut d, BLACK);
         }),
-        mistake("SG0304", &["pass `write` uses `d` as storage write", "sample it"], |frame| {
+        report_error("SG0304", &["pass `write` uses `d` as storage write", "sample it"], |frame| {
             let mut d = depth(frame, "d");
-            frame.compute_pass("write").storage_texture_mut(&mut d, Contents::Cover);
+            frame.compute_pass("write").storage_texture_mut(&mut d, Contents::Overwrite);
         }),
-        mistake(
+        report_error(
             "SG0305",
             &["pass `draw` clears `d` with a colour", "use `Contents::clear_depth`"],
             |frame| {
@@ -173,7 +191,7 @@ fn formats() -> Vec<Mistake> {
                 frame.render_pass("draw").depth(&mut d, BLACK);
             },
         ),
-        mistake("SG0305", &["pass `write` clears `b`", "use `Contents::Cover`"], |frame| {
+        report_error("SG0305", &["pass `write` clears `b`", "use `Contents::Overwrite`"], |frame| {
             let mut b = frame.create_buffer("b", BufferDesc::new(4));
             frame.compute_pass("write").storage_buffer_mut(&mut b, BLACK);
         }),
@@ -182,9 +200,9 @@ fn formats() -> Vec<Mistake> {
 
 fn copies() -> Vec<Mistake> {
     vec![
-        mistake(
+        report_error(
             "SG0308",
-            &["pass `copy` cannot copy `a` (64x64 Rgba8Unorm) to `b` (32x32 Rgba8Unorm)", "`texture_parts`"],
+            &["pass `copy` cannot copy `a` (64x64 Rgba8Unorm) to `b` (32x32 Rgba8Unorm)", "`texture_region`"],
             |frame| {
                 let mut a = frame.create_texture("a", square());
                 let mut b = frame.create_texture("b", TextureDesc::d2(32, 32, Format::Rgba8Unorm));
@@ -192,35 +210,38 @@ fn copies() -> Vec<Mistake> {
                 frame.copy_pass("copy").texture(&a, &mut b);
             },
         ),
-        mistake("SG0308", &["`a`", "it needs 16384 bytes: give the buffer as many"], |frame| {
+        report_error("SG0308", &["`a`", "it needs 16384 bytes: give the buffer as many"], |frame| {
             let mut a = frame.create_texture("a", square());
             let mut b = frame.create_buffer("b", BufferDesc::new(4));
             frame.render_pass("draw").color(&mut a, BLACK);
             frame.copy_pass("copy").texture_to_buffer(&a, &mut b);
         }),
-        mistake("SG0308", &["bytes 0..6 of `a`", "multiples of 4", "`buffer_parts`"], |frame| {
+        report_error("SG0308", &["bytes 0..6 of `a`", "multiples of 4", "`buffer_range`"], |frame| {
             let a = frame.upload_buffer("a", vec![0; 8]);
             let mut b = frame.create_buffer("b", BufferDesc::new(8));
-            let part = Part::WHOLE.bytes(0..6);
-            frame.copy_pass("copy").buffer_parts(&a, part, &mut b, part);
+            let subresource = Subresource::FULL.bytes(0..6);
+            frame.copy_pass("copy").buffer_range(&a, subresource, &mut b, subresource);
         }),
     ]
 }
 
 fn resources() -> Vec<Mistake> {
     vec![
-        mistake("SG0401", &["`nothing` cannot be", "every side must be 1 or more"], |frame| {
+        report_error("SG0401", &["`nothing` cannot be", "every side must be 1 or more"], |frame| {
             frame.create_texture("nothing", TextureDesc::d2(0, 8, Format::Rgba8Unorm));
         }),
-        mistake("SG0402", &["pass `draw` touches 8x8 at 60,0 of `a`", "keep it inside"], |frame| {
+        report_error("SG0402", &["pass `draw` touches 8x8 at 60,0 of `a`", "keep it inside"], |frame| {
             let mut a = frame.create_texture("a", square());
-            frame.render_pass("draw").on(Part::WHOLE.rect(Rect::new(60, 0, 8, 8))).color(&mut a, BLACK);
+            frame
+                .render_pass("draw")
+                .subresource(Subresource::FULL.rect(Rect::new(60, 0, 8, 8)))
+                .color(&mut a, BLACK);
         }),
-        mistake("SG0402", &["pass `draw` touches mip 3 of `a`", "mips that it has"], |frame| {
+        report_error("SG0402", &["pass `draw` touches mip 3 of `a`", "mips that it has"], |frame| {
             let mut a = frame.create_texture("a", square());
-            frame.render_pass("draw").on(Part::WHOLE.mip(3)).color(&mut a, BLACK);
+            frame.render_pass("draw").subresource(Subresource::FULL.mip(3)).color(&mut a, BLACK);
         }),
-        mistake(
+        report_error(
             "SG0403",
             &[
                 "pass `draw` uses imported `window` as color",
@@ -238,17 +259,22 @@ fn resources() -> Vec<Mistake> {
 
 fn order() -> Vec<Mistake> {
     let mut unpublished = Frame::new();
-    let published = unpublished.node("fog", |frame| frame.published::<Part>().err()).expect("nothing was");
+    let published =
+        unpublished.node("fog", |frame| frame.published::<Subresource>().err()).expect("nothing was");
     vec![
-        mistake("SG0501", &["pass `show` is to run after pass 0", "the id of an earlier pass"], |frame| {
-            let mut show = frame.encoder_pass("show");
-            let id = show.id();
-            show.after(id);
-        }),
+        report_error(
+            "SG0501",
+            &["pass `show` is to run after pass 0", "the id of an earlier pass"],
+            |frame| {
+                let mut show = frame.encoder_pass("show");
+                let id = show.id();
+                show.after(id);
+            },
+        ),
         Mistake {
             code: "SG0502",
             error: published,
-            words: &["node `fog` looks up", "Part`", "add the node that does"],
+            words: &["node `fog` looks up", "Subresource`", "add the node that does"],
         },
     ]
 }

@@ -1,10 +1,12 @@
 //! Mistakes that need a device to be found.
 
 use super::{Mistake, square};
-use shadowgraph_core::{Contents, Error, Format, Frame, FullscreenShader, Graph, Part, TextureDesc, wgpu};
+use shadowgraph_core::{
+    Contents, Error, Format, Frame, FullscreenShader, Graph, Subresource, TextureDesc, wgpu,
+};
 
 /// Declares, compiles and executes on a device that draws nothing.
-fn mistake(
+fn report_error(
     code: &'static str,
     words: &'static [&'static str],
     declare: impl FnOnce(&mut Frame<'_>),
@@ -41,7 +43,7 @@ fn out_of_memory() -> Option<Mistake> {
     Some(mistake_on(&device, "SG0607", words, |frame| {
         let mut voxels = frame.create_texture("voxels", desc);
         let mut pass = frame.compute_pass("voxelize");
-        pass.storage_texture_mut(&mut voxels, Contents::Cover);
+        pass.storage_texture_mut(&mut voxels, Contents::Overwrite);
         pass.keep();
     }))
 }
@@ -67,7 +69,7 @@ fn refused() -> Mistake {
         let mut other = frame.create_texture("other", square());
         let mut pass = frame.render_pass("blur");
         pass.sample(&color);
-        pass.color(&mut other, Contents::Cover);
+        pass.color(&mut other, Contents::Overwrite);
         pass.body(|ctx| {
             ctx.pass.draw(0..3, 0..1);
             Ok(())
@@ -84,7 +86,7 @@ pub(crate) fn mistakes() -> Vec<Mistake> {
     let mut mistakes = vec![
         refused(),
         lost(),
-        mistake(
+        report_error(
             "SG0104",
             &["pass `b` touches `a` without", "belongs to `first`", "declare the access on `b`"],
             |frame| {
@@ -96,37 +98,41 @@ pub(crate) fn mistakes() -> Vec<Mistake> {
                 pass.body(move |ctx| ctx.view(token).map(drop));
             },
         ),
-        mistake("SG0404", &["`window` was declared as an import", "use `import_texture`"], |frame| {
+        report_error("SG0404", &["`window` was declared as an import", "use `import_texture`"], |frame| {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
             let mut window = frame.declare_import_texture("window", square(), usage, false);
-            frame.render_pass("draw").color(&mut window, Contents::Cover);
+            frame.render_pass("draw").color(&mut window, Contents::Overwrite);
         }),
-        mistake("SG0601", &["`wide` needs 100000", "max_texture_dimension_2d", "make it smaller"], |frame| {
-            let mut wide = frame.create_texture("wide", TextureDesc::d2(100_000, 4, Format::Rgba8Unorm));
-            frame.render_pass("draw").color(&mut wide, Contents::Cover);
-            frame.export_texture(&wide);
-        }),
-        mistake("SG0602", &["pass `draw`: no paint"], |frame| {
+        report_error(
+            "SG0601",
+            &["`wide` needs 100000", "max_texture_dimension_2d", "make it smaller"],
+            |frame| {
+                let mut wide = frame.create_texture("wide", TextureDesc::d2(100_000, 4, Format::Rgba8Unorm));
+                frame.render_pass("draw").color(&mut wide, Contents::Overwrite);
+                frame.export_texture(&wide);
+            },
+        ),
+        report_error("SG0602", &["pass `draw`: no paint"], |frame| {
             let mut pass = frame.encoder_pass("draw");
             pass.keep();
             pass.body(|_| Err(Error::body("no paint")));
         }),
-        mistake("SG0603", &["`samples` cannot be read back", "resolve"], |frame| {
+        report_error("SG0603", &["`samples` cannot be read back", "resolve"], |frame| {
             let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..square() });
-            frame.render_pass("draw").color(&mut samples, Contents::Cover);
-            frame.read_back_texture(&samples, Part::WHOLE);
+            frame.render_pass("draw").color(&mut samples, Contents::Overwrite);
+            frame.read_back_texture(&samples, Subresource::FULL);
         }),
-        mistake(
+        report_error(
             "SG0605",
             &["`picture` has the format Rgba8UnormSrgb", "STORAGE_BINDING", "such as Rgba8Unorm"],
             |frame| {
                 let desc = TextureDesc { format: Format::Rgba8UnormSrgb, ..square() };
                 let mut picture = frame.create_texture("picture", desc);
-                frame.compute_pass("draw").storage_texture_mut(&mut picture, Contents::Cover);
+                frame.compute_pass("draw").storage_texture_mut(&mut picture, Contents::Overwrite);
                 frame.export_texture(&picture);
             },
         ),
-        mistake("SG0604", &["shader `red`", "mend the one or the other"], |frame| {
+        report_error("SG0604", &["shader `red`", "mend the one or the other"], |frame| {
             let red = FullscreenShader::wgsl("red", "@fragment fn red() -> @location(0) vec4f { return 1; }");
             let mut picture = frame.create_texture("picture", square());
             frame.fullscreen("red", &red).draw(&mut picture);

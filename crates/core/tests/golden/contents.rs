@@ -2,7 +2,9 @@
 
 use super::{BLACK, check, draw, filter, hdr, plan};
 use shadowgraph_core::TextureUsages;
-use shadowgraph_core::{BufferDesc, ClearValue, Contents, Format, Frame, Part, Rect, Resize, TextureDesc};
+use shadowgraph_core::{
+    BufferDesc, ClearValue, Contents, Format, Frame, Rect, Resize, Subresource, TextureDesc,
+};
 
 /// A pass that nothing needs does not run, nor do the passes whose results only it reads.
 #[test]
@@ -23,7 +25,7 @@ fn cull() {
 fn overwritten() {
     let mut frame = Frame::new();
     let mut picture = draw(&mut frame, "picture");
-    frame.render_pass("title screen").color(&mut picture, Contents::Cover);
+    frame.render_pass("title screen").color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     check("overwritten", &plan(frame).to_text());
 }
@@ -34,8 +36,8 @@ fn overwritten_in_parts() {
     let mut frame = Frame::new();
     let mut picture = draw(&mut frame, "picture");
     for (name, x) in [("left half", 0), ("right half", 640)] {
-        let half = Part::WHOLE.rect(Rect::new(x, 0, 640, 720));
-        frame.render_pass(name).on(half).color(&mut picture, Contents::Cover);
+        let half = Subresource::FULL.rect(Rect::new(x, 0, 640, 720));
+        frame.render_pass(name).subresource(half).color(&mut picture, Contents::Overwrite);
     }
     frame.export_texture(&picture);
     check("overwritten_in_parts", &plan(frame).to_text());
@@ -63,7 +65,7 @@ fn history() {
     let mut pass = frame.render_pass("accumulate");
     pass.sample(&scene);
     pass.sample(&colour.previous);
-    pass.color(&mut colour.current, Contents::Cover);
+    pass.color(&mut colour.current, Contents::Overwrite);
     let plan = plan(frame);
     let why = [colour.previous.id(), colour.current.id()].map(|id| plan.explain_resource(id)).join("\n");
     check("history", &format!("{}\n{why}", plan.to_text()));
@@ -75,12 +77,12 @@ fn stand_in() {
     let mut frame = Frame::new();
     let scene = draw(&mut frame, "scene");
     let occlusion = frame.when(false, |frame| hdr(frame, "occlusion"));
-    let occlusion = frame.or_stand_in(occlusion.as_ref(), Format::R8Unorm, ClearValue::Color([1.0; 4]));
+    let occlusion = frame.or_placeholder(occlusion.as_ref(), Format::R8Unorm, ClearValue::Color([1.0; 4]));
     let mut picture = hdr(&mut frame, "picture");
     let mut pass = frame.render_pass("light");
     pass.sample(&scene);
     pass.sample(&occlusion);
-    pass.color(&mut picture, Contents::Cover);
+    pass.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     check("stand_in", &plan(frame).to_text());
 }
@@ -95,7 +97,7 @@ fn uploads() {
     let mut picture = hdr(&mut frame, "picture");
     let mut cull = frame.compute_pass("cull spheres");
     cull.storage_buffer(&spheres);
-    cull.storage_buffer_mut(&mut visible, Contents::Cover);
+    cull.storage_buffer_mut(&mut visible, Contents::Overwrite);
     let mut pass = frame.render_pass("draw spheres");
     pass.vertex_buffer(&spheres);
     pass.indirect_buffer(&visible);

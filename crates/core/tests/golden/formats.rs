@@ -1,7 +1,7 @@
 //! The dumps as formats: what every one of them must hold.
 
 use super::{BLACK, FAR, draw, filter, hdr, plan};
-use shadowgraph_core::{Contents, Frame, Part, Plan, Rect, TextureUsages};
+use shadowgraph_core::{Contents, Frame, Plan, Rect, Subresource, TextureUsages};
 use std::collections::BTreeSet;
 
 /// A frame with every kind of decision: culled, merged, clears drawn, loads and stores, slots, imports, two nodes.
@@ -13,8 +13,8 @@ fn frame() -> Frame<'static> {
     let mut atlas = frame.declare_import_texture("atlas", atlas, usage, true);
     frame.node("shadows", |frame| {
         for light in 0..2 {
-            let tile = Part::WHOLE.rect(Rect::new(light * 256, 0, 256, 256));
-            frame.render_pass(format_args!("light {light}")).on(tile).depth(&mut atlas, FAR);
+            let tile = Subresource::FULL.rect(Rect::new(light * 256, 0, 256, 256));
+            frame.render_pass(format_args!("light {light}")).subresource(tile).depth(&mut atlas, FAR);
         }
     });
     let picture = frame.node("post", |frame| {
@@ -24,7 +24,7 @@ fn frame() -> Frame<'static> {
         let mut last = frame.render_pass("last");
         last.sample(&half);
         last.sample(&atlas);
-        last.color(&mut picture, Contents::Cover);
+        last.color(&mut picture, Contents::Overwrite);
         picture
     });
     frame.export_texture(&picture);
@@ -96,9 +96,9 @@ fn long_names_do_not_widen_the_text_dump() {
     let name = "a name that goes on ".repeat(20);
     let mut picture = hdr(&mut frame, &name);
     frame.node(&name, |frame| {
-        let half = Part::WHOLE.rect(Rect::new(0, 0, 1280, 360));
+        let half = Subresource::FULL.rect(Rect::new(0, 0, 1280, 360));
         frame.render_pass(&name).color(&mut picture, BLACK);
-        frame.render_pass(&name).on(half).color(&mut picture, BLACK);
+        frame.render_pass(&name).subresource(half).color(&mut picture, BLACK);
     });
     frame.export_texture(&picture);
     let text = plan(frame).to_text();

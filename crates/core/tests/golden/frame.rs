@@ -2,7 +2,7 @@
 
 use super::{BLACK, FAR, check, depth, filter, hdr, plan};
 use shadowgraph_core::{
-    BufferDesc, Contents, Format, Frame, Part, Rect, Resize, Texture, TextureDesc, TextureUsages,
+    BufferDesc, Contents, Format, Frame, Rect, Resize, Subresource, Texture, TextureDesc, TextureUsages,
 };
 
 /// All of it together: shadow tiles, a depth pass, lit passes that merge, culling on the GPU, accumulation over time,
@@ -21,8 +21,8 @@ fn whole_frame() {
     let mut window = frame.declare_import_texture("window", desc, TextureUsages::RENDER_ATTACHMENT, false);
     let mut tonemap = frame.render_pass("tonemap");
     tonemap.sample(&steady);
-    tonemap.on(Part::WHOLE.mip(0)).sample(&glow);
-    tonemap.color(&mut window, Contents::Cover);
+    tonemap.subresource(Subresource::FULL.mip(0)).sample(&glow);
+    tonemap.color(&mut window, Contents::Overwrite);
     frame.render_pass("overlay").color(&mut window, Contents::Preserve);
     check("whole_frame", &plan(frame).to_text());
 }
@@ -33,16 +33,16 @@ fn draws(frame: &mut Frame<'_>) -> shadowgraph_core::Buffer {
     let mut draws = frame.create_buffer("draws", BufferDesc::new(20_000));
     let mut pass = frame.compute_pass("cull objects");
     pass.storage_buffer(&objects);
-    pass.storage_buffer_mut(&mut draws, Contents::Cover);
+    pass.storage_buffer_mut(&mut draws, Contents::Overwrite);
     draws
 }
 
 fn shadows(frame: &mut Frame<'_>) -> Texture {
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(2048, 1024, Format::Depth32Float));
     for (light, name) in ["sun", "lamp"].into_iter().enumerate() {
-        let tile = Part::WHOLE.rect(Rect::new(light as u32 * 1024, 0, 1024, 1024));
+        let tile = Subresource::FULL.rect(Rect::new(light as u32 * 1024, 0, 1024, 1024));
         frame.node(name, |frame| {
-            frame.render_pass("casters").on(tile).depth(&mut atlas, FAR);
+            frame.render_pass("casters").subresource(tile).depth(&mut atlas, FAR);
         });
     }
     atlas
@@ -69,7 +69,7 @@ fn accumulate(frame: &mut Frame<'_>, scene: &Texture, depth: &Texture) -> Textur
     pass.sample(scene);
     pass.sample(depth);
     pass.sample(&colour.previous);
-    pass.storage_texture_mut(&mut colour.current, Contents::Cover);
+    pass.storage_texture_mut(&mut colour.current, Contents::Overwrite);
     colour.current
 }
 
@@ -78,18 +78,18 @@ fn bloom(frame: &mut Frame<'_>, from: &Texture) -> Texture {
     let mut glow = frame.create_texture("glow", desc);
     let mut down = frame.render_pass("down 0");
     down.sample(from);
-    down.on(Part::WHOLE.mip(0)).color(&mut glow, Contents::Cover);
+    down.subresource(Subresource::FULL.mip(0)).color(&mut glow, Contents::Overwrite);
     for mip in 1..3 {
         let above = glow.clone();
         let mut down = frame.render_pass(format_args!("down {mip}"));
-        down.on(Part::WHOLE.mip(mip - 1)).sample(&above);
-        down.on(Part::WHOLE.mip(mip)).color(&mut glow, Contents::Cover);
+        down.subresource(Subresource::FULL.mip(mip - 1)).sample(&above);
+        down.subresource(Subresource::FULL.mip(mip)).color(&mut glow, Contents::Overwrite);
     }
     for mip in (0..2).rev() {
         let below = glow.clone();
         let mut up = frame.render_pass(format_args!("up {mip}"));
-        up.on(Part::WHOLE.mip(mip + 1)).sample(&below);
-        up.on(Part::WHOLE.mip(mip)).color(&mut glow, Contents::Preserve);
+        up.subresource(Subresource::FULL.mip(mip + 1)).sample(&below);
+        up.subresource(Subresource::FULL.mip(mip)).color(&mut glow, Contents::Preserve);
     }
     glow
 }

@@ -28,7 +28,7 @@ fn no_reuse_because_busy() {
     let mut add = frame.render_pass("add glow");
     add.sample(&scene);
     add.sample(&glow);
-    add.color(&mut picture, Contents::Cover);
+    add.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     let plan = plan(frame);
     let why = plan.explain_resource(glow.id());
@@ -44,7 +44,7 @@ fn storage_apart() {
     let mut sharp = hdr(&mut frame, "sharp");
     let mut pass = frame.compute_pass("sharpen");
     pass.sample(&smooth);
-    pass.storage_texture_mut(&mut sharp, Contents::Cover);
+    pass.storage_texture_mut(&mut sharp, Contents::Overwrite);
     frame.export_texture(&sharp);
     check("storage_apart", &plan(frame).to_text());
 }
@@ -65,7 +65,7 @@ fn order_chosen_for_memory() {
     for side in &small {
         join.sample(side);
     }
-    join.color(&mut picture, Contents::Cover);
+    join.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     check("order_chosen_for_memory", &plan(frame).to_text());
 }

@@ -30,7 +30,7 @@ fn refused_merge_reads() {
     let mut hits = frame.create_buffer("hits", BufferDesc::new(1_024));
     let mut pass = frame.render_pass("count hits");
     pass.color(&mut scene, BLACK);
-    pass.storage_buffer_mut(&mut hits, Contents::Cover);
+    pass.storage_buffer_mut(&mut hits, Contents::Overwrite);
     let mut pass = frame.render_pass("draw hits");
     pass.color(&mut scene, Contents::Preserve);
     pass.storage_buffer(&hits);

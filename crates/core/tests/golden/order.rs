@@ -32,7 +32,7 @@ fn explicit_after() {
     submit.keep();
     let submit = submit.id();
     let plan = plan(frame);
-    let why = plan.why_before_words(start, submit);
+    let why = plan.explain_why_before(start, submit);
     check("explicit_after", &format!("{}\n{why}", plan.to_text()));
 }
 
@@ -69,7 +69,7 @@ fn fixed_order() {
     frame.export_texture(&scene);
     frame.export_texture(&shadow);
     let plan = plan(frame);
-    let why = plan.why_before_words(plan.find_pass("draw shadow").unwrap(), ground);
+    let why = plan.explain_why_before(plan.find_pass("draw shadow").unwrap(), ground);
     check("fixed_order", &format!("{}\n{why}", plan.to_text()));
 }
 
@@ -101,7 +101,7 @@ fn why_before() {
     filter(&mut frame, "unread", &quarter);
     let plan = plan(frame);
     let why = |before: &str, after: &str| {
-        plan.why_before_words(plan.find_pass(before).unwrap(), plan.find_pass(after).unwrap())
+        plan.explain_why_before(plan.find_pass(before).unwrap(), plan.find_pass(after).unwrap())
     };
     let questions = [
         why("draw scene", "add glow"),

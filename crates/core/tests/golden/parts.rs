@@ -1,10 +1,10 @@
 //! Tiles, layers, mips and byte ranges.
 
 use super::{BLACK, FAR, check, hdr, plan};
-use shadowgraph_core::{BufferDesc, Contents, Format, Frame, Part, Rect, TextureDesc, TextureUsages};
+use shadowgraph_core::{BufferDesc, Contents, Format, Frame, Rect, Subresource, TextureDesc, TextureUsages};
 
-fn tile(index: u32) -> Part {
-    Part::WHOLE.rect(Rect::new(index % 2 * 1024, index / 2 * 1024, 1024, 1024))
+fn tile(index: u32) -> Subresource {
+    Subresource::FULL.rect(Rect::new(index % 2 * 1024, index / 2 * 1024, 1024, 1024))
 }
 
 const ATLAS: (u32, u32, Format) = (2048, 2048, Format::Depth32Float);
@@ -16,7 +16,7 @@ fn atlas_tiles() {
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(ATLAS.0, ATLAS.1, ATLAS.2));
     for light in 0..4 {
         frame.node(format_args!("light {light}"), |frame| {
-            frame.render_pass("casters").on(tile(light)).depth(&mut atlas, FAR);
+            frame.render_pass("casters").subresource(tile(light)).depth(&mut atlas, FAR);
         });
     }
     let mut scene = hdr(&mut frame, "scene");
@@ -35,7 +35,7 @@ fn atlas_kept() {
     let atlas = TextureDesc::d2(ATLAS.0, ATLAS.1, ATLAS.2);
     let mut atlas = frame.declare_import_texture("atlas", atlas, TextureUsages::RENDER_ATTACHMENT, true);
     for light in [1, 2] {
-        frame.render_pass(format_args!("light {light}")).on(tile(light)).depth(&mut atlas, FAR);
+        frame.render_pass(format_args!("light {light}")).subresource(tile(light)).depth(&mut atlas, FAR);
     }
     let plan = plan(frame);
     let why = plan.explain_pass(plan.find_pass("light 2").unwrap());
@@ -49,18 +49,18 @@ fn disjoint_regions() {
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(ATLAS.0, ATLAS.1, ATLAS.2));
     let mut results = frame.create_buffer("results", BufferDesc::new(512));
     for light in 0..2 {
-        frame.render_pass(format_args!("draw {light}")).on(tile(light)).depth(&mut atlas, FAR);
+        frame.render_pass(format_args!("draw {light}")).subresource(tile(light)).depth(&mut atlas, FAR);
     }
     for light in 0..2u64 {
         let mut pass = frame.compute_pass(format_args!("measure {light}"));
-        pass.on(tile(light as u32)).sample(&atlas);
-        let bytes = Part::WHOLE.bytes(light * 256..light * 256 + 256);
-        pass.on(bytes).storage_buffer_mut(&mut results, Contents::Cover);
+        pass.subresource(tile(light as u32)).sample(&atlas);
+        let bytes = Subresource::FULL.bytes(light * 256..light * 256 + 256);
+        pass.subresource(bytes).storage_buffer_mut(&mut results, Contents::Overwrite);
     }
     frame.export_buffer(&results);
     let plan = plan(frame);
     let why = |before: &str, after: &str| {
-        plan.why_before_words(plan.find_pass(before).unwrap(), plan.find_pass(after).unwrap())
+        plan.explain_why_before(plan.find_pass(before).unwrap(), plan.find_pass(after).unwrap())
     };
     let (own, other) = (why("draw 1", "measure 1"), why("draw 0", "measure 1"));
     check("disjoint_regions", &format!("{}\n{own}\n{other}", plan.to_text()));
@@ -72,11 +72,11 @@ fn cube_layers() {
     let mut frame = Frame::new();
     let mut cube = frame.create_texture("cube", TextureDesc::d2(512, 512, Format::Depth32Float).layers(6));
     for (face, name) in ["+x", "-x", "+y"].into_iter().enumerate() {
-        frame.render_pass(name).on(Part::WHOLE.layer(face as u32)).depth(&mut cube, FAR);
+        frame.render_pass(name).subresource(Subresource::FULL.layer(face as u32)).depth(&mut cube, FAR);
     }
     let mut scene = hdr(&mut frame, "scene");
     let mut pass = frame.render_pass("light");
-    pass.on(Part::WHOLE.layers(0..3)).sample(&cube);
+    pass.subresource(Subresource::FULL.layers(0..3)).sample(&cube);
     pass.color(&mut scene, BLACK);
     frame.export_texture(&scene);
     let plan = plan(frame);
@@ -90,12 +90,12 @@ fn mip_chain() {
     let mut frame = Frame::new();
     let desc = TextureDesc { mip_levels: 3, ..TextureDesc::d2(1024, 1024, Format::R32Float) };
     let mut pyramid = frame.create_texture("pyramid", desc);
-    frame.render_pass("mip 0").on(Part::WHOLE.mip(0)).color(&mut pyramid, Contents::Cover);
+    frame.render_pass("mip 0").subresource(Subresource::FULL.mip(0)).color(&mut pyramid, Contents::Overwrite);
     for mip in 1..3 {
         let above = pyramid.clone();
         let mut pass = frame.render_pass(format_args!("mip {mip}"));
-        pass.on(Part::WHOLE.mip(mip - 1)).sample(&above);
-        pass.on(Part::WHOLE.mip(mip)).color(&mut pyramid, Contents::Cover);
+        pass.subresource(Subresource::FULL.mip(mip - 1)).sample(&above);
+        pass.subresource(Subresource::FULL.mip(mip)).color(&mut pyramid, Contents::Overwrite);
     }
     frame.export_texture(&pyramid);
     check("mip_chain", &plan(frame).to_text());

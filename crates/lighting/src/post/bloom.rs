@@ -1,7 +1,7 @@
 //! Light that spreads in the lens.
 
 use bytemuck::bytes_of;
-use shadowgraph_core::{Format, Frame, FullscreenShader, Part, Texture, TextureDesc};
+use shadowgraph_core::{Format, Frame, FullscreenShader, Subresource, Texture, TextureDesc};
 
 use crate::Error;
 use crate::shader::{fullscreen, linear};
@@ -46,14 +46,14 @@ impl Bloom {
         let half = TextureDesc::d2((size.width / 2).max(1), (size.height / 2).max(1), Format::Rgba16Float);
         let most = half.size.width.max(half.size.height).ilog2() + 1;
         let levels = levels.clamp(1, most);
-        let mip = |level| Part::WHOLE.mip(level);
+        let mip = |level| Subresource::FULL.mip(level);
         let mut down = frame.create_texture("halved", TextureDesc { mip_levels: levels, ..half });
         let pass = frame.fullscreen("halve 1", &self.first).sample(light).sampler(&self.linear);
-        pass.on(mip(0)).draw(&mut down);
+        pass.subresource(mip(0)).draw(&mut down);
         for level in 1..levels {
             let pass = frame.fullscreen(format_args!("halve {}", level + 1), &self.halve);
-            let pass = pass.on(mip(level - 1)).sample(&down).sampler(&self.linear);
-            pass.on(mip(level)).draw(&mut down);
+            let pass = pass.subresource(mip(level - 1)).sample(&down).sampler(&self.linear);
+            pass.subresource(mip(level)).draw(&mut down);
         }
         let (mut spread, mut top) = (down.clone(), levels - 1);
         if levels > 1 {
@@ -61,13 +61,13 @@ impl Bloom {
             for level in (0..levels - 1).rev() {
                 let pass = frame.fullscreen(format_args!("widen {}", level + 1), &self.widen);
                 let smallest = level + 2 == levels;
-                let pass = pass.on(mip(level + 1)).sample(if smallest { &down } else { &up });
-                let pass = pass.sampler(&self.linear).on(mip(level)).sample(&down);
-                pass.on(mip(level)).draw(&mut up);
+                let pass = pass.subresource(mip(level + 1)).sample(if smallest { &down } else { &up });
+                let pass = pass.sampler(&self.linear).subresource(mip(level)).sample(&down);
+                pass.subresource(mip(level)).draw(&mut up);
             }
             (spread, top) = (up, 0);
         }
-        let pass = frame.fullscreen("mix", &self.mix).sample(light).on(mip(top)).sample(&spread);
+        let pass = frame.fullscreen("mix", &self.mix).sample(light).subresource(mip(top)).sample(&spread);
         pass.sampler(&self.linear).uniform(bytes_of(&strength)).draw(target);
     }
 }

@@ -1,6 +1,6 @@
 //! A pyramid of depth.
 
-use shadowgraph_core::{Format, Frame, FullscreenShader, Part, Texture, TextureDesc};
+use shadowgraph_core::{Format, Frame, FullscreenShader, Subresource, Texture, TextureDesc};
 
 use crate::Error;
 use crate::shader::fullscreen;
@@ -31,11 +31,11 @@ impl DepthPyramid {
         let levels = size.width.max(size.height).max(1).ilog2() + 1;
         let desc = TextureDesc::d2(size.width, size.height, Format::R32Float);
         let mut pyramid = frame.create_texture("depth pyramid", TextureDesc { mip_levels: levels, ..desc });
-        let mip = |level| Part::WHOLE.mip(level);
-        frame.fullscreen("level 0", &self.begin).sample(depth).on(mip(0)).draw(&mut pyramid);
+        let mip = |level| Subresource::FULL.mip(level);
+        frame.fullscreen("level 0", &self.begin).sample(depth).subresource(mip(0)).draw(&mut pyramid);
         for level in 1..levels {
             let pass = frame.fullscreen(format_args!("level {level}"), &self.halve);
-            pass.on(mip(level - 1)).sample(&pyramid).on(mip(level)).draw(&mut pyramid);
+            pass.subresource(mip(level - 1)).sample(&pyramid).subresource(mip(level)).draw(&mut pyramid);
         }
         pyramid
     }

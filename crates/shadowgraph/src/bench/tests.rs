@@ -3,7 +3,7 @@
 use super::*;
 use crate::options::{AdapterChoice, ShadowDistance};
 use crate::picture::Picture;
-use shadowgraph_core::{Frame, Part, PassKind, Plan};
+use shadowgraph_core::{Frame, PassKind, Plan, Subresource};
 use shadowgraph_scene::{Camera, Scene, demo::demo_scene};
 use shadowgraph_shadows::ShadowSettings;
 use std::io::Write as _;
@@ -108,7 +108,7 @@ fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Picture {
     let size_px = [texture.width(), texture.height()];
     let mut frame = Frame::new();
     let texture = frame.import_texture("target", texture, true);
-    let request = frame.read_back_texture(&texture, Part::WHOLE);
+    let request = frame.read_back_texture(&texture, Subresource::FULL);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut executed =
         frame.compile().unwrap().execute(&mut Graph::new(), &gpu.device, &mut encoder).unwrap();

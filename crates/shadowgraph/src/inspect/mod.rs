@@ -3,7 +3,7 @@
 mod above;
 pub(crate) mod lights;
 
-use shadowgraph_core::{Buffer, FrameCapture, HtmlPage, PendingCapture, Picture as CorePicture, Timer};
+use shadowgraph_core::{Buffer, FrameCapture, HtmlPage, PendingCapture, TextureSnapshot, Timer};
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowLight, ShadowView};
 
@@ -15,7 +15,7 @@ pub struct Inspected {
     /// The view as it is always drawn, with times.
     pub drawn: Drawn,
     /// Every texture of its frame, behind each pass that wrote it.
-    pub pictures: Vec<CorePicture>,
+    pub pictures: Vec<TextureSnapshot>,
     /// The records that its shadow maps are drawn by; none of a technique without maps.
     pub views: Vec<ShadowView>,
     /// Which of them lights have, by light; none of a technique without maps.
@@ -54,7 +54,7 @@ impl Inspected {
     /// Returns the page about the frame: its plan, times and pictures, its lights, and where its shadow maps look.
     pub fn page(&self, scene_lights: &[Light], options: &ViewOptions) -> HtmlPage<'_> {
         let mut page = self.drawn.page(scene_lights);
-        page.pictures.clone_from(&self.pictures);
+        page.snapshots.clone_from(&self.pictures);
         page.drawings.extend(above::from_above(self, scene_lights, options));
         page
     }

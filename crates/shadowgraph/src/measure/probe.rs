@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use shadowgraph_core::{
-    Bind, Contents, Format, Frame, Graph, Part, PassTime, Plan, ResourceDesc, TextureDesc, Timer,
+    Bind, Contents, Format, Frame, Graph, PassTime, Plan, ResourceDesc, Subresource, TextureDesc, Timer,
 };
 use shadowgraph_lighting::{Geometry, ViewUniforms};
 use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
@@ -192,7 +192,7 @@ impl Probe {
         let shadows = shadows.read_in(&mut pass);
         let (eye, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let stored = pass.sample(&stored);
-        let target = pass.storage_texture_mut(&mut answers, Contents::Cover);
+        let target = pass.storage_texture_mut(&mut answers, Contents::Overwrite);
         pass.body(move |ctx| {
             let eye = ctx.bind_group(&self.view_layout, &[Bind::Buffer(eye), Bind::Buffer(lights)])?;
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
@@ -205,7 +205,7 @@ impl Probe {
             ctx.pass.dispatch_workgroups(width.div_ceil(WORKGROUP), height.div_ceil(WORKGROUP), 1);
             Ok(())
         });
-        let request = frame.read_back_texture(&answers, Part::WHOLE);
+        let request = frame.read_back_texture(&answers, Subresource::FULL);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let compiled = graph.compile(frame)?;
         let mut executed = compiled.execute_timed(graph, &gpu.device, &mut encoder, timer)?;

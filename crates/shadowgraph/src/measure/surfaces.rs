@@ -1,7 +1,7 @@
 //! What a view sees: where the surface is in each pixel, and which way it faces.
 
 use glam::{Vec2, Vec3};
-use shadowgraph_core::Part;
+use shadowgraph_core::Subresource;
 use shadowgraph_lighting::{Geometry, ViewUniforms};
 
 use crate::renderer::nothing_read;
@@ -60,7 +60,7 @@ impl SurfaceReader {
             let buffers = records.upload(&mut frame);
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
             let screen = self.drawer.screen_alone(&mut frame, &buffers, geometry)?;
-            let request = frame.read_back_texture(&screen.surfaces, Part::WHOLE);
+            let request = frame.read_back_texture(&screen.surfaces, Subresource::FULL);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
             gpu.queue.submit([encoder.finish()]);

@@ -107,7 +107,7 @@ fn read(file: &Path) -> Result<Dump, Failure> {
         message: format!("--diff {}: {problem}", file.display()),
     };
     let text = std::fs::read_to_string(file).map_err(|error| failed(format!("cannot be read: {error}")))?;
-    Dump::of_json(&text).map_err(|error| failed(format!("{error}; `dump -o frame.json` writes one")))
+    Dump::from_json(&text).map_err(|error| failed(format!("{error}; `dump -o frame.json` writes one")))
 }
 
 fn usage(message: &str) -> Failure {

@@ -1,6 +1,6 @@
 //! Pictures that are drawn and read back.
 
-use shadowgraph_core::{Buffer, Compiled, Executed, Graph, Part, Timer};
+use shadowgraph_core::{Buffer, Compiled, Executed, Graph, Subresource, Timer};
 
 use super::Renderer;
 use crate::picture::{Drawn, Picture};
@@ -57,7 +57,7 @@ impl Renderer {
         gpu.checked(|| {
             let mut frame = self.graph().frame();
             let output = self.add(&mut frame, &view)?;
-            let request = frame.read_back_texture(&output.picture, Part::WHOLE);
+            let request = frame.read_back_texture(&output.picture, Subresource::FULL);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut graph = self.graph();
             let compiled = graph.compile(frame)?;
@@ -89,7 +89,7 @@ impl Renderer {
             for view in &planned {
                 let name = format_args!("view {}", view.number);
                 let output = frame.node(name, |frame| self.add(frame, view))?;
-                requests.push(frame.read_back_texture(&output.picture, Part::WHOLE));
+                requests.push(frame.read_back_texture(&output.picture, Subresource::FULL));
             }
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = self.execute(frame, gpu, &mut encoder, None)?;

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, PoisonError};
 
-use shadowgraph_core::{Bind, Contents, Format, Frame, Part, Pass, Rendering, Texture, TextureDesc};
+use shadowgraph_core::{Bind, Contents, Format, Frame, Pass, Rendering, Subresource, Texture, TextureDesc};
 
 use super::cache::{CachedMap, TileKey};
 use super::{DrawnMap, ShadowMaps, Views};
@@ -204,12 +204,12 @@ impl ShadowMaps {
         let (buffer, views) = source.views;
         let buffer = pass.storage_buffer(buffer);
         // The graph keeps viewport and scissor to the tile.
-        let part = Part::WHOLE.rect(rect.into());
+        let part = Subresource::FULL.rect(rect.into());
         match target.depth {
-            None => pass.on(part).depth(target.texture, target.contents),
+            None => pass.subresource(part).depth(target.texture, target.contents),
             Some(depth) => {
-                pass.on(part).color(target.texture, target.contents);
-                pass.on(part).depth_read(depth)
+                pass.subresource(part).color(target.texture, target.contents);
+                pass.subresource(part).depth_read(depth)
             }
         };
         let format = map.plan.depth.texture_format();

@@ -32,7 +32,7 @@ pub(crate) fn large() -> Result<Plan, Error> {
     for made in last.iter().step_by(3) {
         pass.sample(made);
     }
-    pass.color(&mut picture, Contents::Cover);
+    pass.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     Ok(frame.compile()?.into_plan())
 }

@@ -2,8 +2,8 @@
 //! attachments, tiles, mips, imports and histories.
 
 use shadowgraph_core::{
-    Buffer, BufferDesc, BufferUsages, Compute, Contents, Extent, Format, Frame, Part, Pass, Rect, Rendering,
-    Resize, Texture, TextureDesc, TextureUsages,
+    Buffer, BufferDesc, BufferUsages, Compute, Contents, Extent, Format, Frame, Pass, Rect, Rendering,
+    Resize, Subresource, Texture, TextureDesc, TextureUsages,
 };
 
 pub(crate) const PASSES: usize = 65;
@@ -83,7 +83,7 @@ fn scene<'f>(frame: &mut Frame<'f>, bytes: &'f [u8]) -> Scene {
     let lights = frame.upload_buffer("lights", bytes);
     let mut count = frame.create_buffer("count", BufferDesc::new(64));
     let (visible, draws) = frame.node("culling", |frame| {
-        frame.compute_pass("reset").storage_buffer_mut(&mut count, Contents::Cover);
+        frame.compute_pass("reset").storage_buffer_mut(&mut count, Contents::Overwrite);
         let mut visible = VISIBLE.map(|name| frame.create_buffer(name, BufferDesc::new(1 << 16)));
         let mut draws = DRAWS.map(|name| frame.create_buffer(name, BufferDesc::new(1 << 14)));
         for (name, (visible, draws)) in CULL.into_iter().zip(visible.iter_mut().zip(&mut draws)) {
@@ -91,8 +91,8 @@ fn scene<'f>(frame: &mut Frame<'f>, bytes: &'f [u8]) -> Scene {
             pass.uniform_buffer(&view);
             pass.storage_buffer(&instances);
             pass.storage_buffer_mut(&mut count, Contents::Preserve);
-            pass.storage_buffer_mut(visible, Contents::Cover);
-            pass.storage_buffer_mut(draws, Contents::Cover);
+            pass.storage_buffer_mut(visible, Contents::Overwrite);
+            pass.storage_buffer_mut(draws, Contents::Overwrite);
         }
         (visible, draws)
     });
@@ -128,7 +128,7 @@ impl Scene {
         let mut output = frame.create_texture(name, desc);
         let mut pass = frame.render_pass(name);
         self.inputs(&mut pass, inputs);
-        pass.color(&mut output, Contents::Cover);
+        pass.color(&mut output, Contents::Overwrite);
         output
     }
 
@@ -137,7 +137,7 @@ impl Scene {
         let mut output = frame.create_texture(name, desc);
         let mut pass = frame.compute_pass(name);
         self.compute_inputs(&mut pass, inputs);
-        pass.storage_texture_mut(&mut output, Contents::Cover);
+        pass.storage_texture_mut(&mut output, Contents::Overwrite);
         output
     }
 
@@ -173,7 +173,8 @@ fn shadows(frame: &mut Frame<'_>, scene: &Scene) -> Texture {
         let (x, y) = ((index as u32 - 1) % 2 * 2048, (index as u32 - 1) / 2 * 2048);
         let mut pass = frame.render_pass(name);
         scene.geometry(&mut pass, index);
-        pass.on(Part::WHOLE.rect(Rect::new(x, y, 2048, 2048))).depth(&mut atlas, Contents::clear_depth(0.0));
+        pass.subresource(Subresource::FULL.rect(Rect::new(x, y, 2048, 2048)))
+            .depth(&mut atlas, Contents::clear_depth(0.0));
     }
     atlas
 }
@@ -214,9 +215,9 @@ fn hi_z(frame: &mut Frame<'_>, scene: &Scene, depth: &Texture) -> Texture {
         if mip == 0 {
             pass.sample(depth);
         } else {
-            pass.on(Part::WHOLE.mip(mip - 1)).sample(&pyramid);
+            pass.subresource(Subresource::FULL.mip(mip - 1)).sample(&pyramid);
         }
-        pass.on(Part::WHOLE.mip(mip)).storage_texture_mut(&mut pyramid, Contents::Cover);
+        pass.subresource(Subresource::FULL.mip(mip)).storage_texture_mut(&mut pyramid, Contents::Overwrite);
     }
     pyramid
 }
@@ -233,13 +234,13 @@ fn clusters(frame: &mut Frame<'_>, scene: &Scene, depth: &Texture) -> Buffer {
     let mut boxes = frame.create_buffer("boxes", BufferDesc::new(1 << 18));
     let mut pass = frame.compute_pass("boxes");
     scene.compute_inputs(&mut pass, &[depth]);
-    pass.storage_buffer_mut(&mut boxes, Contents::Cover);
+    pass.storage_buffer_mut(&mut boxes, Contents::Overwrite);
     let mut list = frame.create_buffer("list", BufferDesc::new(1 << 20));
     let mut pass = frame.compute_pass("list");
     scene.compute_inputs(&mut pass, &[depth]);
     pass.storage_buffer(&boxes);
     pass.storage_buffer(&scene.lights);
-    pass.storage_buffer_mut(&mut list, Contents::Cover);
+    pass.storage_buffer_mut(&mut list, Contents::Overwrite);
     list
 }
 
@@ -251,7 +252,7 @@ fn reflections(frame: &mut Frame<'_>, scene: &Scene, surfaces: &Surfaces, hi_z: 
     let mut kept = frame.history("reflections", desc, Resize::Resample);
     let mut pass = frame.render_pass("accumulate");
     scene.inputs(&mut pass, &[&rays, velocity, depth, &kept.previous]);
-    pass.color(&mut kept.current, Contents::Cover);
+    pass.color(&mut kept.current, Contents::Overwrite);
     scene.filter(frame, "blur", &[&kept.current, depth, normals, roughness], desc)
 }
 
@@ -264,11 +265,11 @@ fn fog(frame: &mut Frame<'_>, scene: &Scene, shadows: &Texture, clusters: &Buffe
     scene.compute_inputs(&mut pass, &[shadows, &scene.noise]);
     pass.storage_buffer(&scene.lights);
     pass.storage_buffer(clusters);
-    pass.storage_texture_mut(&mut scattered, Contents::Cover);
+    pass.storage_texture_mut(&mut scattered, Contents::Overwrite);
     let mut kept = frame.history("fog", desc, Resize::Reset);
     let mut pass = frame.compute_pass("accumulate");
     scene.compute_inputs(&mut pass, &[&scattered, &kept.previous]);
-    pass.storage_texture_mut(&mut kept.current, Contents::Cover);
+    pass.storage_texture_mut(&mut kept.current, Contents::Overwrite);
     scene.compute(frame, "integrate", &[&kept.current], desc)
 }
 
@@ -315,7 +316,7 @@ fn particles(frame: &mut Frame<'_>, scene: &Scene, depth: &Texture, color: &mut 
     let mut pass = frame.compute_pass("sort");
     pass.uniform_buffer(&scene.view);
     pass.storage_buffer(&particles);
-    pass.storage_buffer_mut(&mut sorted, Contents::Cover);
+    pass.storage_buffer_mut(&mut sorted, Contents::Overwrite);
     let mut pass = frame.render_pass("draw");
     scene.inputs(&mut pass, &[&scene.environment]);
     pass.storage_buffer(&particles);
@@ -328,7 +329,7 @@ fn antialiasing(frame: &mut Frame<'_>, scene: &Scene, surfaces: &Surfaces, color
     let mut kept = frame.history("color", screen(Format::Rgba16Float), Resize::Resample);
     let mut pass = frame.render_pass("accumulate");
     scene.inputs(&mut pass, &[color, &surfaces.velocity, &surfaces.depth, &kept.previous]);
-    pass.color(&mut kept.current, Contents::Cover);
+    pass.color(&mut kept.current, Contents::Overwrite);
     scene.filter(frame, "sharpen", &[&kept.current], screen(Format::Rgba16Float))
 }
 
@@ -338,7 +339,7 @@ fn exposure(frame: &mut Frame<'_>, scene: &Scene, color: &Texture) -> Buffer {
     let mut histogram = frame.create_buffer("histogram", BufferDesc::new(1024));
     let mut pass = frame.compute_pass("histogram");
     scene.compute_inputs(&mut pass, &[color]);
-    pass.storage_buffer_mut(&mut histogram, Contents::Cover);
+    pass.storage_buffer_mut(&mut histogram, Contents::Overwrite);
     let mut pass = frame.compute_pass("average");
     pass.uniform_buffer(&scene.view);
     pass.storage_buffer(&histogram);
@@ -396,10 +397,10 @@ fn output(
     scene.inputs(&mut pass, &inputs);
     pass.sample(&scene.noise);
     pass.uniform_buffer(exposure);
-    pass.color(&mut mapped, Contents::Cover);
+    pass.color(&mut mapped, Contents::Overwrite);
     let mut pass = frame.render_pass("smooth edges");
     scene.inputs(&mut pass, &[&mapped]);
-    pass.color(surface, Contents::Cover);
+    pass.color(surface, Contents::Overwrite);
     let mut pass = frame.render_pass("interface");
     scene.inputs(&mut pass, &[&scene.noise]);
     pass.vertex_buffer(&scene.vertices);

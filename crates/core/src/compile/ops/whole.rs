@@ -1,7 +1,7 @@
 //! Operations of resources that every access touches as a whole: one look at the next access decides.
 
 use super::{after_the_frame, declared_clear, drawn, within, zero};
-use crate::declaration::{AccessDecl, Change, Declaration};
+use crate::declaration::{AccessDecl, Declaration, WriteMode};
 use crate::handle::PassId;
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
 
@@ -18,7 +18,7 @@ pub(super) fn ops(
         for place in (start..end).rev() {
             let pass = order[place as usize];
             for (access, index) in decl.accesses(pass).iter().zip(decl.access_range(pass)) {
-                if drawn(access) && !decl.resource(access.resource).in_parts {
+                if drawn(access) && !decl.resource(access.resource).has_partial_accesses {
                     let store = store(decl, access, next[access.resource.index()]);
                     let load = load(decl, access, writers[index]);
                     ops[index] = Some(within((place == start, load), (place + 1 == end, store), false));
@@ -51,10 +51,10 @@ fn load(decl: &Declaration, access: &AccessDecl, writer: Option<PassId>) -> (Loa
         return (LoadAction::Clear(value), LoadReason::Declared);
     }
     match access.contents {
-        Change::Preserve => {
+        WriteMode::Preserve => {
             (LoadAction::Load, writer.map_or(LoadReason::PreservesImport, LoadReason::Preserves))
         }
-        _ => (LoadAction::Clear(zero(access.access)), LoadReason::Covered),
+        _ => (LoadAction::Clear(zero(access.access)), LoadReason::Overwritten),
     }
 }
 

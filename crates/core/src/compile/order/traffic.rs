@@ -1,6 +1,6 @@
 //! Which passes touch which of the resources that take memory.
 
-use crate::compile::lists::Lists;
+use crate::compile::csr::Csr;
 use crate::declaration::{Declaration, Origin};
 use crate::handle::PassId;
 
@@ -11,9 +11,9 @@ pub(super) struct Traffic {
     /// By resource.
     pub(super) exported: Vec<bool>,
     /// By pass: the resources with bytes that it touches, each once.
-    touched: Lists<u32>,
+    touched: Csr<u32>,
     /// By resource with bytes: the passes that touch it, each once, in order of declaration.
-    users: Lists<PassId>,
+    users: Csr<PassId>,
 }
 
 impl Traffic {
@@ -21,7 +21,7 @@ impl Traffic {
     pub(super) fn new(decl: &Declaration, live: &[PassId]) -> Self {
         let bytes: Vec<i64> = decl.resources.iter().map(|r| bytes(r.origin, r.desc.bytes())).collect();
         let mut last = vec![None; bytes.len()];
-        let mut touched = Lists::with_capacity(decl.passes.len(), decl.accesses.len());
+        let mut touched = Csr::with_capacity(decl.passes.len(), decl.accesses.len());
         for &pass in live {
             touched.skip_to(pass.index());
             for access in decl.accesses(pass) {
@@ -33,7 +33,7 @@ impl Traffic {
         }
         touched.skip_to(decl.passes.len());
         let of_pass = |&pass: &PassId| touched.of(pass.index()).iter().map(move |&r| (r as usize, pass));
-        let users = Lists::new(bytes.len(), || live.iter().flat_map(of_pass));
+        let users = Csr::new(bytes.len(), || live.iter().flat_map(of_pass));
         let exported = decl.resources.iter().map(|resource| resource.exported.is_some()).collect();
         Self { bytes, exported, touched, users }
     }

@@ -64,19 +64,19 @@ fn what_a_condition_leaves_out_costs_nothing() {
 fn a_stand_in_is_one_texel_cleared_once_and_only_where_it_is_read() {
     let white = ClearValue::Color([1.0; 4]);
     let mut frame = Frame::new();
-    let stand_in = frame.or_stand_in(None, Format::R8Unorm, white);
+    let stand_in = frame.or_placeholder(None, Format::R8Unorm, white);
     look(&mut frame, "look", &stand_in);
     let read = plan(frame);
     assert_eq!(order(&read), ["stand-in R8Unorm", "look"]);
     assert_eq!(read.resource(stand_in.id()).desc.bytes(), 1);
 
     let mut frame = Frame::new();
-    frame.or_stand_in(None, Format::Depth32Float, ClearValue::Depth(0.0));
+    frame.or_placeholder(None, Format::Depth32Float, ClearValue::Depth(0.0));
     assert_eq!(plan(frame).order().len(), 0);
 
     let mut frame = Frame::new();
     let own = color(&mut frame, "own");
-    assert_eq!(frame.or_stand_in(Some(&own), Format::R8Unorm, white), own, "what is there is taken");
+    assert_eq!(frame.or_placeholder(Some(&own), Format::R8Unorm, white), own, "what is there is taken");
 }
 
 struct Scene(Texture);

@@ -19,7 +19,7 @@ fn a_pass_nothing_needs_is_culled_with_its_producers() {
     assert_eq!(plan.culled_count(), 2);
     let reason = |name| plan.pass(pass(&plan, name)).culled.unwrap();
     assert_eq!(reason("unused"), CullReason::OnlyCulledReaders(unused.id(), pass(&plan, "debug")));
-    assert_eq!(plan.cull_words(reason("debug")), "nothing reads `debug`");
+    assert_eq!(plan.describe_cull(reason("debug")), "nothing reads `debug`");
 }
 
 #[test]
@@ -51,7 +51,7 @@ fn what_is_overwritten_before_it_is_read_is_culled() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
     frame.render_pass("first").color(&mut a, BLACK);
-    frame.render_pass("second").color(&mut a, Contents::Cover);
+    frame.render_pass("second").color(&mut a, Contents::Overwrite);
     frame.export_texture(&a);
     let plan = plan(frame);
     let (first, second) = (pass(&plan, "first"), pass(&plan, "second"));
@@ -89,7 +89,7 @@ fn a_history_is_written_for_the_next_frame() {
         frame.history("glow", TextureDesc::d2(64, 64, Format::Rgba16Float), crate::Resize::Reset);
     let mut pass = frame.render_pass("accumulate");
     pass.sample(&history.previous);
-    pass.color(&mut history.current, Contents::Cover);
+    pass.color(&mut history.current, Contents::Overwrite);
     let plan = plan(frame);
     assert_eq!(order(&plan), ["accumulate"]);
     let ops = ops(&plan, "accumulate", 1);
@@ -116,7 +116,7 @@ fn loads_and_stores_follow_from_contents_and_say_why() {
     assert_eq!(ops(&plan, "main", 1).load_reason, LoadReason::Preserves(prepass));
     assert_eq!(ops(&plan, "main", 1).store, StoreAction::Discard);
     assert_eq!(ops(&plan, "main", 1).store_reason, StoreReason::LastUse);
-    assert_eq!(ops(&plan, "tonemap", 1).load_reason, LoadReason::Covered);
+    assert_eq!(ops(&plan, "tonemap", 1).load_reason, LoadReason::Overwritten);
     assert_eq!(ops(&plan, "tonemap", 1).store_reason, StoreReason::Exported);
 }
 

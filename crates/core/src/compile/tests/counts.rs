@@ -54,7 +54,7 @@ impl Counts {
             |r: &crate::ResourcePlan<'_>| r.texture_usage.contains(TextureUsages::TRANSIENT_ATTACHMENT);
         self.add("transient attachments", live().filter(transient).count());
         self.add("slots", plan.slots().len());
-        self.add("reuses", plan.slots().map(|slot| slot.tenants.len() - 1).sum());
+        self.add("reuses", plan.slots().map(|slot| slot.resources.len() - 1).sum());
         let explicit = plan.dependencies().iter().filter(|d| d.kind == DependencyKind::Explicit);
         self.add("explicit orders", explicit.count());
         self.add("dependencies", plan.dependencies().len());
@@ -64,7 +64,7 @@ impl Counts {
         self.add("passes", plan.pass_count());
         self.add("culls", plan.culled_count());
         self.add("reordered frames", usize::from(!plan.order().is_sorted()));
-        let merges = plan.order().iter().filter_map(|&id| plan.merging(id));
+        let merges = plan.order().iter().filter_map(|&id| plan.merge_reason(id));
         for merge in merges {
             match merge {
                 MergeReason::Merged => self.add("merges", 1),
@@ -83,12 +83,12 @@ impl Counts {
         for &id in plan.order() {
             let accesses = plan.accesses(id).zip(&spec.passes[id.index()].accesses);
             for (planned, access) in accesses {
-                let part = !part_is_whole(spec, access);
+                let subresource = !part_is_whole(spec, access);
                 self.add("accesses", 1);
-                self.add("partial accesses", usize::from(part));
+                self.add("partial accesses", usize::from(subresource));
                 self.add(
                     "partial attachments",
-                    usize::from(part && access.attached() && access.part.rect.is_some()),
+                    usize::from(subresource && access.attached() && access.subresource.rect.is_some()),
                 );
                 self.add("resolves", usize::from(matches!(access.access, crate::Access::Resolve(_))));
                 let Some(ops) = planned.ops else { continue };

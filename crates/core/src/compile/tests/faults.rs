@@ -7,7 +7,7 @@ mod stages;
 mod storage;
 
 use super::frames::{Spec, small_frame_from_bytes};
-use super::oracle::{Rule, judge};
+use super::oracle::{Rule, check_plan};
 use super::random_bytes;
 use stages::{Stage, Work, compile};
 
@@ -38,7 +38,7 @@ fn search(rules: &[Rule], plant: impl Fn(Stage, &mut Work) -> Option<bool>) -> F
             continue;
         }
         found.planted += 1;
-        let breaches = judge(&spec, &names, &plan);
+        let breaches = check_plan(&spec, &names, &plan);
         if breaches.iter().any(|breach| rules.contains(&breach.rule)) {
             found.caught += 1;
         } else if found.missed.is_none() {
@@ -69,6 +69,6 @@ fn without_a_fault_nothing_is_reported() {
         let spec: Spec = small_frame_from_bytes(&random_bytes(seed, 700), 16);
         let (mut frame, names) = spec.build();
         let plan = compile(std::mem::take(&mut frame.decl), |_, _| {});
-        assert_eq!(judge(&spec, &names, &plan), []);
+        assert_eq!(check_plan(&spec, &names, &plan), []);
     }
 }

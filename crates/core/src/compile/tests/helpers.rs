@@ -1,7 +1,7 @@
 //! Small frames for tests that look at one decision.
 
 use crate::{
-    AccessPlan, AttachmentOps, ClearValue, Contents, Format, Frame, Part, PassId, Plan, Rect, Texture,
+    AccessPlan, AttachmentOps, ClearValue, Contents, Format, Frame, PassId, Plan, Rect, Subresource, Texture,
     TextureDesc,
 };
 
@@ -19,8 +19,8 @@ pub(super) fn depth(frame: &mut Frame<'_>, name: &str) -> Texture {
 }
 
 /// One of the four quarters of a texture of 64 x 64 texels.
-pub(super) fn quarter(index: u32) -> Part {
-    Part::WHOLE.rect(Rect::new(index % 2 * 32, index / 2 * 32, 32, 32))
+pub(super) fn quarter(index: u32) -> Subresource {
+    Subresource::FULL.rect(Rect::new(index % 2 * 32, index / 2 * 32, 32, 32))
 }
 
 /// Reads `from` and covers a new texture.
@@ -28,7 +28,7 @@ pub(super) fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Textu
     let mut to = color(frame, name);
     let mut pass = frame.render_pass(name);
     pass.sample(from);
-    pass.color(&mut to, Contents::Cover);
+    pass.color(&mut to, Contents::Overwrite);
     to
 }
 

@@ -20,7 +20,7 @@ fn slots_take_no_more_than_what_lives_at_once_on_10_000_random_frames() {
             assert_eq!(own, least, "{}\n{spec}", plan.to_text());
         }
         slots += plan.slots().len();
-        shared += plan.slots().filter(|slot| slot.tenants.len() > 1).count();
+        shared += plan.slots().filter(|slot| slot.resources.len() > 1).count();
         (bytes, saved) = (bytes + plan.slot_bytes(), saved + plan.saved_bytes());
     }
     print(&format!("slots: {slots} of {bytes} bytes, {shared} of them shared, which saves {saved} bytes"));

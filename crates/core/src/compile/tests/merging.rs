@@ -7,7 +7,7 @@ use crate::{
 };
 
 fn reason(plan: &Plan, name: &str) -> MergeReason {
-    plan.merging(pass(plan, name)).unwrap()
+    plan.merge_reason(pass(plan, name)).unwrap()
 }
 
 /// `first` and `second` draw into one texture, and `change` says what else `second` does.
@@ -38,7 +38,7 @@ fn tiles_of_an_atlas_become_one_render_pass() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
     for index in 0..4 {
-        frame.render_pass(format_args!("tile {index}")).on(quarter(index)).depth(&mut atlas, FAR);
+        frame.render_pass(format_args!("tile {index}")).subresource(quarter(index)).depth(&mut atlas, FAR);
     }
     frame.export_texture(&atlas);
     let plan = plan(frame);
@@ -53,7 +53,7 @@ fn a_tile_cleared_to_another_value_is_drawn_within_the_render_pass() {
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
     for index in 0..4 {
         let value = if index == 2 { Contents::clear_depth(1.0) } else { FAR };
-        frame.render_pass(format_args!("tile {index}")).on(quarter(index)).depth(&mut atlas, value);
+        frame.render_pass(format_args!("tile {index}")).subresource(quarter(index)).depth(&mut atlas, value);
     }
     frame.export_texture(&atlas);
     let plan = plan(frame);
@@ -118,8 +118,8 @@ fn another_mip_or_layer_is_another_attachment() {
     let mut frame = Frame::new();
     let mut layers = frame.create_texture("layers", TextureDesc::d2(64, 64, Format::Rgba8Unorm).layers(2));
     for layer in 0..2 {
-        let part = crate::Part::WHOLE.layer(layer);
-        frame.render_pass(format_args!("layer {layer}")).on(part).color(&mut layers, BLACK);
+        let subresource = crate::Subresource::FULL.layer(layer);
+        frame.render_pass(format_args!("layer {layer}")).subresource(subresource).color(&mut layers, BLACK);
     }
     frame.export_texture(&layers);
     assert_eq!(reason(&plan(frame), "layer 1"), MergeReason::Attachments);
@@ -142,7 +142,7 @@ fn a_pass_does_not_read_what_its_render_pass_writes() {
     let (mut a, mut b) = (color(&mut frame, "a"), color(&mut frame, "b"));
     let mut first = frame.render_pass("first");
     first.color(&mut a, BLACK);
-    first.storage_texture_mut(&mut b, Contents::Cover);
+    first.storage_texture_mut(&mut b, Contents::Overwrite);
     let first = first.id();
     let mut second = frame.render_pass("second");
     second.color(&mut a, Contents::Preserve);
@@ -162,7 +162,7 @@ fn a_pass_does_not_write_what_its_render_pass_touches() {
     let first = first.id();
     let mut second = frame.render_pass("second");
     second.color(&mut a, Contents::Preserve);
-    second.storage_texture_mut(&mut b, Contents::Cover);
+    second.storage_texture_mut(&mut b, Contents::Overwrite);
     frame.export_texture(&a);
     frame.export_texture(&b);
     assert_eq!(reason(&plan(frame), "second"), MergeReason::Writes(b.id(), first));
@@ -214,5 +214,5 @@ fn a_culled_pass_has_no_reason_to_merge() {
     let mut frame = Frame::new();
     let mut target = color(&mut frame, "target");
     let culled = draw(&mut frame, "culled", &mut target, BLACK);
-    assert_eq!(plan(frame).merging(culled), None);
+    assert_eq!(plan(frame).merge_reason(culled), None);
 }

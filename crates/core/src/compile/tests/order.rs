@@ -1,7 +1,7 @@
 //! In which order passes run.
 
 use super::helpers::{BLACK, color, depends, draw, filter, look, order, pass, plan};
-use crate::{Contents, Format, Frame, Options, OrderPolicy, PlaceReason, Plan, Texture, TextureDesc};
+use crate::{Contents, Format, Frame, Options, OrderPolicy, OrderReason, Plan, Texture, TextureDesc};
 
 fn sized(frame: &mut Frame<'_>, name: &str, side: u32) -> Texture {
     frame.create_texture(name, TextureDesc::d2(side, side, Format::Rgba8Unorm))
@@ -13,7 +13,7 @@ fn combine(frame: &mut Frame<'_>, name: &str, from: &[&Texture], to: &mut Textur
     for from in from {
         pass.sample(from);
     }
-    pass.storage_texture_mut(to, Contents::Cover);
+    pass.storage_texture_mut(to, Contents::Overwrite);
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn passes_that_free_memory_run_before_passes_that_take_some() {
     let plan = plan(frame);
     assert_eq!(order(&plan), ["fill big", "shrink big", "fill other", "end"]);
     let freed = 64 * 64 * 4 - 8 * 8 * 4;
-    assert_eq!(plan.placement(pass(&plan, "shrink big")), Some(PlaceReason::FreesMemory(freed)));
+    assert_eq!(plan.order_reason(pass(&plan, "shrink big")), Some(OrderReason::FreesMemory(freed)));
 }
 
 #[test]
@@ -50,8 +50,8 @@ fn passes_that_are_alike_run_as_declared() {
     }
     let plan = plan(frame);
     assert_eq!(order(&plan), names);
-    assert_eq!(plan.placement(pass(&plan, "c")), Some(PlaceReason::DeclaredFirst));
-    assert_eq!(plan.placement(pass(&plan, "b")), Some(PlaceReason::OnlyReady));
+    assert_eq!(plan.order_reason(pass(&plan, "c")), Some(OrderReason::DeclaredFirst));
+    assert_eq!(plan.order_reason(pass(&plan, "b")), Some(OrderReason::OnlyReady));
 }
 
 /// Two passes that draw into `target`, with one of another target declared between them.
@@ -71,7 +71,7 @@ fn interrupted(order: OrderPolicy) -> Frame<'static> {
 fn a_pass_that_goes_on_with_the_open_render_pass_runs_next() {
     let plan = plan(interrupted(OrderPolicy::Automatic));
     assert_eq!(order(&plan), ["first", "second", "between"]);
-    assert_eq!(plan.placement(pass(&plan, "second")), Some(PlaceReason::ContinuesRenderPass));
+    assert_eq!(plan.order_reason(pass(&plan, "second")), Some(OrderReason::ContinuesRenderPass));
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn a_frame_can_fix_the_order_by_one_call() {
     frame.fix_order();
     let plan = plan(frame);
     assert_eq!(order(&plan), ["first", "between", "second"]);
-    assert!(plan.order().iter().all(|&id| plan.placement(id) == Some(PlaceReason::Fixed)));
+    assert!(plan.order().iter().all(|&id| plan.order_reason(id) == Some(OrderReason::Fixed)));
     assert_eq!(plan.options().order, OrderPolicy::Declared);
 }
 
@@ -109,7 +109,7 @@ fn an_order_by_name_comes_before_memory() {
         let fill = draw(&mut frame, "fill", &mut large, BLACK);
         look(&mut frame, "look", &large);
         let mut other = frame.compute_pass("other");
-        other.storage_texture_mut(&mut small, Contents::Cover);
+        other.storage_texture_mut(&mut small, Contents::Overwrite);
         other.keep();
         if by_name {
             other.after(fill);
@@ -142,7 +142,7 @@ fn the_order_of_declaration_is_taken_where_it_needs_less() {
     // `other` is the smallest, so step by step it would come first, and then lie about while the others run.
     let plan = three(["first", "second", "other"], [16, 16, 8]);
     assert_eq!(order(&plan), ["first", "second", "other"]);
-    assert_eq!(plan.placement(plan.order()[0]), Some(PlaceReason::DeclarationNeedsLess));
+    assert_eq!(plan.order_reason(plan.order()[0]), Some(OrderReason::DeclarationNeedsLess));
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn passes_are_chosen_from_the_last_to_the_first_where_that_needs_less() {
     // Declared first, `other` is in the way both as declared and step by step.
     let plan = three(["other", "first", "second"], [16, 16, 8]);
     assert_eq!(order(&plan), ["first", "second", "other"]);
-    assert_eq!(plan.placement(plan.order()[0]), Some(PlaceReason::BackwardsNeedsLess));
+    assert_eq!(plan.order_reason(plan.order()[0]), Some(OrderReason::BackwardsNeedsLess));
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn anything_else_that_changes_is_a_full_compile() {
     compile(&mut graph, "a", 64, BLACK);
     compile(&mut graph, "b", 64, BLACK);
     compile(&mut graph, "b", 64, Contents::Clear(ClearValue::Color([1.0; 4])));
-    compile(&mut graph, "b", 64, Contents::Cover);
+    compile(&mut graph, "b", 64, Contents::Overwrite);
     assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, resized: 0, reused: 0 });
 }
 

@@ -1,4 +1,4 @@
-//! Random frames, judged by the oracle.
+//! Random frames, checked by the oracle.
 
 use super::counts::Counts;
 use super::frames::{MISTAKES, Source, Spec, chaos_from_bytes, frame_from_bytes, small_frame_from_bytes};
@@ -66,9 +66,9 @@ fn a_mistake_in_a_random_frame_gives_its_error() {
     let made = Cell::new(0);
     run(2_000, 600, |bytes| {
         let spec = small_frame_from_bytes(&bytes[1..], 12);
-        let (code, mistake) = MISTAKES[usize::from(bytes[0]) % MISTAKES.len()];
+        let (code, report_error) = MISTAKES[usize::from(bytes[0]) % MISTAKES.len()];
         let (mut frame, _) = spec.build();
-        mistake(&mut frame);
+        report_error(&mut frame);
         made.set(made.get() + 1);
         let error = compile(frame).err();
         prop_assert_eq!(error.as_ref().map(Error::code), Some(code), "{:?}\n{}", error, spec);

@@ -2,8 +2,8 @@
 
 use super::helpers::{BLACK, FAR, accesses, depends, draw, look, ops, order, pass, plan, quarter};
 use crate::{
-    Aspect, BufferDesc, ClearValue, Contents, Error, Format, Frame, LoadAction, LoadReason, Part, Rect,
-    StoreAction, StoreReason, TextureDesc, TextureUsages,
+    Aspect, BufferDesc, ClearValue, Contents, Error, Format, Frame, LoadAction, LoadReason, Rect,
+    StoreAction, StoreReason, Subresource, TextureDesc, TextureUsages,
 };
 use wgpu_types::TextureDimension;
 
@@ -15,13 +15,13 @@ fn layered() -> TextureDesc {
 fn mips_and_layers_have_contents_of_their_own() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", layered());
-    frame.render_pass("draw").on(Part::WHOLE.mip(1).layer(0)).color(&mut a, BLACK);
+    frame.render_pass("draw").subresource(Subresource::FULL.mip(1).layer(0)).color(&mut a, BLACK);
     let mut fine = frame.compute_pass("fine");
-    fine.on(Part::WHOLE.mip(1).layer(0)).sample(&a);
+    fine.subresource(Subresource::FULL.mip(1).layer(0)).sample(&a);
     fine.keep();
-    frame.compute_pass("bad").on(Part::WHOLE.mip(1)).sample(&a);
+    frame.compute_pass("bad").subresource(Subresource::FULL.mip(1)).sample(&a);
     let error = frame.compile().err().unwrap();
-    assert!(matches!(&error, Error::UndefinedRead { part, .. } if part == "mip 1"), "{error}");
+    assert!(matches!(&error, Error::UndefinedRead { subresource, .. } if subresource == "mip 1"), "{error}");
 }
 
 #[test]
@@ -30,7 +30,7 @@ fn all_mips_and_layers_together_are_the_whole() {
     let mut a = frame.create_texture("a", layered());
     for (mip, layer) in (0..3).flat_map(|mip| [(mip, 0), (mip, 1)]) {
         let mut pass = frame.render_pass(format_args!("{mip} {layer}"));
-        pass.on(Part::WHOLE.mip(mip).layer(layer)).color(&mut a, BLACK);
+        pass.subresource(Subresource::FULL.mip(mip).layer(layer)).color(&mut a, BLACK);
     }
     frame.export_texture(&a);
     let plan = plan(frame);
@@ -43,10 +43,13 @@ fn aspects_of_a_depth_stencil_texture_have_contents_of_their_own() {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(64, 64, Format::Depth24PlusStencil8);
     let mut texture = frame.create_texture("depth", desc);
-    frame.render_pass("depth").on(Part::WHOLE.aspect(Aspect::Depth)).depth(&mut texture, FAR);
-    frame.render_pass("stencil").on(Part::WHOLE.aspect(Aspect::Stencil)).depth(&mut texture, FAR);
+    frame.render_pass("depth").subresource(Subresource::FULL.aspect(Aspect::Depth)).depth(&mut texture, FAR);
+    frame
+        .render_pass("stencil")
+        .subresource(Subresource::FULL.aspect(Aspect::Stencil))
+        .depth(&mut texture, FAR);
     let mut read = frame.compute_pass("read");
-    read.on(Part::WHOLE.aspect(Aspect::Stencil)).sample(&texture);
+    read.subresource(Subresource::FULL.aspect(Aspect::Stencil)).sample(&texture);
     read.keep();
     let plan = plan(frame);
     assert_eq!(order(&plan), ["stencil", "read"], "nothing needs the depth");
@@ -60,7 +63,7 @@ fn an_aspect_alone_is_no_transient_attachment() {
     let mut texture = frame.create_texture("depth", TextureDesc::d2(64, 64, Format::Depth24PlusStencil8));
     let mut out = frame.create_texture("out", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     let mut draw = frame.render_pass("draw");
-    draw.on(Part::WHOLE.aspect(Aspect::Depth)).depth(&mut texture, FAR);
+    draw.subresource(Subresource::FULL.aspect(Aspect::Depth)).depth(&mut texture, FAR);
     draw.color(&mut out, BLACK);
     frame.export_texture(&out);
     let plan = plan(frame);
@@ -71,11 +74,11 @@ fn an_aspect_alone_is_no_transient_attachment() {
 fn ranges_of_a_buffer_have_contents_of_their_own() {
     let mut frame = Frame::new();
     let mut buffer = frame.create_buffer("buffer", BufferDesc::new(64));
-    let halves = [0..32, 32..64].map(|bytes| Part::WHOLE.bytes(bytes));
-    frame.compute_pass("low").on(halves[0]).storage_buffer_mut(&mut buffer, Contents::Cover);
-    frame.compute_pass("high").on(halves[1]).storage_buffer_mut(&mut buffer, Contents::Cover);
+    let halves = [0..32, 32..64].map(|bytes| Subresource::FULL.bytes(bytes));
+    frame.compute_pass("low").subresource(halves[0]).storage_buffer_mut(&mut buffer, Contents::Overwrite);
+    frame.compute_pass("high").subresource(halves[1]).storage_buffer_mut(&mut buffer, Contents::Overwrite);
     let mut read = frame.compute_pass("read");
-    read.on(halves[1]).storage_buffer(&buffer);
+    read.subresource(halves[1]).storage_buffer(&buffer);
     read.keep();
     let plan = plan(frame);
     assert_eq!(order(&plan), ["high", "read"], "nothing needs the lower half");
@@ -91,15 +94,15 @@ fn slices_of_a_volume_get_fewer_from_mip_to_mip() {
     let mut frame = Frame::new();
     let mut texture = frame.create_texture("volume", volume);
     for (mip, slice) in [(0, 0), (0, 1), (0, 2), (0, 3), (1, 0), (1, 1)] {
-        let part = Part::WHOLE.mip(mip).layer(slice);
-        frame.render_pass("slice").on(part).color(&mut texture, BLACK);
+        let subresource = Subresource::FULL.mip(mip).layer(slice);
+        frame.render_pass("slice").subresource(subresource).color(&mut texture, BLACK);
     }
     frame.export_texture(&texture);
     assert_eq!(plan(frame).order().len(), 6, "these are all slices there are");
 
     let mut frame = Frame::new();
     let mut texture = frame.create_texture("volume", volume);
-    frame.render_pass("bad").on(Part::WHOLE.mip(1).layer(2)).color(&mut texture, BLACK);
+    frame.render_pass("bad").subresource(Subresource::FULL.mip(1).layer(2)).color(&mut texture, BLACK);
     assert_eq!(frame.compile().err().unwrap().code(), "SG0402");
 }
 
@@ -108,10 +111,10 @@ fn tiles_do_not_order_each_other_and_a_reader_waits_for_its_own_alone() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
     for index in 0..4 {
-        frame.render_pass(format_args!("tile {index}")).on(quarter(index)).depth(&mut atlas, FAR);
+        frame.render_pass(format_args!("tile {index}")).subresource(quarter(index)).depth(&mut atlas, FAR);
     }
     let mut read = frame.compute_pass("read");
-    read.on(quarter(2)).sample(&atlas);
+    read.subresource(quarter(2)).sample(&atlas);
     read.keep();
     let plan = plan(frame);
     assert_eq!(order(&plan), ["tile 2", "read"], "the other tiles are not needed");
@@ -122,9 +125,9 @@ fn tiles_do_not_order_each_other_and_a_reader_waits_for_its_own_alone() {
 fn a_tile_that_is_alone_is_cleared_by_the_load_operation() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
-    frame.render_pass("tile").on(quarter(0)).depth(&mut atlas, FAR);
+    frame.render_pass("tile").subresource(quarter(0)).depth(&mut atlas, FAR);
     let mut read = frame.compute_pass("read");
-    read.on(quarter(0)).sample(&atlas);
+    read.subresource(quarter(0)).sample(&atlas);
     read.keep();
     let plan = plan(frame);
     let ops = ops(&plan, "tile", 0);
@@ -136,7 +139,7 @@ fn a_tile_beside_live_ones_is_cleared_by_a_draw() {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(64, 64, Format::Depth32Float);
     let mut atlas = frame.declare_import_texture("atlas", desc, TextureUsages::all(), true);
-    frame.render_pass("tile").on(quarter(1)).depth(&mut atlas, FAR);
+    frame.render_pass("tile").subresource(quarter(1)).depth(&mut atlas, FAR);
     let plan = plan(frame);
     let ops = ops(&plan, "tile", 0);
     assert_eq!((ops.load, ops.load_reason), (LoadAction::Load, LoadReason::RestOutlives));
@@ -149,7 +152,7 @@ fn the_rest_is_loaded_for_the_pass_that_needs_it() {
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     draw(&mut frame, "all", &mut a, BLACK);
     look(&mut frame, "between", &a);
-    frame.render_pass("tile").on(quarter(3)).color(&mut a, Contents::Cover);
+    frame.render_pass("tile").subresource(quarter(3)).color(&mut a, Contents::Overwrite);
     let reader = look(&mut frame, "reader", &a);
     let plan = plan(frame);
     let ops = ops(&plan, "tile", 0);
@@ -163,9 +166,9 @@ fn the_rest_is_not_loaded_where_nothing_needs_it() {
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     draw(&mut frame, "all", &mut a, BLACK);
     look(&mut frame, "between", &a);
-    frame.render_pass("tile").on(quarter(3)).color(&mut a, Contents::Cover);
+    frame.render_pass("tile").subresource(quarter(3)).color(&mut a, Contents::Overwrite);
     let mut read = frame.compute_pass("read");
-    read.on(quarter(3)).sample(&a);
+    read.subresource(quarter(3)).sample(&a);
     read.keep();
     let plan = plan(frame);
     let ops = ops(&plan, "tile", 0);
@@ -177,11 +180,11 @@ fn the_rest_is_not_loaded_where_nothing_needs_it() {
 fn a_part_that_is_all_of_it_is_no_part() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
-    let all = Part::WHOLE.mips(0..1).layers(0..1).rect(Rect::new(0, 0, 64, 64));
-    frame.render_pass("draw").on(all).color(&mut a, BLACK);
+    let all = Subresource::FULL.mips(0..1).layers(0..1).rect(Rect::new(0, 0, 64, 64));
+    frame.render_pass("draw").subresource(all).color(&mut a, BLACK);
     frame.export_texture(&a);
     let plan = plan(frame);
-    assert_eq!(accesses(&plan, "draw")[0].part, Part::WHOLE);
+    assert_eq!(accesses(&plan, "draw")[0].subresource, Subresource::FULL);
 }
 
 #[test]
@@ -190,8 +193,8 @@ fn a_tile_may_not_be_sampled_while_another_is_drawn_in_one_pass() {
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     draw(&mut frame, "all", &mut a, BLACK);
     let mut bad = frame.render_pass("bad");
-    bad.on(quarter(0)).sample(&a);
-    bad.on(quarter(1)).color(&mut a, Contents::Cover);
+    bad.subresource(quarter(0)).sample(&a);
+    bad.subresource(quarter(1)).color(&mut a, Contents::Overwrite);
     assert_eq!(frame.compile().err().unwrap().code(), "SG0203", "wgpu tracks mips and layers, not tiles");
 }
 
@@ -200,10 +203,10 @@ fn a_mip_may_be_sampled_while_another_is_drawn_in_one_pass() {
     let mut frame = Frame::new();
     let mut a = frame
         .create_texture("a", TextureDesc { mip_levels: 2, ..TextureDesc::d2(64, 64, Format::Rgba8Unorm) });
-    frame.render_pass("mip 0").on(Part::WHOLE.mip(0)).color(&mut a, BLACK);
+    frame.render_pass("mip 0").subresource(Subresource::FULL.mip(0)).color(&mut a, BLACK);
     let mut down = frame.render_pass("mip 1");
-    down.on(Part::WHOLE.mip(0)).sample(&a);
-    down.on(Part::WHOLE.mip(1)).color(&mut a, Contents::Cover);
+    down.subresource(Subresource::FULL.mip(0)).sample(&a);
+    down.subresource(Subresource::FULL.mip(1)).color(&mut a, Contents::Overwrite);
     frame.export_texture(&a);
     let plan = plan(frame);
     assert_eq!(order(&plan), ["mip 0", "mip 1"]);
@@ -218,7 +221,7 @@ fn a_resolve_target_cannot_be_a_rectangle() {
     let mut target = frame.create_texture("target", desc);
     let mut bad = frame.render_pass("bad");
     bad.color(&mut samples, BLACK);
-    bad.on(quarter(0)).resolve(&mut target);
+    bad.subresource(quarter(0)).resolve(&mut target);
     assert_eq!(frame.compile().err().unwrap().code(), "SG0306", "wgpu resolves all of a mip");
 }
 
@@ -228,8 +231,8 @@ fn what_an_encoder_pass_reads_of_a_texture_is_there_while_it_draws_beside_it() {
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     draw(&mut frame, "all", &mut a, BLACK);
     let mut encoder = frame.encoder_pass("encoder");
-    encoder.on(quarter(0)).copy_source(&a);
-    encoder.on(quarter(1)).attachment(&mut a, Contents::Cover);
+    encoder.subresource(quarter(0)).copy_source(&a);
+    encoder.subresource(quarter(1)).attachment(&mut a, Contents::Overwrite);
     encoder.keep();
     let plan = plan(frame);
     assert_eq!(accesses(&plan, "encoder")[1].ops.unwrap().load, LoadAction::Load);

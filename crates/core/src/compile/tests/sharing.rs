@@ -55,7 +55,7 @@ fn resources_of_different_shape_never_share() {
     let mut wide = frame.create_texture("wide", TextureDesc::d2(65, 64, Format::Rgba8Unorm));
     let mut pass = frame.render_pass("wide");
     pass.sample(&b);
-    pass.color(&mut wide, Contents::Cover);
+    pass.color(&mut wide, Contents::Overwrite);
     frame.export_texture(&wide);
     assert_eq!(plan(frame).slots().len(), 3);
 }
@@ -69,7 +69,7 @@ fn a_storage_texture_does_not_share_with_a_plain_attachment() {
     let mut c = color(&mut frame, "c");
     let mut compute = frame.compute_pass("c");
     compute.sample(&b);
-    compute.storage_texture_mut(&mut c, Contents::Cover);
+    compute.storage_texture_mut(&mut c, Contents::Overwrite);
     frame.export_texture(&c);
     assert_eq!(plan(frame).slots().len(), 3);
 }
@@ -84,7 +84,7 @@ fn buffers(sizes: [u64; 3], export: bool) -> Plan {
         if let Some(before) = &before {
             pass.storage_buffer(before);
         }
-        pass.storage_buffer_mut(&mut buffer, Contents::Cover);
+        pass.storage_buffer_mut(&mut buffer, Contents::Overwrite);
         pass.keep();
         before = Some(buffer);
     }
@@ -99,7 +99,7 @@ fn buffers_of_one_size_class_share_a_slot_of_its_size() {
     let plan = buffers([1_000, 600, 980], false);
     let bytes: Vec<_> = plan.slots().map(|slot| slot.desc.bytes()).collect();
     assert_eq!(bytes, [1_024, 640]);
-    assert_eq!(plan.slots().next().unwrap().tenants.len(), 2);
+    assert_eq!(plan.slots().next().unwrap().resources.len(), 2);
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! One frame put to the test. Like `frames` and `oracle` it uses the crate's public names only.
 
 use super::frames::Spec;
-use super::oracle::{Model, Truth, judge};
+use super::oracle::{Model, Truth, check_plan};
 use crate::Plan;
 
-/// Compiles a frame twice and judges the plan, and returns what is wrong; a frame that is refused, as it should be,
+/// Compiles a frame twice and checks the plan, and returns what is wrong; a frame that is refused, as it should be,
 /// has no plan.
 pub(super) fn trial(spec: &Spec) -> Result<Option<Plan>, String> {
     let compile = || {
@@ -13,7 +13,7 @@ pub(super) fn trial(spec: &Spec) -> Result<Option<Plan>, String> {
     };
     match (compile(), Truth::new(&Model::new(spec)).invalid) {
         ((Ok(plan), names), None) => {
-            let breaches = judge(spec, &names, &plan);
+            let breaches = check_plan(spec, &names, &plan);
             if !breaches.is_empty() {
                 return Err(format!("{breaches:#?}\n{}\n{spec}", plan.to_text()));
             }

@@ -1,7 +1,7 @@
 //! One access: its format, its clear value, and the usages of an import.
 
 use crate::access::{Access, ClearValue};
-use crate::declaration::{AccessDecl, Change, Declaration, Origin};
+use crate::declaration::{AccessDecl, Declaration, Origin, WriteMode};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::PassId;
@@ -13,10 +13,10 @@ pub(super) fn check(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Re
         && let Some(problem) = format_problem(access.access, desc)
     {
         let (pass, resource) = names();
-        let access = access.access.word();
+        let access = access.access.as_str();
         return Err(Error::Format { pass, resource, access, format: desc.format, problem });
     }
-    if let Change::Clear(clear) = access.contents
+    if let WriteMode::Clear(clear) = access.contents
         && let Some(problem) = clear_problem(access.access, decl.clears[clear as usize])
     {
         let (pass, resource) = names();
@@ -26,7 +26,7 @@ pub(super) fn check(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Re
         && let Some(needed) = missing_usage(decl, access)
     {
         let (pass, resource) = names();
-        return Err(Error::ImportUsage { pass, resource, access: access.access.word(), needed });
+        return Err(Error::ImportUsage { pass, resource, access: access.access.as_str(), needed });
     }
     Ok(())
 }
@@ -66,7 +66,7 @@ fn clear_problem(access: Access, value: ClearValue) -> Option<&'static str> {
             Some("a stencil outside 0 to 255: give one inside")
         }
         (Access::Depth, _) => None,
-        _ => Some("a clear value, but only attachments can be cleared: use `Contents::Cover`"),
+        _ => Some("a clear value, but only attachments can be cleared: use `Contents::Overwrite`"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Every read finds contents that something has defined.
 
 use crate::compile::coverage::Coverage;
-use crate::declaration::{AccessDecl, Change, Declaration, Origin};
+use crate::declaration::{AccessDecl, Declaration, Origin, WriteMode};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 
@@ -16,7 +16,7 @@ impl Contents {
     /// Checks a pass, then notes what it writes.
     pub(super) fn pass(&mut self, decl: &Declaration, pass: PassId) -> Result<(), Error> {
         for access in decl.accesses(pass).iter().filter(|access| access.contents.needs()) {
-            if !self.0[access.resource.index()].contains(decl.area(access)) {
+            if !self.0[access.resource.index()].contains(decl.region(access)) {
                 return Err(undefined(decl, pass, access));
             }
         }
@@ -25,7 +25,7 @@ impl Contents {
                 let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
                 return Err(Error::PreviousWritten { pass, resource });
             }
-            self.0[access.resource.index()].add(decl.area(access));
+            self.0[access.resource.index()].add(decl.region(access));
         }
         Ok(())
     }
@@ -43,7 +43,7 @@ impl Contents {
                 return Err(Error::UndefinedRead {
                     place: place.into(),
                     resource: name(),
-                    part: "all".into(),
+                    subresource: "all".into(),
                 });
             }
             if let Some(version) = resource.exported
@@ -65,10 +65,10 @@ impl Contents {
 
 fn undefined(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Error {
     let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
-    let part = decl.part(access).words();
-    if access.contents == Change::Preserve {
-        Error::UndefinedPreserve { pass, resource, part }
+    let subresource = decl.subresource(access).to_string();
+    if access.contents == WriteMode::Preserve {
+        Error::UndefinedPreserve { pass, resource, subresource }
     } else {
-        Error::UndefinedRead { place: format!("pass `{pass}`"), resource, part }
+        Error::UndefinedRead { place: format!("pass `{pass}`"), resource, subresource }
     }
 }

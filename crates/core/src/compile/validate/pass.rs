@@ -5,7 +5,7 @@ use crate::declaration::{AccessDecl, CopyOp, Declaration, PassKind};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::PassId;
-use crate::part::{Area, Aspect, Part};
+use crate::subresource::{Aspect, Region, Subresource};
 use wgpu_types::{Extent3d, TextureDimension};
 
 /// Checks a pass; `seen` holds, for each resource, the pass that touched it last.
@@ -46,8 +46,8 @@ impl<'d> Check<'d> {
         }
     }
 
-    fn area(&self, access: &AccessDecl) -> Area {
-        self.decl.area(access).copied().unwrap_or(Area::EVERYTHING)
+    fn region(&self, access: &AccessDecl) -> Region {
+        self.decl.region(access).copied().unwrap_or(Region::ALL)
     }
 
     /// What is written may be touched in no other way. Within one pass wgpu tells mips and layers apart, but no
@@ -59,9 +59,9 @@ impl<'d> Check<'d> {
         let ordered = matches!(self.decl.pass(self.id).kind, PassKind::Copy | PassKind::Encoder);
         let texture = self.texture(access);
         let extent = |access: &AccessDecl| match (ordered, texture) {
-            (true, _) => self.area(access),
-            (false, Some(_)) => self.area(access).subresources(),
-            (false, None) => Area::EVERYTHING,
+            (true, _) => self.region(access),
+            (false, Some(_)) => self.region(access).subresources(),
+            (false, None) => Region::ALL,
         };
         let volume = !ordered && texture.is_some_and(|desc| desc.dimension == TextureDimension::D3);
         let overlap = |other: &AccessDecl| {
@@ -87,8 +87,12 @@ impl<'d> Check<'d> {
 
     /// The access in words, with its part: `color (mip 1)`.
     fn touch(&self, access: &AccessDecl) -> String {
-        let (word, part) = (access.access.word(), self.decl.part(access));
-        if part == Part::WHOLE { word.into() } else { format!("{word} ({})", part.words()) }
+        let (word, subresource) = (access.access.as_str(), self.decl.subresource(access));
+        if subresource == Subresource::FULL {
+            word.into()
+        } else {
+            format!("{word} ({})", subresource.to_string())
+        }
     }
 
     fn attachments(&self) -> Result<(), Error> {
@@ -124,12 +128,12 @@ impl<'d> Check<'d> {
 
     /// The size of the mip that is attached.
     fn attachment_size(&self, access: &AccessDecl, desc: &TextureDesc) -> Result<Extent3d, Error> {
-        let part = self.decl.part(access);
-        let (mip, mip_end) = part.mips.unwrap_or((0, desc.mip_levels));
-        let (layer, layer_end) = part.layers.unwrap_or((0, desc.size.depth_or_array_layers));
+        let subresource = self.decl.subresource(access);
+        let (mip, mip_end) = subresource.mips.unwrap_or((0, desc.mip_levels));
+        let (layer, layer_end) = subresource.layers.unwrap_or((0, desc.size.depth_or_array_layers));
         if mip_end - mip != 1 || layer_end - layer != 1 {
-            let (pass, resource, part) = (self.path(), self.name(access), part.words());
-            return Err(Error::AttachmentPart { pass, resource, part });
+            let (pass, resource, subresource) = (self.path(), self.name(access), subresource.to_string());
+            return Err(Error::AttachmentSubresource { pass, resource, subresource });
         }
         let size = desc.size.mip_level_size(mip, desc.dimension);
         Ok(Extent3d { depth_or_array_layers: 1, ..size })
@@ -152,7 +156,7 @@ impl<'d> Check<'d> {
                 )
             }
             Some(_) if desc.samples != 1 => "it is multisampled itself: give it one sample".into(),
-            Some(_) if self.decl.part(access).rect.is_some() => {
+            Some(_) if self.decl.subresource(access).rect.is_some() => {
                 "a resolve writes all of a mip: take the rectangle away".into()
             }
             Some((source, from)) => {
@@ -192,16 +196,19 @@ impl<'d> Check<'d> {
         let end = |access: &AccessDecl| End::new(self.decl, access);
         let (from, to) = (end(source), end(target));
         let same_place = source.resource == target.resource
-            && self.area(source).subresources().overlaps(&self.area(target).subresources());
+            && self.region(source).subresources().overlaps(&self.region(target).subresources());
         let problem = match (same_place, fits(&from, &to)) {
             (false, true) => return Ok(()),
             (true, _) => "they are in one place: copy to another mip, layer or texture".into(),
             (false, false) => misfit(&from, &to),
         };
         let words = |access: &AccessDecl, end: &End| {
-            let part =
-                if end.part == Part::WHOLE { String::new() } else { format!("{} of ", end.part.words()) };
-            format!("{part}`{}` ({})", self.name(access), end.words())
+            let subresource = if end.subresource == Subresource::FULL {
+                String::new()
+            } else {
+                format!("{} of ", end.subresource.to_string())
+            };
+            format!("{subresource}`{}` ({})", self.name(access), end.words())
         };
         Err(Error::CopyMismatch {
             pass: self.path(),
@@ -214,23 +221,23 @@ impl<'d> Check<'d> {
 
 /// One end of a copy.
 struct End {
-    part: Part,
+    subresource: Subresource,
     desc: ResourceDesc,
 }
 
 impl End {
     fn new(decl: &Declaration, access: &AccessDecl) -> Self {
-        Self { part: decl.part(access), desc: decl.resource(access.resource).desc }
+        Self { subresource: decl.subresource(access), desc: decl.resource(access.resource).desc }
     }
 
     fn words(&self) -> String {
         match self.desc {
-            ResourceDesc::Texture(desc) => match copy_extent(&self.part, &desc) {
+            ResourceDesc::Texture(desc) => match copy_extent(&self.subresource, &desc) {
                 Some(size) => format!("{} {:?}", words(size, desc.samples), desc.format),
                 None => "several mips".into(),
             },
             ResourceDesc::Buffer(desc) => {
-                let (start, end) = self.part.bytes.unwrap_or((0, desc.bytes));
+                let (start, end) = self.subresource.bytes.unwrap_or((0, desc.bytes));
                 format!("{} bytes from {start}", end - start)
             }
         }
@@ -238,16 +245,16 @@ impl End {
 }
 
 /// The size of what a part selects of one mip; `None` if it selects several.
-pub(crate) fn copy_extent(part: &Part, desc: &TextureDesc) -> Option<Extent3d> {
-    let (mip, end) = part.mips.unwrap_or((0, desc.mip_levels));
+pub(crate) fn copy_extent(subresource: &Subresource, desc: &TextureDesc) -> Option<Extent3d> {
+    let (mip, end) = subresource.mips.unwrap_or((0, desc.mip_levels));
     let mut size = desc.size.mip_level_size(mip, desc.dimension);
     if desc.dimension != TextureDimension::D3 {
         size.depth_or_array_layers = desc.size.depth_or_array_layers;
     }
-    if let Some((start, end)) = part.layers {
+    if let Some((start, end)) = subresource.layers {
         size.depth_or_array_layers = end - start;
     }
-    if let Some(rect) = part.rect {
+    if let Some(rect) = subresource.rect {
         (size.width, size.height) = (rect.width, rect.height);
     }
     (end - mip == 1).then_some(size)
@@ -255,28 +262,30 @@ pub(crate) fn copy_extent(part: &Part, desc: &TextureDesc) -> Option<Extent3d> {
 
 /// Whether this part of a texture can be copied: of depth, stencil and several samples, mips and layers only go as a
 /// whole.
-fn copies_in_part(part: &Part, desc: &TextureDesc) -> bool {
-    let whole = copy_extent(&Part { rect: None, ..*part }, desc) == copy_extent(part, desc);
-    let aspects = part.aspect == Aspect::All || !desc.format.is_combined_depth_stencil_format();
+fn copies_in_part(subresource: &Subresource, desc: &TextureDesc) -> bool {
+    let whole =
+        copy_extent(&Subresource { rect: None, ..*subresource }, desc) == copy_extent(subresource, desc);
+    let aspects = subresource.aspect == Aspect::All || !desc.format.is_combined_depth_stencil_format();
     aspects && (whole || !desc.format.is_depth_stencil_format() && desc.samples == 1)
 }
 
 fn fits(from: &End, to: &End) -> bool {
     match (from.desc, to.desc) {
         (ResourceDesc::Texture(a), ResourceDesc::Texture(b)) => {
-            let (size, other) = (copy_extent(&from.part, &a), copy_extent(&to.part, &b));
-            let whole = copies_in_part(&from.part, &a) && copies_in_part(&to.part, &b);
+            let (size, other) = (copy_extent(&from.subresource, &a), copy_extent(&to.subresource, &b));
+            let whole = copies_in_part(&from.subresource, &a) && copies_in_part(&to.subresource, &b);
             // Bytes are copied, so what they stand for need not be the same.
             let shape = |desc: &TextureDesc| (desc.format.remove_srgb_suffix(), desc.samples);
             size.is_some() && size == other && shape(&a) == shape(&b) && whole
         }
         (ResourceDesc::Buffer(a), ResourceDesc::Buffer(b)) => {
-            let range = |part: &Part, bytes| part.bytes.unwrap_or((0, bytes));
-            let ((start, end), (to_start, to_end)) = (range(&from.part, a.bytes), range(&to.part, b.bytes));
+            let range = |subresource: &Subresource, bytes| subresource.bytes.unwrap_or((0, bytes));
+            let ((start, end), (to_start, to_end)) =
+                (range(&from.subresource, a.bytes), range(&to.subresource, b.bytes));
             end - start == to_end - to_start && [start, end, to_start].iter().all(|at| at % 4 == 0)
         }
         (ResourceDesc::Texture(a), ResourceDesc::Buffer(b)) => {
-            padded_bytes(&from.part, a).is_some_and(|bytes| bytes <= b.bytes)
+            padded_bytes(&from.subresource, a).is_some_and(|bytes| bytes <= b.bytes)
         }
         (ResourceDesc::Buffer(_), ResourceDesc::Texture(_)) => false,
     }
@@ -286,16 +295,16 @@ fn fits(from: &End, to: &End) -> bool {
 fn misfit(from: &End, to: &End) -> String {
     match (from.desc, to.desc) {
         (ResourceDesc::Texture(a), ResourceDesc::Texture(b))
-            if !(copies_in_part(&from.part, &a) && copies_in_part(&to.part, &b)) =>
+            if !(copies_in_part(&from.subresource, &a) && copies_in_part(&to.subresource, &b)) =>
         {
             "depth, stencil and several samples are copied only as whole mips with all aspects: draw the part instead"
                 .into()
         }
         (ResourceDesc::Texture(_), ResourceDesc::Texture(_)) => {
-            "size, samples and format (but for sRGB) must agree: narrow both to parts of one size with `texture_parts`"
+            "size, samples and format (but for sRGB) must agree: narrow both to parts of one size with `texture_region`"
                 .into()
         }
-        (ResourceDesc::Texture(desc), _) => match padded_bytes(&from.part, desc) {
+        (ResourceDesc::Texture(desc), _) => match padded_bytes(&from.subresource, desc) {
             Some(bytes) => {
                 format!("with rows padded to 256 bytes it needs {bytes} bytes: give the buffer as many")
             }
@@ -307,16 +316,16 @@ fn misfit(from: &End, to: &End) -> String {
         },
         (ResourceDesc::Buffer(_), _) => {
             "both ranges must have as many bytes and begin and end at multiples of 4: narrow them with \
-             `buffer_parts`"
+             `buffer_range`"
                 .into()
         }
     }
 }
 
 /// The bytes of one mip with rows padded as copies need them; `None` where a copy to a buffer is impossible.
-fn padded_bytes(part: &Part, desc: TextureDesc) -> Option<u64> {
+fn padded_bytes(subresource: &Subresource, desc: TextureDesc) -> Option<u64> {
     let texel = u64::from(desc.format.block_copy_size(None)?);
-    let size = copy_extent(part, &desc)?;
+    let size = copy_extent(subresource, &desc)?;
     let row = (u64::from(size.width) * texel).next_multiple_of(256);
     (desc.samples == 1 && size.depth_or_array_layers == 1 && !desc.format.is_compressed())
         .then(|| row * u64::from(size.height))

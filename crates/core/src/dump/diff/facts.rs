@@ -5,8 +5,8 @@ use crate::access::Access;
 use crate::dump::json::SCHEMA;
 use crate::dump::words::bytes;
 use crate::error::Error;
-use crate::part::Part;
 use crate::plan::Plan;
+use crate::subresource::Subresource;
 use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ impl Dump {
     ///
     /// # Errors
     /// [`Error::Dump`] where the text is no dump, or one of another schema.
-    pub fn of_json(json: &str) -> Result<Self, Error> {
+    pub fn from_json(json: &str) -> Result<Self, Error> {
         let dump =
             serde_json::from_str(json).map_err(|error| no_dump(&format!("it is not JSON: {error}")))?;
         Self::of_value(&dump)
@@ -164,14 +164,18 @@ fn resource_words(resource: &Value) -> Option<String> {
 /// What is done with which part, what becomes of the earlier contents, and the version that is found or made.
 fn access_words(access: &Value) -> Option<String> {
     let label = Access::deserialize(access.get("access")?).ok()?.label();
-    let part = Part::deserialize(access.get("part")?).ok()?;
-    let part = if part == Part::WHOLE { String::new() } else { format!(" of {}", part.words()) };
+    let subresource = Subresource::deserialize(access.get("part")?).ok()?;
+    let subresource = if subresource == Subresource::FULL {
+        String::new()
+    } else {
+        format!(" of {}", subresource.to_string())
+    };
     let version = access.get("version")?.as_u64()?;
     let contents = match access.get("contents")? {
-        Value::Null => return Some(format!("{label}{part}, version {version}")),
+        Value::Null => return Some(format!("{label}{subresource}, version {version}")),
         Value::String(contents) if contents == "Cover" => "covers",
         Value::String(_) => "keeps",
         _ => "clears",
     };
-    Some(format!("{label}{part}, {contents}, makes version {}", version + 1))
+    Some(format!("{label}{subresource}, {contents}, makes version {}", version + 1))
 }

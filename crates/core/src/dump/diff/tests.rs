@@ -13,13 +13,13 @@ fn plan(blur: bool) -> Plan {
             let mut blurred = frame.create_texture("blurred", TextureDesc::d2(64, 64, Format::Rgba16Float));
             let mut pass = frame.render_pass("blur");
             pass.sample(&scene);
-            pass.color(&mut blurred, Contents::Cover);
+            pass.color(&mut blurred, Contents::Overwrite);
             scene = blurred;
         });
     }
     let mut tonemap = frame.render_pass("tonemap");
     tonemap.sample(&scene);
-    tonemap.color(&mut picture, Contents::Cover);
+    tonemap.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     frame.compile().unwrap().into_plan()
 }
@@ -113,7 +113,7 @@ fn what_is_no_dump_is_refused_with_the_way_out() {
         (r#"{"schema": 1}"#, "schema 1, and 3 is read: write it anew"),
         (r#"{"schema": 3, "plan": {}}"#, "a part of it is missing"),
     ] {
-        let error = Dump::of_json(bad).unwrap_err().to_string();
+        let error = Dump::from_json(bad).unwrap_err().to_string();
         assert!(error.contains(why) && error.lines().count() == 1, "{error}");
     }
 }

@@ -25,7 +25,7 @@ impl Plan {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoSuchName`], with names that are like it.
+    /// [`Error::UnknownName`], with names that are like it.
     pub fn explain(&self, name: &str) -> Result<String, Error> {
         let passes = self.passes_named(name).into_iter().map(|id| self.explain_pass(id));
         let resources = self.resources_named(name).into_iter().map(|id| self.explain_resource(id));
@@ -44,7 +44,8 @@ impl Plan {
         };
         let (first, second) = (named(before)?, named(after)?);
         let pairs = first.iter().flat_map(|&first| second.iter().map(move |&second| (first, second)));
-        let pages: Vec<String> = pairs.map(|(first, second)| self.why_before_words(first, second)).collect();
+        let pages: Vec<String> =
+            pairs.map(|(first, second)| self.explain_why_before(first, second)).collect();
         Ok(pages.join("\n"))
     }
 
@@ -66,7 +67,7 @@ impl Plan {
     }
 
     fn no_such_name(&self, name: &str) -> Error {
-        let refused = |hint: String| Error::NoSuchName { name: name.into(), hint };
+        let refused = |hint: String| Error::UnknownName { name: name.into(), hint };
         // Asked for as a pass.
         if !self.resources_named(name).is_empty() {
             return refused(" that is a pass: it is a resource, and an order is one of passes".into());

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::dump::places::Places;
 use crate::handle::PassId;
-use crate::plan::{Dependency, PlaceReason, Plan};
+use crate::plan::{Dependency, OrderReason, Plan};
 
 impl Plan {
     /// Says why `before` runs before `after`: the shortest chain of dependencies from one to the other, a line each,
@@ -19,18 +19,18 @@ impl Plan {
     /// let draw = draw.id();
     /// let mut tonemap = frame.render_pass("tonemap");
     /// tonemap.sample(&scene);
-    /// tonemap.color(&mut picture, Contents::Cover);
+    /// tonemap.color(&mut picture, Contents::Overwrite);
     /// let tonemap = tonemap.id();
     /// frame.export_texture(&picture);
-    /// let why = frame.compile()?.plan().why_before_words(draw, tonemap);
+    /// let why = frame.compile()?.plan().explain_why_before(draw, tonemap);
     /// assert!(why.contains("`tonemap` needs what `draw` wrote to `scene`"));
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
-    pub fn why_before_words(&self, before: PassId, after: PassId) -> String {
+    pub fn explain_why_before(&self, before: PassId, after: PassId) -> String {
         let (first, second) = (self.pass_path(before), self.pass_path(after));
         for (pass, path) in [(before, &first), (after, &second)] {
             if let Some(reason) = self.pass(pass).culled {
-                return Page::new(&format!("`{path}` does not run: {}", self.cull_words(reason))).0;
+                return Page::new(&format!("`{path}` does not run: {}", self.describe_cull(reason))).0;
             }
         }
         if before == after {
@@ -46,32 +46,32 @@ impl Plan {
         let at = |pass| places.get(pass).map(|place| place.order);
         let (early, late) = if at(before) < at(after) { (before, after) } else { (after, before) };
         let mut page = Page::new(&format!("nothing orders `{first}` and `{second}`"));
-        page.line(1, &format!("`{}` runs first: {}", self.pass_path(early), self.chance(early, late)));
+        page.line(1, &format!("`{}` runs first: {}", self.pass_path(early), self.nearest_order(early, late)));
         page.0
     }
 
     /// Why `early` was taken while `late` was not, though nothing orders them.
-    fn chance(&self, early: PassId, late: PassId) -> String {
+    fn nearest_order(&self, early: PassId, late: PassId) -> String {
         let places = Places::of(self);
         let at = |pass| places.get(pass).map(|place| place.order);
-        let reason = self.placement(early);
+        let reason = self.order_reason(early);
         let chosen = !matches!(
             reason,
-            Some(PlaceReason::Fixed | PlaceReason::DeclarationNeedsLess | PlaceReason::BackwardsNeedsLess)
+            Some(OrderReason::Fixed | OrderReason::DeclarationNeedsLess | OrderReason::BackwardsNeedsLess)
         );
         let undone = self.waits_for(late).iter().map(|d| d.before).filter(|&pass| at(pass) > at(early)).min();
         match (undone, reason) {
             (Some(pass), _) if chosen => {
                 format!("`{}` was still waiting for `{}`", self.pass_path(late), self.pass_path(pass))
             }
-            (_, reason) => reason.map(|reason| self.place_words(reason)).unwrap_or_default(),
+            (_, reason) => reason.map(|reason| self.describe_order(reason)).unwrap_or_default(),
         }
     }
 
     fn chain(&self, heading: &str, chain: &[Dependency]) -> String {
         let mut page = Page::new(heading);
         for dependency in chain {
-            page.line(1, &self.dependency_sentence(dependency));
+            page.line(1, &self.explain_dependency(dependency));
         }
         page.0
     }

@@ -23,25 +23,25 @@ impl Plan {
     /// ```
     pub fn explain_pass(&self, id: PassId) -> String {
         let pass = self.pass(id);
-        let mut page = Page::new(&format!("{} pass `{}`", pass.kind.word(), self.pass_path(id)));
+        let mut page = Page::new(&format!("{} pass `{}`", pass.kind.as_str(), self.pass_path(id)));
         match (pass.culled, Places::of(self).get(id)) {
-            (Some(reason), _) => page.line(1, &format!("does not run: {}", self.cull_words(reason))),
-            (None, Some(place)) => self.explain_place(&mut page, id, place),
+            (Some(reason), _) => page.line(1, &format!("does not run: {}", self.describe_cull(reason))),
+            (None, Some(place)) => self.write_position(&mut page, id, place),
             (None, None) => {}
         }
         for access in self.accesses(id) {
-            self.explain_access(&mut page, id, &access);
+            self.write_pass_access(&mut page, id, &access);
         }
         page.0
     }
 
-    fn explain_place(&self, page: &mut Page, id: PassId, place: Place) {
-        page.line(1, &format!("runs: {}", self.alive_sentence(id)));
+    fn write_position(&self, page: &mut Page, id: PassId, place: Place) {
+        page.line(1, &format!("runs: {}", self.explain_live(id)));
         let last = self.steps().len().saturating_sub(1);
-        let reason = self.place_words(self.placed[place.order]);
+        let reason = self.describe_order(self.order_reasons[place.order]);
         page.line(1, &format!("step {} (0 to {last}): {reason}", place.step));
         let what = if place.within > 0 { "merged with the pass before it" } else { "not merged" };
-        page.line(1, &format!("{what}: {}", self.merge_sentence(place.order)));
+        page.line(1, &format!("{what}: {}", self.explain_merge(place.order)));
         if place.passes > 1 {
             let number = place.within + 1;
             page.line(1, &format!("pass {number} of {} in this render pass", place.passes));
@@ -49,17 +49,20 @@ impl Plan {
         // Who wrote what is read stands with the accesses.
         for dependency in self.waits_for(id) {
             if dependency.kind != DependencyKind::ReadAfterWrite {
-                page.line(1, &format!("waits: {}", self.dependency_sentence(dependency)));
+                page.line(1, &format!("waits: {}", self.explain_dependency(dependency)));
             }
         }
     }
 
-    fn explain_access(&self, page: &mut Page, pass: PassId, access: &AccessPlan) {
+    fn write_pass_access(&self, page: &mut Page, pass: PassId, access: &AccessPlan) {
         let name = self.resource(access.resource).name;
-        let part =
-            if access.part == crate::Part::WHOLE { String::new() } else { access.part.words() + " of " };
+        let subresource = if access.subresource == crate::Subresource::FULL {
+            String::new()
+        } else {
+            access.subresource.to_string() + " of "
+        };
         let (verb, role) = verb(access.access);
-        let mut line = format!("{verb} {part}`{name}`{role}");
+        let mut line = format!("{verb} {subresource}`{name}`{role}");
         if self.pass(pass).culled.is_none() {
             let note = self.access_note(pass, access, 70);
             line += if note.is_empty() { "" } else { ": " };
@@ -67,12 +70,12 @@ impl Plan {
         }
         page.line(1, &line);
         let Some(ops) = &access.ops else { return };
-        let (action, reason) = self.load_sentence(access, ops);
+        let (action, reason) = self.explain_load(access, ops);
         page.line(2, &format!("{action}: {reason}"));
-        if let Some((action, reason)) = self.clear_drawn_sentence(access, ops) {
+        if let Some((action, reason)) = self.explain_drawn_clear(access, ops) {
             page.line(2, &format!("{action}: {reason}"));
         }
-        let (action, reason) = self.store_sentence(pass, access, ops);
+        let (action, reason) = self.explain_store(pass, access, ops);
         page.line(2, &format!("{action}: {reason}"));
     }
 }

@@ -28,11 +28,11 @@ impl Plan {
         let size = bytes(resource.desc.bytes());
         let mut page = Page::new(&format!("`{}`: {}, {size}", self.resource_path(id), shape(&resource.desc)));
         page.line(1, self.origin_words(id));
-        self.explain_versions(&mut page, id);
+        self.write_versions(&mut page, id);
         for usage in self.usages(id) {
             page.line(1, &usage);
         }
-        self.explain_slot(&mut page, id);
+        self.write_slot(&mut page, id);
         page.0
     }
 
@@ -55,13 +55,16 @@ impl Plan {
     }
 
     /// Writers and readers, in order of declaration. What makes version 1 is the first write.
-    fn explain_versions(&self, page: &mut Page, id: ResourceId) {
+    fn write_versions(&self, page: &mut Page, id: ResourceId) {
         for (pass, _) in self.passes() {
             for access in self.accesses(pass).filter(|access| access.resource == id) {
                 let (verb, role) = verb(access.access);
-                let part = access.part.words();
-                let part =
-                    if access.part == crate::Part::WHOLE { String::new() } else { format!(", {part}") };
+                let subresource = access.subresource.to_string();
+                let subresource = if access.subresource == crate::Subresource::FULL {
+                    String::new()
+                } else {
+                    format!(", {subresource}")
+                };
                 let at = if access.access.writes() {
                     format!("version {}", access.version + 1)
                 } else {
@@ -69,7 +72,7 @@ impl Plan {
                 };
                 let culled = if self.pass(pass).culled.is_some() { " (culled)" } else { "" };
                 let path = self.pass_path(pass);
-                page.line(1, &format!("{at}{part}: `{path}` {verb} it{role}{culled}"));
+                page.line(1, &format!("{at}{subresource}: `{path}` {verb} it{role}{culled}"));
             }
         }
     }
@@ -109,17 +112,17 @@ impl Plan {
         Some(format!("`{}` {verb} it{role}", self.pass_path(pass)))
     }
 
-    fn explain_slot(&self, page: &mut Page, id: ResourceId) {
+    fn write_slot(&self, page: &mut Page, id: ResourceId) {
         let resource = self.resource(id);
         let steps = steps(&resource);
         let Some(slot) = resource.slot else {
-            page.line(1, &format!("no slot: {}", self.slot_sentence(id)));
+            page.line(1, &format!("no slot: {}", self.explain_slot(id)));
             return;
         };
-        page.line(1, &format!("slot {}, {steps}: {}", slot.index(), self.slot_sentence(id)));
+        page.line(1, &format!("slot {}, {steps}: {}", slot.index(), self.explain_slot(id)));
         let Some(plan) = self.slots().nth(slot.index()) else { return };
         let others: Vec<String> =
-            plan.tenants.iter().filter(|&&r| r != id).map(|&r| quoted(self.resource(r).name)).collect();
+            plan.resources.iter().filter(|&&r| r != id).map(|&r| quoted(self.resource(r).name)).collect();
         if !others.is_empty() {
             page.line(1, &format!("shares the slot with {}", list(&others, 70)));
         }

@@ -1,13 +1,13 @@
 //! What the page's script draws: indices, and each sentence once.
 
-use super::picture::{Drawing, PictureData};
+use super::snapshot::{Drawing, SnapshotData};
 use super::{HtmlPage, PageTable};
 use crate::desc::ResourceDesc;
 use crate::dump::places::Places;
 use crate::dump::words::{shape, verb};
 use crate::handle::{PassId, ResourceId};
-use crate::part::Part;
 use crate::plan::{AccessPlan, DependencyKind, NodePlan, Plan};
+use crate::subresource::Subresource;
 use crate::times::PassTime;
 use serde::Serialize;
 use wgpu_types::TextureUsages;
@@ -26,7 +26,7 @@ pub(super) struct FrameData<'p> {
     edges: Vec<EdgeData>,
     tables: &'p [PageTable],
     drawings: &'p [Drawing],
-    pictures: Vec<PictureData<'p>>,
+    pictures: Vec<SnapshotData<'p>>,
 }
 
 #[derive(Serialize)]
@@ -62,8 +62,8 @@ struct AccessData {
     /// The words before the resource's name and those after it.
     does: &'static str,
     r#as: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    part: Option<String>,
+    #[serde(rename = "part", skip_serializing_if = "Option::is_none")]
+    subresource: Option<String>,
     version: u32,
     writes: bool,
     /// What was there matters.
@@ -99,7 +99,7 @@ struct SlotData<'p> {
     shape: String,
     bytes: u64,
     transient: bool,
-    tenants: &'p [ResourceId],
+    resources: &'p [ResourceId],
 }
 
 #[derive(Serialize)]
@@ -121,14 +121,14 @@ impl<'p> FrameData<'p> {
             shape: shape(&slot.desc),
             bytes: slot.desc.bytes(),
             transient: slot.texture_usage.contains(TextureUsages::TRANSIENT_ATTACHMENT),
-            tenants: slot.tenants,
+            resources: slot.resources,
         };
         let edge = |d: &crate::Dependency| EdgeData {
             before: d.before,
             after: d.after,
             resource: d.resource,
             kind: d.kind,
-            why: plan.dependency_sentence(d),
+            why: plan.explain_dependency(d),
         };
         Self {
             summary: plan.summary(),
@@ -140,7 +140,7 @@ impl<'p> FrameData<'p> {
             edges: plan.dependencies().iter().map(edge).collect(),
             tables: &page.tables,
             drawings: &page.drawings,
-            pictures: page.pictures.iter().map(|picture| PictureData::of(plan, picture)).collect(),
+            pictures: page.snapshots.iter().map(|snapshot| SnapshotData::new(plan, snapshot)).collect(),
         }
     }
 }
@@ -154,19 +154,19 @@ impl Plan {
         PassData {
             name: pass.name,
             node: pass.node.map(|node| node.0),
-            kind: pass.kind.word(),
+            kind: pass.kind.as_str(),
             keep: pass.keep,
-            culled: pass.culled.map(|reason| self.cull_words(reason)),
-            alive: place.map(|_| self.alive_sentence(id)),
+            culled: pass.culled.map(|reason| self.describe_cull(reason)),
+            alive: place.map(|_| self.explain_live(id)),
             place: place.map(|place| PlaceData {
                 order: place.order,
                 step: place.step,
                 within: place.within,
                 of: place.passes,
-                why: self.place_words(self.placed[place.order]),
-                merged: self.merge_sentence(place.order),
+                why: self.describe_order(self.order_reasons[place.order]),
+                merged: self.explain_merge(place.order),
             }),
-            waits: waits.map(|dependency| self.dependency_sentence(dependency)).collect(),
+            waits: waits.map(|dependency| self.explain_dependency(dependency)).collect(),
             accesses: self.accesses(id).map(|access| self.access_data(id, &access)).collect(),
             time,
         }
@@ -180,15 +180,15 @@ impl Plan {
             resource: access.resource.0,
             does,
             r#as,
-            part: (access.part != Part::WHOLE).then(|| access.part.words()),
+            subresource: (access.subresource != Subresource::FULL).then(|| access.subresource.to_string()),
             version: access.version,
             writes: access.access.writes(),
             keeps: access.contents.is_none_or(|contents| contents.preserves()),
             covers: access.contents.is_some_and(|contents| !contents.preserves()),
             note: if runs { self.access_note(pass, access, NOTE) } else { String::new() },
-            load: ops.map(|ops| self.load_sentence(access, ops)),
-            clear: ops.and_then(|ops| self.clear_drawn_sentence(access, ops)),
-            store: ops.map(|ops| self.store_sentence(pass, access, ops)),
+            load: ops.map(|ops| self.explain_load(access, ops)),
+            clear: ops.and_then(|ops| self.explain_drawn_clear(access, ops)),
+            store: ops.map(|ops| self.explain_store(pass, access, ops)),
         }
     }
 
@@ -204,7 +204,7 @@ impl Plan {
             usages: self.usages(id),
             steps: resource.steps,
             slot: resource.slot.map(|slot| slot.0),
-            home: self.slot_sentence(id),
+            home: self.explain_slot(id),
         }
     }
 }

@@ -12,8 +12,8 @@ pub(super) struct Reason {
     pass: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     resource: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    part: Option<String>,
+    #[serde(rename = "part", skip_serializing_if = "Option::is_none")]
+    subresource: Option<String>,
     /// Which decision.
     decision: &'static str,
     /// What was decided.
@@ -28,7 +28,7 @@ impl Plan {
         let mut reasons = Vec::new();
         for (id, pass) in self.passes() {
             if let Some(culled) = pass.culled {
-                let because = self.cull_words(culled);
+                let because = self.describe_cull(culled);
                 reasons.push(self.of_pass(id, "culled", "does not run".into(), because));
             }
             if let Some(place) = places.get(id) {
@@ -43,14 +43,21 @@ impl Plan {
     }
 
     fn of_pass(&self, pass: PassId, decision: &'static str, action: String, because: String) -> Reason {
-        Reason { pass: Some(self.pass_path(pass)), resource: None, part: None, decision, action, because }
+        Reason {
+            pass: Some(self.pass_path(pass)),
+            resource: None,
+            subresource: None,
+            decision,
+            action,
+            because,
+        }
     }
 
     fn push_place(&self, reasons: &mut Vec<Reason>, id: PassId, place: Place) {
-        let because = self.place_words(self.placed[place.order]);
+        let because = self.describe_order(self.order_reasons[place.order]);
         reasons.push(self.of_pass(id, "placed", format!("step {}", place.step), because));
         let action = if place.within > 0 { "same render pass" } else { "not merged" };
-        reasons.push(self.of_pass(id, "merged", action.into(), self.merge_sentence(place.order)));
+        reasons.push(self.of_pass(id, "merged", action.into(), self.explain_merge(place.order)));
     }
 
     fn push_ops(&self, reasons: &mut Vec<Reason>, pass: PassId, access: &AccessPlan) {
@@ -58,14 +65,15 @@ impl Plan {
         let of_access = |decision, (action, because)| Reason {
             pass: Some(self.pass_path(pass)),
             resource: Some(self.resource_path(access.resource)),
-            part: (access.part != crate::Part::WHOLE).then(|| access.part.words()),
+            subresource: (access.subresource != crate::Subresource::FULL)
+                .then(|| access.subresource.to_string()),
             decision,
             action,
             because,
         };
-        reasons.push(of_access("load", self.load_sentence(access, ops)));
-        reasons.extend(self.clear_drawn_sentence(access, ops).map(|words| of_access("clear drawn", words)));
-        let (action, because) = self.store_sentence(pass, access, ops);
+        reasons.push(of_access("load", self.explain_load(access, ops)));
+        reasons.extend(self.explain_drawn_clear(access, ops).map(|words| of_access("clear drawn", words)));
+        let (action, because) = self.explain_store(pass, access, ops);
         reasons.push(of_access("store", (action.to_owned(), because)));
     }
 
@@ -80,10 +88,10 @@ impl Plan {
         Reason {
             pass: None,
             resource: Some(self.resource_path(id)),
-            part: None,
+            subresource: None,
             decision: "slot",
             action,
-            because: self.slot_sentence(id),
+            because: self.explain_slot(id),
         }
     }
 }

@@ -40,14 +40,14 @@ impl Plan {
             place.step,
             if joins { '+' } else { ' ' },
             clip(pass.name, 32),
-            pass.kind.word(),
-            self.place_words(self.placed[place.order]),
+            pass.kind.as_str(),
+            self.describe_order(self.order_reasons[place.order]),
         );
-        let merge = self.merges[place.order];
+        let merge = self.merge_reasons[place.order];
         let plain = matches!(merge, MergeReason::First | MergeReason::Kind(_) | MergeReason::Off);
         if pass.kind == PassKind::Render && !plain {
             let what = if joins { "same render pass" } else { "own render pass" };
-            let _ = writeln!(out, "         {what}: {}", self.merge_sentence(place.order));
+            let _ = writeln!(out, "         {what}: {}", self.explain_merge(place.order));
         }
         if pass.keep {
             let _ = writeln!(out, "         kept, whether or not anything needs what it writes");
@@ -61,8 +61,8 @@ impl Plan {
         let writes = access.access.writes();
         let (arrow, version) = if writes { ("->", access.version + 1) } else { ("<-", access.version) };
         let mut tail = format!(" v{version}");
-        if access.part != crate::Part::WHOLE {
-            let _ = write!(tail, ", {}", access.part.words());
+        if access.subresource != crate::Subresource::FULL {
+            let _ = write!(tail, ", {}", access.subresource.to_string());
         }
         let name = self.resource(access.resource).name;
         let name = clip(name, NAME.saturating_sub(tail.chars().count()).max(12)) + &tail;
@@ -79,17 +79,17 @@ impl Plan {
     fn write_ops(&self, out: &mut String, pass: PassId, access: &AccessPlan) {
         let Some(ops) = &access.ops else { return };
         if ops.load != LoadAction::Continue {
-            let (action, reason) = self.load_sentence(access, ops);
+            let (action, reason) = self.explain_load(access, ops);
             let _ = writeln!(out, "              {action}: {reason}");
         }
-        if let Some((action, reason)) = self.clear_done_sentence(access, ops) {
+        if let Some((action, reason)) = self.explain_done_clear(access, ops) {
             let _ = writeln!(out, "              {action}: {reason}");
         }
-        if let Some((action, reason)) = self.clear_drawn_sentence(access, ops) {
+        if let Some((action, reason)) = self.explain_drawn_clear(access, ops) {
             let _ = writeln!(out, "              {action}: {reason}");
         }
         if ops.store != StoreAction::Continue {
-            let (action, reason) = self.store_sentence(pass, access, ops);
+            let (action, reason) = self.explain_store(pass, access, ops);
             let _ = writeln!(out, "              {action}: {reason}");
         }
     }

@@ -14,17 +14,17 @@ impl Plan {
         }
         out.push_str("\nresources by slot, which those in it take turns in\n");
         for (index, slot) in self.slots().enumerate() {
-            let why = slot.tenants.first().map(|&first| self.slot_sentence(first)).unwrap_or_default();
+            let why = slot.resources.first().map(|&first| self.explain_slot(first)).unwrap_or_default();
             write_home(out, &format!("slot {index}"), &slot.desc, &bytes(slot.desc.bytes()), &why);
-            for &tenant in slot.tenants {
-                self.write_tenant(out, tenant);
+            for &resource in slot.resources {
+                self.write_slot_resource(out, resource);
             }
         }
         let is = |kind: fn(Origin) -> bool| self.resources().filter(move |(_, r)| kind(r.origin));
         for (id, resource) in is(|origin| matches!(origin, Origin::Imported { .. })) {
             let size = bytes(resource.desc.bytes());
             write_home(out, "import", &resource.desc, &size, "it belongs to the caller");
-            self.write_tenant(out, id);
+            self.write_slot_resource(out, id);
         }
         for (id, resource) in is(|origin| matches!(origin, Origin::Previous { .. } | Origin::Current { .. }))
         {
@@ -33,12 +33,12 @@ impl Plan {
                 let why = "the graph keeps two and swaps them each frame";
                 write_home(out, &format!("history {history}"), &resource.desc, &size, why);
             }
-            self.write_tenant(out, id);
+            self.write_slot_resource(out, id);
         }
         self.write_unused(out);
     }
 
-    fn write_tenant(&self, out: &mut String, id: ResourceId) {
+    fn write_slot_resource(&self, out: &mut String, id: ResourceId) {
         let resource = self.resource(id);
         let _ = writeln!(
             out,
@@ -46,17 +46,17 @@ impl Plan {
             clip(resource.name, 24),
             steps(&resource),
             usage(&resource),
-            self.tenant_notes(id, &resource).join("; "),
+            self.resource_notes(id, &resource).join("; "),
         );
     }
 
-    fn tenant_notes(&self, id: ResourceId, resource: &ResourcePlan<'_>) -> Vec<String> {
+    fn resource_notes(&self, id: ResourceId, resource: &ResourcePlan<'_>) -> Vec<String> {
         let mut notes = Vec::new();
         if resource.exported {
             notes.push("exported".into());
         }
         if let SlotReason::After(_) = resource.slot_reason {
-            notes.push(self.slot_sentence(id));
+            notes.push(self.explain_slot(id));
         }
         if let (ResourceDesc::Buffer(own), Some(slot)) = (resource.desc, resource.slot)
             && own.bytes != self.slots[slot.index()].desc.bytes()
@@ -71,7 +71,7 @@ impl Plan {
         let unused = |r: &ResourcePlan<'_>| of_frame(r.origin) && r.slot.is_none();
         let mut unused = self.resources().filter(|(_, r)| unused(r)).peekable();
         if let Some((id, _)) = unused.peek() {
-            let _ = writeln!(out, "  no slot: {}", self.slot_sentence(*id));
+            let _ = writeln!(out, "  no slot: {}", self.explain_slot(*id));
         }
         for (_, resource) in unused {
             let _ = writeln!(out, "    {:<24} {}", clip(resource.name, 24), shape(&resource.desc));

@@ -10,7 +10,7 @@ const NAMES: usize = 70;
 
 impl Plan {
     /// Says why a pass does not run.
-    pub fn cull_words(&self, reason: CullReason) -> String {
+    pub fn describe_cull(&self, reason: CullReason) -> String {
         match reason {
             CullReason::WritesNothing => "it writes nothing and is not kept".into(),
             CullReason::Unread(resource) => format!("nothing reads `{}`", self.resource(resource).name),
@@ -28,7 +28,7 @@ impl Plan {
     }
 
     /// Says why a pass runs: who needs what it writes.
-    pub(in crate::dump) fn alive_sentence(&self, pass: PassId) -> String {
+    pub(in crate::dump) fn explain_live(&self, pass: PassId) -> String {
         if self.pass(pass).keep {
             return "it is kept, whether or not anything needs what it writes".into();
         }
@@ -55,7 +55,7 @@ impl Plan {
         let needs = |other: PassId| {
             self.accesses(other).any(|a| {
                 let needs = a.contents.is_none_or(|contents| contents.preserves());
-                needs && a.resource == access.resource && a.area.overlaps(&access.area)
+                needs && a.resource == access.resource && a.region.overlaps(&access.region)
             })
         };
         let of = |d: &&crate::Dependency| {

@@ -6,7 +6,7 @@ use crate::plan::{AccessPlan, MergeReason, Plan};
 
 impl Plan {
     /// Says why a pass was merged into the render pass before it, or why not.
-    pub fn merge_words(&self, reason: MergeReason) -> String {
+    pub fn describe_merge(&self, reason: MergeReason) -> String {
         let name = |resource| self.resource(resource).name;
         match reason {
             MergeReason::First => "it is the first pass of the frame".into(),
@@ -31,13 +31,13 @@ impl Plan {
     }
 
     /// Says the same of the pass at `place` in the order, and which attachment makes the difference.
-    pub(in crate::dump) fn merge_sentence(&self, place: usize) -> String {
-        let reason = self.merges[place];
+    pub(in crate::dump) fn explain_merge(&self, place: usize) -> String {
+        let reason = self.merge_reasons[place];
         match (reason, place.checked_sub(1)) {
             (MergeReason::Attachments, Some(before)) => self
                 .difference(self.order[place], self.order[before])
-                .unwrap_or_else(|| self.merge_words(reason)),
-            _ => self.merge_words(reason),
+                .unwrap_or_else(|| self.describe_merge(reason)),
+            _ => self.describe_merge(reason),
         }
     }
 
@@ -67,7 +67,7 @@ impl Plan {
 }
 
 fn alike(a: &AccessPlan, b: &AccessPlan) -> bool {
-    a.access == b.access && a.area.without_rect() == b.area.without_rect()
+    a.access == b.access && a.region.without_rect() == b.region.without_rect()
 }
 
 fn verb(access: &AccessPlan) -> &'static str {
@@ -84,7 +84,7 @@ fn otherwise(access: &AccessPlan, other: &AccessPlan, name: &str, path: &str) ->
             format!("it writes `{name}`, which `{path}` only tests against")
         }
         (a, b) if a == b => {
-            let (own, others) = (access.part.words(), other.part.words());
+            let (own, others) = (access.subresource.to_string(), other.subresource.to_string());
             format!("it draws into {own} of `{name}`, `{path}` into {others}")
         }
         _ => format!("it attaches `{name}` in another place than `{path}`"),

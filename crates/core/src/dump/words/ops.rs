@@ -7,7 +7,7 @@ use crate::plan::{AccessPlan, AttachmentOps, LoadAction, LoadReason, Plan, Store
 
 impl Plan {
     /// Says what an attachment holds when the pass begins, and why.
-    pub fn load_words(&self, ops: &AttachmentOps) -> (String, String) {
+    pub fn describe_load(&self, ops: &AttachmentOps) -> (String, String) {
         let action = match ops.load {
             LoadAction::Clear(value) => clear(value),
             LoadAction::Load => "load".into(),
@@ -15,7 +15,7 @@ impl Plan {
         };
         let reason = match ops.load_reason {
             LoadReason::Declared => "the pass clears it".into(),
-            LoadReason::Covered => "the pass covers it, and clearing costs less than loading".into(),
+            LoadReason::Overwritten => "the pass covers it, and clearing costs less than loading".into(),
             LoadReason::Preserves(pass) => format!("the pass keeps what `{}` wrote", self.pass_path(pass)),
             LoadReason::PreservesImport => "the pass keeps what was there when the frame began".into(),
             LoadReason::RestUnneeded => {
@@ -29,7 +29,7 @@ impl Plan {
     }
 
     /// Says what becomes of an attachment when the pass ends, and why.
-    pub fn store_words(&self, ops: &AttachmentOps) -> (&'static str, String) {
+    pub fn describe_store(&self, ops: &AttachmentOps) -> (&'static str, String) {
         let action = match ops.store {
             StoreAction::Store => "store",
             StoreAction::Discard => "discard",
@@ -49,33 +49,29 @@ impl Plan {
         (action, reason)
     }
 
-    /// [`load_words`](Self::load_words) of an access, which may be of a part.
-    pub(in crate::dump) fn load_sentence(
-        &self,
-        access: &AccessPlan,
-        ops: &AttachmentOps,
-    ) -> (String, String) {
-        let (action, reason) = self.load_words(ops);
-        let in_part = access.area != access.area.without_rect();
+    /// [`describe_load`](Self::describe_load) of an access, which may be of a part.
+    pub(in crate::dump) fn explain_load(&self, access: &AccessPlan, ops: &AttachmentOps) -> (String, String) {
+        let (action, reason) = self.describe_load(ops);
+        let in_part = access.region != access.region.without_rect();
         match ops.load_reason {
             LoadReason::Declared if in_part => {
                 (action, "the pass clears its part, and nothing needs what the rest held".into())
             }
-            LoadReason::Merged if self.clear_done_sentence(access, ops).is_some() => {
+            LoadReason::Merged if self.explain_done_clear(access, ops).is_some() => {
                 (action, "the render pass goes on from the pass before, and began with this clear".into())
             }
             _ => (action, reason),
         }
     }
 
-    /// [`store_words`](Self::store_words) of an access, which may be resolved.
-    pub(in crate::dump) fn store_sentence(
+    /// [`describe_store`](Self::describe_store) of an access, which may be resolved.
+    pub(in crate::dump) fn explain_store(
         &self,
         pass: PassId,
         access: &AccessPlan,
         ops: &AttachmentOps,
     ) -> (&'static str, String) {
-        let (action, reason) = self.store_words(ops);
+        let (action, reason) = self.describe_store(ops);
         match (ops.store_reason, access.access) {
             (StoreReason::LastUse, Access::Color(index))
                 if self.accesses(pass).any(|a| a.access == Access::Resolve(index)) =>
@@ -87,7 +83,7 @@ impl Plan {
     }
 
     /// Says by what a pass inside a render pass got its clear where nothing is drawn for it.
-    pub(in crate::dump) fn clear_done_sentence(
+    pub(in crate::dump) fn explain_done_clear(
         &self,
         access: &AccessPlan,
         ops: &AttachmentOps,
@@ -98,7 +94,7 @@ impl Plan {
     }
 
     /// Says what the graph draws before the pass, in place of a load operation, and why.
-    pub(in crate::dump) fn clear_drawn_sentence(
+    pub(in crate::dump) fn explain_drawn_clear(
         &self,
         access: &AccessPlan,
         ops: &AttachmentOps,

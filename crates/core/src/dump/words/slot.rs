@@ -7,7 +7,7 @@ use wgpu_types::TextureUsages;
 
 impl Plan {
     /// Says why a resource lives where it does.
-    pub fn slot_words(&self, reason: SlotReason) -> String {
+    pub fn describe_slot(&self, reason: SlotReason) -> String {
         match reason {
             SlotReason::FirstOfClass => "it is in the first slot of its kind".into(),
             SlotReason::AllBusy(other) => {
@@ -17,8 +17,8 @@ impl Plan {
         }
     }
 
-    /// [`slot_words`](Self::slot_words) of a resource, with the kind of slot that it needs.
-    pub(in crate::dump) fn slot_sentence(&self, id: ResourceId) -> String {
+    /// [`describe_slot`](Self::describe_slot) of a resource, with the kind of slot that it needs.
+    pub(in crate::dump) fn explain_slot(&self, id: ResourceId) -> String {
         let (slot, shape) = self.slot_kind(id);
         match self.resource(id).slot_reason {
             SlotReason::FirstOfClass => format!("the first {slot} of its {shape}"),
@@ -35,7 +35,7 @@ impl Plan {
             SlotReason::Imported => "it belongs to the caller".into(),
             SlotReason::History => "it is one half of a history".into(),
             SlotReason::After(other) => format!("takes over from `{}`", self.resource(other).name),
-            SlotReason::FirstOfClass | SlotReason::AllBusy(_) => self.slot_words(reason),
+            SlotReason::FirstOfClass | SlotReason::AllBusy(_) => self.describe_slot(reason),
         }
     }
 

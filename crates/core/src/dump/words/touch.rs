@@ -4,8 +4,8 @@ use super::{list, quoted};
 use crate::access::{Access, Contents};
 use crate::declaration::{CopyOp, Origin, PassKind};
 use crate::handle::PassId;
-use crate::part::AreaSet;
 use crate::plan::{AccessPlan, Dependency, DependencyKind, Plan};
+use crate::subresource::RegionSet;
 
 impl PassKind {
     /// `a render pass`.
@@ -25,7 +25,7 @@ impl Access {
         match self {
             Self::Color(index) => format!("color {index}"),
             Self::Resolve(index) => format!("resolve {index}"),
-            other => other.word().into(),
+            other => other.as_str().into(),
         }
     }
 }
@@ -62,8 +62,9 @@ impl Plan {
     /// The passes that wrote what the access finds.
     pub(in crate::dump) fn writers(&self, pass: PassId, access: &AccessPlan) -> Vec<PassId> {
         let writes = |other: PassId| {
-            self.accesses(other)
-                .any(|a| a.access.writes() && a.resource == access.resource && a.area.overlaps(&access.area))
+            self.accesses(other).any(|a| {
+                a.access.writes() && a.resource == access.resource && a.region.overlaps(&access.region)
+            })
         };
         let of = |d: &&Dependency| {
             d.kind == DependencyKind::ReadAfterWrite
@@ -78,10 +79,10 @@ impl Plan {
     /// Who wrote what the access finds, in about so many columns.
     pub(in crate::dump) fn source_words(&self, pass: PassId, access: &AccessPlan, columns: usize) -> String {
         let writers = self.writers(pass, access);
-        let mut left = AreaSet::from_area(access.area);
+        let mut left = RegionSet::from_region(access.region);
         for written in writers.iter().flat_map(|&writer| self.accesses(writer)) {
             if written.access.writes() && written.resource == access.resource {
-                left.subtract(&written.area);
+                left.subtract(&written.region);
             }
         }
         let before = match self.resource(access.resource).origin {
@@ -116,7 +117,7 @@ impl Plan {
                     source => format!("keeps what {source} wrote"),
                 }
             }
-            (_, Some(Contents::Cover)) if access.ops.is_none() => "covers it".into(),
+            (_, Some(Contents::Overwrite)) if access.ops.is_none() => "covers it".into(),
             _ => String::new(),
         }
     }

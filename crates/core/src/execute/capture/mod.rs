@@ -9,12 +9,12 @@ use crate::compile::capturing;
 use crate::compiled::Compiled;
 use crate::declaration::AccessDecl;
 use crate::desc::{ResourceDesc, TextureDesc};
-use crate::dump::{Picture, PictureTile};
+use crate::dump::{SnapshotTile, TextureSnapshot};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
-use crate::part::{Aspect, Part};
 use crate::plan::Plan;
+use crate::subresource::{Aspect, Subresource};
 use std::ops::Range;
 use std::sync::Arc;
 use wgpu_types::TextureDimension;
@@ -35,7 +35,7 @@ pub struct PendingCapture {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameCapture {
     /// Every texture at each version, in the order of the passes. At most 320 texels of a side are kept, evenly spread.
-    pub textures: Vec<Picture>,
+    pub textures: Vec<TextureSnapshot>,
     /// The bytes of every buffer of at most 64 KiB, behind each pass that wrote it, in the order of the passes.
     pub buffers: Vec<(ResourceId, Vec<u8>)>,
 }
@@ -51,7 +51,7 @@ struct Shot {
     desc: TextureDesc,
     /// The layers that were copied, or why none were.
     taken: Result<(Range<u32>, ReadBack), String>,
-    tiles: Vec<PictureTile>,
+    tiles: Vec<SnapshotTile>,
 }
 
 impl Compiled<'_> {
@@ -76,8 +76,8 @@ impl Compiled<'_> {
     /// let (executed, capture) = graph.compile(frame)?.execute_captured(&mut graph, &device, &mut encoder)?;
     /// queue.submit([encoder.finish()]);
     /// let mut page = HtmlPage::new(executed.plan());
-    /// page.pictures = capture.wait(&device)?.textures;
-    /// assert_eq!(page.pictures.len(), 1);
+    /// page.snapshots = capture.wait(&device)?.textures;
+    /// assert_eq!(page.snapshots.len(), 1);
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     ///
@@ -154,7 +154,7 @@ impl PendingCapture {
         if goes_on(plan, pass, access) {
             return;
         }
-        let part = plan.decl.part(access);
+        let part = plan.decl.subresource(access);
         let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
         for mip in first..end {
             let shown =
@@ -179,16 +179,18 @@ impl PendingCapture {
 
 /// Whether the next pass that touches what the access wrote draws into another rectangle of it.
 fn goes_on(plan: &Plan, pass: PassId, access: &AccessDecl) -> bool {
-    let part = plan.decl.part(access);
+    let part = plan.decl.subresource(access);
     let later = plan.order.iter().skip_while(|&&other| other != pass).skip(1);
     let mut touching =
         later.flat_map(|&other| plan.decl.accesses(other)).filter(|other| same_layer(plan, access, other));
     part.rect.is_some()
-        && touching.next().is_some_and(|next| next.contents.writes() && plan.decl.part(next).rect.is_some())
+        && touching
+            .next()
+            .is_some_and(|next| next.contents.writes() && plan.decl.subresource(next).rect.is_some())
 }
 
 fn same_layer(plan: &Plan, a: &AccessDecl, b: &AccessDecl) -> bool {
-    let place = |access| Part { rect: None, ..plan.decl.part(access) };
+    let place = |access| Subresource { rect: None, ..plan.decl.subresource(access) };
     a.resource == b.resource && place(a) == place(b)
 }
 
@@ -208,16 +210,16 @@ fn since(plan: &Plan, pass: PassId, access: &AccessDecl) -> u32 {
 }
 
 /// The rectangles that passes have drawn into up to this one, with the names of the last to do so.
-fn tiles(plan: &Plan, pass: PassId, access: &AccessDecl) -> Vec<PictureTile> {
-    let mut tiles: Vec<PictureTile> = Vec::new();
+fn tiles(plan: &Plan, pass: PassId, access: &AccessDecl) -> Vec<SnapshotTile> {
+    let mut tiles: Vec<SnapshotTile> = Vec::new();
     for &earlier in &plan.order {
         for other in plan.decl.accesses(earlier) {
             if !other.contents.writes() || !same_layer(plan, access, other) {
                 continue;
             }
-            let Some(rect) = plan.decl.part(other).rect else { continue };
+            let Some(rect) = plan.decl.subresource(other).rect else { continue };
             tiles.retain(|tile| tile.rect != rect);
-            tiles.push(PictureTile { rect, name: plan.pass(earlier).name.into() });
+            tiles.push(SnapshotTile { rect, name: plan.pass(earlier).name.into() });
         }
         if earlier == pass {
             break;
@@ -226,7 +228,7 @@ fn tiles(plan: &Plan, pass: PassId, access: &AccessDecl) -> Vec<PictureTile> {
     tiles
 }
 
-fn layers(desc: &TextureDesc, part: Part, mip: u32) -> Range<u32> {
+fn layers(desc: &TextureDesc, part: Subresource, mip: u32) -> Range<u32> {
     let all = match desc.dimension {
         TextureDimension::D3 => (desc.size.depth_or_array_layers >> mip).max(1),
         _ => desc.size.depth_or_array_layers,
@@ -236,7 +238,7 @@ fn layers(desc: &TextureDesc, part: Part, mip: u32) -> Range<u32> {
 }
 
 /// Of depth and stencil together the depth, unless the pass writes the stencil alone.
-fn aspect(desc: &TextureDesc, part: Part) -> wgpu::TextureAspect {
+fn aspect(desc: &TextureDesc, part: Subresource) -> wgpu::TextureAspect {
     match part.aspect {
         Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
         _ if desc.format.is_combined_depth_stencil_format() => wgpu::TextureAspect::DepthOnly,
@@ -252,20 +254,20 @@ fn problem(error: Error) -> String {
 }
 
 impl Shot {
-    fn develop(self, device: &wgpu::Device, pictures: &mut Vec<Picture>) -> Result<(), Error> {
+    fn develop(self, device: &wgpu::Device, pictures: &mut Vec<TextureSnapshot>) -> Result<(), Error> {
         let size = self.desc.size.mip_level_size(self.mip, self.desc.dimension);
         let full_px = [size.width, size.height];
-        let picture = |part: Part, texels| Picture {
+        let picture = |part: Subresource, texels| TextureSnapshot {
             resource: self.resource,
             version: self.version,
             since: self.since,
             pass: Some(self.pass),
-            part,
+            subresource: part,
             full_px,
             texels,
             tiles: self.tiles.clone(),
         };
-        let part = if self.desc.mip_levels > 1 { Part::WHOLE.mip(self.mip) } else { Part::WHOLE };
+        let part = if self.desc.mip_levels > 1 { Subresource::FULL.mip(self.mip) } else { Subresource::FULL };
         let (layers, texels) = match self.taken {
             Ok((layers, texels)) => (layers, texels.wait(device)?),
             Err(problem) => {

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::execute::record::Recording;
 use crate::frame::Frame;
 use crate::handle::{Buffer, ResourceId, Texture, Version};
-use crate::part::Part;
+use crate::subresource::Subresource;
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// The right to take a [`ReadBack`] out of an executed frame.
@@ -26,7 +26,7 @@ pub struct ReadBackRequest {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Requested {
     resource: ResourceId,
-    part: Part,
+    part: Subresource,
 }
 
 impl Frame<'_> {
@@ -37,14 +37,14 @@ impl Frame<'_> {
     /// it is an error. The copy is recorded after the frame's passes; [`Executed::read_back`] gives the future.
     ///
     /// ```
-    /// use shadowgraph_core::{Contents, Format, Graph, Part, TextureDesc};
+    /// use shadowgraph_core::{Contents, Format, Graph, Subresource, TextureDesc};
     /// # use shadowgraph_core::wgpu;
     /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     /// let mut graph = Graph::new();
     /// let mut frame = graph.frame();
     /// let mut picture = frame.create_texture("picture", TextureDesc::d2(3, 2, Format::Rgba8Unorm));
     /// frame.render_pass("clear").color(&mut picture, Contents::clear_color([1.0; 4]));
-    /// let request = frame.read_back_texture(&picture, Part::WHOLE);
+    /// let request = frame.read_back_texture(&picture, Subresource::FULL);
     ///
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
@@ -61,7 +61,7 @@ impl Frame<'_> {
     /// take, or the texture is multisampled, has a format that no copy can read, or is an import without `COPY_SRC`.
     ///
     /// [`Executed::read_back`]: crate::Executed::read_back
-    pub fn read_back_texture(&mut self, texture: &Texture, part: Part) -> ReadBackRequest {
+    pub fn read_back_texture(&mut self, texture: &Texture, part: Subresource) -> ReadBackRequest {
         if let Some(desc) = self.texture_desc(texture) {
             self.check_read_back(texture.0, |name| {
                 source::texture(name, &desc, &TexturePart::of(name, &desc, &part)?).map(drop)
@@ -75,13 +75,13 @@ impl Frame<'_> {
     /// aligned. See [`read_back_texture`](Self::read_back_texture).
     ///
     /// ```
-    /// use shadowgraph_core::{Graph, Part};
+    /// use shadowgraph_core::{Graph, Subresource};
     /// # use shadowgraph_core::wgpu;
     /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     /// let mut graph = Graph::new();
     /// let mut frame = graph.frame();
     /// let numbers = frame.upload_buffer("numbers", &[1u8, 2, 3, 4, 5, 6, 7, 8][..]);
-    /// let request = frame.read_back_buffer(&numbers, Part::WHOLE.bytes(2..5));
+    /// let request = frame.read_back_buffer(&numbers, Subresource::FULL.bytes(2..5));
     ///
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
@@ -94,7 +94,7 @@ impl Frame<'_> {
     /// # Errors
     /// `compile` returns [`Error::ReadBack`] where the range is empty or not within the buffer, or the buffer is an
     /// import without `COPY_SRC`.
-    pub fn read_back_buffer(&mut self, buffer: &Buffer, part: Part) -> ReadBackRequest {
+    pub fn read_back_buffer(&mut self, buffer: &Buffer, part: Subresource) -> ReadBackRequest {
         if let Some(desc) = self.buffer_desc(buffer) {
             self.check_read_back(buffer.0, |name| match part.problem(&ResourceDesc::Buffer(desc)) {
                 None => Ok(()),
@@ -120,11 +120,11 @@ impl Frame<'_> {
             false => check(name),
         };
         if let Err(error) = checked {
-            self.mistake(error);
+            self.report_error(error);
         }
     }
 
-    fn request(&mut self, resource: ResourceId, part: Part) -> ReadBackRequest {
+    fn request(&mut self, resource: ResourceId, part: Subresource) -> ReadBackRequest {
         let index = self.work.read_backs.len() as u32;
         self.work.read_backs.push(Requested { resource, part });
         ReadBackRequest { frame: self.id(), index }

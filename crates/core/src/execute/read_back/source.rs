@@ -3,7 +3,7 @@
 use super::Rows;
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::part::{Aspect, Part, Rect};
+use crate::subresource::{Aspect, Rect, Subresource};
 use std::ops::Range;
 use wgpu::TextureDimension;
 
@@ -19,7 +19,7 @@ pub(crate) struct TexturePart {
 
 impl TexturePart {
     /// Takes a declared part for what one copy can take.
-    pub(crate) fn of(name: &str, desc: &TextureDesc, part: &Part) -> Result<Self, Error> {
+    pub(crate) fn of(name: &str, desc: &TextureDesc, part: &Subresource) -> Result<Self, Error> {
         let refuse = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
         if let Some(problem) = part.problem(&ResourceDesc::Texture(*desc)) {
             return Err(refuse(asked(part, problem)));
@@ -138,8 +138,8 @@ pub(super) fn buffer(name: &str, buffer: &wgpu::Buffer, range: &Range<u64>) -> R
 }
 
 /// What is wrong with a part, and which it was.
-pub(super) fn asked(part: &Part, problem: &str) -> String {
-    format!("{problem} (asked for: {})", part.words())
+pub(super) fn asked(part: &Subresource, problem: &str) -> String {
+    format!("{problem} (asked for: {})", part.to_string())
 }
 
 pub(super) fn no_usage() -> String {

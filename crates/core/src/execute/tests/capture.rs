@@ -1,9 +1,9 @@
 //! Pictures of what passes write.
 
 use super::gpu::Gpu;
-use crate::dump::{Picture, TexelValues};
+use crate::dump::{TexelValues, TextureSnapshot};
 use crate::test_device::valid;
-use crate::{Contents, Format, Frame, FrameCapture, Graph, Part, Plan, Rect, TextureDesc};
+use crate::{Contents, Format, Frame, FrameCapture, Graph, Plan, Rect, Subresource, TextureDesc};
 
 fn small() -> TextureDesc {
     TextureDesc::d2(8, 8, Format::Rgba8Unorm)
@@ -32,7 +32,7 @@ fn capture<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Plan, FrameCa
 }
 
 /// The first value of a picture's first texel, and of its last.
-fn ends(picture: &Picture) -> [f32; 2] {
+fn ends(picture: &TextureSnapshot) -> [f32; 2] {
     let texels = picture.texels.as_ref().unwrap();
     let number = |index: usize| match &texels.values {
         TexelValues::Bytes(bytes) => bytes[index].into(),
@@ -104,8 +104,8 @@ fn tiles_are_shown_together_with_the_names_of_their_passes() {
             let mut atlas = frame.create_texture("atlas", TextureDesc::d2(16, 8, Format::Depth32Float));
             frame.render_pass("clear").depth(&mut atlas, Contents::clear_depth(0.0));
             for (name, x, depth) in [("left", 0, 0.25), ("right", 8, 0.5)] {
-                let tile = Part::WHOLE.rect(Rect::new(x, 0, 8, 8));
-                frame.render_pass(name).on(tile).depth(&mut atlas, Contents::clear_depth(depth));
+                let tile = Subresource::FULL.rect(Rect::new(x, 0, 8, 8));
+                frame.render_pass(name).subresource(tile).depth(&mut atlas, Contents::clear_depth(depth));
             }
             frame.export_texture(&atlas);
         });
@@ -128,11 +128,13 @@ fn mips_and_layers_have_pictures_of_their_own() {
             let mut texture = frame.create_texture("texture", desc);
             for (number, (mip, layer)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
                 let mut pass = frame.render_pass("clear");
-                pass.on(Part::WHOLE.mip(mip).layer(layer)).color(&mut texture, gray(number as f64 / 5.0));
+                pass.subresource(Subresource::FULL.mip(mip).layer(layer))
+                    .color(&mut texture, gray(number as f64 / 5.0));
             }
             frame.export_texture(&texture);
         });
-        let parts: Vec<_> = captured.textures.iter().map(|p| (p.part.words(), p.full_px)).collect();
+        let parts: Vec<_> =
+            captured.textures.iter().map(|p| (p.subresource.to_string(), p.full_px)).collect();
         let whole = |layer| (format!("mip 0, layer {layer}"), [8, 8]);
         let half = |layer| (format!("mip 1, layer {layer}"), [4, 4]);
         assert_eq!(parts, [whole(0), half(0), whole(1), half(1)]);

@@ -2,7 +2,7 @@
 
 use super::gpu::{Gpu, NUMBERS, number, square};
 use crate::{
-    Aspect, Bind, Buffer, BufferDesc, BufferExport, Contents, Error, Format, Frame, Graph, Part, Rect,
+    Aspect, Bind, Buffer, BufferDesc, BufferExport, Contents, Error, Format, Frame, Graph, Rect, Subresource,
     TextureDesc,
 };
 
@@ -36,9 +36,9 @@ fn parts_of_textures_are_copied_to_parts_of_others() {
         let mut frame = graph.frame();
         let mut source =
             frame.create_texture("source", TextureDesc { mip_levels: 2, ..square(16).layers(2) });
-        let part = Part::WHOLE.mip(1).layer(1);
+        let part = Subresource::FULL.mip(1).layer(1);
         let mut pass = frame.render_pass("draw");
-        pass.on(part).color(&mut source, Contents::Cover);
+        pass.subresource(part).color(&mut source, Contents::Overwrite);
         pass.body(|ctx| {
             draw.record_as_it_is(ctx);
             Ok(())
@@ -46,11 +46,14 @@ fn parts_of_textures_are_copied_to_parts_of_others() {
         let mut target = frame.create_texture("target", square(16).layers(3));
         for layer in 0..3 {
             let contents = Contents::clear_color([1.0, 0.0, 0.0, 0.0]);
-            frame.render_pass("clear").on(Part::WHOLE.layer(layer)).color(&mut target, contents);
+            frame
+                .render_pass("clear")
+                .subresource(Subresource::FULL.layer(layer))
+                .color(&mut target, contents);
         }
         let (from, to) = (Rect::new(4, 2, 3, 5), Rect::new(1, 9, 3, 5));
-        let to = Part::WHOLE.layer(2).rect(to);
-        frame.copy_pass("copy").texture_parts(&source, part.rect(from), &mut target, to);
+        let to = Subresource::FULL.layer(2).rect(to);
+        frame.copy_pass("copy").texture_region(&source, part.rect(from), &mut target, to);
         let target = frame.export_texture(&target);
         let executed = gpu.run(&mut graph, frame);
         if !gpu.draws {
@@ -69,17 +72,18 @@ fn parts_of_textures_are_copied_to_parts_of_others() {
 #[test]
 fn copies_that_wgpu_does_not_make_are_errors() {
     let gpu = Gpu::noop();
-    let (tile, depth) = (Part::WHOLE.rect(Rect::new(0, 0, 4, 4)), Part::WHOLE.aspect(Aspect::Depth));
+    let (tile, depth) =
+        (Subresource::FULL.rect(Rect::new(0, 0, 4, 4)), Subresource::FULL.aspect(Aspect::Depth));
     let multisampled = TextureDesc { samples: 4, ..TextureDesc::d2(8, 8, Format::Rgba8Unorm) };
     for (desc, part, possible) in [
-        (TextureDesc::d2(8, 8, Format::Depth32Float), Part::WHOLE, true),
+        (TextureDesc::d2(8, 8, Format::Depth32Float), Subresource::FULL, true),
         (TextureDesc::d2(8, 8, Format::Depth32Float), depth, true),
-        (TextureDesc::d2(8, 8, Format::Depth32Float), Part::WHOLE.rect(Rect::new(0, 0, 8, 8)), true),
-        (TextureDesc::d2(8, 8, Format::Depth32Float).layers(2), Part::WHOLE.layer(1), true),
+        (TextureDesc::d2(8, 8, Format::Depth32Float), Subresource::FULL.rect(Rect::new(0, 0, 8, 8)), true),
+        (TextureDesc::d2(8, 8, Format::Depth32Float).layers(2), Subresource::FULL.layer(1), true),
         (TextureDesc::d2(8, 8, Format::Depth32Float), tile, false),
-        (TextureDesc::d2(8, 8, Format::Depth24PlusStencil8), Part::WHOLE, true),
+        (TextureDesc::d2(8, 8, Format::Depth24PlusStencil8), Subresource::FULL, true),
         (TextureDesc::d2(8, 8, Format::Depth24PlusStencil8), depth, false),
-        (multisampled, Part::WHOLE, true),
+        (multisampled, Subresource::FULL, true),
         (multisampled, tile, false),
     ] {
         let mut graph = Graph::new();
@@ -87,7 +91,7 @@ fn copies_that_wgpu_does_not_make_are_errors() {
         let usage = wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::RENDER_ATTACHMENT;
         let source = frame.import_texture("source", &gpu.texture(desc, usage), true);
         let mut target = frame.create_texture("target", desc);
-        frame.copy_pass("copy").texture_parts(&source, part, &mut target, part).keep();
+        frame.copy_pass("copy").texture_region(&source, part, &mut target, part).keep();
         match gpu.try_run(&mut graph, frame) {
             Ok(_) => assert!(possible, "{desc:?}, {part:?}"),
             Err(error) => {
@@ -109,11 +113,14 @@ fn several_layers_are_copied_at_once() {
         let mut target = frame.create_texture("target", square(8).layers(4));
         for layer in 0..3 {
             let contents = Contents::clear_color([f64::from(layer), 0.0, 0.0, 0.0]);
-            frame.render_pass("clear").on(Part::WHOLE.layer(layer)).color(&mut source, contents);
+            frame
+                .render_pass("clear")
+                .subresource(Subresource::FULL.layer(layer))
+                .color(&mut source, contents);
         }
         for to in [0..3, 3..4] {
-            let from = Part::WHOLE.layers(0..to.end - to.start);
-            frame.copy_pass("copy").texture_parts(&source, from, &mut target, Part::WHOLE.layers(to));
+            let from = Subresource::FULL.layers(0..to.end - to.start);
+            frame.copy_pass("copy").texture_region(&source, from, &mut target, Subresource::FULL.layers(to));
         }
         let target = frame.export_texture(&target);
         let executed = gpu.run(&mut graph, frame);
@@ -134,8 +141,8 @@ fn parts_of_buffers_are_copied_to_parts_of_others() {
         let mut frame = graph.frame();
         let source = frame.upload_buffer("source", bytes(0..8));
         let mut target = frame.upload_buffer("target", bytes([100; 6]));
-        let (from, to) = (Part::WHOLE.bytes(8..20), Part::WHOLE.bytes(4..16));
-        frame.copy_pass("copy").buffer_parts(&source, from, &mut target, to);
+        let (from, to) = (Subresource::FULL.bytes(8..20), Subresource::FULL.bytes(4..16));
+        frame.copy_pass("copy").buffer_range(&source, from, &mut target, to);
         let target = frame.export_buffer(&target);
         let executed = gpu.run(&mut graph, frame);
         assert_eq!(gpu.words(executed.buffer(target).unwrap()), [100, 2, 3, 4, 100, 100]);
@@ -254,7 +261,7 @@ fn a_dynamic_offset_moves_along_a_buffer() {
     let mut frame = graph.frame();
     let mut buffer = frame.create_buffer("buffer", BufferDesc::new(1024));
     let mut pass = frame.compute_pass("pass");
-    let token = pass.storage_buffer_mut(&mut buffer, Contents::Cover);
+    let token = pass.storage_buffer_mut(&mut buffer, Contents::Overwrite);
     pass.keep();
     pass.body(|ctx| {
         let group = ctx.bind_group(&layout, &[Bind::BufferRange(token, 0..256)])?;

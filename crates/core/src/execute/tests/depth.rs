@@ -16,8 +16,8 @@ fn aspects(gpu: &Gpu, fill: impl FnOnce(&mut Frame<'_>, &mut Texture)) -> wgpu::
     fill(&mut frame, &mut depth);
     let mut color = frame.create_texture("color", square(8));
     let mut pass = frame.render_pass("read");
-    let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.on(aspect(which)).sample(&depth));
-    pass.color(&mut color, Contents::Cover);
+    let tokens = [Aspect::Depth, Aspect::Stencil].map(|which| pass.subresource(aspect(which)).sample(&depth));
+    pass.color(&mut color, Contents::Overwrite);
     pass.body(|ctx| read.record(ctx, &tokens.map(Bind::Texture)));
     let color = frame.export_texture(&color);
     gpu.run(&mut graph, frame).texture(color).unwrap().clone()
@@ -35,7 +35,7 @@ fn depth_is_tested_and_sampled_in_one_pass() {
         let mut frame = graph.frame();
         let (mut depth, mut unread) = (depth(&mut frame, format), frame.create_texture("unread", square(8)));
         let mut pass = frame.render_pass("fill");
-        pass.color(&mut unread, Contents::Cover);
+        pass.color(&mut unread, Contents::Overwrite);
         pass.depth(&mut depth, Contents::clear_depth(0.25));
         pass.body(|ctx| {
             ctx.pass.set_scissor_rect(0, 0, 4, 8);
@@ -72,8 +72,8 @@ fn each_aspect_is_cleared_by_a_pass_of_its_own() {
     for gpu in Gpu::all() {
         let read = aspects(&gpu, |frame, depth| {
             let contents = Contents::clear_depth_stencil(0.5, 9);
-            frame.render_pass("depth").on(aspect(Aspect::Depth)).depth(depth, contents);
-            frame.render_pass("stencil").on(aspect(Aspect::Stencil)).depth(depth, contents);
+            frame.render_pass("depth").subresource(aspect(Aspect::Depth)).depth(depth, contents);
+            frame.render_pass("stencil").subresource(aspect(Aspect::Stencil)).depth(depth, contents);
         });
         gpu.assert_filled(&read, 9050);
     }
@@ -96,7 +96,7 @@ fn depth_that_one_pass_needs_is_a_transient_attachment() {
                 let mut depth = depth(&mut frame, format);
                 let mut pass = frame.render_pass("draw");
                 pass.color(&mut color, Contents::clear_color([2.0, 0.0, 0.0, 0.0]));
-                pass.on(aspect(which)).depth(&mut depth, Contents::clear_depth(0.0));
+                pass.subresource(aspect(which)).depth(&mut depth, Contents::clear_depth(0.0));
                 let color = frame.export_texture(&color);
                 let executed = gpu.run(&mut graph, frame);
                 gpu.assert_filled(executed.texture(color).unwrap(), 2);
@@ -115,7 +115,10 @@ fn a_tile_of_one_aspect_is_cleared_and_the_other_aspect_stays() {
             let read = aspects(&gpu, |frame, depth| {
                 frame.render_pass("all").depth(depth, Contents::clear_depth_stencil(0.5, 9));
                 let tile = aspect(which).rect(Rect::new(0, 0, 4, 8));
-                frame.render_pass("tile").on(tile).depth(depth, Contents::clear_depth_stencil(0.25, 3));
+                frame
+                    .render_pass("tile")
+                    .subresource(tile)
+                    .depth(depth, Contents::clear_depth_stencil(0.25, 3));
             });
             if gpu.draws {
                 let inside = match which {

@@ -28,7 +28,7 @@ fn a_token_or_block_of_another_frame_fails_the_frame() {
     let mut graph = Graph::new();
     let mut other = graph.frame();
     let mut a = other.create_texture("a", square(8));
-    let token = other.render_pass("other").color(&mut a, Contents::Cover);
+    let token = other.render_pass("other").color(&mut a, Contents::Overwrite);
     let block = other.uniform(&[0; 16]);
     let layout =
         gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &[] });
@@ -173,7 +173,7 @@ fn formats_that_the_device_does_not_allow_are_errors_of_ours() {
             let desc = crate::TextureDesc { format, samples, ..square(8) };
             let mut picture = frame.create_texture("picture", desc);
             if storage {
-                frame.compute_pass("store").storage_texture_mut(&mut picture, Contents::Cover);
+                frame.compute_pass("store").storage_texture_mut(&mut picture, Contents::Overwrite);
             } else {
                 frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
             }

@@ -13,12 +13,13 @@ fn a_frame_of_every_kind_of_pass_records_without_validation_errors() {
         let numbers = frame.upload_buffer("numbers", &[1u8, 0, 0, 0, 2][..]);
         let mut sums = frame.create_buffer("sums", BufferDesc::new(8));
         let mut pass = frame.compute_pass("sum");
-        let (from, to) = (pass.storage_buffer(&numbers), pass.storage_buffer_mut(&mut sums, Contents::Cover));
+        let (from, to) =
+            (pass.storage_buffer(&numbers), pass.storage_buffer_mut(&mut sums, Contents::Overwrite));
         pass.body(move |ctx| copy.record(ctx, &[Bind::Buffer(from), Bind::Buffer(to)], 1));
         let block = frame.uniform(&number(5));
         let mut color = frame.create_texture("color", square(16));
         let mut pass = frame.render_pass("draw");
-        pass.color(&mut color, Contents::Cover);
+        pass.color(&mut color, Contents::Overwrite);
         pass.body(move |ctx| draw.record(ctx, &[Bind::Uniform(block)]));
         let mut copied = frame.create_texture("copied", square(16));
         frame.copy_pass("copy").texture(&color, &mut copied);
@@ -26,7 +27,9 @@ fn a_frame_of_every_kind_of_pass_records_without_validation_errors() {
         frame.copy_pass("to rows").texture_to_buffer(&copied, &mut rows);
         let mut pass = frame.encoder_pass("raw");
         let from = pass.copy_source_buffer(&sums);
-        let to = pass.on(crate::Part::WHOLE.bytes(64..72)).copy_target_buffer(&mut rows, Contents::Cover);
+        let to = pass
+            .subresource(crate::Subresource::FULL.bytes(64..72))
+            .copy_target_buffer(&mut rows, Contents::Overwrite);
         pass.body(move |ctx| {
             let (from, to) = (ctx.buffer(from)?, ctx.buffer(to)?);
             ctx.encoder.copy_buffer_to_buffer(from, 0, to, 64, 8);
@@ -86,7 +89,7 @@ fn an_export_is_taken_out_of_its_own_frame_only() {
         frame.render_pass("own").color(&mut own, Contents::clear_color([1.0; 4]));
         let mut words = frame.create_buffer("words", BufferDesc::new(12));
         let mut pass = frame.compute_pass("words");
-        pass.storage_buffer_mut(&mut words, Contents::Cover);
+        pass.storage_buffer_mut(&mut words, Contents::Overwrite);
         exports.push((frame.export_texture(&own), frame.export_buffer(&words)));
         executed.push(gpu.run(&mut graph, frame));
     }
@@ -107,8 +110,10 @@ fn a_token_of_a_part_resolves_to_that_part() {
         let mut out = frame.create_buffer("out", BufferDesc::new(512));
         for (name, from, to) in [("back", 256..512, 0..256), ("front", 0..16, 256..512)] {
             let mut pass = frame.compute_pass(name);
-            let from = pass.on(crate::Part::WHOLE.bytes(from)).storage_buffer(&numbers);
-            let to = pass.on(crate::Part::WHOLE.bytes(to)).storage_buffer_mut(&mut out, Contents::Cover);
+            let from = pass.subresource(crate::Subresource::FULL.bytes(from)).storage_buffer(&numbers);
+            let to = pass
+                .subresource(crate::Subresource::FULL.bytes(to))
+                .storage_buffer_mut(&mut out, Contents::Overwrite);
             let copy = &copy;
             pass.body(move |ctx| {
                 assert_eq!(ctx.slice(to)?.size(), 256);
@@ -174,7 +179,7 @@ fn a_group_of_more_entries_than_most_have_is_cached_like_any() {
         let blocks: Vec<_> = (0..10).map(|n| Bind::Uniform(frame.uniform(&number(n)))).collect();
         let mut color = frame.create_texture("color", square(8));
         let mut pass = frame.render_pass("draw");
-        pass.color(&mut color, Contents::Cover);
+        pass.color(&mut color, Contents::Overwrite);
         let (layout, groups) = (&layout, &mut groups);
         pass.body(move |ctx| {
             groups.push(ctx.bind_group(layout, &blocks)?);

@@ -259,6 +259,6 @@ pub(super) fn depth_test(
     }
 }
 
-pub(super) fn aspect(aspect: Aspect) -> crate::Part {
-    crate::Part::WHOLE.aspect(aspect)
+pub(super) fn aspect(aspect: Aspect) -> crate::Subresource {
+    crate::Subresource::FULL.aspect(aspect)
 }

@@ -2,7 +2,7 @@
 
 use super::gpu::{Draw, Gpu, NUMBERS, square};
 use crate::{
-    Bind, Contents, Error, Executed, Extent, Format, Frame, Graph, History, Part, PoolLimits, Resize,
+    Bind, Contents, Error, Executed, Extent, Format, Frame, Graph, History, PoolLimits, Resize, Subresource,
     TextureDesc, TextureExport,
 };
 use std::sync::Arc;
@@ -26,10 +26,10 @@ impl<'g> Counter<'g> {
         let mut history = frame.history("count", self.desc, self.resize);
         for mip in 0..self.desc.mip_levels {
             for layer in 0..self.desc.size.depth_or_array_layers {
-                let part = Part::WHOLE.mip(mip).layer(layer);
+                let part = Subresource::FULL.mip(mip).layer(layer);
                 let mut pass = frame.render_pass("add one");
-                let before = pass.on(part).sample(&history.previous);
-                pass.on(part).color(&mut history.current, Contents::Cover);
+                let before = pass.subresource(part).sample(&history.previous);
+                pass.subresource(part).color(&mut history.current, Contents::Overwrite);
                 let draw = self.draw;
                 pass.body(move |ctx| draw.record(ctx, &[Bind::Texture(before)]));
             }
@@ -145,7 +145,7 @@ fn all_mips_and_layers_survive_a_new_usage_and_a_resize() {
         counter.expect(1, false);
         counter.expect_with(2, true, |frame, history| {
             let mut pass = frame.compute_pass("needs another usage");
-            pass.on(Part::WHOLE.mip(0)).storage_texture(&history.previous);
+            pass.subresource(Subresource::FULL.mip(0)).storage_texture(&history.previous);
             pass.keep();
         });
         counter.desc = TextureDesc { mip_levels: 5, ..square(16).layers(2) };
@@ -317,7 +317,7 @@ fn kept(gpu: &Gpu, desc: TextureDesc, clear: Contents, read: &'static str, expec
         let mut out = frame.create_texture("out", square(8));
         let mut pass = frame.render_pass("read");
         let before = pass.sample(&history.previous);
-        pass.color(&mut out, Contents::Cover);
+        pass.color(&mut out, Contents::Overwrite);
         pass.body(|ctx| draw.record(ctx, &[Bind::Texture(before)]));
         let out = frame.export_texture(&out);
         let executed = gpu.run(&mut graph, frame);
@@ -388,7 +388,8 @@ fn what_cannot_be_resampled_is_reset_and_says_so() {
                         pass.depth(&mut history.current, Contents::clear_depth(0.5));
                     } else {
                         let contents = Contents::clear_color([1.0; 4]);
-                        pass.on(Part::WHOLE.layer(layer)).color(&mut history.current, contents);
+                        pass.subresource(Subresource::FULL.layer(layer))
+                            .color(&mut history.current, contents);
                     }
                 }
                 gpu.run(&mut graph, frame);

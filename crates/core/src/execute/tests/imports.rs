@@ -85,7 +85,7 @@ fn an_import_without_the_usage_that_a_pass_needs_is_an_error_that_names_it() {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
     let mut out = frame.import_texture("target", &target, false);
-    frame.render_pass("draw").color(&mut out, Contents::Cover);
+    frame.render_pass("draw").color(&mut out, Contents::Overwrite);
     let error = gpu.try_run(&mut graph, frame).err().unwrap();
     assert!(matches!(&error, Error::ImportUsage { needed, .. } if needed.contains("RENDER_ATTACHMENT")));
 }
@@ -156,7 +156,7 @@ fn an_import_that_was_bound_is_let_go_of_with_its_bind_group() {
         let token = picture.map(|picture| frame.import_texture("picture", picture, true));
         let mut pass = frame.render_pass("draw");
         let token = token.map(|picture| pass.sample(&picture));
-        pass.color(&mut color, Contents::Cover);
+        pass.color(&mut color, Contents::Overwrite);
         pass.body(|ctx| match token {
             Some(token) => draw.record(ctx, &[Bind::Texture(token)]),
             None => Ok(()),

@@ -2,14 +2,16 @@
 
 use super::gpu::Gpu;
 use crate::test_device::valid;
-use crate::{Contents, Error, Format, Frame, Graph, Part, ReadBackRequest, TextureDesc, device_is_lost};
+use crate::{
+    Contents, Error, Format, Frame, Graph, ReadBackRequest, Subresource, TextureDesc, device_is_lost,
+};
 
 /// A cleared square that is read back.
 fn square(graph: &Graph) -> (Frame<'static>, ReadBackRequest) {
     let mut frame = graph.frame();
     let mut color = frame.create_texture("color", TextureDesc::d2(16, 16, Format::Rgba8Unorm));
     frame.render_pass("clear").color(&mut color, Contents::clear_color([1.0, 0.0, 0.0, 1.0]));
-    let request = frame.read_back_texture(&color, Part::WHOLE);
+    let request = frame.read_back_texture(&color, Subresource::FULL);
     (frame, request)
 }
 
@@ -94,7 +96,7 @@ fn a_graph_that_ran_out_of_memory_lets_go_and_draws_what_fits() {
         for (name, desc) in [("little", little), ("much", desc)] {
             let mut texture = frame.create_texture(name, desc);
             let mut pass = frame.render_pass("clear");
-            pass.on(Part::WHOLE.layer(0));
+            pass.subresource(Subresource::FULL.layer(0));
             pass.color(&mut texture, Contents::clear_color([0.0; 4]));
             pass.keep();
         }

@@ -14,7 +14,7 @@ fn a_pass_that_draws_with_the_bind_group_of_the_one_before_it_is_refused() {
             let block = frame.uniform(&number(4));
             let mut color = frame.create_texture("color", square(8));
             let mut first = frame.render_pass("first");
-            first.color(&mut color, Contents::Cover);
+            first.color(&mut color, Contents::Overwrite);
             first.body(|ctx| draw.record(ctx, &[Bind::Uniform(block)]));
             let mut second = frame.render_pass("second");
             second.color(&mut color, Contents::Preserve);
@@ -49,7 +49,7 @@ fn groups_beyond_those_that_every_device_has_are_unset_too() {
     let block = frame.uniform(&number(4));
     let mut color = frame.create_texture("color", square(8));
     let mut first = frame.render_pass("first");
-    first.color(&mut color, Contents::Cover);
+    first.color(&mut color, Contents::Overwrite);
     first.body(|ctx| draw.record(ctx, &[Bind::Uniform(block)]));
     let mut second = frame.render_pass("second");
     second.color(&mut color, Contents::Preserve);

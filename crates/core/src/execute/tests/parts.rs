@@ -1,7 +1,7 @@
 //! Passes on parts of textures: tiles, mips, layers and slices.
 
 use super::gpu::{Gpu, NUMBERS, number, square};
-use crate::{Bind, Contents, Error, Extent, Graph, Part, Rect, TextureDesc};
+use crate::{Bind, Contents, Error, Extent, Graph, Rect, Subresource, TextureDesc};
 
 const CLEAR: Contents = Contents::Clear(crate::ClearValue::Color([0.0; 4]));
 
@@ -22,7 +22,7 @@ fn a_tile_has_the_viewport_and_scissor_of_its_rectangle() {
             frame.render_pass("clear").color(&mut atlas, cleared(9999));
             for tile in [Rect::new(0, 8, 4, 4), Rect::new(8, 2, 8, 4)] {
                 let mut pass = frame.render_pass("tile");
-                pass.on(Part::WHOLE.rect(tile)).color(&mut atlas, Contents::Cover);
+                pass.subresource(Subresource::FULL.rect(tile)).color(&mut atlas, Contents::Overwrite);
                 let draw = &draw;
                 pass.body(move |ctx| {
                     draw.record_as_it_is(ctx);
@@ -56,7 +56,8 @@ fn a_tile_is_cleared_alone_and_its_neighbours_stay() {
             let tiles = [Rect::new(0, 0, 8, 8), Rect::new(5, 9, 3, 7), Rect::new(4, 4, 8, 8)];
             for (index, tile) in tiles.into_iter().enumerate() {
                 let mut pass = frame.render_pass("tile");
-                pass.on(Part::WHOLE.rect(tile)).color(&mut atlas, cleared(index as u32 + 2 + frame_number));
+                pass.subresource(Subresource::FULL.rect(tile))
+                    .color(&mut atlas, cleared(index as u32 + 2 + frame_number));
             }
             let atlas = frame.export_texture(&atlas);
             let executed = gpu.run(&mut graph, frame);
@@ -87,12 +88,12 @@ fn mips_and_layers_are_drawn_into_and_bound_by_themselves() {
         for layer in 0..3 {
             let block = frame.uniform(&number(10 * layer));
             let mut pass = frame.render_pass("fill");
-            pass.on(Part::WHOLE.mip(0).layer(layer)).color(&mut texture, Contents::Cover);
+            pass.subresource(Subresource::FULL.mip(0).layer(layer)).color(&mut texture, Contents::Overwrite);
             let fill = &fill;
             pass.body(move |ctx| fill.record(ctx, &[Bind::Uniform(block)]));
             let mut pass = frame.render_pass("down");
-            let from = pass.on(Part::WHOLE.mip(0).layer(layer)).sample(&texture);
-            pass.on(Part::WHOLE.mip(1).layer(layer)).color(&mut texture, Contents::Cover);
+            let from = pass.subresource(Subresource::FULL.mip(0).layer(layer)).sample(&texture);
+            pass.subresource(Subresource::FULL.mip(1).layer(layer)).color(&mut texture, Contents::Overwrite);
             let load = &load;
             pass.body(move |ctx| load.record(ctx, &[Bind::Texture(from)]));
         }
@@ -131,8 +132,8 @@ fn slices_of_a_volume_are_attachments() {
                 for slice in 0..4 >> mip {
                     let block = frame.uniform(&number(7 + slice + 10 * mip));
                     let mut pass = frame.render_pass("slice");
-                    let part = Part::WHOLE.mip(mip).layer(slice);
-                    pass.on(part).color(&mut volume, Contents::Cover);
+                    let part = Subresource::FULL.mip(mip).layer(slice);
+                    pass.subresource(part).color(&mut volume, Contents::Overwrite);
                     let fill = &fill;
                     pass.body(move |ctx| fill.record(ctx, &[Bind::Uniform(block)]));
                 }
@@ -156,7 +157,7 @@ fn two_slices_of_a_volume_are_drawn_into_at_once() {
         for first in [0, 2] {
             let mut pass = frame.render_pass("slices");
             for slice in [first, first + 1] {
-                pass.on(Part::WHOLE.layer(slice)).color(&mut volume, cleared(slice));
+                pass.subresource(Subresource::FULL.layer(slice)).color(&mut volume, cleared(slice));
             }
         }
         let volume = frame.export_texture(&volume);
@@ -175,12 +176,17 @@ fn a_slice_that_nothing_reads_takes_no_other_slice_along() {
         let mut graph = Graph::new();
         let mut frame = graph.frame();
         let mut volume = frame.create_texture("volume", volume(1));
-        frame.render_pass("read").on(Part::WHOLE.layer(0)).color(&mut volume, cleared(5));
+        frame.render_pass("read").subresource(Subresource::FULL.layer(0)).color(&mut volume, cleared(5));
         let mut pass = frame.render_pass("unread");
-        pass.on(Part::WHOLE.layer(1)).color(&mut volume, cleared(6));
+        pass.subresource(Subresource::FULL.layer(1)).color(&mut volume, cleared(6));
         pass.keep();
         let mut copy = frame.create_texture("copy", square(8));
-        frame.copy_pass("copy").texture_parts(&volume, Part::WHOLE.layer(0), &mut copy, Part::WHOLE);
+        frame.copy_pass("copy").texture_region(
+            &volume,
+            Subresource::FULL.layer(0),
+            &mut copy,
+            Subresource::FULL,
+        );
         let copy = frame.export_texture(&copy);
         let executed = gpu.run(&mut graph, frame);
         gpu.assert_filled(executed.texture(copy).unwrap(), 5);
@@ -192,10 +198,10 @@ fn a_slice_is_not_drawn_into_while_another_is_sampled() {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
     let mut volume = frame.create_texture("volume", volume(1));
-    frame.render_pass("clear").on(Part::WHOLE.layer(0)).color(&mut volume, CLEAR);
+    frame.render_pass("clear").subresource(Subresource::FULL.layer(0)).color(&mut volume, CLEAR);
     let mut pass = frame.render_pass("both");
-    pass.on(Part::WHOLE.layer(0)).sample(&volume);
-    pass.on(Part::WHOLE.layer(1)).color(&mut volume, CLEAR);
+    pass.subresource(Subresource::FULL.layer(0)).sample(&volume);
+    pass.subresource(Subresource::FULL.layer(1)).color(&mut volume, CLEAR);
     pass.keep();
     let error = graph.compile(frame).err().unwrap();
     assert!(matches!(&error, Error::Conflict { pass, .. } if pass == "both"), "{error}");
@@ -221,9 +227,9 @@ fn storage_textures_of_parts_are_bound_by_themselves() {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
     let mut texture = frame.create_texture("texture", TextureDesc { mip_levels: 2, ..square(8).layers(2) });
-    let part = Part::WHOLE.mip(1).layer(1);
+    let part = Subresource::FULL.mip(1).layer(1);
     let mut pass = frame.compute_pass("write");
-    let token = pass.on(part).storage_texture_mut(&mut texture, Contents::Cover);
+    let token = pass.subresource(part).storage_texture_mut(&mut texture, Contents::Overwrite);
     pass.keep();
     pass.body(|ctx| ctx.bind_group(&layout, &[Bind::Texture(token)]).map(|_| ()));
     gpu.run(&mut graph, frame);

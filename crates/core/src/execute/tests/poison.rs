@@ -2,8 +2,8 @@
 
 use super::gpu::{Gpu, NUMBERS, depth_test, number, square};
 use crate::{
-    Bind, BufferDesc, ClearValue, Contents, Extent, Format, Frame, Graph, LoadAction, LoadReason, Part, Rect,
-    Resize, StoreAction, TextureDesc, TextureExport,
+    Bind, BufferDesc, ClearValue, Contents, Extent, Format, Frame, Graph, LoadAction, LoadReason, Rect,
+    Resize, StoreAction, Subresource, TextureDesc, TextureExport,
 };
 use std::sync::Mutex;
 
@@ -30,7 +30,7 @@ fn poison_shows_what_a_false_cover_leaves_unwritten() {
             let mut frame = graph.frame();
             let mut color = frame.create_texture("color", TextureDesc::d2(8, 8, format));
             let mut pass = frame.render_pass("upper half");
-            pass.color(&mut color, Contents::Cover);
+            pass.color(&mut color, Contents::Overwrite);
             pass.body(|ctx| {
                 ctx.pass.set_scissor_rect(0, 0, 8, 4);
                 draw.record_as_it_is(ctx);
@@ -54,7 +54,7 @@ fn poison_shows_an_attachment_of_several_samples_that_is_not_covered() {
         let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..desc });
         let mut resolved = frame.create_texture("resolved", desc);
         let mut pass = frame.render_pass("draws nothing");
-        pass.color(&mut samples, Contents::Cover);
+        pass.color(&mut samples, Contents::Overwrite);
         pass.resolve(&mut resolved);
         let resolved = frame.export_texture(&resolved);
         let executed = gpu.run(&mut graph, frame);
@@ -120,7 +120,7 @@ fn every_kind_of_texture_is_filled_as_a_whole() {
             let mut graph = poisoned(true);
             let mut frame = graph.frame();
             let mut texture = frame.create_texture("texture", desc);
-            frame.encoder_pass("writes nothing").copy_target(&mut texture, Contents::Cover);
+            frame.encoder_pass("writes nothing").copy_target(&mut texture, Contents::Overwrite);
             let export = frame.export_texture(&texture);
             let executed = gpu.run(&mut graph, frame);
             let texture = executed.texture(export).unwrap();
@@ -147,17 +147,17 @@ fn samples_that_outlive_their_pass_and_depth_with_stencil_are_filled() {
         let mut frame = graph.frame();
         let desc = TextureDesc { samples: 4, ..TextureDesc::d2(8, 8, Format::R16Uint) };
         let mut samples = frame.create_texture("samples", desc);
-        frame.encoder_pass("writes nothing").attachment(&mut samples, Contents::Cover);
+        frame.encoder_pass("writes nothing").attachment(&mut samples, Contents::Overwrite);
         let mut depth = frame.create_texture("depth", TextureDesc::d2(8, 8, Format::Depth24PlusStencil8));
-        frame.encoder_pass("writes nothing").copy_target(&mut depth, Contents::Cover);
+        frame.encoder_pass("writes nothing").copy_target(&mut depth, Contents::Overwrite);
         let outs = [&samples, &depth].map(|texture| {
             let mut out = frame.create_texture("out", square(8));
             let mut pass = frame.render_pass("show");
             let own = [crate::Aspect::Depth, crate::Aspect::Stencil].map(|aspect| match texture == &depth {
-                true => pass.on(Part::WHOLE.aspect(aspect)).sample(texture),
+                true => pass.subresource(Subresource::FULL.aspect(aspect)).sample(texture),
                 false => pass.sample(texture),
             });
-            pass.color(&mut out, Contents::Cover);
+            pass.color(&mut out, Contents::Overwrite);
             let (last_sample, aspects, is_depth) = (&last_sample, &aspects, texture == &depth);
             pass.body(move |ctx| match is_depth {
                 true => aspects.record(ctx, &own.map(Bind::Texture)),
@@ -178,7 +178,7 @@ fn buffers_are_filled_to_their_end() {
             let mut graph = poisoned(true);
             let mut frame = graph.frame();
             let mut buffer = frame.create_buffer("buffer", BufferDesc::new(bytes));
-            frame.compute_pass("writes nothing").storage_buffer_mut(&mut buffer, Contents::Cover);
+            frame.compute_pass("writes nothing").storage_buffer_mut(&mut buffer, Contents::Overwrite);
             let buffer = frame.export_buffer(&buffer);
             let executed = gpu.run(&mut graph, frame);
             let words = gpu.words(executed.buffer(buffer).unwrap());
@@ -243,13 +243,13 @@ fn a_chain_through_few_slots_draws_the_same() {
         draws_the_same(&gpu, |frame| {
             let mut last = frame.create_texture("first", square(8));
             let mut pass = frame.render_pass("first");
-            pass.color(&mut last, Contents::Cover);
+            pass.color(&mut last, Contents::Overwrite);
             pass.body(|ctx| seven.record(ctx, &[]));
             for _ in 0..5 {
                 let mut next = frame.create_texture("next", square(8));
                 let mut pass = frame.render_pass("next");
                 let token = pass.sample(&last);
-                pass.color(&mut next, Contents::Cover);
+                pass.color(&mut next, Contents::Overwrite);
                 let loaded = &loaded;
                 pass.body(move |ctx| loaded.record(ctx, &[Bind::Texture(token)]));
                 last = next;
@@ -272,7 +272,8 @@ fn buffers_and_histories_hold_the_same() {
             let block = frame.uniform(&number(5));
             let mut copied = frame.create_buffer("copied", BufferDesc::new(400));
             let mut pass = frame.compute_pass("copy");
-            let tokens = (pass.storage_buffer(&words), pass.storage_buffer_mut(&mut copied, Contents::Cover));
+            let tokens =
+                (pass.storage_buffer(&words), pass.storage_buffer_mut(&mut copied, Contents::Overwrite));
             pass.body(|ctx| copy.record(ctx, &[Bind::Buffer(tokens.0), Bind::Buffer(tokens.1)], 2));
             let mut pass = frame.compute_pass("add");
             let token = pass.storage_buffer_mut(&mut copied, Contents::Preserve);
@@ -281,7 +282,7 @@ fn buffers_and_histories_hold_the_same() {
             let mut count = frame.history("count", square(8), Resize::Reset);
             let mut pass = frame.render_pass("count");
             let before = pass.sample(&count.previous);
-            pass.color(&mut count.current, Contents::Cover);
+            pass.color(&mut count.current, Contents::Overwrite);
             pass.body(|ctx| loaded.record(ctx, &[Bind::Texture(before)]));
             let count = frame.export_texture(&count.current);
             let executed = gpu.run(&mut graph, frame);
@@ -298,22 +299,22 @@ fn buffers_and_histories_hold_the_same() {
 fn tiles_that_are_cleared_after_others_are_covered_draw_the_same() {
     for gpu in Gpu::all() {
         let seven = gpu.draw("seven", NUMBERS);
-        let tiles = [0, 4, 8].map(|x| Part::WHOLE.rect(Rect::new(x, 2, 4, 4)));
+        let tiles = [0, 4, 8].map(|x| Subresource::FULL.rect(Rect::new(x, 2, 4, 4)));
         draws_the_same(&gpu, |frame| {
             let mut atlas = frame.create_texture("atlas", square(16));
             let clear = |value| Contents::clear_color([value, 0.0, 0.0, 0.0]);
-            for (tile, contents) in tiles.into_iter().zip([Contents::Cover, clear(0.0), clear(3.0)]) {
+            for (tile, contents) in tiles.into_iter().zip([Contents::Overwrite, clear(0.0), clear(3.0)]) {
                 let mut pass = frame.render_pass("tile");
-                pass.on(tile).color(&mut atlas, contents);
+                pass.subresource(tile).color(&mut atlas, contents);
                 let seven = &seven;
                 pass.body(move |ctx| match contents {
-                    Contents::Cover => seven.record(ctx, &[]),
+                    Contents::Overwrite => seven.record(ctx, &[]),
                     _ => Ok(()),
                 });
             }
             let exports = tiles.map(|tile| {
                 let mut out = frame.create_texture("out", square(4));
-                frame.copy_pass("out").texture_parts(&atlas, tile, &mut out, Part::WHOLE);
+                frame.copy_pass("out").texture_region(&atlas, tile, &mut out, Subresource::FULL);
                 frame.export_texture(&out)
             });
             exports.to_vec()
@@ -331,13 +332,18 @@ fn a_slice_beside_one_that_is_discarded_holds_the_same() {
             let mut volume = frame.create_texture("volume", desc);
             for slice in [1, 0] {
                 let mut pass = frame.render_pass("slice");
-                pass.on(Part::WHOLE.layer(slice)).color(&mut volume, Contents::Cover);
+                pass.subresource(Subresource::FULL.layer(slice)).color(&mut volume, Contents::Overwrite);
                 pass.keep();
                 let seven = &seven;
                 pass.body(move |ctx| seven.record(ctx, &[]));
             }
             let mut out = frame.create_texture("out", square(4));
-            frame.copy_pass("out").texture_parts(&volume, Part::WHOLE.layer(1), &mut out, Part::WHOLE);
+            frame.copy_pass("out").texture_region(
+                &volume,
+                Subresource::FULL.layer(1),
+                &mut out,
+                Subresource::FULL,
+            );
             vec![frame.export_texture(&out)]
         });
     }
@@ -348,12 +354,12 @@ fn a_slice_beside_one_that_is_discarded_holds_the_same() {
 fn a_clear_may_count_on_the_load_of_the_pass_before() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", square(16));
-    let tiles = [0, 4].map(|x| Part::WHOLE.rect(Rect::new(x, 2, 4, 4)));
-    frame.render_pass("cover").on(tiles[0]).color(&mut atlas, Contents::Cover);
-    frame.render_pass("clear").on(tiles[1]).color(&mut atlas, Contents::clear_color([0.0; 4]));
+    let tiles = [0, 4].map(|x| Subresource::FULL.rect(Rect::new(x, 2, 4, 4)));
+    frame.render_pass("cover").subresource(tiles[0]).color(&mut atlas, Contents::Overwrite);
+    frame.render_pass("clear").subresource(tiles[1]).color(&mut atlas, Contents::clear_color([0.0; 4]));
     for tile in tiles {
         let mut out = frame.create_texture("out", square(4));
-        frame.copy_pass("out").texture_parts(&atlas, tile, &mut out, Part::WHOLE);
+        frame.copy_pass("out").texture_region(&atlas, tile, &mut out, Subresource::FULL);
         frame.export_texture(&out);
     }
     let plan = frame.compile().unwrap().into_plan();
@@ -389,9 +395,9 @@ fn samples_with_depth_and_mips_draw_the_same() {
             let mut mips = frame.create_texture("mips", TextureDesc { mip_levels: 3, ..square(8) });
             for mip in 0..3 {
                 let mut pass = frame.render_pass("mip");
-                let part = |mip| Part::WHOLE.mip(mip);
-                let above = (mip > 0).then(|| pass.on(part(mip - 1)).sample(&mips));
-                pass.on(part(mip)).color(&mut mips, Contents::Cover);
+                let part = |mip| Subresource::FULL.mip(mip);
+                let above = (mip > 0).then(|| pass.subresource(part(mip - 1)).sample(&mips));
+                pass.subresource(part(mip)).color(&mut mips, Contents::Overwrite);
                 let (seven, loaded) = (&seven, &loaded);
                 pass.body(move |ctx| match above {
                     Some(above) => loaded.record(ctx, &[Bind::Texture(above)]),
@@ -399,7 +405,12 @@ fn samples_with_depth_and_mips_draw_the_same() {
                 });
             }
             let mut last = frame.create_texture("last", square(2));
-            frame.copy_pass("last").texture_parts(&mips, Part::WHOLE.mip(2), &mut last, Part::WHOLE);
+            frame.copy_pass("last").texture_region(
+                &mips,
+                Subresource::FULL.mip(2),
+                &mut last,
+                Subresource::FULL,
+            );
             vec![frame.export_texture(&resolved), frame.export_texture(&last)]
         });
     }

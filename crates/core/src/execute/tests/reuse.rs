@@ -12,7 +12,7 @@ fn chain<'f>(graph: &Graph, draw: &'f super::Draw, side: u32, length: u32) -> (F
         let mut next = frame.create_texture("next", square(side));
         let mut pass = frame.render_pass("next");
         let token = pass.sample(&last);
-        pass.color(&mut next, Contents::Cover);
+        pass.color(&mut next, Contents::Overwrite);
         pass.body(move |ctx| draw.record(ctx, &[Bind::Texture(token)]));
         last = next;
     }
@@ -81,7 +81,7 @@ fn one_plan_whose_body_binds_another_texture_each_time_gets_the_right_group() {
             let mut target = frame.create_texture("target", square(8));
             let mut pass = frame.render_pass("add one");
             let tokens = sources.each_ref().map(|source| pass.sample(source));
-            pass.color(&mut target, Contents::Cover);
+            pass.color(&mut target, Contents::Overwrite);
             pass.body(move |ctx| draw.record(ctx, &[Bind::Texture(tokens[number as usize])]));
             let export = frame.export_texture(&target);
             let executed = gpu.run(&mut graph, frame);

@@ -2,7 +2,7 @@
 
 use super::gpu::{Gpu, NUMBERS, number, square};
 use crate::test_device::valid;
-use crate::{Bind, BufferExport, Contents, Error, Executed, Frame, Graph, Part, Rect, TextureExport};
+use crate::{Bind, BufferExport, Contents, Error, Executed, Frame, Graph, Rect, Subresource, TextureExport};
 use std::sync::Mutex;
 use std::thread::ThreadId;
 
@@ -25,7 +25,7 @@ fn frame<'f>(
             let mut pass = frame.render_pass("tile");
             let contents =
                 if round == 0 { Contents::clear_color([2.0, 0.0, 0.0, 0.0]) } else { Contents::Preserve };
-            pass.on(Part::WHOLE.rect(rect)).color(&mut atlas, contents);
+            pass.subresource(Subresource::FULL.rect(rect)).color(&mut atlas, contents);
             pass.body(move |ctx| {
                 threads.lock().unwrap().push(std::thread::current().id());
                 ctx.pass.set_scissor_rect(rect.x + round, rect.y + 2 * round, 3, 2);

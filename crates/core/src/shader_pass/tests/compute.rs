@@ -1,7 +1,7 @@
 //! What one-line dispatches compute.
 
 use super::{Gpu, kernel, texture, words};
-use crate::{Contents, Format, Part};
+use crate::{Contents, Format, Subresource};
 
 fn bytes(numbers: impl IntoIterator<Item = u32>) -> Vec<u8> {
     numbers.into_iter().flat_map(u32::to_le_bytes).collect()
@@ -16,7 +16,7 @@ fn numbers_are_doubled() {
         .compute("double", &kernel("double"))
         .storage_mut(&mut numbers, Contents::Preserve)
         .dispatch([3, 1, 1]);
-    let read = frame.read_back_buffer(&numbers, Part::WHOLE);
+    let read = frame.read_back_buffer(&numbers, Subresource::FULL);
     let [doubled] = gpu.bytes(frame, [read]);
     assert_eq!(words(&doubled), (0..10).map(|n| 2 * n).collect::<Vec<_>>());
 }
@@ -26,13 +26,13 @@ fn a_part_of_a_buffer_is_bound_alone() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let mut numbers = frame.upload_buffer("numbers", bytes(0..128));
-    let part = Part::WHOLE.bytes(256..264);
+    let part = Subresource::FULL.bytes(256..264);
     frame
         .compute("double", &kernel("double"))
-        .on(part)
+        .subresource(part)
         .storage_mut(&mut numbers, Contents::Preserve)
         .dispatch([32, 1, 1]);
-    let read = frame.read_back_buffer(&numbers, Part::WHOLE);
+    let read = frame.read_back_buffer(&numbers, Subresource::FULL);
     let [doubled] = gpu.bytes(frame, [read]);
     let expected: Vec<u32> = (0..128).map(|n| if n == 64 || n == 65 { 2 * n } else { n }).collect();
     assert_eq!(words(&doubled), expected);
@@ -51,7 +51,7 @@ fn frames_in_flight_compute_with_their_own_uniforms() {
             .storage_mut(&mut numbers, Contents::Preserve)
             .uniform(&times.to_le_bytes())
             .dispatch([2, 1, 1]);
-        let read = frame.read_back_buffer(&numbers, Part::WHOLE.bytes(4..20));
+        let read = frame.read_back_buffer(&numbers, Subresource::FULL.bytes(4..20));
         let (mut executed, encoder) = gpu.record(frame).unwrap();
         pending.push((times, executed.read_back(read).unwrap(), encoder.finish()));
     }
@@ -76,7 +76,7 @@ fn the_number_of_workgroups_may_come_from_a_buffer() {
         .compute("double", &kernel("double"))
         .storage_mut(&mut numbers, Contents::Preserve)
         .dispatch_indirect(&arguments, 8);
-    let read = frame.read_back_buffer(&numbers, Part::WHOLE);
+    let read = frame.read_back_buffer(&numbers, Subresource::FULL);
     let [doubled] = gpu.bytes(frame, [read]);
     assert_eq!(words(&doubled), [0, 2, 4, 6, 4, 5, 6, 7, 8, 9], "one workgroup of four");
 }
@@ -90,9 +90,9 @@ fn a_storage_texture_is_painted_from_a_buffer() {
     frame
         .compute("paint", &kernel("paint"))
         .storage(&inputs)
-        .storage_texture_mut(&mut outputs, Contents::Cover)
+        .storage_texture_mut(&mut outputs, Contents::Overwrite)
         .dispatch([3, 3, 1]);
-    let read = frame.read_back_texture(&outputs, Part::WHOLE);
+    let read = frame.read_back_texture(&outputs, Subresource::FULL);
     let [painted] = gpu.bytes(frame, [read]);
     assert_eq!(words(&painted), [10, 20, 30, 11, 21, 31, 12, 22, 32]);
 }

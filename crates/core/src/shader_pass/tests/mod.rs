@@ -9,7 +9,7 @@ mod warm;
 
 use crate::test_device::valid;
 use crate::{
-    ComputeShader, Contents, Executed, Format, Frame, FullscreenShader, Graph, Part, ReadBackRequest,
+    ComputeShader, Contents, Executed, Format, Frame, FullscreenShader, Graph, ReadBackRequest, Subresource,
 };
 use crate::{Texture, TextureDesc};
 
@@ -86,7 +86,7 @@ fn cleared(frame: &mut Frame<'_>, name: &str, side: u32, level: f64) -> Texture 
 }
 
 fn whole(frame: &mut Frame<'_>, texture: &Texture) -> ReadBackRequest {
-    frame.read_back_texture(texture, Part::WHOLE)
+    frame.read_back_texture(texture, Subresource::FULL)
 }
 
 fn words(bytes: &[u8]) -> Vec<u32> {

@@ -1,7 +1,9 @@
 //! What one-line draws draw, texel by texel.
 
 use super::{Gpu, cleared, fragment, texture, whole, words};
-use crate::{ClearValue, Contents, Format, FullscreenShader, Graph, MergeReason, Part, Rect, TextureDesc};
+use crate::{
+    ClearValue, Contents, Format, FullscreenShader, Graph, MergeReason, Rect, Subresource, TextureDesc,
+};
 use wgpu::BlendState;
 
 const ADD: BlendState = {
@@ -86,8 +88,8 @@ fn a_tile_is_drawn_over_and_the_rest_stays() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let mut picture = cleared(&mut frame, "picture", 4, 0.2);
-    let tile = Part::WHOLE.rect(Rect::new(2, 1, 2, 2));
-    frame.fullscreen("tile", &fragment("gradient")).on(tile).draw(&mut picture);
+    let tile = Subresource::FULL.rect(Rect::new(2, 1, 2, 2));
+    frame.fullscreen("tile", &fragment("gradient")).subresource(tile).draw(&mut picture);
     let read = whole(&mut frame, &picture);
     let mut expected = vec![51; 64];
     for (row, texels) in gradient(2).chunks(8).enumerate() {
@@ -104,13 +106,13 @@ fn draws_into_tiles_of_one_target_share_a_render_pass() {
     let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
     let shaders = [0.2, 0.4].map(|level| fragment("level").constant("LEVEL", level));
     for (x, shader) in [0, 2].into_iter().zip(&shaders) {
-        let tile = Part::WHOLE.rect(Rect::new(x, 0, 2, 4));
-        frame.fullscreen(format_args!("tile {x}"), shader).on(tile).draw(&mut picture);
+        let tile = Subresource::FULL.rect(Rect::new(x, 0, 2, 4));
+        frame.fullscreen(format_args!("tile {x}"), shader).subresource(tile).draw(&mut picture);
     }
     let read = whole(&mut frame, &picture);
     let mut executed = gpu.run(frame).unwrap();
     let plan = executed.plan();
-    assert_eq!(plan.merges, [MergeReason::First, MergeReason::Merged]);
+    assert_eq!(plan.merge_reasons, [MergeReason::First, MergeReason::Merged]);
     let texels = executed.read_back(read).unwrap().wait(&gpu.device).unwrap();
     assert_eq!(texels, [[51; 8], [102; 8]].concat().repeat(4));
 }
@@ -146,15 +148,15 @@ fn a_mip_level_is_drawn_from_the_one_before() {
     let mut frame = gpu.graph.frame();
     let desc = TextureDesc { mip_levels: 3, ..TextureDesc::d2(8, 8, Format::Rgba8Unorm) };
     let mut chain = frame.create_texture("chain", desc);
-    let mip = |level| Part::WHOLE.mip(level);
-    frame.fullscreen("gradient", &fragment("gradient")).on(mip(0)).draw(&mut chain);
+    let mip = |level| Subresource::FULL.mip(level);
+    frame.fullscreen("gradient", &fragment("gradient")).subresource(mip(0)).draw(&mut chain);
     for level in 1..3 {
         let before = chain.clone();
         frame
             .fullscreen("halve", &fragment("halve"))
-            .on(mip(level - 1))
+            .subresource(mip(level - 1))
             .sample(&before)
-            .on(mip(level))
+            .subresource(mip(level))
             .draw(&mut chain);
     }
     let read = frame.read_back_texture(&chain, mip(2));

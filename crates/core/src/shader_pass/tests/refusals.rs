@@ -113,7 +113,10 @@ fn an_empty_block_is_an_error() {
         let call = frame.compute("multiply", &multiply).storage_mut(&mut numbers, Contents::Preserve);
         call.uniform(&[]).dispatch([1; 3]);
     });
-    assert!(matches!(&error, Error::Shape { resource, .. } if resource.contains("`multiply`")), "{error}");
+    assert!(
+        matches!(&error, Error::InvalidResource { resource, .. } if resource.contains("`multiply`")),
+        "{error}"
+    );
 }
 
 #[test]
@@ -155,7 +158,10 @@ fn arguments_outside_the_buffer_or_off_the_grid_are_errors() {
             call.dispatch_indirect(&arguments, offset);
             frame.export_buffer(&numbers);
         });
-        assert!(matches!(&error, Error::Part { resource, .. } if resource == "arguments"), "{error}");
+        assert!(
+            matches!(&error, Error::InvalidSubresource { resource, .. } if resource == "arguments"),
+            "{error}"
+        );
     }
 }
 
@@ -174,7 +180,7 @@ fn handles_of_another_frame_are_errors() {
                 2 => drop(frame.fullscreen("draw", &fragment("depth_of_uv")).draw_depth(&mut foreign)),
                 3 => {
                     let call = frame.compute("double", &kernel("double"));
-                    call.storage_mut(&mut bytes, Contents::Cover).dispatch_indirect(&buffer, 2);
+                    call.storage_mut(&mut bytes, Contents::Overwrite).dispatch_indirect(&buffer, 2);
                 }
                 _ => drop(frame.compute("double", &kernel("double")).storage(&buffer).dispatch([1; 3])),
             }

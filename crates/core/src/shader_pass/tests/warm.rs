@@ -1,7 +1,7 @@
 //! First draws met before the first frame.
 
 use super::{Gpu, TEXT, cleared, fragment, kernel, texture, whole, words};
-use crate::{Contents, Format, Frame, FullscreenShader, Part, Resize, TextureDesc};
+use crate::{Contents, Format, Frame, FullscreenShader, Resize, Subresource, TextureDesc};
 use std::time::{Duration, Instant};
 
 #[test]
@@ -132,7 +132,7 @@ fn timed(gpu: &mut Gpu, shaders: &[FullscreenShader]) -> Duration {
     for shader in shaders {
         frame.fullscreen(&*shader.0.name, shader).draw_over(&mut picture, wgpu::BlendState::ALPHA_BLENDING);
     }
-    let read = frame.read_back_texture(&picture, Part::WHOLE);
+    let read = frame.read_back_texture(&picture, Subresource::FULL);
     let [texels] = gpu.bytes(frame, [read]);
     assert_eq!(words(&texels).len(), 32 * 32);
     start.elapsed()

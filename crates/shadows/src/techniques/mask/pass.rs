@@ -69,7 +69,7 @@ impl MaskPass {
         let mut pass = frame.compute_pass(self.name);
         let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
         let (surfaces, mask) = (pass.sample(&screen.surfaces), pass.sample(mask));
-        let target = pass.storage_texture_mut(&mut made, Contents::Cover);
+        let target = pass.storage_texture_mut(&mut made, Contents::Overwrite);
         let size_px = screen.size_px;
         pass.body(move |ctx| {
             let own = [

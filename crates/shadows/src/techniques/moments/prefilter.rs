@@ -1,6 +1,6 @@
 //! The passes that turn maps of depths into maps of moments.
 
-use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Part, Texture, TextureDesc, Uniform};
+use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Subresource, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
 
 use super::{MomentParams, Moments};
@@ -114,8 +114,8 @@ impl Prefilter {
         let [x, y] = size.map(|side| (side >> to_mip).div_ceil(WORKGROUP));
         let mut pass = frame.compute_pass(name);
         let (views, tiles) = (pass.storage_buffer(views), pass.storage_buffer(tiles));
-        let from = pass.on(Part::WHOLE.mip(from_mip)).sample(from);
-        let to = pass.on(Part::WHOLE.mip(to_mip)).storage_texture_mut(to, Contents::Cover);
+        let from = pass.subresource(Subresource::FULL.mip(from_mip)).sample(from);
+        let to = pass.subresource(Subresource::FULL.mip(to_mip)).storage_texture_mut(to, Contents::Overwrite);
         pass.body(move |ctx| {
             let map = [Bind::Buffer(views), Bind::Buffer(tiles), Bind::Uniform(block)];
             let groups = [

@@ -82,7 +82,7 @@ impl Raytraced {
         let mut pass = frame.compute_pass("trace");
         let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
         let (traced, surfaces) = (pass.storage_buffer(traced), pass.sample(&screen.surfaces));
-        let target = pass.storage_texture_mut(&mut mask, Contents::Cover);
+        let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
         let size_px = screen.size_px;
         pass.body(move |ctx| {
             let Trace { view_layout, rays_layout, screen_layout, pipeline } = &self.trace;

@@ -70,7 +70,7 @@ impl Collect {
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
         let surfaces = pass.sample(&screen.surfaces);
-        let target = pass.storage_texture_mut(&mut mask, Contents::Cover);
+        let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
         let size_px = screen.size_px;
         pass.body(move |ctx| {
             let own = [Bind::Texture(surfaces), Bind::TextureArray(target), Bind::Uniform(layers.record)];

@@ -124,7 +124,7 @@ impl GpuFit {
         let planned = [steps.views, steps.lights].map(|buffer| pass.storage_buffer(buffer));
         let found = [&mut steps.depths, &mut steps.bounds]
             .map(|buffer| pass.storage_buffer_mut(buffer, Contents::Preserve));
-        let fitted = fitted.map(|fitted| pass.storage_buffer_mut(fitted, Contents::Cover));
+        let fitted = fitted.map(|fitted| pass.storage_buffer_mut(fitted, Contents::Overwrite));
         let block = steps.block;
         pass.body(move |ctx| {
             let mut own = vec![Bind::Texture(surfaces)];

@@ -87,7 +87,7 @@ fn a_pass_that_runs_twice() {
     let repeat = |stage, work: &mut Work| {
         let first = *(stage == Stage::Order).then(|| work.plan.order.first())??;
         work.plan.order.push(first);
-        work.plan.placed.push(work.plan.placed[0]);
+        work.plan.order_reasons.push(work.plan.order_reasons[0]);
         Some(true)
     };
     search(&[Rule::Permutation], repeat).always_caught();
@@ -113,11 +113,11 @@ fn a_pass_that_runs_though_nothing_needs_it() {
 
 /// Joins the first two steps that were kept apart for such a reason.
 fn join(work: &mut Work, apart: impl Fn(MergeReason) -> bool) -> bool {
-    let Some(place) = work.plan.merges.iter().position(|&reason| apart(reason)) else { return false };
+    let Some(place) = work.plan.merge_reasons.iter().position(|&reason| apart(reason)) else { return false };
     let step = work.plan.steps.iter().position(|step| step.0 as usize == place).unwrap_or_default();
     let (_, end) = work.plan.steps.remove(step);
     work.plan.steps[step - 1].1 = end;
-    work.plan.merges[place] = MergeReason::Merged;
+    work.plan.merge_reasons[place] = MergeReason::Merged;
     true
 }
 

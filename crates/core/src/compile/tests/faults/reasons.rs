@@ -3,7 +3,7 @@
 use super::{Stage, Work, search};
 use crate::compile::tests::oracle::Rule;
 use crate::handle::ResourceId;
-use crate::plan::{CullReason, LoadReason, MergeReason, PlaceReason, SlotReason, StoreReason};
+use crate::plan::{CullReason, LoadReason, MergeReason, OrderReason, SlotReason, StoreReason};
 
 const REASONS: [Rule; 1] = [Rule::Reasons];
 
@@ -21,15 +21,15 @@ fn a_false_reason_for_culling() {
 #[test]
 fn a_false_reason_for_a_place() {
     let lie = |stage, work: &mut Work| {
-        for reason in (stage == Stage::Order).then_some(&mut work.plan.placed)? {
+        for reason in (stage == Stage::Order).then_some(&mut work.plan.order_reasons)? {
             *reason = match *reason {
-                PlaceReason::OnlyReady => PlaceReason::FreesMemory(7),
-                PlaceReason::FreesMemory(bytes) => PlaceReason::FreesMemory(bytes + 4),
-                PlaceReason::DeclaredFirst => PlaceReason::OnlyReady,
-                _ => PlaceReason::OnlyReady,
+                OrderReason::OnlyReady => OrderReason::FreesMemory(7),
+                OrderReason::FreesMemory(bytes) => OrderReason::FreesMemory(bytes + 4),
+                OrderReason::DeclaredFirst => OrderReason::OnlyReady,
+                _ => OrderReason::OnlyReady,
             };
         }
-        Some(!work.plan.placed.is_empty())
+        Some(!work.plan.order_reasons.is_empty())
     };
     search(&REASONS, lie).caught(600);
 }
@@ -37,7 +37,7 @@ fn a_false_reason_for_a_place() {
 #[test]
 fn a_false_reason_against_a_merge() {
     let lie = |stage, work: &mut Work| {
-        for reason in (stage == Stage::Merge).then_some(&mut work.plan.merges)? {
+        for reason in (stage == Stage::Merge).then_some(&mut work.plan.merge_reasons)? {
             *reason = match *reason {
                 MergeReason::Kind(_) | MergeReason::KindBefore(_) => MergeReason::Attachments,
                 MergeReason::Attachments => MergeReason::Off,
@@ -56,8 +56,8 @@ fn a_false_reason_for_a_load() {
     let lie = |stage, work: &mut Work| {
         for ops in (stage == Stage::Ops).then_some(&mut work.plan.ops)?.iter_mut().flatten() {
             ops.load_reason = match ops.load_reason {
-                LoadReason::Declared => LoadReason::Covered,
-                LoadReason::Covered | LoadReason::RestUnneeded => LoadReason::Declared,
+                LoadReason::Declared => LoadReason::Overwritten,
+                LoadReason::Overwritten | LoadReason::RestUnneeded => LoadReason::Declared,
                 LoadReason::Preserves(_) => LoadReason::PreservesImport,
                 LoadReason::RestOutlives | LoadReason::RestNeededBy(_) => LoadReason::RestUnneeded,
                 LoadReason::PreservesImport => LoadReason::RestUnneeded,
@@ -90,9 +90,9 @@ fn a_false_reason_for_a_store() {
 #[test]
 fn a_false_reason_for_a_slot() {
     let lie = |stage, work: &mut Work| {
-        let fates = (stage == Stage::Alias).then_some(&mut work.plan.fates)?;
-        for (index, fate) in fates.iter_mut().enumerate() {
-            fate.reason = match fate.reason {
+        let placements = (stage == Stage::Alias).then_some(&mut work.plan.placements)?;
+        for (index, placement) in placements.iter_mut().enumerate() {
+            placement.reason = match placement.reason {
                 SlotReason::After(_) => SlotReason::FirstOfClass,
                 SlotReason::FirstOfClass => SlotReason::AllBusy(ResourceId(index as u32)),
                 SlotReason::AllBusy(other) => SlotReason::After(other),
@@ -101,7 +101,7 @@ fn a_false_reason_for_a_slot() {
                 SlotReason::History => SlotReason::Unused,
             };
         }
-        Some(!work.plan.fates.is_empty())
+        Some(!work.plan.placements.is_empty())
     };
     search(&REASONS, lie).always_caught();
 }

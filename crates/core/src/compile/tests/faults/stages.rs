@@ -32,10 +32,10 @@ pub(super) fn compile(decl: Declaration, mut after: impl FnMut(Stage, &mut Work)
     work.plan.dependencies = hazards::hazards(&work.plan.decl, &work.plan.culled);
     after(Stage::Hazards, &mut work);
     let plan = &mut work.plan;
-    (plan.order, plan.placed) = order::order(&plan.decl, &plan.culled, &plan.dependencies);
+    (plan.order, plan.order_reasons) = order::order(&plan.decl, &plan.culled, &plan.dependencies);
     after(Stage::Order, &mut work);
     let plan = &mut work.plan;
-    (plan.steps, plan.merges) = merge::merge(&plan.decl, &plan.order);
+    (plan.steps, plan.merge_reasons) = merge::merge(&plan.decl, &plan.order);
     after(Stage::Merge, &mut work);
     work.uses = lifetime::uses(&work.plan.decl, &work.plan.order, &work.plan.steps);
     after(Stage::Lifetime, &mut work);
@@ -43,7 +43,8 @@ pub(super) fn compile(decl: Declaration, mut after: impl FnMut(Stage, &mut Work)
     after(Stage::Ops, &mut work);
     let plan = &mut work.plan;
     let aliasing = alias::alias(&plan.decl, &work.uses, plan.steps.len());
-    (plan.fates, plan.slots, plan.tenants) = (aliasing.fates, aliasing.slots, aliasing.tenants);
+    (plan.placements, plan.slots, plan.slot_resources) =
+        (aliasing.placements, aliasing.slots, aliasing.resources);
     after(Stage::Alias, &mut work);
     work.plan
 }
@@ -52,18 +53,18 @@ impl Work {
     /// Moves a resource to another slot, and lists it there.
     pub(super) fn move_to(&mut self, resource: usize, slot: SlotId) {
         let plan = &mut self.plan;
-        plan.fates[resource].slot = Some(slot);
-        let mut housed: Vec<usize> =
-            (0..plan.fates.len()).filter(|&r| plan.fates[r].slot.is_some()).collect();
-        housed.sort_by_key(|&r| (plan.fates[r].slot, plan.fates[r].steps));
-        plan.tenants = housed.iter().map(|&r| crate::ResourceId(r as u32)).collect();
+        plan.placements[resource].slot = Some(slot);
+        let mut assigned: Vec<usize> =
+            (0..plan.placements.len()).filter(|&r| plan.placements[r].slot.is_some()).collect();
+        assigned.sort_by_key(|&r| (plan.placements[r].slot, plan.placements[r].steps));
+        plan.slot_resources = assigned.iter().map(|&r| crate::ResourceId(r as u32)).collect();
         for (index, slot) in plan.slots.iter_mut().enumerate() {
-            let own = |r: &&usize| plan.fates[**r].slot == Some(SlotId(index as u32));
-            let start = housed.iter().position(|r| own(&r)).unwrap_or(0) as u32;
-            slot.tenants = (start, start + housed.iter().filter(own).count() as u32);
-            for r in housed.iter().filter(own) {
-                slot.texture_usage |= plan.fates[*r].texture_usage;
-                slot.buffer_usage |= plan.fates[*r].buffer_usage;
+            let own = |r: &&usize| plan.placements[**r].slot == Some(SlotId(index as u32));
+            let start = assigned.iter().position(|r| own(&r)).unwrap_or(0) as u32;
+            slot.resources = (start, start + assigned.iter().filter(own).count() as u32);
+            for r in assigned.iter().filter(own) {
+                slot.texture_usage |= plan.placements[*r].texture_usage;
+                slot.buffer_usage |= plan.placements[*r].buffer_usage;
             }
         }
     }

@@ -16,8 +16,8 @@ fn transient(work: &Work) -> impl Iterator<Item = usize> + use<> {
 /// What the plan says of lifetimes is kept true, so that only what follows from the fault can be found.
 fn tell_true_lifetimes(work: &mut Work) {
     let uses = crate::compile::lifetime::uses(&work.plan.decl, &work.plan.order, &work.plan.steps);
-    for (fate, own) in work.plan.fates.iter_mut().zip(&uses) {
-        fate.steps = own.steps;
+    for (placement, own) in work.plan.placements.iter_mut().zip(&uses) {
+        placement.steps = own.steps;
     }
 }
 
@@ -73,8 +73,8 @@ fn two_live_resources_in_one_slot() {
     let share = |stage, work: &mut Work| {
         for a in (stage == Stage::Alias).then(|| transient(work))? {
             for b in transient(work).filter(|&b| b < a) {
-                let (one, other) = (work.plan.fates[a], work.plan.fates[b]);
-                let both = |fate: &crate::plan::Fate| Some((fate.slot?, fate.steps?));
+                let (one, other) = (work.plan.placements[a], work.plan.placements[b]);
+                let both = |placement: &crate::plan::Placement| Some((placement.slot?, placement.steps?));
                 let (Some((slot, (first, last))), Some((taken, (start, end)))) = (both(&one), both(&other))
                 else {
                     continue;
@@ -155,9 +155,9 @@ fn a_transient_attachment_that_is_stored() {
         for index in (stage == Stage::Alias).then_some(0..work.plan.ops.len())? {
             let resource = work.plan.decl.accesses[index].resource;
             let stored = work.plan.ops[index].is_some_and(|ops| ops.store == StoreAction::Store);
-            if let (true, Some(slot)) = (stored, work.plan.fates[resource.index()].slot) {
+            if let (true, Some(slot)) = (stored, work.plan.placements[resource.index()].slot) {
                 let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TRANSIENT_ATTACHMENT;
-                work.plan.fates[resource.index()].texture_usage = usage;
+                work.plan.placements[resource.index()].texture_usage = usage;
                 work.plan.slots[slot.index()].texture_usage = usage;
                 return Some(true);
             }

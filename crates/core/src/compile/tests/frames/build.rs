@@ -180,8 +180,8 @@ fn buffer(handles: &mut [Option<Handle>], resource: usize) -> &mut Buffer {
 }
 
 fn render(pass: &mut Pass<'_, 'static, Rendering>, access: &AccessSpec, handles: &mut [Option<Handle>]) {
-    let contents = access.contents.unwrap_or(Contents::Cover);
-    pass.on(access.part.to_part());
+    let contents = access.contents.unwrap_or(Contents::Overwrite);
+    pass.subresource(access.subresource.to_part());
     match access.access {
         Access::Color(_) => {
             let _token = pass.color(texture(handles, access.resource), contents);
@@ -206,13 +206,13 @@ fn render(pass: &mut Pass<'_, 'static, Rendering>, access: &AccessSpec, handles:
 }
 
 fn compute(pass: &mut Pass<'_, 'static, Compute>, access: &AccessSpec, handles: &mut [Option<Handle>]) {
-    pass.on(access.part.to_part());
+    pass.subresource(access.subresource.to_part());
     shade(pass, access, handles);
 }
 
 fn encode(pass: &mut Pass<'_, 'static, Encoding>, access: &AccessSpec, handles: &mut [Option<Handle>]) {
-    let contents = access.contents.unwrap_or(Contents::Cover);
-    pass.on(access.part.to_part());
+    let contents = access.contents.unwrap_or(Contents::Overwrite);
+    pass.subresource(access.subresource.to_part());
     let of_texture = matches!(handles[access.resource], Some(Handle::Texture(_)));
     match (access.access, of_texture) {
         (Access::CopySource, true) => {
@@ -240,7 +240,7 @@ fn shade<K: ShaderPass>(
     access: &AccessSpec,
     handles: &mut [Option<Handle>],
 ) {
-    let contents = access.contents.unwrap_or(Contents::Cover);
+    let contents = access.contents.unwrap_or(Contents::Overwrite);
     let of_texture = matches!(handles[access.resource], Some(Handle::Texture(_)));
     match (access.access, of_texture) {
         (Access::Sampled, _) => {
@@ -275,7 +275,7 @@ fn copy(
     to: AccessSpec,
     handles: &mut [Option<Handle>],
 ) {
-    let (source_part, target_part) = (from.part.to_part(), to.part.to_part());
+    let (source_part, target_part) = (from.subresource.to_part(), to.subresource.to_part());
     let source = match &handles[from.resource] {
         Some(Handle::Texture(texture)) => Handle::Texture(texture.clone()),
         Some(Handle::Buffer(buffer)) => Handle::Buffer(buffer.clone()),
@@ -283,10 +283,10 @@ fn copy(
     };
     match (source, &mut handles[to.resource]) {
         (Handle::Texture(source), Some(Handle::Texture(target))) => {
-            let _token = pass.texture_parts(&source, source_part, target, target_part);
+            let _token = pass.texture_region(&source, source_part, target, target_part);
         }
         (Handle::Buffer(source), Some(Handle::Buffer(target))) => {
-            let _token = pass.buffer_parts(&source, source_part, target, target_part);
+            let _token = pass.buffer_range(&source, source_part, target, target_part);
         }
         (Handle::Texture(source), Some(Handle::Buffer(target))) => {
             let _token = pass.texture_to_buffer(&source, target);

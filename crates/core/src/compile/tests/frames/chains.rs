@@ -15,15 +15,19 @@ pub(in super::super) fn chain_from_bytes(bytes: &[u8], passes: usize) -> Spec {
         let desc = ResourceDesc::Texture(TextureDesc::d2(width, height, Format::Rgba8Unorm));
         spec.resources.push(ResourceSpec { desc, origin: Origin::Transient, uploaded: false });
         let mut pass = PassSpec::new(PassKind::Compute);
-        let access =
-            |resource, access, contents| AccessSpec { resource, access, contents, part: PartSpec::default() };
+        let access = |resource, access, contents| AccessSpec {
+            resource,
+            access,
+            contents,
+            subresource: PartSpec::default(),
+        };
         let reads = if index == 0 { 0 } else { source.below(fan_in + 1) };
         for _ in 0..reads {
             let read = index - 1 - source.below(back.min(index));
             unread[read] = false;
             pass.accesses.push(access(read, Access::Sampled, None));
         }
-        pass.accesses.push(access(index, Access::StorageWrite, Some(Contents::Cover)));
+        pass.accesses.push(access(index, Access::StorageWrite, Some(Contents::Overwrite)));
         spec.passes.push(pass);
     }
     let kept = source.chance(128);

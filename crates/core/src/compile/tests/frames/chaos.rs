@@ -2,8 +2,8 @@
 
 use super::Source;
 use crate::{
-    Aspect, Buffer, BufferDesc, BufferUsages, ClearValue, Contents, Format, Frame, Part, PassId, Rect,
-    Resize, Texture, TextureDesc, TextureUsages,
+    Aspect, Buffer, BufferDesc, BufferUsages, ClearValue, Contents, Format, Frame, PassId, Rect, Resize,
+    Subresource, Texture, TextureDesc, TextureUsages,
 };
 use wgpu_types::TextureDimension;
 
@@ -69,31 +69,32 @@ impl Chaos<'_> {
         desc
     }
 
-    fn part(&mut self) -> Part {
-        let mut part = Part::WHOLE;
+    fn subresource(&mut self) -> Subresource {
+        let mut subresource = Subresource::FULL;
         if !self.source.chance(48) {
-            return part;
+            return subresource;
         }
         if self.source.chance(64) {
-            part = part.mips(self.number()..self.number());
+            subresource = subresource.mips(self.number()..self.number());
         }
         if self.source.chance(64) {
-            part = part.layers(self.number()..self.number());
+            subresource = subresource.layers(self.number()..self.number());
         }
         if self.source.chance(64) {
-            part = part.rect(Rect::new(self.number(), self.number(), self.number(), self.number()));
+            subresource =
+                subresource.rect(Rect::new(self.number(), self.number(), self.number(), self.number()));
         }
         if self.source.chance(64) {
             let long = |number: u32| u64::from(number) * u64::from(number);
-            part = part.bytes(long(self.number())..long(self.number()));
+            subresource = subresource.bytes(long(self.number())..long(self.number()));
         }
-        part.aspect(self.source.pick(&[Aspect::All, Aspect::All, Aspect::Depth, Aspect::Stencil]))
+        subresource.aspect(self.source.pick(&[Aspect::All, Aspect::All, Aspect::Depth, Aspect::Stencil]))
     }
 
     fn contents(&mut self) -> Contents {
         match self.source.below(7) {
             0 => Contents::Preserve,
-            1..=3 => Contents::Cover,
+            1..=3 => Contents::Overwrite,
             4 => Contents::Clear(ClearValue::Color([f64::NAN, f64::INFINITY, -1.0, 1e300])),
             5 => Contents::Clear(ClearValue::Depth(f32::NAN)),
             _ => Contents::Clear(ClearValue::DepthStencil(0.5, self.number())),
@@ -133,15 +134,15 @@ impl Chaos<'_> {
     fn call(&mut self, frame: &mut Frame<'static>) {
         let (index, mut texture) = self.texture(frame);
         let (place, mut buffer) = self.buffer(frame);
-        let (part, contents) = (self.part(), self.contents());
+        let (subresource, contents) = (self.subresource(), self.contents());
         match self.source.below(12) {
-            0..=4 => self.draw(frame, &mut texture, &buffer, part, contents),
-            5 | 6 => self.compute(frame, &mut texture, &mut buffer, part, contents),
-            7 => self.copy(frame, &mut texture, &mut buffer, part),
+            0..=4 => self.draw(frame, &mut texture, &buffer, subresource, contents),
+            5 | 6 => self.compute(frame, &mut texture, &mut buffer, subresource, contents),
+            7 => self.copy(frame, &mut texture, &mut buffer, subresource),
             8 => {
                 let mut pass = frame.encoder_pass("encoder");
-                pass.on(part).attachment(&mut texture, contents);
-                pass.on(part).copy_source_buffer(&buffer);
+                pass.subresource(subresource).attachment(&mut texture, contents);
+                pass.subresource(subresource).copy_source_buffer(&buffer);
                 let other = self.passes.get(self.source.below(9)).copied().unwrap_or(pass.id());
                 pass.after(other);
                 self.passes.push(pass.id());
@@ -167,16 +168,16 @@ impl Chaos<'_> {
         frame: &mut Frame<'static>,
         texture: &mut Texture,
         buffer: &Buffer,
-        part: Part,
+        subresource: Subresource,
         contents: Contents,
     ) {
         let (_, mut other) = self.texture(frame);
         let mut pass = frame.render_pass("draw");
         match self.source.below(4) {
-            0 => pass.on(part).depth(texture, contents),
-            1 => pass.on(part).resolve(texture),
-            2 => pass.on(part).depth_read(texture),
-            _ => pass.on(part).color(texture, contents),
+            0 => pass.subresource(subresource).depth(texture, contents),
+            1 => pass.subresource(subresource).resolve(texture),
+            2 => pass.subresource(subresource).depth_read(texture),
+            _ => pass.subresource(subresource).color(texture, contents),
         };
         if self.source.chance(96) {
             pass.color(&mut other, contents);
@@ -192,30 +193,45 @@ impl Chaos<'_> {
         frame: &mut Frame<'static>,
         texture: &mut Texture,
         buffer: &mut Buffer,
-        part: Part,
+        subresource: Subresource,
         contents: Contents,
     ) {
         let mut pass = frame.compute_pass("compute");
         match self.source.below(4) {
-            0 => drop((pass.on(part).storage_texture_mut(texture, contents), pass.indirect_buffer(buffer))),
-            1 => drop((pass.on(part).sample(texture), pass.storage_buffer_mut(buffer, contents))),
-            2 => drop((pass.sample(texture), pass.on(part).storage_buffer_mut(buffer, contents))),
-            _ => drop((pass.storage_texture(texture), pass.on(part).uniform_buffer(buffer))),
+            0 => drop((
+                pass.subresource(subresource).storage_texture_mut(texture, contents),
+                pass.indirect_buffer(buffer),
+            )),
+            1 => drop((
+                pass.subresource(subresource).sample(texture),
+                pass.storage_buffer_mut(buffer, contents),
+            )),
+            2 => drop((
+                pass.sample(texture),
+                pass.subresource(subresource).storage_buffer_mut(buffer, contents),
+            )),
+            _ => drop((pass.storage_texture(texture), pass.subresource(subresource).uniform_buffer(buffer))),
         }
         if self.source.chance(128) {
             pass.keep();
         }
     }
 
-    fn copy(&mut self, frame: &mut Frame<'static>, texture: &mut Texture, buffer: &mut Buffer, part: Part) {
+    fn copy(
+        &mut self,
+        frame: &mut Frame<'static>,
+        texture: &mut Texture,
+        buffer: &mut Buffer,
+        subresource: Subresource,
+    ) {
         let (_, source) = self.texture(frame);
         let (_, bytes) = self.buffer(frame);
-        let to = self.part();
+        let to = self.subresource();
         let mut pass = frame.copy_pass("copy");
         match self.source.below(4) {
             0 => pass.texture(&source, texture),
-            1 => pass.texture_parts(&source, part, texture, to),
-            2 => pass.buffer_parts(&bytes, part, buffer, to),
+            1 => pass.texture_region(&source, subresource, texture, to),
+            2 => pass.buffer_range(&bytes, subresource, buffer, to),
             _ => pass.texture_to_buffer(&source, buffer),
         };
     }

@@ -111,7 +111,7 @@ impl<'b> Generator<'b> {
             self.order_by_name(&mut pass);
         }
         for access in pass.accesses.iter().filter(|access| access.writes()) {
-            let written = access.part.cells(&self.cells[access.resource]);
+            let written = access.subresource.cells(&self.cells[access.resource]);
             self.defined[access.resource] = self.defined[access.resource].union(&written);
         }
         self.spec.passes.push(pass);
@@ -128,10 +128,10 @@ impl<'b> Generator<'b> {
 
     /// What of a resource a pass of this kind cannot touch in two ways: wgpu knows no tiles and no bytes
     /// within one pass, and slices of a volume only as attachments.
-    fn extents(&self, resource: usize, part: PartSpec) -> [Cells; 2] {
+    fn extents(&self, resource: usize, subresource: PartSpec) -> [Cells; 2] {
         let [beside_attachments, beside_others] = match (self.pass.kind, self.spec.desc(resource)) {
-            (PassKind::Copy | PassKind::Encoder, _) => [part; 2],
-            (_, ResourceDesc::Texture(desc)) => [part.subresources(), part.tracked(desc)],
+            (PassKind::Copy | PassKind::Encoder, _) => [subresource; 2],
+            (_, ResourceDesc::Texture(desc)) => [subresource.subresources(), subresource.tracked(desc)],
             (_, ResourceDesc::Buffer(_)) => [PartSpec::default(); 2],
         };
         let cells = &self.cells[resource];
@@ -139,8 +139,14 @@ impl<'b> Generator<'b> {
     }
 
     /// Whether the pass may touch a part besides what it touches already.
-    pub(super) fn is_free(&self, resource: usize, part: PartSpec, writes: bool, attaches: bool) -> bool {
-        let extents = self.extents(resource, part);
+    pub(super) fn is_free(
+        &self,
+        resource: usize,
+        subresource: PartSpec,
+        writes: bool,
+        attaches: bool,
+    ) -> bool {
+        let extents = self.extents(resource, subresource);
         let clash = |other: &Touched| {
             let own = usize::from(!(attaches && other.attached));
             other.resource == resource
@@ -150,8 +156,8 @@ impl<'b> Generator<'b> {
         !self.touched.iter().any(clash)
     }
 
-    pub(super) fn is_defined(&mut self, resource: usize, part: PartSpec) -> bool {
-        let cells = part.cells(&self.cells[resource]);
+    pub(super) fn is_defined(&mut self, resource: usize, subresource: PartSpec) -> bool {
+        let cells = subresource.cells(&self.cells[resource]);
         self.defined[resource].covers(&cells) || self.wild && self.source.chance(1)
     }
 
@@ -161,11 +167,11 @@ impl<'b> Generator<'b> {
         resource: usize,
         access: Access,
         contents: Option<Contents>,
-        part: PartSpec,
+        subresource: PartSpec,
     ) {
-        let own = AccessSpec { resource, access, contents, part };
+        let own = AccessSpec { resource, access, contents, subresource };
         let (written, attached) = (own.writes(), own.access.is_attachment());
-        let extents = self.extents(resource, part);
+        let extents = self.extents(resource, subresource);
         self.touched.push(Touched { resource, extents, written, attached });
         self.pass.accesses.push(own);
     }
@@ -186,7 +192,7 @@ impl<'b> Generator<'b> {
             let current = matches!(self.spec.resources[resource].origin, Origin::Current { .. });
             if current && !self.defined[resource].covers(&whole) {
                 self.begin(PassKind::Encoder);
-                self.touch(resource, Access::CopyTarget, Some(Contents::Cover), PartSpec::default());
+                self.touch(resource, Access::CopyTarget, Some(Contents::Overwrite), PartSpec::default());
                 self.end();
             }
         }

@@ -1,7 +1,8 @@
 //! Mistakes that a caller can make in a frame.
 
 use crate::{
-    BufferDesc, ClearValue, Contents, Format, Frame, Part, Rect, Resize, Texture, TextureDesc, TextureUsages,
+    BufferDesc, ClearValue, Contents, Format, Frame, Rect, Resize, Subresource, Texture, TextureDesc,
+    TextureUsages,
 };
 
 /// Makes a mistake in a frame that has none.
@@ -45,8 +46,8 @@ pub(in super::super) const MISTAKES: [(&str, Mistake); 26] = [
     }),
     ("SG0201", |frame| {
         let mut texture = color(frame);
-        let part = Part::WHOLE.rect(Rect::new(0, 0, 8, 7));
-        frame.render_pass("most of it").on(part).color(&mut texture, BLACK);
+        let part = Subresource::FULL.rect(Rect::new(0, 0, 8, 7));
+        frame.render_pass("most of it").subresource(part).color(&mut texture, BLACK);
         frame.compute_pass("bad").sample(&texture);
     }),
     ("SG0202", |frame| {
@@ -102,7 +103,7 @@ pub(in super::super) const MISTAKES: [(&str, Mistake); 26] = [
         let mut target = written(frame);
         let mut pass = frame.render_pass("bad");
         pass.color(&mut texture, BLACK);
-        pass.on(Part::WHOLE.rect(Rect::new(0, 0, 4, 4))).resolve(&mut target);
+        pass.subresource(Subresource::FULL.rect(Rect::new(0, 0, 4, 4))).resolve(&mut target);
     }),
     ("SG0307", |frame| {
         let mut depth = || frame.create_texture("depth", TextureDesc::d2(8, 8, Format::Depth32Float));
@@ -121,14 +122,14 @@ pub(in super::super) const MISTAKES: [(&str, Mistake); 26] = [
     }),
     ("SG0402", |frame| {
         let mut texture = color(frame);
-        frame.render_pass("bad").on(Part::WHOLE.mip(1)).color(&mut texture, BLACK);
+        frame.render_pass("bad").subresource(Subresource::FULL.mip(1)).color(&mut texture, BLACK);
     }),
     ("SG0402", |frame| {
         let mut buffer = frame.create_buffer("short", BufferDesc::new(16));
         frame
             .compute_pass("bad")
-            .on(Part::WHOLE.bytes(8..24))
-            .storage_buffer_mut(&mut buffer, Contents::Cover);
+            .subresource(Subresource::FULL.bytes(8..24))
+            .storage_buffer_mut(&mut buffer, Contents::Overwrite);
     }),
     ("SG0403", |frame| {
         let desc = TextureDesc::d2(8, 8, Format::Rgba8Unorm);

@@ -22,7 +22,9 @@ pub(super) use generate::{frame_from_bytes, small_frame_from_bytes};
 pub(super) use mistakes::MISTAKES;
 pub(super) use source::Source;
 
-use crate::{Access, Aspect, Contents, Options, Origin, Part, PassKind, Rect, ResourceDesc, TextureDesc};
+use crate::{
+    Access, Aspect, Contents, Options, Origin, PassKind, Rect, ResourceDesc, Subresource, TextureDesc,
+};
 use wgpu_types::TextureDimension;
 
 /// All that a frame declares.
@@ -61,10 +63,10 @@ pub(super) struct AccessSpec {
     pub(super) access: Access,
     /// `None` reads.
     pub(super) contents: Option<Contents>,
-    pub(super) part: PartSpec,
+    pub(super) subresource: PartSpec,
 }
 
-/// What [`Part`] says; `None` is all there is.
+/// What [`Subresource`] says; `None` is all there is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct PartSpec {
     pub(super) mips: Option<(u32, u32)>,
@@ -107,21 +109,21 @@ impl PassSpec {
 }
 
 impl PartSpec {
-    pub(super) fn to_part(self) -> Part {
-        let mut part = Part::WHOLE.aspect(self.aspect);
+    pub(super) fn to_part(self) -> Subresource {
+        let mut subresource = Subresource::FULL.aspect(self.aspect);
         if let Some((start, end)) = self.mips {
-            part = part.mips(start..end);
+            subresource = subresource.mips(start..end);
         }
         if let Some((start, end)) = self.layers {
-            part = part.layers(start..end);
+            subresource = subresource.layers(start..end);
         }
         if let Some(rect) = self.rect {
-            part = part.rect(rect);
+            subresource = subresource.rect(rect);
         }
         if let Some((start, end)) = self.bytes {
-            part = part.bytes(start..end);
+            subresource = subresource.bytes(start..end);
         }
-        part
+        subresource
     }
 
     /// All of the mips and layers that it touches, of the same aspects.

@@ -56,22 +56,25 @@ impl Generator<'_> {
         };
         for index in 0..self.spec.passes[last].accesses.len() {
             let access = self.spec.passes[last].accesses[index];
-            let whole = access.part.without_rect();
+            let whole = access.subresource.without_rect();
             let size = self.part_size(access.resource, whole);
-            let rect =
-                if access.part.rect.is_some() || self.source.chance(64) { self.rect(size) } else { None };
-            let part = PartSpec { rect, ..whole };
+            let rect = if access.subresource.rect.is_some() || self.source.chance(64) {
+                self.rect(size)
+            } else {
+                None
+            };
+            let subresource = PartSpec { rect, ..whole };
             match access.access {
-                Access::DepthRead if self.is_defined(access.resource, part) => {
-                    self.touch(access.resource, Access::DepthRead, None, part);
+                Access::DepthRead if self.is_defined(access.resource, subresource) => {
+                    self.touch(access.resource, Access::DepthRead, None, subresource);
                 }
                 Access::Color(_) | Access::Depth | Access::DepthRead => {
                     let kind = if access.access == Access::DepthRead { Access::Depth } else { access.access };
-                    let contents = self.contents(access.resource, kind, part, 200);
-                    self.touch(access.resource, kind, Some(contents), part);
+                    let contents = self.contents(access.resource, kind, subresource, 200);
+                    self.touch(access.resource, kind, Some(contents), subresource);
                 }
                 Access::Resolve(_) if self.source.chance(128) => {
-                    self.touch(access.resource, access.access, Some(Contents::Cover), access.part);
+                    self.touch(access.resource, access.access, Some(Contents::Overwrite), access.subresource);
                 }
                 _ => {}
             }
@@ -135,19 +138,20 @@ impl Generator<'_> {
     /// Attaches a target: draws into all of it or a rectangle, or only tests depth.
     fn draw(&mut self, target: Target, access: Access) {
         let Some(desc) = self.texture_desc(target.resource) else { return };
-        let mut part = self.target_part(&target, &desc);
-        part.aspect = self.aspect(desc.format);
-        part.rect = self.rect(mip_size(&desc, target.mip));
-        if access == Access::Depth && self.source.chance(80) && self.is_defined(target.resource, part) {
-            self.touch(target.resource, Access::DepthRead, None, part);
+        let mut subresource = self.target_part(&target, &desc);
+        subresource.aspect = self.aspect(desc.format);
+        subresource.rect = self.rect(mip_size(&desc, target.mip));
+        if access == Access::Depth && self.source.chance(80) && self.is_defined(target.resource, subresource)
+        {
+            self.touch(target.resource, Access::DepthRead, None, subresource);
             // What is only tested may be sampled too.
             if self.source.chance(64) {
-                self.touch(target.resource, Access::Sampled, None, part);
+                self.touch(target.resource, Access::Sampled, None, subresource);
             }
             return;
         }
-        let contents = self.contents(target.resource, access, part, 96);
-        self.touch(target.resource, access, Some(contents), part);
+        let contents = self.contents(target.resource, access, subresource, 96);
+        self.touch(target.resource, access, Some(contents), subresource);
     }
 
     fn resolve(&mut self, from: Target, size: (u32, u32), index: u32) {
@@ -155,18 +159,24 @@ impl Generator<'_> {
         let target = self.target(size, 1, false);
         let Some(own) = self.texture_desc(target.resource) else { return };
         if own.format == desc.format {
-            let part = self.target_part(&target, &own);
-            self.touch(target.resource, Access::Resolve(index), Some(Contents::Cover), part);
+            let subresource = self.target_part(&target, &own);
+            self.touch(target.resource, Access::Resolve(index), Some(Contents::Overwrite), subresource);
         }
     }
 
     /// What becomes of the contents of an attachment: preserved in `preserve` of 256 cases, if it can be.
-    fn contents(&mut self, resource: usize, access: Access, part: PartSpec, preserve: usize) -> Contents {
-        if self.source.chance(preserve) && self.is_defined(resource, part) {
+    fn contents(
+        &mut self,
+        resource: usize,
+        access: Access,
+        subresource: PartSpec,
+        preserve: usize,
+    ) -> Contents {
+        if self.source.chance(preserve) && self.is_defined(resource, subresource) {
             return Contents::Preserve;
         }
         if self.source.chance(96) {
-            return Contents::Cover;
+            return Contents::Overwrite;
         }
         Contents::Clear(match (access, self.source.below(4)) {
             (Access::Color(_), value @ 0..=2) => ClearValue::Color([value as f64; 4]),
@@ -177,8 +187,8 @@ impl Generator<'_> {
         })
     }
 
-    fn part_size(&self, resource: usize, part: PartSpec) -> (u32, u32) {
-        let mip = part.mips.map_or(0, |(start, _)| start);
+    fn part_size(&self, resource: usize, subresource: PartSpec) -> (u32, u32) {
+        let mip = subresource.mips.map_or(0, |(start, _)| start);
         self.texture_desc(resource).map_or((1, 1), |desc| mip_size(&desc, mip))
     }
 
@@ -191,10 +201,11 @@ impl Generator<'_> {
             }
             let back = self.source.below(count).min(self.source.below(count));
             let resource = count - 1 - back;
-            let part = if self.source.chance(96) { self.any_part(resource) } else { PartSpec::default() };
-            if self.is_free(resource, part, false, false) && self.is_defined(resource, part) {
+            let subresource =
+                if self.source.chance(96) { self.any_part(resource) } else { PartSpec::default() };
+            if self.is_free(resource, subresource, false, false) && self.is_defined(resource, subresource) {
                 let access = self.read_access(resource);
-                return self.touch(resource, access, None, part);
+                return self.touch(resource, access, None, subresource);
             }
         }
     }
@@ -255,13 +266,13 @@ impl Generator<'_> {
 
     /// Covers or preserves a part of a resource.
     fn write(&mut self, resource: usize, access: Access) {
-        let part = if self.source.chance(112) { self.any_part(resource) } else { PartSpec::default() };
-        if !self.is_free(resource, part, true, false) {
+        let subresource = if self.source.chance(112) { self.any_part(resource) } else { PartSpec::default() };
+        if !self.is_free(resource, subresource, true, false) {
             return;
         }
-        let preserves = self.source.chance(96) && self.is_defined(resource, part);
-        let contents = if preserves { Contents::Preserve } else { Contents::Cover };
-        self.touch(resource, access, Some(contents), part);
+        let preserves = self.source.chance(96) && self.is_defined(resource, subresource);
+        let contents = if preserves { Contents::Preserve } else { Contents::Overwrite };
+        self.touch(resource, access, Some(contents), subresource);
     }
 
     /// The mip and layer that the pass has touched last.
@@ -269,7 +280,7 @@ impl Generator<'_> {
         let desc = self.texture_desc(last.resource)?;
         let previous = matches!(self.spec.resources[last.resource].origin, Origin::Previous { .. });
         let first = |range: Option<(u32, u32)>| range.map_or(0, |(start, _)| start);
-        let (mip, layer) = (first(last.part.mips), first(last.part.layers));
+        let (mip, layer) = (first(last.subresource.mips), first(last.subresource.layers));
         let drawable = !previous && !is_depth(desc.format) && desc.samples == 1;
         drawable.then_some(Target { resource: last.resource, mip, layer })
     }
@@ -283,11 +294,11 @@ impl Generator<'_> {
         };
         let Some(target) = target else { return };
         let Some(desc) = self.texture_desc(target.resource) else { return };
-        let mut part = self.target_part(&target, &desc);
-        part.rect = self.rect(mip_size(&desc, target.mip));
-        if self.is_free(target.resource, part, true, true) {
-            let contents = self.contents(target.resource, Access::Color(0), part, 96);
-            self.touch(target.resource, Access::Color(0), Some(contents), part);
+        let mut subresource = self.target_part(&target, &desc);
+        subresource.rect = self.rect(mip_size(&desc, target.mip));
+        if self.is_free(target.resource, subresource, true, true) {
+            let contents = self.contents(target.resource, Access::Color(0), subresource, 96);
+            self.touch(target.resource, Access::Color(0), Some(contents), subresource);
         }
     }
 }

@@ -33,8 +33,8 @@ fn write_pass(f: &mut Formatter<'_>, index: usize, pass: &PassSpec) -> Result {
     let keep = if pass.keep { ", kept" } else { "" };
     writeln!(f, "p{index}: {:?}{keep}, after {:?}", pass.kind, pass.after)?;
     for access in &pass.accesses {
-        let part = access.part.to_part().words();
-        writeln!(f, "    {:?} of r{}, {part}, {:?}", access.access, access.resource, access.contents)?;
+        let subresource = access.subresource.to_part().to_string();
+        writeln!(f, "    {:?} of r{}, {subresource}, {:?}", access.access, access.resource, access.contents)?;
     }
     Ok(())
 }

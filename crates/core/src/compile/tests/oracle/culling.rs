@@ -1,10 +1,10 @@
 //! A pass runs if and only if something needs what it leaves.
 
 use super::truth::{Stamp, Truth};
-use super::{Judge, Rule, spec_pass};
+use super::{Oracle, Rule, spec_pass};
 use crate::Plan;
 
-impl Judge<'_> {
+impl Oracle<'_> {
     /// Follows the contents back from what outlives the frame and from passes that are kept, cell by cell.
     pub(super) fn culling(&mut self, truth: &Truth, plan: &Plan) {
         let spec = self.model.spec;

@@ -1,10 +1,10 @@
 //! The plan says what was declared, and nothing else.
 
 use super::super::frames::{Names, PartSpec};
-use super::{Judge, Rule};
-use crate::{Part, Plan};
+use super::{Oracle, Rule};
+use crate::{Plan, Subresource};
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn declared(&mut self, names: &Names, plan: &Plan) {
         let spec = self.model.spec;
         let counts = (plan.pass_count(), plan.resources().len());
@@ -32,9 +32,9 @@ impl Judge<'_> {
                 let expected = (names.id(access.resource), access.access, access.contents);
                 let version = versions[access.resource];
                 let same = (planned.resource, planned.access, planned.contents) == expected;
-                let part = planned.part == access.part.to_part()
-                    || self.is_whole(access.resource, access.part, planned.part);
-                self.expect(same && part && planned.version == version, Rule::Declared, || {
+                let subresource = planned.subresource == access.subresource.to_part()
+                    || self.is_whole(access.resource, access.subresource, planned.subresource);
+                self.expect(same && subresource && planned.version == version, Rule::Declared, || {
                     format!("{id:?} has {planned:?} for {access:?}")
                 });
                 versions[access.resource] += u32::from(access.writes());
@@ -42,7 +42,8 @@ impl Judge<'_> {
         }
     }
 
-    fn is_whole(&self, resource: usize, part: PartSpec, planned: Part) -> bool {
-        planned == Part::WHOLE && part.cells(&self.model.cells[resource]) == self.model.whole(resource)
+    fn is_whole(&self, resource: usize, subresource: PartSpec, planned: Subresource) -> bool {
+        planned == Subresource::FULL
+            && subresource.cells(&self.model.cells[resource]) == self.model.whole(resource)
     }
 }

@@ -18,7 +18,7 @@ pub(in super::super) fn lower_bounds(model: &Model<'_>, names: &Names, plan: &Pl
         Some((desc, usage(TextureUsages::STORAGE_BINDING), usage(TextureUsages::TRANSIENT_ATTACHMENT)))
     };
     let mut classes: Vec<Class> = Vec::new();
-    for class in slots.iter().filter_map(|slot| class(slot.tenants[0])) {
+    for class in slots.iter().filter_map(|slot| class(slot.resources[0])) {
         if !classes.contains(&class) {
             classes.push(class);
         }
@@ -31,7 +31,7 @@ pub(in super::super) fn lower_bounds(model: &Model<'_>, names: &Names, plan: &Pl
         let at_once =
             |step: usize| spans.iter().filter(|(first, last)| (*first..=*last).contains(&step)).count();
         let most = (0..steps).map(at_once).max().unwrap_or(0);
-        let count = slots.iter().filter(|slot| class(slot.tenants[0]) == Some(own)).count();
+        let count = slots.iter().filter(|slot| class(slot.resources[0]) == Some(own)).count();
         (count as u64 * own.0.bytes(), most as u64 * own.0.bytes())
     };
     classes.iter().map(|&own| bytes(own)).collect()

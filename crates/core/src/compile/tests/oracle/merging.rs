@@ -1,10 +1,10 @@
 //! Passes that share a render pass.
 
 use super::super::frames::AccessSpec;
-use super::{Judge, Live, Rule};
+use super::{Live, Oracle, Rule};
 use crate::{Access, Contents, PassKind, Plan};
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn merging(&mut self, plan: &Plan, live: &Live) {
         let last = live.steps.last().map_or(0, |last| last + 1);
         for step in 0..last {

@@ -1,4 +1,4 @@
-//! A naive judge of plans: it knows the rules of the graph and nothing of the compiler.
+//! A naive oracle of plans: it knows the rules of the graph and nothing of the compiler.
 //!
 //! It believes the spec, not the declaration, looks at every texel and byte, and compares everything with
 //! everything. Like `frames` it uses the crate's public names only.
@@ -61,28 +61,28 @@ pub(super) struct Breach {
 }
 
 /// Checks a plan against the spec of its frame, which must be valid.
-pub(super) fn judge(spec: &Spec, names: &Names, plan: &Plan) -> Vec<Breach> {
-    let mut judge = Judge { model: Model::new(spec), breaches: Vec::new() };
-    judge.declared(names, plan);
-    if !judge.breaches.is_empty() {
-        return judge.breaches;
+pub(super) fn check_plan(spec: &Spec, names: &Names, plan: &Plan) -> Vec<Breach> {
+    let mut oracle = Oracle { model: Model::new(spec), breaches: Vec::new() };
+    oracle.declared(names, plan);
+    if !oracle.breaches.is_empty() {
+        return oracle.breaches;
     }
-    let truth = Truth::new(&judge.model);
-    judge.culling(&truth, plan);
+    let truth = Truth::new(&oracle.model);
+    oracle.culling(&truth, plan);
     // What follows reads the order, so it must be one.
-    if !judge.permutation(plan) {
-        return judge.breaches;
+    if !oracle.permutation(plan) {
+        return oracle.breaches;
     }
-    let live = Live::new(&judge.model, plan);
-    judge.ordering(names, plan, &live);
-    judge.merging(plan, &live);
-    judge.slots(names, plan, &live);
-    judge.usages(names, plan, &live);
-    if judge.breaches.iter().all(|breach| breach.rule != Rule::Slots) {
-        judge.replay(&truth, plan, names, &live);
+    let live = Live::new(&oracle.model, plan);
+    oracle.ordering(names, plan, &live);
+    oracle.merging(plan, &live);
+    oracle.slots(names, plan, &live);
+    oracle.usages(names, plan, &live);
+    if oracle.breaches.iter().all(|breach| breach.rule != Rule::Slots) {
+        oracle.replay(&truth, plan, names, &live);
     }
-    judge.reasons(names, plan, &live);
-    judge.breaches
+    oracle.reasons(names, plan, &live);
+    oracle.breaches
 }
 
 /// A spec with the cells of everything.
@@ -100,7 +100,7 @@ impl<'s> Model<'s> {
     pub(super) fn new(spec: &'s Spec) -> Self {
         let cells: Vec<Vec<Cell>> = spec.resources.iter().map(|resource| cells_of(&resource.desc)).collect();
         let parts = spec.passes.iter().map(|pass| {
-            pass.accesses.iter().map(|access| access.part.cells(&cells[access.resource])).collect()
+            pass.accesses.iter().map(|access| access.subresource.cells(&cells[access.resource])).collect()
         });
         let parts = parts.collect();
         let mut model = Self { spec, cells, parts, before: Vec::new() };
@@ -121,12 +121,12 @@ impl<'s> Model<'s> {
 
     /// What an attachment loads and stores: all of its mip and layer, of the aspects that it has.
     fn attachment(&self, access: &AccessSpec) -> Cells {
-        access.part.without_rect().cells(&self.cells[access.resource])
+        access.subresource.without_rect().cells(&self.cells[access.resource])
     }
 
     /// What is lost with an attachment that is discarded: of a volume every slice.
     fn discarded(&self, access: &AccessSpec) -> Cells {
-        let whole = access.part.without_rect();
+        let whole = access.subresource.without_rect();
         let whole = match self.spec.desc(access.resource) {
             ResourceDesc::Texture(desc) => whole.with_all_slices(desc),
             ResourceDesc::Buffer(_) => whole,
@@ -137,7 +137,9 @@ impl<'s> Model<'s> {
     /// What wgpu cannot tell from an access of a shader within one pass.
     fn subresources(&self, access: &AccessSpec) -> Cells {
         match self.spec.desc(access.resource) {
-            ResourceDesc::Texture(desc) => access.part.tracked(desc).cells(&self.cells[access.resource]),
+            ResourceDesc::Texture(desc) => {
+                access.subresource.tracked(desc).cells(&self.cells[access.resource])
+            }
             ResourceDesc::Buffer(_) => self.whole(access.resource),
         }
     }
@@ -161,12 +163,12 @@ impl<'s> Model<'s> {
     }
 }
 
-struct Judge<'s> {
+struct Oracle<'s> {
     model: Model<'s>,
     breaches: Vec<Breach>,
 }
 
-impl Judge<'_> {
+impl Oracle<'_> {
     fn report(&mut self, rule: Rule, words: impl Into<String>) {
         self.breaches.push(Breach { rule, words: words.into() });
     }
@@ -186,5 +188,5 @@ pub(super) fn spec_pass(id: PassId) -> usize {
 /// Whether an access is to all of its resource.
 pub(super) fn part_is_whole(spec: &Spec, access: &AccessSpec) -> bool {
     let cells = cells_of(spec.desc(access.resource));
-    access.part.cells(&cells) == Cells::first(cells.len())
+    access.subresource.cells(&cells) == Cells::first(cells.len())
 }

@@ -1,10 +1,10 @@
 //! Every hazard is respected, and the listed dependencies are those of the hazards.
 
 use super::super::frames::Names;
-use super::{Judge, Live, Rule, spec_pass};
+use super::{Live, Oracle, Rule, spec_pass};
 use crate::{Dependency, DependencyKind, OrderPolicy, Plan};
 
-impl Judge<'_> {
+impl Oracle<'_> {
     /// Compares every two passes that run.
     pub(super) fn ordering(&mut self, names: &Names, plan: &Plan, live: &Live) {
         let reached = self.reachable(plan);

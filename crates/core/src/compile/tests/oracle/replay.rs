@@ -2,7 +2,7 @@
 
 use super::super::frames::{AccessSpec, Cells, Names};
 use super::truth::{Stamp, Truth, initial};
-use super::{Judge, Live, Rule, spec_pass};
+use super::{Live, Oracle, Rule, spec_pass};
 use crate::{Aspect, AttachmentOps, ClearValue, Contents, LoadAction, Plan, ResourceDesc, StoreAction};
 
 /// What a cell of a slot holds.
@@ -32,7 +32,7 @@ struct Replay<'p> {
     open: Vec<Open>,
 }
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn replay(&mut self, truth: &Truth, plan: &Plan, names: &Names, live: &Live) {
         let mut replay = self.memory(truth, plan, names, live);
         for (place, &pass) in live.order.iter().enumerate() {
@@ -118,7 +118,7 @@ impl Judge<'_> {
         replay: &mut Replay<'_>,
         place: usize,
         access: &AccessSpec,
-        part: &Cells,
+        subresource: &Cells,
         ops: &AttachmentOps,
     ) {
         let (resource, whole) = (access.resource, self.model.attachment(access));
@@ -137,7 +137,7 @@ impl Judge<'_> {
             LoadAction::Continue => {}
         }
         if let (Some(Contents::Clear(value)), true) = (access.contents, ops.clear_drawn) {
-            self.fill(replay, resource, part, value);
+            self.fill(replay, resource, subresource, value);
         }
     }
 

@@ -1,10 +1,10 @@
 //! Slots: who lives in them when, and whether they fit.
 
 use super::super::frames::Names;
-use super::{Judge, Live, Rule};
+use super::{Live, Oracle, Rule};
 use crate::{Plan, ResourceDesc};
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn slots(&mut self, names: &Names, plan: &Plan, live: &Live) {
         let housed = live.housed(&self.model);
         for resource in 0..self.model.spec.resources.len() {
@@ -19,21 +19,21 @@ impl Judge<'_> {
             });
         }
         for (index, slot) in plan.slots().enumerate() {
-            let mut tenants: Vec<usize> = slot.tenants.iter().map(|&id| names.resource(id)).collect();
+            let mut resources: Vec<usize> = slot.resources.iter().map(|&id| names.resource(id)).collect();
             let listed = housed.iter().filter(|(resource, _)| {
                 plan.resource(names.id(*resource)).slot.is_some_and(|slot| slot.index() == index)
             });
             let mut expected: Vec<usize> = listed.map(|(resource, _)| *resource).collect();
-            let spans: Vec<_> = tenants.iter().filter_map(|&resource| live.spans[resource]).collect();
+            let spans: Vec<_> = resources.iter().filter_map(|&resource| live.spans[resource]).collect();
             let apart = spans.windows(2).all(|pair| pair[0].1 < pair[1].0);
             self.expect(apart, Rule::Slots, || {
-                format!("the tenants {tenants:?} of slot {index} live in {spans:?}")
+                format!("the resources {resources:?} of slot {index} live in {spans:?}")
             });
-            tenants.iter().for_each(|&resource| self.fits(resource, index, &slot.desc));
-            tenants.sort_unstable();
+            resources.iter().for_each(|&resource| self.fits(resource, index, &slot.desc));
+            resources.sort_unstable();
             expected.sort_unstable();
-            self.expect(tenants == expected && !tenants.is_empty(), Rule::Slots, || {
-                format!("slot {index} lists {tenants:?}, and {expected:?} are in it")
+            self.expect(resources == expected && !resources.is_empty(), Rule::Slots, || {
+                format!("slot {index} lists {resources:?}, and {expected:?} are in it")
             });
         }
     }

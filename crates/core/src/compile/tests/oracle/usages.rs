@@ -1,7 +1,7 @@
 //! Usages, and attachments with memory of their own kind.
 
 use super::super::frames::Names;
-use super::{Judge, Live, Rule};
+use super::{Live, Oracle, Rule};
 use crate::{
     Access, BufferUsages, LoadAction, Origin, PassKind, Plan, ResourceDesc, StoreAction, TextureUsages,
 };
@@ -33,7 +33,7 @@ fn buffer_usage(access: Access) -> BufferUsages {
     }
 }
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn usages(&mut self, names: &Names, plan: &Plan, live: &Live) {
         for resource in 0..self.model.spec.resources.len() {
             let (mut texture, mut buffer) = (TextureUsages::empty(), BufferUsages::empty());
@@ -79,10 +79,10 @@ impl Judge<'_> {
                 format!("slot {index} is {:?}", slot.texture_usage)
             });
             let (mut texture, mut buffer) = (TextureUsages::empty(), BufferUsages::empty());
-            for &tenant in slot.tenants {
-                let tenant = plan.resource(names.id(names.resource(tenant)));
-                texture |= tenant.texture_usage;
-                buffer |= tenant.buffer_usage;
+            for &resource in slot.resources {
+                let resource = plan.resource(names.id(names.resource(resource)));
+                texture |= resource.texture_usage;
+                buffer |= resource.buffer_usage;
             }
             let same = (texture, buffer) == (slot.texture_usage, slot.buffer_usage);
             self.expect(same, Rule::Usages, || format!("slot {index} is not for {texture:?} {buffer:?}"));

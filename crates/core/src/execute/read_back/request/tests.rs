@@ -3,8 +3,8 @@
 
 use crate::test_device::{block_on, drawing, noop, valid};
 use crate::{
-    Aspect, BufferDesc, Contents, Error, Executed, Format, Frame, Graph, Part, ReadBack, ReadBackRequest,
-    Rect, Texture, TextureDesc, TextureUsages,
+    Aspect, BufferDesc, Contents, Error, Executed, Format, Frame, Graph, ReadBack, ReadBackRequest, Rect,
+    Subresource, Texture, TextureDesc, TextureUsages,
 };
 
 type Gpu = (wgpu::Device, wgpu::Queue);
@@ -38,8 +38,8 @@ fn numbered(frame: &mut Frame<'_>, desc: TextureDesc) -> Texture {
         for layer in 0..desc.size.depth_or_array_layers {
             let mut pass = frame.render_pass(format_args!("mip {mip} layer {layer}"));
             let value = f64::from(10 * mip + layer);
-            let part = Part::WHOLE.mip(mip).layer(layer);
-            pass.on(part).color(&mut texture, Contents::clear_color([value; 4]));
+            let part = Subresource::FULL.mip(mip).layer(layer);
+            pass.subresource(part).color(&mut texture, Contents::clear_color([value; 4]));
         }
     }
     texture
@@ -59,7 +59,7 @@ fn a_texture_of_odd_width_comes_back_without_padding() {
     let bytes = read(&gpu, |frame| {
         let mut picture = frame.create_texture("picture", TextureDesc::d2(3, 5, Format::Rgba8Unorm));
         frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.2, 0.4, 0.6, 1.0]));
-        frame.read_back_texture(&picture, Part::WHOLE)
+        frame.read_back_texture(&picture, Subresource::FULL)
     });
     assert_eq!(bytes, [51, 102, 153, 255].repeat(15));
 }
@@ -70,13 +70,13 @@ fn depth_and_stencil_come_back_by_their_aspect() {
     let depth = read(&gpu, |frame| {
         let mut depth = frame.create_texture("depth", TextureDesc::d2(3, 3, Format::Depth32Float));
         frame.render_pass("clear").depth(&mut depth, Contents::clear_depth(0.25));
-        frame.read_back_texture(&depth, Part::WHOLE)
+        frame.read_back_texture(&depth, Subresource::FULL)
     });
     assert_eq!(depth, 0.25_f32.to_le_bytes().repeat(9));
     let stencil = read(&gpu, |frame| {
         let mut depth = frame.create_texture("depth", TextureDesc::d2(5, 3, Format::Depth24PlusStencil8));
         frame.render_pass("clear").depth(&mut depth, Contents::clear_depth_stencil(0.25, 7));
-        frame.read_back_texture(&depth, Part::WHOLE.aspect(Aspect::Stencil))
+        frame.read_back_texture(&depth, Subresource::FULL.aspect(Aspect::Stencil))
     });
     assert_eq!(stencil, [7; 15]);
 }
@@ -90,9 +90,9 @@ fn a_mip_of_a_layer_comes_back_alone() {
             frame.read_back_texture(&texture, part)
         })
     };
-    assert_eq!(one(Part::WHOLE.mip(1).layer(2)), words([12; 3 * 2]));
-    assert_eq!(one(Part::WHOLE.mip(2).layers(1..3)), words([21, 22]));
-    assert_eq!(one(Part::WHOLE.mip(2)), words([20, 21, 22]), "all layers");
+    assert_eq!(one(Subresource::FULL.mip(1).layer(2)), words([12; 3 * 2]));
+    assert_eq!(one(Subresource::FULL.mip(2).layers(1..3)), words([21, 22]));
+    assert_eq!(one(Subresource::FULL.mip(2)), words([20, 21, 22]), "all layers");
 }
 
 #[test]
@@ -102,9 +102,9 @@ fn a_rectangle_comes_back_alone() {
         let mut picture = frame.create_texture("picture", TextureDesc::d2(8, 8, Format::R32Uint));
         frame.render_pass("clear").color(&mut picture, Contents::clear_color([1.0; 4]));
         let mut pass = frame.render_pass("tile");
-        let tile = Part::WHOLE.rect(Rect::new(5, 3, 1, 2));
-        pass.on(tile).color(&mut picture, Contents::clear_color([2.0; 4]));
-        frame.read_back_texture(&picture, Part::WHOLE.rect(Rect::new(4, 4, 3, 2)))
+        let tile = Subresource::FULL.rect(Rect::new(5, 3, 1, 2));
+        pass.subresource(tile).color(&mut picture, Contents::clear_color([2.0; 4]));
+        frame.read_back_texture(&picture, Subresource::FULL.rect(Rect::new(4, 4, 3, 2)))
     });
     assert_eq!(bytes, words([1, 2, 1, 1, 1, 1]));
 }
@@ -113,9 +113,11 @@ fn a_rectangle_comes_back_alone() {
 fn any_range_of_a_buffer_comes_back() {
     let gpu = noop();
     let contents: Vec<u8> = (0..64).collect();
-    for (part, range) in
-        [(Part::WHOLE, 0..64), (Part::WHOLE.bytes(3..9), 3..9), (Part::WHOLE.bytes(63..64), 63..64)]
-    {
+    for (part, range) in [
+        (Subresource::FULL, 0..64),
+        (Subresource::FULL.bytes(3..9), 3..9),
+        (Subresource::FULL.bytes(63..64), 63..64),
+    ] {
         let bytes = read(&gpu, |frame| {
             let numbers = frame.upload_buffer("numbers", contents.clone());
             frame.read_back_buffer(&numbers, part)
@@ -133,7 +135,7 @@ fn frames_in_flight_have_each_its_own_result() {
             let mut frame = graph.frame();
             let numbers = frame.upload_buffer("numbers", vec![number; 16]);
             let requests =
-                [0..4, 4..16].map(|range| frame.read_back_buffer(&numbers, Part::WHOLE.bytes(range)));
+                [0..4, 4..16].map(|range| frame.read_back_buffer(&numbers, Subresource::FULL.bytes(range)));
             let mut encoder = gpu.0.create_command_encoder(&Default::default());
             let compiled = graph.compile(frame).unwrap();
             let mut executed = compiled.execute(&mut graph, &gpu.0, &mut encoder).unwrap();
@@ -163,7 +165,7 @@ fn a_result_is_taken_once_and_by_its_own_frame() {
         .map(|_| {
             let mut frame = graph.frame();
             let numbers = frame.upload_buffer("numbers", vec![1; 4]);
-            requests.push(frame.read_back_buffer(&numbers, Part::WHOLE));
+            requests.push(frame.read_back_buffer(&numbers, Subresource::FULL));
             execute(&gpu, &mut graph, frame)
         })
         .collect();
@@ -179,7 +181,7 @@ fn the_plan_shows_a_read_back_as_an_export() {
     let pass = frame.render_pass("draw");
     let id = pass.id();
     { pass }.color(&mut picture, Contents::clear_color([0.0; 4]));
-    frame.read_back_texture(&picture, Part::WHOLE);
+    frame.read_back_texture(&picture, Subresource::FULL);
     let plan = frame.compile().unwrap().into_plan();
     let resource = plan.resource(picture.id());
     assert!(resource.exported);
@@ -196,7 +198,7 @@ fn what_is_read_back_shares_its_slot_with_nothing_later() {
     let mut frame = graph.frame();
     for number in 0..3u8 {
         let numbers = frame.upload_buffer("numbers", vec![number; 16]);
-        requests.push(frame.read_back_buffer(&numbers, Part::WHOLE));
+        requests.push(frame.read_back_buffer(&numbers, Subresource::FULL));
     }
     let mut executed = execute(&gpu, &mut graph, frame);
     let taken: Vec<ReadBack> = requests.iter().map(|&request| executed.read_back(request).unwrap()).collect();
@@ -215,7 +217,7 @@ fn an_import_is_read_back() {
         let numbers = frame.upload_buffer("numbers", vec![9; 8]);
         let mut import = frame.import_buffer("own", &own, false);
         frame.copy_pass("copy").buffer(&numbers, &mut import);
-        frame.read_back_buffer(&import, Part::WHOLE.bytes(0..3))
+        frame.read_back_buffer(&import, Subresource::FULL.bytes(0..3))
     });
     assert_eq!(bytes, [9; 3]);
 }
@@ -226,7 +228,7 @@ fn mistakes_are_those_of_exports() {
     let later = refusal(|frame| {
         let mut picture = frame.create_texture("picture", square);
         frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
-        frame.read_back_texture(&picture, Part::WHOLE);
+        frame.read_back_texture(&picture, Subresource::FULL);
         frame.render_pass("again").color(&mut picture, Contents::clear_color([0.0; 4]));
     });
     assert_eq!(later.code(), "SG0101", "{later}");
@@ -234,24 +236,24 @@ fn mistakes_are_those_of_exports() {
         let mut picture = frame.create_texture("picture", square);
         let before = picture.clone();
         frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
-        frame.read_back_texture(&before, Part::WHOLE);
+        frame.read_back_texture(&before, Subresource::FULL);
     });
     assert_eq!(stale.code(), "SG0101", "{stale}");
     let undefined = refusal(|frame| {
         let numbers = frame.create_buffer("numbers", BufferDesc::new(4));
-        frame.read_back_buffer(&numbers, Part::WHOLE);
+        frame.read_back_buffer(&numbers, Subresource::FULL);
     });
     assert_eq!(undefined.code(), "SG0201", "{undefined}");
     let foreign = refusal(|frame| {
         let numbers = Frame::new().create_buffer("numbers", BufferDesc::new(4));
-        frame.read_back_buffer(&numbers, Part::WHOLE);
+        frame.read_back_buffer(&numbers, Subresource::FULL);
     });
     assert_eq!(foreign.code(), "SG0103", "{foreign}");
 }
 
 #[test]
 fn what_one_copy_cannot_take_is_refused_in_words() {
-    let refused = |desc: TextureDesc, part: Part, words: &str| {
+    let refused = |desc: TextureDesc, part: Subresource, words: &str| {
         let error = refusal(|frame| {
             let texture = frame.create_texture("texture", desc);
             frame.read_back_texture(&texture, part);
@@ -262,19 +264,19 @@ fn what_one_copy_cannot_take_is_refused_in_words() {
     };
     let color = TextureDesc::d2(8, 8, Format::Rgba8Unorm);
     let depth = |format| TextureDesc::d2(8, 8, format);
-    let rect = Part::WHOLE.rect(Rect::new(1, 1, 2, 2));
-    refused(TextureDesc { mip_levels: 3, ..color }, Part::WHOLE, "3 of its mip levels are asked for");
-    refused(TextureDesc { mip_levels: 3, ..color }, Part::WHOLE.mip(3), "past the last one");
-    refused(color, Part::WHOLE.bytes(0..4), "no byte ranges");
-    refused(color, Part::WHOLE.aspect(Aspect::Depth), "lacks that aspect");
-    refused(TextureDesc { samples: 4, ..color }, Part::WHOLE, "resolve it");
+    let rect = Subresource::FULL.rect(Rect::new(1, 1, 2, 2));
+    refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 of its mip levels are asked for");
+    refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last one");
+    refused(color, Subresource::FULL.bytes(0..4), "no byte ranges");
+    refused(color, Subresource::FULL.aspect(Aspect::Depth), "lacks that aspect");
+    refused(TextureDesc { samples: 4, ..color }, Subresource::FULL, "resolve it");
     refused(depth(Format::Depth32Float), rect, "copied whole");
-    refused(depth(Format::Depth24Plus), Part::WHOLE, "use Depth32Float");
-    refused(depth(Format::Depth24PlusStencil8), Part::WHOLE, "the depth or for the stencil alone");
+    refused(depth(Format::Depth24Plus), Subresource::FULL, "use Depth32Float");
+    refused(depth(Format::Depth24PlusStencil8), Subresource::FULL, "the depth or for the stencil alone");
     refused(depth(Format::Bc1RgbaUnorm), rect, "whole blocks");
     let error = refusal(|frame| {
         let numbers = frame.upload_buffer("numbers", vec![0; 8]);
-        frame.read_back_buffer(&numbers, Part::WHOLE.bytes(4..12));
+        frame.read_back_buffer(&numbers, Subresource::FULL.bytes(4..12));
     });
     assert!(error.to_string().contains("asked for: bytes 4..12"), "{error}");
 }
@@ -284,7 +286,7 @@ fn an_import_without_the_usage_is_refused() {
     let error = refusal(|frame| {
         let desc = TextureDesc::d2(8, 8, Format::Rgba8Unorm);
         let own = frame.declare_import_texture("own", desc, TextureUsages::RENDER_ATTACHMENT, true);
-        frame.read_back_texture(&own, Part::WHOLE);
+        frame.read_back_texture(&own, Subresource::FULL);
     });
     assert!(matches!(&error, Error::ReadBack { resource, .. } if resource == "own"), "{error}");
     assert!(error.to_string().contains("COPY_SRC"), "{error}");

@@ -102,11 +102,11 @@ impl<'d, 'f> Declarer<'d, 'f> {
         let tokens = tokens(&mut pass, params, inputs, &self.textures, &self.buffers);
         for target in targets {
             let part = target.plane.part_in(target.rect);
-            pass.on(part).color(&mut self.textures[target.plane.texture], target.contents.into());
+            pass.subresource(part).color(&mut self.textures[target.plane.texture], target.contents.into());
         }
         let written = words.and_then(|(span, preserve)| {
             let buffer = self.buffers[span.buffer].as_mut()?;
-            Some(pass.on(span.part()).storage_buffer_mut(buffer, preserved(preserve)))
+            Some(pass.subresource(span.part()).storage_buffer_mut(buffer, preserved(preserve)))
         });
         if keep {
             pass.keep();
@@ -133,7 +133,7 @@ impl<'d, 'f> Declarer<'d, 'f> {
         let mut pass = self.frame.compute_pass(format_args!("p{index} words"));
         let tokens = tokens(&mut pass, params, inputs, &self.textures, &self.buffers);
         let Some(buffer) = self.buffers[span.buffer].as_mut() else { return };
-        let written = pass.on(span.part()).storage_buffer_mut(buffer, preserved(preserve));
+        let written = pass.subresource(span.part()).storage_buffer_mut(buffer, preserved(preserve));
         let gpu = self.gpu;
         pass.body(move |ctx| {
             let group = gpu.group(ctx, &gpu.words.layout, &tokens, Some(Bind::Buffer(written)))?;
@@ -159,7 +159,7 @@ impl<'d, 'f> Declarer<'d, 'f> {
         let tokens = tokens(&mut pass, params, inputs, &self.textures, &self.buffers);
         let part = plane.part_in(rect);
         let target = &mut self.textures[plane.texture];
-        let written = pass.on(part).storage_texture_mut(target, preserved(preserve));
+        let written = pass.subresource(part).storage_texture_mut(target, preserved(preserve));
         let gpu = self.gpu;
         pass.body(move |ctx| {
             let group = gpu.group(ctx, &gpu.texels.layout, &tokens, Some(Bind::Texture(written)))?;
@@ -177,19 +177,20 @@ impl<'d, 'f> Declarer<'d, 'f> {
                 let (from, part) = (from.part().rect(from_rect), to.part().rect(to_rect));
                 let target = &mut self.textures[to.texture];
                 let mut pass = self.frame.copy_pass(format_args!("p{index} copy"));
-                pass.texture_parts(&source, from, target, part);
+                pass.texture_region(&source, from, target, part);
             }
             Pass::CopyBuffer { from, to, raw } => {
                 let Some(source) = self.buffers[from.buffer].clone() else { return };
                 let Some(target) = self.buffers[to.buffer].as_mut() else { return };
                 if !raw {
                     let mut pass = self.frame.copy_pass(format_args!("p{index} copy"));
-                    pass.buffer_parts(&source, from.part(), target, to.part());
+                    pass.buffer_range(&source, from.part(), target, to.part());
                     return;
                 }
                 let mut pass = self.frame.encoder_pass(format_args!("p{index} raw copy"));
-                let source = pass.on(from.part()).copy_source_buffer(&source);
-                let target = pass.on(to.part()).copy_target_buffer(target, crate::Contents::Cover);
+                let source = pass.subresource(from.part()).copy_source_buffer(&source);
+                let target =
+                    pass.subresource(to.part()).copy_target_buffer(target, crate::Contents::Overwrite);
                 pass.body(move |ctx| {
                     let (source, target) = (ctx.buffer(source)?, ctx.buffer(target)?);
                     let at = |span: Span| u64::from(span.start) * 4;
@@ -224,7 +225,7 @@ impl<'d, 'f> Declarer<'d, 'f> {
 }
 
 fn preserved(preserve: bool) -> crate::Contents {
-    if preserve { crate::Contents::Preserve } else { crate::Contents::Cover }
+    if preserve { crate::Contents::Preserve } else { crate::Contents::Overwrite }
 }
 
 /// Declares what a pass reads.
@@ -235,10 +236,11 @@ fn tokens<K: ShaderPass>(
     textures: &[Texture],
     buffers: &[Option<Buffer>],
 ) -> Tokens {
-    let plane = |(plane, _): &(Plane, u32)| pass.on(plane.part()).sample(&textures[plane.texture]);
+    let plane = |(plane, _): &(Plane, u32)| pass.subresource(plane.part()).sample(&textures[plane.texture]);
     let textures = inputs.planes.iter().map(plane).collect();
-    let span =
-        |(span, _): &(Span, u32)| Some(pass.on(span.part()).storage_buffer(buffers[span.buffer].as_ref()?));
+    let span = |(span, _): &(Span, u32)| {
+        Some(pass.subresource(span.part()).storage_buffer(buffers[span.buffer].as_ref()?))
+    };
     let buffers = inputs.spans.iter().filter_map(span).collect();
     Tokens { params, textures, buffers }
 }

@@ -1,6 +1,6 @@
 //! Small graphs as plain data.
 
-use crate::{Part, Rect};
+use crate::{Rect, Subresource};
 
 /// One mip of one layer of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,12 +11,12 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    pub(super) fn part(self) -> Part {
-        Part::WHOLE.mip(self.mip).layer(self.layer)
+    pub(super) fn part(self) -> Subresource {
+        Subresource::FULL.mip(self.mip).layer(self.layer)
     }
 
     /// The part of a rectangle of it, or of all of it.
-    pub(super) fn part_in(self, rect: Option<Rect>) -> Part {
+    pub(super) fn part_in(self, rect: Option<Rect>) -> Subresource {
         rect.map_or(self.part(), |rect| self.part().rect(rect))
     }
 }
@@ -30,8 +30,8 @@ pub(super) struct Span {
 }
 
 impl Span {
-    pub(super) fn part(self) -> Part {
-        Part::WHOLE.bytes(u64::from(self.start) * 4..u64::from(self.end) * 4)
+    pub(super) fn part(self) -> Subresource {
+        Subresource::FULL.bytes(u64::from(self.start) * 4..u64::from(self.end) * 4)
     }
 
     pub(super) fn words(self) -> std::ops::Range<usize> {
@@ -86,7 +86,7 @@ pub(super) struct Inputs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Contents {
     Clear(u32),
-    Cover,
+    Overwrite,
     Preserve,
 }
 
@@ -94,7 +94,7 @@ impl From<Contents> for crate::Contents {
     fn from(contents: Contents) -> Self {
         match contents {
             Contents::Clear(value) => Self::clear_color([f64::from(value), 0.0, 0.0, 0.0]),
-            Contents::Cover => Self::Cover,
+            Contents::Overwrite => Self::Overwrite,
             Contents::Preserve => Self::Preserve,
         }
     }

@@ -90,7 +90,7 @@ impl Maker<'_> {
     fn contents(&mut self, plane: Plane, rect: Rect, covered: bool) -> Contents {
         let known = self.known_in(plane, rect);
         match self.random.below(3) {
-            0 if covered => Contents::Cover,
+            0 if covered => Contents::Overwrite,
             1 if known => Contents::Preserve,
             _ => {
                 // Often zero, which is what the graph itself clears to, and often what another pass clears to.
@@ -155,7 +155,7 @@ impl Maker<'_> {
     pub(super) fn cover(mut self, plane: Plane) -> Pass {
         let area = self.graph.whole(plane);
         let inputs = self.inputs(&[plane], None);
-        let targets = vec![Target { plane, contents: Contents::Cover, rect: None }];
+        let targets = vec![Target { plane, contents: Contents::Overwrite, rect: None }];
         Pass::Draw { inputs, targets, area, words: None, keep: false }
     }
 

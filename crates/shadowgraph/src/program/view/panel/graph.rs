@@ -74,7 +74,7 @@ impl GraphPanel {
         CollapsingHeader::new("culled").show(ui, |ui| {
             for (id, pass) in plan.passes() {
                 if let Some(reason) = pass.culled {
-                    ui.weak(format!("{}: {}", plan.pass_path(id), plan.cull_words(reason)));
+                    ui.weak(format!("{}: {}", plan.pass_path(id), plan.describe_cull(reason)));
                 }
             }
         });

@@ -1,11 +1,11 @@
 //! Why attachments load and store.
 
 use super::super::super::frames::{AccessSpec, Cells};
-use super::super::{Judge, spec_pass};
+use super::super::{Oracle, spec_pass};
 use super::Facts;
 use crate::{AttachmentOps, Contents, LoadAction, LoadReason, Origin, PassId, StoreAction, StoreReason};
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn contents_reasons(&mut self, facts: &Facts<'_>, place: usize) {
         let (id, pass) = (facts.plan.order()[place], facts.live.order[place]);
         for (planned, access) in facts.plan.accesses(id).zip(&self.model.spec.passes[pass].accesses) {
@@ -35,15 +35,17 @@ impl Judge<'_> {
 
     fn load_reason(&self, facts: &Facts<'_>, place: usize, access: &AccessSpec, ops: &AttachmentOps) -> bool {
         let attachment = self.model.attachment(access);
-        let part = access.part.cells(&self.model.cells[access.resource]);
-        let own = (access.resource, &part);
+        let subresource = access.subresource.cells(&self.model.cells[access.resource]);
+        let own = (access.resource, &subresource);
         let origin = self.model.spec.resources[access.resource].origin;
         let clears = matches!(ops.load, LoadAction::Clear(_));
         let declared = matches!(access.contents, Some(Contents::Clear(_)));
         match ops.load_reason {
             LoadReason::Declared => clears && declared,
-            LoadReason::Covered => clears && access.contents == Some(Contents::Cover) && part == attachment,
-            LoadReason::RestUnneeded => clears && part != attachment,
+            LoadReason::Overwritten => {
+                clears && access.contents == Some(Contents::Overwrite) && subresource == attachment
+            }
+            LoadReason::RestUnneeded => clears && subresource != attachment,
             LoadReason::Preserves(writer) => {
                 let written = self.at(facts, writer, own, |a| a.writes()).is_some_and(|at| at < place);
                 ops.load == LoadAction::Load && access.contents == Some(Contents::Preserve) && written
@@ -58,7 +60,7 @@ impl Judge<'_> {
             }
             LoadReason::RestOutlives => {
                 ops.load == LoadAction::Load
-                    && part != attachment
+                    && subresource != attachment
                     && self.model.spec.outlives(access.resource)
             }
             LoadReason::Merged => ops.load == LoadAction::Continue,

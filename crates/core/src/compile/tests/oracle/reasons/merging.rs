@@ -1,14 +1,16 @@
 //! Why passes share a render pass or do not.
 
 use super::super::super::frames::AccessSpec;
-use super::super::{Judge, spec_pass};
+use super::super::{Oracle, spec_pass};
 use super::Facts;
 use crate::{Access, Contents, MergeReason, PassId, PassKind};
 
-impl Judge<'_> {
-    pub(super) fn merge_reason(&mut self, facts: &Facts<'_>, place: usize) {
+impl Oracle<'_> {
+    pub(super) fn merge_reasons(&mut self, facts: &Facts<'_>, place: usize) {
         let id = facts.plan.order()[place];
-        let Some(reason) = facts.plan.merging(id) else { return self.truth(false, id, "no merge reason") };
+        let Some(reason) = facts.plan.merge_reason(id) else {
+            return self.truth(false, id, "no merge reason");
+        };
         let step = facts.live.steps[place];
         let merged = place > 0 && facts.live.steps[place - 1] == step;
         self.truth(merged == (reason == MergeReason::Merged), id, reason);
@@ -55,7 +57,7 @@ impl Judge<'_> {
     }
 
     fn clears_all(&self, access: &AccessSpec) -> bool {
-        let part = access.part.cells(&self.model.cells[access.resource]);
-        matches!(access.contents, Some(Contents::Clear(_))) && part == self.model.attachment(access)
+        let subresource = access.subresource.cells(&self.model.cells[access.resource]);
+        matches!(access.contents, Some(Contents::Clear(_))) && subresource == self.model.attachment(access)
     }
 }

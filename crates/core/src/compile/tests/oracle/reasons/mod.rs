@@ -5,7 +5,7 @@ mod merging;
 mod placing;
 
 use super::super::frames::Names;
-use super::{Judge, Live, Rule, spec_pass};
+use super::{Live, Oracle, Rule, spec_pass};
 use crate::{CullReason, PassId, Plan, ResourceId, SlotReason};
 
 /// What the reasons are checked against.
@@ -26,13 +26,13 @@ impl Facts<'_> {
     }
 }
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn reasons(&mut self, names: &Names, plan: &Plan, live: &Live) {
         let facts = Facts { plan, names, live };
         self.cull_reasons(&facts);
         self.place_reasons(&facts);
         for place in 0..live.order.len() {
-            self.merge_reason(&facts, place);
+            self.merge_reasons(&facts, place);
             self.contents_reasons(&facts, place);
         }
         self.slot_reasons(&facts);
@@ -90,7 +90,7 @@ impl Judge<'_> {
                         matches!(origin, crate::Origin::Previous { .. } | crate::Origin::Current { .. })
                     }
                     SlotReason::FirstOfClass => {
-                        planned.slot.is_some_and(|slot| slots[slot.index()].tenants[0] == id)
+                        planned.slot.is_some_and(|slot| slots[slot.index()].resources[0] == id)
                     }
                     SlotReason::AllBusy(other) => {
                         let span = facts.live.spans[facts.resource(other)];
@@ -102,7 +102,7 @@ impl Judge<'_> {
                         busy && alike
                     }
                     SlotReason::After(other) => planned.slot.is_some_and(|slot| {
-                        slots[slot.index()].tenants.windows(2).any(|pair| pair == [other, id])
+                        slots[slot.index()].resources.windows(2).any(|pair| pair == [other, id])
                     }),
                 };
             self.truth(holds, id, planned.slot_reason);

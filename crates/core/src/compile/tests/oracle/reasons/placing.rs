@@ -1,15 +1,15 @@
 //! Why passes stand where they do.
 
-use super::super::Judge;
+use super::super::Oracle;
 use super::Facts;
-use crate::{MergeReason, OrderPolicy, Origin, PlaceReason};
+use crate::{MergeReason, OrderPolicy, OrderReason, Origin};
 
-impl Judge<'_> {
+impl Oracle<'_> {
     pub(super) fn place_reasons(&mut self, facts: &Facts<'_>) {
         let order = &facts.live.order;
         for (place, &pass) in order.iter().enumerate() {
             let id = facts.plan.order()[place];
-            let Some(reason) = facts.plan.placement(id) else {
+            let Some(reason) = facts.plan.order_reason(id) else {
                 return self.truth(false, id, "no place reason");
             };
             let ready: Vec<usize> =
@@ -17,20 +17,20 @@ impl Judge<'_> {
             let own = self.freed(order, place, pass);
             let others = || ready.iter().filter(|&&other| other != pass);
             let holds = match reason {
-                PlaceReason::Fixed => facts.plan.options().order == OrderPolicy::Declared,
-                PlaceReason::OnlyReady => ready == [pass],
-                PlaceReason::ContinuesRenderPass => facts.plan.merging(id) == Some(MergeReason::Merged),
-                PlaceReason::FreesMemory(bytes) => {
+                OrderReason::Fixed => facts.plan.options().order == OrderPolicy::Declared,
+                OrderReason::OnlyReady => ready == [pass],
+                OrderReason::ContinuesRenderPass => facts.plan.merge_reason(id) == Some(MergeReason::Merged),
+                OrderReason::FreesMemory(bytes) => {
                     bytes == own && others().all(|&other| self.freed(order, place, other) < own)
                 }
-                PlaceReason::DeclaredFirst => others().all(|&other| {
+                OrderReason::DeclaredFirst => others().all(|&other| {
                     let freed = self.freed(order, place, other);
                     freed < own || freed == own && other > pass
                 }),
-                PlaceReason::DeclarationNeedsLess => order.is_sorted(),
-                PlaceReason::BackwardsNeedsLess => {
+                OrderReason::DeclarationNeedsLess => order.is_sorted(),
+                OrderReason::BackwardsNeedsLess => {
                     let last = order.len() - 1;
-                    !order.is_sorted() && facts.plan.placement(facts.plan.order()[last]) == Some(reason)
+                    !order.is_sorted() && facts.plan.order_reason(facts.plan.order()[last]) == Some(reason)
                 }
             };
             self.truth(holds, id, reason);

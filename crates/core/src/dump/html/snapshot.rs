@@ -2,8 +2,8 @@
 
 use crate::desc::ResourceDesc;
 use crate::handle::{PassId, ResourceId};
-use crate::part::{Part, Rect};
 use crate::plan::Plan;
+use crate::subresource::{Rect, Subresource};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
@@ -14,7 +14,7 @@ use wgpu_types::TextureSampleType;
 
 /// What a part of a texture held at one moment of the frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct TextureSnapshot {
     /// The texture.
     pub resource: ResourceId,
     /// Its version.
@@ -24,13 +24,13 @@ pub struct Picture {
     /// The pass that made the version; `None` for the end of the frame.
     pub pass: Option<PassId>,
     /// The part that is shown: one layer of one mip.
-    pub part: Part,
+    pub subresource: Subresource,
     /// Width and height of the part, texels.
     pub full_px: [u32; 2],
     /// The texels, or why there are none.
     pub texels: Result<Texels, String>,
     /// Parts with names.
-    pub tiles: Vec<PictureTile>,
+    pub tiles: Vec<SnapshotTile>,
 }
 
 /// Texels of a picture, every so many of the texture's: rows from the top.
@@ -57,7 +57,7 @@ pub enum TexelValues {
 
 /// A part of a picture with a name.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PictureTile {
+pub struct SnapshotTile {
     /// Where it lies, texels of the texture.
     pub rect: Rect,
     /// What it is called.
@@ -86,11 +86,11 @@ pub struct Outline {
 
 /// What the script reads: see `pictures.js`.
 #[derive(Serialize)]
-pub(super) struct PictureData<'p> {
+pub(super) struct SnapshotData<'p> {
     resource: ResourceId,
     version: u32,
     pass: Option<PassId>,
-    part: String,
+    subresource: String,
     full: [u32; 2],
     /// Where the part begins in its layer.
     origin: [u32; 2],
@@ -117,12 +117,12 @@ struct TileData<'p> {
     name: &'p str,
 }
 
-impl<'p> PictureData<'p> {
-    pub(super) fn of(plan: &Plan, picture: &'p Picture) -> Self {
-        let rect = picture.part.rect;
-        let texels = picture.texels.as_ref();
+impl<'p> SnapshotData<'p> {
+    pub(super) fn new(plan: &Plan, snapshot: &'p TextureSnapshot) -> Self {
+        let rect = snapshot.subresource.rect;
+        let texels = snapshot.texels.as_ref();
         let [width, height] = texels.map_or([0, 0], |texels| texels.size_px);
-        let (several, integers) = match plan.resource(picture.resource).desc {
+        let (several, integers) = match plan.resource(snapshot.resource).desc {
             ResourceDesc::Texture(desc) => (
                 desc.mip_levels > 1 || desc.size.depth_or_array_layers > 1,
                 matches!(
@@ -132,13 +132,13 @@ impl<'p> PictureData<'p> {
             ),
             ResourceDesc::Buffer(_) => (false, false),
         };
-        let words = if several || rect.is_some() { picture.part.words() } else { String::new() };
+        let words = if several || rect.is_some() { snapshot.subresource.to_string() } else { String::new() };
         Self {
-            resource: picture.resource,
-            version: picture.version,
-            pass: picture.pass,
-            part: words,
-            full: picture.full_px,
+            resource: snapshot.resource,
+            version: snapshot.version,
+            pass: snapshot.pass,
+            subresource: words,
+            full: snapshot.full_px,
             origin: rect.map_or([0, 0], |rect| [rect.x, rect.y]),
             missing: texels.err().map(String::as_str),
             width,
@@ -147,9 +147,9 @@ impl<'p> PictureData<'p> {
             depth: texels.is_ok_and(|texels| texels.is_depth),
             floats: texels.is_ok_and(|texels| matches!(texels.values, TexelValues::Floats(_))),
             integers,
-            since: picture.since,
+            since: snapshot.since,
             data: texels.map(Texels::packed).unwrap_or_default(),
-            tiles: picture.tiles.iter().map(|tile| TileData { rect: tile.rect, name: &tile.name }).collect(),
+            tiles: snapshot.tiles.iter().map(|tile| TileData { rect: tile.rect, name: &tile.name }).collect(),
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Many short lists in one array.
 
 /// For each key a list, all in one array.
-pub(super) struct Lists<T> {
+pub(super) struct Csr<T> {
     /// Where the list of each key begins; one more for the end.
     starts: Vec<u32>,
     items: Vec<T>,
 }
 
-impl<T: Copy> Lists<T> {
+impl<T: Copy> Csr<T> {
     /// Sorts items into the lists of their keys, which are below `keys`, and keeps their order. Goes through the
     /// items twice.
     pub(super) fn new<I: Iterator<Item = (usize, T)>>(keys: usize, items: impl Fn() -> I) -> Self {
@@ -67,19 +67,19 @@ impl<T: Copy> Lists<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::Lists;
+    use super::Csr;
 
     #[test]
     fn items_keep_their_order_within_a_key() {
         let items = [(2, 'a'), (0, 'b'), (2, 'c'), (3, 'd'), (0, 'e')];
-        let lists = Lists::new(5, || items.into_iter());
+        let lists = Csr::new(5, || items.into_iter());
         let found: Vec<String> = (0..5).map(|key| lists.of(key).iter().collect()).collect();
         assert_eq!(found, ["be", "", "ac", "d", ""]);
     }
 
     #[test]
     fn lists_are_filled_one_after_the_other() {
-        let mut lists = Lists::with_capacity(4, 3);
+        let mut lists = Csr::with_capacity(4, 3);
         for (key, items) in [(1, "ab"), (3, "c")] {
             lists.skip_to(key);
             items.chars().for_each(|item| lists.push(item));
@@ -91,6 +91,6 @@ mod tests {
 
     #[test]
     fn there_can_be_no_keys() {
-        assert!(Lists::<u32>::new(0, std::iter::empty).items.is_empty());
+        assert!(Csr::<u32>::new(0, std::iter::empty).items.is_empty());
     }
 }

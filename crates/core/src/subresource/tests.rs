@@ -22,11 +22,11 @@ fn bitmap(holds: impl Fn([u64; AXES]) -> bool) -> Bitmap {
     })
 }
 
-fn cells(area: &Area) -> Bitmap {
-    bitmap(|at| (0..AXES).all(|axis| area.start[axis] <= at[axis] && at[axis] < area.end[axis]))
+fn cells(region: &Region) -> Bitmap {
+    bitmap(|at| (0..AXES).all(|axis| region.start[axis] <= at[axis] && at[axis] < region.end[axis]))
 }
 
-fn cells_of(set: &AreaSet) -> Bitmap {
+fn cells_of(set: &RegionSet) -> Bitmap {
     let boxes: Vec<Bitmap> = set.boxes.iter().map(cells).collect();
     for (index, one) in boxes.iter().enumerate() {
         let apart = |other: &Bitmap| (0..CELLS).all(|cell| !(one[cell] && other[cell]));
@@ -40,36 +40,36 @@ fn both(a: &Bitmap, b: &Bitmap, join: impl Fn(bool, bool) -> bool) -> Bitmap {
     std::array::from_fn(|cell| join(a[cell], b[cell]))
 }
 
-fn area() -> impl Strategy<Value = Area> {
+fn region() -> impl Strategy<Value = Region> {
     let range = |axis: usize| {
         let side = SIDES[axis];
         (0..side).prop_flat_map(move |start| (Just(start), start + 1..=side, any::<bool>()))
     };
     let ranges = (range(0), range(1), range(2), range(3), range(4), any::<[bool; AXES]>());
     ranges.prop_map(|(a, b, c, d, e, whole)| {
-        let mut area = Area::EVERYTHING;
+        let mut region = Region::ALL;
         for (axis, (start, end, _)) in [a, b, c, d, e].into_iter().enumerate() {
             if !whole[axis] {
-                area.start[axis] = start;
-                area.end[axis] = if end == SIDES[axis] { END } else { end };
+                region.start[axis] = start;
+                region.end[axis] = if end == SIDES[axis] { END } else { end };
             }
         }
-        area
+        region
     })
 }
 
 #[derive(Clone, Debug)]
-enum Change {
-    Add(Area),
-    Subtract(Area),
-    Clip(Area),
+enum SetChange {
+    Add(Region),
+    Subtract(Region),
+    Clip(Region),
 }
 
-fn change() -> impl Strategy<Value = Change> {
+fn change() -> impl Strategy<Value = SetChange> {
     prop_oneof![
-        4 => area().prop_map(Change::Add),
-        2 => area().prop_map(Change::Subtract),
-        1 => area().prop_map(Change::Clip),
+        4 => region().prop_map(SetChange::Add),
+        2 => region().prop_map(SetChange::Subtract),
+        1 => region().prop_map(SetChange::Clip),
     ]
 }
 
@@ -77,7 +77,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2_000) })]
 
     #[test]
-    fn boxes_overlap_and_contain_as_their_cells_do(a in area(), b in area()) {
+    fn boxes_overlap_and_contain_as_their_cells_do(a in region(), b in region()) {
         let (one, other) = (cells(&a), cells(&b));
         let shared = both(&one, &other, |a, b| a && b);
         prop_assert_eq!(a.overlaps(&b), shared.contains(&true));
@@ -86,21 +86,21 @@ proptest! {
     }
 
     #[test]
-    fn sets_hold_what_their_cells_say(changes in prop::collection::vec(change(), 0..9), asked in area()) {
-        let (mut set, mut expected) = (AreaSet::default(), [false; CELLS]);
+    fn sets_hold_what_their_cells_say(changes in prop::collection::vec(change(), 0..9), asked in region()) {
+        let (mut set, mut expected) = (RegionSet::default(), [false; CELLS]);
         for change in &changes {
             match change {
-                Change::Add(area) => {
-                    set.add(*area);
-                    expected = both(&expected, &cells(area), |a, b| a || b);
+                SetChange::Add(region) => {
+                    set.add(*region);
+                    expected = both(&expected, &cells(region), |a, b| a || b);
                 }
-                Change::Subtract(area) => {
-                    set.subtract(area);
-                    expected = both(&expected, &cells(area), |a, b| a && !b);
+                SetChange::Subtract(region) => {
+                    set.subtract(region);
+                    expected = both(&expected, &cells(region), |a, b| a && !b);
                 }
-                Change::Clip(area) => {
-                    set.clip(area);
-                    expected = both(&expected, &cells(area), |a, b| a && b);
+                SetChange::Clip(region) => {
+                    set.clip(region);
+                    expected = both(&expected, &cells(region), |a, b| a && b);
                 }
             }
             prop_assert_eq!(cells_of(&set), expected);
@@ -116,18 +116,18 @@ proptest! {
 #[test]
 fn an_attachment_is_all_texels_of_its_mips_layers_and_aspects() {
     let desc = ResourceDesc::Texture(TextureDesc::d2(64, 64, Format::Depth24PlusStencil8).layers(4));
-    let part = Part::WHOLE.layer(2).aspect(Aspect::Depth);
-    let tile = part.rect(Rect::new(0, 0, 32, 64)).area(&desc).unwrap();
-    assert_eq!(tile.without_rect(), part.area(&desc).unwrap());
-    assert_eq!(tile.subresources(), Part::WHOLE.layer(2).area(&desc).unwrap());
+    let subresource = Subresource::FULL.layer(2).aspect(Aspect::Depth);
+    let tile = subresource.rect(Rect::new(0, 0, 32, 64)).region(&desc).unwrap();
+    assert_eq!(tile.without_rect(), subresource.region(&desc).unwrap());
+    assert_eq!(tile.subresources(), Subresource::FULL.layer(2).region(&desc).unwrap());
 }
 
 #[test]
 fn the_whole_of_a_resource_is_no_part_however_it_is_said() {
     let texture = ResourceDesc::Texture(TextureDesc::d2(64, 32, Format::Depth32Float).layers(4));
-    let whole = Part::WHOLE.mips(0..1).layers(0..4).aspect(Aspect::Depth).rect(Rect::new(0, 0, 64, 32));
-    assert_eq!(whole.area(&texture), None);
-    assert_eq!(Part::WHOLE.bytes(0..64).area(&ResourceDesc::Buffer(BufferDesc::new(64))), None);
+    let whole = Subresource::FULL.mips(0..1).layers(0..4).aspect(Aspect::Depth).rect(Rect::new(0, 0, 64, 32));
+    assert_eq!(whole.region(&texture), None);
+    assert_eq!(Subresource::FULL.bytes(0..64).region(&ResourceDesc::Buffer(BufferDesc::new(64))), None);
 }
 
 #[test]
@@ -136,34 +136,34 @@ fn parts_that_a_resource_does_not_have_are_told() {
         ResourceDesc::Texture(TextureDesc { mip_levels: 2, ..TextureDesc::d2(64, 64, Format::R8Unorm) });
     let buffer = ResourceDesc::Buffer(BufferDesc::new(64));
     let (rect, most) = (Rect::new(40, 0, 32, 32), u32::MAX);
-    for (part, desc) in [
-        (Part::WHOLE.mip(2), &texture),
-        (Part::WHOLE.mip(most), &texture),
-        (Part::WHOLE.mips(1..1), &texture),
-        (Part::WHOLE.layer(1), &texture),
-        (Part::WHOLE.aspect(Aspect::Depth), &texture),
-        (Part::WHOLE.rect(Rect::new(0, 0, 8, 8)), &texture),
-        (Part::WHOLE.mip(0).rect(rect), &texture),
-        (Part::WHOLE.mip(1).rect(Rect::new(0, 0, 64, 64)), &texture),
-        (Part::WHOLE.mip(0).rect(Rect::new(most, most, most, most)), &texture),
-        (Part::WHOLE.mip(0).rect(Rect::new(0, 0, 0, 8)), &texture),
-        (Part::WHOLE.bytes(0..4), &texture),
-        (Part::WHOLE.bytes(32..96), &buffer),
-        (Part::WHOLE.bytes(8..8), &buffer),
-        (Part::WHOLE.mip(0), &buffer),
+    for (subresource, desc) in [
+        (Subresource::FULL.mip(2), &texture),
+        (Subresource::FULL.mip(most), &texture),
+        (Subresource::FULL.mips(1..1), &texture),
+        (Subresource::FULL.layer(1), &texture),
+        (Subresource::FULL.aspect(Aspect::Depth), &texture),
+        (Subresource::FULL.rect(Rect::new(0, 0, 8, 8)), &texture),
+        (Subresource::FULL.mip(0).rect(rect), &texture),
+        (Subresource::FULL.mip(1).rect(Rect::new(0, 0, 64, 64)), &texture),
+        (Subresource::FULL.mip(0).rect(Rect::new(most, most, most, most)), &texture),
+        (Subresource::FULL.mip(0).rect(Rect::new(0, 0, 0, 8)), &texture),
+        (Subresource::FULL.bytes(0..4), &texture),
+        (Subresource::FULL.bytes(32..96), &buffer),
+        (Subresource::FULL.bytes(8..8), &buffer),
+        (Subresource::FULL.mip(0), &buffer),
     ] {
-        assert!(part.problem(desc).is_some(), "{part:?}");
+        assert!(subresource.problem(desc).is_some(), "{subresource:?}");
     }
-    assert_eq!(Part::WHOLE.mip(1).rect(Rect::new(0, 0, 32, 32)).problem(&texture), None);
+    assert_eq!(Subresource::FULL.mip(1).rect(Rect::new(0, 0, 32, 32)).problem(&texture), None);
 }
 
 #[test]
 fn parts_have_words() {
-    assert_eq!(Part::WHOLE.words(), "all");
-    assert_eq!(Part::WHOLE.mip(1).layers(2..4).words(), "mip 1, layers 2..4");
+    assert_eq!(Subresource::FULL.to_string(), "all");
+    assert_eq!(Subresource::FULL.mip(1).layers(2..4).to_string(), "mip 1, layers 2..4");
     assert_eq!(
-        Part::WHOLE.aspect(Aspect::Stencil).rect(Rect::new(3, 4, 1, 2)).words(),
+        Subresource::FULL.aspect(Aspect::Stencil).rect(Rect::new(3, 4, 1, 2)).to_string(),
         "stencil, 1x2 at 3,4"
     );
-    assert_eq!(Part::WHOLE.bytes(0..16).words(), "bytes 0..16");
+    assert_eq!(Subresource::FULL.bytes(0..16).to_string(), "bytes 0..16");
 }

@@ -3,11 +3,11 @@
 
 use super::{after_the_frame, declared_clear, drawn, within, zero};
 use crate::compile::coverage::Coverage;
-use crate::declaration::{AccessDecl, Change, Declaration};
+use crate::declaration::{AccessDecl, Declaration, WriteMode};
 use crate::desc::ResourceDesc;
 use crate::handle::{PassId, ResourceId};
-use crate::part::{Area, AreaSet};
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
+use crate::subresource::{Region, RegionSet};
 use wgpu_types::TextureDimension;
 
 /// One access to a resource, in the final order.
@@ -16,7 +16,7 @@ struct Touch<'d> {
     step: u32,
     index: usize,
     access: &'d AccessDecl,
-    area: Area,
+    region: Region,
 }
 
 pub(super) fn ops(
@@ -29,9 +29,9 @@ pub(super) fn ops(
     for (step, &(start, end)) in steps.iter().enumerate() {
         for &pass in &order[start as usize..end as usize] {
             for (access, index) in decl.accesses(pass).iter().zip(decl.access_range(pass)) {
-                if decl.resource(access.resource).in_parts {
-                    let area = decl.area(access).copied().unwrap_or(Area::EVERYTHING);
-                    let touch = Touch { pass, step: step as u32, index, access, area };
+                if decl.resource(access.resource).has_partial_accesses {
+                    let region = decl.region(access).copied().unwrap_or(Region::ALL);
+                    let touch = Touch { pass, step: step as u32, index, access, region };
                     touches[access.resource.index()].push(touch);
                 }
             }
@@ -65,7 +65,7 @@ impl Walk<'_> {
             let end = start + self.touches[start..].iter().take_while(|touch| touch.step == step).count();
             let before = defined.clone();
             for touch in self.touches[start..end].iter().filter(|touch| touch.access.contents.writes()) {
-                defined.add(self.decl.area(touch.access));
+                defined.add(self.decl.region(touch.access));
             }
             for at in (start..end).filter(|&at| drawn(self.touches[at].access)) {
                 ops[self.touches[at].index] = Some(self.attachment((start, end), at, &before, &defined));
@@ -83,14 +83,14 @@ impl Walk<'_> {
         after: &Coverage,
     ) -> AttachmentOps {
         let touch = &self.touches[at];
-        let whole = touch.area.without_rect();
+        let whole = touch.region.without_rect();
         let of_attachment =
-            |at: &usize| drawn(self.touches[*at].access) && self.touches[*at].area.without_rect() == whole;
+            |at: &usize| drawn(self.touches[*at].access) && self.touches[*at].region.without_rect() == whole;
         let first = (start..end).find(of_attachment).unwrap_or(at);
         let last = (start..end).rev().find(of_attachment).unwrap_or(at);
         let load = self.load(start, first, before);
         let clear_drawn = declared_clear(self.decl, touch.access).is_some_and(|value| {
-            let drawn_over = self.touches[first..at].iter().any(|other| other.area.overlaps(&touch.area));
+            let drawn_over = self.touches[first..at].iter().any(|other| other.region.overlaps(&touch.region));
             load.0 != LoadAction::Clear(value) || drawn_over
         });
         // wgpu knows no slices of a volume: one that is discarded counts as all of its mip.
@@ -114,16 +114,17 @@ impl Walk<'_> {
     /// encoder pass may read beside what it draws, in whatever order.
     fn load(&self, start: usize, first: usize, before: &Coverage) -> (LoadAction, LoadReason) {
         let touch = &self.touches[first];
-        let whole = touch.area.without_rect();
+        let whole = touch.region.without_rect();
         let clear = declared_clear(self.decl, touch.access);
         let value = clear.unwrap_or(zero(touch.access.access));
-        if let (Some(value), true) = (clear, touch.area == whole) {
+        if let (Some(value), true) = (clear, touch.region == whole) {
             return (LoadAction::Clear(value), LoadReason::Declared);
         }
         match self.need(before.within(&whole), start) {
-            Need::Pass(pass) if pass == touch.pass && touch.access.contents == Change::Preserve => {
-                let writes =
-                    |other: &&Touch<'_>| other.access.contents.writes() && other.area.overlaps(&touch.area);
+            Need::Pass(pass) if pass == touch.pass && touch.access.contents == WriteMode::Preserve => {
+                let writes = |other: &&Touch<'_>| {
+                    other.access.contents.writes() && other.region.overlaps(&touch.region)
+                };
                 let writer = self.touches[..first].iter().rev().find(writes).map(|other| other.pass);
                 (LoadAction::Load, writer.map_or(LoadReason::PreservesImport, LoadReason::Preserves))
             }
@@ -131,8 +132,8 @@ impl Walk<'_> {
             Need::After(_) => (LoadAction::Load, LoadReason::RestOutlives),
             Need::None(_) => {
                 let reason = match touch.access.contents {
-                    Change::Clear(_) => LoadReason::Declared,
-                    _ if touch.area == whole => LoadReason::Covered,
+                    WriteMode::Clear(_) => LoadReason::Declared,
+                    _ if touch.region == whole => LoadReason::Overwritten,
                     _ => LoadReason::RestUnneeded,
                 };
                 (LoadAction::Clear(value), reason)
@@ -141,19 +142,19 @@ impl Walk<'_> {
     }
 
     /// Who needs any of `contents`, which are there before the touch at `from`.
-    fn need(&self, mut contents: AreaSet, from: usize) -> Need {
+    fn need(&self, mut contents: RegionSet, from: usize) -> Need {
         let mut overwriter = None;
         for touch in &self.touches[from..] {
             if contents.is_empty() {
                 break;
             }
-            if !contents.overlaps(&touch.area) {
+            if !contents.overlaps(&touch.region) {
                 continue;
             }
             if touch.access.contents.needs() {
                 return Need::Pass(touch.pass);
             }
-            contents.subtract(&touch.area);
+            contents.subtract(&touch.region);
             overwriter = Some(touch.pass);
         }
         let left = if contents.is_empty() { None } else { after_the_frame(self.decl, self.resource) };

@@ -5,6 +5,7 @@ mod tests;
 
 use crate::desc::{Extent, ResourceDesc, TextureDesc};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::ops::Range;
 use wgpu_types::TextureDimension;
 
@@ -42,19 +43,19 @@ pub enum Aspect {
 
 /// A part of a texture or buffer: mips, layers, an aspect, a rectangle of one mip, or a range of bytes.
 ///
-/// Parts narrow an access, by [`Pass::on`](crate::Pass::on). Accesses to parts that do not overlap neither order
+/// Parts narrow an access, by [`Pass::subresource`](crate::Pass::subresource). Accesses to parts that do not overlap neither order
 /// each other nor define each other's contents.
 ///
 /// ```
-/// use shadowgraph_core::{Part, Rect};
-/// let face = Part::WHOLE.layer(3);
+/// use shadowgraph_core::{Subresource, Rect};
+/// let face = Subresource::FULL.layer(3);
 /// let second_mip_of_face = face.mip(1);
-/// let tile = Part::WHOLE.rect(Rect::new(512, 0, 512, 512));
-/// let header = Part::WHOLE.bytes(0..64);
+/// let tile = Subresource::FULL.rect(Rect::new(512, 0, 512, 512));
+/// let header = Subresource::FULL.bytes(0..64);
 /// # let _ = (second_mip_of_face, tile, header);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct Part {
+pub struct Subresource {
     pub(crate) mips: Option<(u32, u32)>,
     pub(crate) layers: Option<(u32, u32)>,
     pub(crate) aspect: Aspect,
@@ -62,9 +63,9 @@ pub struct Part {
     pub(crate) bytes: Option<(u64, u64)>,
 }
 
-impl Part {
+impl Subresource {
     /// All of it.
-    pub const WHOLE: Self = Self { mips: None, layers: None, aspect: Aspect::All, rect: None, bytes: None };
+    pub const FULL: Self = Self { mips: None, layers: None, aspect: Aspect::All, rect: None, bytes: None };
 
     /// Narrows to one mip level.
     pub fn mip(self, mip: u32) -> Self {
@@ -99,26 +100,6 @@ impl Part {
     /// Narrows to a range of a buffer, in bytes.
     pub fn bytes(self, bytes: Range<u64>) -> Self {
         Self { bytes: Some((bytes.start, bytes.end)), ..self }
-    }
-
-    /// Returns the part in words, such as `mip 1, layer 3` or `all`.
-    pub fn words(&self) -> String {
-        let range = |name: &str, (start, end): (u64, u64)| match end.saturating_sub(start) {
-            1 => format!("{name} {start}"),
-            _ => format!("{name}s {start}..{end}"),
-        };
-        let wide = |(start, end): (u32, u32)| (u64::from(start), u64::from(end));
-        let mut words: Vec<String> = Vec::new();
-        words.extend(self.mips.map(|mips| range("mip", wide(mips))));
-        words.extend(self.layers.map(|layers| range("layer", wide(layers))));
-        words.extend(match self.aspect {
-            Aspect::All => None,
-            Aspect::Depth => Some("depth".into()),
-            Aspect::Stencil => Some("stencil".into()),
-        });
-        words.extend(self.rect.map(|r| format!("{}x{} at {},{}", r.width, r.height, r.x, r.y)));
-        words.extend(self.bytes.map(|bytes| range("byte", bytes)));
-        if words.is_empty() { "all".into() } else { words.join(", ") }
     }
 
     /// Says what is wrong with the part for a resource of this shape; `None` if nothing is.
@@ -174,26 +155,26 @@ impl Part {
     }
 
     /// The part as a box, or `None` where it is all of the resource. The part must fit the resource.
-    pub(crate) fn area(&self, desc: &ResourceDesc) -> Option<Area> {
-        let mut area = Area::EVERYTHING;
+    pub(crate) fn region(&self, desc: &ResourceDesc) -> Option<Region> {
+        let mut region = Region::ALL;
         match desc {
             ResourceDesc::Buffer(desc) => {
                 if let Some(bytes) = self.bytes {
-                    area.narrow(Axis::X, bytes, desc.bytes);
+                    region.narrow(Axis::X, bytes, desc.bytes);
                 }
             }
             ResourceDesc::Texture(desc) => {
-                self.narrow_subresources(&mut area, desc);
+                self.narrow_subresources(&mut region, desc);
                 if let Some(rect) = self.rect {
                     let mip = self.mips.map_or(0, |(first, _)| first);
                     let size = mip_size(desc, mip);
                     let span = |start: u32, length: u32| (start.into(), u64::from(start) + u64::from(length));
-                    area.narrow(Axis::X, span(rect.x, rect.width), size.width.into());
-                    area.narrow(Axis::Y, span(rect.y, rect.height), size.height.into());
+                    region.narrow(Axis::X, span(rect.x, rect.width), size.width.into());
+                    region.narrow(Axis::Y, span(rect.y, rect.height), size.height.into());
                 }
             }
         }
-        (area != Area::EVERYTHING).then_some(area)
+        (region != Region::ALL).then_some(region)
     }
 
     /// Layers, or slices of the largest of the mips: of a 3D texture they get fewer from mip to mip.
@@ -205,21 +186,43 @@ impl Part {
         }
     }
 
-    fn narrow_subresources(&self, area: &mut Area, desc: &TextureDesc) {
+    fn narrow_subresources(&self, region: &mut Region, desc: &TextureDesc) {
         let wide = |(start, end): (u32, u32)| (start.into(), end.into());
         if let Some(mips) = self.mips {
-            area.narrow(Axis::Mip, wide(mips), desc.mip_levels.into());
+            region.narrow(Axis::Mip, wide(mips), desc.mip_levels.into());
         }
         if let Some(layers) = self.layers {
-            area.narrow(Axis::Layer, wide(layers), self.layer_count(desc).into());
+            region.narrow(Axis::Layer, wide(layers), self.layer_count(desc).into());
         }
         if desc.format.is_combined_depth_stencil_format() {
             match self.aspect {
                 Aspect::All => {}
-                Aspect::Depth => area.narrow(Axis::Aspect, (0, 1), 2),
-                Aspect::Stencil => area.narrow(Axis::Aspect, (1, 2), 2),
+                Aspect::Depth => region.narrow(Axis::Aspect, (0, 1), 2),
+                Aspect::Stencil => region.narrow(Axis::Aspect, (1, 2), 2),
             }
         }
+    }
+}
+
+/// Formats the subresource as `mip 1, layer 3`, or `all`.
+impl fmt::Display for Subresource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let range = |name: &str, (start, end): (u64, u64)| match end.saturating_sub(start) {
+            1 => format!("{name} {start}"),
+            _ => format!("{name}s {start}..{end}"),
+        };
+        let wide = |(start, end): (u32, u32)| (u64::from(start), u64::from(end));
+        let mut limits: Vec<String> = Vec::new();
+        limits.extend(self.mips.map(|mips| range("mip", wide(mips))));
+        limits.extend(self.layers.map(|layers| range("layer", wide(layers))));
+        limits.extend(match self.aspect {
+            Aspect::All => None,
+            Aspect::Depth => Some("depth".into()),
+            Aspect::Stencil => Some("stencil".into()),
+        });
+        limits.extend(self.rect.map(|r| format!("{}x{} at {},{}", r.width, r.height, r.x, r.y)));
+        limits.extend(self.bytes.map(|bytes| range("byte", bytes)));
+        if limits.is_empty() { f.write_str("all") } else { f.write_str(&limits.join(", ")) }
     }
 }
 
@@ -244,13 +247,13 @@ const END: u64 = u64::MAX;
 /// A box over aspect, mip, layer, x and y (texels of its mip, or bytes). What reaches the edge of the resource ends
 /// at infinity, so that boxes of resources of different sizes can be the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Area {
+pub(crate) struct Region {
     start: [u64; AXES],
     end: [u64; AXES],
 }
 
-impl Area {
-    pub(crate) const EVERYTHING: Self = Self { start: [0; AXES], end: [END; AXES] };
+impl Region {
+    pub(crate) const ALL: Self = Self { start: [0; AXES], end: [END; AXES] };
 
     fn narrow(&mut self, axis: Axis, (start, end): (u64, u64), length: u64) {
         self.start[axis as usize] = start;
@@ -275,10 +278,10 @@ impl Area {
 
     /// The box widened to both aspects: what wgpu tracks hazards by within one pass.
     pub(crate) fn subresources(self) -> Self {
-        let mut area = self.without_rect();
-        area.start[Axis::Aspect as usize] = 0;
-        area.end[Axis::Aspect as usize] = END;
-        area
+        let mut region = self.without_rect();
+        region.start[Axis::Aspect as usize] = 0;
+        region.end[Axis::Aspect as usize] = END;
+        region
     }
 
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
@@ -292,50 +295,50 @@ impl Area {
 
 /// A set of texels or bytes, as boxes that do not overlap.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct AreaSet {
-    boxes: Vec<Area>,
+pub(crate) struct RegionSet {
+    boxes: Vec<Region>,
 }
 
-impl AreaSet {
-    pub(crate) fn from_area(area: Area) -> Self {
-        Self { boxes: vec![area] }
+impl RegionSet {
+    pub(crate) fn from_region(region: Region) -> Self {
+        Self { boxes: vec![region] }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
         self.boxes.is_empty()
     }
 
-    pub(crate) fn overlaps(&self, area: &Area) -> bool {
-        self.boxes.iter().any(|own| own.overlaps(area))
+    pub(crate) fn overlaps(&self, region: &Region) -> bool {
+        self.boxes.iter().any(|own| own.overlaps(region))
     }
 
-    pub(crate) fn add(&mut self, area: Area) {
-        self.subtract(&area);
-        self.boxes.push(area);
+    pub(crate) fn add(&mut self, region: Region) {
+        self.subtract(&region);
+        self.boxes.push(region);
     }
 
-    /// Takes `area` out: each box that it overlaps falls into the slabs around it, at most two for each axis.
-    pub(crate) fn subtract(&mut self, area: &Area) {
-        if !self.overlaps(area) {
+    /// Takes `region` out: each box that it overlaps falls into the slabs around it, at most two for each axis.
+    pub(crate) fn subtract(&mut self, region: &Region) {
+        if !self.overlaps(region) {
             return;
         }
         let mut kept = Vec::with_capacity(self.boxes.len() + 2);
         for mut rest in self.boxes.drain(..) {
-            if !rest.overlaps(area) {
+            if !rest.overlaps(region) {
                 kept.push(rest);
                 continue;
             }
             for axis in 0..AXES {
-                if rest.start[axis] < area.start[axis] {
+                if rest.start[axis] < region.start[axis] {
                     let mut slab = rest;
-                    slab.end[axis] = area.start[axis];
-                    rest.start[axis] = area.start[axis];
+                    slab.end[axis] = region.start[axis];
+                    rest.start[axis] = region.start[axis];
                     kept.push(slab);
                 }
-                if rest.end[axis] > area.end[axis] {
+                if rest.end[axis] > region.end[axis] {
                     let mut slab = rest;
-                    slab.start[axis] = area.end[axis];
-                    rest.end[axis] = area.end[axis];
+                    slab.start[axis] = region.end[axis];
+                    rest.end[axis] = region.end[axis];
                     kept.push(slab);
                 }
             }
@@ -343,23 +346,23 @@ impl AreaSet {
         self.boxes = kept;
     }
 
-    /// Keeps only what lies inside `area`.
-    pub(crate) fn clip(&mut self, area: &Area) {
+    /// Keeps only what lies inside `region`.
+    pub(crate) fn clip(&mut self, region: &Region) {
         self.boxes.retain_mut(|own| {
             for axis in 0..AXES {
-                own.start[axis] = own.start[axis].max(area.start[axis]);
-                own.end[axis] = own.end[axis].min(area.end[axis]);
+                own.start[axis] = own.start[axis].max(region.start[axis]);
+                own.end[axis] = own.end[axis].min(region.end[axis]);
             }
             (0..AXES).all(|axis| own.start[axis] < own.end[axis])
         });
     }
 
-    /// Tells whether the set holds all of `area`.
-    pub(crate) fn contains(&self, area: &Area) -> bool {
-        if self.boxes.iter().any(|own| own.contains(area)) {
+    /// Tells whether the set holds all of `region`.
+    pub(crate) fn contains(&self, region: &Region) -> bool {
+        if self.boxes.iter().any(|own| own.contains(region)) {
             return true;
         }
-        let mut rest = Self::from_area(*area);
+        let mut rest = Self::from_region(*region);
         for own in &self.boxes {
             rest.subtract(own);
         }
