@@ -4,7 +4,7 @@ use naga::valid::Capabilities;
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor};
 
 use crate::{
-    Error, ModuleSource, folder,
+    Error, ModuleSource, cache, folder,
     imports::Library,
     report::wgsl_error,
     source::{ENTRIES, names},
@@ -41,7 +41,16 @@ pub fn compose(entry_file: &str, extra: &[ModuleSource]) -> Result<naga::Module,
 ///
 /// An import is not found, or the WGSL is wrong: the text gives file and line.
 pub fn compose_source(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
-    let (entry, extra) = (&folder::current(entry), &folder::with_folder(extra));
+    let key = (folder::current(entry), folder::with_folder(extra));
+    if let Some(module) = cache::find(&key) {
+        return Ok(module);
+    }
+    let module = compose_uncached(&key.0, &key.1)?;
+    cache::insert(key, &module);
+    Ok(module)
+}
+
+fn compose_uncached(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
     let library = Library::new(extra)?;
     // What the device can do is checked when it gets the module.
     let mut composer = Composer::default().with_capabilities(Capabilities::all());

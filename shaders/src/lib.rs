@@ -20,6 +20,7 @@
 //! Names of what a module exports (struct members too) must not end in a digit or hold two underscores in a row:
 //! naga gives such names another ending when it writes them for those who import the module.
 
+mod cache;
 mod compose;
 mod error;
 mod folder;

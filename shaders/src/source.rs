@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 /// A WGSL file: its name, for messages, and its text.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct ModuleSource {
     /// The name that errors give, such as a path.
     pub file: Cow<'static, str>,
