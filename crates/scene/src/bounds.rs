@@ -13,10 +13,10 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box that holds nothing: the neutral element of [`union`](Self::union).
+    /// The empty box: the neutral element of [`union`](Self::union).
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// Returns the smallest box that holds every point; [`EMPTY`](Self::EMPTY) for no points.
+    /// Returns the smallest box around the points; [`EMPTY`](Self::EMPTY) for no points.
     ///
     /// ```
     /// use glam::DVec3;
@@ -32,19 +32,19 @@ impl Aabb {
         })
     }
 
-    /// Returns the smallest box that holds both boxes.
+    /// Returns the smallest box around both boxes.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Tells whether the box holds no point at all. A flat box or a single point is not empty.
+    /// Tells whether the box contains no point. A flat box or a single point is not empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
-    /// Returns the middle of the box, or the origin for an empty box.
+    /// Returns the centre of the box, or the origin for an empty box.
     #[must_use]
     pub fn center(&self) -> DVec3 {
         if self.is_empty() { DVec3::ZERO } else { self.min + self.half_extent() }
@@ -56,7 +56,7 @@ impl Aabb {
         if self.is_empty() { DVec3::ZERO } else { (self.max - self.min) * 0.5 }
     }
 
-    /// Returns the radius of the sphere around [`center`](Self::center) that holds the box, metres.
+    /// Returns the radius of the bounding sphere around [`center`](Self::center), metres.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.half_extent().length()
@@ -68,7 +68,7 @@ impl Aabb {
         self.min.cmple(point).all() && point.cmple(self.max).all()
     }
 
-    /// Returns the eight corners: bit 0 of the index chooses x, bit 1 y, bit 2 z (set: `max`).
+    /// Returns the eight corners: bit 0 of the index selects x, bit 1 y, bit 2 z (set: `max`).
     #[must_use]
     pub fn corners(&self) -> [DVec3; 8] {
         let (a, b) = (self.min, self.max);
@@ -78,7 +78,7 @@ impl Aabb {
         })
     }
 
-    /// Returns the smallest axis-aligned box that holds the corners of this box after `transform`.
+    /// Returns the smallest axis-aligned box around the transformed corners of this box.
     #[must_use]
     pub fn transformed(&self, transform: &DAffine3) -> Self {
         if self.is_empty() {
@@ -91,14 +91,14 @@ impl Aabb {
 /// A half space: the points with `normal · point + distance >= 0` are inside.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plane {
-    /// The way into the half space, unit length.
+    /// The normal, towards the inside, unit length.
     pub normal: DVec3,
     /// The signed distance of the world's origin from the plane, metres, positive inside.
     pub distance: f64,
 }
 
 impl Plane {
-    /// Makes the plane through `point` whose inside lies along `normal` (unit length).
+    /// Creates the plane through `point` whose inside lies in the direction of `normal` (unit length).
     #[must_use]
     pub fn through(point: DVec3, normal: DVec3) -> Self {
         Self { normal, distance: -normal.dot(point) }
@@ -111,16 +111,16 @@ impl Plane {
     }
 }
 
-/// The space inside all of its planes; without planes, all of space.
+/// The intersection of half spaces; without planes, all of space.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ConvexVolume {
-    /// The half spaces whose intersection this is.
+    /// The half spaces.
     pub planes: Vec<Plane>,
 }
 
 impl ConvexVolume {
-    /// Tells whether the box may touch the volume. Conservative: boxes near an edge of the volume may be
-    /// kept although they lie outside, but a box with a point inside is never refused. An empty box never touches.
+    /// Tells whether the box may intersect the volume. Conservative: boxes near an edge of the volume may be
+    /// kept although they lie outside, but a box with a point inside is never rejected. An empty box never intersects.
     ///
     /// ```
     /// use glam::DVec3;
@@ -134,7 +134,7 @@ impl ConvexVolume {
     pub fn intersects(&self, bounds: &Aabb) -> bool {
         !bounds.is_empty()
             && self.planes.iter().all(|plane| {
-                // The corner furthest along the normal: if it is outside, the whole box is.
+                // The farthest corner along the normal: if it is outside, the whole box is.
                 let corner = DVec3::select(plane.normal.cmpge(DVec3::ZERO), bounds.max, bounds.min);
                 plane.signed_distance(corner) >= 0.0
             })
@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_empty_box_holds_nothing_and_changes_nothing() {
+    fn the_empty_box_is_the_neutral_element_of_union() {
         let unit = Aabb { min: DVec3::ZERO, max: DVec3::ONE };
         assert!(Aabb::EMPTY.is_empty() && !unit.is_empty());
         assert_eq!(Aabb::EMPTY.union(&unit), unit);
@@ -181,7 +181,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_transformed_box_holds_what_was_in_the_box(
+        fn a_transformed_box_contains_the_transformed_contents(
             min in prop::array::uniform3(-100.0..100.0), size in prop::array::uniform3(0.0..50.0),
             matrix in prop::array::uniform9(-3.0..3.0), offset in prop::array::uniform3(-1e4..1e4),
             at in prop::array::uniform3(0.0..=1.0),

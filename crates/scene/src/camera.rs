@@ -1,9 +1,9 @@
-//! Cameras: placement, reversed-depth projection, view volume.
+//! Cameras: transform, reversed-depth projection, frustum.
 
 use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
-use crate::{Aabb, ConvexVolume, Plane};
+use crate::bounds::{Aabb, ConvexVolume, Plane};
 
 mod check;
 
@@ -14,32 +14,32 @@ pub use check::CameraError;
 pub struct Camera {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Where the camera is. Rigid: a rotation and a translation, no scale.
+    /// The transform of the camera. Rigid: a rotation and a translation, no scale.
     pub world_from_view: DAffine3,
-    /// What it sees.
+    /// The projection.
     pub projection: Projection,
 }
 
-/// The shape of the space that a camera sees.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Projection {
-    /// A pyramid.
+    /// A perspective projection.
     Perspective {
-        /// The whole vertical angle, radians, above 0 and below π.
+        /// The full vertical field of view, radians, above 0 and below π.
         fov_y: f64,
         /// The near plane, metres, above 0.
         near: f64,
         /// The far plane, metres, above `near`; `None`: infinitely far.
         far: Option<f64>,
     },
-    /// A box.
+    /// An orthographic projection.
     ///
-    /// Where the picture is not of the shape `half_width : half_height`, more is seen to the sides or
-    /// above and below, so that nothing is stretched or cut off.
+    /// If the aspect ratio of the image differs from `half_width : half_height`, the view is extended to the sides or
+    /// above and below, so that nothing is stretched or cropped.
     Orthographic {
-        /// Half the width that is seen at least, metres, above 0.
+        /// Half of the least visible width, metres, above 0.
         half_width: f64,
-        /// Half the height that is seen at least, metres, above 0.
+        /// Half of the least visible height, metres, above 0.
         half_height: f64,
         /// The near plane, metres.
         near: f64,
@@ -49,9 +49,9 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// Makes a camera at `eye` that looks at `target` with `up` upwards in the picture.
+    /// Creates a camera at `eye` that looks at `target` with `up` upwards in the image.
     ///
-    /// Where this leaves the direction open (`eye` is `target`, `up` along the view) a direction is chosen.
+    /// If the direction is undefined (`eye` equals `target`, or `up` lies along the view) an arbitrary one is chosen.
     ///
     /// ```
     /// use glam::DVec3;
@@ -72,11 +72,11 @@ impl Camera {
         Self { name: None, world_from_view: DAffine3::from_mat3_translation(rotation, eye), projection }
     }
 
-    /// Makes a camera that frames `bounds` from the front, the right and above.
+    /// Creates a camera that frames `bounds` from the front, the right and above.
     ///
-    /// It has a vertical angle of 45 degrees and is as near as it can be with every corner of the box in a
-    /// picture of the shape `aspect` (width over height). Near and far plane follow from the size of the
-    /// box. Empty bounds are taken as a box of 1 m around the origin.
+    /// It has a vertical field of view of 45 degrees and is as near as possible with every corner of the box in an
+    /// image of the aspect ratio `aspect` (width over height). The near and far planes follow from the size of the
+    /// box. Empty bounds are replaced by a box of 1 m around the origin.
     #[must_use]
     pub fn framing(bounds: &Aabb, aspect: f64) -> Self {
         let fov_y = 45f64.to_radians();
@@ -86,7 +86,7 @@ impl Camera {
             *bounds
         };
         let center = bounds.center();
-        // A single point still needs some distance, on the scale of where it is.
+        // A single point needs some distance too, relative to its coordinates.
         let radius = bounds.radius().max(1e-3).max(center.abs().max_element() * 1e-6);
         let (azimuth, elevation) = (35f64.to_radians(), 28f64.to_radians());
         let to_eye =
@@ -109,13 +109,13 @@ impl Camera {
         }
     }
 
-    /// Returns where the camera is, metres.
+    /// Returns the position of the camera, metres.
     #[must_use]
     pub fn position_world(&self) -> DVec3 {
         self.world_from_view.translation
     }
 
-    /// Returns the direction in which the camera looks, unit length.
+    /// Returns the view direction, unit length.
     #[must_use]
     pub fn forward_world(&self) -> DVec3 {
         -self.world_from_view.matrix3.z_axis
@@ -130,7 +130,7 @@ impl Camera {
     /// Returns the reversed-depth projection: x and y -1 to 1 with y up, z 1 at the near plane and 0 at
     /// the far plane or infinitely far.
     ///
-    /// `aspect` is the picture's width over its height, above 0.
+    /// `aspect` is the image's width over its height, above 0.
     #[must_use]
     pub fn clip_from_view(&self, aspect: f64) -> DMat4 {
         match self.projection {
@@ -160,15 +160,15 @@ impl Camera {
         }
     }
 
-    /// Returns the space that the camera sees, in absolute world space: four sides, near, and far if it is finite.
+    /// Returns the view frustum in absolute world space: four side planes, near, and far if it is finite.
     #[must_use]
     pub fn frustum(&self, aspect: f64) -> ConvexVolume {
         let sides = match self.projection {
             Projection::Perspective { .. } => {
                 let half = self.half_size(aspect, 1.0);
                 [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(x, y)| {
-                    let reach: f64 = if y == 0.0 { half.x } else { half.y };
-                    (DVec3::ZERO, DVec3::new(x, y, -reach).normalize())
+                    let slope: f64 = if y == 0.0 { half.x } else { half.y };
+                    (DVec3::ZERO, DVec3::new(x, y, -slope).normalize())
                 })
             }
             Projection::Orthographic { near, .. } => {
@@ -188,9 +188,9 @@ impl Camera {
         ConvexVolume { planes: planes.collect() }
     }
 
-    /// Returns the corners of the part of the view between the distances `near` and `far`, in view space.
+    /// Returns the corners of the frustum slice between the distances `near` and `far`, in view space.
     ///
-    /// Bit 0 of the index chooses x, bit 1 y (set: positive), bit 2 the distance (set: `far`).
+    /// Bit 0 of the index selects x, bit 1 y (set: positive), bit 2 the distance (set: `far`).
     #[must_use]
     pub fn slice_corners_view(&self, aspect: f64, near: f64, far: f64) -> [DVec3; 8] {
         std::array::from_fn(|i| {
@@ -218,7 +218,7 @@ impl Camera {
         }
     }
 
-    /// Half of the width and height that are seen at a distance, metres.
+    /// Returns half of the visible width and height at a distance, metres.
     fn half_size(&self, aspect: f64, distance: f64) -> DVec2 {
         match self.projection {
             Projection::Perspective { fov_y, .. } => {
@@ -232,29 +232,29 @@ impl Camera {
     }
 }
 
-/// Where the eye must be to see a box, and how far the box then reaches.
+/// The eye position that frames a box, and the depth range of the box from there.
 struct Fit {
-    /// In the axes of the camera, metres.
+    /// The eye relative to the centre, in the axes of the camera, metres.
     eye_from_center: DVec3,
     /// The distances of the nearest and the farthest corner along the view, metres.
     nearest: f64,
     farthest: f64,
 }
 
-/// Finds the nearest eye that sees every corner, moved sideways so that the box is in the middle.
+/// Finds the nearest eye that sees every corner, shifted sideways so that the box is centred.
 fn fit(bounds: &Aabb, aim: &Camera, fov_y: f64, aspect: f64, radius: f64) -> Fit {
     const MARGIN: f64 = 1.06;
     let tan_y = (fov_y * 0.5).tan() / MARGIN;
     let tan = DVec2::new(tan_y * aspect, tan_y);
     let to_view = aim.world_from_view.matrix3.transpose();
     let corners = bounds.corners().map(|corner| to_view * (corner - bounds.center()));
-    // Along an axis the edges of the view are lines of slope ±tan. The eye lies where the line that
-    // touches the box from above meets the line that touches it from below.
+    // Along an axis the edges of the frustum are lines of slope ±tan. The eye lies where the tangent to the box
+    // from above meets the tangent from below.
     let axis = |pick: fn(DVec3) -> f64, tan: f64| {
-        let touch = |side: f64| {
+        let tangent = |side: f64| {
             corners.iter().map(|corner| side * pick(*corner) + tan * corner.z).fold(f64::MIN, f64::max)
         };
-        let (above, below) = (touch(1.0), touch(-1.0));
+        let (above, below) = (tangent(1.0), tangent(-1.0));
         ((above - below) * 0.5, (above + below) * 0.5 / tan)
     };
     let (x, distance_x) = axis(|corner| corner.x, tan.x);

@@ -1,8 +1,8 @@
-//! What can go wrong with a scene.
+//! Errors of loading and uploading a scene.
 
 use std::path::PathBuf;
 
-/// Why a scene could not be loaded or uploaded. Every message is one line.
+/// An error of loading or uploading a scene. Every message is one line.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -11,37 +11,37 @@ pub enum Error {
     Read {
         /// The file.
         file: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The file holds something that is wrong or not supported.
-    #[error("{}: {place}: {reason}", file.display())]
+    #[error("{}: {location}: {reason}", file.display())]
     Invalid {
         /// The file.
         file: PathBuf,
-        /// Where in the file: "mesh 3 primitive 0".
-        place: String,
-        /// What is wrong there, with the allowed range if there is one.
+        /// The location in the file: "mesh 3 primitive 0".
+        location: String,
+        /// What is wrong, with the allowed range if there is one.
         reason: String,
     },
-    /// The scene needs more than the adapter allows.
-    #[error("{what}: {value} is over the adapter's {limit} of {max}")]
+    /// The scene exceeds a limit of the adapter.
+    #[error("{what}: {value} exceeds the adapter's {limit} of {max}")]
     Limit {
         /// What is too large: "image 3 \"bark\" width".
         what: String,
-        /// How large it is.
+        /// Its size.
         value: u64,
         /// The name of the limit in `wgpu::Limits`.
         limit: &'static str,
         /// The limit.
         max: u64,
     },
-    /// Parts of a scene made by code do not fit together.
+    /// Parts of a scene that was created in code do not fit together.
     #[error("{what}: {reason}")]
     Inconsistent {
-        /// Which part: "image 3 \"bark\"".
+        /// The part: "image 3 \"bark\"".
         what: String,
-        /// What does not fit.
+        /// What is inconsistent.
         reason: String,
     },
     /// A shader of this crate could not be composed.
@@ -49,7 +49,7 @@ pub enum Error {
     Shader {
         /// The shader's file.
         name: String,
-        /// What the composer said.
+        /// The error of the composer.
         reason: String,
     },
 }

@@ -23,19 +23,19 @@ mod mesh;
 mod origin;
 mod scene;
 mod solids;
-mod srgb;
 pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, CameraError, Projection};
-pub use cull::{BoundingSphere, Cone, CullTree, CullVolume, visible_instances};
+pub use cull::{BoundingSphere, Cone, CullTree, CullVolume};
 pub use error::Error;
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
-pub use material::{AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap};
+pub use material::{
+    AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap, linear_from_srgb,
+};
 pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
-pub use scene::{Instance, Scene};
-pub use srgb::linear_from_srgb;
+pub use scene::{Instance, Scene, visible_instances};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// The illuminance, lux, under which a spot or point light without a range counts as having no effect.
+/// The illuminance, lux, below which a spot or point light without a range is treated as having no effect.
 pub const MIN_ILLUMINANCE_LX: f64 = 0.01;
 
 /// A punctual light.
@@ -11,29 +11,29 @@ pub const MIN_ILLUMINANCE_LX: f64 = 0.01;
 pub struct Light {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Which kind of light, and where it is.
+    /// The kind of the light, and its transform.
     pub kind: LightKind,
     /// Linear RGB, each 0 or more, usually up to 1.
     pub color: Vec3,
     /// Lux for directional lights, candela for spot and point lights; 0 or more.
     pub intensity: f32,
-    /// Whether things lit by it can lie in shadow.
+    /// Whether the light casts shadows.
     pub casts_shadow: bool,
 }
 
-/// The kind of a light and its placement in the world.
+/// The kind of a light and its transform in the world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum LightKind {
     /// A light infinitely far away.
     Directional {
-        /// The way the light travels, unit length.
+        /// The direction in which the light travels, unit length.
         direction: DVec3,
     },
     /// A cone of light.
     Spot {
         /// The tip of the cone, metres.
         position_world: DVec3,
-        /// The axis of the cone, the way the light travels, unit length.
+        /// The axis of the cone, the direction in which the light travels, unit length.
         direction: DVec3,
         /// The distance where the light ends, metres; `None`: unlimited.
         range: Option<f64>,
@@ -42,7 +42,7 @@ pub enum LightKind {
         /// Half angle of the whole cone, radians, above 0 up to π/2.
         outer_angle: f64,
     },
-    /// A light that shines to all sides.
+    /// A light that shines in all directions.
     Point {
         /// The centre, metres.
         position_world: DVec3,
@@ -52,7 +52,7 @@ pub enum LightKind {
 }
 
 impl LightKind {
-    /// Returns the place of the kind in a scene's light list: directional 0, spot 1, point 2.
+    /// Returns the rank of the kind in a scene's light list: directional 0, spot 1, point 2.
     #[must_use]
     pub fn order(&self) -> u8 {
         match self {
@@ -64,8 +64,8 @@ impl LightKind {
 }
 
 impl Light {
-    /// Makes a white light from infinitely far away that casts shadows: the way it travels, any length, and its strength in lux
-    /// (full sunlight is about 100,000).
+    /// Creates a white directional light that casts shadows, from the direction in which it travels (any length) and its
+    /// illuminance in lux (full sunlight is about 100,000).
     ///
     /// ```
     /// use glam::DVec3;
@@ -78,9 +78,9 @@ impl Light {
         Self { name: None, kind, color: Vec3::ONE, intensity: lux, casts_shadow: true }
     }
 
-    /// Returns how far the light reaches, metres; `None` for directional lights.
+    /// Returns the range of the light, metres; `None` for directional lights.
     ///
-    /// That is the given range, else the distance at which its illuminance falls under
+    /// That is its `range`, else the distance at which its illuminance falls below
     /// [`MIN_ILLUMINANCE_LX`].
     ///
     /// ```
@@ -100,25 +100,27 @@ impl Light {
         Some(range.unwrap_or_else(|| (candela.max(0.0) / MIN_ILLUMINANCE_LX).sqrt()))
     }
 
-    /// Returns whether all values are as documented, but for the direction, whose length may be any above 0. A light that
-    /// is not usable lights nothing.
+    /// Tells whether all values are in their documented ranges, except that the direction may have any length above 0. A
+    /// light that is not usable gives no light.
     #[must_use]
     pub fn is_usable(&self) -> bool {
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
-        let reaches = |range: Option<f64>| range.is_none_or(is_positive);
-        let shines = |value: f32| value.is_finite() && value >= 0.0;
-        let placed = match self.kind {
+        let is_range = |range: Option<f64>| range.is_none_or(is_positive);
+        let is_non_negative = |value: f32| value.is_finite() && value >= 0.0;
+        let has_valid_kind = match self.kind {
             LightKind::Directional { direction } => direction.try_normalize().is_some(),
             LightKind::Spot { position_world, direction, range, inner_angle, outer_angle } => {
                 position_world.is_finite()
                     && direction.try_normalize().is_some()
-                    && reaches(range)
+                    && is_range(range)
                     && inner_angle.is_finite()
                     && is_positive(outer_angle)
             }
-            LightKind::Point { position_world, range } => position_world.is_finite() && reaches(range),
+            LightKind::Point { position_world, range } => position_world.is_finite() && is_range(range),
         };
-        placed && shines(self.intensity) && self.color.to_array().into_iter().all(shines)
+        has_valid_kind
+            && is_non_negative(self.intensity)
+            && self.color.to_array().into_iter().all(is_non_negative)
     }
 }
 
@@ -137,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_range_light_ends_where_it_gets_too_faint() {
+    fn without_a_range_the_effective_range_follows_from_the_intensity() {
         let kind = LightKind::Spot {
             position_world: DVec3::ZERO,
             direction: DVec3::NEG_Y,
@@ -151,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_is_usable_if_every_number_of_it_is() {
+    fn a_light_is_usable_if_all_its_values_are() {
         let spot = |position_world, direction, range, outer_angle| LightKind::Spot {
             position_world,
             direction,

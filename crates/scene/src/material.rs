@@ -19,15 +19,15 @@ pub struct Material {
     pub normal_scale: f32,
     /// 0: occlusion texture without effect, 1: full effect.
     pub occlusion_strength: f32,
-    /// How alpha is used.
+    /// The alpha mode.
     pub alpha: AlphaMode,
     /// Whether back faces are drawn.
     pub double_sided: bool,
-    /// Whether the base colour is shown as it is, without lighting. It casts shadows all the same.
+    /// Whether the base colour is shown without lighting. The material casts shadows in either case.
     pub unlit: bool,
-    /// What shadow it casts; `None`: as its alpha says, `On` where alpha is ignored, `Clip` where it cuts, `Tint` where it blends.
+    /// How it casts shadows; `None`: by its alpha mode, `On` for opaque, `Clip` for mask, `Tint` for blend.
     pub casts: Option<CasterMode>,
-    /// Whether others' shadows fall on it.
+    /// Whether it receives shadows.
     pub receives_shadows: bool,
     /// RGB in sRGB, alpha linear.
     pub base_color_texture: Option<TextureRef>,
@@ -67,7 +67,7 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Returns what shadow it casts.
+    /// Returns how it casts shadows.
     #[must_use]
     pub fn caster_mode(&self) -> CasterMode {
         self.casts.unwrap_or(match self.alpha {
@@ -78,23 +78,23 @@ impl Material {
     }
 }
 
-/// What shadow a material casts.
+/// How a material casts shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CasterMode {
-    /// That of all of its surface, whatever its alpha.
+    /// The whole surface casts a shadow, regardless of alpha.
     On,
-    /// That of where its alpha is at least the cutoff of [`AlphaMode::Mask`]; one half, where there is none.
+    /// The surface casts a shadow where alpha is at least the cutoff of [`AlphaMode::Mask`], or one half in other modes.
     Clip,
-    /// One as dense as its alpha: the larger it is, the more texels of a shadow map it fills, by a pattern of noise.
+    /// The shadow is as dense as alpha: a noise pattern selects the texels of the shadow map that are filled.
     Dither,
-    /// A coloured one: where alpha is a and the colour c, the part `(1 - a) * mix(1, c, a * (2 - a))` of the light passes. So much
-    /// gets past the surface, in its colour the more the denser it is; what is wholly opaque stops all of it.
+    /// The shadow is coloured: for alpha a and colour c, the surface transmits the fraction `(1 - a) * mix(1, c, a * (2 - a))`
+    /// of the light. Higher alpha transmits less light with more of the colour; an alpha of 1 blocks all of it.
     Tint,
-    /// None.
+    /// The material casts no shadow.
     Off,
 }
 
-/// How a material's alpha is used.
+/// The alpha mode of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AlphaMode {
     /// Alpha is ignored.
@@ -105,7 +105,7 @@ pub enum AlphaMode {
         /// 0 or more; above 1 nothing is drawn.
         cutoff: f32,
     },
-    /// Blended over what lies behind.
+    /// Blended over what is behind.
     Blend,
 }
 
@@ -114,37 +114,37 @@ pub enum AlphaMode {
 pub struct TextureRef {
     /// Index into the scene's images.
     pub image: usize,
-    /// How the image is filtered and repeated.
+    /// Filtering and wrapping.
     pub sampler: Sampler,
-    /// Which texture coordinates of the vertices: 0 or 1.
+    /// The set of texture coordinates: 0 or 1.
     pub uv_set: u8,
     /// Two rows: `uv' = M * (u, v, 1)`.
     pub uv_transform: [[f32; 3]; 2],
 }
 
 impl TextureRef {
-    /// The `uv_transform` that changes nothing.
+    /// The identity `uv_transform`.
     pub const UV_IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-    /// Makes a reference to an image with the default sampler, texture coordinates 0, untransformed.
+    /// Creates a reference to an image with the default sampler, texture coordinates 0, untransformed.
     #[must_use]
     pub fn new(image: usize) -> Self {
         Self { image, sampler: Sampler::default(), uv_set: 0, uv_transform: Self::UV_IDENTITY }
     }
 }
 
-/// How an image is filtered and what lies beyond its edges.
+/// How an image is filtered and wrapped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Sampler {
-    /// Beyond the left and right edges.
+    /// Wrapping beyond the left and right edges.
     pub wrap_u: Wrap,
-    /// Beyond the upper and lower edges.
+    /// Wrapping beyond the upper and lower edges.
     pub wrap_v: Wrap,
-    /// When a texel is larger than a pixel.
+    /// Magnification filter.
     pub mag: Filter,
-    /// When a texel is smaller than a pixel.
+    /// Minification filter.
     pub min: Filter,
-    /// Between mip levels; `None`: only the largest level is used.
+    /// Filter between mip levels; `None`: only the largest level is used.
     pub mip: Option<Filter>,
 }
 
@@ -161,23 +161,23 @@ impl Default for Sampler {
     }
 }
 
-/// What lies beyond the edges of an image.
+/// Wrapping of texture coordinates beyond the edges of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Wrap {
-    /// The image again.
+    /// The image repeats.
     Repeat,
-    /// The image mirrored, then again.
+    /// The image repeats, mirrored every second time.
     MirrorRepeat,
-    /// The nearest texel of the edge.
+    /// The texels of the edge extend outwards.
     ClampToEdge,
 }
 
-/// How a value between texels is found.
+/// A texture filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Filter {
-    /// The nearest one.
+    /// The nearest texel.
     Nearest,
-    /// Linear between neighbours.
+    /// Linear interpolation between neighbours.
     Linear,
 }
 
@@ -190,6 +190,18 @@ pub struct Image {
     pub width: u32,
     /// Pixels, above 0.
     pub height: u32,
-    /// Rows from the top, `width * height * 4` bytes; sRGB or linear is up to the use.
+    /// Rows from the top, `width * height * 4` bytes; the use determines whether they are sRGB or linear.
     pub rgba8: Vec<u8>,
+}
+
+/// Decodes a colour channel from sRGB (IEC 61966-2-1) to linear light, 0 to 1. Alpha is always linear.
+///
+/// ```
+/// use shadowgraph_scene::linear_from_srgb;
+/// assert_eq!((linear_from_srgb(0), linear_from_srgb(255)), (0.0, 1.0));
+/// assert!((linear_from_srgb(188) - 0.5).abs() < 0.01);
+/// ```
+pub fn linear_from_srgb(channel: u8) -> f64 {
+    let value = f64::from(channel) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
-use crate::Aabb;
+use crate::bounds::Aabb;
 use crate::solids::shape;
 
 mod normals;
@@ -19,7 +19,7 @@ pub struct Vertex {
     pub position: [f32; 3],
     /// Unit length.
     pub normal: [f32; 3],
-    /// Unit length, square to the normal; `w` is 1 or -1: bitangent = cross(normal, tangent) * w.
+    /// Unit length, perpendicular to the normal; `w` is 1 or -1: bitangent = cross(normal, tangent) * w.
     pub tangent: [f32; 4],
     /// Texture coordinates 0, v downwards.
     pub uv0: [f32; 2],
@@ -57,7 +57,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Makes a mesh and computes its bounds.
+    /// Creates a mesh and computes its bounds.
     ///
     /// ```
     /// use shadowgraph_scene::{Mesh, Vertex};
@@ -71,7 +71,7 @@ impl Mesh {
         Self { name: name.into(), vertices, indices, bounds }
     }
 
-    /// Makes a box from one corner to the opposite one, metres.
+    /// Creates a box from one corner to the opposite one, metres.
     ///
     /// ```
     /// use glam::DVec3;

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-/// The spacing of the points that can be the origin of GPU space, metres.
+/// The spacing of the grid of possible origins of GPU space, metres.
 pub const ORIGIN_GRID_M: f64 = 1024.0;
 
 /// Returns the grid point nearest to `position_world`, so that f32 offsets from it stay small.
 ///
-/// The result moves only when the position crosses into another grid cell. A position that is not
+/// The result changes only when the position crosses into another grid cell. A position that is not
 /// finite gives the world's origin.
 ///
 /// ```
@@ -20,7 +20,7 @@ pub fn origin_near(position_world: DVec3) -> DVec3 {
     if !position_world.is_finite() {
         return DVec3::ZERO;
     }
-    // Adding zero turns -0.0 into 0.0, so that equal origins also print alike.
+    // Adding zero turns -0.0 into 0.0, so that equal origins also print equally.
     (position_world / ORIGIN_GRID_M).round() * ORIGIN_GRID_M + DVec3::ZERO
 }
 

@@ -2,7 +2,11 @@
 
 use glam::DAffine3;
 
-use crate::{Aabb, Camera, Image, Light, Material, Mesh};
+use crate::bounds::{Aabb, ConvexVolume};
+use crate::camera::Camera;
+use crate::light::Light;
+use crate::material::{Image, Material};
+use crate::mesh::Mesh;
 
 /// One drawn copy of a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,11 +17,11 @@ pub struct Instance {
     pub mesh: usize,
     /// Index into the scene's materials.
     pub material: usize,
-    /// The placement, in f64, absolute.
+    /// The transform, in f64, absolute.
     pub world_from_local: DAffine3,
 }
 
-/// Everything that a renderer needs to draw a picture, as plain data.
+/// Everything that a renderer needs to draw an image, as plain data.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// Geometry; instances refer to it by index.
@@ -26,14 +30,24 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Images; materials refer to them by index.
     pub images: Vec<Image>,
-    /// What is drawn.
+    /// The drawn copies of meshes.
     pub instances: Vec<Instance>,
     /// Directional lights, then spot lights, then point lights.
     pub lights: Vec<Light>,
     /// The cameras of the file.
     pub cameras: Vec<Camera>,
-    /// What the file has and the renderer does not draw as written, a line each.
+    /// The contents of the file that are not drawn as it says, one line each.
     pub notes: Vec<String>,
+}
+
+/// Returns the instances whose bounds intersect the volume, ascending.
+///
+/// `bounds` are the world bounds of the scene's instances, one each (the caller keeps them, so that they are
+/// not recomputed for every volume). Instances without bounds are skipped.
+#[must_use]
+pub fn visible_instances(scene: &Scene, bounds: &[Aabb], volume: &ConvexVolume) -> Vec<u32> {
+    let bounds = bounds.iter().take(scene.instances.len());
+    (0u32..).zip(bounds).filter(|(_, bounds)| volume.intersects(bounds)).map(|(index, _)| index).collect()
 }
 
 impl Scene {
@@ -53,7 +67,7 @@ impl Scene {
         bounds.unwrap_or(Aabb::EMPTY)
     }
 
-    /// Adds a mesh in a material where `world_from_local` puts it, and returns the index of the instance.
+    /// Adds an instance of a mesh with a material and a transform, and returns the index of the instance.
     ///
     /// ```
     /// use glam::{DAffine3, DVec3};
@@ -91,7 +105,7 @@ impl Scene {
 
     /// Returns a camera that frames the bounds from the front, the right and above.
     ///
-    /// `aspect` is the picture's width over its height, above 0.
+    /// `aspect` is the image's width over its height, above 0.
     #[must_use]
     pub fn framing_camera(&self, aspect: f64) -> Camera {
         Camera::framing(&self.bounds(), aspect)
@@ -110,14 +124,15 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::{LightKind, Vertex, visible_instances};
+    use crate::light::LightKind;
+    use crate::mesh::Vertex;
 
     fn light(name: &str, kind: LightKind) -> Light {
         Light { name: Some(name.into()), kind, color: Vec3::ONE, intensity: 1.0, casts_shadow: true }
     }
 
     #[test]
-    fn lights_stay_in_order_of_kind_then_of_adding() {
+    fn lights_are_ordered_by_kind_and_then_as_added() {
         let sun = LightKind::Directional { direction: DVec3::NEG_Y };
         let point = LightKind::Point { position_world: DVec3::ZERO, range: None };
         let spot = LightKind::Spot {

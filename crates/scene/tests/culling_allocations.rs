@@ -23,7 +23,7 @@ fn volumes() -> Vec<CullVolume> {
 }
 
 #[test]
-fn a_query_into_a_warm_list_and_a_refit_allocate_nothing() {
+fn a_query_into_a_list_with_capacity_and_a_refit_allocate_nothing() {
     let boxes = boxes();
     let mut tree = CullTree::new(&boxes);
     let volumes = volumes();

@@ -1,19 +1,19 @@
-//! Cameras that see something.
+//! Validation of cameras.
 
 use super::{Camera, Projection};
 
-/// Why a camera sees nothing.
+/// The reason why a camera is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
-    /// Its placement has values that are not finite.
-    #[error("the camera's placement is not made of finite numbers")]
-    Placement,
-    /// Its angle is no angle.
-    #[error("the camera's vertical angle is {0} radians; it must be above 0 and below pi")]
+    /// Its transform has values that are not finite.
+    #[error("the camera's transform must have finite values")]
+    Transform,
+    /// Its field of view is out of range.
+    #[error("the camera's vertical field of view is {0} radians; it must be above 0 and below pi")]
     FieldOfView(f64),
-    /// Its box has no size.
+    /// Its orthographic view has no size.
     #[error(
-        "the camera sees half a width of {half_width} m and half a height of {half_height} m; both must be above 0"
+        "the camera's half width is {half_width} m and its half height {half_height} m; both must be above 0"
     )]
     HalfSize {
         /// Metres.
@@ -21,8 +21,8 @@ pub enum CameraError {
         /// Metres.
         half_height: f64,
     },
-    /// Its near plane is behind it, or nowhere.
-    #[error("the camera's near plane is at {0} m; it must be a number, in perspective above 0")]
+    /// Its near plane is behind the camera or not finite.
+    #[error("the camera's near plane is at {0} m; it must be finite, and above 0 in perspective")]
     Near(f64),
     /// Its far plane is not beyond its near plane.
     #[error("the camera's far plane is at {far} m; it must be beyond its near plane, at {near} m")]
@@ -32,16 +32,16 @@ pub enum CameraError {
         /// Metres.
         far: f64,
     },
-    /// The picture has no shape.
-    #[error("the picture's width over its height is {0}; it must be a number above 0")]
+    /// The aspect ratio of the image is out of range.
+    #[error("the image's aspect ratio is {0}; it must be finite and above 0")]
     Aspect(f64),
 }
 
 impl Camera {
-    /// Checks that there is something to see in a picture of the shape `aspect` (width over height).
+    /// Checks that the camera can render an image of the aspect ratio `aspect` (width over height).
     ///
     /// # Errors
-    /// The first value that is not as its documentation says.
+    /// Names the first value that is out of its documented range.
     ///
     /// ```
     /// use shadowgraph_scene::{Camera, CameraError, Projection};
@@ -53,7 +53,7 @@ impl Camera {
     pub fn check(&self, aspect: f64) -> Result<(), CameraError> {
         let is_size = |size: f64| size.is_finite() && size > 0.0;
         if !self.world_from_view.is_finite() {
-            return Err(CameraError::Placement);
+            return Err(CameraError::Transform);
         }
         let near = self.near();
         match self.projection {

@@ -29,7 +29,7 @@ fn depth_is_one_at_the_near_plane_and_zero_at_the_far_plane() {
 }
 
 #[test]
-fn corners_of_a_slice_are_the_corners_of_the_picture() {
+fn corners_of_a_slice_project_to_the_corners_of_the_image() {
     for camera in [perspective(Some(50.0)), orthographic()] {
         for aspect in [0.5, 1.5, 3.0] {
             for (i, corner) in camera.slice_corners_view(aspect, 1.0, 20.0).into_iter().enumerate() {
@@ -43,7 +43,7 @@ fn corners_of_a_slice_are_the_corners_of_the_picture() {
 }
 
 #[test]
-fn an_orthographic_picture_is_never_stretched_or_cut_off() {
+fn an_orthographic_image_is_never_stretched_or_cropped() {
     for aspect in [0.5, 1.5, 3.0] {
         let half = orthographic().half_size(aspect, 1.0);
         assert!((half.x / half.y - aspect).abs() < 1e-12);
@@ -52,7 +52,7 @@ fn an_orthographic_picture_is_never_stretched_or_cut_off() {
 }
 
 #[test]
-fn look_at_is_rigid_and_upright_even_where_it_has_a_choice() {
+fn look_at_is_rigid_and_upright_even_where_the_direction_is_undefined() {
     let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
     for (eye, up) in
         [(DVec3::Y, DVec3::Y), (DVec3::ZERO, DVec3::Y), (DVec3::Z, DVec3::ZERO), (DVec3::X, DVec3::Y)]
@@ -66,7 +66,7 @@ fn look_at_is_rigid_and_upright_even_where_it_has_a_choice() {
 }
 
 #[test]
-fn framing_shows_every_corner_and_fills_the_picture() {
+fn framing_shows_every_corner_and_fills_the_image() {
     let box_of = |min: [f64; 3], max: [f64; 3]| Aabb { min: min.into(), max: max.into() };
     let cases = [
         box_of([-1.0; 3], [1.0; 3]),
@@ -83,8 +83,8 @@ fn framing_shows_every_corner_and_fills_the_picture() {
             let clips = bounds
                 .corners()
                 .map(|corner| clip(&camera, aspect, camera.view_from_world().transform_point3(corner)));
-            let reach = clips.iter().map(|clip| clip.truncate().abs().max_element()).fold(0.0, f64::max);
-            assert!((0.9..=0.96).contains(&reach), "{bounds:?} reaches {reach}");
+            let extent = clips.iter().map(|clip| clip.truncate().abs().max_element()).fold(0.0, f64::max);
+            assert!((0.9..=0.96).contains(&extent), "{bounds:?} extends to {extent}");
             assert!(clips.iter().all(|clip| clip.z > 0.0 && clip.z < 1.0), "{bounds:?} {clips:?}");
             assert!(camera.position_world().y > bounds.center().y);
         }
@@ -92,7 +92,7 @@ fn framing_shows_every_corner_and_fills_the_picture() {
 }
 
 #[test]
-fn framing_copes_with_a_point_and_with_nothing() {
+fn framing_a_point_or_an_empty_box_gives_a_valid_camera() {
     for bounds in [
         Aabb::EMPTY,
         Aabb { min: DVec3::ONE, max: DVec3::ONE },
@@ -107,7 +107,7 @@ fn framing_copes_with_a_point_and_with_nothing() {
 
 proptest! {
     #[test]
-    fn the_volume_is_what_projects_into_the_picture(
+    fn the_frustum_contains_exactly_what_projects_into_the_image(
         x in -30.0..30.0, y in -30.0..30.0, z in -60.0..5.0, aspect in 0.3..3.0, ortho: bool,
     ) {
         let camera = if ortho { orthographic() } else { perspective(Some(50.0)) };
@@ -130,39 +130,39 @@ proptest! {
         let (center, half) = (DVec3::from(center), DVec3::from(half));
         let bounds = Aabb { min: center - half, max: center + half };
         let point = (center + half * DVec3::from(at)).clamp(bounds.min, bounds.max);
-        let volume = camera.frustum(aspect);
-        prop_assert!(!volume.contains_point(point) || volume.intersects(&bounds));
+        let frustum = camera.frustum(aspect);
+        prop_assert!(!frustum.contains_point(point) || frustum.intersects(&bounds));
     }
 }
 
 #[test]
-fn cameras_that_see_nothing_say_why() {
+fn errors_of_invalid_cameras_name_the_value() {
     let angle = |fov_y, near, far| Projection::Perspective { fov_y, near, far };
     let boxed =
         |half_width, half_height, near, far| Projection::Orthographic { half_width, half_height, near, far };
     for (projection, aspect, text) in [
-        (angle(0.0, 0.1, None), 1.0, "vertical angle is 0 radians"),
-        (angle(3.2, 0.1, None), 1.0, "vertical angle is 3.2 radians"),
-        (angle(f64::NAN, 0.1, None), 1.0, "vertical angle is NaN radians"),
+        (angle(0.0, 0.1, None), 1.0, "vertical field of view is 0 radians"),
+        (angle(3.2, 0.1, None), 1.0, "vertical field of view is 3.2 radians"),
+        (angle(f64::NAN, 0.1, None), 1.0, "vertical field of view is NaN radians"),
         (angle(1.0, 0.0, None), 1.0, "near plane is at 0 m"),
         (angle(1.0, f64::INFINITY, None), 1.0, "near plane is at inf m"),
         (angle(1.0, 2.0, Some(2.0)), 1.0, "far plane is at 2 m; it must be beyond its near plane, at 2 m"),
         (angle(1.0, 2.0, Some(f64::NAN)), 1.0, "far plane is at NaN m"),
-        (boxed(0.0, 1.0, 0.0, 1.0), 1.0, "half a width of 0 m and half a height of 1 m"),
+        (boxed(0.0, 1.0, 0.0, 1.0), 1.0, "half width is 0 m and its half height 1 m"),
         (boxed(1.0, 1.0, f64::NAN, 1.0), 1.0, "near plane is at NaN m"),
         (boxed(1.0, 1.0, 1.0, -1.0), 1.0, "far plane is at -1 m"),
-        (angle(1.0, 0.1, None), f64::NAN, "width over its height is NaN"),
-        (angle(1.0, 0.1, None), 0.0, "width over its height is 0"),
+        (angle(1.0, 0.1, None), f64::NAN, "aspect ratio is NaN"),
+        (angle(1.0, 0.1, None), 0.0, "aspect ratio is 0"),
     ] {
         let camera = Camera { projection, ..perspective(None) };
         let error = camera.check(aspect).unwrap_err().to_string();
         assert!(error.contains(text), "{error}");
     }
-    let mut lost = perspective(None);
-    lost.world_from_view.translation.y = f64::INFINITY;
-    assert_eq!(lost.check(1.0), Err(CameraError::Placement));
+    let mut infinite = perspective(None);
+    infinite.world_from_view.translation.y = f64::INFINITY;
+    assert_eq!(infinite.check(1.0), Err(CameraError::Transform));
     assert_eq!(perspective(None).check(1.0), Ok(()));
-    // A box may begin behind the camera.
+    // An orthographic near plane may lie behind the camera.
     let behind = Camera { projection: boxed(1.0, 1.0, -5.0, 5.0), ..perspective(None) };
     assert_eq!(behind.check(1.0), Ok(()));
 }

@@ -1,18 +1,16 @@
-//! Culling: which boxes touch what a camera or a shadow tile can see.
+//! Culling: which boxes intersect what a camera or a shadow tile can see.
 //!
-//! A [`CullVolume`] tells it of one box, a [`CullTree`] of many at once. The two agree bit for bit: a query of the
-//! tree finds what testing each box would find, no more and no less.
+//! A [`CullVolume`] tests one box, a [`CullTree`] many at once. The two agree to the bit: a query of the tree finds
+//! exactly the boxes that a test of each would find.
 
-mod ascending;
 mod node;
-mod part;
-mod parts;
 #[cfg(test)]
 mod samples;
+mod shapes;
+mod sort;
 mod tree;
-mod visible;
 mod volume;
 
+pub use shapes::{BoundingSphere, Cone};
 pub use tree::CullTree;
-pub use visible::visible_instances;
-pub use volume::{BoundingSphere, Cone, CullVolume};
+pub use volume::CullVolume;

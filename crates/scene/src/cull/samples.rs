@@ -1,19 +1,20 @@
-//! Boxes and volumes for tests, made so that rounding decides: parts of volumes pass through corners of boxes, give
-//! or take the last bits, and all of it may lie 10,000 km from the origin.
+//! Boxes and volumes for tests in which rounding decides: the surfaces of volumes pass through corners of boxes within the
+//! last bits, and everything may lie 10,000 km from the origin.
 
-use crate::{Aabb, ConvexVolume, Plane};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-use crate::cull::{BoundingSphere, Cone, CullVolume};
+use crate::bounds::{Aabb, ConvexVolume, Plane};
+use crate::cull::shapes::{BoundingSphere, Cone};
+use crate::cull::volume::CullVolume;
 
-/// Boxes around one place, of one order of size; some are flat, points, huge, infinite or empty.
+/// Boxes around one point, of similar size; some are flat, points, huge, infinite or empty.
 pub(crate) fn boxes(count: std::ops::Range<usize>) -> impl Strategy<Value = Vec<Aabb>> {
     let each = prop::collection::vec((vector(), vector(), 0..40u32), count);
-    (place(), scale(), each).prop_map(|(place, scale, each)| {
+    (center(), scale(), each).prop_map(|(center, scale, each)| {
         let size = |size: DVec3| size.abs() * scale * 0.3;
-        each.into_iter().map(|(at, sides, kind)| one_box(place + at * scale, size(sides), kind)).collect()
+        each.into_iter().map(|(at, sides, kind)| one_box(center + at * scale, size(sides), kind)).collect()
     })
 }
 
@@ -21,8 +22,8 @@ pub(crate) fn boxes(count: std::ops::Range<usize>) -> impl Strategy<Value = Vec<
 pub(crate) fn nested() -> impl Strategy<Value = [Aabb; 2]> {
     let cut = || prop_oneof![Just(0.0), Just(1.0), 0.0..=1.0];
     let cuts = || [cut(), cut(), cut()];
-    (place(), scale(), vector(), cuts(), cuts()).prop_map(|(place, scale, size, from, to)| {
-        let outer = Aabb::from_points([place, place + size * scale]);
+    (center(), scale(), vector(), cuts(), cuts()).prop_map(|(center, scale, size, from, to)| {
+        let outer = Aabb::from_points([center, center + size * scale]);
         let at = |cut: [f64; 3]| {
             (outer.min + (outer.max - outer.min) * DVec3::from(cut)).clamp(outer.min, outer.max)
         };
@@ -30,83 +31,84 @@ pub(crate) fn nested() -> impl Strategy<Value = [Aabb; 2]> {
     })
 }
 
-/// What makes a part that passes through a corner of a box.
+/// The parameters of a shape whose surface passes through a corner of a box.
 #[derive(Clone, Debug)]
-pub(crate) struct Graze {
+pub(crate) struct Tangency {
     target: (Index, usize),
-    /// Where the part is: away from a corner of some other box.
+    /// The shape's origin lies at `offset` from a corner of some other box.
     other: (Index, usize),
-    away: DVec3,
+    offset: DVec3,
     /// Unit length.
     direction: DVec3,
-    /// By how many times the last bit the target is missed.
-    miss: i32,
-    endless: bool,
+    /// The number of last bits by which the surface misses the corner.
+    error_ulps: i32,
+    infinite: bool,
 }
 
-/// What makes a volume: a sphere or none, a cone or none, and planes, sometimes more than have a bit.
-pub(crate) type Recipe = (Option<Graze>, Option<Graze>, Vec<Graze>);
+/// The parameters of a volume: a sphere or none, a cone or none, and planes, sometimes more than a mask has bits for.
+pub(crate) type Shapes = (Option<Tangency>, Option<Tangency>, Vec<Tangency>);
 
-pub(crate) fn recipe() -> impl Strategy<Value = Recipe> {
-    let few = prop::collection::vec(graze(), 0..4);
-    let many = prop::collection::vec(graze(), 60..70);
-    (prop::option::of(graze()), prop::option::of(graze()), prop_oneof![9 => few, 1 => many])
+pub(crate) fn shapes() -> impl Strategy<Value = Shapes> {
+    let few = prop::collection::vec(tangency(), 0..4);
+    let many = prop::collection::vec(tangency(), 60..70);
+    (prop::option::of(tangency()), prop::option::of(tangency()), prop_oneof![9 => few, 1 => many])
 }
 
-pub(crate) fn volume((sphere, cone, planes): &Recipe, boxes: &[Aabb]) -> CullVolume {
-    let planes = planes.iter().map(|graze| plane(graze, boxes)).collect();
+pub(crate) fn volume((sphere, cone, planes): &Shapes, boxes: &[Aabb]) -> CullVolume {
+    let planes = planes.iter().map(|tangency| plane(tangency, boxes)).collect();
     CullVolume {
-        sphere: sphere.as_ref().map(|graze| self::sphere(graze, boxes)),
-        cone: cone.as_ref().map(|graze| self::cone(graze, boxes)),
+        sphere: sphere.as_ref().map(|tangency| self::sphere(tangency, boxes)),
+        cone: cone.as_ref().map(|tangency| self::cone(tangency, boxes)),
         planes: ConvexVolume { planes },
     }
 }
 
-pub(crate) fn graze() -> impl Strategy<Value = Graze> {
+pub(crate) fn tangency() -> impl Strategy<Value = Tangency> {
     let corner = || (any::<Index>(), 0..8usize);
-    let away = prop_oneof![Just(DVec3::ZERO), vector()];
-    (corner(), corner(), away, direction(), -2..=2, any::<bool>()).prop_map(
-        |(target, other, away, direction, miss, endless)| Graze {
+    let offset = prop_oneof![Just(DVec3::ZERO), vector()];
+    (corner(), corner(), offset, direction(), -2..=2, any::<bool>()).prop_map(
+        |(target, other, offset, direction, error_ulps, infinite)| Tangency {
             target,
             other,
-            away,
+            offset,
             direction,
-            miss,
-            endless,
+            error_ulps,
+            infinite,
         },
     )
 }
 
-pub(crate) fn plane(graze: &Graze, boxes: &[Aabb]) -> Plane {
-    let plane = Plane::through(graze.target(boxes), graze.direction);
-    Plane { distance: nudged(plane.distance, graze.miss), ..plane }
+pub(crate) fn plane(tangency: &Tangency, boxes: &[Aabb]) -> Plane {
+    let plane = Plane::through(tangency.target(boxes), tangency.direction);
+    Plane { distance: nudged(plane.distance, tangency.error_ulps), ..plane }
 }
 
-pub(crate) fn sphere(graze: &Graze, boxes: &[Aabb]) -> BoundingSphere {
-    let center_world = graze.origin(boxes);
-    let radius_m = (graze.target(boxes) - center_world).length();
-    BoundingSphere { center_world, radius_m: nudged(radius_m, graze.miss).max(0.0) }
+pub(crate) fn sphere(tangency: &Tangency, boxes: &[Aabb]) -> BoundingSphere {
+    let center_world = tangency.origin(boxes);
+    let radius_m = (tangency.target(boxes) - center_world).length();
+    BoundingSphere { center_world, radius_m: nudged(radius_m, tangency.error_ulps).max(0.0) }
 }
 
-pub(crate) fn cone(graze: &Graze, boxes: &[Aabb]) -> Cone {
-    let tip_world = graze.origin(boxes);
-    let from_tip = graze.target(boxes) - tip_world;
-    let along = graze.direction.dot(from_tip);
-    let axis = if along < 0.0 { -graze.direction } else { graze.direction };
-    let across = (from_tip - graze.direction * along).length();
-    let half_angle = nudged(across.atan2(along.abs()), graze.miss).clamp(0.0, std::f64::consts::FRAC_PI_2);
-    let length_m = if graze.endless { f64::INFINITY } else { nudged(along.abs(), graze.miss) };
+pub(crate) fn cone(tangency: &Tangency, boxes: &[Aabb]) -> Cone {
+    let tip_world = tangency.origin(boxes);
+    let from_tip = tangency.target(boxes) - tip_world;
+    let along = tangency.direction.dot(from_tip);
+    let axis = if along < 0.0 { -tangency.direction } else { tangency.direction };
+    let across = (from_tip - tangency.direction * along).length();
+    let half_angle =
+        nudged(across.atan2(along.abs()), tangency.error_ulps).clamp(0.0, std::f64::consts::FRAC_PI_2);
+    let length_m = if tangency.infinite { f64::INFINITY } else { nudged(along.abs(), tangency.error_ulps) };
     Cone { tip_world, axis, half_angle, length_m }
 }
 
-impl Graze {
+impl Tangency {
     fn target(&self, boxes: &[Aabb]) -> DVec3 {
         corner(&self.target, boxes)
     }
 
     fn origin(&self, boxes: &[Aabb]) -> DVec3 {
         let other = corner(&self.other, boxes);
-        other + self.away * ((self.target(boxes) - other).length() + 1e-7)
+        other + self.offset * ((self.target(boxes) - other).length() + 1e-7)
     }
 }
 
@@ -136,7 +138,7 @@ fn one_box(at: DVec3, size: DVec3, kind: u32) -> Aabb {
     }
 }
 
-fn place() -> impl Strategy<Value = DVec3> {
+fn center() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         Just(DVec3::ZERO),
         vector().prop_map(|at| at * 1e3),
@@ -149,11 +151,11 @@ fn scale() -> impl Strategy<Value = f64> {
     prop_oneof![Just(1e-7), Just(1.0), Just(300.0)]
 }
 
-/// Unit length; often along the world's axes.
+/// Unit length; often along the axes of the world.
 fn direction() -> impl Strategy<Value = DVec3> {
     let axes = prop::sample::select(DVec3::AXES.to_vec());
     let signed = (axes, any::<bool>()).prop_map(|(axis, flip)| if flip { -axis } else { axis });
-    prop_oneof![1 => signed, 2 => vector().prop_map(|way| way.normalize_or(DVec3::Y))]
+    prop_oneof![1 => signed, 2 => vector().prop_map(|vector| vector.normalize_or(DVec3::Y))]
 }
 
 /// Each coordinate from -1 to 1.

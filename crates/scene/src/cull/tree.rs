@@ -1,24 +1,23 @@
-//! A tree of boxes.
+//! A bounding volume hierarchy of boxes.
 
-use crate::Aabb;
+use glam::DVec3;
 
+use crate::bounds::Aabb;
 use crate::cull::node::Node;
-use crate::cull::parts::{Parts, Place, Settled};
-use crate::cull::volume::within_space;
-use crate::cull::{CullVolume, ascending};
+use crate::cull::sort::sort_distinct;
+use crate::cull::volume::{Containment, CullVolume, PreparedVolume, ShapeMask, clip_to_space};
 
-mod build;
 #[cfg(test)]
 mod tests;
 
-/// Many boxes, one per item, arranged so that those that touch a volume are found without testing all.
+/// Many boxes, one per item, arranged so that those that intersect a volume are found without testing all.
 ///
-/// It is a binary tree of boxes around boxes. Items are numbered as in the list it was made from.
+/// It is a binary bounding volume hierarchy. Items are numbered as in the list that the tree was built from.
 #[derive(Clone, Debug)]
 pub struct CullTree {
-    /// The bounds of all below, by the node's number.
+    /// The bounds of each node, by the node's number.
     nodes: Vec<Aabb>,
-    /// The bounds of an item, by slot. Items of a node are in slots in a row.
+    /// The bounds of each item, by slot. Items of a node have consecutive slots.
     boxes: Vec<Aabb>,
     /// The item in each slot.
     items: Vec<u32>,
@@ -27,7 +26,7 @@ pub struct CullTree {
 }
 
 impl CullTree {
-    /// Arranges the boxes, item `i` being `bounds[i]`. Empty boxes are items too, but in no volume until
+    /// Builds the tree; item `i` has the box `bounds[i]`. Empty boxes are items too, but intersect no volume until
     /// [`refit`](Self::refit) gives them another box.
     ///
     /// ```
@@ -43,29 +42,29 @@ impl CullTree {
     /// ```
     #[must_use]
     pub fn new(bounds: &[Aabb]) -> Self {
-        build::build(bounds)
+        build(bounds)
     }
 
-    /// Appends the items whose boxes touch the volume, ascending: exactly those for which
+    /// Appends the items whose boxes intersect the volume, ascending: exactly those for which
     /// [`CullVolume::intersects`] is true.
     pub fn query(&self, volume: &CullVolume, found: &mut Vec<u32>) {
         let start = found.len();
         if let Some(root) = self.root() {
-            self.find(root, &Parts::new(volume), Settled::default(), found);
+            self.find(root, &PreparedVolume::new(volume), ShapeMask::default(), found);
         }
-        ascending::sort(found, start, self.items.len());
+        sort_distinct(found, start, self.items.len());
     }
 
-    /// Gives items other boxes, empty ones too. Items that there are not are passed over.
+    /// Gives items new boxes, which may be empty. Items that do not exist are ignored.
     ///
-    /// This takes a walk down the tree per item. Where they lie in the tree stays as it is, so queries become slower
-    /// when items move far, never wrong; a new tree is then better.
+    /// This costs one descent of the tree per item. Items keep their slots, so queries get slower when items move far, but
+    /// never wrong; a new tree is then better.
     pub fn refit(&mut self, changed: impl IntoIterator<Item = (u32, Aabb)>) {
         let Some(root) = self.root() else { return };
         for (item, bounds) in changed {
             if let Some(&slot) = self.slots.get(item as usize) {
-                self.boxes[slot as usize] = within_space(&bounds);
-                self.refit_around(root, slot as usize);
+                self.boxes[slot as usize] = clip_to_space(&bounds);
+                self.refit_path(root, slot as usize);
             }
         }
     }
@@ -76,8 +75,8 @@ impl CullTree {
         self.nodes.first().copied().unwrap_or(Aabb::EMPTY)
     }
 
-    /// Returns the box of an item, cut off 10^100 m from the origin; [`Aabb::EMPTY`] for an empty one and for an
-    /// item that there is not.
+    /// Returns the box of an item, clipped at 10^100 m from the origin; [`Aabb::EMPTY`] for an empty one and for an
+    /// item that does not exist.
     #[must_use]
     pub fn item_bounds(&self, item: u32) -> Aabb {
         self.slots.get(item as usize).map_or(Aabb::EMPTY, |&slot| self.boxes[slot as usize])
@@ -87,14 +86,16 @@ impl CullTree {
         Node::root(self.items.len())
     }
 
-    /// Appends what touches below a node, in the order of slots.
-    fn find(&self, node: Node, volume: &Parts<'_>, settled: Settled, found: &mut Vec<u32>) {
-        match volume.place(&self.nodes[node.number], settled) {
-            Place::Outside => {}
-            Place::Inside => self.append(node, |bounds| !bounds.is_empty(), found),
-            Place::Across(settled) => match node.halves() {
-                Some(halves) => halves.into_iter().for_each(|half| self.find(half, volume, settled, found)),
-                None => self.append(node, |bounds| volume.touch(bounds, settled), found),
+    /// Appends the items of a node that intersect the volume, in the order of slots.
+    fn find(&self, node: Node, volume: &PreparedVolume<'_>, inside: ShapeMask, found: &mut Vec<u32>) {
+        match volume.classify(&self.nodes[node.number], inside) {
+            Containment::Outside => {}
+            Containment::Inside => self.append(node, |bounds| !bounds.is_empty(), found),
+            Containment::Partial(inside) => match node.children() {
+                Some(children) => {
+                    children.into_iter().for_each(|child| self.find(child, volume, inside, found))
+                }
+                None => self.append(node, |bounds| volume.intersects(bounds, inside), found),
             },
         }
     }
@@ -105,33 +106,83 @@ impl CullTree {
         found.extend(items.filter(|(_, bounds)| keep(bounds)).map(|(&item, _)| item));
     }
 
-    /// Computes the bounds anew of the nodes around a slot, from its leaf up to where nothing changes. Tells whether
-    /// this node's changed.
-    fn refit_around(&mut self, node: Node, slot: usize) -> bool {
-        let below = node.halves().and_then(|halves| halves.into_iter().find(|half| half.has(slot)));
-        if below.is_some_and(|half| !self.refit_around(half, slot)) {
+    /// Recomputes the bounds of the nodes around a slot, from its leaf up to where nothing changes. Tells whether this
+    /// node's bounds changed.
+    fn refit_path(&mut self, node: Node, slot: usize) -> bool {
+        let child =
+            node.children().and_then(|children| children.into_iter().find(|child| child.contains(slot)));
+        if child.is_some_and(|child| !self.refit_path(child, slot)) {
             return false;
         }
         let before = self.nodes[node.number];
-        self.nodes[node.number] = self.around(node);
+        self.nodes[node.number] = self.compute_bounds(node);
         self.nodes[node.number] != before
     }
 
-    /// Computes the bounds anew of this node and all below it.
-    fn refit_below(&mut self, node: Node) {
-        for half in node.halves().into_iter().flatten() {
-            self.refit_below(half);
+    /// Recomputes the bounds of this node and all nodes below it.
+    fn refit_subtree(&mut self, node: Node) {
+        for child in node.children().into_iter().flatten() {
+            self.refit_subtree(child);
         }
-        self.nodes[node.number] = self.around(node);
+        self.nodes[node.number] = self.compute_bounds(node);
     }
 
-    /// The bounds of a node whose halves have theirs.
-    fn around(&self, node: Node) -> Aabb {
-        match node.halves() {
+    /// Returns the bounds of a node from those of its children or items.
+    fn compute_bounds(&self, node: Node) -> Aabb {
+        match node.children() {
             Some([first, second]) => self.nodes[first.number].union(&self.nodes[second.number]),
             None => self.boxes[node.slots(self.items.len())]
                 .iter()
                 .fold(Aabb::EMPTY, |all, bounds| all.union(bounds)),
         }
     }
+}
+
+/// Builds a tree by halving the items by number across their longest axis. That keeps it balanced, so its depth and the
+/// recursion of its traversals stay below 32 for any boxes.
+fn build(bounds: &[Aabb]) -> CullTree {
+    let bounds: Vec<Aabb> = bounds.iter().map(clip_to_space).collect();
+    let mut items: Vec<u32> = (0u32..).zip(&bounds).map(|(item, _)| item).collect();
+    let root = Node::root(items.len());
+    if let Some(root) = root {
+        arrange(root, &mut items, &bounds.iter().map(middle).collect::<Vec<_>>());
+    }
+    let mut slots = vec![0; items.len()];
+    for (slot, &item) in (0u32..).zip(&items) {
+        slots[item as usize] = slot;
+    }
+    let boxes = items.iter().map(|&item| bounds[item as usize]).collect();
+    let nodes = vec![Aabb::EMPTY; root.map_or(0, Node::count)];
+    let mut tree = CullTree { nodes, boxes, items, slots };
+    if let Some(root) = root {
+        tree.refit_subtree(root);
+    }
+    tree
+}
+
+/// Returns the point that a box is sorted by. Empty boxes sort last, together, so that queries for others skip them.
+fn middle(bounds: &Aabb) -> DVec3 {
+    if bounds.is_empty() { DVec3::INFINITY } else { bounds.center() }
+}
+
+/// Orders the items of a node: those of its first child, then those of its second, and so on down to the leaves.
+fn arrange(node: Node, items: &mut [u32], middles: &[DVec3]) {
+    let Some([first, second]) = node.children() else {
+        return items.sort_unstable();
+    };
+    let axis = longest_axis(items, middles);
+    let coordinate = |item: u32| middles[item as usize][axis];
+    let end_of_first = first.capacity();
+    items.select_nth_unstable_by(end_of_first, |&a, &b| {
+        coordinate(a).total_cmp(&coordinate(b)).then(a.cmp(&b))
+    });
+    let (items_of_first, items_of_second) = items.split_at_mut(end_of_first);
+    arrange(first, items_of_first, middles);
+    arrange(second, items_of_second, middles);
+}
+
+/// Returns the axis along which the middles are spread farthest.
+fn longest_axis(items: &[u32], middles: &[DVec3]) -> usize {
+    let middles = items.iter().map(|&item| middles[item as usize]).filter(|middle| middle.is_finite());
+    Aabb::from_points(middles).half_extent().max_position()
 }

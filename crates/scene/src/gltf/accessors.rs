@@ -8,7 +8,7 @@ use super::buffers::Buffers;
 
 /// The elements of an accessor, before sparse replacement.
 struct Elements<'a> {
-    /// From the first element on; `None`: all zeros.
+    /// The bytes from the first element on; `None`: all zeros.
     bytes: Option<&'a [u8]>,
     stride: usize,
 }
@@ -25,17 +25,17 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// What an accessor holds, checked.
+/// The checked layout of an accessor.
 #[derive(Clone, Copy)]
-struct Shape {
+struct Layout {
     count: usize,
     component: ComponentType,
-    /// How many components each element has.
+    /// Number of components of an element.
     width: usize,
     normalized: bool,
 }
 
-impl Shape {
+impl Layout {
     fn element_bytes(&self) -> usize {
         self.component.size() * self.width
     }
@@ -45,39 +45,39 @@ impl Buffers<'_> {
     /// Returns the number of elements of an accessor.
     ///
     /// # Errors
-    /// If there is no such accessor.
+    /// The accessor does not exist.
     pub(super) fn accessor_count(&self, index: usize) -> Result<u64, String> {
         Ok(self.accessor(index)?.count.0)
     }
 
     /// Reads an accessor of vectors as f32, normalised integers as glTF says; at most `max_count` elements.
     ///
-    /// Vectors of fewer than `N` components are filled up from `fill`, as far as `least` allows.
+    /// Vectors of at least `min` components are filled up to `N` from `fill`.
     ///
     /// # Errors
-    /// Says which part of the accessor is wrong and what is allowed.
+    /// The message says which part of the accessor is wrong and what is allowed.
     pub(super) fn vectors<const N: usize>(
         &self,
         index: usize,
-        least: usize,
+        min: usize,
         fill: [f32; N],
         max_count: usize,
     ) -> Result<Vec<[f32; N]>, String> {
-        let shape = self.shape(index, max_count)?;
-        if !(least..=N).contains(&shape.width) {
-            let range = if least == N { format!("{N}") } else { format!("{least} or {N}") };
-            return Err(format!("has {} components per element (allowed: {range})", shape.width));
+        let layout = self.layout(index, max_count)?;
+        if !(min..=N).contains(&layout.width) {
+            let range = if min == N { format!("{N}") } else { format!("{min} or {N}") };
+            return Err(format!("has {} components per element (allowed: {range})", layout.width));
         }
-        if shape.component == ComponentType::U32 {
+        if layout.component == ComponentType::U32 {
             return Err("holds 32-bit integers (allowed: floats, 8-bit and 16-bit integers)".into());
         }
-        let mut vectors = vec![fill; shape.count];
+        let mut vectors = vec![fill; layout.count];
         let read = |vector: &mut [f32; N], bytes: &[u8]| {
-            for (value, bytes) in vector.iter_mut().zip(bytes.chunks_exact(shape.component.size())) {
-                *value = component_f32(&shape, bytes);
+            for (value, bytes) in vector.iter_mut().zip(bytes.chunks_exact(layout.component.size())) {
+                *value = component_f32(&layout, bytes);
             }
         };
-        self.for_each(index, shape, |i, bytes| {
+        self.for_each(index, layout, |i, bytes| {
             if let Some(vector) = vectors.get_mut(i) {
                 read(vector, bytes);
             }
@@ -88,15 +88,16 @@ impl Buffers<'_> {
     /// Reads an accessor of indices; at most `max_count`.
     ///
     /// # Errors
-    /// Says which part of the accessor is wrong and what is allowed.
+    /// The message says which part of the accessor is wrong and what is allowed.
     pub(super) fn indices(&self, index: usize, max_count: usize) -> Result<Vec<u32>, String> {
-        let shape = self.shape(index, max_count)?;
-        let unsigned = matches!(shape.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
-        if shape.width != 1 || !unsigned {
+        let layout = self.layout(index, max_count)?;
+        let unsigned =
+            matches!(layout.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
+        if layout.width != 1 || !unsigned {
             return Err("does not hold indices (allowed: SCALAR of unsigned integers)".into());
         }
-        let mut indices = vec![0u32; shape.count];
-        self.for_each(index, shape, |i, bytes| {
+        let mut indices = vec![0u32; layout.count];
+        self.for_each(index, layout, |i, bytes| {
             if let Some(value) = indices.get_mut(i) {
                 *value = unsigned_integer(bytes);
             }
@@ -108,7 +109,7 @@ impl Buffers<'_> {
         self.document().accessors.get(index).ok_or_else(|| "does not exist".to_owned())
     }
 
-    fn shape(&self, index: usize, max_count: usize) -> Result<Shape, String> {
+    fn layout(&self, index: usize, max_count: usize) -> Result<Layout, String> {
         let accessor = self.accessor(index)?;
         let Checked::Valid(component) = accessor.component_type else {
             return Err("has an unknown componentType (allowed: 5120 to 5123, 5125, 5126)".into());
@@ -123,10 +124,10 @@ impl Buffers<'_> {
         let Some(count) = count else {
             let count = accessor.count.0;
             return Err(format!(
-                "has {count} elements, more than a scene may have (allowed: up to {max_count})"
+                "has {count} elements, more than the scene may still have (allowed: up to {max_count})"
             ));
         };
-        Ok(Shape {
+        Ok(Layout {
             count,
             component: component.0,
             width: kind.multiplicity(),
@@ -134,30 +135,30 @@ impl Buffers<'_> {
         })
     }
 
-    /// Hands every element's bytes to `visit`, sparse replacements last. Elements that the file leaves at
-    /// zero are handed over as zero bytes.
+    /// Calls `visit` with every element's bytes, sparse replacements last. Elements without data in the file are
+    /// zero bytes.
     fn for_each(
         &self,
         index: usize,
-        shape: Shape,
+        layout: Layout,
         mut visit: impl FnMut(usize, &[u8]),
     ) -> Result<(), String> {
         let accessor = self.accessor(index)?;
-        let size = shape.element_bytes();
+        let size = layout.element_bytes();
         let base = match accessor.buffer_view {
             None => Elements { bytes: None, stride: size },
             Some(view) => {
                 let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-                self.elements(view.value(), offset, shape.count, size)?
+                self.elements(view.value(), offset, layout.count, size)?
             }
         };
-        for i in 0..shape.count {
+        for i in 0..layout.count {
             visit(i, base.get(i, size));
         }
         match &accessor.sparse {
             None => Ok(()),
             Some(sparse) => {
-                self.for_each_sparse(sparse, shape, visit).map_err(|reason| format!("sparse: {reason}"))
+                self.for_each_sparse(sparse, layout, visit).map_err(|reason| format!("sparse: {reason}"))
             }
         }
     }
@@ -165,32 +166,34 @@ impl Buffers<'_> {
     fn for_each_sparse(
         &self,
         sparse: &json::accessor::sparse::Sparse,
-        shape: Shape,
+        layout: Layout,
         mut visit: impl FnMut(usize, &[u8]),
     ) -> Result<(), String> {
-        let count = usize::try_from(sparse.count.0).ok().filter(|count| *count <= shape.count);
+        let count = usize::try_from(sparse.count.0).ok().filter(|count| *count <= layout.count);
         let Some(count) = count else {
-            return Err(format!("count is {} (allowed: up to {})", sparse.count.0, shape.count));
+            return Err(format!("count is {} (allowed: up to {})", sparse.count.0, layout.count));
         };
         let Checked::Valid(index_type) = sparse.indices.component_type else {
             return Err("indices have an unknown componentType (allowed: 5121, 5123, 5125)".into());
         };
-        let (index_size, size) = (index_type.0.size(), shape.element_bytes());
+        let (index_size, size) = (index_type.0.size(), layout.element_bytes());
         let indices = &sparse.indices;
         let indices = self.elements(indices.buffer_view.value(), indices.byte_offset.0, count, index_size)?;
         let values = &sparse.values;
         let values = self.elements(values.buffer_view.value(), values.byte_offset.0, count, size)?;
         for i in 0..count {
-            let at = unsigned_integer(indices.get(i, index_size));
-            match usize::try_from(at).ok().filter(|at| *at < shape.count) {
-                None => return Err(format!("index {at} does not exist (allowed: below {})", shape.count)),
-                Some(at) => visit(at, values.get(i, size)),
+            let target = unsigned_integer(indices.get(i, index_size));
+            match usize::try_from(target).ok().filter(|target| *target < layout.count) {
+                None => {
+                    return Err(format!("index {target} does not exist (allowed: below {})", layout.count));
+                }
+                Some(target) => visit(target, values.get(i, size)),
             }
         }
         Ok(())
     }
 
-    /// Finds `count` elements of `size` bytes in a buffer view, and makes sure that they are all there.
+    /// Returns `count` elements of `size` bytes in a buffer view after checking that they all lie in it.
     fn elements(&self, view: usize, offset: u64, count: usize, size: usize) -> Result<Elements<'_>, String> {
         let found = self.view(view)?;
         let stride = found.stride.unwrap_or(size);
@@ -213,9 +216,9 @@ impl Buffers<'_> {
 }
 
 /// Decodes a component; integers are scaled to 0..1 or -1..1 if the accessor is normalised.
-fn component_f32(shape: &Shape, bytes: &[u8]) -> f32 {
-    let scaled = |value: f32, max: f32| if shape.normalized { (value / max).max(-1.0) } else { value };
-    match (shape.component, bytes) {
+fn component_f32(layout: &Layout, bytes: &[u8]) -> f32 {
+    let scaled = |value: f32, max: f32| if layout.normalized { (value / max).max(-1.0) } else { value };
+    match (layout.component, bytes) {
         (ComponentType::I8, &[a]) => scaled(f32::from(i8::from_le_bytes([a])), 127.0),
         (ComponentType::U8, &[a]) => scaled(f32::from(a), 255.0),
         (ComponentType::I16, &[a, b]) => scaled(f32::from(i16::from_le_bytes([a, b])), 32767.0),

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::document::Document;
-use super::fault::{At, Fault, fault, place};
+use super::error::{ImportError, WithLocation, describe};
 use super::files::Files;
 use super::uri;
 
@@ -26,23 +26,32 @@ impl<'a> Buffers<'a> {
     /// Reads all buffers: from the binary chunk, data URIs and files.
     ///
     /// # Errors
-    /// Names the buffer that is missing, too short or refused.
-    pub(super) fn read(document: &'a Document, bin: Option<&'a [u8]>, files: &Files) -> Result<Self, Fault> {
+    /// The location names the buffer that is missing, too short or rejected.
+    pub(super) fn read(
+        document: &'a Document,
+        bin: Option<&'a [u8]>,
+        files: &Files,
+    ) -> Result<Self, ImportError> {
         let mut bytes = Vec::with_capacity(document.buffers.len());
         for (i, buffer) in document.buffers.iter().enumerate() {
-            let there = || place("buffer", i, buffer.name.as_deref());
+            let location = || describe("buffer", i, buffer.name.as_deref());
             let mut data = match (&buffer.uri, bin) {
-                (Some(uri), _) => Cow::Owned(files.read(uri).at(there)?),
+                (Some(uri), _) => Cow::Owned(files.read(uri).with_location(location)?),
                 (None, Some(bin)) if i == 0 => Cow::Borrowed(bin),
-                (None, _) => return Err(fault(there(), "has no URI, and there is no binary chunk for it")),
+                (None, _) => {
+                    return Err(ImportError::new(
+                        location(),
+                        "has no URI, and there is no binary chunk for it",
+                    ));
+                }
             };
             let present = data.len();
             let length = usize::try_from(buffer.byte_length.0).ok().filter(|length| *length <= present);
             let Some(length) = length else {
-                let from = buffer.uri.as_deref().map_or_else(|| "the binary chunk".into(), uri::shown);
+                let from = buffer.uri.as_deref().map_or_else(|| "the binary chunk".into(), uri::quote);
                 let reason =
                     format!("byteLength is {}, but {from} has {present} bytes", buffer.byte_length.0);
-                return Err(fault(there(), reason));
+                return Err(ImportError::new(location(), reason));
             };
             match &mut data {
                 Cow::Owned(data) => data.truncate(length),
@@ -61,7 +70,7 @@ impl<'a> Buffers<'a> {
     /// Returns the bytes of a buffer view.
     ///
     /// # Errors
-    /// Says so if the view reaches beyond its buffer or its stride is out of range.
+    /// The view does not exist, extends beyond its buffer, or has a stride out of range.
     pub(super) fn view(&self, index: usize) -> Result<View<'_>, String> {
         let missing = || format!("bufferView {index} does not exist");
         let view = self.document.buffer_views.get(index).ok_or_else(missing)?;
@@ -73,7 +82,7 @@ impl<'a> Buffers<'a> {
             .and_then(|range| buffer.get(range));
         let bytes = bytes.ok_or_else(|| {
             format!(
-                "bufferView {index} (byteOffset {offset}, byteLength {}) reaches beyond buffer {} of {} bytes",
+                "bufferView {index} (byteOffset {offset}, byteLength {}) extends beyond buffer {} of {} bytes",
                 view.byte_length.0,
                 view.buffer.value(),
                 buffer.len()

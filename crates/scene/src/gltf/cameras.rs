@@ -1,34 +1,34 @@
-//! Cameras.
+//! Conversion of cameras.
 
 use ::gltf::json;
 use glam::{DAffine3, DMat3};
 use json::camera::Type;
 use json::validation::Checked;
 
-use crate::{Camera, Projection};
+use crate::camera::{Camera, Projection};
 
-/// Converts the lens of a camera.
+/// Converts the projection of a camera.
 ///
 /// # Errors
-/// Says which value is out of range and what is allowed.
+/// The message says which value is out of range and what is allowed.
 pub(super) fn projection(camera: &json::Camera) -> Result<Projection, String> {
     match (camera.type_, &camera.perspective, &camera.orthographic) {
-        (Checked::Valid(Type::Perspective), Some(lens), _) => perspective(lens),
-        (Checked::Valid(Type::Orthographic), _, Some(lens)) => orthographic(lens),
-        (Checked::Valid(_), ..) => Err("has no values for its type".into()),
+        (Checked::Valid(Type::Perspective), Some(projection), _) => perspective(projection),
+        (Checked::Valid(Type::Orthographic), _, Some(projection)) => orthographic(projection),
+        (Checked::Valid(_), ..) => Err("has no parameters for its type".into()),
         (Checked::Invalid, ..) => Err("has an unknown type (allowed: perspective, orthographic)".into()),
     }
 }
 
-fn perspective(lens: &json::camera::Perspective) -> Result<Projection, String> {
-    let (fov_y, near) = (f64::from(lens.yfov), f64::from(lens.znear));
+fn perspective(projection: &json::camera::Perspective) -> Result<Projection, String> {
+    let (fov_y, near) = (f64::from(projection.yfov), f64::from(projection.znear));
     if !(fov_y > 0.0 && fov_y < std::f64::consts::PI) {
         return Err(format!("yfov is {fov_y} (allowed: above 0 and below pi, radians)"));
     }
     if !(near > 0.0 && near.is_finite()) {
         return Err(format!("znear is {near} (allowed: above 0)"));
     }
-    let far = lens.zfar.map(f64::from);
+    let far = projection.zfar.map(f64::from);
     match far {
         Some(far) if !(far > near && far.is_finite()) => {
             Err(format!("zfar is {far} (allowed: above znear, {near})"))
@@ -37,9 +37,9 @@ fn perspective(lens: &json::camera::Perspective) -> Result<Projection, String> {
     }
 }
 
-fn orthographic(lens: &json::camera::Orthographic) -> Result<Projection, String> {
-    let (half_width, half_height) = (f64::from(lens.xmag).abs(), f64::from(lens.ymag).abs());
-    let (near, far) = (f64::from(lens.znear), f64::from(lens.zfar));
+fn orthographic(projection: &json::camera::Orthographic) -> Result<Projection, String> {
+    let (half_width, half_height) = (f64::from(projection.xmag).abs(), f64::from(projection.ymag).abs());
+    let (near, far) = (f64::from(projection.znear), f64::from(projection.zfar));
     if !(half_width > 0.0 && half_width.is_finite() && half_height > 0.0 && half_height.is_finite()) {
         return Err(format!("xmag and ymag are {half_width} and {half_height} (allowed: not 0)"));
     }
@@ -52,11 +52,11 @@ fn orthographic(lens: &json::camera::Orthographic) -> Result<Projection, String>
     Ok(Projection::Orthographic { half_width, half_height, near, far })
 }
 
-/// Places a camera; a scale of its node is left out.
+/// Creates the camera of a node; the scale of the node is ignored.
 ///
 /// # Errors
-/// If the node's scale is 0, so that the camera has no direction.
-pub(super) fn placed(
+/// The node's scale is 0, so that the camera has no direction.
+pub(super) fn camera_at_node(
     projection: Projection,
     name: Option<String>,
     world: &DAffine3,
@@ -64,7 +64,7 @@ pub(super) fn placed(
     let back = world.matrix3.z_axis.try_normalize();
     let right = back.and_then(|back| world.matrix3.y_axis.cross(back).try_normalize().zip(Some(back)));
     let Some((right, back)) = right else {
-        return Err("its camera has no direction: the scale is 0 (allowed: any other)".into());
+        return Err("its camera has no direction: the scale must not be 0".into());
     };
     let rotation = DMat3::from_cols(right, back.cross(right), back);
     let world_from_view = DAffine3::from_mat3_translation(rotation, world.translation);

@@ -1,10 +1,10 @@
-//! The two forms of a glTF file: plain JSON, and GLB (JSON and binary data in chunks).
+//! The two containers of glTF: plain JSON, and GLB (JSON and binary data in chunks).
 
-use super::fault::{Fault, fault};
+use super::error::ImportError;
 
-/// The parts of a file.
+/// The JSON and the binary data of a file.
 #[derive(Debug)]
-pub(super) struct Parts<'a> {
+pub(super) struct Chunks<'a> {
     pub(super) json: &'a [u8],
     /// The binary chunk of a GLB file.
     pub(super) bin: Option<&'a [u8]>,
@@ -14,73 +14,80 @@ const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// Finds the parts of a file.
+/// Splits a file into its JSON and its binary data.
 ///
 /// # Errors
-/// Names what is wrong if the file is neither glTF nor a whole GLB of version 2.
-pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, Fault> {
+/// The file is neither glTF JSON nor a complete GLB of version 2.
+pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, ImportError> {
     if bytes.starts_with(MAGIC) {
         return split_glb(bytes);
     }
     let start = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
     match start {
-        Some(b'{') => Ok(Parts { json: bytes, bin: None }),
-        None => Err(fault("file", "is empty")),
+        Some(b'{') => Ok(Chunks { json: bytes, bin: None }),
+        None => Err(ImportError::new("file", "is empty")),
         Some(_) if bytes.starts_with(b"\xef\xbb\xbf") => {
-            Err(fault("JSON", "starts with a byte order mark, which glTF does not allow"))
+            Err(ImportError::new("JSON", "starts with a byte order mark, which glTF forbids"))
         }
-        Some(_) => Err(fault("file", "is not glTF: it starts neither with '{' nor with 'glTF' (GLB)")),
+        Some(_) => {
+            Err(ImportError::new("file", "is not glTF: it starts neither with '{' nor with 'glTF' (GLB)"))
+        }
     }
 }
 
-fn split_glb(bytes: &[u8]) -> Result<Parts<'_>, Fault> {
-    let header = |offset| word(bytes, offset).ok_or_else(|| fault("GLB header", "the file ends inside it"));
+fn split_glb(bytes: &[u8]) -> Result<Chunks<'_>, ImportError> {
+    let header = |offset| {
+        read_u32(bytes, offset).ok_or_else(|| ImportError::new("GLB header", "the file ends within it"))
+    };
     let (version, length) = (header(4)?, header(8)?);
     if version != 2 {
-        return Err(fault("GLB header", format!("version {version} is not supported (allowed: 2)")));
+        return Err(ImportError::new(
+            "GLB header",
+            format!("version {version} is not supported (allowed: 2)"),
+        ));
     }
     let present = bytes.len();
     let body = usize::try_from(length).ok().and_then(|length| bytes.get(12..length)).ok_or_else(|| {
-        let reason = format!("the file should have {length} bytes and has {present}: it is truncated");
-        fault("GLB header", reason)
+        let reason = format!("the file is truncated: its length is {length} bytes, but it has {present}");
+        ImportError::new("GLB header", reason)
     })?;
     let (json, rest) = match chunk(body, "JSON chunk")? {
         Some((JSON, data, rest)) => (data, rest),
-        Some(_) => return Err(fault("GLB", "the first chunk is not JSON")),
-        None => return Err(fault("GLB", "there is no JSON chunk")),
+        Some(_) => return Err(ImportError::new("GLB", "the first chunk is not JSON")),
+        None => return Err(ImportError::new("GLB", "there is no JSON chunk")),
     };
-    // Chunks of other kinds and after the binary one are to be ignored.
+    // glTF says to ignore chunks of other types and chunks after the binary one.
     let bin = match chunk(rest, "second chunk")? {
         Some((BIN, data, _)) => Some(data),
         _ => None,
     };
-    Ok(Parts { json, bin })
+    Ok(Chunks { json, bin })
 }
 
-/// A chunk's kind and data, and what follows it.
+/// A chunk's type and data, and the bytes after it.
 type Chunk<'a> = (u32, &'a [u8], &'a [u8]);
 
-/// Splits off a chunk; `None` at the end.
-fn chunk<'a>(bytes: &'a [u8], name: &str) -> Result<Option<Chunk<'a>>, Fault> {
+/// Splits off the first chunk; `None` at the end of the file.
+fn chunk<'a>(bytes: &'a [u8], name: &str) -> Result<Option<Chunk<'a>>, ImportError> {
     if bytes.is_empty() {
         return Ok(None);
     }
-    let (Some(length), Some(kind)) = (word(bytes, 0), word(bytes, 4)) else {
-        return Err(fault(name, "the file ends inside its header"));
+    let (Some(length), Some(kind)) = (read_u32(bytes, 0), read_u32(bytes, 4)) else {
+        return Err(ImportError::new(name, "the file ends within its header"));
     };
     let data = bytes.get(8..).unwrap_or_default();
     match usize::try_from(length).ok().and_then(|length| data.split_at_checked(length)) {
         Some((data, rest)) => Ok(Some((kind, data, rest))),
-        None => Err(fault(
+        None => Err(ImportError::new(
             name,
-            format!("should have {length} bytes, but only {} are there: it is truncated", data.len()),
+            format!("is truncated: its length is {length} bytes, but only {} follow", data.len()),
         )),
     }
 }
 
-fn word(bytes: &[u8], offset: usize) -> Option<u32> {
-    let word = bytes.get(offset..)?.first_chunk::<4>()?;
-    Some(u32::from_le_bytes(*word))
+fn read_u32(bytes: &[u8], offset: usize) -> Option<u32> {
+    let bytes = bytes.get(offset..)?.first_chunk::<4>()?;
+    Some(u32::from_le_bytes(*bytes))
 }
 
 #[cfg(test)]
@@ -97,14 +104,14 @@ mod tests {
     }
 
     #[test]
-    fn a_whole_glb_is_split_into_json_and_binary() {
+    fn a_complete_glb_is_split_into_json_and_binary() {
         let bytes = glb(12 + 8 + 4 + 8 + 2, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 2, b"ab")]);
-        let parts = split(&bytes).unwrap();
-        assert_eq!((parts.json, parts.bin), (&b"{}  "[..], Some(&b"ab"[..])));
+        let chunks = split(&bytes).unwrap();
+        assert_eq!((chunks.json, chunks.bin), (&b"{}  "[..], Some(&b"ab"[..])));
     }
 
     #[test]
-    fn every_truncation_of_a_glb_is_refused() {
+    fn every_truncation_of_a_glb_is_an_error() {
         let bytes = glb(12 + 8 + 4 + 8 + 2, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 2, b"ab")]);
         for length in 0..bytes.len() {
             assert!(split(&bytes[..length]).is_err(), "{length} bytes");
@@ -112,16 +119,16 @@ mod tests {
     }
 
     #[test]
-    fn wrong_lengths_in_a_glb_are_refused() {
+    fn wrong_lengths_in_a_glb_are_errors() {
         for length in [0, 4, 11, 12, u32::MAX] {
             assert!(split(&glb(length, &[(b"JSON", 4, b"{}  ")])).is_err(), "{length}");
         }
         let reason = split(&glb(24, &[(b"JSON", u32::MAX, b"{}  ")])).unwrap_err().reason;
-        assert!(reason.contains("only 4 are there"), "{reason}");
+        assert!(reason.contains("only 4 follow"), "{reason}");
     }
 
     #[test]
-    fn files_that_are_not_gltf_are_named_so() {
+    fn errors_of_files_that_are_not_gltf_say_so() {
         assert!(split(b"").unwrap_err().reason.contains("empty"));
         assert!(split(b"\x89PNG").unwrap_err().reason.contains("not glTF"));
         assert!(split(b"\xef\xbb\xbf{}").unwrap_err().reason.contains("byte order mark"));

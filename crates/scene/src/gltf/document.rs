@@ -1,7 +1,7 @@
 //! The JSON of a glTF file, in the `gltf` crate's types.
 //!
-//! The lists are our own: what is not drawn (animations, skins) is only counted, so that a fault there
-//! does not keep the rest from being drawn.
+//! The top-level object is our own: what is not drawn (animations, skins) is only counted, so that an error there
+//! does not prevent the rest from being drawn.
 
 use ::gltf::json;
 use json::Index;
@@ -9,10 +9,9 @@ use json::extensions::scene::khr_lights_punctual::Light;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use super::fault::{Fault, fault};
-use super::validate;
+use super::error::ImportError;
 
-/// The lists of a glTF file.
+/// The top-level object of a glTF file.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase", expecting = "a glTF object")]
 pub(super) struct Document {
@@ -69,11 +68,11 @@ struct Lights {
     lights: Vec<Light>,
 }
 
-/// What is read before all else, so that a file of another version or with unknown extensions is
-/// refused for this reason and not for what follows from it.
+/// The properties that are read first, so that the error for a file of another version or with unknown extensions names
+/// this reason and none of its consequences.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase", expecting = "a glTF object")]
-pub(super) struct Head {
+pub(super) struct Header {
     pub(super) asset: Asset,
     #[serde(default)]
     pub(super) extensions_required: Vec<String>,
@@ -87,18 +86,23 @@ pub(super) struct Asset {
     pub(super) min_version: Option<String>,
 }
 
-impl Document {
-    /// Reads the JSON of a file and checks every reference in it.
+impl Header {
+    /// Reads the header from the JSON of a file.
     ///
     /// # Errors
-    /// Names the first thing that is wrong, with its place.
-    pub(super) fn parse(text: &[u8]) -> Result<Self, Fault> {
-        let wrong = |error: json::Error| fault("JSON", error);
-        let head: Head = serde_json::from_slice(text).map_err(wrong)?;
-        validate::check_head(&head)?;
-        let document: Self = serde_json::from_slice(text).map_err(wrong)?;
-        validate::check_references(&document)?;
-        Ok(document)
+    /// The text is not JSON, or a value in it has the wrong type.
+    pub(super) fn from_json(text: &[u8]) -> Result<Self, ImportError> {
+        serde_json::from_slice(text).map_err(|error| ImportError::new("JSON", error))
+    }
+}
+
+impl Document {
+    /// Reads the JSON of a file, without checking its references.
+    ///
+    /// # Errors
+    /// The text is not JSON, or a value in it has the wrong type.
+    pub(super) fn from_json(text: &[u8]) -> Result<Self, ImportError> {
+        serde_json::from_slice(text).map_err(|error| ImportError::new("JSON", error))
     }
 
     /// Returns the lights of the file.

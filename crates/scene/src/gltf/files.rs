@@ -1,4 +1,4 @@
-//! Reading files: the scene's own, and those beside it that it refers to.
+//! Reading of the scene file, and of the files in its directory that it refers to.
 
 use std::fs;
 use std::io::Read;
@@ -7,43 +7,43 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::uri;
 
-/// Reads the files that a scene refers to, all of them inside the scene's folder.
+/// Reads the files that a scene refers to, all of them inside the scene's directory.
 #[derive(Debug)]
 pub(super) struct Files {
-    /// The scene's folder, canonical.
-    folder: PathBuf,
-    /// How many bytes may still be read, over all files.
+    /// The scene's directory, canonical.
+    directory: PathBuf,
+    /// The number of bytes that may still be read, over all files.
     budget_bytes: AtomicU64,
 }
 
 impl Files {
-    /// Prepares to read files beside `scene`, at most `budget_bytes` together.
+    /// Prepares to read files from the directory of `scene`, at most `budget_bytes` in total.
     ///
     /// # Errors
-    /// If the folder does not exist.
-    pub(super) fn beside(scene: &Path, budget_bytes: u64) -> std::io::Result<Self> {
-        let folder = match scene.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
+    /// The directory does not exist.
+    pub(super) fn in_directory_of(scene: &Path, budget_bytes: u64) -> std::io::Result<Self> {
+        let directory = match scene.parent() {
+            Some(directory) if !directory.as_os_str().is_empty() => directory,
             _ => Path::new("."),
         };
-        Ok(Self { folder: folder.canonicalize()?, budget_bytes: AtomicU64::new(budget_bytes) })
+        Ok(Self { directory: directory.canonicalize()?, budget_bytes: AtomicU64::new(budget_bytes) })
     }
 
-    /// Reads what a URI stands for: the data in it, or a file in the scene's folder.
+    /// Reads the resource of a URI: its data, or a file in the scene's directory.
     ///
     /// # Errors
-    /// Says why the URI is refused or cannot be read.
+    /// The message says why the URI is rejected or cannot be read.
     pub(super) fn read(&self, uri: &str) -> Result<Vec<u8>, String> {
         if let Some(data) = uri::data(uri) {
             return data;
         }
-        let path = self.folder.join(uri::relative_path(uri)?);
-        let fail = |error: std::io::Error| format!("{} cannot be read: {error}", uri::shown(uri));
+        let path = self.directory.join(uri::relative_path(uri)?);
+        let fail = |error: std::io::Error| format!("{} cannot be read: {error}", uri::quote(uri));
         let real = path.canonicalize().map_err(fail)?;
-        if !real.starts_with(&self.folder) {
+        if !real.starts_with(&self.directory) {
             return Err(format!(
-                "{} is refused: it is a link out of the scene's own folder",
-                uri::shown(uri)
+                "{} is rejected: it is a link out of the scene's directory",
+                uri::quote(uri)
             ));
         }
         let budget_bytes = self.budget_bytes.load(Ordering::Relaxed);
@@ -53,18 +53,18 @@ impl Files {
     }
 }
 
-/// Reads an ordinary file of at most `max_bytes`.
+/// Reads a regular file of at most `max_bytes`.
 ///
 /// # Errors
-/// If it is a folder, a pipe or the like, is too large, or cannot be read.
+/// The path is not a regular file, or the file is too large or cannot be read.
 pub(super) fn read_file(path: &Path, max_bytes: u64) -> std::io::Result<Vec<u8>> {
-    // Asked before opening: opening a pipe would wait for its other end.
+    // Checked before opening: opening a pipe would wait for its other end.
     if !fs::metadata(path)?.is_file() {
-        return Err(std::io::Error::other("it is not an ordinary file"));
+        return Err(std::io::Error::other("it is not a regular file"));
     }
     let file = fs::File::open(path)?;
     let length = file.metadata()?.len();
-    let too_large = || std::io::Error::other(format!("it has over {max_bytes} bytes, the most that is read"));
+    let too_large = || std::io::Error::other(format!("it has more than {max_bytes} bytes, the limit"));
     if length > max_bytes {
         return Err(too_large());
     }
@@ -79,28 +79,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_in_the_folder_and_below_are_read() {
+    fn files_in_the_directory_and_below_are_read() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("sub")).unwrap();
         fs::write(folder.path().join("sub/a b.bin"), b"abc").unwrap();
-        let files = Files::beside(&folder.path().join("scene.gltf"), 4).unwrap();
+        let files = Files::in_directory_of(&folder.path().join("scene.gltf"), 4).unwrap();
         assert_eq!(files.read("sub/a%20b.bin").unwrap(), b"abc");
         let reason = files.read("sub/a%20b.bin").unwrap_err();
-        assert!(reason.contains("over 1 bytes"), "the budget counts all files: {reason}");
+        assert!(reason.contains("more than 1 bytes"), "the budget counts all files: {reason}");
     }
 
     #[test]
-    fn folders_and_missing_files_are_refused() {
+    fn directories_and_missing_files_are_errors() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("sub")).unwrap();
-        let files = Files::beside(&folder.path().join("scene.gltf"), 1000).unwrap();
-        assert!(files.read("sub").unwrap_err().contains("not an ordinary file"));
+        let files = Files::in_directory_of(&folder.path().join("scene.gltf"), 1000).unwrap();
+        assert!(files.read("sub").unwrap_err().contains("not a regular file"));
         assert!(files.read("none.bin").unwrap_err().contains("cannot be read"));
     }
 
     #[cfg(unix)]
     #[test]
-    fn links_are_followed_only_inside_the_folder() {
+    fn links_are_followed_only_inside_the_directory() {
         let folder = tempfile::tempdir().unwrap();
         let scene = folder.path().join("scene");
         fs::create_dir(&scene).unwrap();
@@ -108,7 +108,7 @@ mod tests {
         fs::write(scene.join("own"), b"own").unwrap();
         std::os::unix::fs::symlink("../secret", scene.join("out")).unwrap();
         std::os::unix::fs::symlink("own", scene.join("in")).unwrap();
-        let files = Files::beside(&scene.join("scene.gltf"), 1000).unwrap();
+        let files = Files::in_directory_of(&scene.join("scene.gltf"), 1000).unwrap();
         assert_eq!(files.read("in").unwrap(), b"own");
         assert!(files.read("out").unwrap_err().contains("link out of"));
     }

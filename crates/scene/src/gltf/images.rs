@@ -9,32 +9,32 @@ use std::thread;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 
 use super::buffers::Buffers;
-use super::fault::{At, Fault, clean_name, fault, place};
+use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::files::Files;
 use super::uri;
-use crate::Image;
+use crate::material::Image;
 
 /// The largest width and height of an image, pixels.
 pub const MAX_IMAGE_SIZE_PX: u32 = 16_384;
-/// The most bytes of decoded images in a scene.
+/// The maximum number of bytes of decoded images in a scene.
 pub const MAX_IMAGE_BYTES: u64 = 1 << 32;
-/// The most memory that decoding one image may take, bytes.
+/// The maximum memory for decoding one image, bytes.
 const MAX_DECODE_BYTES: u64 = 1 << 30;
 
-/// Decodes the images with the given indices in the file, and reports how far it is, 0 to 1.
+/// Decodes the images with these indices in the file, and reports progress, 0 to 1.
 ///
 /// # Errors
-/// Names the first image that is missing, broken or too large.
+/// The location names the first image that is missing, corrupt or too large.
 pub(super) fn read(
     buffers: &Buffers<'_>,
     files: &Files,
     wanted: &[usize],
     progress: &mut dyn FnMut(f32),
-) -> Result<Vec<Image>, Fault> {
+) -> Result<Vec<Image>, ImportError> {
     let decoder = Decoder { buffers, files, budget_bytes: AtomicU64::new(MAX_IMAGE_BYTES) };
     let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let threads = thread::available_parallelism().map_or(1, usize::from).min(8).min(wanted.len());
-    let mut results: Vec<Option<Result<Image, Fault>>> = wanted.iter().map(|_| None).collect();
+    let mut results: Vec<Option<Result<Image, ImportError>>> = wanted.iter().map(|_| None).collect();
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..threads {
@@ -54,48 +54,51 @@ pub(super) fn read(
         drop(sender);
         for (done, (slot, result)) in receiver.into_iter().enumerate() {
             progress((done + 1) as f32 / wanted.len() as f32);
-            if let Some(place) = results.get_mut(slot) {
-                *place = Some(result);
+            if let Some(entry) = results.get_mut(slot) {
+                *entry = Some(result);
             }
         }
     });
-    // Images are begun in order, so the first failure does not depend on the threads. What comes after it
-    // may be missing.
+    // Images are started in order, so the first error does not depend on the threads. Images after it may be
+    // missing.
     results.into_iter().map_while(|result| result).collect()
 }
 
 struct Decoder<'a> {
     buffers: &'a Buffers<'a>,
     files: &'a Files,
-    /// How many bytes of pixels may still be decoded.
+    /// The number of bytes of pixels that may still be decoded.
     budget_bytes: AtomicU64,
 }
 
 impl Decoder<'_> {
-    fn image(&self, index: usize) -> Result<Image, Fault> {
+    fn image(&self, index: usize) -> Result<Image, ImportError> {
         let image = self.buffers.document().images.get(index);
-        let image = image.ok_or_else(|| fault(place("image", index, None), "does not exist"))?;
-        let there = || match (&image.name, &image.uri) {
-            (None, Some(uri)) => format!("image {index} {}", uri::shown(uri)),
-            (name, _) => place("image", index, name.as_deref()),
+        let image =
+            image.ok_or_else(|| ImportError::new(describe("image", index, None), "does not exist"))?;
+        let location = || match (&image.name, &image.uri) {
+            (None, Some(uri)) => format!("image {index} {}", uri::quote(uri)),
+            (name, _) => describe("image", index, name.as_deref()),
         };
         let bytes = match (&image.uri, image.buffer_view) {
-            (Some(uri), _) => Cow::Owned(self.files.read(uri).at(there)?),
-            (None, Some(view)) => Cow::Borrowed(self.buffers.view(view.value()).at(there)?.bytes),
-            (None, None) => return Err(fault(there(), "has neither a URI nor a bufferView")),
+            (Some(uri), _) => Cow::Owned(self.files.read(uri).with_location(location)?),
+            (None, Some(view)) => {
+                Cow::Borrowed(self.buffers.view(view.value()).with_location(location)?.bytes)
+            }
+            (None, None) => return Err(ImportError::new(location(), "has neither a URI nor a bufferView")),
         };
         let file_name = || {
             let path = uri::relative_path(image.uri.as_deref()?).ok()?;
             Some(path.file_name()?.to_string_lossy().into_owned())
         };
-        let pixels = self.decode(&bytes).at(there)?;
+        let pixels = self.decode(&bytes).with_location(location)?;
         let name = image.name.clone().or_else(file_name);
         let (width, height) = (pixels.width(), pixels.height());
         Ok(Image { name: clean_name(name.as_deref()), width, height, rgba8: pixels.into_rgba8().into_raw() })
     }
 
     fn decode(&self, bytes: &[u8]) -> Result<DynamicImage, String> {
-        let broken = |error: image::ImageError| format!("cannot be decoded: {error}");
+        let decode_error = |error: image::ImageError| format!("cannot be decoded: {error}");
         let mut limits = Limits::default();
         limits.max_alloc = Some(MAX_DECODE_BYTES);
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
@@ -104,7 +107,7 @@ impl Decoder<'_> {
             return Err("is neither PNG nor JPEG".into());
         }
         reader.limits(limits);
-        let decoder = reader.into_decoder().map_err(broken)?;
+        let decoder = reader.into_decoder().map_err(decode_error)?;
         let (width, height) = decoder.dimensions();
         let allowed = 1..=MAX_IMAGE_SIZE_PX;
         if !allowed.contains(&width) || !allowed.contains(&height) {
@@ -113,11 +116,13 @@ impl Decoder<'_> {
         let size_bytes = u64::from(width) * u64::from(height) * 4;
         let take = |left: u64| left.checked_sub(size_bytes);
         if decoder.total_bytes() > MAX_DECODE_BYTES {
-            return Err(format!("needs over {MAX_DECODE_BYTES} bytes, the most for one image"));
+            return Err(format!("needs more than {MAX_DECODE_BYTES} bytes, the limit for one image"));
         }
         if self.budget_bytes.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_err() {
-            return Err(format!("with the others needs over {MAX_IMAGE_BYTES} bytes, the most for a scene"));
+            return Err(format!(
+                "brings the images of the scene to more than {MAX_IMAGE_BYTES} bytes, the limit"
+            ));
         }
-        DynamicImage::from_decoder(decoder).map_err(broken)
+        DynamicImage::from_decoder(decoder).map_err(decode_error)
     }
 }

@@ -1,37 +1,42 @@
-//! The import, step by step.
+//! The steps of an import.
 
 use std::path::Path;
 
 use super::buffers::Buffers;
-use super::document::Document;
-use super::fault::{Fault, clean_name, fault, place};
+use super::document::{Document, Header};
+use super::error::{ImportError, clean_name, describe};
 use super::files::{Files, read_file};
 use super::mesh::Reader;
-use super::nodes::{self, PlacedNode};
+use super::nodes::{self, SceneNode};
 use super::notes::Notes;
-use super::validate::{MAX_BYTES, MAX_INSTANCES, MAX_WORLD_M, SUPPORTED_EXTENSIONS};
+use super::validate::{
+    MAX_BYTES, MAX_INSTANCES, MAX_WORLD_M, SUPPORTED_EXTENSIONS, check_header, check_references,
+};
 use super::{container, images, materials};
-use crate::{Error, Instance, Material, Mesh, Scene};
+use crate::error::Error;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::scene::{Instance, Scene};
 
-/// How far loading is.
+/// The progress of loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// What is being done: "reading", "meshes", "images".
+    /// The current step: "reading", "meshes", "images".
     pub stage: &'static str,
-    /// How much of the stage is done, 0 to 1.
+    /// The completed fraction of the step, 0 to 1.
     pub fraction: f32,
 }
 
 /// Loads a glTF or GLB file.
 ///
-/// Files that it refers to are read from its own folder only.
+/// Files that it refers to are read only from its directory.
 ///
 /// # Errors
-/// One line: the file, the place in it, and what is wrong there.
+/// The message is one line: the file, the location in it, and what is wrong there.
 ///
 /// ```
-/// let folder = tempfile::tempdir()?;
-/// let file = folder.path().join("empty.gltf");
+/// let directory = tempfile::tempdir()?;
+/// let file = directory.path().join("empty.gltf");
 /// std::fs::write(&file, r#"{"asset": {"version": "2.0"}, "scenes": [{}]}"#)?;
 /// let scene = shadowgraph_scene::gltf::load(&file)?;
 /// assert!(scene.bounds().is_empty());
@@ -41,7 +46,7 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
     load_with_progress(path, &mut |_| {})
 }
 
-/// Loads a glTF or GLB file, and tells `progress` how far it is, always on the calling thread.
+/// Loads a glTF or GLB file, and reports its progress, always on the calling thread.
 ///
 /// # Errors
 /// As [`load`].
@@ -49,26 +54,29 @@ pub fn load_with_progress(path: &Path, progress: &mut dyn FnMut(Progress)) -> Re
     let unreadable = |source| Error::Read { file: path.to_owned(), source };
     progress(Progress { stage: "reading", fraction: 0.0 });
     let bytes = read_file(path, MAX_BYTES).map_err(unreadable)?;
-    let files = Files::beside(path, MAX_BYTES.saturating_sub(bytes.len() as u64)).map_err(unreadable)?;
+    let files =
+        Files::in_directory_of(path, MAX_BYTES.saturating_sub(bytes.len() as u64)).map_err(unreadable)?;
     progress(Progress { stage: "reading", fraction: 1.0 });
-    import(&bytes, &files, progress).map_err(|Fault { place, reason }| Error::Invalid {
+    import(&bytes, &files, progress).map_err(|ImportError { location, reason }| Error::Invalid {
         file: path.to_owned(),
-        place,
+        location,
         reason,
     })
 }
 
-fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Result<Scene, Fault> {
-    let parts = container::split(bytes)?;
-    let document = Document::parse(parts.json)?;
+fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Result<Scene, ImportError> {
+    let chunks = container::split(bytes)?;
+    check_header(&Header::from_json(chunks.json)?)?;
+    let document = Document::from_json(chunks.json)?;
+    check_references(&document)?;
     let mut notes = Notes::default();
-    note_what_is_not_drawn(&document, &mut notes);
+    note_unsupported_features(&document, &mut notes);
     let nodes = nodes::walk(&document, &mut notes)?;
     check_instance_count(&document, &nodes)?;
     let lights = nodes::lights(&document, &nodes)?;
     let cameras = nodes::cameras(&document, &nodes)?;
     let materials::Materials { mut materials, images } = materials::read(&document, &mut notes)?;
-    let buffers = Buffers::read(&document, parts.bin, files)?;
+    let buffers = Buffers::read(&document, chunks.bin, files)?;
     let geometry = Geometry::read(&buffers, &nodes, &mut materials, &mut notes, progress)?;
     let instances = geometry.instances(&document, &nodes)?;
     let decoded = |fraction| progress(Progress { stage: "images", fraction });
@@ -77,7 +85,7 @@ fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Re
     Ok(Scene { meshes, materials, images, instances, lights, cameras, notes })
 }
 
-fn note_what_is_not_drawn(document: &Document, notes: &mut Notes) {
+fn note_unsupported_features(document: &Document, notes: &mut Notes) {
     for name in document.extensions_used.iter().filter(|name| !SUPPORTED_EXTENSIONS.contains(&name.as_str()))
     {
         notes.add("extensionsUsed", format!("{name} is not drawn"));
@@ -86,18 +94,18 @@ fn note_what_is_not_drawn(document: &Document, notes: &mut Notes) {
         notes.add("animation 0", "animations are not played, the scene is drawn at rest");
     }
     if let Some(node) = document.nodes.iter().position(|node| node.skin.is_some()) {
-        notes.add(place("node", node, None), "skins are not drawn, the mesh is drawn at rest");
+        notes.add(describe("node", node, None), "skins are not drawn, the mesh is drawn at rest");
     }
 }
 
-fn check_instance_count(document: &Document, nodes: &[PlacedNode]) -> Result<(), Fault> {
-    let primitives = |placed: &PlacedNode| {
-        let mesh = document.nodes.get(placed.node)?.mesh?;
+fn check_instance_count(document: &Document, nodes: &[SceneNode]) -> Result<(), ImportError> {
+    let primitives = |scene_node: &SceneNode| {
+        let mesh = document.nodes.get(scene_node.node)?.mesh?;
         Some(document.meshes.get(mesh.value())?.primitives.len())
     };
     let count = nodes.iter().filter_map(primitives).fold(0usize, usize::saturating_add);
     if count > MAX_INSTANCES {
-        return Err(fault(
+        return Err(ImportError::new(
             "nodes",
             format!("{count} instances of primitives (allowed: up to {MAX_INSTANCES})"),
         ));
@@ -105,7 +113,7 @@ fn check_instance_count(document: &Document, nodes: &[PlacedNode]) -> Result<(),
     Ok(())
 }
 
-/// The meshes of the scene, and where each primitive of the file went.
+/// The meshes of the scene, and the mesh and material of each primitive of the file.
 struct Geometry {
     meshes: Vec<Mesh>,
     /// For each mesh of the file: index of the scene's mesh and of its material, for each drawn primitive.
@@ -113,18 +121,18 @@ struct Geometry {
 }
 
 impl Geometry {
-    /// Reads the meshes that are used by nodes. Primitives without a material get a default one, added
-    /// at the end if there is need of it.
+    /// Reads the meshes that nodes use. Primitives without a material get a default one, which is appended if it is
+    /// needed.
     fn read(
         buffers: &Buffers<'_>,
-        nodes: &[PlacedNode],
+        nodes: &[SceneNode],
         materials: &mut Vec<Material>,
         notes: &mut Notes,
         progress: &mut dyn FnMut(Progress),
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, ImportError> {
         let document = buffers.document();
         let mut used = vec![false; document.meshes.len()];
-        for mesh in nodes.iter().filter_map(|placed| document.nodes.get(placed.node)?.mesh) {
+        for mesh in nodes.iter().filter_map(|scene_node| document.nodes.get(scene_node.node)?.mesh) {
             used.get_mut(mesh.value()).into_iter().for_each(|used| *used = true);
         }
         let default_material = document.materials.len();
@@ -148,31 +156,33 @@ impl Geometry {
         Ok(geometry)
     }
 
-    fn instances(&self, document: &Document, nodes: &[PlacedNode]) -> Result<Vec<Instance>, Fault> {
+    fn instances(&self, document: &Document, nodes: &[SceneNode]) -> Result<Vec<Instance>, ImportError> {
         let mut instances = Vec::new();
-        for placed in nodes {
-            let Some(node) = document.nodes.get(placed.node) else { continue };
+        for scene_node in nodes {
+            let Some(node) = document.nodes.get(scene_node.node) else { continue };
             let primitives = node.mesh.and_then(|mesh| self.primitives.get(mesh.value()));
             for (mesh, material) in primitives.into_iter().flatten().copied() {
                 let name = clean_name(node.name.as_deref());
-                let instance = Instance { name, mesh, material, world_from_local: placed.world_from_node };
-                self.check_range(&instance, placed.node)?;
+                let instance =
+                    Instance { name, mesh, material, world_from_local: scene_node.world_from_node };
+                self.check_range(&instance, scene_node.node)?;
                 instances.push(instance);
             }
         }
         Ok(instances)
     }
 
-    /// Makes sure that an instance lies where numbers are still good for something.
-    fn check_range(&self, instance: &Instance, node: usize) -> Result<(), Fault> {
+    /// Checks that an instance lies within the supported range.
+    fn check_range(&self, instance: &Instance, node: usize) -> Result<(), ImportError> {
         let Some(mesh) = self.meshes.get(instance.mesh) else { return Ok(()) };
         let bounds = mesh.bounds.transformed(&instance.world_from_local);
-        let reach = bounds.min.abs().max(bounds.max.abs()).max_element();
-        if bounds.is_empty() || reach <= MAX_WORLD_M {
+        let extent_m = bounds.min.abs().max(bounds.max.abs()).max_element();
+        if bounds.is_empty() || extent_m <= MAX_WORLD_M {
             return Ok(());
         }
-        let reason =
-            format!("its mesh reaches {reach:.3e} m from the origin (allowed: up to {MAX_WORLD_M:e} m)");
-        Err(fault(place("node", node, Some(&instance.name)), reason))
+        let reason = format!(
+            "its mesh extends to {extent_m:.3e} m from the origin (allowed: up to {MAX_WORLD_M:e} m)"
+        );
+        Err(ImportError::new(describe("node", node, Some(&instance.name)), reason))
     }
 }

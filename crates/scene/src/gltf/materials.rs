@@ -1,14 +1,14 @@
-//! Materials, and which images they use.
+//! Conversion of materials, and the images that they use.
 
 use ::gltf::json;
 use glam::{Vec3, Vec4};
 use json::validation::Checked;
 
 use super::document::Document;
-use super::fault::{At, Fault, clean_name, fault, place};
+use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
-use super::textures::Use;
-use crate::{AlphaMode, Material, TextureRef};
+use super::textures::TextureUse;
+use crate::material::{AlphaMode, Material, TextureRef};
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
@@ -23,51 +23,52 @@ pub(super) struct Materials {
 /// Converts all materials of a file.
 ///
 /// # Errors
-/// Names the material or sampler with a value that glTF does not allow.
-pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, Fault> {
-    let uses = |(i, material)| Uses::of(material).at(|| there(i, material));
-    let uses: Vec<Uses> = document.materials.iter().enumerate().map(uses).collect::<Result<_, _>>()?;
-    let mut images: Vec<usize> = uses
+/// The location names the material or sampler with a value that glTF does not allow.
+pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, ImportError> {
+    let textures = |(i, material)| Textures::read(material).with_location(|| describe_material(i, material));
+    let textures: Vec<Textures> =
+        document.materials.iter().enumerate().map(textures).collect::<Result<_, _>>()?;
+    let mut images: Vec<usize> = textures
         .iter()
-        .flat_map(|uses| uses.all.iter().flatten())
+        .flat_map(|textures| textures.all.iter().flatten())
         .filter_map(|texture| texture.image(document))
         .collect();
     images.sort_unstable();
     images.dedup();
-    let materials = document.materials.iter().zip(&uses).enumerate().map(|(i, (material, uses))| {
-        let there = there(i, material);
-        let textures = uses.convert(document, &images, &there, notes)?;
-        convert(material, textures, &there)
+    let materials = document.materials.iter().zip(&textures).enumerate().map(|(i, (material, textures))| {
+        let location = describe_material(i, material);
+        let textures = textures.convert(document, &images, &location, notes)?;
+        convert(material, textures, &location)
     });
     Ok(Materials { materials: materials.collect::<Result<_, _>>()?, images })
 }
 
-fn there(index: usize, material: &json::Material) -> String {
-    place("material", index, material.name.as_deref())
+fn describe_material(index: usize, material: &json::Material) -> String {
+    describe("material", index, material.name.as_deref())
 }
 
 /// The textures of a material: base colour, metallic and roughness, normal, occlusion, emissive.
-struct Uses {
-    all: [Option<Use>; 5],
+struct Textures {
+    all: [Option<TextureUse>; 5],
 }
 
-impl Uses {
-    fn of(material: &json::Material) -> Result<Self, json::Error> {
+impl Textures {
+    fn read(material: &json::Material) -> Result<Self, json::Error> {
         let pbr = &material.pbr_metallic_roughness;
         let normal = material.normal_texture.as_ref().map(|info| {
             let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
-            Use::with_raw_transform(info.index.value(), info.tex_coord, transform)
+            TextureUse::with_raw_transform(info.index.value(), info.tex_coord, transform)
         });
         let occlusion = material.occlusion_texture.as_ref().map(|info| {
             let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
-            Use::with_raw_transform(info.index.value(), info.tex_coord, transform)
+            TextureUse::with_raw_transform(info.index.value(), info.tex_coord, transform)
         });
         let all = [
-            pbr.base_color_texture.as_ref().map(Use::from),
-            pbr.metallic_roughness_texture.as_ref().map(Use::from),
+            pbr.base_color_texture.as_ref().map(TextureUse::from),
+            pbr.metallic_roughness_texture.as_ref().map(TextureUse::from),
             normal.transpose()?,
             occlusion.transpose()?,
-            material.emissive_texture.as_ref().map(Use::from),
+            material.emissive_texture.as_ref().map(TextureUse::from),
         ];
         Ok(Self { all })
     }
@@ -76,15 +77,16 @@ impl Uses {
         &self,
         document: &Document,
         images: &[usize],
-        there: &str,
+        location: &str,
         notes: &mut Notes,
-    ) -> Result<[Option<TextureRef>; 5], Fault> {
+    ) -> Result<[Option<TextureRef>; 5], ImportError> {
         let mut refs = [None; 5];
         for (texture, result) in self.all.iter().zip(&mut refs) {
             let Some(texture) = texture else { continue };
             let image = texture.image(document).and_then(|image| images.binary_search(&image).ok());
-            let image = image.ok_or_else(|| fault(there, "uses a texture that does not exist"))?;
-            *result = Some(texture.convert(document, image, there, notes)?);
+            let image =
+                image.ok_or_else(|| ImportError::new(location, "uses a texture that does not exist"))?;
+            *result = Some(texture.convert(document, image, location, notes)?);
         }
         Ok(refs)
     }
@@ -93,10 +95,10 @@ impl Uses {
 fn convert(
     material: &json::Material,
     textures: [Option<TextureRef>; 5],
-    there: &str,
-) -> Result<Material, Fault> {
+    location: &str,
+) -> Result<Material, ImportError> {
     let pbr = &material.pbr_metallic_roughness;
-    let finite = |name, value, min, max| clamped(name, value, min, max).at(|| there);
+    let finite = |name, value, min, max| clamped(name, value, min, max).with_location(|| location);
     let [r, g, b, a] = pbr.base_color_factor.0;
     let base = |value| finite("baseColorFactor", value, 0.0, 1.0);
     let strength = material.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
@@ -115,7 +117,7 @@ fn convert(
         emissive: Vec3::new(emissive(er)?, emissive(eg)?, emissive(eb)?),
         normal_scale: finite("normalTexture scale", scale, -1e6, 1e6)?,
         occlusion_strength: finite("occlusionTexture strength", occlusion, 0.0, 1.0)?,
-        alpha: alpha(material).at(|| there)?,
+        alpha: alpha(material).with_location(|| location)?,
         double_sided: material.double_sided,
         casts: None,
         receives_shadows: true,
@@ -140,7 +142,7 @@ fn alpha(material: &json::Material) -> Result<AlphaMode, String> {
     }
 }
 
-/// Brings a value into its range; values a little out of it are common and harmless.
+/// Clamps a value to its range; values slightly out of it are common and harmless.
 fn clamped(name: &str, value: f32, min: f32, max: f32) -> Result<f32, String> {
     if value.is_finite() {
         Ok(value.clamp(min, max))

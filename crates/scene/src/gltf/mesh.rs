@@ -1,17 +1,17 @@
-//! The geometry of primitives.
+//! Conversion of primitives to meshes.
 
 use ::gltf::json;
 use json::mesh::{Mode, Primitive, Semantic};
 use json::validation::Checked;
 
 use super::buffers::Buffers;
-use super::fault::{At, Fault, clean_name, fault, place};
+use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
-use super::triangles::{triangle_count, triangles};
 use super::validate::{MAX_INDICES, MAX_VERTICES};
-use crate::{Mesh, TextureRef, Vertex};
+use crate::material::TextureRef;
+use crate::mesh::{Mesh, Vertex};
 
-/// Reads primitives, and keeps count of what they need together.
+/// Reads primitives, and counts their vertices and indices against the limits of a scene.
 pub(super) struct Reader<'a> {
     buffers: &'a Buffers<'a>,
     notes: &'a mut Notes,
@@ -19,11 +19,11 @@ pub(super) struct Reader<'a> {
     indices_left: usize,
 }
 
-/// A primitive that is being read.
+/// The primitive that is being read.
 struct Source<'a> {
     primitive: &'a Primitive,
-    place: String,
-    /// How many vertices it has.
+    location: String,
+    /// Number of vertices.
     count: usize,
 }
 
@@ -33,60 +33,61 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a primitive; `None` if there is nothing to draw. `normal_map` is the normal texture of its
-    /// material, which missing tangents are made for.
+    /// material, for which missing tangents are generated.
     ///
     /// # Errors
-    /// Names the attribute that is wrong.
+    /// The location names the invalid attribute.
     pub(super) fn primitive(
         &mut self,
         mesh: usize,
         primitive: usize,
         normal_map: Option<&TextureRef>,
-    ) -> Result<Option<Mesh>, Fault> {
+    ) -> Result<Option<Mesh>, ImportError> {
         let found = self.buffers.document().meshes.get(mesh);
         let name = found.and_then(|mesh| mesh.name.as_deref());
-        let place = format!("{} primitive {primitive}", place("mesh", mesh, name));
+        let location = format!("{} primitive {primitive}", describe("mesh", mesh, name));
         let Some(primitive) = found.and_then(|mesh| mesh.primitives.get(primitive)) else {
-            return Err(fault(place, "does not exist"));
+            return Err(ImportError::new(location, "does not exist"));
         };
-        let mut source = Source { primitive, place, count: 0 };
+        let mut source = Source { primitive, location, count: 0 };
         let Checked::Valid(mode) = primitive.mode else {
-            return Err(fault(source.place, "unknown mode (allowed: 0 to 6)"));
+            return Err(ImportError::new(source.location, "unknown mode (allowed: 0 to 6)"));
         };
         if triangle_count(mode, 0).is_none() {
-            self.notes.add(source.place, "points and lines are not drawn");
+            self.notes.add(source.location, "points and lines are not drawn");
             return Ok(None);
         }
         if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            self.notes.add(&source.place, "morph targets are not drawn, the mesh is drawn at rest");
+            self.notes.add(&source.location, "morph targets are not drawn, the mesh is drawn at rest");
         }
         let Some(mut vertices) = self.positions(&mut source)? else { return Ok(None) };
         let indices = self.indices(&source, mode)?;
         if indices.is_empty() {
-            self.notes.add(source.place, "it has no triangles and is not drawn");
+            self.notes.add(source.location, "it has no triangles and is not drawn");
             return Ok(None);
         }
         self.texture_coordinates(&source, &mut vertices)?;
         self.colors(&source, &mut vertices)?;
         let has_normals = self.normals(&source, &mut vertices)?;
-        // Tangents without normals are to be ignored.
+        // glTF says to ignore tangents without normals.
         let has_tangents = has_normals && self.tangents(&source, &mut vertices)?;
         let mut mesh = Mesh::new(clean_name(name), vertices, indices);
         self.finish(&mut mesh, has_normals, has_tangents, normal_map, &source)?;
         Ok(Some(mesh))
     }
 
-    /// Makes the vertices, with their positions.
-    fn positions(&mut self, source: &mut Source<'_>) -> Result<Option<Vec<Vertex>>, Fault> {
+    /// Creates the vertices with their positions.
+    fn positions(&mut self, source: &mut Source<'_>) -> Result<Option<Vec<Vertex>>, ImportError> {
         let Some(accessor) = source.accessor(&Semantic::Positions) else {
-            self.notes.add(&source.place, "it has no POSITION and is not drawn");
+            self.notes.add(&source.location, "it has no POSITION and is not drawn");
             return Ok(None);
         };
-        let there = || source.at("POSITION", accessor);
-        let positions = self.buffers.vectors(accessor, 3, [0.0; 3], self.vertices_left).at(there)?;
+        let location = || source.attribute_location("POSITION", accessor);
+        let positions =
+            self.buffers.vectors(accessor, 3, [0.0; 3], self.vertices_left).with_location(location)?;
         if let Some(vertex) = positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
             let reason = format!("the position of vertex {vertex} is not finite (allowed: finite numbers)");
-            return Err(fault(there(), reason));
+            return Err(ImportError::new(location(), reason));
         }
         source.count = positions.len();
         self.vertices_left -= positions.len();
@@ -94,17 +95,19 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads the indices as a triangle list.
-    fn indices(&mut self, source: &Source<'_>, mode: Mode) -> Result<Vec<u32>, Fault> {
+    fn indices(&mut self, source: &Source<'_>, mode: Mode) -> Result<Vec<u32>, ImportError> {
         let indices = match source.primitive.indices.map(|accessor| accessor.value()) {
             None => (0u32..).take(source.count).collect(),
             Some(accessor) => {
-                let there = || source.at("indices", accessor);
-                let indices = self.buffers.indices(accessor, self.indices_left).at(there)?;
-                if let Some(at) = indices.iter().position(|index| *index as usize >= source.count) {
-                    let index = indices.get(at).copied().unwrap_or_default();
-                    let reason =
-                        format!("index {index} at {at} is out of range (allowed: below {})", source.count);
-                    return Err(fault(there(), reason));
+                let location = || source.attribute_location("indices", accessor);
+                let indices = self.buffers.indices(accessor, self.indices_left).with_location(location)?;
+                if let Some(position) = indices.iter().position(|index| *index as usize >= source.count) {
+                    let index = indices.get(position).copied().unwrap_or_default();
+                    let reason = format!(
+                        "index {index} at {position} is out of range (allowed: below {})",
+                        source.count
+                    );
+                    return Err(ImportError::new(location(), reason));
                 }
                 indices
             }
@@ -112,20 +115,29 @@ impl<'a> Reader<'a> {
         let needed = triangle_count(mode, indices.len()).unwrap_or(0).saturating_mul(3);
         match self.indices_left.checked_sub(needed) {
             Some(left) => self.indices_left = left,
-            None => return Err(fault(&source.place, format!("the scene has over {MAX_INDICES} indices"))),
+            None => {
+                return Err(ImportError::new(
+                    &source.location,
+                    format!("the scene has over {MAX_INDICES} indices"),
+                ));
+            }
         }
         if mode == Mode::Triangles && !indices.len().is_multiple_of(3) {
-            self.notes.add(&source.place, "its indices are not whole triangles, the rest is not drawn");
+            self.notes.add(&source.location, "its index count is not a multiple of 3, the rest is not drawn");
         }
         Ok(triangles(mode, &indices).unwrap_or_default())
     }
 
-    fn texture_coordinates(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<(), Fault> {
+    fn texture_coordinates(
+        &mut self,
+        source: &Source<'_>,
+        vertices: &mut [Vertex],
+    ) -> Result<(), ImportError> {
         for set in 0..2 {
             let semantic = Semantic::TexCoords(set);
             let Some(values) = self.attribute(source, &semantic, 2, [0.0; 2])? else { continue };
             if values.as_flattened().iter().any(|value| !value.is_finite()) {
-                self.notes.add(&source.place, "texture coordinates that are not finite are taken as 0");
+                self.notes.add(&source.location, "texture coordinates that are not finite are replaced by 0");
             }
             for (vertex, uv) in vertices.iter_mut().zip(values) {
                 let target = if set == 0 { &mut vertex.uv0 } else { &mut vertex.uv1 };
@@ -135,16 +147,16 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn colors(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<(), Fault> {
+    fn colors(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<(), ImportError> {
         let Some(colors) = self.attribute(source, &Semantic::Colors(0), 3, [1.0; 4])? else { return Ok(()) };
         for (vertex, color) in vertices.iter_mut().zip(colors) {
-            // The cast is exact, and takes what is not a number as 0.
+            // The cast is exact, and turns NaN into 0.
             vertex.color = color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8);
         }
         Ok(())
     }
 
-    fn normals(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<bool, Fault> {
+    fn normals(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<bool, ImportError> {
         let Some(normals) = self.attribute(source, &Semantic::Normals, 3, [0.0; 3])? else {
             return Ok(false);
         };
@@ -152,7 +164,7 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
-    fn tangents(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<bool, Fault> {
+    fn tangents(&mut self, source: &Source<'_>, vertices: &mut [Vertex]) -> Result<bool, ImportError> {
         let Some(tangents) = self.attribute(source, &Semantic::Tangents, 4, [0.0; 4])? else {
             return Ok(false);
         };
@@ -160,7 +172,7 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
-    /// Makes the normals and tangents that are missing or broken.
+    /// Generates normals and tangents that are missing or invalid.
     fn finish(
         &mut self,
         mesh: &mut Mesh,
@@ -168,17 +180,20 @@ impl<'a> Reader<'a> {
         has_tangents: bool,
         normal_map: Option<&TextureRef>,
         source: &Source<'_>,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ImportError> {
         if !has_normals {
-            // Flat normals need a vertex per index.
+            // Flat normals need one vertex per index.
             let more = mesh.indices.len().saturating_sub(mesh.vertices.len());
             let Some(left) = self.vertices_left.checked_sub(more) else {
-                return Err(fault(&source.place, format!("the scene has over {MAX_VERTICES} vertices")));
+                return Err(ImportError::new(
+                    &source.location,
+                    format!("the scene has over {MAX_VERTICES} vertices"),
+                ));
             };
             self.vertices_left = left;
             mesh.flat_normals();
         } else if mesh.repair_normals() > 0 {
-            self.notes.add(&source.place, "normals that are zero or not finite are computed anew");
+            self.notes.add(&source.location, "normals that are zero or not finite are recomputed");
         }
         match (has_tangents, normal_map) {
             (true, map) => {
@@ -192,22 +207,25 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Reads an attribute that there must be one of for each vertex, if the primitive has it.
+    /// Reads an attribute, if the primitive has it; it must have one element per vertex.
     fn attribute<const N: usize>(
         &self,
         source: &Source<'_>,
         semantic: &Semantic,
-        least: usize,
+        min: usize,
         fill: [f32; N],
-    ) -> Result<Option<Vec<[f32; N]>>, Fault> {
+    ) -> Result<Option<Vec<[f32; N]>>, ImportError> {
         let Some(accessor) = source.accessor(semantic) else { return Ok(None) };
-        let there = || source.at(&semantic.to_string(), accessor);
-        let count = self.buffers.accessor_count(accessor).at(there)?;
+        let location = || source.attribute_location(&semantic.to_string(), accessor);
+        let count = self.buffers.accessor_count(accessor).with_location(location)?;
         if count != source.count as u64 {
-            let reason = format!("has {count} elements for {} positions (allowed: as many)", source.count);
-            return Err(fault(there(), reason));
+            let reason = format!(
+                "has {count} elements for {} positions (allowed: as many as positions)",
+                source.count
+            );
+            return Err(ImportError::new(location(), reason));
         }
-        Ok(Some(self.buffers.vectors(accessor, least, fill, source.count).at(there)?))
+        Ok(Some(self.buffers.vectors(accessor, min, fill, source.count).with_location(location)?))
     }
 }
 
@@ -218,7 +236,63 @@ impl Source<'_> {
         accessor.map(|accessor| accessor.value())
     }
 
-    fn at(&self, attribute: &str, accessor: usize) -> String {
-        format!("{} {attribute} (accessor {accessor})", self.place)
+    fn attribute_location(&self, attribute: &str, accessor: usize) -> String {
+        format!("{} {attribute} (accessor {accessor})", self.location)
+    }
+}
+
+/// Turns the indices of a primitive into a triangle list, without triangles that use a vertex twice.
+///
+/// `None` for points and lines. Indices after the last whole triangle are dropped.
+pub(super) fn triangles(mode: Mode, indices: &[u32]) -> Option<Vec<u32>> {
+    let mut list = Vec::with_capacity(triangle_count(mode, indices.len())?.saturating_mul(3));
+    let mut add = |triangle: [u32; 3]| {
+        let [a, b, c] = triangle;
+        if a != b && b != c && c != a {
+            list.extend(triangle);
+        }
+    };
+    match (mode, indices) {
+        (Mode::Triangles, _) => indices.as_chunks().0.iter().for_each(|triangle| add(*triangle)),
+        (Mode::TriangleStrip, _) => {
+            for (i, corners) in indices.array_windows::<3>().enumerate() {
+                let [a, b, c] = *corners;
+                // Every second triangle of a strip is wound the other way round.
+                add(if i % 2 == 0 { [a, b, c] } else { [a, c, b] });
+            }
+        }
+        (Mode::TriangleFan, [hub, rim @ ..]) => {
+            rim.array_windows().for_each(|[a, b]| add([*a, *b, *hub]));
+        }
+        _ => {}
+    }
+    Some(list)
+}
+
+/// Returns the number of triangles of a number of indices; `None` for points and lines.
+pub(super) fn triangle_count(mode: Mode, indices: usize) -> Option<usize> {
+    match mode {
+        Mode::Triangles => Some(indices / 3),
+        Mode::TriangleStrip | Mode::TriangleFan => Some(indices.saturating_sub(2)),
+        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_keep_their_winding() {
+        assert_eq!(triangles(Mode::TriangleStrip, &[0, 1, 2, 3]), Some(vec![0, 1, 2, 1, 3, 2]));
+        assert_eq!(triangles(Mode::TriangleFan, &[0, 1, 2, 3]), Some(vec![1, 2, 0, 2, 3, 0]));
+    }
+
+    #[test]
+    fn incomplete_and_degenerate_triangles_are_dropped() {
+        assert_eq!(triangles(Mode::Triangles, &[0, 1, 2, 3, 3, 4, 5]), Some(vec![0, 1, 2]));
+        assert_eq!(triangles(Mode::TriangleStrip, &[0, 1, 1, 2]), Some(vec![]));
+        assert_eq!(triangles(Mode::TriangleFan, &[]), Some(vec![]));
+        assert_eq!(triangles(Mode::Points, &[0, 1, 2]), None);
     }
 }

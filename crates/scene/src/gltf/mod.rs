@@ -2,19 +2,19 @@
 //!
 //! Drawn: meshes (triangles, strips and fans) and their instances, metallic-roughness materials,
 //! PNG and JPEG images, cameras, and the extensions [`SUPPORTED_EXTENSIONS`]. Skins, morph targets and
-//! animations are drawn at rest; each thing that is not drawn as written gives a line in `Scene::notes`.
+//! animations are drawn at rest; everything that is not drawn as the file says adds a line to `Scene::notes`.
 //! Meshes that no drawn node uses, and images that no material uses, are not read.
 //!
-//! A file is not trusted: every index, offset, count and size is checked against the bytes that are
-//! there before anything is allocated, references may not leave the file's own folder, and the size of
-//! what is loaded is limited (see the constants). Whatever is wrong is one [`Error`](crate::Error) that says where.
+//! Files are not trusted: every index, offset, count and size is checked against the available bytes before
+//! anything is allocated, references must not leave the file's directory, and the size of a scene is limited (see
+//! the constants). Every error is one [`Error`](crate::Error) that says where in the file it is.
 
 mod accessors;
 mod buffers;
 mod cameras;
 mod container;
 mod document;
-mod fault;
+mod error;
 mod files;
 mod images;
 mod lights;
@@ -24,7 +24,6 @@ mod mesh;
 mod nodes;
 mod notes;
 mod textures;
-mod triangles;
 mod uri;
 mod validate;
 

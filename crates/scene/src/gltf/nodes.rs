@@ -1,18 +1,19 @@
-//! The node hierarchy: which nodes are drawn, and where they are.
+//! The node hierarchy: the nodes of the drawn scene and their transforms.
 
 use ::gltf::json;
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
 
 use super::document::Document;
-use super::fault::{At, Fault, clean_name, fault, place};
+use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
 use super::validate::MAX_WORLD_M;
 use super::{cameras, lights};
-use crate::{Camera, Light};
+use crate::camera::{Camera, Projection};
+use crate::light::Light;
 
 /// A node of the drawn scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PlacedNode {
+pub(super) struct SceneNode {
     /// Index of the node in the file.
     pub(super) node: usize,
     pub(super) world_from_node: DAffine3,
@@ -21,28 +22,28 @@ pub(super) struct PlacedNode {
 /// Returns the nodes of the default scene, else of the first scene, else all nodes; parents before children.
 ///
 /// # Errors
-/// If the hierarchy is not a tree, or a transform is not finite.
-pub(super) fn walk(document: &Document, notes: &mut Notes) -> Result<Vec<PlacedNode>, Fault> {
+/// The hierarchy is not a tree, or a transform is not finite.
+pub(super) fn walk(document: &Document, notes: &mut Notes) -> Result<Vec<SceneNode>, ImportError> {
     let parents = parents(document)?;
-    let mut placed = Vec::new();
+    let mut found = Vec::new();
     let roots = roots(document, &parents, notes)?;
-    // A stack instead of recursion: a file may nest as deep as it is long.
-    let mut open: Vec<(usize, DAffine3)> =
+    // A stack instead of recursion: a file may nest its nodes to any depth.
+    let mut stack: Vec<(usize, DAffine3)> =
         roots.into_iter().rev().map(|node| (node, DAffine3::IDENTITY)).collect();
-    while let Some((index, world_from_parent)) = open.pop() {
+    while let Some((index, world_from_parent)) = stack.pop() {
         let Some(node) = document.nodes.get(index) else { continue };
-        let there = || place("node", index, node.name.as_deref());
-        let world_from_node = world_from_parent * local_transform(node).at(there)?;
-        check_range(&world_from_node).at(there)?;
-        placed.push(PlacedNode { node: index, world_from_node });
+        let location = || describe("node", index, node.name.as_deref());
+        let world_from_node = world_from_parent * local_transform(node).with_location(location)?;
+        check_range(&world_from_node).with_location(location)?;
+        found.push(SceneNode { node: index, world_from_node });
         let children = node.children.iter().flatten().rev();
-        open.extend(children.map(|child| (child.value(), world_from_node)));
+        stack.extend(children.map(|child| (child.value(), world_from_node)));
     }
-    Ok(placed)
+    Ok(found)
 }
 
-/// Returns every node's parent, and makes sure that the nodes are trees.
-fn parents(document: &Document) -> Result<Vec<Option<usize>>, Fault> {
+/// Returns the parent of every node after checking that the nodes form trees.
+fn parents(document: &Document) -> Result<Vec<Option<usize>>, ImportError> {
     let mut parents: Vec<Option<usize>> = vec![None; document.nodes.len()];
     for (i, node) in document.nodes.iter().enumerate() {
         for child in node.children.iter().flatten() {
@@ -50,34 +51,40 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, Fault> {
             if let Some(other) = parent.replace(i) {
                 let reason =
                     format!("is a child of node {other} and again of node {i} (allowed: one parent)");
-                return Err(fault(place("node", child.value(), None), reason));
+                return Err(ImportError::new(describe("node", child.value(), None), reason));
             }
         }
     }
     // With at most one parent each, nodes that cannot be reached from a root are in or below a cycle.
     let mut reached = vec![false; parents.len()];
-    let mut open: Vec<usize> = (0..parents.len()).filter(|i| parents.get(*i) == Some(&None)).collect();
-    while let Some(index) = open.pop() {
+    let mut stack: Vec<usize> = (0..parents.len()).filter(|i| parents.get(*i) == Some(&None)).collect();
+    while let Some(index) = stack.pop() {
         if let Some(reached) = reached.get_mut(index) {
             *reached = true;
         }
         let children = document.nodes.get(index).and_then(|node| node.children.as_ref());
-        open.extend(children.into_iter().flatten().map(|child| child.value()));
+        stack.extend(children.into_iter().flatten().map(|child| child.value()));
     }
     match reached.iter().position(|reached| !reached) {
         None => Ok(parents),
-        Some(lost) => Err(fault(place("node", lost, None), "is its own ancestor: the nodes form a cycle")),
+        Some(lost) => {
+            Err(ImportError::new(describe("node", lost, None), "is its own ancestor: the nodes form a cycle"))
+        }
     }
 }
 
-fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> Result<Vec<usize>, Fault> {
+fn roots(
+    document: &Document,
+    parents: &[Option<usize>],
+    notes: &mut Notes,
+) -> Result<Vec<usize>, ImportError> {
     let scene_index = document.scene.unwrap_or(0);
     let scene =
         usize::try_from(scene_index).ok().and_then(|index| document.scenes.get(index).zip(Some(index)));
     let Some((scene, index)) = scene else {
         return match (document.scene, document.scenes.len().checked_sub(1)) {
             (Some(scene), Some(last)) => {
-                Err(fault("scene", format!("scene {scene} does not exist (allowed: 0 to {last})")))
+                Err(ImportError::new("scene", format!("scene {scene} does not exist (allowed: 0 to {last})")))
             }
             (scene, _) => {
                 if scene.is_some() {
@@ -89,25 +96,25 @@ fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> R
     };
     let mut listed = vec![false; parents.len()];
     for node in &scene.nodes {
-        let there = || place("scene", index, None);
+        let location = || describe("scene", index, None);
         if let Some(Some(parent)) = parents.get(node.value()) {
             let reason =
                 format!("lists node {node}, which is a child of node {parent} (allowed: root nodes)");
-            return Err(fault(there(), reason));
+            return Err(ImportError::new(location(), reason));
         }
         if listed.get_mut(node.value()).is_some_and(|listed| std::mem::replace(listed, true)) {
-            return Err(fault(there(), format!("lists node {node} twice")));
+            return Err(ImportError::new(location(), format!("lists node {node} twice")));
         }
     }
     Ok(scene.nodes.iter().map(|node| node.value()).collect())
 }
 
-/// Returns a node's transform from its own space to its parent's.
+/// Returns the transform from a node's space to its parent's.
 fn local_transform(node: &json::Node) -> Result<DAffine3, String> {
     if let Some(matrix) = &node.matrix {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
         if matrix.row(3) != DVec4::W {
-            return Err("the last row of its matrix is not 0 0 0 1, the only one allowed".into());
+            return Err("the last row of its matrix must be 0 0 0 1".into());
         }
         return Ok(DAffine3::from_mat4(matrix));
     }
@@ -125,33 +132,35 @@ fn local_transform(node: &json::Node) -> Result<DAffine3, String> {
 }
 
 fn check_range(world: &DAffine3) -> Result<(), String> {
-    let reach = |vector: DVec3| if vector.is_nan() { f64::NAN } else { vector.abs().max_element() };
+    let extent = |vector: DVec3| if vector.is_nan() { f64::NAN } else { vector.abs().max_element() };
     let axes = [world.matrix3.x_axis, world.matrix3.y_axis, world.matrix3.z_axis, world.translation];
-    match axes.into_iter().map(reach).find(|reach| reach.is_nan() || *reach > MAX_WORLD_M) {
+    match axes.into_iter().map(extent).find(|extent| extent.is_nan() || *extent > MAX_WORLD_M) {
         None => Ok(()),
-        Some(reach) => Err(format!("its transform reaches {reach:.3e} (allowed: up to {MAX_WORLD_M:e})")),
+        Some(extent) => {
+            Err(format!("its transform extends to {extent:.3e} m (allowed: up to {MAX_WORLD_M:e} m)"))
+        }
     }
 }
 
 /// Returns the lights of the drawn nodes: directional, spot, point, each in the order of the file.
 ///
 /// # Errors
-/// Names the light with a value that is not allowed, or the node that gives it no direction.
-pub(super) fn lights(document: &Document, nodes: &[PlacedNode]) -> Result<Vec<Light>, Fault> {
-    let lamps = document
-        .lights()
-        .iter()
-        .enumerate()
-        .map(|(i, light)| lights::lamp(light).at(|| place("light", i, light.name.as_deref())));
-    let lamps: Vec<lights::Lamp> = lamps.collect::<Result<_, _>>()?;
+/// The location names the light with a value that is not allowed, or the node that gives it no direction.
+pub(super) fn lights(document: &Document, nodes: &[SceneNode]) -> Result<Vec<Light>, ImportError> {
+    let punctual = document.lights().iter().enumerate().map(|(i, light)| {
+        lights::convert(light).with_location(|| describe("light", i, light.name.as_deref()))
+    });
+    let punctual: Vec<lights::PunctualLight> = punctual.collect::<Result<_, _>>()?;
     let mut found = Vec::new();
-    for (node, placed) in drawn(document, nodes) {
+    for (node, scene_node) in scene_nodes(document, nodes) {
         let extension = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
         let Some(index) = extension.map(|extension| extension.light.value()) else { continue };
-        let (Some(lamp), Some(light)) = (lamps.get(index), document.lights().get(index)) else { continue };
-        let name = name_of(light.name.as_deref(), node);
-        let light = lights::placed(lamp, name, &placed.world_from_node);
-        found.push((index, light.at(|| place("node", placed.node, node.name.as_deref()))?));
+        let (Some(punctual), Some(light)) = (punctual.get(index), document.lights().get(index)) else {
+            continue;
+        };
+        let name = name_or_node_name(light.name.as_deref(), node);
+        let light = lights::light_at_node(punctual, name, &scene_node.world_from_node);
+        found.push((index, light.with_location(|| describe("node", scene_node.node, node.name.as_deref()))?));
     }
     found.sort_by_key(|(index, light)| (light.kind.order(), *index));
     Ok(found.into_iter().map(|(_, light)| light).collect())
@@ -160,34 +169,35 @@ pub(super) fn lights(document: &Document, nodes: &[PlacedNode]) -> Result<Vec<Li
 /// Returns the cameras of the drawn nodes in the order of the file.
 ///
 /// # Errors
-/// Names the camera with a value that is not allowed, or the node that gives it no direction.
-pub(super) fn cameras(document: &Document, nodes: &[PlacedNode]) -> Result<Vec<Camera>, Fault> {
-    let lenses = document
-        .cameras
-        .iter()
-        .enumerate()
-        .map(|(i, camera)| cameras::projection(camera).at(|| place("camera", i, camera.name.as_deref())));
-    let lenses: Vec<crate::Projection> = lenses.collect::<Result<_, _>>()?;
+/// The location names the camera with a value that is not allowed, or the node that gives it no direction.
+pub(super) fn cameras(document: &Document, nodes: &[SceneNode]) -> Result<Vec<Camera>, ImportError> {
+    let projections = document.cameras.iter().enumerate().map(|(i, camera)| {
+        cameras::projection(camera).with_location(|| describe("camera", i, camera.name.as_deref()))
+    });
+    let projections: Vec<Projection> = projections.collect::<Result<_, _>>()?;
     let mut found = Vec::new();
-    for (node, placed) in drawn(document, nodes) {
+    for (node, scene_node) in scene_nodes(document, nodes) {
         let Some(index) = node.camera.map(|camera| camera.value()) else { continue };
-        let (Some(lens), Some(camera)) = (lenses.get(index), document.cameras.get(index)) else { continue };
-        let name = name_of(camera.name.as_deref(), node);
-        let camera = cameras::placed(*lens, name, &placed.world_from_node);
-        found.push((index, camera.at(|| place("node", placed.node, node.name.as_deref()))?));
+        let (Some(projection), Some(camera)) = (projections.get(index), document.cameras.get(index)) else {
+            continue;
+        };
+        let name = name_or_node_name(camera.name.as_deref(), node);
+        let camera = cameras::camera_at_node(*projection, name, &scene_node.world_from_node);
+        found
+            .push((index, camera.with_location(|| describe("node", scene_node.node, node.name.as_deref()))?));
     }
     found.sort_by_key(|(index, _)| *index);
     Ok(found.into_iter().map(|(_, camera)| camera).collect())
 }
 
-fn drawn<'a>(
+fn scene_nodes<'a>(
     document: &'a Document,
-    nodes: &'a [PlacedNode],
-) -> impl Iterator<Item = (&'a json::Node, &'a PlacedNode)> {
-    nodes.iter().filter_map(|placed| Some((document.nodes.get(placed.node)?, placed)))
+    nodes: &'a [SceneNode],
+) -> impl Iterator<Item = (&'a json::Node, &'a SceneNode)> {
+    nodes.iter().filter_map(|scene_node| Some((document.nodes.get(scene_node.node)?, scene_node)))
 }
 
-/// Returns the name of a light or camera, else of the node that it is at.
-fn name_of(name: Option<&str>, node: &json::Node) -> Option<String> {
+/// Returns the name of a light or camera, else the name of its node.
+fn name_or_node_name(name: Option<&str>, node: &json::Node) -> Option<String> {
     name.or(node.name.as_deref()).map(|name| clean_name(Some(name)))
 }

@@ -1,44 +1,44 @@
-//! The warning lines of an import, equal ones counted.
+//! The warnings of an import; equal ones are counted.
 
-use super::fault::fault;
+use super::error::ImportError;
 
-/// The most lines that are kept.
+/// The maximum number of lines.
 const MAX_LINES: usize = 50;
 
-/// Collects what is not drawn as written. Each kind of note is one line, however often it occurs.
+/// Collects warnings about what is not drawn as the file says. Equal warnings become one line.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     notes: Vec<Note>,
-    left_out: usize,
+    omitted: usize,
 }
 
 #[derive(Debug)]
 struct Note {
     text: String,
-    first_place: String,
+    first_location: String,
     more: usize,
 }
 
 impl Notes {
-    /// Adds a note about a place; the same text at further places is only counted.
-    pub(super) fn add(&mut self, place: impl std::fmt::Display, text: impl std::fmt::Display) {
-        let note = fault(place, text);
+    /// Adds a note about a location; the same text at further locations is only counted.
+    pub(super) fn add(&mut self, location: impl std::fmt::Display, text: impl std::fmt::Display) {
+        let note = ImportError::new(location, text);
         let full = self.notes.len() == MAX_LINES;
         match self.notes.iter_mut().find(|known| known.text == note.reason) {
             Some(known) => known.more += 1,
-            None if full => self.left_out += 1,
-            None => self.notes.push(Note { text: note.reason, first_place: note.place, more: 0 }),
+            None if full => self.omitted += 1,
+            None => self.notes.push(Note { text: note.reason, first_location: note.location, more: 0 }),
         }
     }
 
-    /// Returns the lines in the order in which they first came up.
+    /// Returns the lines in the order of their first occurrence.
     pub(super) fn into_lines(self) -> Vec<String> {
         let line = |note: Note| match note.more {
-            0 => format!("{}: {}", note.first_place, note.text),
-            more => format!("{} and {more} more: {}", note.first_place, note.text),
+            0 => format!("{}: {}", note.first_location, note.text),
+            more => format!("{} and {more} more: {}", note.first_location, note.text),
         };
-        let left_out = self.left_out;
-        let last = (left_out > 0).then(|| format!("{left_out} further notes are left out"));
+        let omitted = self.omitted;
+        let last = (omitted > 0).then(|| format!("{omitted} more notes are omitted"));
         self.notes.into_iter().map(line).chain(last).collect()
     }
 }
@@ -54,7 +54,7 @@ mod tests {
         let lines = notes.into_lines();
         assert_eq!(
             (lines.len(), lines.last().map(String::as_str)),
-            (MAX_LINES + 1, Some("7 further notes are left out"))
+            (MAX_LINES + 1, Some("7 more notes are omitted"))
         );
     }
 

@@ -1,4 +1,4 @@
-//! Samplers, texture coordinates and texture transforms.
+//! Conversion of samplers, texture coordinates and texture transforms.
 
 use ::gltf::json;
 use json::extensions::texture::TextureTransform;
@@ -6,26 +6,26 @@ use json::texture::{MagFilter, MinFilter, WrappingMode};
 use json::validation::Checked;
 
 use super::document::Document;
-use super::fault::{At, Fault, fault, place};
+use super::error::{ImportError, WithLocation, describe};
 use super::notes::Notes;
-use crate::{Filter, Sampler, TextureRef, Wrap};
+use crate::material::{Filter, Sampler, TextureRef, Wrap};
 
-/// The use of a texture by a material, as the file has it.
-pub(super) struct Use {
+/// The use of a texture by a material, as in the file.
+pub(super) struct TextureUse {
     texture: usize,
     uv_set: u32,
     transform: Option<TextureTransform>,
 }
 
-impl From<&json::texture::Info> for Use {
+impl From<&json::texture::Info> for TextureUse {
     fn from(info: &json::texture::Info) -> Self {
         let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.clone());
         Self { texture: info.index.value(), uv_set: info.tex_coord, transform }
     }
 }
 
-impl Use {
-    /// Reads the use of a texture whose type in the gltf crate leaves the transform as it is in the file.
+impl TextureUse {
+    /// Reads the use of a texture whose type in the gltf crate leaves the transform unparsed.
     pub(super) fn with_raw_transform(
         texture: usize,
         uv_set: u32,
@@ -35,43 +35,43 @@ impl Use {
         Ok(Self { texture, uv_set, transform })
     }
 
-    /// Returns the index of the image in the file, if all references are right.
+    /// Returns the index of the image in the file, if the texture exists.
     pub(super) fn image(&self, document: &Document) -> Option<usize> {
         Some(document.textures.get(self.texture)?.source.value())
     }
 
-    /// Converts to the scene's form. `image` is the index of the image in the scene.
+    /// Converts to a [`TextureRef`]. `image` is the index of the image in the scene.
     ///
     /// # Errors
-    /// If the sampler or the transform has values that glTF does not allow.
+    /// The sampler or the transform has values that glTF does not allow.
     pub(super) fn convert(
         &self,
         document: &Document,
         image: usize,
-        there: &str,
+        location: &str,
         notes: &mut Notes,
-    ) -> Result<TextureRef, Fault> {
+    ) -> Result<TextureRef, ImportError> {
         let sampler = document.textures.get(self.texture).and_then(|texture| texture.sampler);
         let sampler =
             match sampler.and_then(|sampler| document.samplers.get(sampler.value()).zip(Some(sampler))) {
                 None => Sampler::default(),
                 Some((sampler, index)) => convert_sampler(sampler)
-                    .at(|| place("sampler", index.value(), sampler.name.as_deref()))?,
+                    .with_location(|| describe("sampler", index.value(), sampler.name.as_deref()))?,
             };
         let uv_set = self.transform.as_ref().and_then(|transform| transform.tex_coord).unwrap_or(self.uv_set);
         let uv_set = u8::try_from(uv_set).ok().filter(|set| *set < 2).unwrap_or_else(|| {
-            notes.add(there, "texture coordinates above TEXCOORD_1 are not drawn, TEXCOORD_0 is used");
+            notes.add(location, "texture coordinates above TEXCOORD_1 are not supported, TEXCOORD_0 is used");
             0
         });
         let uv_transform = self.transform.as_ref().map_or(TextureRef::UV_IDENTITY, uv_transform);
         if !uv_transform.as_flattened().iter().all(|value| value.is_finite()) {
-            return Err(fault(there, "KHR_texture_transform has values that are not finite"));
+            return Err(ImportError::new(location, "KHR_texture_transform has values that are not finite"));
         }
         Ok(TextureRef { image, sampler, uv_set, uv_transform })
     }
 }
 
-/// Combines offset, rotation and scale: first scaled, then rotated, then moved.
+/// Combines scale, rotation and offset, applied in this order.
 fn uv_transform(transform: &TextureTransform) -> [[f32; 3]; 2] {
     let ([offset_u, offset_v], [scale_u, scale_v]) = (transform.offset.0, transform.scale.0);
     // Texture coordinates are rotated counter-clockwise as seen with v upwards, and v points down.

@@ -3,26 +3,29 @@
 use std::borrow::Cow;
 use std::num::NonZeroU64;
 
+use super::draw_list::DrawPipeline;
+use super::key::{AlphaKey, MaterialKey};
+use super::materials::MaterialLayouts;
 use super::upload::vertex_layout;
-use super::{AlphaKey, DrawPipeline, MaterialKey, MaterialLayouts};
-use crate::{CasterMode, Error};
+use crate::error::Error;
+use crate::material::CasterMode;
 
-/// What depth pipelines draw into, and how.
+/// The target and the state of depth pipelines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthTarget {
     /// The format of the depth texture.
     pub format: wgpu::TextureFormat,
-    /// Keeps what lies before the near plane, at depth 1: by `Features::DEPTH_CLIP_CONTROL` where the device has
+    /// Clamps geometry in front of the near plane to depth 1: by `Features::DEPTH_CLIP_CONTROL` where the device has
     /// it, else in the fragment shader.
     pub clamp_near: bool,
-    /// Bias by the slope of a surface, in steepest changes of depth per pixel. Depth is reversed: negative
-    /// pushes away.
+    /// Slope-scaled depth bias: a factor of the maximum depth slope per pixel. Depth is reversed: negative values push
+    /// surfaces away.
     pub slope_bias: f32,
-    /// How many samples each pixel has.
+    /// Samples per pixel.
     pub samples: u32,
-    /// The format of the colours of [`CasterPipelines::tint`].
+    /// The format of the colour target of [`CasterPipelines::tint`].
     pub tint_format: wgpu::TextureFormat,
-    /// Clamps in the fragment shader even where the device could do it: for tests of that path.
+    /// Clamps in the fragment shader even where the device could do it, for tests of that path.
     pub emulate_clamp: bool,
 }
 
@@ -40,10 +43,10 @@ impl Default for DepthTarget {
     }
 }
 
-/// A pipeline for each key, that leaves out back faces as the material says. Opaque ones have no fragment stage and do not
-/// read the material; mask and blend ones leave holes where alpha is low (blend: under one half).
+/// A pipeline for each key, which culls back faces as the material says. Opaque ones have no fragment stage and do not
+/// read the material; mask and blend ones discard fragments where alpha is low (blend: below one half).
 ///
-/// Group 0 is [`view_layout`](Self::view_layout), group 1 is free.
+/// Group 0 is [`view_layout`](Self::view_layout), group 1 is unused.
 pub struct DepthPipelines {
     view_layout: wgpu::BindGroupLayout,
     /// By [`MaterialKey::index`].
@@ -61,40 +64,40 @@ impl DepthPipelines {
         layouts: &MaterialLayouts,
         target: &DepthTarget,
     ) -> Result<Self, Error> {
-        let recipe = Recipe::new(device, layouts, target)?;
-        // Keys that come to the same share a pipeline.
-        let mut made: Vec<(Variant, wgpu::RenderPipeline)> = Vec::new();
+        let builder = PipelineBuilder::new(device, layouts, target)?;
+        // Keys with equal variants share a pipeline.
+        let mut created: Vec<(Variant, wgpu::RenderPipeline)> = Vec::new();
         let pipeline = |key: MaterialKey| {
             let variant = Variant::new(key);
-            if let Some((_, pipeline)) = made.iter().find(|(other, _)| *other == variant) {
+            if let Some((_, pipeline)) = created.iter().find(|(other, _)| *other == variant) {
                 return pipeline.clone();
             }
-            let pipeline = recipe.pipeline(device, variant);
-            made.push((variant, pipeline.clone()));
+            let pipeline = builder.pipeline(device, variant);
+            created.push((variant, pipeline.clone()));
             pipeline
         };
         let pipelines = MaterialKey::all().map(pipeline).collect();
-        Ok(Self { view_layout: recipe.view_layout, pipelines })
+        Ok(Self { view_layout: builder.view_layout, pipelines })
     }
 
-    /// Returns what draws of a key are drawn with.
+    /// Returns the pipeline for draws with a key.
     #[must_use]
     pub fn get(&self, key: MaterialKey) -> DrawPipeline<'_> {
         let reads_material = key.alpha != AlphaKey::Opaque;
         DrawPipeline { pipeline: &self.pipelines[key.index()], reads_material }
     }
 
-    /// Returns the layout of group 0: at binding 0 a storage buffer, read by vertices, at a dynamic offset, that
-    /// begins with the matrix clip_from_world (64 bytes).
+    /// Returns the layout of group 0: at binding 0 a storage buffer with a dynamic offset, visible to the vertex stage,
+    /// which begins with the matrix clip_from_world (64 bytes).
     #[must_use]
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
         &self.view_layout
     }
 }
 
-/// A pipeline for each [`CasterMode`], that draws both sides: a wall without a back casts a shadow to either side.
+/// A pipeline for each [`CasterMode`], without culling: a single-sided wall casts a shadow to both sides.
 ///
-/// Group 0 is that of [`DepthPipelines::view_layout`], group 1 is free.
+/// Group 0 is that of [`DepthPipelines::view_layout`], group 1 is unused.
 pub struct CasterPipelines {
     solid: wgpu::RenderPipeline,
     clip: wgpu::RenderPipeline,
@@ -113,8 +116,8 @@ impl CasterPipelines {
         layouts: &MaterialLayouts,
         target: &DepthTarget,
     ) -> Result<Self, Error> {
-        let recipe = Recipe::new(device, layouts, target)?;
-        let pipeline = |alpha| recipe.pipeline(device, Variant { alpha, culled: None });
+        let builder = PipelineBuilder::new(device, layouts, target)?;
+        let pipeline = |alpha| builder.pipeline(device, Variant { alpha, culled: None });
         Ok(Self {
             solid: pipeline(Alpha::Ignored),
             clip: pipeline(Alpha::Clip),
@@ -123,8 +126,8 @@ impl CasterPipelines {
         })
     }
 
-    /// Returns what the depth of draws of a mode is drawn with; `None` for those that cast no shadow. [`CasterMode::Tint`] is cut at
-    /// one half, as it is where nothing is tinted.
+    /// Returns the pipeline for the depth of casters of a mode; `None` for those that cast no shadow. [`CasterMode::Tint`] is
+    /// clipped at an alpha of one half, for maps without tint.
     #[must_use]
     pub fn get(&self, mode: CasterMode) -> Option<DrawPipeline<'_>> {
         let (pipeline, reads_material) = match mode {
@@ -136,35 +139,35 @@ impl CasterPipelines {
         Some(DrawPipeline { pipeline, reads_material })
     }
 
-    /// Returns what depth is drawn with, whatever its alpha.
+    /// Returns the pipeline for depth that ignores alpha.
     #[must_use]
     pub fn solid(&self) -> DrawPipeline<'_> {
         DrawPipeline { pipeline: &self.solid, reads_material: false }
     }
 
-    /// Returns what multiplies a target of [`DepthTarget::tint_format`] by the light that passes. It is tested against depth and does not
-    /// write it.
+    /// Returns the pipeline that multiplies a target of [`DepthTarget::tint_format`] by the transmitted light. It tests depth
+    /// and does not write it.
     #[must_use]
     pub fn tint(&self) -> DrawPipeline<'_> {
         DrawPipeline { pipeline: &self.tint, reads_material: true }
     }
 }
 
-/// What alpha does.
+/// The effect of alpha.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Alpha {
     Ignored,
     Clip,
     Dither,
-    /// It colours light.
+    /// Colours the transmitted light.
     Tint,
 }
 
-/// What of a key matters where only depth is written.
+/// The parts of a key that matter where only depth is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Variant {
     alpha: Alpha,
-    /// The winding whose backs are left out; none: both sides are drawn.
+    /// The front face whose back is culled; `None`: no culling.
     culled: Option<wgpu::FrontFace>,
 }
 
@@ -176,20 +179,20 @@ impl Variant {
     }
 }
 
-/// What all pipelines of a target share.
-struct Recipe {
+/// The state that all pipelines of a target share.
+struct PipelineBuilder {
     shader: wgpu::ShaderModule,
     target: DepthTarget,
-    /// The device clamps.
+    /// The device clamps depth.
     unclipped: bool,
-    /// The fragment shader clamps.
+    /// The fragment shader clamps depth.
     emulated: bool,
     view_layout: wgpu::BindGroupLayout,
     opaque_layout: wgpu::PipelineLayout,
     material_layout: wgpu::PipelineLayout,
 }
 
-impl Recipe {
+impl PipelineBuilder {
     fn new(device: &wgpu::Device, layouts: &MaterialLayouts, target: &DepthTarget) -> Result<Self, Error> {
         let name = "depth.wgsl";
         let module = shadowgraph_shaders::compose(name, &[])
@@ -229,7 +232,7 @@ impl Recipe {
             (Alpha::Dither, true) => Some("fs_dither_clamp"),
             (Alpha::Tint, true) => Some("fs_tint_clamp"),
         };
-        let multiplied = wgpu::BlendComponent {
+        let multiply = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::Dst,
             dst_factor: wgpu::BlendFactor::Zero,
             operation: wgpu::BlendOperation::Add,
@@ -241,7 +244,7 @@ impl Recipe {
         };
         let tints = [Some(wgpu::ColorTargetState {
             format: self.target.tint_format,
-            blend: Some(wgpu::BlendState { color: multiplied, alpha: multiplied }),
+            blend: Some(wgpu::BlendState { color: multiply, alpha: multiply }),
             write_mask: wgpu::ColorWrites::COLOR,
         })];
         let vertex = wgpu::VertexState {
@@ -281,7 +284,7 @@ impl Recipe {
     }
 
     fn depth_state(&self, is_written: bool) -> wgpu::DepthStencilState {
-        // Depth from the fragment shader has the bias already.
+        // Depth from the fragment shader includes the bias.
         let slope_scale = if self.emulated { 0.0 } else { self.target.slope_bias };
         wgpu::DepthStencilState {
             format: self.target.format,
@@ -302,7 +305,7 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: true },
                 has_dynamic_offset: true,
-                // A camera's record, or a shadow view's: they are as long.
+                // The uniforms of a camera or of a shadow view, which have the same size.
                 min_binding_size: NonZeroU64::new(256),
             },
             count: None,
@@ -315,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn keys_that_come_to_the_same_share_a_variant() {
+    fn twelve_keys_have_six_variants() {
         let mut variants: Vec<Variant> = Vec::new();
         for variant in MaterialKey::all().map(Variant::new) {
             if !variants.contains(&variant) {
@@ -326,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn mirrored_instances_flip_their_front_and_double_sided_ones_keep_their_back() {
+    fn mirrored_instances_flip_the_front_face_and_double_sided_ones_are_not_culled() {
         let key = |double_sided, mirrored| MaterialKey { alpha: AlphaKey::Mask, double_sided, mirrored };
         let culled = |key| Variant::new(key).culled;
         assert_eq!(culled(key(false, false)), Some(wgpu::FrontFace::Ccw));

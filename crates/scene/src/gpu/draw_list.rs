@@ -1,16 +1,17 @@
-//! What is drawn, in which order.
+//! Draws, and the order in which they are recorded.
 
 use glam::DVec3;
 
-use super::MaterialKey;
-use crate::CasterMode;
+use super::key::{AlphaKey, MaterialKey};
+use crate::bounds::Aabb;
+use crate::material::CasterMode;
 
 /// The draw of one instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Draw {
-    /// What decides the pipeline.
+    /// The key of the pipeline.
     pub key: MaterialKey,
-    /// What shadow it casts.
+    /// How it casts a shadow.
     pub casts: CasterMode,
     /// Index of the material.
     pub material: u32,
@@ -21,52 +22,60 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// Whether this is the same as `first` for the instance with the number `instance`.
+    /// Tells whether this draw equals `first` but for its instance number, which is `instance`.
     pub(super) fn continues(&self, first: &Self, instance: u32) -> bool {
         *self == Self { instance, ..*first }
     }
 }
 
-/// The draws of the instances that are seen.
+/// The pipeline of a draw.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawPipeline<'p> {
+    /// The pipeline.
+    pub pipeline: &'p wgpu::RenderPipeline,
+    /// Whether the pipeline reads group 2, the material.
+    pub reads_material: bool,
+}
+
+/// The draws of the visible instances.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DrawList {
-    /// Opaque and alpha-cut, ordered by key, material and mesh: few changes of state.
+    /// Opaque and alpha-tested draws, ordered by key, material and mesh, for few state changes.
     pub solid: Vec<Draw>,
-    /// Blended, the farthest first.
+    /// Blended draws, the farthest first.
     pub blend: Vec<Draw>,
 }
 
 impl DrawList {
-    /// Takes draws, those of solid things in their order. `distance` is asked for the blended ones: how far an instance is,
-    /// in any unit that grows.
+    /// Replaces the contents by these draws; solid ones keep their order. `distance` returns the distance of a blended
+    /// instance, in any monotonic unit.
     pub(super) fn fill(&mut self, draws: impl Iterator<Item = Draw>, distance: impl Fn(u32) -> f64) {
         let Self { solid, blend } = self;
         solid.clear();
         blend.clear();
         for draw in draws {
-            if draw.key.alpha == super::AlphaKey::Blend { blend.push(draw) } else { solid.push(draw) }
+            if draw.key.alpha == AlphaKey::Blend { blend.push(draw) } else { solid.push(draw) }
         }
-        // Equally far: in the order of their numbers.
+        // At equal distance the smaller number is first.
         blend.sort_unstable_by(|a, b| {
-            let nearer = distance(b.instance).total_cmp(&distance(a.instance));
-            nearer.then(a.instance.cmp(&b.instance))
+            let by_distance = distance(b.instance).total_cmp(&distance(a.instance));
+            by_distance.then(a.instance.cmp(&b.instance))
         });
     }
 
-    /// Returns every draw, the solid ones first.
+    /// Returns all draws, the solid ones first.
     pub fn iter(&self) -> impl Iterator<Item = &Draw> {
         self.solid.iter().chain(&self.blend)
     }
 }
 
-/// How far the middle of the bounds is from the eye, squared; bounds of nothing are at the eye.
-pub(super) fn squared_distance(bounds: &crate::Aabb, eye_world: DVec3) -> f64 {
+/// Returns the squared distance from the centre of the bounds to the eye; 0 for empty bounds.
+pub(super) fn squared_distance(bounds: &Aabb, eye_world: DVec3) -> f64 {
     if bounds.is_empty() { 0.0 } else { bounds.center().distance_squared(eye_world) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::AlphaKey;
     use super::*;
 
     fn draw(alpha: AlphaKey, material: u32, mesh: u32, instance: u32) -> Draw {
@@ -97,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn the_next_instance_of_the_same_mesh_and_material_is_drawn_together() {
+    fn consecutive_instances_of_the_same_mesh_and_material_share_a_draw_call() {
         use AlphaKey::Opaque;
         let first = draw(Opaque, 1, 2, 4);
         assert!(draw(Opaque, 1, 2, 5).continues(&first, 5) && draw(Opaque, 1, 2, 6).continues(&first, 6));
@@ -114,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn blended_draws_are_apart_and_the_farthest_is_first() {
+    fn blended_draws_are_separate_and_the_farthest_is_first() {
         let draws = [(0, 4.0), (1, 9.0), (2, 1.0), (3, 9.0)].map(|(i, _)| draw(AlphaKey::Blend, i, 0, i));
         let solid = draw(AlphaKey::Opaque, 0, 0, 4);
         let distances = [4.0, 9.0, 1.0, 9.0, f64::NAN];

@@ -1,15 +1,15 @@
-//! What of a draw decides its pipeline.
+//! The properties of a draw that select its pipeline.
 
-use crate::{AlphaMode, Material};
+use crate::material::{AlphaMode, Material};
 
-/// What of a material and an instance decides the pipeline. Ordered as draws are: opaque, mask, blend.
+/// The properties of a material and an instance that select the pipeline. Ordered as draws are: opaque, mask, blend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialKey {
     /// How alpha is used.
     pub alpha: AlphaKey,
     /// Whether back faces are drawn.
     pub double_sided: bool,
-    /// Whether the instance's transform mirrors, so that front faces are wound clockwise.
+    /// Whether the instance's transform mirrors, so that front faces wind clockwise.
     pub mirrored: bool,
 }
 
@@ -18,17 +18,17 @@ pub struct MaterialKey {
 pub enum AlphaKey {
     /// Alpha is ignored.
     Opaque,
-    /// Has holes where alpha is below the material's cutoff.
+    /// Discarded where alpha is below the material's cutoff.
     Mask,
     /// Blended over what lies behind.
     Blend,
 }
 
 impl MaterialKey {
-    /// How many keys there are.
+    /// Number of keys.
     pub const COUNT: usize = 12;
 
-    /// Returns the key of a material on an instance that mirrors or does not.
+    /// Returns the key of a material on an instance whose transform mirrors or does not.
     #[must_use]
     pub fn new(material: &Material, mirrored: bool) -> Self {
         let alpha = match material.alpha {
@@ -53,13 +53,13 @@ impl MaterialKey {
         })
     }
 
-    /// Returns a number of its own for each key, below [`COUNT`](Self::COUNT), for tables of pipelines.
+    /// Returns a unique number below [`COUNT`](Self::COUNT), for tables of pipelines.
     #[must_use]
     pub fn index(self) -> usize {
         self.alpha as usize * 4 + usize::from(self.double_sided) * 2 + usize::from(self.mirrored)
     }
 
-    /// Returns which winding is the front, and that back faces are left out unless the key is double-sided.
+    /// Returns the state with the front face, and with back-face culling unless the key is double-sided.
     #[must_use]
     pub fn primitive_state(self) -> wgpu::PrimitiveState {
         wgpu::PrimitiveState {

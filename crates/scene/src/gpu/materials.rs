@@ -1,4 +1,4 @@
-//! Materials as bind groups: group 2.
+//! The bind groups of materials: group 2.
 
 use std::num::NonZeroU64;
 
@@ -8,9 +8,11 @@ use glam::{Vec3, Vec4};
 use super::mips::Encoding;
 use super::textures::{Reading, Textures};
 use super::{limits, upload};
-use crate::{AlphaMode, Error, Material, Sampler, TextureRef};
+use crate::error::Error;
+use crate::material::{AlphaMode, Material, Sampler, TextureRef};
+use crate::scene::Scene;
 
-/// Bytes from one material to the next in their buffer: the alignment that every device has.
+/// Stride of materials in their buffer, bytes: the alignment that every device supports.
 const STRIDE: u64 = 256;
 const TEXTURES: usize = 5;
 
@@ -41,14 +43,14 @@ struct MaterialUniform {
 /// The layouts of the bind groups that draws need.
 #[derive(Clone, Debug)]
 pub struct MaterialLayouts {
-    /// Group 2, a material: a uniform, five textures, five samplers; seen by fragments.
+    /// Group 2, a material: a uniform buffer, five textures, five samplers; visible to the fragment stage.
     pub material: wgpu::BindGroupLayout,
-    /// Group 3, the placements of all instances: a storage buffer; seen by vertices.
+    /// Group 3, the transforms of all instances: a storage buffer; visible to the vertex stage.
     pub draw: wgpu::BindGroupLayout,
 }
 
 impl MaterialLayouts {
-    /// Makes the layouts. Those of one device are alike, so pipelines and scenes may each make their own.
+    /// Creates the layouts. Those of one device are compatible, so pipelines and scenes may each create their own.
     #[must_use]
     pub fn new(device: &wgpu::Device) -> Self {
         let entry = |binding: u32, ty| wgpu::BindGroupLayoutEntry {
@@ -86,12 +88,12 @@ fn uniform_size() -> Option<NonZeroU64> {
 ///
 /// # Errors
 ///
-/// An image is larger than the device allows, is not there, or is not of the size it says.
+/// An image is larger than the device allows, does not exist, or has the wrong number of bytes.
 pub(super) fn bind_groups(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     layouts: &MaterialLayouts,
-    scene: &crate::Scene,
+    scene: &Scene,
 ) -> Result<Vec<wgpu::BindGroup>, Error> {
     let buffer = uniforms(device, queue, &scene.materials)?;
     let mut textures = Textures::new(device, queue, &scene.images);
@@ -126,7 +128,7 @@ pub(super) fn bind_groups(
     scene.materials.iter().enumerate().map(bind_group).collect()
 }
 
-/// One buffer with every material's uniform.
+/// Creates a buffer with the uniforms of all materials.
 fn uniforms(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -135,14 +137,14 @@ fn uniforms(
     let bytes = materials.len() as u64 * STRIDE;
     limits::buffer(&device.limits(), "the scene's materials", bytes)?;
     let mut data = vec![0; bytes as usize];
-    for (material, place) in materials.iter().zip(data.chunks_exact_mut(STRIDE as usize)) {
-        place[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform(material)));
+    for (material, target) in materials.iter().zip(data.chunks_exact_mut(STRIDE as usize)) {
+        target[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform(material)));
     }
     let usage = wgpu::BufferUsages::UNIFORM;
     Ok(upload::buffer(device, queue, "materials", usage, STRIDE, bytes, [data.as_slice()]))
 }
 
-/// The textures of a material in the order of their bindings, and how each is read.
+/// Returns the textures of a material in the order of their bindings, and how each is read.
 fn slots(material: &Material) -> [(Option<TextureRef>, Reading); TEXTURES] {
     let colors = Reading { encoding: Encoding::Srgb, cutoff: None };
     let values = Reading { encoding: Encoding::Linear, cutoff: None };
@@ -155,8 +157,8 @@ fn slots(material: &Material) -> [(Option<TextureRef>, Reading); TEXTURES] {
     ]
 }
 
-/// The texture's alpha from which on a masked material is there, vertex colours aside; none if that is not
-/// between 1 and 255.
+/// Returns the texture's alpha at which a masked material begins to be drawn, ignoring vertex colours; `None` if it is
+/// not between 1 and 255.
 fn texture_cutoff(material: &Material) -> Option<u8> {
     let AlphaMode::Mask { cutoff } = material.alpha else { return None };
     let bytes = (cutoff / material.base_color.w * 255.0).ceil();
@@ -174,8 +176,8 @@ fn uniform(material: &Material) -> MaterialUniform {
     let mut uv_transforms = [[0.0; 4]; 2 * TEXTURES];
     for (slot, (reference, _)) in slots(material).into_iter().enumerate() {
         let rows = reference.map_or(TextureRef::UV_IDENTITY, |used| used.uv_transform);
-        for (place, [x, y, z]) in uv_transforms[slot * 2..].iter_mut().zip(rows) {
-            *place = [x, y, z, 0.0];
+        for (target, [x, y, z]) in uv_transforms[slot * 2..].iter_mut().zip(rows) {
+            *target = [x, y, z, 0.0];
         }
         uv_sets |= flag(reference.is_some_and(|used| used.uv_set == 1), 1 << slot);
     }
@@ -207,7 +209,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn uniform_lies_in_memory_as_the_shader_has_it() {
+    fn the_uniform_has_the_layout_of_the_wgsl_struct() {
         let module = shadowgraph_shaders::compose("depth.wgsl", &[]).unwrap();
         macro_rules! fields {
             ($($field:ident),*) => { &[$((stringify!($field), offset_of!(MaterialUniform, $field))),*] };
@@ -230,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn flags_are_those_of_the_shader() {
+    fn flags_are_equal_to_those_of_the_wgsl() {
         let source = shadowgraph_shaders::builtin("material.wgsl").unwrap().source;
         for (name, value) in [
             ("MASK", MASK),
@@ -246,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn uniform_has_flags_transforms_and_uv_sets_of_the_material() {
+    fn the_uniform_has_the_flags_transforms_and_uv_sets_of_the_material() {
         let moved = TextureRef { uv_transform: [[2.0, 0.0, 0.5], [0.0, 3.0, 0.25]], ..TextureRef::new(0) };
         let material = Material {
             alpha: AlphaMode::Mask { cutoff: 0.3 },
@@ -263,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn alpha_of_the_factor_raises_the_cutoff_of_the_texture() {
+    fn a_lower_alpha_factor_raises_the_cutoff_of_the_texture() {
         let mask = |cutoff: f32, alpha: f32| Material {
             alpha: AlphaMode::Mask { cutoff },
             base_color: Vec4::new(1.0, 1.0, 1.0, alpha),

@@ -1,16 +1,16 @@
-//! The smaller levels of an image, each pixel the mean of four of the level above.
+//! Mip levels of an image: each pixel is the mean of four pixels of the level above.
 
 use std::sync::LazyLock;
 
 use super::coverage::Coverage;
-use crate::{Image, linear_from_srgb};
+use crate::material::{Image, linear_from_srgb};
 
-/// How the colour of an image is written. Alpha is always linear.
+/// The colour encoding of an image. Alpha is always linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Encoding {
-    /// Values, not colours: averaged as they are.
+    /// Values, not colours: averaged directly.
     Linear,
-    /// Colours in sRGB: averaged as light, each weighted by its alpha.
+    /// Colours in sRGB: averaged as linear light, weighted by alpha.
     Srgb,
 }
 
@@ -23,40 +23,40 @@ pub(super) struct Level<'a> {
     pub(super) rgba8: &'a [u8],
 }
 
-/// How many levels an image has, down to a single pixel.
+/// Returns the number of levels of an image, down to a single pixel.
 pub(super) fn level_count(width: u32, height: u32) -> u32 {
     width.max(height).max(1).ilog2() + 1
 }
 
-/// Makes every level in turn, the image itself first. With `cutoff` (an alpha, 1 to 255) as large a share of each
-/// level lies at or above it as of the image: or else leaves and wires would thin out with distance.
+/// Computes every level in turn, the image itself first. With `cutoff` (an alpha, 1 to 255) each level keeps the
+/// image's fraction of pixels at or above it; otherwise leaves and wires would thin out with distance.
 pub(super) fn for_each_level(
     image: &Image,
     encoding: Encoding,
     cutoff: Option<u8>,
-    mut use_level: impl FnMut(Level<'_>),
+    mut visit: impl FnMut(Level<'_>),
 ) {
     let (mut width, mut height) = (image.width, image.height);
-    use_level(Level { number: 0, width, height, rgba8: &image.rgba8 });
-    let coverage = cutoff.map(|cutoff| Coverage::of(&image.rgba8, width, cutoff));
+    visit(Level { number: 0, width, height, rgba8: &image.rgba8 });
+    let coverage = cutoff.map(|cutoff| Coverage::measure(&image.rgba8, width, cutoff));
     let mut above: Option<Vec<u8>> = None;
     for number in 1..level_count(width, height) {
         let pixels = halved(above.as_deref().unwrap_or(&image.rgba8), width, height, encoding);
         (width, height) = ((width / 2).max(1), (height / 2).max(1));
-        let kept = coverage.as_ref().map(|coverage| coverage.kept_by(&pixels, width));
-        let rgba8 = kept.as_deref().unwrap_or(&pixels);
-        use_level(Level { number, width, height, rgba8 });
+        let scaled = coverage.as_ref().map(|coverage| coverage.scale_alpha(&pixels, width));
+        let rgba8 = scaled.as_deref().unwrap_or(&pixels);
+        visit(Level { number, width, height, rgba8 });
         above = Some(pixels);
     }
 }
 
-/// Halves both sides (not below 1). The last row or column of an odd side is left out.
+/// Halves both dimensions (not below 1). The last row or column of an odd dimension is dropped.
 fn halved(pixels: &[u8], width: u32, height: u32, encoding: Encoding) -> Vec<u8> {
     let stride = width as usize * 4;
     let (half_width, half_height) = ((width as usize / 2).max(1), (height as usize / 2).max(1));
     let mut halved = vec![0; half_width * half_height * 4];
     let tables = &*TABLES;
-    // A side of 1 is taken twice.
+    // A dimension of 1 uses its row or column twice.
     let lower = if height > 1 { stride } else { 0 };
     for (y, out_row) in halved.chunks_exact_mut(half_width * 4).enumerate() {
         let top = &pixels[y * 2 * stride..][..stride];
@@ -73,11 +73,11 @@ fn halved(pixels: &[u8], width: u32, height: u32, encoding: Encoding) -> Vec<u8>
     halved
 }
 
-/// sRGB and back by look-up.
+/// Lookup tables for sRGB decoding and encoding.
 struct Tables {
-    /// From a byte to light, 0 to 65535.
+    /// Linear light of a byte, 0 to 65535.
     light: [u32; 256],
-    /// From light in 16384 steps to a byte.
+    /// The byte of linear light in 16384 steps.
     byte: Vec<u8>,
 }
 
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn every_even_color_stays_as_it_is() {
+    fn uniform_colors_do_not_change() {
         for encoding in [Encoding::Linear, Encoding::Srgb] {
             for value in 0..=255 {
                 let even = image(2, 2, |_, _| [value, 255 - value, value, value]);
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn colors_are_averaged_as_light_and_values_as_they_are() {
+    fn colors_are_averaged_as_light_and_values_directly() {
         let checker = image(2, 2, |x, y| if (x + y) % 2 == 0 { [0, 0, 0, 255] } else { [255; 4] });
         // Half the light is 188 in sRGB.
         assert_eq!(levels(&checker, Encoding::Srgb, None)[1].2, [188, 188, 188, 255]);

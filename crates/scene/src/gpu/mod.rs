@@ -1,14 +1,14 @@
-//! The GPU copy of a scene, and the draws of it.
+//! The GPU copy of a scene, and its draws.
 //!
-//! [`GpuScene`] holds all vertices in one buffer, all indices in another, the placements of the instances in a
-//! storage buffer (group 3) and a bind group for each material (group 2). It draws what it is asked to draw,
-//! with the pipelines that it is given; [`DepthPipelines`] has those for depth alone. Groups 0 and 1 are the
-//! caller's.
+//! [`GpuScene`] holds all vertices in one buffer, all indices in another, the transforms of the instances in a
+//! storage buffer (group 3) and a bind group for each material (group 2). It records the draws of a [`DrawList`]
+//! with the caller's pipelines; [`DepthPipelines`] has those that draw only depth. Groups 0 and 1 belong to the
+//! caller.
 //!
 //! ```
 //! use shadowgraph_scene::{demo::demo_scene, gpu::GpuScene, origin_near};
 //!
-//! // A device that does nothing; yours comes from an adapter.
+//! // A device that does nothing; a real one comes from an adapter.
 //! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
 //! let scene = demo_scene();
 //! let eye_world = scene.cameras[0].position_world();
@@ -31,10 +31,10 @@ mod textures;
 mod upload;
 
 pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
-pub use draw_list::{Draw, DrawList};
+pub use draw_list::{Draw, DrawList, DrawPipeline};
 pub use key::{AlphaKey, MaterialKey};
 pub use materials::MaterialLayouts;
-pub use scene::{DrawPipeline, GpuScene};
+pub use scene::GpuScene;
 pub use upload::vertex_layout;
 
 #[cfg(test)]

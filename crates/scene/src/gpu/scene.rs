@@ -1,23 +1,28 @@
-//! A scene on the GPU.
+//! The GPU copy of a scene.
 
 use glam::DVec3;
 
-use super::draw_list::squared_distance;
+use super::draw_list::{Draw, DrawList, DrawPipeline, squared_distance};
+use super::key::MaterialKey;
+use super::materials::MaterialLayouts;
 use super::upload::{Geometry, GpuInstance, buffer};
-use super::{Draw, DrawList, MaterialKey, MaterialLayouts, limits, materials};
-use crate::{Aabb, CullTree, CullVolume, Error, Scene};
+use super::{limits, materials};
+use crate::bounds::Aabb;
+use crate::cull::{CullTree, CullVolume};
+use crate::error::Error;
+use crate::scene::{Instance, Scene};
 
-/// The GPU copy of a scene: geometry, images, materials and placements.
+/// The GPU copy of a scene: geometry, images, materials and transforms.
 ///
-/// Its instances are numbered anew, in the order in which they are drawn with few changes of state: what is culled by
-/// number needs no sorting, and neighbours with the same mesh and material are drawn together.
+/// Its instances have their own numbers, in an order that needs few state changes when they are drawn: the results of
+/// culling need no sorting, and neighbours with the same mesh and material share a draw call.
 pub struct GpuScene {
     origin_world: DVec3,
-    /// The scene's instance of each number.
+    /// The scene's instance index of each number.
     order: Vec<u32>,
     bounds: Vec<Aabb>,
     tree: CullTree,
-    /// By number.
+    /// The draw of each instance, by number.
     draws: Vec<Draw>,
     geometry: Geometry,
     instances: wgpu::Buffer,
@@ -32,8 +37,8 @@ impl GpuScene {
     ///
     /// # Errors
     ///
-    /// [`Error::Limit`] where the scene is over a limit of the device, which it names, and
-    /// [`Error::Inconsistent`] where an instance, a material or an image does not fit to the rest.
+    /// [`Error::Limit`], with the name of the limit, if the scene exceeds a limit of the device;
+    /// [`Error::Inconsistent`] if an instance, a material or an image does not fit the rest.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -64,8 +69,8 @@ impl GpuScene {
         })
     }
 
-    /// Moves the point that GPU positions are relative to. Writes the placements again only if it is another
-    /// point; `scene` must be the one that was uploaded.
+    /// Moves the origin of GPU positions. Uploads the transforms again only if the origin changes; `scene` must be the one
+    /// that was uploaded.
     pub fn set_origin(&mut self, queue: &wgpu::Queue, scene: &Scene, origin_world: DVec3) {
         if origin_world == self.origin_world {
             return;
@@ -75,13 +80,13 @@ impl GpuScene {
         queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
     }
 
-    /// Returns the point in the world that GPU positions are relative to, metres.
+    /// Returns the origin of GPU positions in the world, metres.
     #[must_use]
     pub fn origin_world(&self) -> DVec3 {
         self.origin_world
     }
 
-    /// Returns how many triangles a draw has.
+    /// Returns the number of triangles of a draw.
     #[must_use]
     pub fn triangle_count(&self, draw: &Draw) -> u32 {
         self.geometry.ranges.get(draw.mesh as usize).map_or(0, |range| range.index_count / 3)
@@ -99,18 +104,18 @@ impl GpuScene {
         self.tree.bounds()
     }
 
-    /// Returns which of the scene's instances has a number.
+    /// Returns the scene's instance index of a number.
     #[must_use]
     pub fn instance(&self, number: u32) -> Option<u32> {
         self.order.get(number as usize).copied()
     }
 
-    /// Appends the numbers of the instances that touch a volume, ascending.
+    /// Appends the numbers of the instances that intersect a volume, ascending.
     pub fn cull(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
         self.tree.query(volume, numbers);
     }
 
-    /// Returns what there is to draw of an instance.
+    /// Returns the draw of an instance.
     #[must_use]
     pub fn draw_for(&self, number: u32) -> Option<&Draw> {
         self.draws.get(number as usize)
@@ -122,8 +127,8 @@ impl GpuScene {
         &self.layouts
     }
 
-    /// Lists the draws of the instances with these numbers (ascending) for an eye at `eye_world`. Numbers that do not exist
-    /// are left out.
+    /// Returns the draws of the instances with these numbers (ascending) for an eye at `eye_world`. Numbers that do not
+    /// exist are skipped.
     #[must_use]
     pub fn draw_list(&self, numbers: &[u32], eye_world: DVec3) -> DrawList {
         let mut list = DrawList::default();
@@ -131,15 +136,15 @@ impl GpuScene {
         list
     }
 
-    /// Lists as [`draw_list`](Self::draw_list) does into a list of before: once it has been as long, nothing is allocated.
+    /// Fills an existing list as [`draw_list`](Self::draw_list) does. A list with enough capacity is not reallocated.
     pub fn draw_list_into(&self, numbers: &[u32], eye_world: DVec3, list: &mut DrawList) {
         let draws = numbers.iter().filter_map(|&number| self.draws.get(number as usize));
         list.fill(draws.copied(), |number| squared_distance(&self.bounds[number as usize], eye_world));
     }
 
-    /// Draws. Sets the pipeline, group 2 (where the pipeline reads it), group 3 and the buffers, each only where it
-    /// changes; groups 0 and 1 must be set. Draws without a pipeline, or of another scene, are left out. Returns how many draw
-    /// calls that took: neighbours of one mesh share one.
+    /// Records draws. Sets the pipeline, group 2 (if the pipeline reads it), group 3 and the buffers, each only where it
+    /// changes; groups 0 and 1 must be set. Draws without a pipeline, or of another scene, are skipped. Returns the number of
+    /// draw calls: neighbours with one mesh share a call.
     pub fn draw<'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -154,19 +159,19 @@ impl GpuScene {
         pass.set_vertex_buffer(0, self.geometry.vertices.slice(..));
         pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.set_bind_group(3, &self.instance_group, &[]);
-        let (mut set, mut material) = (None, None);
+        let (mut current_pipeline, mut material) = (None, None);
         while let Some(draw) = draws.next() {
             let Some(range) = self.geometry.ranges.get(draw.mesh as usize) else { continue };
             let Some(group) = self.material_groups.get(draw.material as usize) else { continue };
             if draw.instance as usize >= self.draws.len() {
                 continue;
             }
-            let Some(with) = pipeline_for(draw) else { continue };
-            if set != Some(with.pipeline) {
-                pass.set_pipeline(with.pipeline);
-                set = Some(with.pipeline);
+            let Some(pipeline) = pipeline_for(draw) else { continue };
+            if current_pipeline != Some(pipeline.pipeline) {
+                pass.set_pipeline(pipeline.pipeline);
+                current_pipeline = Some(pipeline.pipeline);
             }
-            if with.reads_material && material != Some(draw.material) {
+            if pipeline.reads_material && material != Some(draw.material) {
                 pass.set_bind_group(2, group, &[]);
                 material = Some(draw.material);
             }
@@ -182,21 +187,12 @@ impl GpuScene {
     }
 }
 
-/// What something is drawn with.
-#[derive(Clone, Copy, Debug)]
-pub struct DrawPipeline<'p> {
-    /// The pipeline.
-    pub pipeline: &'p wgpu::RenderPipeline,
-    /// Whether it reads group 2, the material.
-    pub reads_material: bool,
-}
-
-/// The scene's instances in the order of their draws, and the draws.
+/// Returns the scene's instance indices in draw order, and the draws.
 fn draws(scene: &Scene) -> Result<(Vec<u32>, Vec<Draw>), Error> {
-    let draw = |(index, instance): (usize, &crate::Instance)| {
+    let draw = |(index, instance): (usize, &Instance)| {
         let missing = |kind: &str, wanted: usize, count: usize| Error::Inconsistent {
             what: format!("instance {index} \"{}\"", instance.name),
-            reason: format!("it refers to {kind} {wanted}, the scene has {count}"),
+            reason: format!("{kind} {wanted} does not exist, the scene has {count}"),
         };
         let (meshes, materials) = (scene.meshes.len(), scene.materials.len());
         if instance.mesh >= meshes {
@@ -222,7 +218,7 @@ fn draws(scene: &Scene) -> Result<(Vec<u32>, Vec<Draw>), Error> {
     Ok((order, draws))
 }
 
-/// The storage buffer of all placements.
+/// Creates the storage buffer of all transforms.
 fn upload_instances(
     device: &wgpu::Device,
     queue: &wgpu::Queue,

@@ -1,18 +1,22 @@
-//! On a device that checks everything and draws nothing.
+//! Tests on a device that validates everything and draws nothing.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use glam::{DAffine3, DVec3};
 
 use super::*;
-use crate::{AlphaMode, CasterMode, Error, Scene, demo::demo_scene, origin_near};
+use crate::demo::demo_scene;
+use crate::error::Error;
+use crate::material::{AlphaMode, CasterMode};
+use crate::origin::origin_near;
+use crate::scene::Scene;
 
-/// A device with wgpu's default limits and these features.
+/// Creates a device with wgpu's default limits and these features.
 fn device(required_features: wgpu::Features) -> (wgpu::Device, wgpu::Queue) {
     wgpu::Device::noop(&wgpu::DeviceDescriptor { required_features, ..wgpu::DeviceDescriptor::default() })
 }
 
-/// Runs `work` and fails with what the device complains of.
-fn without_complaints<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> T {
+/// Runs `work` and panics with the validation error, if there is one.
+fn without_validation_errors<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> T {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let result = work();
     let mut context = std::task::Context::from_waker(std::task::Waker::noop());
@@ -23,7 +27,7 @@ fn without_complaints<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> T {
     }
 }
 
-/// The demo scene with a blended, a mirrored and a double-sided mirrored instance besides.
+/// The demo scene with three more instances: blended, mirrored, and mirrored and double-sided.
 fn varied_scene() -> Scene {
     let mut scene = demo_scene();
     let mut glass = scene.materials[0].clone();
@@ -97,18 +101,19 @@ fn draw_depth(
 }
 
 #[test]
-fn demo_scene_draws_depth_without_complaints_on_every_path() {
+fn demo_scene_draws_depth_without_validation_errors_on_every_path() {
     use wgpu::TextureFormat::{Depth16Unorm, Depth32Float};
     let scene = varied_scene();
     for features in [wgpu::Features::empty(), wgpu::Features::DEPTH_CLIP_CONTROL] {
         let (device, queue) = device(features);
-        let gpu =
-            without_complaints(&device, || GpuScene::new(&device, &queue, &scene, DVec3::ZERO).unwrap());
+        let gpu = without_validation_errors(&device, || {
+            GpuScene::new(&device, &queue, &scene, DVec3::ZERO).unwrap()
+        });
         let draws = gpu.draw_list(&all(&scene), DVec3::ZERO);
         for (format, clamp_near, emulate_clamp) in
             [(Depth32Float, false, false), (Depth32Float, true, false), (Depth16Unorm, true, true)]
         {
-            without_complaints(&device, || {
+            without_validation_errors(&device, || {
                 let target = DepthTarget {
                     format,
                     clamp_near,
@@ -125,7 +130,7 @@ fn demo_scene_draws_depth_without_complaints_on_every_path() {
 }
 
 #[test]
-fn draw_list_has_every_instance_once_and_keys_as_the_scene_says() {
+fn a_draw_list_has_every_instance_once_with_the_key_of_its_material() {
     let (device, queue) = device(wgpu::Features::empty());
     let scene = varied_scene();
     let gpu = GpuScene::new(&device, &queue, &scene, DVec3::ZERO).unwrap();
@@ -142,10 +147,10 @@ fn draw_list_has_every_instance_once_and_keys_as_the_scene_says() {
 }
 
 #[test]
-fn origin_moves_without_complaints_and_an_empty_scene_uploads() {
+fn the_origin_moves_without_validation_errors_and_an_empty_scene_uploads() {
     let (device, queue) = device(wgpu::Features::empty());
     let scene = demo_scene();
-    without_complaints(&device, || {
+    without_validation_errors(&device, || {
         let mut gpu = GpuScene::new(&device, &queue, &scene, DVec3::ZERO).unwrap();
         gpu.set_origin(&queue, &scene, origin_near(DVec3::new(5000.0, 0.0, 0.0)));
         assert_eq!(gpu.origin_world(), DVec3::new(5120.0, 0.0, 0.0));
@@ -159,7 +164,7 @@ fn origin_moves_without_complaints_and_an_empty_scene_uploads() {
 }
 
 #[test]
-fn scene_over_a_limit_is_refused_by_the_name_of_the_limit() {
+fn the_error_of_a_scene_over_a_limit_names_the_limit() {
     let scene = demo_scene();
     let with = |required_limits: wgpu::Limits| {
         let descriptor = wgpu::DeviceDescriptor { required_limits, ..wgpu::DeviceDescriptor::default() };
@@ -178,15 +183,15 @@ fn scene_over_a_limit_is_refused_by_the_name_of_the_limit() {
 }
 
 #[test]
-fn references_to_what_is_not_there_are_refused() {
+fn references_to_missing_meshes_materials_and_images_are_errors() {
     let (device, queue) = device(wgpu::Features::empty());
-    let refused = |change: &dyn Fn(&mut Scene)| {
+    let error_after = |change: &dyn Fn(&mut Scene)| {
         let mut scene = demo_scene();
         change(&mut scene);
         GpuScene::new(&device, &queue, &scene, DVec3::ZERO).err().expect("an error").to_string()
     };
-    let text = refused(&|scene| scene.instances[0].mesh = 9999);
+    let text = error_after(&|scene| scene.instances[0].mesh = 9999);
     assert!(text.contains("instance 0 \"plain\"") && text.contains("mesh 9999"), "{text}");
-    assert!(refused(&|scene| scene.instances[1].material = 9999).contains("material 9999"));
-    assert!(refused(&|scene| scene.images.truncate(1)).contains("the scene has 1 images"));
+    assert!(error_after(&|scene| scene.instances[1].material = 9999).contains("material 9999"));
+    assert!(error_after(&|scene| scene.images.truncate(1)).contains("the scene has 1 images"));
 }

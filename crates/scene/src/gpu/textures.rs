@@ -1,31 +1,32 @@
-//! Images as textures, and samplers: each made once.
+//! Textures and samplers of materials; each is created once.
 
 use std::collections::BTreeMap;
 
 use super::limits;
 use super::mips::{Encoding, Level, for_each_level, level_count};
-use crate::{Error, Filter, Image, Sampler, Wrap};
+use crate::error::Error;
+use crate::material::{Filter, Image, Sampler, Wrap};
 
-/// Bytes handed to the queue before it is told to begin copying, so that they do not all wait in memory.
+/// Bytes that are written to the queue between submissions, so that they do not accumulate in memory.
 const BYTES_IN_FLIGHT: usize = 64 << 20;
-/// How many samples along the surface a smooth filter takes where it is seen at a grazing angle.
+/// The anisotropy of smooth filters.
 const ANISOTROPY: u16 = 4;
 
-/// How an image is read. The same image read in two ways is two textures.
+/// How an image is read. An image that is read in two ways becomes two textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Reading {
     pub(super) encoding: Encoding,
-    /// The alpha (1 to 255) from which on it is there, if it is cut by alpha.
+    /// The smallest alpha (1 to 255) that is drawn, if the texture is alpha-tested.
     pub(super) cutoff: Option<u8>,
 }
 
-/// Textures and samplers of a scene, made when first asked for.
+/// Textures and samplers of a scene, created on first use.
 pub(super) struct Textures<'a> {
     device: &'a wgpu::Device,
     queue: &'a wgpu::Queue,
     images: &'a [Image],
     limits: wgpu::Limits,
-    made: BTreeMap<(usize, Reading), wgpu::TextureView>,
+    textures: BTreeMap<(usize, Reading), wgpu::TextureView>,
     samplers: BTreeMap<Sampler, wgpu::Sampler>,
     bytes_in_flight: usize,
 }
@@ -37,38 +38,38 @@ impl<'a> Textures<'a> {
             queue,
             images,
             limits: device.limits(),
-            made: BTreeMap::new(),
+            textures: BTreeMap::new(),
             samplers: BTreeMap::new(),
             bytes_in_flight: 0,
         }
     }
 
-    /// The texture of an image.
+    /// Returns the texture of an image.
     ///
     /// # Errors
     ///
-    /// The image is larger than the device allows, is not there, or is not of the size it says.
+    /// The image is larger than the device allows, does not exist, or has the wrong number of bytes.
     pub(super) fn image(&mut self, index: usize, reading: Reading) -> Result<wgpu::TextureView, Error> {
-        if let Some(view) = self.made.get(&(index, reading)) {
+        if let Some(view) = self.textures.get(&(index, reading)) {
             return Ok(view.clone());
         }
         let image = self.images.get(index).ok_or_else(|| Error::Inconsistent {
             what: format!("image {index}"),
-            reason: format!("a material refers to it, the scene has {} images", self.images.len()),
+            reason: format!("a material refers to it, but the scene has {} images", self.images.len()),
         })?;
         limits::image(&self.limits, index, image)?;
         let view = self.upload(image, reading);
-        self.made.insert((index, reading), view.clone());
+        self.textures.insert((index, reading), view.clone());
         Ok(view)
     }
 
-    /// A texture of one pixel, for where there is no image.
+    /// Creates a texture of one pixel, for materials without an image.
     pub(super) fn single(&mut self, name: &str, rgba: [u8; 4]) -> wgpu::TextureView {
         let image = Image { name: name.to_owned(), width: 1, height: 1, rgba8: rgba.to_vec() };
         self.upload(&image, Reading { encoding: Encoding::Linear, cutoff: None })
     }
 
-    /// The sampler with these properties.
+    /// Returns the sampler with these properties.
     pub(super) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
         let device = self.device;
         let make = || {
@@ -122,8 +123,8 @@ fn extent(width: u32, height: u32) -> wgpu::Extent3d {
     wgpu::Extent3d { width, height, depth_or_array_layers: 1 }
 }
 
-/// How many samples a smooth filter takes on a kind of device. Mesa's software driver goes through every texel below a pixel,
-/// so that a floor that is seen on its edge, stretched up to the horizon, takes it minutes for a frame, or for ever.
+/// Returns the anisotropy of smooth filters on a type of device. Mesa's software driver visits every texel under a pixel, so
+/// that a frame with a floor that extends to the horizon at a grazing angle would take it minutes or more.
 fn anisotropy(device: wgpu::DeviceType) -> u16 {
     if device == wgpu::DeviceType::Cpu { 1 } else { ANISOTROPY }
 }
@@ -149,7 +150,7 @@ fn sampler_descriptor(sampler: &Sampler, anisotropy: u16) -> wgpu::SamplerDescri
             Some(Filter::Linear) => wgpu::MipmapFilterMode::Linear,
             _ => wgpu::MipmapFilterMode::Nearest,
         },
-        // Below half a level the nearest one is the largest.
+        // Below a level of detail of one half the nearest level is the largest.
         lod_max_clamp: if sampler.mip.is_some() { 32.0 } else { 0.25 },
         anisotropy_clamp: if smooth { anisotropy } else { 1 },
         ..wgpu::SamplerDescriptor::default()
@@ -161,7 +162,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sampler_without_mips_stays_on_the_largest_level_and_smooth_ones_are_anisotropic() {
+    fn samplers_without_mips_use_the_largest_level_and_smooth_ones_are_anisotropic() {
         let flat = Sampler { mip: None, ..Sampler::default() };
         assert!(sampler_descriptor(&flat, ANISOTROPY).lod_max_clamp < 0.5);
         assert_eq!(sampler_descriptor(&flat, ANISOTROPY).anisotropy_clamp, 1);
@@ -169,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_software_driver_takes_one_sample_however_grazing_the_angle() {
+    fn a_software_driver_has_no_anisotropic_filtering() {
         assert_eq!(anisotropy(wgpu::DeviceType::Cpu), 1);
         assert_eq!(anisotropy(wgpu::DeviceType::IntegratedGpu), ANISOTROPY);
     }

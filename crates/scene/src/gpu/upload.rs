@@ -1,4 +1,4 @@
-//! Vertices, indices and placements as buffers.
+//! Buffers of vertices, indices and instance transforms.
 
 use std::num::NonZeroU64;
 
@@ -6,17 +6,19 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DVec3, Vec4};
 
 use super::limits;
-use crate::{Error, Mesh, Scene, Vertex};
+use crate::error::Error;
+use crate::mesh::{Mesh, Vertex};
+use crate::scene::Scene;
 
-/// Bytes that are handed to the queue at once.
+/// The maximum size of one write to the queue, bytes.
 const CHUNK: usize = 4 << 20;
 
 const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Float32x2, 5 => Unorm8x4
 ];
 
-/// Returns how vertices lie in their buffer: locations 0 to 5 are position, normal, tangent, both texture
-/// coordinates and colour.
+/// Returns the layout of the vertex buffer: locations 0 to 5 are position, normal, tangent, both texture coordinates
+/// and colour.
 #[must_use]
 pub fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
@@ -36,7 +38,7 @@ pub(super) struct GpuInstance {
 }
 
 impl GpuInstance {
-    /// Subtracts in f64, then rounds.
+    /// Converts a transform: subtracts the origin in f64, then rounds.
     pub(super) fn new(world_from_local: &DAffine3, origin_world: DVec3) -> Self {
         let rows = world_from_local.matrix3.transpose();
         let offset = world_from_local.translation - origin_world;
@@ -47,15 +49,14 @@ impl GpuInstance {
         }
     }
 
-    /// All instances of a scene.
-    /// In the order of draws.
+    /// Converts all instances of a scene, in draw order.
     pub(super) fn all(scene: &Scene, order: &[u32], origin_world: DVec3) -> Vec<Self> {
         let instances = order.iter().filter_map(|&instance| scene.instances.get(instance as usize));
         instances.map(|instance| Self::new(&instance.world_from_local, origin_world)).collect()
     }
 }
 
-/// Where a mesh lies in the buffers.
+/// The range of a mesh in the buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct MeshRange {
     pub(super) first_index: u32,
@@ -75,7 +76,7 @@ impl Geometry {
     ///
     /// # Errors
     ///
-    /// They are larger than the device allows.
+    /// The meshes are larger than the device allows.
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, meshes: &[Mesh]) -> Result<Self, Error> {
         let (ranges, vertex_count, index_count) = ranges(meshes)?;
         let (vertex_size, index_size) = (size_of::<Vertex>() as u64, size_of::<u32>() as u64);
@@ -93,7 +94,7 @@ impl Geometry {
     }
 }
 
-/// Where each mesh begins, and the number of vertices and indices of all.
+/// Returns the range of each mesh, and the total number of vertices and indices.
 fn ranges(meshes: &[Mesh]) -> Result<(Vec<MeshRange>, u64, u64), Error> {
     let vertex_count = meshes.iter().map(|mesh| mesh.vertices.len() as u64).sum();
     let index_count = meshes.iter().map(|mesh| mesh.indices.len() as u64).sum();
@@ -109,31 +110,31 @@ fn ranges(meshes: &[Mesh]) -> Result<(Vec<MeshRange>, u64, u64), Error> {
     Ok((meshes.iter().map(range).collect(), vertex_count, index_count))
 }
 
-/// Makes a buffer of `bytes` (at least `least`: a buffer of nothing cannot be bound) and fills it with parts.
+/// Creates a buffer of `bytes` bytes (at least `min_bytes`, since an empty buffer cannot be bound) and fills it with the data.
 pub(super) fn buffer<'p>(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     label: &str,
     usage: wgpu::BufferUsages,
-    least: u64,
+    min_bytes: u64,
     bytes: u64,
-    parts: impl IntoIterator<Item = &'p [u8]>,
+    data: impl IntoIterator<Item = &'p [u8]>,
 ) -> wgpu::Buffer {
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        size: bytes.max(least),
+        size: bytes.max(min_bytes),
         usage: usage | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
-    // Many small meshes in one write.
+    // Many small meshes share one write.
     let (mut offset, mut chunk) = (0, Vec::new());
     let mut flush = |chunk: &mut Vec<u8>| {
         queue.write_buffer(&buffer, offset, chunk);
         offset += chunk.len() as u64;
         chunk.clear();
     };
-    for part in parts {
-        for piece in part.chunks(CHUNK) {
+    for data in data {
+        for piece in data.chunks(CHUNK) {
             if chunk.len() + piece.len() > CHUNK {
                 flush(&mut chunk);
             }
@@ -144,7 +145,7 @@ pub(super) fn buffer<'p>(
     buffer
 }
 
-/// A buffer bound whole, at no dynamic offset.
+/// Returns the binding type of a buffer without a dynamic offset.
 pub(super) fn buffer_binding(
     ty: wgpu::BufferBindingType,
     min_binding_size: Option<NonZeroU64>,
@@ -152,15 +153,15 @@ pub(super) fn buffer_binding(
     wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size }
 }
 
-/// The layout of group 3.
+/// Creates the layout of group 3.
 pub(super) fn instance_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let least = NonZeroU64::new(size_of::<GpuInstance>() as u64);
+    let min_size = NonZeroU64::new(size_of::<GpuInstance>() as u64);
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("instances"),
         entries: &[wgpu::BindGroupLayoutEntry {
             binding: 0,
             visibility: wgpu::ShaderStages::VERTEX,
-            ty: buffer_binding(wgpu::BufferBindingType::Storage { read_only: true }, least),
+            ty: buffer_binding(wgpu::BufferBindingType::Storage { read_only: true }, min_size),
             count: None,
         }],
     })
@@ -175,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn instance_lies_in_memory_as_the_shader_has_it() {
+    fn instances_have_the_layout_of_the_wgsl_struct() {
         let module = shadowgraph_shaders::compose("depth.wgsl", &[]).unwrap();
         let fields = [
             ("row_x", offset_of!(GpuInstance, row_x)),
@@ -186,20 +187,20 @@ mod tests {
     }
 
     #[test]
-    fn instance_far_from_the_world_origin_is_exact_relative_to_its_own() {
+    fn instances_far_from_the_world_origin_are_exact_relative_to_the_gpu_origin() {
         let world = DVec3::new(1.0e7 + 0.015_625, -3.0, 2.5);
         let origin = DVec3::new(1.0e7, 0.0, 0.0);
         let transform = DAffine3::from_rotation_y(0.5) * DAffine3::from_scale(DVec3::new(1.0, 2.0, 3.0));
         let instance = GpuInstance::new(&(DAffine3::from_translation(world) * transform), origin);
         assert_eq!([instance.row_x.w, instance.row_y.w, instance.row_z.w], [0.015_625, -3.0, 2.5]);
         let local = DVec3::new(0.3, -0.7, 1.9);
-        let placed = [instance.row_x, instance.row_y, instance.row_z]
+        let transformed = [instance.row_x, instance.row_y, instance.row_z]
             .map(|row| f64::from(row.truncate().dot(local.as_vec3())));
-        assert!(DVec3::from(placed).abs_diff_eq(transform.transform_point3(local), 1e-6));
+        assert!(DVec3::from(transformed).abs_diff_eq(transform.transform_point3(local), 1e-6));
     }
 
     #[test]
-    fn attributes_cover_the_vertex() {
+    fn vertex_attributes_have_the_offsets_of_the_struct() {
         let offsets = ATTRIBUTES.map(|attribute| attribute.offset as usize);
         let expected = [
             offset_of!(Vertex, position),
@@ -214,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn meshes_follow_each_other_in_the_buffers() {
+    fn meshes_are_consecutive_in_the_buffers() {
         let mesh =
             |vertices, indices: &[u32]| Mesh::new("", vec![Vertex::default(); vertices], indices.to_vec());
         let (ranges, vertices, indices) =

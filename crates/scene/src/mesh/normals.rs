@@ -1,4 +1,4 @@
-//! Normals for meshes that have none, or broken ones.
+//! Normals for meshes whose normals are missing or invalid.
 
 use glam::{DVec3, Vec3};
 
@@ -7,7 +7,7 @@ use super::{Mesh, Vertex, position};
 impl Mesh {
     /// Gives every triangle its own three vertices, with the triangle's own normal.
     ///
-    /// This is what glTF asks for where a mesh has no normals. The mesh gets as many vertices as indices.
+    /// glTF requires this for meshes without normals. The mesh then has one vertex per index.
     pub fn flat_normals(&mut self) {
         let mut vertices = Vec::with_capacity(self.indices.len());
         for corners in triangles(&self.indices, &self.vertices) {
@@ -18,7 +18,7 @@ impl Mesh {
         self.vertices = vertices;
     }
 
-    /// Gives every vertex the mean normal of the triangles around it, weighted by their angles there.
+    /// Gives every vertex the mean normal of its adjacent triangles, weighted by their angles at the vertex.
     pub fn smooth_normals(&mut self) {
         let normals = self.angle_weighted_normals();
         for (vertex, normal) in self.vertices.iter_mut().zip(normals) {
@@ -26,25 +26,25 @@ impl Mesh {
         }
     }
 
-    /// Brings all normals to unit length, and replaces those that have no direction (zero or not finite)
-    /// by the mean normal of the triangles around. Returns how many were replaced.
+    /// Normalizes all normals, and replaces those without a direction (zero or not finite) by the mean normal of the
+    /// adjacent triangles. Returns the number of replaced ones.
     pub fn repair_normals(&mut self) -> usize {
-        let mut broken = Vec::new();
+        let mut invalid = Vec::new();
         for (i, vertex) in self.vertices.iter_mut().enumerate() {
             match unit(Vec3::from(vertex.normal)) {
                 Some(normal) => vertex.normal = normal.to_array(),
-                None => broken.push(i),
+                None => invalid.push(i),
             }
         }
-        if !broken.is_empty() {
+        if !invalid.is_empty() {
             let normals = self.angle_weighted_normals();
-            for i in &broken {
+            for i in &invalid {
                 if let (Some(vertex), Some(normal)) = (self.vertices.get_mut(*i), normals.get(*i)) {
                     vertex.normal = normal.to_array();
                 }
             }
         }
-        broken.len()
+        invalid.len()
     }
 
     fn angle_weighted_normals(&self) -> Vec<Vec3> {
@@ -62,12 +62,12 @@ impl Mesh {
     }
 }
 
-/// Returns the direction of a vector, however long or short it is; `None` if it has none.
+/// Returns the direction of a vector of any length; `None` if it has none.
 pub(super) fn unit(vector: Vec3) -> Option<Vec3> {
     vector.as_dvec3().try_normalize().map(|unit| unit.as_vec3())
 }
 
-/// Iterates over the triangles whose indices are right.
+/// Returns the triangles whose indices are in range.
 fn triangles(indices: &[u32], vertices: &[Vertex]) -> impl Iterator<Item = [Vertex; 3]> {
     indices.as_chunks::<3>().0.iter().filter_map(|indices| corners(*indices, vertices))
 }
@@ -81,11 +81,12 @@ pub(super) fn corners(indices: [u32; 3], vertices: &[Vertex]) -> Option<[Vertex;
 /// Returns the angles of a triangle at its corners, radians.
 pub(super) fn angles(corners: &[Vertex; 3]) -> [f64; 3] {
     let [a, b, c] = corners.each_ref().map(position);
-    let angle = |at: DVec3, to: DVec3, and: DVec3| {
-        let (Some(to), Some(and)) = ((to - at).try_normalize(), (and - at).try_normalize()) else {
+    let angle = |corner: DVec3, first: DVec3, second: DVec3| {
+        let edges = (first - corner).try_normalize().zip((second - corner).try_normalize());
+        let Some((first, second)) = edges else {
             return 0.0;
         };
-        to.dot(and).clamp(-1.0, 1.0).acos()
+        first.dot(second).clamp(-1.0, 1.0).acos()
     };
     [angle(a, b, c), angle(b, c, a), angle(c, a, b)]
 }

@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3, Vec3, Vec4};
 use super::normals::{angles, corners, unit};
 use super::{Mesh, Vertex, position};
 
-/// The sums of the directions in which u and v grow, around a vertex.
+/// The sums of the directions of increasing u and v of the triangles around a vertex.
 #[derive(Clone, Copy, Default)]
-struct Growth {
+struct UvDirections {
     along_u: Vec3,
     along_v: Vec3,
 }
@@ -16,48 +16,48 @@ impl Mesh {
     /// Computes all tangents from the normals and the texture coordinates of a set (0 or 1), which are
     /// first transformed by `uv_transform` (two rows: `uv' = M * (u, v, 1)`).
     ///
-    /// Where the texture coordinates give no direction, some direction square to the normal is taken.
+    /// Where the texture coordinates define no direction, an arbitrary one perpendicular to the normal is used.
     pub fn generate_tangents(&mut self, uv_set: u8, uv_transform: &[[f32; 3]; 2]) {
-        let growth = self.growth(uv_set, uv_transform);
-        for (vertex, growth) in self.vertices.iter_mut().zip(growth) {
-            vertex.tangent = tangent(vertex, growth).to_array();
+        let directions = self.uv_directions(uv_set, uv_transform);
+        for (vertex, directions) in self.vertices.iter_mut().zip(directions) {
+            vertex.tangent = tangent(vertex, directions).to_array();
         }
     }
 
-    /// Makes the tangents unit vectors with a sign; those that have no direction (zero or not finite) are
-    /// computed as [`generate_tangents`](Self::generate_tangents) does. Returns how many were computed.
+    /// Normalizes the tangents and their signs, and computes those without a direction (zero or not finite) as
+    /// [`generate_tangents`](Self::generate_tangents) does. Returns the number of computed ones.
     pub fn repair_tangents(&mut self, uv_set: u8, uv_transform: &[[f32; 3]; 2]) -> usize {
-        let mut broken = Vec::new();
+        let mut invalid = Vec::new();
         for (i, vertex) in self.vertices.iter_mut().enumerate() {
             let [x, y, z, w] = vertex.tangent;
             match unit(Vec3::new(x, y, z)) {
                 Some(tangent) => vertex.tangent = tangent.extend(if w < 0.0 { -1.0 } else { 1.0 }).to_array(),
-                None => broken.push(i),
+                None => invalid.push(i),
             }
         }
-        if !broken.is_empty() {
-            let growth = self.growth(uv_set, uv_transform);
-            for i in &broken {
-                if let (Some(vertex), Some(growth)) = (self.vertices.get_mut(*i), growth.get(*i)) {
-                    vertex.tangent = tangent(vertex, *growth).to_array();
+        if !invalid.is_empty() {
+            let directions = self.uv_directions(uv_set, uv_transform);
+            for i in &invalid {
+                if let (Some(vertex), Some(directions)) = (self.vertices.get_mut(*i), directions.get(*i)) {
+                    vertex.tangent = tangent(vertex, *directions).to_array();
                 }
             }
         }
-        broken.len()
+        invalid.len()
     }
 
-    /// Gives every vertex some tangent square to its normal, for meshes without a normal map.
+    /// Gives every vertex an arbitrary tangent perpendicular to its normal, for meshes without a normal map.
     pub fn arbitrary_tangents(&mut self) {
         for vertex in &mut self.vertices {
-            vertex.tangent = tangent(vertex, Growth::default()).to_array();
+            vertex.tangent = tangent(vertex, UvDirections::default()).to_array();
         }
     }
 
-    fn growth(&self, uv_set: u8, uv_transform: &[[f32; 3]; 2]) -> Vec<Growth> {
-        let mut sums = vec![Growth::default(); self.vertices.len()];
+    fn uv_directions(&self, uv_set: u8, uv_transform: &[[f32; 3]; 2]) -> Vec<UvDirections> {
+        let mut sums = vec![UvDirections::default(); self.vertices.len()];
         for indices in self.indices.as_chunks::<3>().0 {
             let Some(corners) = corners(*indices, &self.vertices) else { continue };
-            let (along_u, along_v) = directions(&corners, uv_set, uv_transform);
+            let (along_u, along_v) = triangle_uv_directions(&corners, uv_set, uv_transform);
             for (index, angle) in indices.iter().zip(angles(&corners)) {
                 if let Some(sum) = sums.get_mut(*index as usize) {
                     sum.along_u += (along_u * angle).as_vec3();
@@ -69,13 +69,14 @@ impl Mesh {
     }
 }
 
-/// Returns the directions in which u and v grow on a triangle, unit length, or zero where there is none.
-fn directions(corners: &[Vertex; 3], uv_set: u8, uv_transform: &[[f32; 3]; 2]) -> (DVec3, DVec3) {
+/// Returns the directions of increasing u and v on a triangle, unit length, or zero if there is none.
+fn triangle_uv_directions(corners: &[Vertex; 3], uv_set: u8, uv_transform: &[[f32; 3]; 2]) -> (DVec3, DVec3) {
     let [a, b, c] = corners.each_ref().map(position);
     let [ta, tb, tc] = corners.each_ref().map(|vertex| {
         let [u, v] = if uv_set == 0 { vertex.uv0 } else { vertex.uv1 }.map(f64::from);
-        let [x, y] = uv_transform
-            .map(|[on_u, on_v, offset]| f64::from(on_u) * u + f64::from(on_v) * v + f64::from(offset));
+        let [x, y] = uv_transform.map(|[from_u, from_v, offset]| {
+            f64::from(from_u) * u + f64::from(from_v) * v + f64::from(offset)
+        });
         DVec2::new(x, y)
     });
     let (edge_b, edge_c, uv_b, uv_c) = (b - a, c - a, tb - ta, tc - ta);
@@ -85,14 +86,14 @@ fn directions(corners: &[Vertex; 3], uv_set: u8, uv_transform: &[[f32; 3]; 2]) -
     (along_u.normalize_or_zero(), along_v.normalize_or_zero())
 }
 
-fn tangent(vertex: &Vertex, growth: Growth) -> Vec4 {
+fn tangent(vertex: &Vertex, directions: UvDirections) -> Vec4 {
     let normal = Vec3::from(vertex.normal);
-    let tangent = growth.along_u.reject_from_normalized(normal);
+    let tangent = directions.along_u.reject_from_normalized(normal);
     match tangent.try_normalize() {
         None => normal.any_orthonormal_vector().extend(1.0),
         Some(tangent) => {
-            // The green of a normal map points up, and v points down.
-            let mirrored = normal.cross(tangent).dot(growth.along_v) > 0.0;
+            // The green channel of a normal map points up, and v points down.
+            let mirrored = normal.cross(tangent).dot(directions.along_v) > 0.0;
             tangent.extend(if mirrored { -1.0 } else { 1.0 })
         }
     }

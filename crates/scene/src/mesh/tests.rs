@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::*;
-use crate::TextureRef;
+use crate::material::TextureRef;
 
 /// A unit square in the xy plane that faces +Z, u to the right, v downwards.
 fn square() -> Mesh {
@@ -13,7 +13,7 @@ fn square() -> Mesh {
 }
 
 #[test]
-fn flat_normals_belong_to_the_triangles() {
+fn flat_normals_are_those_of_the_triangles() {
     let mut mesh = square();
     mesh.vertices[3].position = [0.0, 1.0, 1.0];
     mesh.flat_normals();
@@ -25,7 +25,7 @@ fn flat_normals_belong_to_the_triangles() {
 
 #[test]
 fn smooth_normals_weigh_triangles_by_angle() {
-    // Three faces of a cube meet in a corner, one of them split: the split must not count twice.
+    // Three faces of a cube meet in a corner, one of them as two triangles, which must not count twice.
     let at = |x: f32, y: f32, z: f32| Vertex { position: [x, y, z], ..Vertex::default() };
     let vertices =
         vec![at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0), at(1.0, 1.0, 0.0)];
@@ -36,7 +36,7 @@ fn smooth_normals_weigh_triangles_by_angle() {
 }
 
 #[test]
-fn only_broken_normals_are_replaced() {
+fn only_invalid_normals_are_replaced() {
     let mut mesh = square();
     mesh.vertices[0].normal = [f32::NAN, 0.0, 0.0];
     mesh.vertices[1].normal = [0.0; 3];
@@ -48,7 +48,7 @@ fn only_broken_normals_are_replaced() {
 }
 
 #[test]
-fn tangents_run_along_u_with_the_bitangent_up_the_picture() {
+fn tangents_point_along_u_and_bitangents_up_the_image() {
     let mut mesh = square();
     mesh.generate_tangents(0, &TextureRef::UV_IDENTITY);
     assert!(mesh.vertices.iter().all(|vertex| vertex.tangent == [1.0, 0.0, 0.0, 1.0]));
@@ -58,7 +58,7 @@ fn tangents_run_along_u_with_the_bitangent_up_the_picture() {
 }
 
 #[test]
-fn tangents_without_texture_coordinates_are_square_to_the_normal() {
+fn tangents_without_texture_coordinates_are_perpendicular_to_the_normal() {
     let mut mesh = square();
     mesh.generate_tangents(1, &TextureRef::UV_IDENTITY);
     for vertex in &mesh.vertices {
@@ -69,7 +69,7 @@ fn tangents_without_texture_coordinates_are_square_to_the_normal() {
 }
 
 #[test]
-fn only_broken_tangents_are_computed() {
+fn only_invalid_tangents_are_computed() {
     let mut mesh = square();
     mesh.vertices[0].tangent = [0.0, 2.0, 0.0, -0.5];
     mesh.vertices[1].tangent = [f32::INFINITY, 0.0, 0.0, 1.0];
@@ -79,7 +79,7 @@ fn only_broken_tangents_are_computed() {
 }
 
 #[test]
-fn meshes_without_triangles_or_with_wrong_indices_do_no_harm() {
+fn meshes_without_triangles_or_with_indices_out_of_range_are_accepted() {
     let mut mesh = Mesh::new("wrong", vec![Vertex::default(); 2], vec![0, 1, 7, 1]);
     mesh.smooth_normals();
     mesh.generate_tangents(0, &TextureRef::UV_IDENTITY);

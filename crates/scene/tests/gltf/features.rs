@@ -1,18 +1,18 @@
-//! What the import makes of the parts of glTF that are drawn.
+//! Import of the supported features of glTF.
 
 use glam::{DVec3, Vec3};
 use serde_json::json;
 use shadowgraph_scene::gltf::{Progress, load_with_progress};
 use shadowgraph_scene::{LightKind, Projection, Scene};
 
-use crate::made::File;
+use crate::builder::File;
 
 fn positions(scene: &Scene) -> Vec<[f32; 3]> {
     scene.meshes[0].vertices.iter().map(|vertex| vertex.position).collect()
 }
 
 #[test]
-fn a_triangle_without_normals_gets_flat_ones_and_a_default_material() {
+fn a_triangle_without_normals_gets_flat_normals_and_a_default_material() {
     let scene = File::triangle().load().unwrap();
     assert_eq!(positions(&scene), [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     assert!(scene.meshes[0].vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
@@ -28,12 +28,12 @@ fn a_glb_holds_the_same_as_its_gltf() {
 }
 
 #[test]
-fn buffers_can_be_data_uris_and_files_below() {
+fn buffers_can_be_data_uris_and_files_in_subdirectories() {
     let mut file = File::triangle();
     let expected = file.load().unwrap();
-    std::fs::create_dir(file.folder.path().join("sub folder")).unwrap();
-    std::fs::write(file.folder.path().join("sub folder/b.bin"), &file.bin).unwrap();
-    file.json["buffers"][0]["uri"] = json!("./sub%20folder/b.bin");
+    std::fs::create_dir(file.directory.path().join("sub directory")).unwrap();
+    std::fs::write(file.directory.path().join("sub directory/b.bin"), &file.bin).unwrap();
+    file.json["buffers"][0]["uri"] = json!("./sub%20directory/b.bin");
     assert_eq!(file.load().unwrap(), expected);
     let hex: String = file.bin.iter().map(|byte| format!("%{byte:02x}")).collect();
     file.json["buffers"][0]["uri"] = json!(format!("data:application/octet-stream,{hex}"));
@@ -56,7 +56,7 @@ fn strips_fans_and_meshes_without_indices_become_lists() {
 }
 
 #[test]
-fn points_and_lines_are_left_out_with_one_note() {
+fn points_and_lines_are_not_drawn_and_give_one_note() {
     let mut file = File::triangle();
     let primitive = |mode| json!({"attributes": {"POSITION": 0}, "mode": mode});
     file.json["meshes"][0]["primitives"] = json!([primitive(0), primitive(1), primitive(4), primitive(3)]);
@@ -66,7 +66,7 @@ fn points_and_lines_are_left_out_with_one_note() {
 }
 
 #[test]
-fn what_moves_is_drawn_at_rest_with_a_note_each() {
+fn animations_skins_and_morph_targets_are_drawn_at_rest_with_a_note_each() {
     let mut file = File::triangle();
     file.json["animations"] =
         json!([{"channels": [{"sampler": 0, "target": {"path": "pointer"}}], "samplers": []}]);
@@ -76,9 +76,9 @@ fn what_moves_is_drawn_at_rest_with_a_note_each() {
     file.json["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_materials_clearcoat"]);
     let scene = file.load().unwrap();
     assert_eq!(scene.triangle_count(), 1);
-    let words = ["KHR_materials_clearcoat is not drawn", "animations", "skins", "morph targets"];
-    assert_eq!(scene.notes.len(), words.len(), "{:?}", scene.notes);
-    assert!(scene.notes.iter().zip(words).all(|(note, word)| note.contains(word)), "{:?}", scene.notes);
+    let texts = ["KHR_materials_clearcoat is not drawn", "animations", "skins", "morph targets"];
+    assert_eq!(scene.notes.len(), texts.len(), "{:?}", scene.notes);
+    assert!(scene.notes.iter().zip(texts).all(|(note, text)| note.contains(text)), "{:?}", scene.notes);
 }
 
 #[test]
@@ -116,11 +116,11 @@ fn interleaved_and_normalised_attributes_are_read() {
     let vertices = &scene.meshes[0].vertices;
     assert_eq!(vertices[0].uv1, [0.0, 1.0]);
     assert_eq!((vertices[0].color, vertices[1].color), ([255, 0, 51, 255], [0, 255, 0, 255]));
-    assert_eq!(vertices[2].normal, [0.0, 0.0, 1.0], "brought to unit length");
+    assert_eq!(vertices[2].normal, [0.0, 0.0, 1.0], "normalized");
 }
 
 #[test]
-fn colors_are_clamped_and_broken_values_do_no_harm() {
+fn colors_are_clamped_and_invalid_values_are_replaced() {
     let mut file = File::triangle();
     file.attribute("NORMAL", "VEC3", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0]);
     let colors = [2.0, -1.0, 0.5, 1.0, f32::NAN, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
@@ -180,7 +180,7 @@ fn the_default_scene_is_drawn_else_the_first_else_all() {
 fn lights_are_placed_by_their_nodes_and_ordered_by_kind() {
     let mut file = File::triangle();
     file.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
-        {"type": "point", "name": "lamp", "range": 5},
+        {"type": "point", "name": "bulb", "range": 5},
         {"type": "spot", "intensity": 30, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}, "range": 0},
         {"type": "directional", "color": [1, 0.5, 0.25], "intensity": 3, "extensions": {"VENDOR_x": {}}},
     ]}});
@@ -195,7 +195,7 @@ fn lights_are_placed_by_their_nodes_and_ordered_by_kind() {
     file.json["scenes"] = json!([{"nodes": [0, 1, 2, 3]}]);
     let scene = file.load().unwrap();
     let names: Vec<_> = scene.lights.iter().filter_map(|light| light.name.as_deref()).collect();
-    assert_eq!(names, ["node 2", "node 1", "lamp", "lamp"]);
+    assert_eq!(names, ["node 2", "node 1", "bulb", "bulb"]);
     let LightKind::Directional { direction } = scene.lights[0].kind else { unreachable!() };
     assert!(direction.abs_diff_eq(DVec3::NEG_Y, 1e-6), "{direction}");
     assert_eq!((scene.lights[0].color, scene.lights[0].intensity), (Vec3::new(1.0, 0.5, 0.25), 3.0));
@@ -208,7 +208,7 @@ fn lights_are_placed_by_their_nodes_and_ordered_by_kind() {
 }
 
 #[test]
-fn cameras_are_rigid_and_in_the_order_of_the_file() {
+fn cameras_are_rigid_and_in_file_order() {
     let mut file = File::triangle();
     file.json["cameras"] = json!([
         {"type": "perspective", "name": "first", "perspective": {"yfov": 0.5, "znear": 0.1}},
@@ -248,10 +248,11 @@ fn quantised_meshes_are_read() {
 fn progress_runs_from_zero_to_one_in_each_stage() {
     let file = File::triangle();
     file.load().unwrap();
-    let mut seen: Vec<Progress> = Vec::new();
-    load_with_progress(&file.folder.path().join("scene.gltf"), &mut |progress| seen.push(progress)).unwrap();
-    assert!(seen.iter().all(|progress| (0.0..=1.0).contains(&progress.fraction)));
+    let mut reported: Vec<Progress> = Vec::new();
+    load_with_progress(&file.directory.path().join("scene.gltf"), &mut |progress| reported.push(progress))
+        .unwrap();
+    assert!(reported.iter().all(|progress| (0.0..=1.0).contains(&progress.fraction)));
     let sorted = |pair: &[Progress]| pair[0].stage != pair[1].stage || pair[0].fraction <= pair[1].fraction;
-    assert!(seen.windows(2).all(sorted), "{seen:?}");
-    assert_eq!(seen.last().map(|progress| progress.stage), Some("meshes"), "{seen:?}");
+    assert!(reported.windows(2).all(sorted), "{reported:?}");
+    assert_eq!(reported.last().map(|progress| progress.stage), Some("meshes"), "{reported:?}");
 }

@@ -1,10 +1,10 @@
-//! Import of glTF files: what is drawn, what is refused, and the shared folders of good and bad files.
+//! Import of glTF files: supported features, errors, and the shared directories of valid and malformed files.
 #![cfg(feature = "gltf")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
+mod builder;
 mod features;
-mod folders;
-mod made;
 mod materials;
-mod refusals;
-mod refused_values;
+mod rejected_values;
+mod rejections;
+mod shared_files;

@@ -1,14 +1,14 @@
-//! What the import makes of materials, textures and images.
+//! Import of materials, textures and images.
 
 use glam::{Vec3, Vec4};
 use serde_json::json;
 use shadowgraph_scene::{AlphaMode, Filter, Wrap};
 
-use crate::made::File;
+use crate::builder::File;
 
 /// Writes a PNG of one pixel.
 fn write_png(file: &File, name: &str, color: [u8; 4]) {
-    image::RgbaImage::from_pixel(1, 1, image::Rgba(color)).save(file.folder.path().join(name)).unwrap();
+    image::RgbaImage::from_pixel(1, 1, image::Rgba(color)).save(file.directory.path().join(name)).unwrap();
 }
 
 #[test]
@@ -61,10 +61,10 @@ fn materials_keep_factors_textures_and_extensions() {
 }
 
 #[test]
-fn sixteen_bit_images_are_reduced() {
+fn sixteen_bit_images_are_converted_to_8_bit() {
     let mut file = File::triangle();
     let pixel = image::Rgb([0xFFFFu16, 0x8080, 0]);
-    let path = file.folder.path().join("deep.png");
+    let path = file.directory.path().join("deep.png");
     image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_pixel(2, 1, pixel).save(path).unwrap();
     file.json["images"] = json!([{"uri": "deep.png"}]);
     file.json["textures"] = json!([{"source": 0}]);
@@ -75,10 +75,10 @@ fn sixteen_bit_images_are_reduced() {
 }
 
 #[test]
-fn tangents_are_made_where_there_is_a_normal_map() {
+fn tangents_are_generated_for_materials_with_a_normal_map() {
     let mut file = File::triangle();
     file.attribute("NORMAL", "VEC3", &[0.0, 0.0, 1.0].repeat(3));
-    // u grows along +Y.
+    // u increases along +Y.
     file.attribute("TEXCOORD_0", "VEC2", &[0.0, 0.0, 0.0, 1.0, 1.0, 0.0]);
     write_png(&file, "n.png", [128, 128, 255, 255]);
     file.json["images"] = json!([{"uri": "n.png"}]);

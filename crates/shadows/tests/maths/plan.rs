@@ -236,7 +236,7 @@ fn views_that_are_none_are_errors() {
     lost.world_from_view.translation.x = f64::NAN;
     assert_eq!(
         plan_shadows(&ShadowInputs { camera: &lost, ..inputs }),
-        Err(Error::Camera(CameraError::Placement))
+        Err(Error::Camera(CameraError::Transform))
     );
     for (near, far) in [(5.0, 5.0), (5.0, 1.0), (5.0, f64::NAN), (0.0, 1.0), (-1.0, 1.0), (f64::NAN, 1.0)] {
         let flat = Projection::Perspective { fov_y: 1.0, near, far: Some(far) };

@@ -1,9 +1,8 @@
-use crate::{ConvexVolume, Plane};
-use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::cull::samples::{boxes, recipe, volume};
+use crate::bounds::{ConvexVolume, Plane};
+use crate::cull::samples::{boxes, shapes, volume};
 
 fn test_each(boxes: &[Aabb], volume: &CullVolume) -> Vec<u32> {
     (0u32..).zip(boxes).filter(|(_, bounds)| volume.intersects(bounds)).map(|(item, _)| item).collect()
@@ -16,7 +15,7 @@ fn query(tree: &CullTree, volume: &CullVolume) -> Vec<u32> {
 }
 
 fn around_all(boxes: &[Aabb]) -> Aabb {
-    boxes.iter().map(within_space).fold(Aabb::EMPTY, |all, bounds| all.union(&bounds))
+    boxes.iter().map(clip_to_space).fold(Aabb::EMPTY, |all, bounds| all.union(&bounds))
 }
 
 fn unit(x: f64) -> Aabb {
@@ -28,19 +27,19 @@ proptest! {
 
     #[test]
     fn a_query_finds_what_testing_each_box_finds(
-        boxes in boxes(1..150), recipes in prop::collection::vec(recipe(), 8),
+        boxes in boxes(1..150), all_shapes in prop::collection::vec(shapes(), 8),
     ) {
         let tree = CullTree::new(&boxes);
         prop_assert_eq!(tree.bounds(), around_all(&boxes));
-        for recipe in recipes {
-            let volume = volume(&recipe, &boxes);
+        for shapes in all_shapes {
+            let volume = volume(&shapes, &boxes);
             prop_assert_eq!(query(&tree, &volume), test_each(&boxes, &volume));
         }
     }
 
     #[test]
     fn a_query_finds_what_testing_each_box_finds_after_a_refit(
-        mut boxes in boxes(1..100), others in boxes(1..100), recipes in prop::collection::vec(recipe(), 4),
+        mut boxes in boxes(1..100), others in boxes(1..100), all_shapes in prop::collection::vec(shapes(), 4),
     ) {
         let mut tree = CullTree::new(&boxes);
         let changed: Vec<(u32, Aabb)> = (0u32..).step_by(3).zip(others).collect();
@@ -51,9 +50,9 @@ proptest! {
             }
         }
         prop_assert_eq!(tree.bounds(), around_all(&boxes));
-        prop_assert!((0u32..).zip(&boxes).all(|(item, bounds)| tree.item_bounds(item) == within_space(bounds)));
-        for recipe in recipes {
-            let volume = volume(&recipe, &boxes);
+        prop_assert!((0u32..).zip(&boxes).all(|(item, bounds)| tree.item_bounds(item) == clip_to_space(bounds)));
+        for shapes in all_shapes {
+            let volume = volume(&shapes, &boxes);
             prop_assert_eq!(query(&tree, &volume), test_each(&boxes, &volume));
         }
     }
@@ -69,17 +68,17 @@ proptest! {
 
 #[test]
 fn a_query_agrees_where_many_boxes_lie_far_from_the_origin() {
-    let place = DVec3::new(1e7, -1e7, 1e7);
+    let center = DVec3::new(1e7, -1e7, 1e7);
     let boxes: Vec<Aabb> = (0..20_000u32)
         .map(|i| {
-            let at = place + DVec3::new(f64::from(i % 200), f64::from(i / 200), f64::from(i % 7)) / 3.0;
-            Aabb { min: at, max: at + DVec3::splat(f64::from(i % 5)) / 7.0 }
+            let min = center + DVec3::new(f64::from(i % 200), f64::from(i / 200), f64::from(i % 7)) / 3.0;
+            Aabb { min, max: min + DVec3::splat(f64::from(i % 5)) / 7.0 }
         })
         .collect();
     let tree = CullTree::new(&boxes);
-    for turn in 0..200 {
-        let (sin, cos) = (f64::from(turn) * 0.7).sin_cos();
-        let through = boxes[(turn * 97) as usize].max;
+    for i in 0..200 {
+        let (sin, cos) = (f64::from(i) * 0.7).sin_cos();
+        let through = boxes[(i * 97) as usize].max;
         let planes =
             vec![Plane::through(through, DVec3::new(sin, cos, 0.0)), Plane::through(through, DVec3::X)];
         let volume = CullVolume::from(ConvexVolume { planes });
@@ -96,13 +95,13 @@ fn a_tree_without_boxes_finds_nothing() {
 }
 
 #[test]
-fn boxes_all_alike_are_all_found() {
+fn identical_boxes_are_all_found() {
     let tree = CullTree::new(&vec![unit(3.0); 1000]);
     assert_eq!(query(&tree, &CullVolume::default()), (0..1000).collect::<Vec<_>>());
 }
 
 #[test]
-fn what_was_in_the_list_stays() {
+fn a_query_keeps_the_earlier_contents_of_the_list() {
     let tree = CullTree::new(&[unit(0.0), unit(5.0)]);
     let mut found = vec![9, 4];
     tree.query(&CullVolume::default(), &mut found);
@@ -110,7 +109,7 @@ fn what_was_in_the_list_stays() {
 }
 
 #[test]
-fn items_may_be_empty_and_come_back() {
+fn items_may_become_empty_and_return() {
     let mut tree = CullTree::new(&[unit(0.0), Aabb::EMPTY, unit(5.0)]);
     assert_eq!(query(&tree, &CullVolume::default()), [0, 2]);
     tree.refit([(1, unit(9.0)), (0, Aabb::EMPTY), (7, unit(99.0))]);
@@ -120,7 +119,7 @@ fn items_may_be_empty_and_come_back() {
 }
 
 #[test]
-fn threads_may_share_a_tree() {
+fn trees_and_volumes_are_send_and_sync() {
     fn shared<T: Send + Sync>() {}
     shared::<CullTree>();
     shared::<CullVolume>();

@@ -1,19 +1,19 @@
-//! Small glTF files made in code.
+//! Small glTF files built in code.
 
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use shadowgraph_scene::{Error, Scene, gltf};
 
-/// A file in its own folder, with `data.bin` beside it.
+/// A file in a temporary directory, with `data.bin` next to it.
 pub(crate) struct File {
-    pub(crate) folder: tempfile::TempDir,
+    pub(crate) directory: tempfile::TempDir,
     pub(crate) json: Value,
     pub(crate) bin: Vec<u8>,
 }
 
 impl File {
-    /// Makes a scene of one triangle with indices: (0,0,0), (1,0,0), (0,1,0).
+    /// Creates a scene of one indexed triangle: (0,0,0), (1,0,0), (0,1,0).
     pub(crate) fn triangle() -> Self {
         let mut file = Self::empty();
         let positions = file.view_f32(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
@@ -26,7 +26,7 @@ impl File {
         file
     }
 
-    /// Makes a file with nothing but a version and a buffer.
+    /// Creates a file with only a version and an empty buffer.
     pub(crate) fn empty() -> Self {
         let json = json!({
             "asset": {"version": "2.0"},
@@ -34,7 +34,7 @@ impl File {
             "bufferViews": [],
             "accessors": [],
         });
-        Self { folder: tempfile::tempdir().unwrap(), json, bin: Vec::new() }
+        Self { directory: tempfile::tempdir().unwrap(), json, bin: Vec::new() }
     }
 
     /// Adds bytes to the buffer, and returns the index of their view.
@@ -66,8 +66,8 @@ impl File {
 
     /// Writes the file and loads it.
     pub(crate) fn load(&self) -> Result<Scene, Error> {
-        let path = self.folder.path().join("scene.gltf");
-        std::fs::write(self.folder.path().join("data.bin"), &self.bin).unwrap();
+        let path = self.directory.path().join("scene.gltf");
+        std::fs::write(self.directory.path().join("data.bin"), &self.bin).unwrap();
         std::fs::write(&path, self.json.to_string()).unwrap();
         gltf::load(&path)
     }
@@ -80,15 +80,15 @@ impl File {
         json.resize(json.len().next_multiple_of(4), b' ');
         let mut bin = self.bin.clone();
         bin.resize(bin.len().next_multiple_of(4), 0);
-        let word = |value: usize| u32::try_from(value).unwrap().to_le_bytes();
-        let length = word(12 + 8 + json.len() + 8 + bin.len());
-        let header = [&b"glTF"[..], &word(2), &length, &word(json.len()), b"JSON"].concat();
-        [&header, &json[..], &word(bin.len()), b"BIN\0", &bin].concat()
+        let u32_bytes = |value: usize| u32::try_from(value).unwrap().to_le_bytes();
+        let length = u32_bytes(12 + 8 + json.len() + 8 + bin.len());
+        let header = [&b"glTF"[..], &u32_bytes(2), &length, &u32_bytes(json.len()), b"JSON"].concat();
+        [&header, &json[..], &u32_bytes(bin.len()), b"BIN\0", &bin].concat()
     }
 
     /// Writes other bytes as the scene file and loads them.
     pub(crate) fn load_bytes(&self, bytes: &[u8]) -> Result<Scene, Error> {
-        let path: PathBuf = self.folder.path().join("scene.glb");
+        let path: PathBuf = self.directory.path().join("scene.glb");
         std::fs::write(&path, bytes).unwrap();
         gltf::load(&path)
     }

@@ -1,4 +1,4 @@
-//! Loads every file of the shared folders of good and of hostile glTF files, where they are there.
+//! Loads every file of the shared directories of valid and of malformed glTF files, if they exist.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -8,22 +8,22 @@ use glam::Vec4;
 use shadowgraph_scene::Scene;
 use shadowgraph_scene::gltf;
 
-/// No file of these folders may take longer.
+/// The maximum time to load a file.
 const MAX_TIME: Duration = Duration::from_secs(10);
 
-/// Returns a folder of shared files, or says that the test is skipped.
-fn shared(folder: &str) -> Option<PathBuf> {
+/// Returns a directory of shared files, or logs that the test is skipped.
+fn shared(name: &str) -> Option<PathBuf> {
     let shared = std::env::var_os("SHADOWGRAPH_SHARED")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let path = shared.join(folder);
+    let path = shared.join(name);
     if path.is_dir() {
         return Some(path);
     }
-    skip(&folder.replace('-', "_"), &format!("no folder {folder} (SHADOWGRAPH_SHARED names where it is)"));
+    skip(&name.replace('-', "_"), &format!("no directory {name} in SHADOWGRAPH_SHARED"));
     None
 }
 
-/// As `CONTRIBUTING.md` has it.
+/// Logs a skipped test as `CONTRIBUTING.md` says.
 fn skip(id: &str, reason: &str) {
     let line = format!("SKIP {id}: {reason}\n");
     print!("{line}");
@@ -33,14 +33,14 @@ fn skip(id: &str, reason: &str) {
     }
 }
 
-fn files_below(folder: &Path) -> Vec<PathBuf> {
+fn files_below(directory: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
-    let mut open = vec![folder.to_owned()];
-    while let Some(folder) = open.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
+    let mut stack = vec![directory.to_owned()];
+    while let Some(directory) = stack.pop() {
+        for entry in std::fs::read_dir(directory).unwrap() {
             let path = entry.unwrap().path();
             match path.extension().and_then(|extension| extension.to_str()) {
-                _ if path.is_dir() => open.push(path),
+                _ if path.is_dir() => stack.push(path),
                 Some("gltf" | "glb") => found.push(path),
                 _ => {}
             }
@@ -50,7 +50,7 @@ fn files_below(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Checks what a renderer may rely on in any scene that was loaded.
+/// Asserts what a renderer may rely on in any loaded scene.
 fn check(scene: &Scene, file: &Path) {
     let file = file.display();
     for mesh in &scene.meshes {
@@ -90,9 +90,9 @@ fn check(scene: &Scene, file: &Path) {
 }
 
 #[test]
-fn every_good_scene_loads() {
-    let Some(folder) = shared("scenes") else { return };
-    let files = files_below(&folder);
+fn every_valid_scene_loads() {
+    let Some(directory) = shared("scenes") else { return };
+    let files = files_below(&directory);
     for file in &files {
         let start = Instant::now();
         let scene = gltf::load(file).unwrap();
@@ -114,9 +114,9 @@ fn every_good_scene_loads() {
 }
 
 #[test]
-fn every_hostile_file_loads_or_gives_one_line() {
-    let Some(folder) = shared("bad-gltf") else { return };
-    let files = files_below(&folder);
+fn every_malformed_file_loads_or_gives_one_line() {
+    let Some(directory) = shared("bad-gltf") else { return };
+    let files = files_below(&directory);
     for file in &files {
         let start = Instant::now();
         match gltf::load(file) {
@@ -127,7 +127,7 @@ fn every_hostile_file_loads_or_gives_one_line() {
             Err(error) => {
                 let line = error.to_string();
                 assert!(!line.contains('\n') && line.starts_with(&file.display().to_string()), "{line}");
-                println!("error: {}", line.trim_start_matches(&folder.display().to_string()));
+                println!("error: {}", line.trim_start_matches(&directory.display().to_string()));
             }
         }
         assert!(start.elapsed() < MAX_TIME, "{} took {:?}", file.display(), start.elapsed());
@@ -137,18 +137,18 @@ fn every_hostile_file_loads_or_gives_one_line() {
 
 #[test]
 fn computed_tangents_agree_with_those_of_a_file() {
-    let Some(folder) = shared("scenes") else { return };
-    let mut scene = gltf::load(&folder.join("FlightHelmet.glb")).unwrap();
+    let Some(directory) = shared("scenes") else { return };
+    let mut scene = gltf::load(&directory.join("FlightHelmet.glb")).unwrap();
     for instance in &scene.instances {
         let map = scene.materials[instance.material].normal_texture.unwrap();
         let mesh = &mut scene.meshes[instance.mesh];
-        let given: Vec<_> = mesh.vertices.iter().map(|vertex| Vec4::from(vertex.tangent)).collect();
+        let expected: Vec<_> = mesh.vertices.iter().map(|vertex| Vec4::from(vertex.tangent)).collect();
         mesh.generate_tangents(map.uv_set, &map.uv_transform);
-        let alike = mesh.vertices.iter().zip(&given).filter(|(vertex, given)| {
+        let matching = mesh.vertices.iter().zip(&expected).filter(|(vertex, expected)| {
             let computed = Vec4::from(vertex.tangent);
-            computed.w == given.w && computed.truncate().dot(given.truncate()) > 0.9
+            computed.w == expected.w && computed.truncate().dot(expected.truncate()) > 0.9
         });
-        let share = alike.count() as f64 / given.len() as f64;
-        assert!(share > 0.98, "{:?}: {share}", mesh.name);
+        let fraction = matching.count() as f64 / expected.len() as f64;
+        assert!(fraction > 0.98, "{:?}: {fraction}", mesh.name);
     }
 }

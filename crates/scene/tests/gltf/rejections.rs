@@ -1,48 +1,48 @@
-//! Hostile and broken glTF files: each gives one line that says what and where, and nothing else happens.
+//! Malformed glTF files: each gives one line that says what is wrong and where, without other effects.
 
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use serde_json::json;
 
-use crate::made::File;
-use crate::refused_values::textured;
+use crate::builder::File;
+use crate::rejected_values::textured;
 
-/// Checks that a file is refused with one line that has all of the words, and soon.
-pub(crate) fn refused(file: &File, words: &[&str]) {
+/// Asserts that loading fails quickly, with one line that contains all of these texts.
+pub(crate) fn assert_rejected(file: &File, texts: &[&str]) {
     let start = Instant::now();
-    let error = file.load().expect_err(words[0]).to_string();
+    let error = file.load().expect_err(texts[0]).to_string();
     assert!(start.elapsed() < Duration::from_secs(5), "{error}: {:?}", start.elapsed());
-    check(file, &error, words);
+    assert_error_line(file, &error, texts);
 }
 
-/// Checks that an error is one line that begins with the file and has all of the words.
-pub(crate) fn check(file: &File, error: &str, words: &[&str]) {
-    assert!(error.starts_with(&file.folder.path().display().to_string()), "no file in: {error}");
+/// Asserts that an error is one line that begins with the file and contains all of these texts.
+pub(crate) fn assert_error_line(file: &File, error: &str, texts: &[&str]) {
+    assert!(error.starts_with(&file.directory.path().display().to_string()), "no file in: {error}");
     assert!(!error.contains('\n'), "more than one line: {error}");
-    for word in words {
-        assert!(error.contains(word), "no {word:?} in: {error}");
+    for text in texts {
+        assert!(error.contains(text), "no {text:?} in: {error}");
     }
 }
 
 #[test]
-fn references_out_of_the_folder_are_refused() {
+fn references_out_of_the_directory_are_rejected() {
     for uri in ["../data.bin", "a/../../data.bin", "%2e%2e/data.bin", "/etc/hostname", "file:///etc/hostname"]
     {
         let mut file = File::triangle();
         file.json["buffers"][0]["uri"] = json!(uri);
-        refused(&file, &["buffer 0", "is refused"]);
+        assert_rejected(&file, &["buffer 0", "is rejected"]);
     }
     for uri in ["http://localhost/data.bin", "https://localhost/data.bin", "//localhost/data.bin", "ftp:x"] {
         let mut file = File::triangle();
         file.json["buffers"][0]["uri"] = json!(uri);
-        refused(&file, &["buffer 0", "is refused"]);
-        refused(&textured(uri), &["image 0", "is refused"]);
+        assert_rejected(&file, &["buffer 0", "is rejected"]);
+        assert_rejected(&textured(uri), &["image 0", "is rejected"]);
     }
 }
 
 #[test]
-fn cyclic_and_shared_nodes_are_refused() {
+fn cyclic_and_shared_nodes_are_rejected() {
     let with = |nodes, roots| {
         let mut file = File::triangle();
         file.json["nodes"] = nodes;
@@ -50,51 +50,51 @@ fn cyclic_and_shared_nodes_are_refused() {
         file
     };
     let cycle = json!([{"children": [1]}, {"children": [0]}, {}]);
-    refused(&with(cycle.clone(), json!([2])), &["node 0", "cycle"]);
-    refused(&with(cycle, json!([0])), &["node 0", "cycle"]);
-    refused(&with(json!([{"children": [0]}]), json!([0])), &["node 0", "cycle"]);
-    refused(
+    assert_rejected(&with(cycle.clone(), json!([2])), &["node 0", "cycle"]);
+    assert_rejected(&with(cycle, json!([0])), &["node 0", "cycle"]);
+    assert_rejected(&with(json!([{"children": [0]}]), json!([0])), &["node 0", "cycle"]);
+    assert_rejected(
         &with(json!([{"children": [2]}, {"children": [2]}, {}]), json!([0, 1])),
         &["node 2", "one parent"],
     );
-    refused(&with(json!([{"children": [1, 1]}, {}]), json!([0])), &["node 1", "one parent"]);
-    refused(&with(json!([{"children": [1]}, {}]), json!([0, 1])), &["scene 0", "root nodes"]);
-    refused(&with(json!([{}]), json!([0, 0])), &["scene 0", "twice"]);
-    refused(&with(json!([{"children": [7]}]), json!([0])), &["node 0", "child 7", "0 to 0"]);
+    assert_rejected(&with(json!([{"children": [1, 1]}, {}]), json!([0])), &["node 1", "one parent"]);
+    assert_rejected(&with(json!([{"children": [1]}, {}]), json!([0, 1])), &["scene 0", "root nodes"]);
+    assert_rejected(&with(json!([{}]), json!([0, 0])), &["scene 0", "twice"]);
+    assert_rejected(&with(json!([{"children": [7]}]), json!([0])), &["node 0", "child 7", "0 to 0"]);
 }
 
 #[test]
-fn positions_that_are_not_finite_are_refused() {
+fn positions_that_are_not_finite_are_rejected() {
     for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut file = File::triangle();
         file.bin[12..16].copy_from_slice(&value.to_le_bytes());
-        refused(&file, &["mesh 0 primitive 0 POSITION", "vertex 1", "not finite"]);
+        assert_rejected(&file, &["mesh 0 primitive 0 POSITION", "vertex 1", "not finite"]);
     }
 }
 
 #[test]
-fn transforms_that_are_not_finite_or_too_far_are_refused() {
+fn transforms_that_are_not_finite_or_too_far_are_rejected() {
     let with = |node| {
         let mut file = File::triangle();
         file.json["nodes"][0] = node;
         file
     };
-    refused(&with(json!({"mesh": 0, "translation": [1e39, 0, 0]})), &["node 0", "allowed"]);
-    refused(&with(json!({"mesh": 0, "scale": [1e20, 1, 1]})), &["node 0", "1e15"]);
-    refused(&with(json!({"mesh": 0, "rotation": [0, 0, 0, 0]})), &["node 0", "rotation"]);
+    assert_rejected(&with(json!({"mesh": 0, "translation": [1e39, 0, 0]})), &["node 0", "allowed"]);
+    assert_rejected(&with(json!({"mesh": 0, "scale": [1e20, 1, 1]})), &["node 0", "1e15"]);
+    assert_rejected(&with(json!({"mesh": 0, "rotation": [0, 0, 0, 0]})), &["node 0", "rotation"]);
     let projective = json!({"mesh": 0, "matrix": [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]});
-    refused(&with(projective), &["node 0", "last row"]);
+    assert_rejected(&with(projective), &["node 0", "last row"]);
     let mut file = with(json!({"mesh": 0, "scale": [1e14, 1, 1]}));
     file.bin[12..16].copy_from_slice(&1e3f32.to_le_bytes());
-    refused(&file, &["node 0", "1.000e17 m", "1e15 m"]);
+    assert_rejected(&file, &["node 0", "1.000e17 m", "1e15 m"]);
 }
 
 #[test]
-fn indices_out_of_range_are_refused() {
+fn indices_out_of_range_are_rejected() {
     for index in [3u16, 0xFFFF] {
         let mut file = File::triangle();
         file.bin[38..40].copy_from_slice(&index.to_le_bytes());
-        refused(
+        assert_rejected(
             &file,
             &["mesh 0 primitive 0 indices (accessor 1)", &format!("index {index} at 1"), "below 3"],
         );
@@ -102,45 +102,45 @@ fn indices_out_of_range_are_refused() {
 }
 
 #[test]
-fn truncated_files_are_refused() {
+fn truncated_files_are_rejected() {
     let file = File::triangle();
     let glb = file.glb();
     assert!(file.load_bytes(&glb).is_ok());
     for length in [0, 3, 11, 12, 19, 40, glb.len() - 40, glb.len() - 1] {
         let error = file.load_bytes(&glb[..length]).expect_err("truncated").to_string();
-        check(&file, &error, &[]);
+        assert_error_line(&file, &error, &[]);
     }
     let mut file = File::triangle();
     file.bin.truncate(20);
-    refused(&file, &["buffer 0", "byteLength is 44", "20 bytes"]);
+    assert_rejected(&file, &["buffer 0", "byteLength is 44", "20 bytes"]);
 }
 
 #[test]
-fn absurd_counts_are_refused_without_allocating_for_them() {
+fn absurd_counts_are_rejected_without_allocating_for_them() {
     for count in [5u64, 1000, u64::from(u32::MAX), u64::MAX / 12, u64::MAX] {
         for accessor in [0, 1] {
             let mut file = File::triangle();
             file.json["accessors"][accessor]["count"] = json!(count);
-            let place = ["POSITION (accessor 0)", "indices (accessor 1)"][accessor];
-            refused(&file, &["mesh 0 primitive 0", place, "elements"]);
+            let location = ["POSITION (accessor 0)", "indices (accessor 1)"][accessor];
+            assert_rejected(&file, &["mesh 0 primitive 0", location, "elements"]);
         }
     }
-    // Without a view there are no bytes that the count could be checked against.
+    // Without a view the count cannot be checked against a number of bytes.
     let mut file = File::triangle();
     file.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
     file.json["accessors"][0]["count"] = json!(4_000_000_000u64);
-    refused(&file, &["POSITION", "4000000000 elements"]);
+    assert_rejected(&file, &["POSITION", "4000000000 elements"]);
     let mut file = File::triangle();
     file.json["accessors"][0]["sparse"] = json!({
         "count": u64::MAX,
         "indices": {"bufferView": 1, "componentType": 5123},
         "values": {"bufferView": 0},
     });
-    refused(&file, &["POSITION", "sparse", "up to 3"]);
+    assert_rejected(&file, &["POSITION", "sparse", "up to 3"]);
 }
 
 #[test]
-fn views_and_accessors_beyond_their_bytes_are_refused() {
+fn views_and_accessors_beyond_their_bytes_are_rejected() {
     type Change = fn(&mut File);
     let changes: [(Change, &[&str]); 8] = [
         (
@@ -158,22 +158,22 @@ fn views_and_accessors_beyond_their_bytes_are_refused() {
         (|file| file.json["accessors"][1]["componentType"] = json!(5126), &["indices", "unsigned"]),
         (|file| file.json["accessors"][1]["componentType"] = json!(1), &["indices", "componentType"]),
     ];
-    for (change, words) in changes {
+    for (change, texts) in changes {
         let mut file = File::triangle();
         change(&mut file);
-        refused(&file, words);
+        assert_rejected(&file, texts);
     }
 }
 
 #[test]
-fn attributes_of_another_length_are_refused() {
+fn attributes_of_another_length_are_rejected() {
     let mut file = File::triangle();
     file.attribute("NORMAL", "VEC3", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
-    refused(&file, &["NORMAL (accessor 2)", "2 elements for 3 positions"]);
+    assert_rejected(&file, &["NORMAL (accessor 2)", "2 elements for 3 positions"]);
 }
 
 #[test]
-fn sparse_indices_out_of_range_are_refused() {
+fn sparse_indices_out_of_range_are_rejected() {
     let mut file = File::triangle();
     let indices = file.view(&[3]);
     let values = file.view_f32(&[0.0; 3]);
@@ -182,32 +182,32 @@ fn sparse_indices_out_of_range_are_refused() {
         "indices": {"bufferView": indices, "componentType": 5121},
         "values": {"bufferView": values},
     });
-    refused(&file, &["POSITION", "sparse: index 3", "below 3"]);
+    assert_rejected(&file, &["POSITION", "sparse: index 3", "below 3"]);
 }
 
 #[test]
-fn a_million_instances_are_the_most() {
+fn at_most_a_million_instances_are_allowed() {
     let mut file = File::triangle();
     let primitive = file.json["meshes"][0]["primitives"][0].clone();
     file.json["meshes"][0]["primitives"] = vec![primitive; 1001].into();
     file.json["nodes"] = vec![json!({"mesh": 0}); 1000].into();
     file.json["scenes"][0]["nodes"] = (0..1000).collect::<Vec<_>>().into();
-    refused(&file, &["nodes", "1001000 instances", "up to 1000000"]);
+    assert_rejected(&file, &["nodes", "1001000 instances", "up to 1000000"]);
 }
 
 #[test]
-fn meshes_that_repeat_the_same_bytes_count_in_full() {
+fn meshes_that_share_bytes_count_in_full() {
     let mut file = File::triangle();
     let view = file.view(&vec![0; 12 * 100_000]);
     let accessor = file.accessor(view, 5126, 100_000, "VEC3");
     file.json["accessors"][1]["count"] = json!(3);
     let primitive = json!({"attributes": {"POSITION": accessor}, "indices": 1});
     file.json["meshes"][0]["primitives"] = vec![primitive; 1000].into();
-    refused(&file, &["mesh 0 primitive 240", "100000 elements"]);
+    assert_rejected(&file, &["mesh 0 primitive 240", "100000 elements"]);
 }
 
-/// A GLB that uses most of what is read.
-fn rich() -> File {
+/// A file that uses most of the supported features.
+fn file_with_most_features() -> File {
     let mut file = File::triangle();
     file.attribute("NORMAL", "VEC3", &[0.0, 0.0, 1.0].repeat(3));
     file.attribute("TEXCOORD_0", "VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
@@ -232,13 +232,13 @@ proptest! {
     fn no_changed_byte_makes_the_import_panic(
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6), digits: bool,
     ) {
-        let file = rich();
+        let file = file_with_most_features();
         let mut glb = file.glb();
-        for (at, byte) in changes {
-            let at = at.index(glb.len());
-            // A digit for a digit keeps the JSON whole and changes what it says.
-            let digit = digits && glb[at].is_ascii_digit();
-            glb[at] = if digit { b'0' + byte % 10 } else { byte };
+        for (index, byte) in changes {
+            let index = index.index(glb.len());
+            // Replacing a digit by a digit keeps the JSON valid and changes a value.
+            let digit = digits && glb[index].is_ascii_digit();
+            glb[index] = if digit { b'0' + byte % 10 } else { byte };
         }
         if let Err(error) = file.load_bytes(&glb) {
             prop_assert!(!error.to_string().contains('\n'));
