@@ -222,7 +222,7 @@ fn in_process(seed: u32, share: u32) {
 /// On the device that draws nothing, the process's memory is ours and wgpu's: it stays. On a software driver, the device's memory
 /// comes back; that of the process is not looked at, as Mesa keeps the code of shaders whose pipelines are gone.
 #[test]
-fn ever_other_pipelines_sizes_techniques_and_lights_leave_no_memory_behind() {
+fn changing_pipelines_sizes_techniques_and_lights_leaks_no_memory() {
     let frames = asked("SHADOWGRAPH_SOAK", FRAMES);
     if frames > SHARE {
         return in_processes(frames);

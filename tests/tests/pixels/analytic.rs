@@ -212,7 +212,7 @@ fn the_outline_of_a_cubes_shadow_is_where_geometry_says_at_every_height_of_the_s
 }
 
 #[test]
-fn the_outline_stays_ten_kilometres_from_the_origin() {
+fn the_outline_is_exact_ten_kilometres_from_the_origin() {
     let Some(gpu) = gpu() else { return };
     let offset = DVec3::new(10_000.0, 0.0, -10_000.0);
     let direction = sun_direction(40.0, 60.0);
@@ -280,7 +280,7 @@ fn the_outline_of_a_spot_lights_shadow_is_where_geometry_says() {
 }
 
 #[test]
-fn the_visibility_is_full_where_there_is_no_caster_in_reach() {
+fn visibility_is_full_where_no_caster_is_in_range() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(sun(DVec3::new(0.2, -1.0, 0.1).normalize()));

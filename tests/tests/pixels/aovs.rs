@@ -37,13 +37,13 @@ fn visibility_has_no_alpha_where_nothing_is_drawn_or_the_surface_faces_away() {
 }
 
 #[test]
-fn normals_are_those_of_the_world() {
+fn normals_are_in_world_space() {
     let Some(picture) = cube_picture(Aov::Normal) else { return };
     assert_eq!(picture.pixel(TOP.0, TOP.1).unwrap()[..3], [128, 255, 128]);
 }
 
 #[test]
-fn depth_is_white_near_dark_far_and_black_where_nothing_is() {
+fn depth_is_white_near_dark_far_and_black_in_the_background() {
     let Some(picture) = cube_picture(Aov::Depth) else { return };
     let grey = |(x, y): (u32, u32)| picture.pixel(x, y).unwrap()[0];
     assert_eq!(grey(SKY), 0);
@@ -52,7 +52,7 @@ fn depth_is_white_near_dark_far_and_black_where_nothing_is() {
 }
 
 #[test]
-fn cascades_are_told_apart_by_colour() {
+fn each_cascade_has_its_own_colour() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
@@ -64,7 +64,7 @@ fn cascades_are_told_apart_by_colour() {
 }
 
 #[test]
-fn the_atlas_shows_both_maps_and_only_what_they_need_runs() {
+fn the_atlas_output_shows_both_maps_and_runs_only_their_passes() {
     let Some(gpu) = gpu() else { return };
     let scene = demo_scene();
     let options = view(scene.cameras[0].clone(), 60.0);
@@ -86,7 +86,7 @@ fn the_atlas_shows_both_maps_and_only_what_they_need_runs() {
 }
 
 #[test]
-fn any_texture_of_the_graph_can_be_shown_and_an_unknown_one_is_told_with_what_it_may_be() {
+fn any_texture_of_the_graph_can_be_shown_and_the_error_for_an_unknown_one_lists_them() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = cube();
     let lit = draw(gpu, scene, Aov::Texture("lit".into()), &options).picture;
@@ -103,7 +103,7 @@ fn any_texture_of_the_graph_can_be_shown_and_an_unknown_one_is_told_with_what_it
 }
 
 #[test]
-fn a_texture_of_whole_numbers_is_refused_and_one_of_a_single_channel_is_grey() {
+fn integer_textures_are_refused_and_single_channel_textures_are_grey() {
     let Some(gpu) = gpu() else { return };
     let draw = |name: &str, pipeline: Pipeline| {
         let (scene, options) = cube();
@@ -122,7 +122,7 @@ fn a_texture_of_whole_numbers_is_refused_and_one_of_a_single_channel_is_grey() {
 }
 
 #[test]
-fn the_visibility_of_a_light_that_is_not_there_is_an_error() {
+fn the_visibility_of_a_missing_light_is_an_error() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = cube();
     let error = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(3)).err().unwrap().to_string();
@@ -130,7 +130,7 @@ fn the_visibility_of_a_light_that_is_not_there_is_an_error() {
 }
 
 #[test]
-fn two_draws_of_one_view_are_the_same_and_so_are_their_plans() {
+fn rendering_a_view_twice_gives_equal_images_and_plans() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = cube();
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color).unwrap();
@@ -140,7 +140,7 @@ fn two_draws_of_one_view_are_the_same_and_so_are_their_plans() {
 }
 
 #[test]
-fn the_shadows_end_by_a_fade_and_not_by_an_edge() {
+fn shadows_fade_out_at_the_shadow_distance() {
     let Some(gpu) = gpu() else { return };
     // A roof over everything: the floor is dark up to the shadow distance, then light.
     let mut scene = cube_on_floor(DVec3::ZERO);
@@ -165,7 +165,7 @@ fn the_shadows_end_by_a_fade_and_not_by_an_edge() {
 }
 
 #[test]
-fn the_automatic_shadow_distance_reaches_what_is_seen() {
+fn the_automatic_shadow_distance_covers_the_visible_scene() {
     let (scene, options) = cube();
     let distance = options.with_shadow_distance(ShadowDistance::Auto, &scene).shadows.distance_m;
     // The far corner of the floor is some 32 m from the camera.

@@ -21,7 +21,7 @@ fn inspect(technique: &str) -> Option<(Inspected, shadowgraph::Drawn)> {
 }
 
 #[test]
-fn a_captured_frame_has_the_plan_and_the_pixels_of_the_frame_itself() {
+fn a_captured_frame_has_the_plan_and_the_pixels_of_an_uncaptured_frame() {
     for technique in ["pcf", "evsm", "sdsm", "pcf+contact"] {
         let Some((inspected, drawn)) = inspect(technique) else { return };
         assert_eq!(inspected.drawn.plan, drawn.plan, "{technique}");
@@ -37,7 +37,7 @@ fn a_captured_frame_has_the_plan_and_the_pixels_of_the_frame_itself() {
 }
 
 #[test]
-fn the_page_tells_where_every_shadow_map_looks() {
+fn the_page_outlines_the_frustum_of_every_shadow_map() {
     let Some((inspected, _)) = inspect("sdsm") else { return };
     assert_eq!(inspected.lights.len(), demo_scene().lights.len());
     let scene = demo_scene();

@@ -51,7 +51,7 @@ fn visibility(scene: Scene, at: DVec3) -> Option<u8> {
 }
 
 #[test]
-fn an_alpha_cut_sheet_casts_the_shadow_of_what_is_left() {
+fn an_alpha_masked_sheet_casts_the_shadow_of_its_opaque_part() {
     let (hole, rest) = (DVec3::new(-0.6, 0.0, 0.3), DVec3::new(0.6, 0.0, 0.3));
     let mask = AlphaMode::Mask { cutoff: 0.5 };
     let Some(through) = visibility(half_cut_sheet(mask), hole) else { return };
@@ -74,7 +74,7 @@ fn a_blended_sheet_casts_the_shadow_of_its_opaque_part() {
 }
 
 #[test]
-fn a_wall_without_a_back_casts_a_shadow_to_both_sides() {
+fn a_single_sided_wall_casts_shadows_on_both_sides() {
     let mut scene = half_cut_sheet(AlphaMode::Opaque);
     // Upside down: the sun sees only its back.
     scene.instances[1].world_from_local.matrix3 = glam::DMat3::from_rotation_x(std::f64::consts::PI);
@@ -92,7 +92,7 @@ fn a_caster_far_above_the_view_keeps_its_shadow() {
 }
 
 #[test]
-fn clamping_in_the_fragment_shader_draws_the_map_that_the_hardware_draws() {
+fn depth_clamp_in_the_fragment_shader_gives_the_map_of_the_hardware_clamp() {
     let Some(gpu) = gpu() else { return };
     let clips = shadowgraph::wgpu::Features::DEPTH_CLIP_CONTROL;
     if !gpu.device.features().contains(clips) {

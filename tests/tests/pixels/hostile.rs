@@ -66,7 +66,7 @@ fn agree(drawn: &[Drawn]) {
 }
 
 #[test]
-fn no_lights_are_a_picture_without_shadow_maps() {
+fn a_scene_without_lights_renders_without_shadow_maps() {
     let Some(gpu) = gpu() else { return };
     let drawn = Ways::new(gpu).draw(gpu, &[], &options());
     assert!(drawn.iter().all(|drawn| drawn.unshadowed.is_empty()));
@@ -75,7 +75,7 @@ fn no_lights_are_a_picture_without_shadow_maps() {
 }
 
 #[test]
-fn lights_at_the_camera_have_their_shadows_behind_what_is_seen() {
+fn lights_at_the_camera_show_no_shadow() {
     let Some(gpu) = gpu() else { return };
     let at = eye().position_world();
     let point = light(LightKind::Point { position_world: at, range: Some(30.0) }, 2000.0);
@@ -90,7 +90,7 @@ fn lights_at_the_camera_have_their_shadows_behind_what_is_seen() {
 }
 
 #[test]
-fn seventeen_spots_share_the_atlas_or_the_last_of_even_tiles_is_reported() {
+fn seventeen_spot_lights_share_the_atlas_and_with_even_tiles_the_last_is_reported_as_unshadowed() {
     let Some(gpu) = gpu() else { return };
     let around = |i: u32| {
         let angle = f64::from(i) * std::f64::consts::TAU / 17.0;
@@ -110,7 +110,7 @@ fn seventeen_spots_share_the_atlas_or_the_last_of_even_tiles_is_reported() {
 }
 
 #[test]
-fn lights_that_are_no_lights_add_nothing() {
+fn invalid_lights_contribute_nothing() {
     let Some(gpu) = gpu() else { return };
     let good = sun(sun_direction(40.0, 60.0));
     let mut ways = Ways::new(gpu);
@@ -140,7 +140,7 @@ fn lights_that_are_no_lights_add_nothing() {
 }
 
 #[test]
-fn cameras_and_pictures_that_show_nothing_are_refused_by_name() {
+fn invalid_cameras_and_image_sizes_are_errors_that_name_the_field() {
     let Some(gpu) = gpu() else { return };
     let perspective = |near, far| Projection::Perspective { fov_y: 0.9, near, far: Some(far) };
     for technique in [PCF, RAYTRACED, NONE] {
@@ -167,7 +167,7 @@ fn cameras_and_pictures_that_show_nothing_are_refused_by_name() {
 }
 
 #[test]
-fn settings_out_of_range_are_refused_by_name_and_the_next_frame_is_drawn() {
+fn settings_out_of_range_are_errors_that_name_the_field_and_the_next_frame_renders() {
     let Some(gpu) = gpu() else { return };
     let scene = lit_by(vec![sun(DVec3::NEG_Y)]);
     let mut renderer = Renderer::new(gpu, scene, &eye(), Aov::Color).unwrap();

@@ -43,7 +43,7 @@ fn is_lost<T>(result: Result<T, Error>) -> bool {
 }
 
 #[test]
-fn a_device_lost_in_the_middle_of_a_frame_is_an_error_and_the_same_picture_is_drawn_on_another() {
+fn a_device_lost_during_a_frame_is_an_error_and_another_device_renders_the_same_image() {
     let Some(known) = gpu() else { return };
     let scene = demo_scene();
     let camera = scene.cameras[0].clone();

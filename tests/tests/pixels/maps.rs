@@ -62,7 +62,7 @@ pub(crate) fn draw_map(
 }
 
 #[test]
-fn no_caster_in_reach_means_no_pass_and_a_map_of_one_lit_texel() {
+fn without_a_caster_in_range_there_is_no_pass_and_a_map_of_one_lit_texel() {
     let Some(gpu) = gpu() else { return };
     let scene = shadowgraph::scene::Scene::default();
     let camera = crate::stage::camera(glam::DVec3::Z, glam::DVec3::ZERO);

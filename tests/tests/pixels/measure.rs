@@ -32,7 +32,7 @@ fn with_bias(bias: BiasSettings) -> ShadowSettings {
 }
 
 #[test]
-fn the_shadow_of_a_cube_is_nearly_the_true_one() {
+fn the_shadow_of_a_cube_is_close_to_ground_truth() {
     let Some(errors) = measured("cube", ShadowSettings::default()) else { return };
     let (outside, total) = (errors.misclassified.outside, errors.misclassified.total);
     assert!(total.receivers > 30_000, "{total:?}");
@@ -43,7 +43,7 @@ fn the_shadow_of_a_cube_is_nearly_the_true_one() {
 }
 
 #[test]
-fn without_bias_acne_is_seen() {
+fn acne_is_measured_without_bias() {
     let bias = BiasSettings {
         normal_texels: 0.0,
         slope: 0.0,
@@ -61,7 +61,7 @@ fn without_bias_acne_is_seen() {
 }
 
 #[test]
-fn a_large_bias_is_seen_as_detachment_and_lost_contacts() {
+fn a_large_bias_is_measured_as_peter_panning_and_missing_contacts() {
     let bias = BiasSettings { depth_texels: 16.0, normal_texels: 4.0, ..BiasSettings::default() };
     let coarse = |bias| {
         let mut settings = with_bias(bias);
@@ -100,7 +100,7 @@ fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<
 }
 
 #[test]
-fn texels_that_slide_under_a_scene_are_seen_as_flicker_and_fixed_ones_are_not() {
+fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not() {
     let Some(gpu) = gpu() else { return };
     // Texels lie fixed in the world. Moving the scene over them is what a camera does whose cascades follow it without
     // snapping to whole texels.
@@ -125,7 +125,7 @@ fn texels_that_slide_under_a_scene_are_seen_as_flicker_and_fixed_ones_are_not() 
 }
 
 #[test]
-fn cascades_that_differ_are_seen_at_their_seam() {
+fn cascades_of_different_resolution_are_measured_at_their_seam() {
     let Some(gpu) = gpu() else { return };
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();

@@ -44,7 +44,7 @@ fn scenes() -> Option<Vec<PathBuf>> {
 }
 
 #[test]
-fn shadows_of_real_scenes_are_the_same_by_forward_forward_plus_and_deferred() {
+fn forward_forward_plus_and_deferred_give_real_scenes_the_same_shadows() {
     let Some(gpu) = gpu() else { return };
     let Some(files) = scenes() else { return };
     for file in files {
@@ -62,7 +62,7 @@ fn shadows_of_real_scenes_are_the_same_by_forward_forward_plus_and_deferred() {
 }
 
 #[test]
-fn every_built_in_pipeline_draws_the_demo_scene_alike_in_colour() {
+fn every_built_in_pipeline_renders_the_demo_scene_in_the_same_colours() {
     let Some(gpu) = gpu() else { return };
     let scene = demo_scene();
     let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [320, 180]);
@@ -78,7 +78,7 @@ fn every_built_in_pipeline_draws_the_demo_scene_alike_in_colour() {
 }
 
 #[test]
-fn what_is_not_fed_has_a_stand_in() {
+fn an_unconnected_optional_input_gets_a_placeholder() {
     let Some(gpu) = gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("plain.ron");
@@ -94,7 +94,7 @@ fn what_is_not_fed_has_a_stand_in() {
 }
 
 #[test]
-fn files_and_scripts_give_equal_pictures() {
+fn files_and_scripts_give_equal_images() {
     let Some(gpu) = gpu() else { return };
     let scene = demo_scene();
     for script in Pipeline::scripts() {

@@ -79,7 +79,7 @@ fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
 }
 
 #[test]
-fn render_draws_as_many_frames_as_it_is_asked_for_and_writes_the_last() {
+fn render_writes_the_last_of_the_requested_frames() {
     let Some(_gpu) = gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let picture = |frames: &str, taa: &str| {
@@ -106,7 +106,7 @@ fn render_draws_as_many_frames_as_it_is_asked_for_and_writes_the_last() {
 }
 
 #[test]
-fn bloom_spreads_light_and_keeps_how_much_there_is() {
+fn bloom_spreads_light_and_conserves_energy() {
     let Some(gpu) = gpu() else { return };
     let bloom = |strength: f32| {
         let more = format!(
@@ -149,7 +149,7 @@ fn corners_are_occluded_and_open_ground_is_not() {
 }
 
 #[test]
-fn the_sky_is_brighter_at_the_horizon_and_behind_everything() {
+fn the_sky_is_brighter_at_the_horizon_and_only_in_the_background() {
     let Some(gpu) = gpu() else { return };
     let more = "(name: \"sky\", kind: \"sky\", inputs: {\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"}),
                 (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"sky\"})";
@@ -162,7 +162,7 @@ fn the_sky_is_brighter_at_the_horizon_and_behind_everything() {
 }
 
 #[test]
-fn fog_is_darker_where_shadows_fall_through_it() {
+fn fog_is_darker_inside_shadows() {
     let Some(gpu) = gpu() else { return };
     let fog = |technique: &str, settings: &str| {
         let more = format!(
@@ -192,7 +192,7 @@ fn fog_is_darker_where_shadows_fall_through_it() {
 }
 
 #[test]
-fn a_pyramid_of_depth_has_the_farthest_of_all_below() {
+fn each_level_of_the_depth_pyramid_has_the_farthest_depth_below_it() {
     let Some(gpu) = gpu() else { return };
     let slope = FullscreenShader::wgsl(
         "slope",

@@ -79,7 +79,7 @@ fn assert_agree(name: &str, (unlike, asked): (usize, usize)) {
 }
 
 #[test]
-fn on_every_trial_the_gpu_sees_what_the_cpu_and_all_triangles_one_by_one_see() {
+fn in_every_test_scene_gpu_rays_match_cpu_rays_and_brute_force() {
     let Some(gpu) = gpu() else { return };
     for case in built_in_cases().unwrap().cases {
         let mut scene = trial(&case.name()).unwrap();
@@ -95,7 +95,7 @@ fn on_every_trial_the_gpu_sees_what_the_cpu_and_all_triangles_one_by_one_see() {
 }
 
 #[test]
-fn spot_and_point_lights_and_holes_are_the_same_on_both_sides() {
+fn gpu_and_cpu_rays_agree_for_spot_and_point_lights_and_alpha_masks() {
     let Some(gpu) = gpu() else { return };
     let scene = leaf_scene();
     let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
@@ -144,7 +144,7 @@ fn leaf_scene() -> Scene {
 }
 
 #[test]
-fn on_every_real_scene_the_gpu_sees_what_the_cpu_sees() {
+fn in_every_real_scene_gpu_rays_match_cpu_rays() {
     let Some(gpu) = gpu() else { return };
     let Some(folder) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(

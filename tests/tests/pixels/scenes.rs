@@ -6,7 +6,7 @@ use shadowgraph::{Renderer, ViewOptions};
 use std::collections::HashSet;
 
 #[test]
-fn every_shared_scene_is_drawn() {
+fn every_shared_scene_renders() {
     let Some(gpu) = gpu() else { return };
     let Some(folder) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(

@@ -37,7 +37,7 @@ fn ways() -> Vec<(String, Method)> {
 }
 
 #[test]
-fn every_way_to_make_shadows_draws_every_mix_of_lights_and_casters() {
+fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     let Some(gpu) = gpu() else { return };
     let mut sheet = Sheet::new();
     let mut truth = Vec::new();

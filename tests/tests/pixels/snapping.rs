@@ -54,7 +54,7 @@ fn compare(before: &Map, after: &Map, rect: TileRect, (dx, dy, dz): (i32, i32, f
 }
 
 #[test]
-fn sub_texel_camera_steps_shift_every_cascade_by_whole_texels_and_nothing_else() {
+fn sub_texel_camera_steps_only_shift_every_cascade_by_whole_texels() {
     let Some(gpu) = gpu() else { return };
     let technique = Pcf::new(&gpu.device);
     for offset in [DVec3::ZERO, DVec3::new(10_000.0, 0.0, 10_000.0)] {

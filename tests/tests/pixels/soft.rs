@@ -50,7 +50,7 @@ fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
 }
 
 #[test]
-fn under_a_sun_edges_are_as_wide_as_its_angle_makes_them() {
+fn penumbrae_of_a_sun_are_as_wide_as_its_angular_size_gives() {
     let Some(gpu) = gpu() else { return };
     let mut options = options();
     options.shadows.techniques.set(&PcssSettings { sun_radius_rad: 0.05, ..fine() }).unwrap();
@@ -63,7 +63,7 @@ fn under_a_sun_edges_are_as_wide_as_its_angle_makes_them() {
 }
 
 #[test]
-fn under_a_lamp_edges_widen_with_the_way_behind_what_casts_them() {
+fn penumbrae_of_a_spot_light_widen_with_the_distance_behind_the_occluder() {
     let Some(gpu) = gpu() else { return };
     let mut options = options();
     options.shadows.techniques.set(&PcssSettings { lamp_radius_m: 0.1, ..fine() }).unwrap();

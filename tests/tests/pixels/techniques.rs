@@ -41,7 +41,7 @@ fn demo() -> (Scene, ViewOptions) {
 }
 
 #[test]
-fn what_is_collected_is_what_each_pixel_asks_for_with_every_technique_of_maps() {
+fn screen_space_shadows_match_per_pixel_shadows_with_every_map_technique() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = demo();
     for kind in [PCF, PCSS, EVSM, MSM, SDSM] {
@@ -75,7 +75,7 @@ fn specks(greys: &[Option<u8>], truth: &[Option<u8>], width: usize) -> usize {
 }
 
 #[test]
-fn maps_of_moments_have_no_holes_and_no_bright_squares_in_any_form() {
+fn moment_maps_have_no_dark_or_bright_specks_in_any_format() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     // A second storey of shadows: light leaks where they overlap.
@@ -114,7 +114,7 @@ fn maps_of_moments_have_no_holes_and_no_bright_squares_in_any_form() {
 }
 
 #[test]
-fn contact_shadows_darken_what_maps_are_too_coarse_for() {
+fn contact_shadows_add_shadows_that_maps_are_too_coarse_for() {
     let Some(gpu) = gpu() else { return };
     // Pebbles of 3 cm, under maps of 10 cm texels.
     let mut scene = cube_on_floor(DVec3::new(0.0, 0.0, -3.0));
@@ -145,7 +145,7 @@ fn contact_shadows_darken_what_maps_are_too_coarse_for() {
 }
 
 #[test]
-fn cascades_fitted_to_what_is_seen_have_finer_texels() {
+fn cascades_fitted_to_the_visible_depths_have_finer_texels() {
     let Some(gpu) = gpu() else { return };
     let (scene, mut options) = demo();
     // All that is seen is about as far away.
@@ -172,7 +172,7 @@ fn fitted_cascades_have_every_caster_that_the_view_needs() {
 }
 
 #[test]
-fn the_denoise_takes_the_grain_out_of_wide_edges_and_leaves_hard_ones() {
+fn the_denoiser_removes_noise_from_penumbrae_and_keeps_hard_edges() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.meshes.push(box_mesh(DVec3::new(-1.5, 1.6, -1.0), DVec3::new(1.5, 1.7, 1.0)));

@@ -67,7 +67,7 @@ fn maps_and_rays_agree_on_the_colours_behind_stained_glass() {
 }
 
 #[test]
-fn every_technique_of_maps_colours_light_with_and_without_what_goes_on_top() {
+fn every_map_technique_tints_light_with_and_without_contact_shadows() {
     let Some(gpu) = gpu() else { return };
     let (scene, mut options) = lit_by(0);
     options.shadows.cascades.map_size_px = 2048;
@@ -89,7 +89,7 @@ fn every_technique_of_maps_colours_light_with_and_without_what_goes_on_top() {
 }
 
 #[test]
-fn what_casts_no_tint_is_no_longer_coloured() {
+fn materials_that_cast_no_tint_leave_light_uncoloured() {
     let Some(gpu) = gpu() else { return };
     let (mut scene, options) = lit_by(0);
     let pcf = Technique::from(PCF).collected();
@@ -101,7 +101,7 @@ fn what_casts_no_tint_is_no_longer_coloured() {
 }
 
 #[test]
-fn tints_that_are_kept_from_frame_to_frame_are_those_that_are_drawn_anew() {
+fn cached_tints_equal_tints_rendered_every_frame() {
     let Some(gpu) = gpu() else { return };
     let (scene, mut options) = lit_by(0);
     options.shadows.cascades.map_size_px = 1024;
@@ -129,7 +129,7 @@ fn tints_that_are_kept_from_frame_to_frame_are_those_that_are_drawn_anew() {
 }
 
 #[test]
-fn tints_before_the_near_plane_are_drawn_by_the_shader_as_by_the_hardware() {
+fn tints_in_front_of_the_near_plane_match_the_hardware_clamp() {
     let Some(gpu) = gpu() else { return };
     if !gpu.device.features().contains(shadowgraph::wgpu::Features::DEPTH_CLIP_CONTROL) {
         return shadowgraph_tests::skip(

@@ -13,7 +13,7 @@ const AT_A_TIME: usize = 2;
 const SIZE: (u32, u32) = (64, 36);
 
 #[test]
-fn every_malformed_file_is_drawn_or_refused_in_one_line() {
+fn every_malformed_file_renders_or_fails_with_one_line() {
     let Some(folder) = shared("bad-gltf") else {
         return skip(
             "bad_gltf",
@@ -68,8 +68,8 @@ fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
         wrong.push("it panicked".to_owned());
     }
     match outcome.code {
-        Some(0) => wrong.extend(what_is_wrong_with_the_picture(&picture, left, errors.len())),
-        Some(1) => wrong.extend(what_is_wrong_with_the_refusal(file, left, &errors)),
+        Some(0) => wrong.extend(image_error(&picture, left, errors.len())),
+        Some(1) => wrong.extend(error_message_error(file, left, &errors)),
         code => wrong.push(format!("it ended with code {code:?}")),
     }
     if wrong.is_empty() {
@@ -79,7 +79,7 @@ fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
     }
 }
 
-fn what_is_wrong_with_the_picture(picture: &Path, files: usize, errors: usize) -> Option<String> {
+fn image_error(picture: &Path, files: usize, errors: usize) -> Option<String> {
     let size = image::image_dimensions(picture);
     if size.as_ref().ok() != Some(&SIZE) || image::open(picture).is_err() {
         Some(format!("it succeeded, but its picture is {size:?}"))
@@ -90,7 +90,7 @@ fn what_is_wrong_with_the_picture(picture: &Path, files: usize, errors: usize) -
     }
 }
 
-fn what_is_wrong_with_the_refusal(file: &Path, files: usize, errors: &[&str]) -> Option<String> {
+fn error_message_error(file: &Path, files: usize, errors: &[&str]) -> Option<String> {
     let name = file.file_name().unwrap().to_string_lossy();
     if files > 0 {
         Some(format!("it was refused, but {files} files were left"))

@@ -59,7 +59,7 @@ fn pixel(picture: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {
 }
 
 #[test]
-fn every_small_example_runs_and_writes_its_picture() {
+fn every_small_example_runs_and_writes_its_image() {
     if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
         return skip("examples", "no graphics driver is installed");
     }
@@ -111,7 +111,7 @@ fn every_small_example_runs_and_writes_its_picture() {
 }
 
 #[test]
-fn custom_pipeline_gives_equal_plans_and_pictures_from_a_file_and_from_a_script() {
+fn custom_pipeline_gives_equal_plans_and_images_from_a_file_and_from_a_script() {
     if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
         return skip("pipelines", "no graphics driver is installed");
     }
@@ -136,7 +136,7 @@ fn custom_pipeline_gives_equal_plans_and_pictures_from_a_file_and_from_a_script(
 }
 
 #[test]
-fn custom_draws_into_the_canvas_of_the_application_and_prints_the_plan() {
+fn custom_renders_into_the_texture_of_the_application_and_prints_the_plan() {
     let folder = tempfile::tempdir().unwrap();
     let outcome = run(Command::new(example("custom")).current_dir(folder.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
@@ -165,7 +165,7 @@ fn custom_draws_into_the_canvas_of_the_application_and_prints_the_plan() {
 }
 
 #[test]
-fn every_example_that_draws_does_so_in_a_window_too() {
+fn every_example_that_renders_also_opens_a_window() {
     if !on_path("xvfb-run") {
         return skip("examples_window", "xvfb-run is not installed");
     }
@@ -210,7 +210,7 @@ fn examples_stay_short() {
 }
 
 #[test]
-fn an_engine_of_ones_own_gets_shadows_on_its_own_boxes() {
+fn a_custom_engine_gets_shadows_on_its_boxes() {
     let folder = tempfile::tempdir().unwrap();
     let outcome = run(Command::new(example("custom_engine")).current_dir(folder.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
@@ -239,7 +239,7 @@ fn stained_glass_colours_the_floor_by_maps_and_by_rays() {
 }
 
 #[test]
-fn a_strangers_technique_is_drawn_measured_and_dumped() {
+fn a_third_party_technique_is_rendered_measured_and_dumped() {
     let folder = tempfile::tempdir().unwrap();
     let program = |arguments: &[&str]| {
         run(Command::new(example("custom_technique")).args(arguments).current_dir(folder.path()))

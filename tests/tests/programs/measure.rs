@@ -45,7 +45,7 @@ fn the_quick_set_is_within_the_stored_bounds() {
 }
 
 #[test]
-fn a_folder_gets_a_page_with_pictures_and_a_report_that_reads_back() {
+fn the_output_directory_gets_a_page_with_images_and_a_report() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, out) = (small_case(folder.path()), folder.path().join("new/out"));
     let arguments = ["--quick", "--size", "160x90", "--techniques", "pcf,none", "--cases", &cases, "-o"];
@@ -72,7 +72,7 @@ fn a_folder_gets_a_page_with_pictures_and_a_report_that_reads_back() {
 }
 
 #[test]
-fn edges_of_pcss_and_of_several_rays_are_nearer_to_soft_truth_than_those_of_pcf() {
+fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_of_pcf() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, out) = (folder.path().join("cases.ron"), folder.path().join("out"));
     let columns = r#"(cases: [(
@@ -92,7 +92,7 @@ fn edges_of_pcss_and_of_several_rays_are_nearer_to_soft_truth_than_those_of_pcf(
 }
 
 #[test]
-fn variants_of_settings_are_measured_beside_the_own_ones() {
+fn variants_of_settings_are_measured_next_to_the_base_settings() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, variants) = (small_case(folder.path()), folder.path().join("variants.ron"));
     let text_of_variants = r#"(variants: [
@@ -118,7 +118,7 @@ fn variants_of_settings_are_measured_beside_the_own_ones() {
 }
 
 #[test]
-fn what_is_worse_than_its_bound_is_named_and_ends_with_1() {
+fn a_result_beyond_its_bound_is_named_and_the_exit_code_is_1() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, bounds) = (small_case(folder.path()), folder.path().join("bounds.ron"));
     let lines =
@@ -134,7 +134,7 @@ fn what_is_worse_than_its_bound_is_named_and_ends_with_1() {
 }
 
 #[test]
-fn wrong_input_is_told_in_one_line_before_anything_is_drawn() {
+fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {
         let file = folder.path().join(name);

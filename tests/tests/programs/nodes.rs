@@ -3,7 +3,7 @@
 use std::process::Command;
 
 #[test]
-fn row_36_nodes_prints_the_numbers_of_shader_permutations() {
+fn row_36_nodes_prints_the_numbers_of_shader_variants() {
     let output = Command::new(shadowgraph_tests::program().unwrap()).arg("nodes").output().unwrap();
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
@@ -26,7 +26,7 @@ fn told(arguments: &[&str]) -> (Option<i32>, String, String) {
 }
 
 #[test]
-fn nodes_tells_all_about_a_node_a_pipeline_a_technique_and_the_shared_settings() {
+fn nodes_describes_a_node_a_pipeline_a_technique_and_the_shared_settings() {
     let (code, text, _) = told(&["bloom"]);
     assert!(
         code == Some(0) && text.contains("set    strength           0.06; a number from 0 to 1"),

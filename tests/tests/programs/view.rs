@@ -260,7 +260,7 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
 }
 
 #[test]
-fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
+fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
     let Some(display) = Display::open() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("tonemap.wgsl");
@@ -283,7 +283,7 @@ fn a_mistake_in_a_saved_shader_is_told_and_the_last_good_picture_stays() {
 }
 
 #[test]
-fn a_saved_settings_file_is_read_again_and_a_mistake_in_it_is_told() {
+fn a_saved_settings_file_is_reloaded_and_an_error_in_it_is_shown() {
     let Some(display) = Display::open() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("settings.ron");
@@ -305,7 +305,7 @@ fn a_saved_settings_file_is_read_again_and_a_mistake_in_it_is_told() {
 }
 
 #[test]
-fn without_a_display_it_says_so_in_one_line() {
+fn without_a_display_view_fails_with_one_line() {
     let output = Command::new(program().unwrap())
         .arg("view")
         .env_remove("DISPLAY")

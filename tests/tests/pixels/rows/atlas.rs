@@ -9,7 +9,7 @@ use shadowgraph::shadows::{DepthFormat, LightShadows, PCF, Pcf, ShadowFilter};
 use shadowgraph::{Renderer, SceneCasters};
 
 #[test]
-fn row_02_casters_before_the_near_plane_are_kept() {
+fn row_02_casters_in_front_of_the_near_plane_are_kept() {
     let Some(gpu) = gpu() else { return };
     let scene = cube_under_spot();
     // The near plane is behind the cube.
@@ -33,7 +33,7 @@ fn row_02_casters_before_the_near_plane_are_kept() {
 }
 
 #[test]
-fn row_04_maps_come_in_all_sizes_and_depths() {
+fn row_04_maps_have_any_allowed_size_and_depth_format() {
     let Some(gpu) = gpu() else { return };
     let scene = cube_under_spot();
     let wrong = |map_size_px, depth| {
@@ -57,7 +57,7 @@ fn row_04_maps_come_in_all_sizes_and_depths() {
 }
 
 #[test]
-fn row_05_a_light_has_a_strength_a_filter_and_biases_of_its_own() {
+fn row_05_each_light_has_its_own_strength_filter_and_biases() {
     let Some(gpu) = gpu() else { return };
     let scene = cube_under_spot();
     // Coarse enough that a texel's bias is seen.
@@ -97,7 +97,7 @@ fn row_05_a_light_has_a_strength_a_filter_and_biases_of_its_own() {
 }
 
 #[test]
-fn row_05_a_light_can_be_named_and_a_name_that_is_not_there_is_an_error() {
+fn row_05_settings_can_name_a_light_and_an_unknown_name_is_an_error() {
     let mut scene = cube_under_spot();
     scene.lights[0].name = Some("lamp".into());
     let own = |name: &str| LightShadows { strength: 0.25, ..LightShadows::new(name.into()) };
@@ -111,7 +111,7 @@ fn row_05_a_light_can_be_named_and_a_name_that_is_not_there_is_an_error() {
 }
 
 #[test]
-fn row_08_nothing_is_read_from_the_tile_beside() {
+fn row_08_nothing_is_read_from_a_neighbouring_tile() {
     let Some(gpu) = gpu() else { return };
     let alone = {
         let mut scene = cube_under_spot();
@@ -135,7 +135,7 @@ fn row_08_nothing_is_read_from_the_tile_beside() {
 }
 
 #[test]
-fn row_09_many_directional_lights_cast_shadows_beside_spots() {
+fn row_09_several_directional_lights_cast_shadows_next_to_spot_lights() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     for (azimuth, intensity) in [(0.0, 500.0), (120.0, 2000.0), (240.0, 1000.0)] {
@@ -155,7 +155,7 @@ fn row_09_many_directional_lights_cast_shadows_beside_spots() {
 }
 
 #[test]
-fn row_10_the_same_cut_for_every_kind_of_light() {
+fn row_10_the_shadow_distance_applies_to_every_kind_of_light() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_under_spot();
     scene.lights.insert(0, sun(sun_direction(40.0, 250.0)));
@@ -189,7 +189,7 @@ fn row_17_without_shadows_maps_are_one_texel() {
 }
 
 #[test]
-fn row_11_what_is_drawn_for_one_light_stays_in_its_tile() {
+fn row_11_casters_of_one_light_render_only_into_its_tile() {
     let Some(gpu) = gpu() else { return };
     let map = |wall: bool| {
         let mut scene = cube_under_spot();

@@ -62,7 +62,7 @@ fn row_19_normal_bias_is_a_texels_diagonal_times_the_filters_radius_and_one() {
 }
 
 #[test]
-fn row_31_each_cascade_has_a_bias_of_its_own() {
+fn row_31_each_cascade_has_its_own_bias() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
     scene.add_light(sun(sun_direction(35.0, 60.0)));
@@ -98,7 +98,7 @@ fn row_31_a_bias_that_follows_the_maps_gradient_removes_acne() {
 }
 
 #[test]
-fn row_20_a_near_offset_keeps_the_depths_of_high_casters_apart() {
+fn row_20_a_near_offset_extends_the_depth_range_towards_the_light() {
     let Some(gpu) = gpu() else { return };
     let mut scene = low_sun();
     let direction = sun_direction(60.0, 130.0);

@@ -19,7 +19,7 @@ fn time_ms(scene: &Scene, options: &ViewOptions) -> f64 {
 }
 
 #[test]
-fn row_28_a_controller_keeps_shadows_within_a_budget_of_time() {
+fn row_28_a_controller_keeps_shadows_within_a_time_budget() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
     scene.add_light(sun(sun_direction(35.0, 60.0)));
@@ -46,7 +46,7 @@ fn row_28_a_controller_keeps_shadows_within_a_budget_of_time() {
 }
 
 #[test]
-fn row_28_the_time_of_the_shadow_passes_is_told() {
+fn row_28_the_time_of_the_shadow_passes_is_reported() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(2);
     scene.add_light(sun(sun_direction(35.0, 60.0)));

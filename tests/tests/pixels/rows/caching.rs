@@ -43,7 +43,7 @@ fn draw(renderer: &mut Renderer, options: &ViewOptions) -> (Greys, Vec<String>) 
 }
 
 #[test]
-fn row_41_cached_maps_give_the_picture_that_maps_drawn_anew_give() {
+fn row_41_cached_maps_give_the_image_of_maps_rendered_every_frame() {
     let Some(gpu) = gpu() else { return };
     for shown in 0..3 {
         let make = || Renderer::new(gpu, scene(), &view(0.0, true).camera, Aov::Visibility(shown)).unwrap();
@@ -88,7 +88,7 @@ fn row_41_cached_maps_give_the_picture_that_maps_drawn_anew_give() {
 }
 
 #[test]
-fn row_41_a_frame_that_was_only_planned_has_drawn_nothing() {
+fn row_41_a_frame_that_was_only_planned_caches_nothing() {
     let Some(gpu) = gpu() else { return };
     let options = view(0.0, true);
     let mut renderer = Renderer::new(gpu, scene(), &options.camera, Aov::Visibility(1)).unwrap();

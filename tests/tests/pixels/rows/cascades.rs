@@ -37,7 +37,7 @@ fn row_12_none_one_two_three_and_four_cascades() {
 }
 
 #[test]
-fn row_12_outside_all_spheres_is_lit() {
+fn row_12_points_outside_all_cascade_spheres_are_lit() {
     let Some(gpu) = gpu() else { return };
     let scene = pillars_in_sun();
     // The slices end at 12 m: what is beyond the last sphere has no shadow, though shadows reach to 60 m.
@@ -101,7 +101,7 @@ fn suns(number: u32) -> Vec<Light> {
 }
 
 #[test]
-fn row_13_the_cascades_of_the_light_that_matters_most_are_shown() {
+fn row_13_the_cascades_of_the_most_important_light_are_shown() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars_in_sun();
     // Brighter, but from straight above.

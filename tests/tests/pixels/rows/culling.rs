@@ -76,7 +76,7 @@ fn casters(plan: &ShadowPlan) -> usize {
 }
 
 #[test]
-fn row_23_and_33_leaving_casters_out_changes_no_pixel() {
+fn row_23_and_33_culling_casters_changes_no_pixel() {
     let Some(gpu) = gpu() else { return };
     let (mut drawn, mut kept) = (0, 0);
     for seed in 0..18 {
@@ -100,7 +100,7 @@ fn row_23_and_33_leaving_casters_out_changes_no_pixel() {
 }
 
 #[test]
-fn row_23_casters_that_finer_cascades_serve_are_left_out_of_coarser_ones() {
+fn row_23_casters_covered_by_finer_cascades_are_culled_from_coarser_ones() {
     let mut scene = pillars(40);
     scene.add_light(sun(crate::stage::sun_direction(60.0, 60.0)));
     let with = |unseen, covered| {
@@ -115,7 +115,7 @@ fn row_23_casters_that_finer_cascades_serve_are_left_out_of_coarser_ones() {
 }
 
 #[test]
-fn row_33_a_cascade_that_nobody_needs_costs_nothing() {
+fn row_33_a_cascade_without_receivers_has_no_pass() {
     let mut scene = pillars(3);
     scene.add_light(sun(crate::stage::sun_direction(60.0, 60.0)));
     scene.instances.remove(0);

@@ -25,7 +25,7 @@ fn row_06_the_shader_is_compiled_for_the_filters_of_the_frame() {
 }
 
 #[test]
-fn row_14_cascades_and_atlas_have_filters_of_their_own() {
+fn row_14_cascades_and_atlas_have_separate_filters() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_under_spot();
     scene.lights.insert(0, sun(sun_direction(40.0, 30.0)));

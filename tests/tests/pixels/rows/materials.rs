@@ -53,7 +53,7 @@ fn row_24_casters_are_solid_clipped_dithered_or_none() {
 }
 
 #[test]
-fn row_24_dithered_shadows_stand_still_when_the_camera_moves() {
+fn row_24_dithered_shadows_are_stable_when_the_camera_moves() {
     let Some(gpu) = gpu() else { return };
     let scene = sheet(|sheet| sheet.casts = Some(CasterMode::Dither));
     // Few texels that are hard to overlook.
@@ -82,7 +82,7 @@ fn row_24_dithered_shadows_stand_still_when_the_camera_moves() {
 }
 
 #[test]
-fn row_24_what_casts_no_shadow_needs_no_map() {
+fn row_24_a_scene_without_casters_has_no_map() {
     let options = cube_view(|_| ());
     let casters = |mode| {
         let mut scene = sheet(|sheet| sheet.casts = mode);
@@ -93,7 +93,7 @@ fn row_24_what_casts_no_shadow_needs_no_map() {
 }
 
 #[test]
-fn row_24_unlit_materials_cast_and_others_may_receive_nothing() {
+fn row_24_unlit_materials_cast_shadows_and_receiving_can_be_disabled() {
     let Some(unlit) = shadows(&sheet(|sheet| (sheet.unlit, sheet.alpha) = (true, AlphaMode::Opaque))) else {
         return;
     };
@@ -104,7 +104,7 @@ fn row_24_unlit_materials_cast_and_others_may_receive_nothing() {
 }
 
 #[test]
-fn row_24_rays_see_casters_as_maps_do() {
+fn row_24_rays_and_maps_agree_on_caster_modes() {
     let Some(gpu) = gpu() else { return };
     for mode in [CasterMode::On, CasterMode::Clip, CasterMode::Off] {
         let scene = sheet(|sheet| sheet.casts = Some(mode));

@@ -114,7 +114,7 @@ fn covered(map: &Map) -> Vec<bool> {
 }
 
 #[test]
-fn row_39_casters_move_their_own_vertices_and_draw_instances() {
+fn row_39_custom_casters_animate_vertices_and_draw_instances() {
     let Some(gpu) = gpu() else { return };
     let (still, swayed) = (Reeds::new(&gpu.device, 0.0), Reeds::new(&gpu.device, 0.8));
     let (still, swayed) = (covered(&map(&still).unwrap()), covered(&map(&swayed).unwrap()));
@@ -125,7 +125,7 @@ fn row_39_casters_move_their_own_vertices_and_draw_instances() {
 }
 
 #[test]
-fn row_39_each_tile_has_its_level_of_detail() {
+fn row_39_custom_casters_choose_a_level_of_detail_for_each_tile() {
     let Some(gpu) = gpu() else { return };
     let reeds = Reeds::new(&gpu.device, 0.4);
     map(&reeds);

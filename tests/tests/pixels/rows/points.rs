@@ -19,7 +19,7 @@ fn lamp_among_cubes() -> Scene {
 }
 
 #[test]
-fn row_37_point_lights_cast_shadows_to_all_sides() {
+fn row_37_point_lights_cast_shadows_in_all_directions() {
     let Some(gpu) = gpu() else { return };
     let scene = lamp_among_cubes();
     let mut options = cube_view(|_| ());

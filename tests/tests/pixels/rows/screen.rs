@@ -31,7 +31,7 @@ fn pillars_in_sun() -> Scene {
 }
 
 #[test]
-fn row_15_three_pipelines_draw_the_same_picture() {
+fn row_15_three_pipelines_render_the_same_image() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
     let [forward, screen, minimal] = [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()]
@@ -43,7 +43,7 @@ fn row_15_three_pipelines_draw_the_same_picture() {
 }
 
 #[test]
-fn row_29_shadows_collected_beforehand_are_those_that_each_pixel_asks_for() {
+fn row_29_screen_space_shadows_match_per_pixel_shadows() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
     for light in 0..2 {
@@ -56,7 +56,7 @@ fn row_29_shadows_collected_beforehand_are_those_that_each_pixel_asks_for() {
 }
 
 #[test]
-fn row_34_collecting_chooses_cascades_by_depth_without_branches() {
+fn row_34_screen_space_shadows_select_cascades_by_depth_without_branches() {
     let Some(gpu) = gpu() else { return };
     let scene = pillars_in_sun();
     let options = pillar_view(|settings| settings.cascades.select = CascadeSelection::Depth);
@@ -67,7 +67,7 @@ fn row_34_collecting_chooses_cascades_by_depth_without_branches() {
 }
 
 #[test]
-fn row_35_blurring_widens_edges_nearby_and_leaves_out_other_surfaces() {
+fn row_35_blur_widens_nearby_edges_and_stops_at_other_surfaces() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(sun(sun_direction(40.0, 130.0)));
@@ -140,7 +140,7 @@ fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
 }
 
 #[test]
-fn row_36_the_lit_pass_reads_one_texel_and_knows_nothing_of_cascades() {
+fn row_36_the_lit_pass_reads_one_texel_of_the_mask_and_no_cascades() {
     let (mask_only, text) = lit_by(false, 2);
     assert!(mask_only && text.contains("shadow_mask"), "{text}");
     assert!(!text.contains("shadow_views") && !text.contains("cascade_map"), "{text}");
@@ -151,7 +151,7 @@ fn row_36_the_lit_pass_reads_one_texel_and_knows_nothing_of_cascades() {
 }
 
 #[test]
-fn row_36_what_is_blended_still_has_shadows() {
+fn row_36_blended_geometry_receives_shadows() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     let glass = shadowgraph::scene::Material { alpha: AlphaMode::Blend, ..crate::stage::material() };

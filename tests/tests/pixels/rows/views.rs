@@ -50,7 +50,7 @@ fn row_40_four_samples_smooth_edges_and_change_nothing_else() {
 }
 
 #[test]
-fn row_40_other_numbers_of_samples_are_refused() {
+fn row_40_other_sample_counts_are_errors() {
     for samples in [0, 2, 3, 8, 16] {
         let method = Method { samples, ..Method::default() };
         let camera = pillar_view(|_| ()).camera;

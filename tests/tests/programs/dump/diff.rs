@@ -110,7 +110,7 @@ fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() 
 }
 
 #[test]
-fn a_file_that_is_no_dump_is_refused_in_one_line() {
+fn a_file_that_is_not_a_dump_is_an_error_of_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.json");
     std::fs::write(&file, "{}").unwrap();

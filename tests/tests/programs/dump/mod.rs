@@ -71,7 +71,7 @@ fn json_has_the_plan_its_reasons_and_the_lights() {
 }
 
 #[test]
-fn explain_tells_of_a_pass_a_resource_and_an_order() {
+fn explain_describes_a_pass_a_resource_and_an_order() {
     let explain = |args: &[&str]| {
         let output =
             Command::new(shadowgraph_tests::program().unwrap()).arg("explain").args(args).output().unwrap();
@@ -108,7 +108,7 @@ fn mermaid_has_a_box_for_each_pass_and_a_group_for_each_node() {
 }
 
 #[test]
-fn graphviz_draws_the_dot_dump() {
+fn graphviz_accepts_the_dot_dump() {
     let dot = dump("dot");
     let graphviz = Command::new("dot").arg("-Tsvg").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
     let Ok(mut graphviz) = graphviz else {

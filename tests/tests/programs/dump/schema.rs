@@ -67,7 +67,7 @@ pub(super) fn faults(root: &Value, schema: &Value, value: &Value, place: &str) -
 
 /// The committed schema holds for what is written, and for nothing of another kind.
 #[test]
-fn the_json_dump_is_what_its_schema_says() {
+fn the_json_dump_matches_its_schema() {
     let text =
         std::fs::read_to_string(shadowgraph_tests::repository().join("docs/dump/schema.json")).unwrap();
     let schema: Value = serde_json::from_str(&text).unwrap();

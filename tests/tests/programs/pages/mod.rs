@@ -62,7 +62,7 @@ fn assert_sound(found: &Value) {
 }
 
 #[test]
-fn the_page_of_the_demo_frame_shows_every_view_and_its_pictures() {
+fn the_page_of_the_demo_frame_shows_every_view_and_its_images() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("demo.html");
     let output = Command::new(program().unwrap())
@@ -82,7 +82,7 @@ fn the_page_of_the_demo_frame_shows_every_view_and_its_pictures() {
 }
 
 #[test]
-fn the_page_of_a_frame_of_65_passes_opens_closed_by_node() {
+fn the_page_of_a_frame_of_65_passes_opens_with_its_nodes_collapsed() {
     let page = frames::real().unwrap().to_html();
     assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
     keep(&page, "real");
