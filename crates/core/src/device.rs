@@ -4,6 +4,9 @@ use crate::error::Error;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
+/// Colour attachments that a render pass has at most, on any device; `internal.wgsl` has the same number.
+pub(crate) const MAX_COLOR_ATTACHMENTS: usize = 8;
+
 /// Returns whether a device is lost: destroyed, removed, or given up by its driver. wgpu says so to the callback of
 /// `Device::set_device_lost_callback` alone, and as late as in `Device::poll`; this asks, for about as much as the creation of a
 /// small buffer costs. Nothing brings a lost device back: open another, and make anew what was made on it, the

@@ -6,10 +6,11 @@ pub use plans::PlanCounts;
 
 use crate::compiled::Compiled;
 use crate::declaration::Declaration;
-use crate::desc::{ResourceDesc, TextureDesc};
+use crate::desc::ResourceDesc;
 use crate::error::Error;
-use crate::frame::{Frame, Resize, Storage};
+use crate::frame::{Frame, Storage};
 use crate::handle::{NodeId, ResourceId};
+use crate::history::{PriorHistory, Resize};
 use plans::Plans;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -51,7 +52,7 @@ impl Graph {
         Frame::with(PriorState {
             spare: Some(self.spare.clone()),
             #[cfg(feature = "gpu")]
-            histories: Some(self.device.histories.known()),
+            histories: Some(self.device.histories.prior()),
             #[cfg(not(feature = "gpu"))]
             histories: None,
         })
@@ -126,53 +127,6 @@ pub(crate) struct PriorState {
     histories: Option<Arc<Vec<PriorHistory>>>,
 }
 
-/// A history that holds contents.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct PriorHistory {
-    /// The path of the view; empty for none.
-    pub(crate) view: String,
-    pub(crate) name: String,
-    pub(crate) desc: TextureDesc,
-    /// Whether its contents can be drawn into a texture of another size.
-    pub(crate) resamples: bool,
-}
-
-impl PriorHistory {
-    /// Whether this is the history of that name and view.
-    pub(crate) fn is(&self, decl: &Declaration, view: Option<NodeId>, resource: ResourceId) -> bool {
-        self.name == decl.resource_name(resource) && is_path(decl, view, &self.view)
-    }
-
-    #[cfg(feature = "gpu")]
-    pub(crate) fn is_same_history(&self, other: &Self) -> bool {
-        (&self.view, &self.name) == (&other.view, &other.name)
-    }
-
-    /// Whether contents of this shape are of use for a texture of that one. A frame asks when it declares the
-    /// history, and the executor when it finds the textures: both must come to the same answer.
-    pub(crate) fn fits(&self, desc: &TextureDesc, resize: Resize) -> bool {
-        self.desc == *desc || resize == Resize::Resample && self.resamples && self.differs_in_size_only(desc)
-    }
-
-    /// Whether all but width, height and the mips that follow from them is the same.
-    pub(crate) fn differs_in_size_only(&self, desc: &TextureDesc) -> bool {
-        let crate::Extent { width, height, .. } = desc.size;
-        let size = crate::Extent { width, height, ..self.desc.size };
-        TextureDesc { size, mip_levels: desc.mip_levels, ..self.desc } == *desc
-    }
-}
-
-/// Compares a node's path with a text, without writing it.
-fn is_path(decl: &Declaration, node: Option<NodeId>, path: &str) -> bool {
-    let Some(node) = node else { return path.is_empty() };
-    let node = &decl.nodes[node.index()];
-    let Some(rest) = path.strip_suffix(decl.names.get(node.name)) else { return false };
-    match node.parent {
-        None => rest.is_empty(),
-        Some(_) => rest.strip_suffix('/').is_some_and(|rest| is_path(decl, node.parent, rest)),
-    }
-}
-
 impl PriorState {
     pub(crate) fn take_storage(&mut self) -> Storage {
         let spare = self.spare.as_ref();
@@ -198,6 +152,6 @@ impl PriorState {
         self.histories
             .iter()
             .flat_map(|all| all.iter())
-            .any(|known| known.is(decl, view, current) && known.fits(&desc, resize))
+            .any(|known| known.matches(decl, view, current) && known.fits(&desc, resize))
     }
 }

@@ -54,9 +54,12 @@ mod execute;
 mod frame;
 mod graph;
 mod handle;
+mod history;
 #[cfg(feature = "gpu")]
 mod internal;
 mod name;
+#[cfg(feature = "gpu")]
+mod pipeline;
 mod plan;
 #[cfg(feature = "gpu")]
 mod pool;
@@ -84,13 +87,17 @@ pub use execute::{
     Bind, BodyResult, ComputeContext, EncoderContext, Executed, FailedFrame, FrameCapture, PendingCapture,
     ReadBack, ReadBackRequest, RenderContext, Resources, Timer,
 };
-pub use frame::{Frame, History, Resize};
+pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};
 pub use handle::{
     Buffer, BufferExport, BufferToken, NodeId, PassId, ResourceId, SlotId, Texture, TextureExport,
     TextureToken, Uniform,
 };
+pub use history::Resize;
 pub use name::Name;
+
+#[cfg(feature = "gpu")]
+pub use pipeline::{ComputeShader, FullscreenShader};
 pub use plan::{
     AccessPlan, AttachmentOps, CullReason, Dependency, DependencyKind, LoadAction, LoadReason, MergeReason,
     NodePlan, OrderReason, PassPlan, Plan, ResourcePlan, SlotPlan, SlotReason, Step, StoreAction,
@@ -99,7 +106,7 @@ pub use plan::{
 #[cfg(feature = "gpu")]
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
-pub use shader_pass::{ComputeShader, FullscreenShader, ShaderPassBuilder, UniformSource};
+pub use shader_pass::{ShaderPassBuilder, UniformSource};
 pub use subresource::{Aspect, Rect, Subresource};
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary, trace_json};
 #[cfg(feature = "gpu")]

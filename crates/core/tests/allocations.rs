@@ -135,7 +135,7 @@ mod bodies {
         let compiled = graph.compile(frame).expect("the frame has no mistake");
         let (_, capture) = compiled.execute_captured(&mut graph, &device, &mut encoder).expect("it records");
         queue.submit([encoder.finish()]);
-        assert_eq!(capture.wait(&device).expect("pictures").textures.len(), 3);
+        assert_eq!(capture.wait(&device).expect("a capture").textures.len(), 3);
         // Of the same device: what it has seen may cost wgpu something.
         assert_eq!(recorded(&device, &queue, &mut graph), recorded(&device, &queue, &mut Graph::new()));
     }

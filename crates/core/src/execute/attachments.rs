@@ -1,8 +1,9 @@
-//! The plan's attachments as wgpu's.
+//! The attachments of a plan, as wgpu takes them.
 
 use super::record::Recording;
 use crate::access::{Access, ClearValue};
 use crate::desc::{Format, ResourceDesc};
+use crate::device::MAX_COLOR_ATTACHMENTS;
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::internal::Targets;
@@ -10,13 +11,11 @@ use crate::plan::{AttachmentOps, LoadAction, Plan, StoreAction};
 use crate::subresource::Aspect;
 use arrayvec::ArrayVec;
 
-/// As many colour attachments as any device allows.
-pub(super) const COLORS: usize = 8;
+pub(super) type ColorAttachments<'v> =
+    ArrayVec<Option<wgpu::RenderPassColorAttachment<'v>>, MAX_COLOR_ATTACHMENTS>;
 
-pub(super) type ColorAttachments<'v> = ArrayVec<Option<wgpu::RenderPassColorAttachment<'v>>, COLORS>;
-
-/// Finds the colour attachments of the passes from `first` to `last`, which share a render pass: the first of them
-/// loads, the last one stores and resolves.
+/// Finds the colour attachments of the passes from `first` to `last`, which share a render pass: the first pass loads, the
+/// last one stores and resolves.
 pub(super) fn color_attachments<'a>(
     recording: &'a Recording<'a>,
     first: PassId,
@@ -27,7 +26,9 @@ pub(super) fn color_attachments<'a>(
     let mut ends = decl.access_range(last);
     for index in decl.access_range(first) {
         let access = &decl.accesses[index];
-        let (Access::Color(color), Some(begin)) = (access.access, recording.begin(index)) else { continue };
+        let (Access::Color(color), Some(begin)) = (access.access, recording.attachment_ops(index)) else {
+            continue;
+        };
         let same = |&index: &usize| decl.accesses[index].access == access.access;
         let end = if first == last { None } else { ends.find(same) };
         let end = end.and_then(|index| recording.plan.ops[index]).unwrap_or(begin);
@@ -59,7 +60,7 @@ pub(super) fn color_attachments<'a>(
     Ok(())
 }
 
-/// The depth attachment of the passes from `first` to `last`.
+/// Finds the depth attachment of the passes from `first` to `last`.
 pub(super) fn depth_attachment<'a>(
     recording: &'a Recording<'a>,
     first: PassId,
@@ -70,7 +71,7 @@ pub(super) fn depth_attachment<'a>(
     let Some(index) = decl.access_range(first).find(depth) else { return Ok(None) };
     let access = &decl.accesses[index];
     let view = recording.view(index)?;
-    let begin = recording.begin(index);
+    let begin = recording.attachment_ops(index);
     let end = decl.access_range(last).find(depth).and_then(|index| plan.ops[index]).or(begin);
     let (has_depth, has_stencil) = match decl.resource(access.resource).desc {
         ResourceDesc::Texture(desc) => (desc.format.has_depth_aspect(), desc.format.has_stencil_aspect()),
@@ -110,7 +111,7 @@ fn operations<V>(
     }
 }
 
-/// Formats and samples of what a pass draws into.
+/// Returns the formats and the sample count of a pass's attachments.
 pub(super) fn targets(plan: &Plan, pass: PassId) -> Targets {
     let mut targets = Targets { colors: Vec::new(), depth_stencil: None, samples: 1 };
     for access in plan.accesses(pass) {
@@ -133,9 +134,9 @@ pub(super) fn targets(plan: &Plan, pass: PassId) -> Targets {
 }
 
 impl<'a> Recording<'a> {
-    /// The view of an attachment.
+    /// Returns the view of an attachment.
     fn view(&'a self, access: usize) -> Result<&'a wgpu::TextureView, Error> {
         let resource = self.plan.decl.accesses[access].resource;
-        self.realised.views[access].as_ref().ok_or_else(|| self.absent(resource))
+        self.resolved.views[access].as_ref().ok_or_else(|| self.missing_import(resource))
     }
 }

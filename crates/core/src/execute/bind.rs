@@ -1,43 +1,45 @@
 //! Bind groups from tokens.
 
 use super::context::Resources;
+use super::entry_keys::{entry_key, matches};
 use crate::error::Error;
 use crate::handle::{BufferToken, TextureToken, Uniform};
-use crate::pool::{Bound, Caches, GroupKey, Purpose};
-use crate::shader_pass::Program;
+use crate::pipeline::ProgrammableStage;
+use crate::pool::{BoundResource, Caches, EntryKey, GroupKey, ViewUsage};
+use crate::subresource::Subresource;
 use arrayvec::ArrayVec;
 use std::borrow::Borrow;
 use std::num::NonZeroU64;
 use std::ops::Range;
 
-/// One entry of a bind group; its place in the list is its binding number.
+/// One entry of a bind group; its index in the list is its binding number.
 pub enum Bind<'a> {
-    /// The part of a texture that the access declares: one layer as 2D, several as a 2D array.
+    /// The declared part of a texture: one layer as 2D, several as a 2D array.
     Texture(TextureToken),
-    /// The same as a 2D array, one layer too: for shaders that take any number of layers.
+    /// The declared part of a texture as a 2D array, even for one layer: for shaders that take any number of layers.
     TextureArray(TextureToken),
-    /// The part of a buffer that the access declares.
+    /// The declared part of a buffer.
     Buffer(BufferToken),
-    /// This range of the buffer, in bytes; with a dynamic offset, the range at offset 0.
+    /// A range of a buffer, in bytes; with a dynamic offset, the range at offset 0.
     BufferRange(BufferToken, Range<u64>),
     /// A uniform block of this frame.
     Uniform(Uniform),
-    /// A sampler of yours.
+    /// A sampler.
     Sampler(&'a wgpu::Sampler),
-    /// A view of yours that is not part of the graph.
+    /// A view of a texture that is not part of the graph.
     ExternalView(&'a wgpu::TextureView),
-    /// A buffer of yours that is not part of the graph.
+    /// A buffer that is not part of the graph.
     ExternalBuffer(&'a wgpu::Buffer),
 }
 
-/// Entries of most groups fit in here, so that looking one up allocates nothing.
-const INLINE: usize = 8;
+/// Entries that fit without allocating; most groups have fewer.
+const INLINE_ENTRIES: usize = 8;
 
 impl Resources<'_> {
     /// Returns a bind group of `layout` with `entries` at bindings 0, 1, 2 and so on.
     ///
-    /// Groups are cached by the physical objects that they bind: asking every frame costs a look-up, and a new one
-    /// is made exactly when an object behind it is another.
+    /// Groups are cached by the physical objects that they bind: calling this every frame costs a look-up, and a new group
+    /// is created only when an object has changed.
     ///
     /// ```
     /// use shadowgraph_core::{Bind, Contents, Frame, Texture, wgpu};
@@ -49,7 +51,7 @@ impl Resources<'_> {
     ///     target: &mut Texture,
     /// ) {
     ///     let mut pass = frame.render_pass("blur");
-    ///     let scene = pass.sample(scene); // a token: it goes into the body, the handle does not
+    ///     let scene = pass.sample(scene); // a token: the body captures it in place of the handle
     ///     pass.color(target, Contents::Overwrite);
     ///     pass.body(move |ctx| {
     ///         let group = ctx.bind_group(layout, &[Bind::Texture(scene), Bind::Sampler(sampler)])?;
@@ -71,40 +73,45 @@ impl Resources<'_> {
         self.group(layout, entries.iter(), None)
     }
 
-    /// Returns a bind group for a program, whose error it is if the entries do not fit.
+    /// Returns a bind group for a shader; entries that do not match it are an error of the shader.
     pub(crate) fn checked_group<'e>(
         &'e self,
         layout: &wgpu::BindGroupLayout,
         entries: impl ExactSizeIterator<Item = Bind<'e>> + Clone,
-        program: &Program,
+        stage: &ProgrammableStage,
     ) -> Result<wgpu::BindGroup, Error> {
-        self.group(layout, entries, Some(program))
+        self.group(layout, entries, Some(stage))
     }
 
     fn group<'e>(
         &'e self,
         layout: &wgpu::BindGroupLayout,
         entries: impl ExactSizeIterator<Item: Borrow<Bind<'e>>> + Clone,
-        program: Option<&Program>,
+        stage: Option<&ProgrammableStage>,
     ) -> Result<wgpu::BindGroup, Error> {
-        let last = self.recording.realised.last_groups.as_ref();
-        if let Some(key) = last.and_then(|last| last.get(self, layout, entries.clone()))
-            && let Some(group) = self.caches().bind_groups.again(key)
+        let pass_groups = self.recording.resolved.pass_groups.as_ref();
+        let same = |keys: &[EntryKey]| {
+            keys.len() == entries.len()
+                && keys.iter().zip(entries.clone()).all(|(key, entry)| matches(key, self, entry.borrow()))
+        };
+        if let Some(key) = pass_groups.and_then(|groups| groups.find(self.pass, layout, same))
+            && let Some(group) = self.caches().bind_groups.get(key)
         {
             return Ok(group);
         }
-        let (key, group) = if entries.len() > INLINE {
+        let (key, group) = if entries.len() > INLINE_ENTRIES {
             let bound = entries.clone().map(|entry| self.bound(entry.borrow()));
-            self.find_group(layout, &bound.collect::<Result<Vec<_>, _>>()?, program)?
+            self.find_group(layout, &bound.collect::<Result<Vec<_>, _>>()?, stage)?
         } else {
-            let mut bound = ArrayVec::<Bound<'_>, INLINE>::new();
+            let mut bound = ArrayVec::<BoundResource<'_>, INLINE_ENTRIES>::new();
             for entry in entries.clone() {
                 bound.push(self.bound(entry.borrow())?);
             }
-            self.find_group(layout, &bound, program)?
+            self.find_group(layout, &bound, stage)?
         };
-        if let Some(last) = last {
-            last.keep(self, layout, entries, key);
+        if let Some(groups) = pass_groups {
+            let keys = || entries.map(|entry| entry_key(self, entry.borrow())).collect();
+            groups.insert(self.pass, layout, keys, key);
         }
         Ok(group)
     }
@@ -112,75 +119,75 @@ impl Resources<'_> {
     fn find_group(
         &self,
         layout: &wgpu::BindGroupLayout,
-        bound: &[Bound<'_>],
-        program: Option<&Program>,
+        bound: &[BoundResource<'_>],
+        stage: Option<&ProgrammableStage>,
     ) -> Result<(GroupKey, wgpu::BindGroup), Error> {
         let mut caches = self.caches();
         let Caches { views, bind_groups, .. } = &mut *caches;
-        bind_groups.get(layout, bound, || {
+        bind_groups.get_or_create(layout, bound, || {
             let views: Vec<_> = bound
                 .iter()
                 .map(|bound| match *bound {
-                    Bound::Texture(texture, part, purpose) => Some(views.get(texture, part, purpose)),
+                    BoundResource::Texture(texture, part, usage) => Some(views.get(texture, part, usage)),
                     _ => None,
                 })
                 .collect();
             let create = || create(self.device(), layout, bound, &views);
-            let Some(program) = program else { return Ok(create()) };
-            let place = format!(
-                "what pass `{}` binds in group 0 must be exactly what the shader uses there, in order: ",
+            let Some(stage) = stage else { return Ok(create()) };
+            let prefix = format!(
+                "the bindings of pass `{}` must be exactly those that the shader uses in group 0, in order: ",
                 self.recording.plan.pass_path(self.pass)
             );
-            program.checked(self.device(), &place, create)
+            stage.checked(self.device(), &prefix, create)
         })
     }
 
-    fn bound<'e>(&'e self, entry: &Bind<'e>) -> Result<Bound<'e>, Error> {
+    fn bound<'e>(&'e self, entry: &Bind<'e>) -> Result<BoundResource<'e>, Error> {
         Ok(match entry {
-            Bind::Texture(token) => self.bound_texture(*token, Purpose::Binding)?,
-            Bind::TextureArray(token) => self.bound_texture(*token, Purpose::ArrayBinding)?,
+            Bind::Texture(token) => self.bound_texture(*token, ViewUsage::Binding)?,
+            Bind::TextureArray(token) => self.bound_texture(*token, ViewUsage::ArrayBinding)?,
             Bind::Buffer(token) => {
                 let buffer = self.buffer(*token)?;
                 // The physical buffer may be larger than what was declared.
                 let Range { start, end } = self.byte_range(token.0);
-                Bound::Buffer(buffer, start, NonZeroU64::new(end - start))
+                BoundResource::Buffer(buffer, start, NonZeroU64::new(end - start))
             }
             Bind::BufferRange(token, range) => {
                 let size = NonZeroU64::new(range.end.saturating_sub(range.start));
-                Bound::Buffer(self.buffer(*token)?, range.start, size)
+                BoundResource::Buffer(self.buffer(*token)?, range.start, size)
             }
             Bind::Uniform(uniform) => {
                 let buffer = self.uniforms(uniform)?;
-                Bound::Buffer(buffer, uniform.start.into(), NonZeroU64::new(uniform.size.into()))
+                BoundResource::Buffer(buffer, uniform.start.into(), NonZeroU64::new(uniform.size.into()))
             }
-            Bind::Sampler(sampler) => Bound::Sampler(sampler),
-            Bind::ExternalView(view) => Bound::View(view),
-            Bind::ExternalBuffer(buffer) => Bound::Buffer(buffer, 0, None),
+            Bind::Sampler(sampler) => BoundResource::Sampler(sampler),
+            Bind::ExternalView(view) => BoundResource::View(view),
+            Bind::ExternalBuffer(buffer) => BoundResource::Buffer(buffer, 0, None),
         })
     }
 
-    fn bound_texture(&self, token: TextureToken, purpose: Purpose) -> Result<Bound<'_>, Error> {
-        let part = crate::Subresource { rect: None, ..self.part(token.0) };
-        Ok(Bound::Texture(self.texture(token)?, part, purpose))
+    fn bound_texture(&self, token: TextureToken, usage: ViewUsage) -> Result<BoundResource<'_>, Error> {
+        let part = Subresource { rect: None, ..self.part(token.0) };
+        Ok(BoundResource::Texture(self.texture(token)?, part, usage))
     }
 }
 
 fn create(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
-    bound: &[Bound<'_>],
+    bound: &[BoundResource<'_>],
     views: &[Option<wgpu::TextureView>],
 ) -> wgpu::BindGroup {
     let entries: Vec<_> = bound
         .iter()
         .zip(views)
         .enumerate()
-        .filter_map(|(binding, (bound, own_view))| {
+        .filter_map(|(binding, (bound, cached_view))| {
             let resource = match *bound {
-                Bound::Texture(..) => wgpu::BindingResource::TextureView(own_view.as_ref()?),
-                Bound::View(view) => wgpu::BindingResource::TextureView(view),
-                Bound::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-                Bound::Buffer(buffer, offset, size) => {
+                BoundResource::Texture(..) => wgpu::BindingResource::TextureView(cached_view.as_ref()?),
+                BoundResource::View(view) => wgpu::BindingResource::TextureView(view),
+                BoundResource::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
+                BoundResource::Buffer(buffer, offset, size) => {
                     wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size })
                 }
             };

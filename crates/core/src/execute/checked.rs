@@ -1,4 +1,4 @@
-//! Recording step by step, so that what wgpu objects to has the name of a pass.
+//! Recording step by step, so that a validation error of wgpu names its pass.
 
 use super::Executed;
 use super::context::Body;
@@ -14,17 +14,17 @@ use std::sync::Arc;
 #[derive(Debug, thiserror::Error)]
 #[error("{error}")]
 pub struct FailedFrame {
-    /// What went wrong, and in which pass.
+    /// The error, with the pass that it is in.
     #[source]
     pub error: Error,
-    /// The plan of the frame, to be looked at: [`Plan::to_html`] and its like.
+    /// The plan of the frame, to be inspected, for example with [`Plan::to_html`].
     pub plan: Arc<Plan>,
 }
 
 impl Compiled<'_> {
-    /// Records and submits the frame like [`execute`](Self::execute), but each step in a command buffer of its own, and stops at
-    /// the first that wgpu objects to: the error names its passes, and the plan comes with it. For debugging, as it costs a
-    /// command buffer for every step and waits for wgpu's answer to each.
+    /// Records and submits the frame like [`execute`](Self::execute), but each step in a separate command buffer, and stops
+    /// at the first with a validation error: the error names its passes and is returned with the plan. It is meant for
+    /// debugging, since it costs a command buffer for every step and waits for wgpu's validation of each.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
@@ -47,7 +47,7 @@ impl Compiled<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Validation`] for what wgpu objects to; else as `execute`. Nothing is submitted then.
+    /// [`Error::Validation`] for a validation error of wgpu; otherwise as `execute`. Nothing is submitted then.
     pub fn execute_checked(
         self,
         graph: &mut Graph,
@@ -56,7 +56,7 @@ impl Compiled<'_> {
     ) -> Result<Executed, Box<FailedFrame>> {
         let plan = self.plan.clone();
         record(self, graph, device, queue).map_err(|error| {
-            let error = graph.device.explain(device, error);
+            let error = graph.device.classify_error(device, error);
             Box::new(FailedFrame { error, plan })
         })
     }
@@ -81,10 +81,10 @@ fn record(
         let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
         let recorded = recording.steps(index..index + 1, &mut encoder, take);
         buffers.push(encoder.finish());
-        let objection = pollster::block_on(scope.pop());
+        let validation_error = pollster::block_on(scope.pop());
         recorded?;
-        if let Some(objection) = objection {
-            return Err(refused(&compiled.plan, step.passes, &objection));
+        if let Some(error) = validation_error {
+            return Err(in_passes(&compiled.plan, step.passes, &error));
         }
     }
     let read_backs = recording.read_backs(&compiled.frame.work.read_backs, &mut last)?;
@@ -94,9 +94,9 @@ fn record(
     Ok(prepared.finish(compiled, pool, read_backs))
 }
 
-fn refused(plan: &Plan, passes: &[PassId], objection: &wgpu::Error) -> Error {
+fn in_passes(plan: &Plan, passes: &[PassId], error: &wgpu::Error) -> Error {
     let names: Vec<String> = passes.iter().map(|&pass| format!("`{}`", plan.pass_path(pass))).collect();
-    let message = objection.to_string();
+    let message = error.to_string();
     let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     Error::Validation { passes: names.join(", "), message: lines.join("; ") }
 }

@@ -1,4 +1,4 @@
-//! What a pass body gets to see: the pass it records, and the resources it declared.
+//! The context of a pass body: the pass that it records and the resources that it declared.
 
 use super::record::Recording;
 use crate::builder::{Compute, Encoding, Pass, Rendering};
@@ -6,13 +6,13 @@ use crate::compiled::resolve;
 use crate::desc::ResourceDesc;
 use crate::error::Error;
 use crate::handle::{BufferToken, PassId, ResourceId, TextureToken, Token, Uniform};
-use crate::pool::{Caches, Purpose};
+use crate::pool::{Caches, ViewUsage};
 use crate::shader_pass::ShaderPasses;
 use crate::subresource::Subresource;
 use std::ops::{Deref, DerefMut, Range};
 use std::sync::MutexGuard;
 
-/// What a pass body returns; wrap failures of your own with [`Error::body`].
+/// The result of a pass body; wrap your own errors with [`Error::body`].
 pub type BodyResult = Result<(), Error>;
 
 pub(crate) enum Body<'f> {
@@ -20,11 +20,11 @@ pub(crate) enum Body<'f> {
     Render(Box<dyn for<'a> FnOnce(&mut RenderContext<'a>) -> BodyResult + Send + 'f>),
     Compute(Box<dyn for<'a> FnOnce(&mut ComputeContext<'a>) -> BodyResult + Send + 'f>),
     Encoder(Box<dyn for<'a> FnOnce(&mut EncoderContext<'a>) -> BodyResult + Send + 'f>),
-    /// Which of the frame's calls of a shader.
+    /// The index of one of the frame's shader passes.
     ShaderPass(u32),
 }
 
-/// The declared resources of one pass, and bind groups of them.
+/// The declared resources of one pass, and their bind groups.
 pub struct Resources<'a> {
     pub(super) recording: &'a Recording<'a>,
     pub(super) pass: PassId,
@@ -36,7 +36,7 @@ impl<'a> Resources<'a> {
         self.recording.device
     }
 
-    /// Returns the physical texture behind a token of this pass.
+    /// Returns the physical texture of a token of this pass.
     ///
     /// # Errors
     /// [`Error::Undeclared`] if the token belongs to another pass.
@@ -44,17 +44,17 @@ impl<'a> Resources<'a> {
         self.recording.texture(self.resolve(token.0)?)
     }
 
-    /// Returns a view, for shaders, of the part of a texture that the access declares; of a combined depth-stencil
-    /// format its depth, unless the part is its stencil.
+    /// Returns a view, for shaders, of the declared part of a texture; for a combined depth-stencil format of its depth,
+    /// unless the part selects the stencil.
     ///
     /// # Errors
     /// [`Error::Undeclared`] if the token belongs to another pass.
     pub fn view(&self, token: TextureToken) -> Result<wgpu::TextureView, Error> {
         let texture = self.texture(token)?;
-        Ok(self.caches().views.get(texture, self.part(token.0), Purpose::Binding))
+        Ok(self.caches().views.get(texture, self.part(token.0), ViewUsage::Binding))
     }
 
-    /// Returns the physical buffer behind a token of this pass. It may be larger than what was declared.
+    /// Returns the physical buffer of a token of this pass. It may be larger than declared.
     ///
     /// # Errors
     /// [`Error::Undeclared`] if the token belongs to another pass.
@@ -62,7 +62,7 @@ impl<'a> Resources<'a> {
         self.recording.buffer(self.resolve(token.0)?)
     }
 
-    /// Returns the part of a buffer that the access declares, such as to set as vertex or index buffer.
+    /// Returns the declared part of a buffer, for example to set it as vertex or index buffer.
     ///
     /// # Errors
     /// [`Error::Undeclared`] if the token belongs to another pass.
@@ -70,8 +70,8 @@ impl<'a> Resources<'a> {
         Ok(self.buffer(token)?.slice(self.byte_range(token.0)))
     }
 
-    /// Tells a [`Timer`](crate::Timer) how many draw calls the body has recorded, for [`PassTime::draws`](crate::PassTime::draws). Adds up;
-    /// without a timer it does nothing.
+    /// Reports draw calls that the body has recorded to a [`Timer`](crate::Timer), for
+    /// [`PassTime::draws`](crate::PassTime::draws). Calls add up; without a timer they do nothing.
     pub fn report_draws(&self, draws: u32) {
         if let Some(timer) = self.recording.timer {
             timer.draws(self.pass, draws);
@@ -97,8 +97,8 @@ impl<'a> Resources<'a> {
     }
 
     pub(super) fn uniforms(&self, uniform: &Uniform) -> Result<&'a wgpu::Buffer, Error> {
-        let own = uniform.frame == self.recording.frame;
-        self.recording.uniforms.filter(|_| own).ok_or_else(|| Error::ForeignHandle {
+        let same_frame = uniform.frame == self.recording.frame;
+        self.recording.uniforms.filter(|_| same_frame).ok_or_else(|| Error::ForeignHandle {
             place: format!("pass `{}`", self.recording.plan.pass_path(self.pass)),
         })
     }
@@ -111,8 +111,8 @@ impl<'a> Resources<'a> {
         self.recording.pool.caches()
     }
 
-    pub(crate) fn calls(&self) -> &'a ShaderPasses {
-        self.recording.calls
+    pub(crate) fn shader_passes(&self) -> &'a ShaderPasses {
+        self.recording.shader_passes
     }
 }
 
@@ -140,8 +140,8 @@ macro_rules! context {
         }
 
         impl<'f> Pass<'_, 'f, $kind> {
-            /// Sets what the pass records. It runs when the frame is executed, if the pass is not culled. It takes
-            /// tokens and what it borrows by `move`; [`Resources::bind_group`] has an example.
+            /// Sets the function that records the pass. It runs when the frame is executed, unless the pass is culled. It
+            /// captures tokens and borrowed data by `move`; [`Resources::bind_group`] has an example.
             pub fn body(self, body: impl for<'a> FnOnce(&mut $name<'a>) -> BodyResult + Send + 'f) {
                 self.frame.work.bodies[self.id.index()] = Body::$body(Box::new(body));
             }
@@ -152,9 +152,9 @@ macro_rules! context {
 context!(
     /// Recording a render pass. Derefs to [`Resources`].
     ///
-    /// Every body starts from clean state, also where several passes were merged into one: no bind groups, the
-    /// viewport and scissor on the whole attachment (or on its rectangle, where the pass declares one), stencil
-    /// reference and blend constant 0. Set a pipeline before you draw.
+    /// Every body starts from clean state, even when several passes were merged into one: no bind groups, viewport and
+    /// scissor set to the whole attachment (or to the rectangle that the pass declares), stencil reference and blend
+    /// constant 0. Set a pipeline before drawing.
     RenderContext, pass: wgpu::RenderPass<'a>, "The open render pass.", Rendering, Render
 );
 context!(

@@ -1,4 +1,4 @@
-//! What the graph copies itself: uploads and copy passes.
+//! Copies that the graph records itself: uploads and copy passes.
 
 use super::record::Recording;
 use crate::compile::copy_extent;
@@ -6,22 +6,22 @@ use crate::compiled::Compiled;
 use crate::declaration::{AccessDecl, CopyOp};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::handle::PassId;
-use crate::pool::{Pool, place};
+use crate::handle::{PassId, ResourceId};
+use crate::pool::{Pool, aligned_range};
 use crate::subresource::Aspect;
 
-/// Where the uploads of a frame wait: all in one buffer, copied from there in the order of the plan. Going through
-/// the encoder rather than the queue keeps several recorded frames apart before any is submitted.
+/// The staged uploads of a frame, all in one buffer, from which they are copied in the order of the plan. Copying with the
+/// encoder instead of the queue keeps frames independent that are recorded before any is submitted.
 #[derive(Default)]
 pub(super) struct Uploads {
     buffer: Option<wgpu::Buffer>,
-    /// By upload.
+    /// Offset of each upload in bytes.
     offsets: Vec<u64>,
 }
 
 /// Writes uniform blocks and uploads of passes that run into one staging chunk, and copies the uniforms from it. The
-/// chunk comes back when `last` is done, or where that is the only encoder, `encoder`.
-pub(super) fn stage(
+/// chunk is free again when `last` has completed, or if there is only one encoder, `encoder`.
+pub(super) fn stage_uploads(
     compiled: &Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,
@@ -29,17 +29,18 @@ pub(super) fn stage(
     last: Option<&wgpu::CommandEncoder>,
 ) -> Result<(Option<wgpu::Buffer>, Uploads), Error> {
     let (plan, work) = (&compiled.plan, &compiled.frame.work);
-    let live = |target: crate::ResourceId| plan.placements[target.index()].steps.is_some();
-    let waiting = plan.decl.copies.iter().filter_map(|copy| match *copy {
-        CopyOp::Upload { target, upload } if live(target) => Some(upload as usize),
+    let is_live = |target: ResourceId| plan.placements[target.index()].steps.is_some();
+    let staged = plan.decl.copies.iter().filter_map(|copy| match *copy {
+        CopyOp::Upload { target, upload } if is_live(target) => Some(upload as usize),
         _ => None,
     });
-    let uniforms = place(0, work.uniforms.len() as u64, 4).end;
-    // An upload of nothing still makes a buffer, the smallest there is.
+    let uniforms = aligned_range(0, work.uniforms.len() as u64, 4).end;
+    // An empty upload still creates a buffer of the smallest size.
     let upload_bytes =
         |upload: usize| if work.uploads[upload].is_empty() { &[0; 4][..] } else { &work.uploads[upload] };
-    let bytes =
-        waiting.clone().fold(uniforms, |end, upload| place(end, upload_bytes(upload).len() as u64, 4).end);
+    let bytes = staged
+        .clone()
+        .fold(uniforms, |end, upload| aligned_range(end, upload_bytes(upload).len() as u64, 4).end);
     if bytes == 0 {
         return Ok((None, Uploads::default()));
     }
@@ -49,7 +50,7 @@ pub(super) fn stage(
         false => Some(pool.uniforms.upload(device, encoder, &mut chunk, &work.uniforms)?),
     };
     let mut offsets = vec![0; work.uploads.len()];
-    for upload in waiting {
+    for upload in staged {
         offsets[upload] = chunk.write(upload_bytes(upload), 4);
     }
     let buffer = Some(chunk.finish(last.unwrap_or(encoder)));
@@ -57,7 +58,7 @@ pub(super) fn stage(
 }
 
 /// Records the transfers of a copy pass.
-pub(super) fn copies(
+pub(super) fn record_copies(
     recording: &Recording<'_>,
     pass: PassId,
     encoder: &mut wgpu::CommandEncoder,
@@ -102,8 +103,8 @@ fn transfer(
             };
             let (source, target) = (recording.texture(source)?, recording.texture(target)?);
             encoder.copy_texture_to_texture(
-                place_of(recording, from, source),
-                place_of(recording, to, target),
+                copy_location(recording, from, source),
+                copy_location(recording, to, target),
                 size,
             );
         }
@@ -119,7 +120,7 @@ fn transfer(
                 rows_per_image: None,
             };
             let target = wgpu::TexelCopyBufferInfo { buffer, layout };
-            encoder.copy_texture_to_buffer(place_of(recording, from, source), target, size);
+            encoder.copy_texture_to_buffer(copy_location(recording, from, source), target, size);
         }
     }
     Ok(())
@@ -133,7 +134,7 @@ fn extent(recording: &Recording<'_>, access: &AccessDecl) -> Option<wgpu::Extent
     copy_extent(&recording.plan.decl.subresource(access), &desc)
 }
 
-fn place_of<'t>(
+fn copy_location<'t>(
     recording: &Recording<'_>,
     access: &AccessDecl,
     texture: &'t wgpu::Texture,

@@ -1,16 +1,14 @@
-//! Textures and buffers of the caller's.
+//! Imports of the caller's textures and buffers.
 
 use crate::desc::{BufferDesc, TextureDesc};
 use crate::frame::Frame;
 use crate::handle::{Buffer, Texture};
 use crate::name::Name;
-use crate::pool::Physical;
-
-pub(crate) type Imported = Physical;
+use crate::pool::PhysicalResource;
 
 impl TextureDesc {
-    /// The shape of a texture that is there.
-    pub(crate) fn of(texture: &wgpu::Texture) -> Self {
+    /// Returns the shape of a texture.
+    pub(crate) fn from_texture(texture: &wgpu::Texture) -> Self {
         Self {
             size: texture.size(),
             format: texture.format(),
@@ -22,9 +20,9 @@ impl TextureDesc {
 }
 
 impl Frame<'_> {
-    /// Imports a texture that belongs to the caller, such as a surface's; `defined` tells whether it holds something
-    /// when the frame begins. Its shape and usages are taken from the texture itself. Writing an import is an effect
-    /// outside the frame, so passes that do are never culled.
+    /// Imports a texture that belongs to the caller, such as a surface's; `defined` says whether its contents
+    /// are defined when the frame begins. Its shape and usages are those of the texture. Writing an import is an effect
+    /// outside the frame, so passes that do so are never culled.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Graph, wgpu};
@@ -45,8 +43,9 @@ impl Frame<'_> {
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     pub fn import_texture(&mut self, name: impl Name, texture: &wgpu::Texture, defined: bool) -> Texture {
-        let handle = self.declare_import_texture(name, TextureDesc::of(texture), texture.usage(), defined);
-        self.work.imports[handle.id().index()] = Some(Physical::Texture(texture.clone()));
+        let handle =
+            self.declare_import_texture(name, TextureDesc::from_texture(texture), texture.usage(), defined);
+        self.work.imports[handle.id().index()] = Some(PhysicalResource::Texture(texture.clone()));
         handle
     }
 
@@ -54,7 +53,7 @@ impl Frame<'_> {
     pub fn import_buffer(&mut self, name: impl Name, buffer: &wgpu::Buffer, defined: bool) -> Buffer {
         let desc = BufferDesc { bytes: buffer.size() };
         let handle = self.declare_import_buffer(name, desc, buffer.usage(), defined);
-        self.work.imports[handle.id().index()] = Some(Physical::Buffer(buffer.clone()));
+        self.work.imports[handle.id().index()] = Some(PhysicalResource::Buffer(buffer.clone()));
         handle
     }
 }

@@ -1,4 +1,4 @@
-//! Recording a plan into encoders of the caller's.
+//! Recording a plan into the caller's encoders.
 
 mod attachments;
 mod bind;
@@ -6,11 +6,10 @@ mod capture;
 mod checked;
 mod context;
 mod copies;
+mod entry_keys;
 mod import;
-mod last_groups;
 mod poison;
 mod read_back;
-mod realise;
 mod record;
 mod render;
 mod threads;
@@ -24,11 +23,8 @@ pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
 pub(crate) use context::Body;
 pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
-pub(crate) use import::Imported;
-pub(crate) use poison::Pattern;
-pub(crate) use read_back::Requested;
+pub(crate) use read_back::ReadBackDecl;
 pub use read_back::{ReadBack, ReadBackRequest};
-pub(crate) use realise::Realised;
 pub use timer::Timer;
 
 use crate::compiled::Compiled;
@@ -36,25 +32,25 @@ use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{BufferExport, ResourceId, TextureExport, Version};
 use crate::plan::Plan;
-use crate::pool::Physical;
+use crate::pool::PhysicalResource;
 use std::sync::Arc;
 
-/// An executed frame: its plan, and what was exported.
+/// An executed frame: its plan and its exports.
 pub struct Executed {
     plan: Arc<Plan>,
     frame: u64,
-    exports: Vec<(ResourceId, Physical)>,
+    exports: Vec<(ResourceId, PhysicalResource)>,
     /// By request; `None` once taken.
     read_backs: Vec<Option<ReadBack>>,
 }
 
 impl Executed {
-    /// The same of another plan of the same frame.
-    fn of_plan(self, plan: Arc<Plan>) -> Self {
+    /// Returns the same with another plan of the frame.
+    fn with_plan(self, plan: Arc<Plan>) -> Self {
         Self { plan, ..self }
     }
 
-    /// Returns what was recorded, and why.
+    /// Returns the plan: what was recorded, and why.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -67,29 +63,30 @@ impl Executed {
     /// Returns an exported texture. It keeps its contents until the graph's next frame is recorded.
     pub fn texture(&self, export: TextureExport) -> Option<&wgpu::Texture> {
         match self.export(export.0)? {
-            Physical::Texture(texture) => Some(texture),
-            Physical::Buffer(_) => None,
+            PhysicalResource::Texture(texture) => Some(texture),
+            PhysicalResource::Buffer(_) => None,
         }
     }
 
     /// Returns an exported buffer. It keeps its contents until the graph's next frame is recorded.
     pub fn buffer(&self, export: BufferExport) -> Option<&wgpu::Buffer> {
         match self.export(export.0)? {
-            Physical::Buffer(buffer) => Some(buffer),
-            Physical::Texture(_) => None,
+            PhysicalResource::Buffer(buffer) => Some(buffer),
+            PhysicalResource::Texture(_) => None,
         }
     }
 
-    /// Takes out what was asked to be read back; `None` where it has been taken already, or for the request of
-    /// another frame. The bytes come once the encoder has been submitted.
+    /// Takes the read-back of a request; `None` if it was taken before, or for a request of another frame. The bytes arrive
+    /// after the encoder has been submitted.
     pub fn read_back(&mut self, request: ReadBackRequest) -> Option<ReadBack> {
-        let own = request.frame == self.frame;
-        self.read_backs.get_mut(request.index as usize).filter(|_| own)?.take()
+        let same_frame = request.frame == self.frame;
+        self.read_backs.get_mut(request.index as usize).filter(|_| same_frame)?.take()
     }
 
-    fn export(&self, version: Version) -> Option<&Physical> {
-        let own = version.frame == self.frame;
-        self.exports.iter().find(|(id, _)| own && *id == version.resource).map(|(_, physical)| physical)
+    fn export(&self, version: Version) -> Option<&PhysicalResource> {
+        let same_frame = version.frame == self.frame;
+        let export = self.exports.iter().find(|(id, _)| same_frame && *id == version.resource);
+        export.map(|(_, object)| object)
     }
 }
 
@@ -97,9 +94,9 @@ impl Compiled<'_> {
     /// Records the frame into `encoder`, with textures and buffers of `graph`. Nothing is submitted.
     ///
     /// # Errors
-    /// A limit of the device, or the failure of a pass body; the encoder is then to be dropped. Two that one can go on after,
-    /// with other settings or another device: [`Error::OutOfMemory`], and [`Error::DeviceLost`] where that is noticed: wgpu
-    /// drops what is recorded for a lost device in silence.
+    /// A limit of the device, or the failure of a pass body; drop the encoder then. A program can recover from two of them,
+    /// with other settings or another device: [`Error::OutOfMemory`], and [`Error::DeviceLost`] where it is detected: wgpu
+    /// silently drops commands for a lost device.
     pub fn execute(
         self,
         graph: &mut Graph,
@@ -123,13 +120,13 @@ impl Compiled<'_> {
         record::record(self, &mut graph.device, device, encoder, Some(timer), None)
     }
 
-    /// Records the frame on `threads` threads, each into an encoder of its own, and returns the command buffers in
-    /// the order in which they must be submitted, best all at once; nothing of another frame of this graph may come in
+    /// Records the frame on `threads` threads, each into a separate encoder, and returns the command buffers in the order
+    /// in which they must be submitted, preferably all at once; no command of another frame of this graph may come in
     /// between.
     ///
-    /// Worth it only for frames of very many draws: see `docs/performance.md` for what was measured.
+    /// Worthwhile only for frames of very many draws: `docs/performance.md` has measurements.
     ///
-    /// wgpu's error scopes are each one thread's: what it objects to in a body that another thread records goes to
+    /// wgpu's error scopes belong to one thread: validation errors in a body that another thread records go to
     /// `Device::on_uncaptured_error`.
     ///
     /// # Errors
@@ -141,6 +138,6 @@ impl Compiled<'_> {
         threads: usize,
     ) -> Result<(Executed, Vec<wgpu::CommandBuffer>), Error> {
         let pool = &mut graph.device;
-        threads::record(self, pool, device, threads).map_err(|error| pool.explain(device, error))
+        threads::record(self, pool, device, threads).map_err(|error| pool.classify_error(device, error))
     }
 }

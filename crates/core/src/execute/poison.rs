@@ -1,24 +1,19 @@
-//! A debug mode: memory that changes hands, and attachments that are discarded, are filled with loud values, so that a
-//! read of what nobody wrote shows at once.
+//! A debug mode: reused memory and discarded attachments are filled with conspicuous values, so that a read of contents
+//! that nobody wrote shows at once.
 
 use super::record::Recording;
 use crate::access::ClearValue;
 use crate::declaration::Origin;
 use crate::desc::{Format, ResourceDesc};
 use crate::handle::PassId;
-use crate::plan::{AttachmentOps, LoadAction, LoadReason, Slot, StoreAction};
-use crate::pool::{Physical, Purpose, view};
+use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction};
+use crate::pool::{PhysicalResource, ViewUsage, create_view};
 use crate::subresource::{Aspect, Subresource};
-use wgpu::{BufferUsages, TextureDimension, TextureSampleType, TextureUsages};
+use wgpu::{TextureDimension, TextureSampleType, TextureUsages};
 
-/// Fills buffers: not a number as `f32`, more than two billion as an integer.
-const WORD: u32 = 0x7fcd_cdcd;
-/// The buffer to copy from has at least so many bytes.
-const MIN_BYTES: u64 = 1 << 20;
-
-/// The value of a format: not a number where it can be, the largest or -1 of integers, else a magenta of odd components;
-/// of depth and stencil something in between.
-fn value(format: Format) -> ClearValue {
+/// Returns the fill value of a format: NaN for floats, the largest or -1 for integers, otherwise an unusual magenta; for
+/// depth and stencil a value in between.
+fn poison_value(format: Format) -> ClearValue {
     use wgpu::TextureFormat::{
         R16Float, R32Float, Rg11b10Ufloat, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float,
     };
@@ -39,58 +34,17 @@ fn value(format: Format) -> ClearValue {
     })
 }
 
-/// What the slot is to be usable for so that it can be filled. Transient attachments cannot be: nothing outside their
-/// render pass sees them, and in it a loud clear stands for the fill.
-pub(super) fn fillable(mut slot: Slot, features: wgpu::Features) -> Slot {
-    match slot.desc {
-        ResourceDesc::Buffer(_) => slot.buffer_usage |= BufferUsages::COPY_DST,
-        ResourceDesc::Texture(_) if slot.texture_usage.contains(TextureUsages::TRANSIENT_ATTACHMENT) => {}
-        ResourceDesc::Texture(desc) => {
-            let drawn = desc.format.guaranteed_format_features(features).allowed_usages
-                & TextureUsages::RENDER_ATTACHMENT;
-            let flat = desc.dimension == TextureDimension::D1;
-            slot.texture_usage |= if drawn.is_empty() || flat { TextureUsages::COPY_DST } else { drawn };
-        }
-    }
-    slot
-}
-
-/// The buffer that others are filled from.
-#[derive(Default)]
-pub(crate) struct Pattern(Option<wgpu::Buffer>);
-
-impl Pattern {
-    /// Returns the buffer, grown to hold `bytes`.
-    fn get(&mut self, device: &wgpu::Device, bytes: u64) -> wgpu::Buffer {
-        if let Some(buffer) = self.0.as_ref().filter(|buffer| buffer.size() >= bytes) {
-            return buffer.clone();
-        }
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("poison"),
-            size: bytes.next_power_of_two().max(MIN_BYTES),
-            usage: BufferUsages::COPY_SRC,
-            mapped_at_creation: true,
-        });
-        // It fails only with a lost device, of which wgpu tells the caller.
-        if let Ok(mut mapped) = buffer.get_mapped_range_mut(..) {
-            let pattern = WORD.to_ne_bytes().repeat(mapped.len() / 4);
-            mapped.copy_from_slice(&pattern);
-        }
-        buffer.unmap();
-        self.0 = Some(buffer.clone());
-        buffer
-    }
-}
-
 impl Recording<'_> {
-    /// Fills the slots whose tenants begin their life in this step.
-    pub(super) fn poison_arrivals(&self, step: usize, encoder: &mut wgpu::CommandEncoder) {
+    /// Fills the slots of resources whose lifetime begins in this step.
+    pub(super) fn poison_first_uses(&self, step: usize, encoder: &mut wgpu::CommandEncoder) {
         let begins = |steps: Option<(u32, u32)>| steps.is_some_and(|(first, _)| first as usize == step);
-        for (placement, object) in self.plan.placements.iter().zip(&self.realised.objects) {
+        for (fate, object) in self.plan.placements.iter().zip(&self.resolved.objects) {
             match object {
-                _ if placement.slot.is_none() || !begins(placement.steps) => {}
-                Some(Physical::Texture(texture)) => self.fill_texture(encoder, texture, Subresource::FULL),
-                Some(Physical::Buffer(buffer)) => self.fill_buffer(encoder, buffer),
+                _ if fate.slot.is_none() || !begins(fate.steps) => {}
+                Some(PhysicalResource::Texture(texture)) => {
+                    self.fill_texture(encoder, texture, Subresource::FULL)
+                }
+                Some(PhysicalResource::Buffer(buffer)) => self.fill_buffer(encoder, buffer),
                 None => {}
             }
         }
@@ -111,8 +65,8 @@ impl Recording<'_> {
         }
     }
 
-    /// The operations of an attachment, with a loud value in place of one that nothing may count on.
-    pub(super) fn begin(&self, access: usize) -> Option<AttachmentOps> {
+    /// Returns the operations of an attachment. In poison mode, a clear replaces a load of contents that nothing may rely on.
+    pub(super) fn attachment_ops(&self, access: usize) -> Option<AttachmentOps> {
         let mut ops = self.plan.ops[access]?;
         let resource = self.plan.decl.resource(self.plan.decl.accesses[access].resource);
         if self.pool.poison
@@ -120,12 +74,12 @@ impl Recording<'_> {
             && matches!(ops.load_reason, LoadReason::Overwritten | LoadReason::RestUnneeded)
             && let ResourceDesc::Texture(desc) = resource.desc
         {
-            ops.load = LoadAction::Clear(value(desc.format));
+            ops.load = LoadAction::Clear(poison_value(desc.format));
         }
         Some(ops)
     }
 
-    /// Fills the mips, layers (of a volume, slices) and aspect of a part.
+    /// Fills the mips, layers (slices of a volume) and aspect of a part.
     fn fill_texture(&self, encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture, part: Subresource) {
         let usage = texture.usage();
         let (first, end) = part.mips.unwrap_or((0, texture.mip_level_count()));
@@ -135,26 +89,32 @@ impl Recording<'_> {
             for layer in first..end {
                 if usage.contains(TextureUsages::TRANSIENT_ATTACHMENT) {
                 } else if usage.contains(TextureUsages::RENDER_ATTACHMENT) {
-                    draw(encoder, texture, mip, layer, part.aspect);
+                    clear_layer(encoder, texture, mip, layer, part.aspect);
                 } else if usage.contains(TextureUsages::COPY_DST) {
-                    self.copy(encoder, texture, mip, layer);
+                    self.fill_by_copy(encoder, texture, mip, layer);
                 }
             }
         }
     }
 
     fn fill_buffer(&self, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) {
-        let pattern = self.pool.caches().pattern.get(self.device, 0);
+        let source = self.pool.caches().poison_buffer.get(self.device, 0);
         let mut start = 0;
         while start < buffer.size() {
-            let bytes = (buffer.size() - start).min(pattern.size());
-            encoder.copy_buffer_to_buffer(&pattern, 0, buffer, start, bytes);
+            let bytes = (buffer.size() - start).min(source.size());
+            encoder.copy_buffer_to_buffer(&source, 0, buffer, start, bytes);
             start += bytes;
         }
     }
 
-    /// Fills what cannot be drawn into.
-    fn copy(&self, encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture, mip: u32, layer: u32) {
+    /// Fills a texture that is not renderable.
+    fn fill_by_copy(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        texture: &wgpu::Texture,
+        mip: u32,
+        layer: u32,
+    ) {
         let format = texture.format();
         let size = texture.size().mip_level_size(mip, texture.dimension()).physical_size(format);
         let ((width, height), Some(block)) = (format.block_dimensions(), format.block_copy_size(None)) else {
@@ -162,22 +122,28 @@ impl Recording<'_> {
         };
         let (row, rows) = (size.width / width * block, size.height / height);
         let row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let pattern = self.pool.caches().pattern.get(self.device, u64::from(row) * u64::from(rows));
+        let source = self.pool.caches().poison_buffer.get(self.device, u64::from(row) * u64::from(rows));
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
         let origin = wgpu::Origin3d { x: 0, y: 0, z: layer };
         let target =
             wgpu::TexelCopyTextureInfo { texture, mip_level: mip, origin, aspect: wgpu::TextureAspect::All };
         let one = wgpu::Extent3d { depth_or_array_layers: 1, ..size };
-        encoder.copy_buffer_to_texture(wgpu::TexelCopyBufferInfo { buffer: &pattern, layout }, target, one);
+        encoder.copy_buffer_to_texture(wgpu::TexelCopyBufferInfo { buffer: &source, layout }, target, one);
     }
 }
 
 /// Clears one layer of one mip.
-fn draw(encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture, mip: u32, layer: u32, aspect: Aspect) {
+fn clear_layer(
+    encoder: &mut wgpu::CommandEncoder,
+    texture: &wgpu::Texture,
+    mip: u32,
+    layer: u32,
+    aspect: Aspect,
+) {
     let format = texture.format();
-    let view = view(texture, Subresource::FULL.mip(mip).layer(layer), Purpose::Attachment);
-    let (color, depth, stencil) = match value(format) {
+    let view = create_view(texture, Subresource::FULL.mip(mip).layer(layer), ViewUsage::Attachment);
+    let (color, depth, stencil) = match poison_value(format) {
         ClearValue::Color([r, g, b, a]) => (Some(wgpu::Color { r, g, b, a }), None, None),
         ClearValue::Depth(depth) => (None, Some(depth), None),
         ClearValue::DepthStencil(depth, stencil) => (None, Some(depth), Some(stencil)),

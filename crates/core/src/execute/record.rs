@@ -1,45 +1,45 @@
-//! Following a plan.
+//! Recording the steps of a plan.
 
+use super::Executed;
 use super::context::{Body, ComputeContext, EncoderContext, Resources};
-use super::copies::{self, Uploads};
-use super::realise::Realised;
+use super::copies::{Uploads, record_copies, stage_uploads};
+use super::read_back::ReadBack;
 use super::timer::Timer;
-use super::{Executed, ReadBack};
 use crate::compiled::Compiled;
 use crate::declaration::PassKind;
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
-use crate::pool::{Physical, Pool};
+use crate::pool::{PhysicalResource, Pool, ResolvedPlan};
 use crate::shader_pass::{self, ShaderPasses};
 use std::ops::Range;
 use std::time::Instant;
 
-/// What stays the same for all passes of a frame.
+/// What all passes of a frame share while they are recorded.
 pub(crate) struct Recording<'a> {
     pub(super) plan: &'a Plan,
     pub(super) frame: u64,
-    pub(super) realised: &'a Realised,
+    pub(super) resolved: &'a ResolvedPlan,
     pub(super) pool: &'a Pool,
     pub(super) device: &'a wgpu::Device,
     pub(super) uniforms: Option<&'a wgpu::Buffer>,
     pub(super) uploads: &'a Uploads,
     pub(super) timer: Option<&'a Timer>,
-    pub(super) calls: &'a ShaderPasses,
-    /// Bind group slots that the device has.
-    pub(super) groups: u32,
+    pub(super) shader_passes: &'a ShaderPasses,
+    /// Bind groups that the device supports.
+    pub(super) max_bind_groups: u32,
 }
 
-/// A frame whose objects are there and whose bytes are on their way.
+/// A frame whose physical objects are acquired and whose uploads are staged.
 pub(super) struct Prepared {
-    pub(super) realised: Realised,
-    pub(super) uniforms: Option<wgpu::Buffer>,
-    pub(super) uploads: Uploads,
+    resolved: ResolvedPlan,
+    uniforms: Option<wgpu::Buffer>,
+    uploads: Uploads,
 }
 
-/// What is done behind each pass of a step, once the step is recorded.
-pub(super) type Watch<'w> =
-    dyn FnMut(&Recording<'_>, PassId, &mut wgpu::CommandEncoder) -> Result<(), Error> + 'w;
+/// Is called after each pass of a step, once the step is recorded.
+pub(super) type AfterPassHook<'h> =
+    dyn FnMut(&Recording<'_>, PassId, &mut wgpu::CommandEncoder) -> Result<(), Error> + 'h;
 
 pub(super) fn record(
     compiled: Compiled<'_>,
@@ -47,18 +47,19 @@ pub(super) fn record(
     device: &wgpu::Device,
     encoder: &mut wgpu::CommandEncoder,
     timer: Option<&mut Timer>,
-    watch: Option<&mut Watch<'_>>,
+    after_pass: Option<&mut AfterPassHook<'_>>,
 ) -> Result<Executed, Error> {
-    follow(compiled, pool, device, encoder, timer, watch).map_err(|error| pool.explain(device, error))
+    record_plan(compiled, pool, device, encoder, timer, after_pass)
+        .map_err(|error| pool.classify_error(device, error))
 }
 
-fn follow(
+fn record_plan(
     mut compiled: Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,
     encoder: &mut wgpu::CommandEncoder,
     mut timer: Option<&mut Timer>,
-    watch: Option<&mut Watch<'_>>,
+    after_pass: Option<&mut AfterPassHook<'_>>,
 ) -> Result<Executed, Error> {
     let prepared = prepare(&compiled, pool, device, encoder, None)?;
     if let Some(timer) = timer.as_deref_mut() {
@@ -67,12 +68,12 @@ fn follow(
     let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
     let recording = prepared.recording(&compiled, pool, device, timer.as_deref());
     let mut take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
-    match watch {
+    match after_pass {
         None => recording.steps(0..compiled.plan.steps.len(), encoder, take)?,
-        Some(watch) => {
+        Some(after_pass) => {
             for (index, step) in compiled.plan.steps().enumerate() {
                 recording.steps(index..index + 1, encoder, &mut take)?;
-                step.passes.iter().try_for_each(|&pass| watch(&recording, pass, encoder))?;
+                step.passes.iter().try_for_each(|&pass| after_pass(&recording, pass, encoder))?;
             }
         }
     }
@@ -84,8 +85,8 @@ fn follow(
     Ok(prepared.finish(compiled, pool, read_backs))
 }
 
-/// Finds what stands behind the plan's resources, and records the uploads' way to the GPU. `last` is the last encoder
-/// of the frame, where that is not the first.
+/// Acquires the physical objects of the plan's resources and stages the uploads. `last` is the last encoder of the frame,
+/// if that is not the first.
 pub(super) fn prepare(
     compiled: &Compiled<'_>,
     pool: &mut Pool,
@@ -93,13 +94,14 @@ pub(super) fn prepare(
     encoder: &mut wgpu::CommandEncoder,
     last: Option<&wgpu::CommandEncoder>,
 ) -> Result<Prepared, Error> {
+    let (plan, work) = (&compiled.plan, &compiled.frame.work);
     let frame = pool.begin_frame();
-    let mut realised = Realised::take(&compiled.plan, pool, device, frame)?;
-    pool.keep_budget();
-    pool.histories.arrive(compiled, &mut realised.objects, device, encoder)?;
-    realised.arrive(&compiled.frame.work, pool);
-    let (uniforms, uploads) = copies::stage(compiled, pool, device, encoder, last)?;
-    Ok(Prepared { realised, uniforms, uploads })
+    let mut resolved = ResolvedPlan::acquire(plan, pool, device, frame)?;
+    pool.enforce_budget();
+    pool.histories.acquire((plan, &work.histories), &mut resolved.objects, device, encoder)?;
+    resolved.bind_imports(&work.imports, pool);
+    let (uniforms, uploads) = stage_uploads(compiled, pool, device, encoder, last)?;
+    Ok(Prepared { resolved, uniforms, uploads })
 }
 
 impl Prepared {
@@ -113,14 +115,14 @@ impl Prepared {
         Recording {
             plan: &compiled.plan,
             frame: compiled.frame.id(),
-            realised: &self.realised,
+            resolved: &self.resolved,
             pool,
             device,
             uniforms: self.uniforms.as_ref(),
             uploads: &self.uploads,
             timer,
-            calls: &compiled.frame.work.calls,
-            groups: device.limits().max_bind_groups,
+            shader_passes: &compiled.frame.work.shader_passes,
+            max_bind_groups: device.limits().max_bind_groups,
         }
     }
 
@@ -130,37 +132,38 @@ impl Prepared {
         pool: &mut Pool,
         read_backs: Vec<Option<ReadBack>>,
     ) -> Executed {
-        let resources = compiled.plan.decl.resources.iter().zip(&self.realised.objects).enumerate();
+        let resources = compiled.plan.decl.resources.iter().zip(&self.resolved.objects).enumerate();
         let exported = resources.filter(|(_, (resource, _))| resource.exported.is_some());
-        let exports =
-            exported.filter_map(|(index, (_, own))| Some((ResourceId(index as u32), own.clone()?))).collect();
-        self.realised.leave(pool);
-        pool.end_frame(&compiled);
+        let exports = exported
+            .filter_map(|(index, (_, object))| Some((ResourceId(index as u32), object.clone()?)))
+            .collect();
+        self.resolved.release(pool);
+        pool.end_frame(&compiled.plan, &compiled.frame.work.histories);
         Executed { frame: compiled.frame.id(), exports, read_backs, plan: compiled.plan.clone() }
     }
 }
 
 impl<'a> Recording<'a> {
     pub(super) fn texture(&self, id: ResourceId) -> Result<&'a wgpu::Texture, Error> {
-        match &self.realised.objects[id.index()] {
-            Some(Physical::Texture(texture)) => Ok(texture),
-            _ => Err(self.absent(id)),
+        match &self.resolved.objects[id.index()] {
+            Some(PhysicalResource::Texture(texture)) => Ok(texture),
+            _ => Err(self.missing_import(id)),
         }
     }
 
     pub(super) fn buffer(&self, id: ResourceId) -> Result<&'a wgpu::Buffer, Error> {
-        match &self.realised.objects[id.index()] {
-            Some(Physical::Buffer(buffer)) => Ok(buffer),
-            _ => Err(self.absent(id)),
+        match &self.resolved.objects[id.index()] {
+            Some(PhysicalResource::Buffer(buffer)) => Ok(buffer),
+            _ => Err(self.missing_import(id)),
         }
     }
 
-    /// Only an import that was declared without an object has nothing behind it.
-    pub(super) fn absent(&self, id: ResourceId) -> Error {
+    /// Returns the error of a resource without an object, which only an import can be.
+    pub(super) fn missing_import(&self, id: ResourceId) -> Error {
         Error::NoImport { resource: self.plan.decl.resource_path(id) }
     }
 
-    /// Records some of the steps; `take` gives the body of each pass, asked for in order.
+    /// Records some of the steps; `take` returns the body of each pass and is called in their order.
     pub(super) fn steps<'f>(
         &'a self,
         steps: Range<usize>,
@@ -171,7 +174,7 @@ impl<'a> Recording<'a> {
             let (start, end) = self.plan.steps[step];
             let passes = &self.plan.order[start as usize..end as usize];
             if self.pool.poison {
-                self.poison_arrivals(step, encoder);
+                self.poison_first_uses(step, encoder);
             }
             match self.plan.decl.pass(passes[0]).kind {
                 PassKind::Render => self.render(passes, encoder, &mut take)?,
@@ -185,9 +188,9 @@ impl<'a> Recording<'a> {
         Ok(())
     }
 
-    /// Runs a body, gives its own error the name of its pass, and notes how long it took.
+    /// Runs a body, adds the name of its pass to its error, and measures its time.
     pub(super) fn timed(&self, id: PassId, body: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
-        let _span = tracing::debug_span!("pass", name = self.realised.label(id)).entered();
+        let _span = tracing::debug_span!("pass", name = self.resolved.label(id)).entered();
         let started = self.timer.map(|timer| (timer, Instant::now()));
         let result = body();
         if let Some((timer, started)) = started {
@@ -213,27 +216,27 @@ impl<'a> Recording<'a> {
             beginning_of_pass_write_index: Some(begin),
             end_of_pass_write_index: Some(end),
         });
-        let label = Some(self.realised.label(id));
+        let label = Some(self.resolved.label(id));
         let pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
         let resources = Resources { recording: self, pass: id };
         let mut context = ComputeContext { pass, resources };
         match body {
             Body::Compute(body) => self.timed(id, || body(&mut context))?,
-            Body::ShaderPass(call) => self.timed(id, || shader_pass::dispatch(&mut context, call))?,
+            Body::ShaderPass(index) => self.timed(id, || shader_pass::dispatch(&mut context, index))?,
             Body::None | Body::Render(_) | Body::Encoder(_) => {}
         }
         Ok(())
     }
 
-    /// Copies and raw encoding, between two timestamps where the device can write them there.
+    /// Records a copy or encoder pass, between two timestamps where the device supports them in encoders.
     fn encode(&'a self, id: PassId, encoder: &mut wgpu::CommandEncoder, body: Body<'_>) -> Result<(), Error> {
         let queries = self.timer.and_then(|timer| timer.encoder_queries(id));
         if let Some((queries, begin)) = queries {
             encoder.write_timestamp(queries, begin);
         }
-        encoder.push_debug_group(self.realised.label(id));
+        encoder.push_debug_group(self.resolved.label(id));
         self.timed(id, || {
-            copies::copies(self, id, encoder)?;
+            record_copies(self, id, encoder)?;
             if let Body::Encoder(body) = body {
                 let resources = Resources { recording: self, pass: id };
                 body(&mut EncoderContext { encoder, resources })?;

@@ -1,17 +1,17 @@
-//! Recording a render step: one render pass for one pass of the frame, or for several that were merged.
+//! Recording a render step: one wgpu render pass for one pass of the frame, or for several that were merged.
 
 use super::attachments::{ColorAttachments, color_attachments, depth_attachment, targets};
 use super::context::{Body, RenderContext, Resources};
 use super::record::Recording;
-use crate::access::ClearValue;
+use crate::access::{Access, ClearValue, Contents};
 use crate::declaration::ALL_OF_RESOURCE;
+use crate::desc::Extent;
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::internal::{RegionClear, Targets};
 use crate::plan::{AccessPlan, AttachmentOps, LoadAction};
 use crate::shader_pass;
 use crate::subresource::{Aspect, Rect};
-use crate::{Access, Contents, Extent};
 
 impl<'a> Recording<'a> {
     pub(super) fn render<'f>(
@@ -31,7 +31,7 @@ impl<'a> Recording<'a> {
             end_of_pass_write_index: Some(end),
         });
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(self.realised.label(first)),
+            label: Some(self.resolved.label(first)),
             color_attachments: &colors,
             depth_stencil_attachment,
             timestamp_writes,
@@ -41,13 +41,13 @@ impl<'a> Recording<'a> {
         let mut context = RenderContext { pass, resources: Resources { recording: self, pass: first } };
         for &id in passes {
             context.resources.pass = id;
-            self.merged(id, passes, &mut context, take(id))?;
+            self.record_pass(id, passes, &mut context, take(id))?;
         }
         Ok(())
     }
 
     /// Records one of the passes that share a render pass.
-    fn merged(
+    fn record_pass(
         &self,
         id: PassId,
         passes: &[PassId],
@@ -56,7 +56,7 @@ impl<'a> Recording<'a> {
     ) -> Result<(), Error> {
         let several = passes.len() > 1;
         if several {
-            context.pass.push_debug_group(self.realised.label(id));
+            context.pass.push_debug_group(self.resolved.label(id));
         }
         let inside = self.timer.and_then(|timer| timer.inside_queries(id, several));
         if let Some((queries, begin)) = inside {
@@ -64,13 +64,13 @@ impl<'a> Recording<'a> {
         }
         let counted = self.timer.and_then(|timer| timer.triangle_query(id));
         let drawn = self.clear_regions(id, context);
-        self.clean_state(id, context, several && id != passes[0] || drawn);
+        self.reset_state(id, context, several && id != passes[0] || drawn);
         if let Some((queries, query)) = counted {
             context.pass.begin_pipeline_statistics_query(queries, query);
         }
         match body {
             Body::Render(body) => self.timed(id, || body(context))?,
-            Body::ShaderPass(call) => self.timed(id, || shader_pass::draw(context, call))?,
+            Body::ShaderPass(index) => self.timed(id, || shader_pass::draw(context, index))?,
             Body::None | Body::Compute(_) | Body::Encoder(_) => {}
         }
         if counted.is_some() {
@@ -85,12 +85,12 @@ impl<'a> Recording<'a> {
         Ok(())
     }
 
-    /// Draws the clears that no load operation does, and tells whether there were any.
+    /// Draws the clears that load operations cannot do, and returns whether there were any.
     fn clear_regions(&self, id: PassId, context: &mut RenderContext<'_>) -> bool {
         if self.plan.decl.subresources.is_empty() && !self.pool.poison {
             return false;
         }
-        // Where a loud value stands for what the pass before loads, no clear may count on that.
+        // In poison mode the earlier pass may have cleared to the poison value instead, so its clear does not count.
         let again = |load| self.pool.poison && load == LoadAction::Continue;
         let drawn = |ops: &Option<AttachmentOps>| ops.is_some_and(|ops| ops.clear_drawn || again(ops.load));
         if !self.plan.ops[self.plan.decl.access_range(id)].iter().any(drawn) {
@@ -99,7 +99,7 @@ impl<'a> Recording<'a> {
         let cleared = |access: &AccessPlan| drawn(&access.ops);
         let targets: Targets = targets(self.plan, id);
         let mut caches = self.pool.caches();
-        // Parts may differ from attachment to attachment, so each is cleared on its own.
+        // Attachments may have different parts, so each is cleared separately.
         for access in self.plan.accesses(id).filter(cleared) {
             let Some(Contents::Clear(value)) = access.contents else { continue };
             let mut colors = vec![None; targets.colors.len()];
@@ -115,35 +115,35 @@ impl<'a> Recording<'a> {
             let aspect = access.subresource.aspect;
             let (depth, stencil) =
                 (depth.filter(|_| aspect != Aspect::Stencil), stencil.filter(|_| aspect != Aspect::Depth));
-            let rect = access.subresource.rect.unwrap_or_else(|| whole(self.attachment_size(&access)));
+            let rect = access.subresource.rect.unwrap_or_else(|| full_rect(self.attachment_size(&access)));
             let clear = RegionClear { colors: &colors, depth, stencil, rect };
             caches.clears.record(self.device, &mut context.pass, &targets, &clear);
         }
         true
     }
 
-    /// Puts the pass into the state that a body may count on; `touched` tells whether it may be in another.
-    fn clean_state(&self, id: PassId, context: &mut RenderContext<'_>, touched: bool) {
+    /// Resets the pass to the state that a body may rely on; `dirty` says whether it may have been changed.
+    fn reset_state(&self, id: PassId, context: &mut RenderContext<'_>, dirty: bool) {
         let decl = &self.plan.decl;
         let in_parts = !decl.subresources.is_empty()
             && decl.accesses(id).iter().any(|access| access.subresource != ALL_OF_RESOURCE);
-        if !touched && !in_parts {
+        if !dirty && !in_parts {
             return;
         }
         let pass = &mut context.pass;
         let mut attachments = self.plan.accesses(id).filter(|a| a.access.is_attachment());
         let tile = attachments.clone().find_map(|access| access.subresource.rect);
-        if !touched && tile.is_none() {
+        if !dirty && tile.is_none() {
             return;
         }
         let Some(first) = attachments.next() else { return };
-        let rect = tile.unwrap_or_else(|| whole(self.attachment_size(&first)));
+        let rect = tile.unwrap_or_else(|| full_rect(self.attachment_size(&first)));
         pass.set_viewport(rect.x as f32, rect.y as f32, rect.width as f32, rect.height as f32, 0.0, 1.0);
         pass.set_scissor_rect(rect.x, rect.y, rect.width, rect.height);
-        if touched {
+        if dirty {
             pass.set_stencil_reference(0);
             pass.set_blend_constant(wgpu::Color::TRANSPARENT);
-            for group in 0..self.groups {
+            for group in 0..self.max_bind_groups {
                 pass.set_bind_group(group, None, &[]);
             }
         }
@@ -160,6 +160,6 @@ impl<'a> Recording<'a> {
     }
 }
 
-fn whole(size: Extent) -> Rect {
+fn full_rect(size: Extent) -> Rect {
     Rect::new(0, 0, size.width, size.height)
 }

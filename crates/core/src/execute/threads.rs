@@ -1,4 +1,4 @@
-//! Recording on several threads, of which the caller's is one.
+//! Recording on several threads, one of which is the caller's.
 
 use super::Executed;
 use super::context::Body;
@@ -10,8 +10,8 @@ use crate::pool::Pool;
 use std::ops::Range;
 use std::thread::ScopedJoinHandle;
 
-/// Bodies of some steps, in order.
-struct Share<'f> {
+/// A range of steps with the bodies of their passes, in order.
+struct StepRange<'f> {
     steps: Range<usize>,
     bodies: Vec<Body<'f>>,
 }
@@ -25,19 +25,19 @@ pub(super) fn record(
     let label = Some("frame");
     let encoder = || device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
     let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
-    let shares = share(&compiled, &mut bodies, threads);
+    let ranges = split_steps(&compiled, &mut bodies, threads);
     compiled.frame.work.bodies = bodies;
-    let (mut first, others) = (encoder(), (1..shares.len()).map(|_| encoder()).collect::<Vec<_>>());
+    let (mut first, others) = (encoder(), (1..ranges.len()).map(|_| encoder()).collect::<Vec<_>>());
     let prepared = prepare(&compiled, pool, device, &mut first, others.last())?;
     let recording = prepared.recording(&compiled, pool, device, None);
     let results: Vec<_> = std::thread::scope(|scope| {
-        let mut shares = shares.into_iter();
-        let own = shares.next();
+        let mut ranges = ranges.into_iter();
+        let first_range = ranges.next();
         let recording = &recording;
-        let spawn = |(share, encoder)| scope.spawn(move || one(recording, share, encoder));
-        let workers: Vec<_> = shares.zip(others).map(spawn).collect();
-        let own = own.map(|share| one(recording, share, first));
-        // A body's panic goes on in the thread that asked for the frame.
+        let spawn = |(range, encoder)| scope.spawn(move || record_range(recording, range, encoder));
+        let workers: Vec<_> = ranges.zip(others).map(spawn).collect();
+        let own = first_range.map(|range| record_range(recording, range, first));
+        // A body's panic resumes on the caller's thread.
         let join = |worker: ScopedJoinHandle<'_, _>| {
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         };
@@ -53,31 +53,31 @@ pub(super) fn record(
     Ok((prepared.finish(compiled, pool, read_backs), buffers))
 }
 
-/// Divides the steps into runs of about as many passes.
-fn share<'f>(compiled: &Compiled<'_>, bodies: &mut [Body<'f>], threads: usize) -> Vec<Share<'f>> {
+/// Splits the steps into ranges with similar numbers of passes.
+fn split_steps<'f>(compiled: &Compiled<'_>, bodies: &mut [Body<'f>], threads: usize) -> Vec<StepRange<'f>> {
     let plan = &compiled.plan;
     let wanted = plan.order.len().div_ceil(threads.max(1)).max(1);
-    let mut shares: Vec<Share<'f>> = vec![Share { steps: 0..0, bodies: Vec::new() }];
+    let mut ranges: Vec<StepRange<'f>> = vec![StepRange { steps: 0..0, bodies: Vec::new() }];
     for (index, &(start, end)) in plan.steps.iter().enumerate() {
-        if shares.last().is_some_and(|share| share.bodies.len() >= wanted) {
-            shares.push(Share { steps: index..index, bodies: Vec::new() });
+        if ranges.last().is_some_and(|range| range.bodies.len() >= wanted) {
+            ranges.push(StepRange { steps: index..index, bodies: Vec::new() });
         }
-        if let Some(share) = shares.last_mut() {
-            share.steps.end = index + 1;
+        if let Some(range) = ranges.last_mut() {
+            range.steps.end = index + 1;
             let passes = &plan.order[start as usize..end as usize];
             let take = |pass: &PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
-            share.bodies.extend(passes.iter().map(take));
+            range.bodies.extend(passes.iter().map(take));
         }
     }
-    shares
+    ranges
 }
 
-fn one(
+fn record_range(
     recording: &Recording<'_>,
-    share: Share<'_>,
+    range: StepRange<'_>,
     mut encoder: wgpu::CommandEncoder,
 ) -> Result<wgpu::CommandBuffer, Error> {
-    let mut bodies = share.bodies.into_iter();
-    recording.steps(share.steps, &mut encoder, |_| bodies.next().unwrap_or(Body::None))?;
+    let mut bodies = range.bodies.into_iter();
+    recording.steps(range.steps, &mut encoder, |_| bodies.next().unwrap_or(Body::None))?;
     Ok(encoder.finish())
 }

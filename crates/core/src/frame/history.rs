@@ -4,7 +4,8 @@ use super::Frame;
 use crate::declaration::{Declaration, Origin};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::handle::{NodeId, ResourceId, Texture};
+use crate::handle::{NodeId, Texture};
+use crate::history::{HistoryUse, Resize};
 use crate::name::Name;
 
 /// A texture of two frames: what it held in the frame before, and what it shall hold now.
@@ -28,27 +29,6 @@ pub struct History {
     /// and its own execution; of frames that are declared ahead, the later ones do not know of the earlier. The plan
     /// does not depend on it.
     pub valid: bool,
-}
-
-/// What becomes of a history when its size changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Resize {
-    /// The contents are dropped: `valid` is false for one frame.
-    Reset,
-    /// The contents are drawn into the new size, filtered where the format can be; the number of mips may change with
-    /// it. What cannot be drawn so is reset: stencil, formats that are not renderable, several samples per texel, 1D
-    /// and 3D textures, and what was declared with `Reset` before, unless it was sampled.
-    Resample,
-}
-
-/// A history that a frame uses.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "the executor reads the rest"))]
-pub(crate) struct HistoryUse {
-    pub(crate) previous: ResourceId,
-    pub(crate) current: ResourceId,
-    pub(crate) resize: Resize,
-    pub(crate) view: Option<NodeId>,
 }
 
 impl Frame<'_> {

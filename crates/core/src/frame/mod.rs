@@ -5,8 +5,7 @@ mod history;
 mod resources;
 mod storage;
 
-pub(crate) use history::HistoryUse;
-pub use history::{History, Resize};
+pub use history::History;
 pub(crate) use storage::{Storage, Work};
 
 use crate::access::{Access, Contents};

@@ -24,12 +24,12 @@ pub(crate) struct Work<'f> {
     pub(crate) bodies: Vec<crate::execute::Body<'f>>,
     /// By resource.
     #[cfg(feature = "gpu")]
-    pub(crate) imports: Vec<Option<crate::execute::Imported>>,
-    pub(crate) histories: Vec<super::HistoryUse>,
+    pub(crate) imports: Vec<Option<crate::pool::PhysicalResource>>,
+    pub(crate) histories: Vec<crate::history::HistoryUse>,
     #[cfg(feature = "gpu")]
-    pub(crate) read_backs: Vec<crate::execute::Requested>,
+    pub(crate) read_backs: Vec<crate::execute::ReadBackDecl>,
     #[cfg(feature = "gpu")]
-    pub(crate) calls: crate::shader_pass::ShaderPasses,
+    pub(crate) shader_passes: crate::shader_pass::ShaderPasses,
 }
 
 impl Work<'_> {
@@ -48,7 +48,7 @@ impl Work<'_> {
             #[cfg(feature = "gpu")]
             read_backs: cleared(self.read_backs),
             #[cfg(feature = "gpu")]
-            calls: self.calls.emptied(),
+            shader_passes: self.shader_passes.cleared(),
         }
     }
 }

@@ -8,8 +8,8 @@ mod tests;
 
 pub(crate) use region_clear::{RegionClear, RegionClears, Targets};
 #[cfg(test)]
-use resample::Unfit;
-pub(crate) use resample::{Resampler, resamples};
+use resample::ResampleError;
+pub(crate) use resample::{Resampler, can_resample};
 
 const TEXT: &str = include_str!("internal.wgsl");
 

@@ -3,11 +3,9 @@
 
 use super::{module, scalar, section, uniform, vertex};
 use crate::desc::Format;
+use crate::device::MAX_COLOR_ATTACHMENTS;
 use crate::subresource::Rect;
 use std::collections::HashMap;
-
-/// Colour attachments that a pass has at most, on any device of wgpu's; `internal.wgsl` has the same number.
-const MAX_COLORS: usize = 8;
 
 /// What the open pass draws into. Whether depth or stencil is read-only there does not matter, unless it is cleared.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -34,14 +32,18 @@ pub(crate) struct RegionClear<'v> {
 
 /// What a pipeline writes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Cleared {
-    colors: [bool; MAX_COLORS],
+struct ClearMask {
+    colors: [bool; MAX_COLOR_ATTACHMENTS],
     depth: bool,
     stencil: bool,
 }
 
-impl Cleared {
-    fn new(targets: &Targets, clear: &RegionClear<'_>, bits: &[Option<[u32; 4]>; MAX_COLORS]) -> Self {
+impl ClearMask {
+    fn new(
+        targets: &Targets,
+        clear: &RegionClear<'_>,
+        bits: &[Option<[u32; 4]>; MAX_COLOR_ATTACHMENTS],
+    ) -> Self {
         let has = |aspect: fn(&Format) -> bool| targets.depth_stencil.as_ref().is_some_and(aspect);
         Self {
             colors: bits.map(|bits| bits.is_some()),
@@ -50,13 +52,13 @@ impl Cleared {
         }
     }
 
-    fn is_nothing(&self) -> bool {
+    fn is_empty(&self) -> bool {
         !self.depth && !self.stencil && !self.colors.contains(&true)
     }
 }
 
 /// The bits of the values as the shader has them, 0 for what is left alone.
-type Bits = [[u32; 4]; MAX_COLORS];
+type Bits = [[u32; 4]; MAX_COLOR_ATTACHMENTS];
 
 struct Values {
     group: wgpu::BindGroup,
@@ -69,7 +71,7 @@ struct Values {
 pub(crate) struct RegionClears {
     frame: u64,
     layout: Option<wgpu::BindGroupLayout>,
-    pipelines: HashMap<(Targets, Cleared), wgpu::RenderPipeline>,
+    pipelines: HashMap<(Targets, ClearMask), wgpu::RenderPipeline>,
     values: HashMap<Bits, Values>,
 }
 
@@ -92,9 +94,9 @@ impl RegionClears {
         clear: &RegionClear<'_>,
     ) {
         let bits = bits(targets, clear);
-        let cleared = Cleared::new(targets, clear, &bits);
+        let cleared = ClearMask::new(targets, clear, &bits);
         let Rect { x, y, width, height } = clear.rect;
-        if cleared.is_nothing() || width == 0 || height == 0 {
+        if cleared.is_empty() || width == 0 || height == 0 {
             return;
         }
         let layout = self.layout.get_or_insert_with(|| layout(device));
@@ -122,8 +124,8 @@ impl RegionClears {
 }
 
 /// Returns each cleared attachment's value in the number format that its shader output has.
-fn bits(targets: &Targets, clear: &RegionClear<'_>) -> [Option<[u32; 4]>; MAX_COLORS] {
-    let mut all = [None; MAX_COLORS];
+fn bits(targets: &Targets, clear: &RegionClear<'_>) -> [Option<[u32; 4]>; MAX_COLOR_ATTACHMENTS] {
+    let mut all = [None; MAX_COLOR_ATTACHMENTS];
     for ((bits, format), color) in all.iter_mut().zip(&targets.colors).zip(clear.colors) {
         let (Some(format), Some(color)) = (format, color) else { continue };
         *bits = Some(color.map(|value| match format.sample_type(None, None) {
@@ -164,7 +166,7 @@ fn pipeline_of(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     targets: &Targets,
-    cleared: Cleared,
+    cleared: ClearMask,
 ) -> wgpu::RenderPipeline {
     let module = module(device, "region clear", &fragment_text(targets, cleared));
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -192,7 +194,7 @@ fn pipeline_of(
 }
 
 /// Returns a fragment stage with outputs for the cleared attachments only, each of its format's scalar.
-fn fragment_text(targets: &Targets, cleared: Cleared) -> String {
+fn fragment_text(targets: &Targets, cleared: ClearMask) -> String {
     if !cleared.colors.contains(&true) {
         return section("no-color").to_owned();
     }
@@ -212,7 +214,7 @@ fn fragment_text(targets: &Targets, cleared: Cleared) -> String {
     text
 }
 
-fn color_states(targets: &Targets, cleared: Cleared) -> Vec<Option<wgpu::ColorTargetState>> {
+fn color_states(targets: &Targets, cleared: ClearMask) -> Vec<Option<wgpu::ColorTargetState>> {
     let state = |(index, format): (usize, &Option<Format>)| {
         let write_mask = match cleared.colors.get(index) {
             Some(true) => wgpu::ColorWrites::ALL,
@@ -223,7 +225,7 @@ fn color_states(targets: &Targets, cleared: Cleared) -> Vec<Option<wgpu::ColorTa
     targets.colors.iter().enumerate().map(state).collect()
 }
 
-fn depth_stencil_state(format: Format, cleared: Cleared) -> wgpu::DepthStencilState {
+fn depth_stencil_state(format: Format, cleared: ClearMask) -> wgpu::DepthStencilState {
     let face = wgpu::StencilFaceState {
         pass_op: if cleared.stencil { wgpu::StencilOperation::Replace } else { wgpu::StencilOperation::Keep },
         ..wgpu::StencilFaceState::IGNORE

@@ -7,7 +7,7 @@ use wgpu::{TextureDimension, TextureSampleType, TextureUsages};
 
 /// Why contents cannot be carried over to another size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unfit {
+pub(crate) enum ResampleError {
     /// No shader can write the format whole: it has a stencil aspect, is compressed or is not renderable.
     Format,
     /// More than one sample per texel.
@@ -25,11 +25,11 @@ pub(crate) enum Unfit {
 ///
 /// # Errors
 /// Why not. What only this adapter can render to is refused, as a device does not tell.
-pub(crate) fn resamples(desc: &TextureDesc, features: wgpu::Features) -> Result<(), Unfit> {
+pub(crate) fn can_resample(desc: &TextureDesc, features: wgpu::Features) -> Result<(), ResampleError> {
     class(desc.format, desc.samples, desc.dimension, features)?;
     let needed = TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT;
     let allowed = desc.format.guaranteed_format_features(features).allowed_usages;
-    if allowed.contains(needed) { Ok(()) } else { Err(Unfit::Format) }
+    if allowed.contains(needed) { Ok(()) } else { Err(ResampleError::Format) }
 }
 
 /// How a shader reads such a texture.
@@ -38,12 +38,12 @@ fn class(
     samples: u32,
     dimension: TextureDimension,
     features: wgpu::Features,
-) -> Result<TextureSampleType, Unfit> {
+) -> Result<TextureSampleType, ResampleError> {
     match (format.sample_type(None, Some(features)), samples, dimension) {
-        (_, _, TextureDimension::D1 | TextureDimension::D3) => Err(Unfit::Dimension),
-        (_, 2.., _) => Err(Unfit::Samples),
+        (_, _, TextureDimension::D1 | TextureDimension::D3) => Err(ResampleError::Dimension),
+        (_, 2.., _) => Err(ResampleError::Samples),
         (Some(class), ..) if !format.has_stencil_aspect() => Ok(class),
-        _ => Err(Unfit::Format),
+        _ => Err(ResampleError::Format),
     }
 }
 
@@ -68,7 +68,7 @@ impl Resampler {
         encoder: &mut wgpu::CommandEncoder,
         source: &wgpu::Texture,
         target: &wgpu::Texture,
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), ResampleError> {
         let format = target.format();
         let class = class(format, target.sample_count(), target.dimension(), device.features())?;
         check_pair(source, target)?;
@@ -89,16 +89,16 @@ impl Resampler {
     }
 }
 
-fn check_pair(source: &wgpu::Texture, target: &wgpu::Texture) -> Result<(), Unfit> {
+fn check_pair(source: &wgpu::Texture, target: &wgpu::Texture) -> Result<(), ResampleError> {
     let shape = |texture: &wgpu::Texture| {
         (texture.format(), texture.dimension(), texture.sample_count(), texture.depth_or_array_layers())
     };
     if shape(source) != shape(target) {
-        return Err(Unfit::Different);
+        return Err(ResampleError::Different);
     }
     let bound = source.usage().contains(TextureUsages::TEXTURE_BINDING);
     let drawn = target.usage().contains(TextureUsages::RENDER_ATTACHMENT);
-    if bound && drawn { Ok(()) } else { Err(Unfit::Usage) }
+    if bound && drawn { Ok(()) } else { Err(ResampleError::Usage) }
 }
 
 /// Returns the view of one mip and layer.

@@ -1,185 +1,184 @@
-//! The textures behind histories, from frame to frame.
+//! The textures of histories, from frame to frame.
 
-use super::slots::{Physical, create_texture};
-use crate::compiled::Compiled;
+use super::slots::{PhysicalResource, create_texture};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::frame::{HistoryUse, Resize};
-use crate::graph::PriorHistory;
-use crate::internal::{Resampler, resamples};
+use crate::history::{HistoryUse, PriorHistory, Resize};
+use crate::internal::{Resampler, can_resample};
 use crate::plan::Plan;
 use std::sync::Arc;
 use wgpu::TextureUsages;
 
 /// One history and its two halves.
-struct History {
-    known: PriorHistory,
+struct PooledHistory {
+    prior: PriorHistory,
     usage: TextureUsages,
-    /// First what the last frame wrote: the next one's `previous`.
+    /// The half that the last frame wrote comes first: it is the next frame's `previous`.
     halves: [wgpu::Texture; 2],
     /// The frame that used it last.
     used: u64,
 }
 
-/// All histories of a graph. A frame that is executed finds its textures by [`arrive`](Self::arrive), and by
-/// [`leave`](Self::leave) hands them on to the next. Until then nothing changes, so a frame that fails, or is never
-/// executed, does not count.
+/// All histories of a graph. Executing a frame acquires its textures by [`acquire`](Self::acquire) and passes them on to
+/// the next frame by [`release`](Self::release). Until then nothing changes, so a frame that fails, or is never executed,
+/// has no effect.
 #[derive(Default)]
 pub(crate) struct Histories {
-    all: Vec<History>,
-    /// Made for the frame being recorded.
-    fresh: Vec<History>,
+    all: Vec<PooledHistory>,
+    /// Created for the frame being recorded.
+    new: Vec<PooledHistory>,
     resampler: Resampler,
-    known: Arc<Vec<PriorHistory>>,
+    prior: Arc<Vec<PriorHistory>>,
 }
 
 impl Histories {
     /// Returns the histories that hold contents.
-    pub(crate) fn known(&self) -> Arc<Vec<PriorHistory>> {
-        self.known.clone()
+    pub(crate) fn prior(&self) -> Arc<Vec<PriorHistory>> {
+        self.prior.clone()
     }
 
     /// Returns the bytes of all halves, without the driver's padding.
     pub(crate) fn bytes(&self) -> u64 {
-        self.all.iter().map(|history| 2 * history.known.desc.bytes()).sum()
+        self.all.iter().map(|history| 2 * history.prior.desc.bytes()).sum()
     }
 
-    /// Drops what was made for a frame that failed.
-    pub(crate) fn forget_fresh(&mut self) {
-        self.fresh.clear();
+    /// Drops what was created for a frame that failed.
+    pub(crate) fn discard_new(&mut self) {
+        self.new.clear();
     }
 
-    /// Puts the textures of the frame's histories among its objects. Where they are not there yet or will not do, new
-    /// ones are made, and the encoder carries over the contents that fit.
-    pub(crate) fn arrive(
+    /// Sets the textures of a frame's histories in `objects`, which are by resource. Where a history has none yet, or they
+    /// are not compatible, creates new ones and records into the encoder the transfer of contents that fit.
+    pub(crate) fn acquire(
         &mut self,
-        compiled: &Compiled<'_>,
-        objects: &mut [Option<Physical>],
+        (plan, uses): (&Plan, &[HistoryUse]),
+        objects: &mut [Option<PhysicalResource>],
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), Error> {
-        self.fresh.clear();
-        for own in &compiled.frame.work.histories {
-            let Some(wanted) = Wanted::new(&compiled.plan, own, device.features()) else { continue };
-            let before = self.all.iter().find(|history| history.is(&compiled.plan, own));
+        self.new.clear();
+        for used in uses {
+            let Some(request) = HistoryRequest::new(plan, used, device.features()) else { continue };
+            let before = self.all.iter().find(|history| history.matches(plan, used));
             let [previous, current] = match before {
-                Some(history) if history.serves(&wanted) => history.halves.clone(),
+                Some(history) if history.is_compatible(&request) => history.halves.clone(),
                 _ => {
-                    let history = wanted.make(before, &mut self.resampler, device, encoder)?;
+                    let history = request.create(before, &mut self.resampler, device, encoder)?;
                     let halves = history.halves.clone();
-                    self.fresh.push(history);
+                    self.new.push(history);
                     halves
                 }
             };
-            objects[own.previous.index()] = Some(Physical::Texture(previous));
-            objects[own.current.index()] = Some(Physical::Texture(current));
+            objects[used.previous.index()] = Some(PhysicalResource::Texture(previous));
+            objects[used.current.index()] = Some(PhysicalResource::Texture(current));
         }
         Ok(())
     }
 
-    /// Swaps the halves of what frame `frame` used, and drops what was last used before frame `oldest`.
-    pub(crate) fn leave(&mut self, compiled: &Compiled<'_>, frame: u64, oldest: u64) {
-        let (mut changed, before) = (!self.fresh.is_empty(), self.all.len());
-        for fresh in self.fresh.drain(..) {
-            match self.all.iter_mut().find(|old| old.known.is_same_history(&fresh.known)) {
-                Some(old) => *old = fresh,
-                None => self.all.push(fresh),
+    /// Swaps the halves of the histories that frame `frame` used, and drops what was last used before frame `oldest`.
+    pub(crate) fn release(&mut self, (plan, uses): (&Plan, &[HistoryUse]), frame: u64, oldest: u64) {
+        let (mut changed, before) = (!self.new.is_empty(), self.all.len());
+        for new in self.new.drain(..) {
+            match self.all.iter_mut().find(|old| old.prior.is_same_history(&new.prior)) {
+                Some(old) => *old = new,
+                None => self.all.push(new),
             }
         }
-        for own in &compiled.frame.work.histories {
-            if let Some(history) = self.all.iter_mut().find(|history| history.is(&compiled.plan, own)) {
+        for used in uses {
+            if let Some(history) = self.all.iter_mut().find(|history| history.matches(plan, used)) {
                 history.halves.swap(0, 1);
                 history.used = frame;
             }
         }
         self.all.retain(|history| history.used >= oldest);
         changed |= self.all.len() != before;
-        // Frames that were given out before may still hold the old list.
+        // Frames that were started before may still hold the old list.
         if changed {
-            self.known = Arc::new(self.all.iter().map(|history| history.known.clone()).collect());
+            self.prior = Arc::new(self.all.iter().map(|history| history.prior.clone()).collect());
         }
     }
 }
 
-impl History {
-    fn is(&self, plan: &Plan, own: &HistoryUse) -> bool {
-        self.known.is(&plan.decl, own.view, own.current)
+impl PooledHistory {
+    fn matches(&self, plan: &Plan, used: &HistoryUse) -> bool {
+        self.prior.matches(&plan.decl, used.view, used.current)
     }
 
-    fn serves(&self, wanted: &Wanted<'_>) -> bool {
-        self.known.desc == wanted.desc && self.usage.contains(wanted.usage)
+    fn is_compatible(&self, request: &HistoryRequest<'_>) -> bool {
+        self.prior.desc == request.desc && self.usage.contains(request.usage)
     }
 }
 
 /// What a frame needs of a history.
-struct Wanted<'p> {
+struct HistoryRequest<'p> {
     plan: &'p Plan,
-    own: &'p HistoryUse,
+    used: &'p HistoryUse,
     desc: TextureDesc,
     usage: TextureUsages,
 }
 
-impl<'p> Wanted<'p> {
-    fn new(plan: &'p Plan, own: &'p HistoryUse, features: wgpu::Features) -> Option<Self> {
-        let ResourceDesc::Texture(desc) = plan.decl.resource(own.current).desc else { return None };
-        // Copies carry the contents over when a usage is added.
+impl<'p> HistoryRequest<'p> {
+    fn new(plan: &'p Plan, used: &'p HistoryUse, features: wgpu::Features) -> Option<Self> {
+        let ResourceDesc::Texture(desc) = plan.decl.resource(used.current).desc else { return None };
+        // Copies transfer the contents when a usage is added.
         let mut usage = TextureUsages::COPY_SRC | TextureUsages::COPY_DST;
-        for half in [own.previous, own.current] {
+        for half in [used.previous, used.current] {
             usage |= plan.placements[half.index()].texture_usage;
         }
-        if own.resize == Resize::Resample && resamples(&desc, features).is_ok() {
+        if used.resize == Resize::Resample && can_resample(&desc, features).is_ok() {
             usage |= TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT;
         }
         if desc.samples > 1 {
             usage |= TextureUsages::RENDER_ATTACHMENT;
         }
-        Some(Self { plan, own, desc, usage })
+        Some(Self { plan, used, desc, usage })
     }
 
-    /// Creates both halves, with all usages that the history ever had, and fills the first with what `before` holds.
-    /// Where it does not fit, wgpu's zeros stay.
-    fn make(
+    /// Creates both halves, with all usages that the history ever had, and fills the first with the contents of `before`.
+    /// Contents that do not fit are replaced by wgpu's zeros.
+    fn create(
         &self,
-        before: Option<&History>,
+        before: Option<&PooledHistory>,
         resampler: &mut Resampler,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-    ) -> Result<History, Error> {
+    ) -> Result<PooledHistory, Error> {
         let (decl, desc) = (&self.plan.decl, &self.desc);
-        let alike = before.filter(|before| before.known.differs_in_size_only(desc));
-        let usage = alike.map_or(self.usage, |before| before.usage | self.usage);
-        let name = decl.resource_name(self.own.current);
+        let same_shape = before.filter(|before| before.prior.differs_in_size_only(desc));
+        let usage = same_shape.map_or(self.usage, |before| before.usage | self.usage);
+        let name = decl.resource_name(self.used.current);
         let halves = [create_texture(device, desc, usage, name)?, create_texture(device, desc, usage, name)?];
-        if let Some(before) = before.filter(|before| before.known.fits(desc, self.own.resize)) {
+        if let Some(before) = before.filter(|before| before.prior.fits(desc, self.used.resize)) {
             let source = &before.halves[0];
-            if before.known.desc == *desc {
-                copy(encoder, source, &halves[0]);
+            if before.prior.desc == *desc {
+                copy_texture(encoder, source, &halves[0]);
             } else {
-                let drawn = resampler.record(device, encoder, source, &halves[0]);
-                debug_assert_eq!(drawn, Ok(()), "what fits can be drawn");
+                let resampled = resampler.record(device, encoder, source, &halves[0]);
+                debug_assert_eq!(resampled, Ok(()), "contents that fit can be resampled");
             }
         }
         let mut view = String::new();
-        if let Some(node) = self.own.view {
+        if let Some(node) = self.used.view {
             decl.write_node_path(node, &mut view);
         }
-        let bound = usage.contains(TextureUsages::TEXTURE_BINDING);
-        let resamples = bound && resamples(desc, device.features()).is_ok();
-        let known = PriorHistory { view, name: name.into(), desc: *desc, resamples };
-        Ok(History { known, usage, halves, used: 0 })
+        let can_resample =
+            usage.contains(TextureUsages::TEXTURE_BINDING) && can_resample(desc, device.features()).is_ok();
+        let prior = PriorHistory { view, name: name.into(), desc: *desc, can_resample };
+        Ok(PooledHistory { prior, usage, halves, used: 0 })
     }
 }
 
-/// Copies all of a texture to another of its shape; also depth and several samples, since whole mips are copied.
-fn copy(encoder: &mut wgpu::CommandEncoder, source: &wgpu::Texture, target: &wgpu::Texture) {
+/// Copies all of a texture to another of the same shape. Depth and multisampled textures allow it, since whole mips are
+/// copied.
+fn copy_texture(encoder: &mut wgpu::CommandEncoder, source: &wgpu::Texture, target: &wgpu::Texture) {
     for mip in 0..source.mip_level_count() {
         let size = source.size().mip_level_size(mip, source.dimension()).physical_size(source.format());
-        let at = |texture| wgpu::TexelCopyTextureInfo {
+        let location = |texture| wgpu::TexelCopyTextureInfo {
             texture,
             mip_level: mip,
             origin: wgpu::Origin3d::ZERO,
             aspect: wgpu::TextureAspect::All,
         };
-        encoder.copy_texture_to_texture(at(source), at(target), size);
+        encoder.copy_texture_to_texture(location(source), location(target), size);
     }
 }

@@ -1,37 +1,43 @@
 //! What a graph keeps on one device from frame to frame.
 
-mod bind_groups;
+mod bind_group_cache;
 mod histories;
+mod pass_groups;
+mod poison;
+mod resolved_plan;
 mod slots;
 mod staging;
 mod uniforms;
-mod views;
+mod view_cache;
 
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bind_groups::{BindGroups, Bound, GroupKey};
+pub(crate) use bind_group_cache::{BindGroupCache, BoundResource, GroupKey};
 pub(crate) use histories::Histories;
-pub(crate) use slots::{Physical, SlotKey, Slots};
-pub(crate) use staging::{Staging, place};
+pub(crate) use pass_groups::EntryKey;
+pub(crate) use poison::PoisonBuffer;
+pub(crate) use resolved_plan::ResolvedPlan;
+pub(crate) use slots::{PhysicalResource, Slots};
+pub(crate) use staging::{Staging, aligned_range};
 pub(crate) use uniforms::UniformBuffer;
-pub(crate) use views::{Purpose, Views, view};
+pub(crate) use view_cache::{ViewCache, ViewUsage, create_view};
 
-use crate::compiled::Compiled;
 use crate::device::device_is_lost;
 use crate::error::Error;
-use crate::execute::{Pattern, Realised};
+use crate::history::HistoryUse;
 use crate::internal::RegionClears;
-use crate::shader_pass::Pipelines;
+use crate::pipeline::PipelineCache;
+use crate::plan::Plan;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// How long and how much a graph keeps beyond what a frame needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PoolLimits {
-    /// Frames that a texture, buffer, view, bind group or history may lie idle before it is dropped.
+    /// Frames that a texture, buffer, view, bind group or history may be idle before it is dropped.
     pub idle_frames: u32,
-    /// Bytes of textures and buffers above which those that the frame does not need are dropped, the longest idle
-    /// first; `None` for no such limit. Histories count, but are not dropped for it.
+    /// Bytes of textures and buffers above which those that the frame does not use are dropped, the longest idle first;
+    /// `None` for no limit. Histories count towards it but are not dropped.
     pub budget_bytes: Option<u64>,
 }
 
@@ -51,27 +57,27 @@ pub(crate) struct Pool {
     pub(crate) histories: Histories,
     pub(crate) staging: Staging,
     pub(crate) uniforms: UniformBuffer,
-    /// What the last few plans stand on, the most recent first.
-    pub(crate) realised: Vec<Realised>,
+    /// The last few plans with their objects, the most recent first.
+    resolved_plans: Vec<ResolvedPlan>,
     caches: Mutex<Caches>,
 }
 
-/// What passes look up while they are recorded, on several threads if need be.
+/// What passes look up while they are recorded, possibly on several threads.
 #[derive(Default)]
 pub(crate) struct Caches {
-    pub(crate) views: Views,
-    pub(crate) bind_groups: BindGroups,
+    pub(crate) views: ViewCache,
+    pub(crate) bind_groups: BindGroupCache,
     pub(crate) clears: RegionClears,
-    pub(crate) pattern: Pattern,
-    pub(crate) pipelines: Pipelines,
+    pub(crate) poison_buffer: PoisonBuffer,
+    pub(crate) pipelines: PipelineCache,
 }
 
 impl Pool {
-    /// Switches the filling with loud values, for which objects need more usages.
+    /// Switches the poison mode, for which objects need more usages.
     pub(crate) fn set_poison(&mut self, on: bool) {
         if self.poison != on {
             self.poison = on;
-            self.realised.clear();
+            self.resolved_plans.clear();
         }
     }
 
@@ -80,12 +86,12 @@ impl Pool {
         self.slots.bytes() + self.histories.bytes()
     }
 
-    /// Starts a frame: everything is free again, and what has been idle for long goes.
+    /// Starts a frame: all objects are free again, and those that have been idle too long are dropped.
     pub(crate) fn begin_frame(&mut self) -> u64 {
         self.frame += 1;
-        let oldest = self.oldest();
+        let oldest = self.oldest_kept_frame();
         if self.slots.drop_idle(oldest) {
-            self.realised.clear();
+            self.resolved_plans.clear();
         }
         self.staging.end_frame(self.limits.idle_frames);
         let mut caches = self.caches();
@@ -97,22 +103,22 @@ impl Pool {
         self.frame
     }
 
-    /// What was last used before this frame goes.
-    fn oldest(&self) -> u64 {
+    /// Returns the frame before whose last use objects are dropped.
+    fn oldest_kept_frame(&self) -> u64 {
         self.frame.saturating_sub(self.limits.idle_frames.into())
     }
 
-    /// Notes that a frame was recorded, for the histories that it used.
-    pub(crate) fn end_frame(&mut self, compiled: &Compiled<'_>) {
-        let oldest = self.oldest();
-        self.histories.leave(compiled, self.frame, oldest);
+    /// Ends a recorded frame: passes its histories on to the next one.
+    pub(crate) fn end_frame(&mut self, plan: &Plan, histories: &[HistoryUse]) {
+        let oldest = self.oldest_kept_frame();
+        self.histories.release((plan, histories), self.frame, oldest);
     }
 
-    /// The error that a frame ended with, in the words that help most: whatever fails on a lost device fails for that. Where
-    /// memory ran out, all goes that the next frame can make anew.
-    pub(crate) fn explain(&mut self, device: &wgpu::Device, error: Error) -> Error {
+    /// Returns the root cause of a frame's error: on a lost device every failure is [`Error::DeviceLost`]. When memory ran
+    /// out, drops everything that the next frame can create again.
+    pub(crate) fn classify_error(&mut self, device: &wgpu::Device, error: Error) -> Error {
         match error {
-            Error::OutOfMemory { .. } => self.let_go(),
+            Error::OutOfMemory { .. } => self.evict_all(),
             Error::DeviceLost => {}
             _ if device_is_lost(device) => return Error::DeviceLost,
             _ => {}
@@ -120,26 +126,26 @@ impl Pool {
         error
     }
 
-    /// Drops all textures and buffers but histories and uniform blocks.
-    fn let_go(&mut self) {
+    /// Drops all textures and buffers except histories and uniform blocks.
+    fn evict_all(&mut self) {
         self.slots = Slots::default();
         self.staging = Staging::default();
-        self.histories.forget_fresh();
-        self.realised.clear();
+        self.histories.discard_new();
+        self.resolved_plans.clear();
         let mut caches = self.caches();
         (caches.views, caches.bind_groups) = Default::default();
-        caches.pattern = Pattern::default();
+        caches.poison_buffer = PoisonBuffer::default();
     }
 
-    /// Returns an empty pool that has the pipelines of this one, for a frame that shall leave nothing but pipelines
-    /// behind; [`take_pipelines`](Self::take_pipelines) brings them back.
+    /// Returns an empty pool with the pipelines of this one, for a frame that must leave nothing but pipelines behind;
+    /// [`return_pipelines`](Self::return_pipelines) moves them back.
     pub(crate) fn lend_pipelines(&mut self) -> Self {
         let scratch = Self { limits: self.limits, frame: self.frame, ..Self::default() };
         self.swap_pipelines(&scratch);
         scratch
     }
 
-    pub(crate) fn take_pipelines(&mut self, scratch: Self) {
+    pub(crate) fn return_pipelines(&mut self, scratch: Self) {
         self.swap_pipelines(&scratch);
     }
 
@@ -149,23 +155,23 @@ impl Pool {
         std::mem::swap(&mut own.pipelines, &mut others.pipelines);
     }
 
-    /// Drops what the frame does not use until the budget is kept.
-    pub(crate) fn keep_budget(&mut self) {
+    /// Drops what the frame does not use until the pool is within its budget.
+    pub(crate) fn enforce_budget(&mut self) {
         if let Some(budget) = self.limits.budget_bytes
             && self.slots.drop_above(budget.saturating_sub(self.histories.bytes()), self.frame)
         {
-            self.realised.retain(|realised| realised.frame == self.frame);
+            self.resolved_plans.retain(|resolved| resolved.frame == self.frame);
         }
     }
 
-    /// The caches; they are whole between any two statements, so a body that panicked did not spoil them.
+    /// Locks the caches. They are consistent whenever the lock is free, so a lock poisoned by a panicking body can be ignored.
     pub(crate) fn caches(&self) -> MutexGuard<'_, Caches> {
         self.caches.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// An error if a resource needs more of something than the device allows.
-pub(crate) fn limit(name: &str, limit: &'static str, needed: u64, allowed: u64) -> Result<(), Error> {
+/// Returns an error if a resource needs more than the device's limit allows.
+pub(crate) fn check_limit(name: &str, limit: &'static str, needed: u64, allowed: u64) -> Result<(), Error> {
     if needed <= allowed {
         return Ok(());
     }

@@ -1,6 +1,6 @@
-//! The physical textures and buffers behind slots.
+//! The physical textures and buffers of slots.
 
-use super::limit;
+use super::check_limit;
 use crate::desc::{BufferDesc, ResourceDesc, TextureDesc};
 use crate::device::make;
 use crate::error::Error;
@@ -14,23 +14,23 @@ new_key_type! {
     pub(crate) struct SlotKey;
 }
 
-/// What stands behind a slot or an import.
+/// The physical texture or buffer of a slot or an import.
 #[derive(Clone, PartialEq, Eq)]
-pub(crate) enum Physical {
+pub(crate) enum PhysicalResource {
     Texture(wgpu::Texture),
     Buffer(wgpu::Buffer),
 }
 
-struct Pooled {
+struct PooledResource {
     desc: ResourceDesc,
-    physical: Physical,
+    physical: PhysicalResource,
     used: u64,
 }
 
 /// Physical textures and buffers by shape.
 #[derive(Default)]
 pub(crate) struct Slots {
-    all: SlotMap<SlotKey, Pooled>,
+    all: SlotMap<SlotKey, PooledResource>,
     by_shape: FxHashMap<ResourceDesc, Vec<SlotKey>>,
 }
 
@@ -40,20 +40,21 @@ impl Slots {
         self.all.values().map(|pooled| pooled.desc.bytes()).sum()
     }
 
-    /// Takes something of the slot's shape that no other slot of this frame has, or makes it.
+    /// Takes an object of the slot's shape that no other slot of this frame uses, or creates one.
     ///
-    /// Slots ask in the same order every frame, so the same declaration gets the same textures.
+    /// Slots are acquired in the same order every frame, so the same declaration gets the same textures.
     pub(crate) fn acquire(
         &mut self,
         device: &wgpu::Device,
         slot: &Slot,
         label: &str,
         frame: u64,
-    ) -> Result<(SlotKey, Physical), Error> {
+    ) -> Result<(SlotKey, PhysicalResource), Error> {
         let keys = self.by_shape.entry(slot.desc).or_default();
         let all = &mut self.all;
-        let free =
-            |key: &&SlotKey| all.get(**key).is_some_and(|p| p.used < frame && serves(&p.physical, slot));
+        let free = |key: &&SlotKey| {
+            all.get(**key).is_some_and(|p| p.used < frame && is_compatible(&p.physical, slot))
+        };
         if let Some(&key) = keys.iter().find(free)
             && let Some(pooled) = all.get_mut(key)
         {
@@ -61,12 +62,12 @@ impl Slots {
             return Ok((key, pooled.physical.clone()));
         }
         let physical = create(device, slot, label)?;
-        let key = all.insert(Pooled { desc: slot.desc, physical: physical.clone(), used: frame });
+        let key = all.insert(PooledResource { desc: slot.desc, physical: physical.clone(), used: frame });
         keys.push(key);
         Ok((key, physical))
     }
 
-    /// Notes that this frame uses them again.
+    /// Marks the objects as used by this frame.
     pub(crate) fn touch(&mut self, keys: &[SlotKey], frame: u64) {
         for &key in keys {
             if let Some(pooled) = self.all.get_mut(key) {
@@ -75,14 +76,15 @@ impl Slots {
         }
     }
 
-    /// Drops what was last used before frame `oldest`, and tells whether there was any.
+    /// Drops what was last used before frame `oldest`, and returns whether there was any.
     pub(crate) fn drop_idle(&mut self, oldest: u64) -> bool {
         let before = self.all.len();
         self.all.retain(|_, pooled| pooled.used >= oldest);
-        self.forget_dropped(before)
+        self.remove_dropped_keys(before)
     }
 
-    /// Drops what frame `frame` does not use, the longest idle first, until no more than `budget` bytes are held.
+    /// Drops what frame `frame` does not use, the longest idle first, until at most `budget` bytes are held. Returns whether
+    /// anything was dropped.
     pub(crate) fn drop_above(&mut self, budget: u64, frame: u64) -> bool {
         let before = self.all.len();
         let mut held = self.bytes();
@@ -96,10 +98,10 @@ impl Slots {
             self.all.remove(key);
             held -= bytes;
         }
-        self.forget_dropped(before)
+        self.remove_dropped_keys(before)
     }
 
-    fn forget_dropped(&mut self, before: usize) -> bool {
+    fn remove_dropped_keys(&mut self, before: usize) -> bool {
         let dropped = self.all.len() < before;
         if dropped {
             let all = &self.all;
@@ -112,22 +114,22 @@ impl Slots {
     }
 }
 
-/// Whether the object has the usages that the slot needs. Memory for transient attachments is of its own kind.
-fn serves(physical: &Physical, slot: &Slot) -> bool {
+/// Returns whether the object has the usages that the slot needs. Transient attachments have their own kind of memory.
+fn is_compatible(physical: &PhysicalResource, slot: &Slot) -> bool {
     match physical {
-        Physical::Texture(texture) => {
+        PhysicalResource::Texture(texture) => {
             let (has, needs) = (texture.usage(), slot.texture_usage);
             let transient = TextureUsages::TRANSIENT_ATTACHMENT;
             has.contains(needs) && has.contains(transient) == needs.contains(transient)
         }
-        Physical::Buffer(buffer) => buffer.usage().contains(slot.buffer_usage),
+        PhysicalResource::Buffer(buffer) => buffer.usage().contains(slot.buffer_usage),
     }
 }
 
-fn create(device: &wgpu::Device, slot: &Slot, label: &str) -> Result<Physical, Error> {
+fn create(device: &wgpu::Device, slot: &Slot, label: &str) -> Result<PhysicalResource, Error> {
     match slot.desc {
         ResourceDesc::Texture(desc) => {
-            Ok(Physical::Texture(create_texture(device, &desc, slot.texture_usage, label)?))
+            Ok(PhysicalResource::Texture(create_texture(device, &desc, slot.texture_usage, label)?))
         }
         ResourceDesc::Buffer(desc) => {
             check_buffer(device, label, &desc, slot.buffer_usage)?;
@@ -137,19 +139,24 @@ fn create(device: &wgpu::Device, slot: &Slot, label: &str) -> Result<Physical, E
                 usage: slot.buffer_usage,
                 mapped_at_creation: false,
             };
-            Ok(Physical::Buffer(make(device, label, desc.size, |device| device.create_buffer(&desc))?))
+            Ok(PhysicalResource::Buffer(make(device, label, desc.size, |device| {
+                device.create_buffer(&desc)
+            })?))
         }
     }
 }
 
-/// Creates a texture, unless the device's limits or its memory forbid it.
+/// Creates a texture.
+///
+/// # Errors
+/// When the device's limits, its memory or the format do not allow it.
 pub(crate) fn create_texture(
     device: &wgpu::Device,
     desc: &TextureDesc,
     usage: TextureUsages,
     label: &str,
 ) -> Result<wgpu::Texture, Error> {
-    // wgpu wants every texture with several samples to be an attachment, also one that is only copied.
+    // wgpu requires RENDER_ATTACHMENT of every multisampled texture, even of one that is only copied.
     let usage = if desc.samples > 1 { usage | TextureUsages::RENDER_ATTACHMENT } else { usage };
     check_texture(device, label, desc)?;
     check_format(device, label, desc, usage)?;
@@ -188,12 +195,12 @@ fn check_texture(device: &wgpu::Device, name: &str, desc: &TextureDesc) -> Resul
             "max_texture_dimension_3d",
         ),
     };
-    limit(name, side_name, side, side_limit.into())?;
-    limit(name, layer_name, layers, layer_limit.into())
+    check_limit(name, side_name, side, side_limit.into())?;
+    check_limit(name, layer_name, layers, layer_limit.into())
 }
 
-/// An error if the device does not allow the format to be used so. What it allows beyond the promises of WebGPU, where
-/// that was asked for, only the adapter knows.
+/// Checks that the device supports these usages of the format. What it supports beyond WebGPU's guarantees, where that
+/// feature was requested, only the adapter knows.
 fn check_format(
     device: &wgpu::Device,
     name: &str,
@@ -201,33 +208,35 @@ fn check_format(
     usage: TextureUsages,
 ) -> Result<(), Error> {
     let features = device.features();
-    let wrong =
+    let unsupported =
         |problem: String| Err(Error::FormatSupport { resource: name.into(), format: desc.format, problem });
     let missing = desc.format.required_features() - features;
     if !missing.is_empty() {
-        return wrong(format!("has only with the feature {missing:?}: request that, or use another format"));
+        return unsupported(format!(
+            "supports only with the feature {missing:?}: request that feature, or use another format"
+        ));
     }
     let specific = features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
     if specific || desc.format.is_multi_planar_format() {
         return Ok(());
     }
-    let able = desc.format.guaranteed_format_features(features);
-    let not_able = usage - able.allowed_usages - TextureUsages::TRANSIENT_ATTACHMENT;
-    if !not_able.is_empty() {
-        return wrong(format!(
-            "does not allow to be used as {not_able:?}: use a format that is, such as {}",
-            instead(usage)
+    let supported = desc.format.guaranteed_format_features(features);
+    let missing = usage - supported.allowed_usages - TextureUsages::TRANSIENT_ATTACHMENT;
+    if !missing.is_empty() {
+        return unsupported(format!(
+            "does not support with the usage {missing:?}: use a format that supports it, such as {}",
+            alternative(usage)
         ));
     }
-    if !able.flags.sample_count_supported(desc.samples) {
-        let counts = able.flags.supported_sample_counts();
-        return wrong(format!("does not draw with {} samples: use one of {counts:?}", desc.samples));
+    if !supported.flags.sample_count_supported(desc.samples) {
+        let counts = supported.flags.supported_sample_counts();
+        return unsupported(format!("does not support with {} samples: use one of {counts:?}", desc.samples));
     }
     Ok(())
 }
 
-/// A format that can be used so on every device.
-fn instead(usage: TextureUsages) -> &'static str {
+/// Returns formats that every device supports with these usages.
+fn alternative(usage: TextureUsages) -> &'static str {
     if usage.contains(TextureUsages::STORAGE_BINDING) {
         "Rgba8Unorm or R32Float"
     } else {
@@ -242,10 +251,10 @@ fn check_buffer(
     usage: BufferUsages,
 ) -> Result<(), Error> {
     let limits = device.limits();
-    limit(name, "max_buffer_size", desc.bytes, limits.max_buffer_size)?;
+    check_limit(name, "max_buffer_size", desc.bytes, limits.max_buffer_size)?;
     if usage.contains(BufferUsages::STORAGE) {
         let allowed = limits.max_storage_buffer_binding_size;
-        limit(name, "max_storage_buffer_binding_size", desc.bytes, allowed)?;
+        check_limit(name, "max_storage_buffer_binding_size", desc.bytes, allowed)?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Uploads through recycled chunks: on wgpu's noop device, which does copy buffers, and on one that draws.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use super::staging::{Chunk, Staging, place};
+use super::staging::{Chunk, Staging, aligned_range};
 use super::uniforms::UniformBuffer;
 use crate::Error;
 use crate::execute::ReadBack;
@@ -21,7 +21,7 @@ fn target(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
 /// Records a frame that uploads `bytes` and reads them back from a buffer on the GPU.
 fn record(device: &wgpu::Device, staging: &mut Staging, bytes: &[u8]) -> (wgpu::CommandEncoder, ReadBack) {
     let mut encoder = encoder(device);
-    let size = place(0, bytes.len() as u64, 4).end;
+    let size = aligned_range(0, bytes.len() as u64, 4).end;
     let mut chunk = staging.begin(device, size).unwrap();
     let offset = chunk.write(bytes, 4);
     let target = target(device, size);
@@ -44,7 +44,7 @@ fn poll(device: &wgpu::Device) {
 }
 
 #[test]
-fn blocks_lie_where_they_were_placed_with_zeros_up_to_a_multiple_of_four() {
+fn blocks_are_written_at_their_offsets_and_padded_with_zeros_to_a_multiple_of_four() {
     let (device, queue) = noop();
     let mut staging = Staging::default();
     // Leaves bytes in the chunk that must not show up later.
@@ -102,7 +102,7 @@ fn frames_recorded_before_any_is_submitted_keep_their_own_bytes() {
                 assert_eq!(back.wait(&device).unwrap(), vec![round * 5 + frame; 1000]);
             }
         }
-        assert_eq!(staging.free(), 5, "the five chunks of the first round served the others");
+        assert_eq!(staging.free_chunks(), 5, "the other rounds reused the five chunks of the first");
     }
 }
 
@@ -124,22 +124,26 @@ fn no_chunk_is_written_while_the_gpu_may_read_it() {
 }
 
 #[test]
-fn a_dropped_encoder_takes_its_chunk_along() {
+fn a_dropped_encoder_drops_its_chunk() {
     let (device, queue) = noop();
     let mut staging = Staging::default();
     let (unfinished, _) = record(&device, &mut staging, &[1; 8]);
     let (finished, _) = record(&device, &mut staging, &[2; 8]);
     let finished = finished.finish();
-    assert_eq!(staging.holders(), 3);
+    assert_eq!(staging.free_list_references(), 3);
     drop((unfinished, finished));
-    assert_eq!(staging.holders(), 1, "nothing else holds the list, so no callback and no chunk is left");
+    assert_eq!(
+        staging.free_list_references(),
+        1,
+        "no other reference to the list, so no callback and no chunk is left"
+    );
     upload(&device, &queue, &mut staging, 8);
     poll(&device);
-    assert_eq!(staging.free(), 1);
+    assert_eq!(staging.free_chunks(), 1);
 }
 
 #[test]
-fn a_chunk_of_a_refused_submission_comes_back() {
+fn a_chunk_of_a_rejected_submission_is_free_again() {
     let (device, queue) = noop();
     let mut staging = Staging::default();
     let (mut encoder, refused) = record(&device, &mut staging, &[1; 8]);
@@ -148,7 +152,7 @@ fn a_chunk_of_a_refused_submission_comes_back() {
     queue.submit([encoder.finish()]);
     assert!(block_on(scope.pop()).is_some());
     poll(&device);
-    assert_eq!(staging.free(), 1);
+    assert_eq!(staging.free_chunks(), 1);
     assert_eq!(refused.wait(&device).unwrap(), [0; 8]);
     let (encoder, back) = record(&device, &mut staging, &[3; 8]);
     valid(&device, || queue.submit([encoder.finish()]));
@@ -169,12 +173,12 @@ fn a_destroyed_device_is_survived() {
         assert_eq!(staging.begin(&device, 8).err(), Some(Error::DeviceLost));
         drop((after, block_on(scope.pop())));
         assert!(back.wait(&device).is_err());
-        assert_eq!(staging.free(), 0);
+        assert_eq!(staging.free_chunks(), 0);
     }
 }
 
 #[test]
-fn chunks_that_lie_idle_are_dropped() {
+fn idle_chunks_are_dropped() {
     let (device, queue) = noop();
     let mut staging = Staging::default();
     let large = upload(&device, &queue, &mut staging, 1024 * KIB);
@@ -183,10 +187,10 @@ fn chunks_that_lie_idle_are_dropped() {
         assert_ne!(upload(&device, &queue, &mut staging, 1), large, "small frames take small chunks");
         poll(&device);
         staging.end_frame(8);
-        assert_eq!(staging.free(), 2);
+        assert_eq!(staging.free_chunks(), 2);
     }
     staging.end_frame(8);
-    assert_eq!(staging.free(), 1);
+    assert_eq!(staging.free_chunks(), 1);
 }
 
 #[test]
@@ -243,7 +247,7 @@ fn uniform_frame(
     let block = 256..256 + values.len() as u64;
     let mut uniforms = vec![0xff; 256];
     uniforms.extend(values);
-    let mut chunk = staging.begin(device, place(0, block.end, 4).end).unwrap();
+    let mut chunk = staging.begin(device, aligned_range(0, block.end, 4).end).unwrap();
     let source = buffer.upload(device, &mut encoder, &mut chunk, &uniforms).unwrap();
     chunk.finish(&encoder);
     let seen = target(device, 16);

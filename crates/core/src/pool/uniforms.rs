@@ -11,10 +11,10 @@ const MIN_BYTES: u64 = 16 * 1024;
 ///
 /// One buffer serves any number of frames in flight. A frame's blocks are copied in at the start of the encoder that
 /// also records every pass that reads them, and a queue runs encoders one after the other, in the order of their
-/// submission: a copy waits for the reads recorded before it, and reads wait for the copy before them (wgpu puts
-/// the barriers, since it knows every use of the buffer). So between a frame's copy and its reads no other frame
-/// can come, whatever the order of submission. That the buffer stays the same keeps bind groups valid; one that was
-/// too small lives on in the encoders and bind groups that use it.
+/// submission: a copy waits for the reads recorded before it, and reads wait for the copy before them (wgpu inserts
+/// the barriers, since it knows every use of the buffer). So no other frame can come between a frame's copy and its
+/// reads, whatever the order of submission. Keeping the buffer keeps bind groups valid; one that was too small lives on
+/// in the encoders and bind groups that use it.
 #[derive(Default)]
 pub(crate) struct UniformBuffer {
     buffer: Option<wgpu::Buffer>,
@@ -30,7 +30,7 @@ impl UniformBuffer {
             return Ok(buffer.clone());
         }
         let largest = device.limits().max_buffer_size;
-        super::limit("uniform blocks", "max_buffer_size", bytes, largest)?;
+        super::check_limit("uniform blocks", "max_buffer_size", bytes, largest)?;
         let class = bytes.checked_next_power_of_two().unwrap_or(u64::MAX).max(MIN_BYTES);
         use wgpu::BufferUsages as Usage;
         let desc = wgpu::BufferDescriptor {

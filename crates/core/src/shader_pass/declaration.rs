@@ -1,117 +1,98 @@
-//! ShaderPasses of shaders as a frame declares them: flat, so that declaring allocates nothing.
+//! Shader passes as a frame declares them: in flat arrays, so that declaring allocates nothing.
 
-use super::shader::Program;
-use crate::desc::Format;
 use crate::execute::Bind;
 use crate::handle::{BufferToken, TextureToken, Uniform};
-use arrayvec::ArrayVec;
+use crate::pipeline::{PipelineTargets, ProgrammableStage};
 use std::sync::Arc;
 
-/// As many colour attachments as any device allows.
-const COLORS: usize = 8;
-
-/// All of a frame's calls.
+/// All shader passes of a frame.
 #[derive(Default)]
 pub(crate) struct ShaderPasses {
-    all: Vec<Declared>,
-    entries: Vec<Entry>,
+    all: Vec<ShaderPassDecl>,
+    bindings: Vec<Binding>,
 }
 
-/// One call.
-pub(crate) struct Declared {
-    pub(super) program: Arc<Program>,
-    /// Which of the entries are bound.
-    entries: (u32, u32),
-    pub(super) work: Work,
+/// One shader pass.
+pub(crate) struct ShaderPassDecl {
+    pub(super) stage: Arc<ProgrammableStage>,
+    /// The range of its bindings.
+    bindings: (u32, u32),
+    pub(super) command: Command,
 }
 
 #[allow(clippy::large_enum_variant, reason = "they lie in a vector that is reused; a box would allocate")]
-pub(super) enum Work {
-    /// One triangle.
-    Draw(Attachments),
-    /// This many workgroups.
+pub(super) enum Command {
+    /// Draws one triangle.
+    Draw(PipelineTargets),
+    /// Dispatches this many workgroups.
     Dispatch([u32; 3]),
-    /// As many as the buffer says at this offset in bytes.
+    /// Dispatches as many workgroups as the buffer holds at this offset in bytes.
     DispatchIndirect(BufferToken, u64),
 }
 
-/// What a pipeline draws into.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub(crate) struct Attachments {
-    pub(super) colors: ArrayVec<(Format, Option<wgpu::BlendState>), COLORS>,
-    pub(super) depth: Option<Depth>,
-    pub(super) samples: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Depth {
-    pub(super) format: Format,
-    pub(super) write: bool,
-    pub(super) compare: wgpu::CompareFunction,
-}
-
-/// What is bound: [`Bind`] without a lifetime.
-pub(super) enum Entry {
+/// A bound resource: [`Bind`] without a lifetime.
+pub(super) enum Binding {
     Texture(TextureToken),
     Buffer(BufferToken),
     Uniform(Uniform),
     Sampler(wgpu::Sampler),
-    View(wgpu::TextureView),
+    ExternalView(wgpu::TextureView),
     ExternalBuffer(wgpu::Buffer),
 }
 
-impl Entry {
-    fn bind(&self) -> Bind<'_> {
+impl Binding {
+    fn as_bind(&self) -> Bind<'_> {
         match self {
             Self::Texture(token) => Bind::Texture(*token),
             Self::Buffer(token) => Bind::Buffer(*token),
             Self::Uniform(uniform) => Bind::Uniform(*uniform),
             Self::Sampler(sampler) => Bind::Sampler(sampler),
-            Self::View(view) => Bind::ExternalView(view),
+            Self::ExternalView(view) => Bind::ExternalView(view),
             Self::ExternalBuffer(buffer) => Bind::ExternalBuffer(buffer),
         }
     }
 }
 
 impl ShaderPasses {
-    /// Begins a call and returns its number.
-    pub(super) fn begin(&mut self, program: Arc<Program>, work: Work) -> u32 {
-        let end = self.entries.len() as u32;
-        self.all.push(Declared { program, entries: (end, end), work });
+    /// Begins a shader pass and returns its index.
+    pub(super) fn begin(&mut self, stage: Arc<ProgrammableStage>, command: Command) -> u32 {
+        let end = self.bindings.len() as u32;
+        self.all.push(ShaderPassDecl { stage, bindings: (end, end), command });
         self.all.len() as u32 - 1
     }
 
-    /// Binds one more thing to the call begun last.
-    pub(super) fn bind(&mut self, entry: Entry) {
-        self.entries.push(entry);
+    /// Adds a binding to the shader pass that was begun last.
+    pub(super) fn bind(&mut self, binding: Binding) {
+        self.bindings.push(binding);
         if let Some(last) = self.all.last_mut() {
-            last.entries.1 = self.entries.len() as u32;
+            last.bindings.1 = self.bindings.len() as u32;
         }
     }
 
-    /// What the call begun last does.
-    pub(super) fn work(&mut self) -> Option<&mut Work> {
-        self.all.last_mut().map(|last| &mut last.work)
+    /// Returns the command of the shader pass that was begun last.
+    pub(super) fn last_command(&mut self) -> Option<&mut Command> {
+        self.all.last_mut().map(|last| &mut last.command)
     }
 
-    pub(super) fn get(&self, call: u32) -> Option<&Declared> {
-        self.all.get(call as usize)
+    pub(super) fn get(&self, index: u32) -> Option<&ShaderPassDecl> {
+        self.all.get(index as usize)
     }
 
-    pub(super) fn entries(&self, call: &Declared) -> impl ExactSizeIterator<Item = Bind<'_>> + Clone {
-        let (start, end) = call.entries;
-        self.entries[start as usize..end as usize].iter().map(Entry::bind)
+    pub(super) fn bindings(&self, pass: &ShaderPassDecl) -> impl ExactSizeIterator<Item = Bind<'_>> + Clone {
+        let (start, end) = pass.bindings;
+        self.bindings[start as usize..end as usize].iter().map(Binding::as_bind)
     }
 
-    /// Where the calls lie.
+    /// Returns the address of the declarations.
     #[cfg(test)]
     pub(super) fn address(&self) -> usize {
         self.all.as_ptr().addr()
     }
 
-    pub(crate) fn emptied(mut self) -> Self {
+    /// Removes all declarations and keeps their memory.
+    pub(crate) fn cleared(mut self) -> Self {
         self.all.clear();
-        self.entries.clear();
+        self.bindings.clear();
         self
     }
 }

@@ -2,11 +2,8 @@
 
 mod builder;
 mod declaration;
-mod pipeline_cache;
 mod record;
-mod shader;
 mod uniform_source;
-mod validation;
 mod warm;
 
 #[cfg(test)]
@@ -14,8 +11,5 @@ mod tests;
 
 pub use builder::ShaderPassBuilder;
 pub(crate) use declaration::ShaderPasses;
-pub(crate) use pipeline_cache::Pipelines;
 pub(crate) use record::{dispatch, draw};
-pub(crate) use shader::Program;
-pub use shader::{ComputeShader, FullscreenShader};
 pub use uniform_source::UniformSource;

@@ -1,19 +1,20 @@
-//! Recording calls of shaders.
+//! Recording shader passes.
 
-use super::declaration::{Declared, Work};
+use super::declaration::{Command, ShaderPassDecl};
 use crate::error::Error;
 use crate::execute::{BodyResult, ComputeContext, RenderContext, Resources};
 use crate::handle::BufferToken;
+use crate::pool::check_limit;
 
-/// Records a call into an open render pass.
-pub(crate) fn draw(context: &mut RenderContext<'_>, call: u32) -> BodyResult {
+/// Records a shader pass into an open render pass.
+pub(crate) fn draw(context: &mut RenderContext<'_>, index: u32) -> BodyResult {
     let resources = &context.resources;
-    let Some(call) = resources.calls().get(call) else { return Ok(()) };
-    let Work::Draw(attachments) = &call.work else { return Ok(()) };
-    let made = resources.caches().pipelines.render(resources.device(), &call.program, attachments);
-    let made = made.map_err(|error| in_pass(resources, error))?;
-    let group = group(resources, &made.layout, call)?;
-    context.pass.set_pipeline(&made.pipeline);
+    let Some(declared) = resources.shader_passes().get(index) else { return Ok(()) };
+    let Command::Draw(targets) = &declared.command else { return Ok(()) };
+    let cached = resources.caches().pipelines.render(resources.device(), &declared.stage, targets);
+    let cached = cached.map_err(|error| in_pass(resources, error))?;
+    let group = bind_group(resources, &cached.layout, declared)?;
+    context.pass.set_pipeline(&cached.pipeline);
     if let Some(group) = &group {
         context.pass.set_bind_group(0, group, &[]);
     }
@@ -22,25 +23,25 @@ pub(crate) fn draw(context: &mut RenderContext<'_>, call: u32) -> BodyResult {
     Ok(())
 }
 
-/// Records a call into an open compute pass.
-pub(crate) fn dispatch(context: &mut ComputeContext<'_>, call: u32) -> BodyResult {
+/// Records a shader pass into an open compute pass.
+pub(crate) fn dispatch(context: &mut ComputeContext<'_>, index: u32) -> BodyResult {
     let resources = &context.resources;
-    let Some(call) = resources.calls().get(call) else { return Ok(()) };
-    let made = resources.caches().pipelines.compute(resources.device(), &call.program);
-    let made = made.map_err(|error| in_pass(resources, error))?;
-    let group = group(resources, &made.layout, call)?;
-    context.pass.set_pipeline(&made.pipeline);
+    let Some(declared) = resources.shader_passes().get(index) else { return Ok(()) };
+    let cached = resources.caches().pipelines.compute(resources.device(), &declared.stage);
+    let cached = cached.map_err(|error| in_pass(resources, error))?;
+    let group = bind_group(resources, &cached.layout, declared)?;
+    context.pass.set_pipeline(&cached.pipeline);
     if let Some(group) = &group {
         context.pass.set_bind_group(0, group, &[]);
     }
-    match call.work {
-        Work::Draw(_) => {}
-        Work::Dispatch(groups) => {
-            check_groups(resources, &call.program.name, groups)?;
-            let [x, y, z] = groups;
+    match declared.command {
+        Command::Draw(_) => {}
+        Command::Dispatch(workgroups) => {
+            check_workgroups(resources, &declared.stage.name, workgroups)?;
+            let [x, y, z] = workgroups;
             context.pass.dispatch_workgroups(x, y, z);
         }
-        Work::DispatchIndirect(arguments, offset) => {
+        Command::DispatchIndirect(arguments, offset) => {
             let arguments: BufferToken = arguments;
             context.pass.dispatch_workgroups_indirect(resources.buffer(arguments)?, offset);
         }
@@ -48,20 +49,20 @@ pub(crate) fn dispatch(context: &mut ComputeContext<'_>, call: u32) -> BodyResul
     Ok(())
 }
 
-/// What the call binds; `None` where that is nothing.
-fn group(
+/// Returns the bind group of a shader pass; `None` if it binds nothing.
+fn bind_group(
     resources: &Resources<'_>,
     layout: &wgpu::BindGroupLayout,
-    call: &Declared,
+    declared: &ShaderPassDecl,
 ) -> Result<Option<wgpu::BindGroup>, Error> {
-    let entries = resources.calls().entries(call);
-    let none = entries.len() == 0;
-    // Made even of nothing, so that a shader that needs something says so.
-    let group = resources.checked_group(layout, entries, &call.program)?;
+    let bindings = resources.shader_passes().bindings(declared);
+    let none = bindings.len() == 0;
+    // An empty group is created too, so that a shader with bindings is an error.
+    let group = resources.checked_group(layout, bindings, &declared.stage)?;
     Ok((!none).then_some(group))
 }
 
-/// Gives a shader's error the name of the pass.
+/// Adds the name of the pass to a shader's error.
 fn in_pass(resources: &Resources<'_>, error: Error) -> Error {
     match error {
         Error::Shader { shader, message } => {
@@ -71,8 +72,8 @@ fn in_pass(resources: &Resources<'_>, error: Error) -> Error {
     }
 }
 
-fn check_groups(resources: &Resources<'_>, name: &str, groups: [u32; 3]) -> Result<(), Error> {
+fn check_workgroups(resources: &Resources<'_>, name: &str, workgroups: [u32; 3]) -> Result<(), Error> {
     let allowed = resources.device().limits().max_compute_workgroups_per_dimension;
-    let most = groups.into_iter().max().unwrap_or(0);
-    crate::pool::limit(name, "max_compute_workgroups_per_dimension", most.into(), allowed.into())
+    let most = workgroups.into_iter().max().unwrap_or(0);
+    check_limit(name, "max_compute_workgroups_per_dimension", most.into(), allowed.into())
 }

@@ -1,11 +1,11 @@
-//! Values of uniform bindings.
+//! Sources of uniform bindings.
 
 use crate::handle::Uniform;
 
-/// What a uniform binding is filled with: bytes, or a block that several passes share.
+/// The source of a uniform binding: bytes, or a block that several passes share.
 #[derive(Clone, Copy, Debug)]
 pub enum UniformSource<'a> {
-    /// Bytes of this pass alone, laid out as the shader has them.
+    /// Bytes for this pass only, in the shader's layout.
     Bytes(&'a [u8]),
     /// A block from [`Frame::uniform`](crate::Frame::uniform).
     Shared(Uniform),

@@ -1,29 +1,28 @@
-//! Meeting the cost of first draws before the first frame.
+//! Warming up pipelines before the first frame.
 
 use crate::declaration::Origin;
 use crate::desc::TextureDesc;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::graph::Graph;
-use crate::pool::Physical;
+use crate::pool::PhysicalResource;
 
 impl Graph {
-    /// Runs a frame once for nothing but what it makes drivers do: drawing with a pipeline for the first time can
-    /// take a third of a second, since many drivers translate shaders only then. Afterwards a frame of the same
-    /// passes takes as long as any other.
+    /// Runs a frame once so that drivers compile its shaders: drawing with a pipeline for the first time can take a third
+    /// of a second, since many drivers compile only then. Afterwards a frame of the same passes takes its usual time.
     ///
-    /// Declare the frame as you would to show it, by the same function; a smaller size will do, as what is compiled
-    /// depends on formats and shaders alone. Every pass that is not culled runs, so your own pipelines in bodies are
-    /// warmed like those of one-line passes.
+    /// Declare the frame as you would to show it, by the same function. A smaller size is enough, since compilation
+    /// depends on formats and shaders only. Every pass that is not culled runs, so your own pipelines in bodies are warmed
+    /// up like those of one-line passes.
     ///
-    /// It is executed with textures and buffers of its own, submitted and waited for, and leaves nothing behind but
-    /// the pipelines and the plan: histories stay as they were, and imports that the frame writes are stood in for by
-    /// copies that hold zeros, so that nothing of yours is drawn into. Only what bodies do by themselves is done.
+    /// The frame is executed with separate textures and buffers, submitted and waited for, and leaves only the pipelines
+    /// and the plan behind: histories are unchanged, and imports that the frame writes are replaced by textures and
+    /// buffers of zeros, so that nothing of yours is drawn into. Side effects of bodies do happen.
     ///
     #[doc = include_str!("warm.md")]
     ///
     /// # Errors
-    /// As compiling and executing the frame.
+    /// The errors of compiling and executing the frame.
     pub fn warm(
         &mut self,
         mut frame: Frame<'_>,
@@ -37,31 +36,32 @@ impl Graph {
         let mut encoder =
             device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("warm") });
         let executed = compiled.execute(&mut scratch, device, &mut encoder);
-        self.device.take_pipelines(scratch.device);
+        self.device.return_pipelines(scratch.device);
         let _executed = executed?;
         queue.submit([encoder.finish()]);
-        // It fails with a lost device, of which wgpu tells the caller.
+        // Polling fails only on a lost device, which wgpu reports to the caller.
         let _ = device.poll(wgpu::PollType::wait_indefinitely());
         Ok(())
     }
 }
 
-/// Puts objects of the same shape and usages in the place of imports that the frame writes.
+/// Replaces imports that the frame writes by objects of the same shape and usages.
 fn replace_written_imports(frame: &mut Frame<'_>, device: &wgpu::Device) {
     for (resource, import) in frame.decl.resources.iter().zip(&mut frame.work.imports) {
         let written = resource.version > 0 && matches!(resource.origin, Origin::Imported { .. });
         if let Some(import) = import.as_mut().filter(|_| written) {
-            *import = like(import, device);
+            *import = create_like(import, device);
         }
     }
 }
 
-fn like(object: &Physical, device: &wgpu::Device) -> Physical {
+fn create_like(object: &PhysicalResource, device: &wgpu::Device) -> PhysicalResource {
     let label = Some("warm");
     match object {
-        Physical::Texture(texture) => {
-            let TextureDesc { size, format, mip_levels, samples, dimension } = TextureDesc::of(texture);
-            Physical::Texture(device.create_texture(&wgpu::TextureDescriptor {
+        PhysicalResource::Texture(texture) => {
+            let TextureDesc { size, format, mip_levels, samples, dimension } =
+                TextureDesc::from_texture(texture);
+            PhysicalResource::Texture(device.create_texture(&wgpu::TextureDescriptor {
                 label,
                 size,
                 mip_level_count: mip_levels,
@@ -72,11 +72,13 @@ fn like(object: &Physical, device: &wgpu::Device) -> Physical {
                 view_formats: &[],
             }))
         }
-        Physical::Buffer(buffer) => Physical::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
-            label,
-            size: buffer.size(),
-            usage: buffer.usage(),
-            mapped_at_creation: false,
-        })),
+        PhysicalResource::Buffer(buffer) => {
+            PhysicalResource::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
+                label,
+                size: buffer.size(),
+                usage: buffer.usage(),
+                mapped_at_creation: false,
+            }))
+        }
     }
 }

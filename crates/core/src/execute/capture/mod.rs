@@ -1,10 +1,10 @@
-//! Pictures of what passes write, taken behind each of them.
+//! Snapshots of what passes write, taken after each pass.
 
 mod texels;
 
 use super::Executed;
 use super::read_back::{ReadBack, TexturePart};
-use super::record::{self, Recording};
+use super::record::{Recording, record};
 use crate::compile::capturing;
 use crate::compiled::Compiled;
 use crate::declaration::AccessDecl;
@@ -19,49 +19,50 @@ use std::ops::Range;
 use std::sync::Arc;
 use wgpu_types::TextureDimension;
 
-/// Layers of a texture beyond these have no picture.
-const LAYERS: u32 = 16;
-/// Larger buffers are left out.
-const BUFFER_BYTES: u64 = 65_536;
+/// Layers of a texture beyond these are not captured.
+const MAX_LAYERS: u32 = 16;
+/// Larger buffers are not captured.
+const MAX_BUFFER_BYTES: u64 = 65_536;
 
-/// What the passes of a frame wrote, on its way to the CPU.
-#[must_use = "the pictures come only to whoever calls `wait`"]
+/// A capture of a frame that is on its way to the CPU.
+#[must_use = "only `wait` returns the capture"]
 pub struct PendingCapture {
-    shots: Vec<Shot>,
+    snapshots: Vec<PendingSnapshot>,
     buffers: Vec<(ResourceId, ReadBack)>,
 }
 
-/// What the passes of a frame wrote.
+/// The contents that the passes of a frame wrote.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameCapture {
-    /// Every texture at each version, in the order of the passes. At most 320 texels of a side are kept, evenly spread.
+    /// Every texture at each of its versions, in the order of the passes. At most 320 texels of a side are kept, evenly
+    /// spaced.
     pub textures: Vec<TextureSnapshot>,
-    /// The bytes of every buffer of at most 64 KiB, behind each pass that wrote it, in the order of the passes.
+    /// The bytes of every buffer of at most 64 KiB after each pass that wrote it, in the order of the passes.
     pub buffers: Vec<(ResourceId, Vec<u8>)>,
 }
 
-/// One mip level of a texture, behind the pass that wrote it.
-struct Shot {
+/// One mip level of a texture after the pass that wrote it.
+struct PendingSnapshot {
     resource: ResourceId,
-    /// The versions that are in it.
+    /// The range of versions that it shows.
     since: u32,
     version: u32,
     pass: PassId,
     mip: u32,
     desc: TextureDesc,
-    /// The layers that were copied, or why none were.
-    taken: Result<(Range<u32>, ReadBack), String>,
+    /// The copied layers, or why there are none.
+    copied: Result<(Range<u32>, ReadBack), String>,
     tiles: Vec<SnapshotTile>,
 }
 
 impl Compiled<'_> {
-    /// Records the frame so that pictures can be taken of every texture at each of its versions. Nothing is submitted.
+    /// Records the frame and captures every texture at each of its versions. Nothing is submitted.
     ///
-    /// What is recorded is a variant of the plan that draws the same: no pass is merged, all is stored, nothing shares
-    /// memory, and copies follow each pass. It takes as much memory as all versions of all textures. [`Executed::plan`]
-    /// is the plan of the frame itself, as without.
+    /// It records a variant of the plan that draws the same: no passes are merged, everything is stored, nothing is
+    /// aliased, and copies follow each pass. It needs memory for all versions of all textures. [`Executed::plan`] is the
+    /// frame's own plan.
     ///
-    /// Where passes draw into rectangles one after the other, one picture shows them all, with the passes' names.
+    /// Where consecutive passes draw into separate rectangles, one snapshot shows them all, with the names of the passes.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, HtmlPage, TextureDesc};
@@ -91,24 +92,24 @@ impl Compiled<'_> {
     ) -> Result<(Executed, PendingCapture), Error> {
         let plan = self.plan.clone();
         self.plan = Arc::new(capturing(&plan));
-        let mut capture = PendingCapture { shots: Vec::new(), buffers: Vec::new() };
-        let mut watch = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
-            capture.behind(recording, pass, encoder)
+        let mut capture = PendingCapture { snapshots: Vec::new(), buffers: Vec::new() };
+        let mut hook = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
+            capture.after_pass(recording, pass, encoder)
         };
-        let executed = record::record(self, &mut graph.device, device, encoder, None, Some(&mut watch))?;
-        Ok((executed.of_plan(plan), capture))
+        let executed = record(self, &mut graph.device, device, encoder, None, Some(&mut hook))?;
+        Ok((executed.with_plan(plan), capture))
     }
 }
 
 impl PendingCapture {
-    /// Waits for the submitted frame and returns what it wrote.
+    /// Waits for the submitted frame and returns its capture.
     ///
     /// # Errors
     /// When the device is lost, or the encoder was not submitted.
     pub fn wait(self, device: &wgpu::Device) -> Result<FrameCapture, Error> {
         let mut captured = FrameCapture::default();
-        for shot in self.shots {
-            shot.develop(device, &mut captured.textures)?;
+        for snapshot in self.snapshots {
+            snapshot.decode(device, &mut captured.textures)?;
         }
         for (buffer, bytes) in self.buffers {
             captured.buffers.push((buffer, bytes.wait(device)?));
@@ -116,8 +117,8 @@ impl PendingCapture {
         Ok(captured)
     }
 
-    /// Copies what a pass wrote.
-    fn behind(
+    /// Records copies of everything that a pass wrote.
+    fn after_pass(
         &mut self,
         recording: &Recording<'_>,
         pass: PassId,
@@ -126,8 +127,8 @@ impl PendingCapture {
         let decl = &recording.plan.decl;
         for access in decl.accesses(pass).iter().filter(|access| access.contents.writes()) {
             match decl.resource(access.resource).desc {
-                ResourceDesc::Texture(desc) => self.shoot(recording, pass, access, &desc, encoder),
-                ResourceDesc::Buffer(desc) if desc.bytes <= BUFFER_BYTES => {
+                ResourceDesc::Texture(desc) => self.take(recording, pass, access, &desc, encoder),
+                ResourceDesc::Buffer(desc) if desc.bytes <= MAX_BUFFER_BYTES => {
                     let (id, name) = (access.resource, decl.resource_name(access.resource));
                     let buffer = recording.buffer(id)?;
                     if buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
@@ -141,8 +142,8 @@ impl PendingCapture {
         Ok(())
     }
 
-    /// Copies what a pass wrote to a texture.
-    fn shoot(
+    /// Records snapshots of a texture that a pass wrote.
+    fn take(
         &mut self,
         recording: &Recording<'_>,
         pass: PassId,
@@ -151,34 +152,34 @@ impl PendingCapture {
         encoder: &mut wgpu::CommandEncoder,
     ) {
         let plan = recording.plan;
-        if goes_on(plan, pass, access) {
+        if continues(plan, pass, access) {
             return;
         }
         let part = plan.decl.subresource(access);
         let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
         for mip in first..end {
-            let shown =
+            let copied_part =
                 TexturePart { mip, layers: layers(desc, part, mip), aspect: aspect(desc, part), rect: None };
             let name = plan.decl.resource_name(access.resource);
-            let taken = recording
-                .texture(access.resource)
-                .and_then(|texture| ReadBack::texture(recording.device, encoder, name, texture, &shown));
-            self.shots.push(Shot {
+            let copied = recording.texture(access.resource).and_then(|texture| {
+                ReadBack::texture(recording.device, encoder, name, texture, &copied_part)
+            });
+            self.snapshots.push(PendingSnapshot {
                 resource: access.resource,
                 since: since(plan, pass, access),
                 version: access.version + 1,
                 pass,
                 mip,
                 desc: *desc,
-                taken: taken.map(|texels| (shown.layers, texels)).map_err(problem),
+                copied: copied.map(|texels| (copied_part.layers, texels)).map_err(problem),
                 tiles: tiles(plan, pass, access),
             });
         }
     }
 }
 
-/// Whether the next pass that touches what the access wrote draws into another rectangle of it.
-fn goes_on(plan: &Plan, pass: PassId, access: &AccessDecl) -> bool {
+/// Returns whether the next pass that touches what the access wrote draws into another rectangle of it.
+fn continues(plan: &Plan, pass: PassId, access: &AccessDecl) -> bool {
     let part = plan.decl.subresource(access);
     let later = plan.order.iter().skip_while(|&&other| other != pass).skip(1);
     let mut touching =
@@ -190,17 +191,17 @@ fn goes_on(plan: &Plan, pass: PassId, access: &AccessDecl) -> bool {
 }
 
 fn same_layer(plan: &Plan, a: &AccessDecl, b: &AccessDecl) -> bool {
-    let place = |access| Subresource { rect: None, ..plan.decl.subresource(access) };
-    a.resource == b.resource && place(a) == place(b)
+    let layer = |access| Subresource { rect: None, ..plan.decl.subresource(access) };
+    a.resource == b.resource && layer(a) == layer(b)
 }
 
-/// The first of the versions that were drawn beside each other up to this one.
+/// Returns the first of the consecutive versions that were drawn into separate rectangles up to this one.
 fn since(plan: &Plan, pass: PassId, access: &AccessDecl) -> u32 {
     let before = plan.order.iter().rev().skip_while(|&&other| other != pass).skip(1);
     let mut first = access.version + 1;
     for &other in before {
         for earlier in plan.decl.accesses(other).iter().filter(|other| same_layer(plan, access, other)) {
-            if !earlier.contents.writes() || !goes_on(plan, other, earlier) {
+            if !earlier.contents.writes() || !continues(plan, other, earlier) {
                 return first;
             }
             first = earlier.version + 1;
@@ -209,7 +210,7 @@ fn since(plan: &Plan, pass: PassId, access: &AccessDecl) -> u32 {
     first
 }
 
-/// The rectangles that passes have drawn into up to this one, with the names of the last to do so.
+/// Returns the rectangles that passes have drawn into up to this one, each with the name of the last such pass.
 fn tiles(plan: &Plan, pass: PassId, access: &AccessDecl) -> Vec<SnapshotTile> {
     let mut tiles: Vec<SnapshotTile> = Vec::new();
     for &earlier in &plan.order {
@@ -234,10 +235,10 @@ fn layers(desc: &TextureDesc, part: Subresource, mip: u32) -> Range<u32> {
         _ => desc.size.depth_or_array_layers,
     };
     let (first, end) = part.layers.unwrap_or((0, all));
-    first..end.min(all).min(first + LAYERS)
+    first..end.min(all).min(first + MAX_LAYERS)
 }
 
-/// Of depth and stencil together the depth, unless the pass writes the stencil alone.
+/// Returns the captured aspect: depth of a combined depth-stencil format, unless the pass writes only the stencil.
 fn aspect(desc: &TextureDesc, part: Subresource) -> wgpu::TextureAspect {
     match part.aspect {
         Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
@@ -253,11 +254,12 @@ fn problem(error: Error) -> String {
     }
 }
 
-impl Shot {
-    fn develop(self, device: &wgpu::Device, pictures: &mut Vec<TextureSnapshot>) -> Result<(), Error> {
+impl PendingSnapshot {
+    /// Waits for the texels and decodes them.
+    fn decode(self, device: &wgpu::Device, snapshots: &mut Vec<TextureSnapshot>) -> Result<(), Error> {
         let size = self.desc.size.mip_level_size(self.mip, self.desc.dimension);
         let full_px = [size.width, size.height];
-        let picture = |part: Subresource, texels| TextureSnapshot {
+        let snapshot = |part: Subresource, texels| TextureSnapshot {
             resource: self.resource,
             version: self.version,
             since: self.since,
@@ -268,10 +270,10 @@ impl Shot {
             tiles: self.tiles.clone(),
         };
         let part = if self.desc.mip_levels > 1 { Subresource::FULL.mip(self.mip) } else { Subresource::FULL };
-        let (layers, texels) = match self.taken {
+        let (layers, texels) = match self.copied {
             Ok((layers, texels)) => (layers, texels.wait(device)?),
             Err(problem) => {
-                pictures.push(picture(part, Err(problem)));
+                snapshots.push(snapshot(part, Err(problem)));
                 return Ok(());
             }
         };
@@ -279,7 +281,7 @@ impl Shot {
         let layer_bytes = texels.len() / layers.len().max(1);
         for (layer, bytes) in layers.zip(texels.chunks_exact(layer_bytes.max(1))) {
             let part = if layered { part.layer(layer) } else { part };
-            pictures.push(picture(part, texels::texels(self.desc.format, full_px, bytes)));
+            snapshots.push(snapshot(part, texels::decode(self.desc.format, full_px, bytes)));
         }
         Ok(())
     }

@@ -1,13 +1,13 @@
-//! Texels of any format as numbers to look at.
+//! Decoding texels of any format to numbers.
 
-use crate::Format;
+use crate::desc::Format;
 use crate::dump::{TexelValues, Texels};
 use half::f16;
 
-/// So many texels of a side are kept at most.
-const SIDE: u32 = 320;
+/// Texels of a side that are kept at most.
+const MAX_SIDE_PX: u32 = 320;
 
-/// How the channels of a texel lie in memory.
+/// The memory format of a texel's channels.
 #[derive(Clone, Copy)]
 enum Channel {
     Unorm8,
@@ -24,47 +24,48 @@ enum Channel {
     Float32,
 }
 
-/// Keeps some texels of a picture, as they are shown or as numbers; an error says why there is no picture.
-pub(super) fn texels(format: Format, full_px: [u32; 2], bytes: &[u8]) -> Result<Texels, String> {
+/// Keeps evenly spaced texels of an image and decodes them; the error says why they cannot be shown.
+pub(super) fn decode(format: Format, full_px: [u32; 2], bytes: &[u8]) -> Result<Texels, String> {
     let Some((channel, channels, blue_first)) = layout(format) else {
-        return Err(format!("texels of {format:?} are not shown"));
+        return Err(format!("texels of {format:?} cannot be shown"));
     };
     let texel_bytes = channel.bytes() * channels as usize;
-    let size_px = shown(full_px);
+    let size_px = kept_size(full_px);
     let row = full_px[0] as usize * texel_bytes;
-    let kept = |y: u32| {
-        let top = nearest(y, size_px[1], full_px[1]) as usize * row;
-        (0..size_px[0]).map(move |x| top + nearest(x, size_px[0], full_px[0]) as usize * texel_bytes)
+    let row_offsets = |y: u32| {
+        let row_start = nearest(y, size_px[1], full_px[1]) as usize * row;
+        (0..size_px[0]).map(move |x| row_start + nearest(x, size_px[0], full_px[0]) as usize * texel_bytes)
     };
-    let places = (0..size_px[1]).flat_map(kept);
+    let offsets = (0..size_px[1]).flat_map(row_offsets);
     let order: &[usize] = if blue_first { &[2, 1, 0, 3] } else { &[0, 1, 2, 3] };
-    let of_texel =
-        |place: usize| order[..channels as usize].iter().map(move |index| place + index * channel.bytes());
-    let missing = || format!("its texels are not {texel_bytes} bytes each");
+    let channel_offsets =
+        |texel: usize| order[..channels as usize].iter().map(move |index| texel + index * channel.bytes());
+    let missing = || format!("expected {texel_bytes} bytes per texel");
     let values = if let Channel::Unorm8 = channel {
-        let bytes: Option<Vec<u8>> = places.flat_map(of_texel).map(|at| bytes.get(at).copied()).collect();
+        let bytes: Option<Vec<u8>> =
+            offsets.flat_map(channel_offsets).map(|at| bytes.get(at).copied()).collect();
         TexelValues::Bytes(bytes.ok_or_else(missing)?)
     } else {
         let floats: Option<Vec<f32>> =
-            places.flat_map(of_texel).map(|at| channel.value(bytes.get(at..)?)).collect();
+            offsets.flat_map(channel_offsets).map(|at| channel.value(bytes.get(at..)?)).collect();
         TexelValues::Floats(floats.ok_or_else(missing)?)
     };
     Ok(Texels { size_px, channels, is_depth: format.is_depth_stencil_format(), values })
 }
 
-/// The size of the picture: the whole, or so much smaller that no side is too long.
-fn shown([width, height]: [u32; 2]) -> [u32; 2] {
-    let longest = width.max(height).max(SIDE);
-    [width, height].map(|side| (u64::from(side) * u64::from(SIDE) / u64::from(longest)).max(1) as u32)
+/// Returns the full size, scaled down so that no side is too long.
+fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
+    let longest = width.max(height).max(MAX_SIDE_PX);
+    [width, height].map(|side| (u64::from(side) * u64::from(MAX_SIDE_PX) / u64::from(longest)).max(1) as u32)
 }
 
-/// The texel in the middle of those that one of the picture stands for.
-fn nearest(at: u32, shown: u32, full: u32) -> u32 {
-    let middle = (2 * u64::from(at) + 1) * u64::from(full) / (2 * u64::from(shown));
+/// Returns the index of the texel in the middle of those that a kept texel stands for.
+fn nearest(index: u32, kept: u32, full: u32) -> u32 {
+    let middle = (2 * u64::from(index) + 1) * u64::from(full) / (2 * u64::from(kept));
     middle as u32
 }
 
-/// Kind and number of a format's channels, and whether blue comes before red.
+/// Returns the kind and number of a format's channels, and whether blue comes before red.
 fn layout(format: Format) -> Option<(Channel, u32, bool)> {
     use Channel::{
         Float16, Float32, Sint8, Sint16, Sint32, Snorm8, Snorm16, Uint8, Uint16, Uint32, Unorm8, Unorm16,
@@ -147,20 +148,20 @@ mod tests {
     use super::*;
 
     fn values(format: Format, size: [u32; 2], bytes: &[u8]) -> Vec<f32> {
-        match texels(format, size, bytes).unwrap().values {
+        match decode(format, size, bytes).unwrap().values {
             TexelValues::Bytes(bytes) => bytes.into_iter().map(f32::from).collect(),
             TexelValues::Floats(floats) => floats,
         }
     }
 
     #[test]
-    fn eight_bits_stay_as_they_are_and_red_comes_first() {
+    fn eight_bit_values_are_kept_and_red_comes_first() {
         assert_eq!(values(Format::Rgba8Unorm, [1, 1], &[1, 2, 3, 4]), [1.0, 2.0, 3.0, 4.0]);
         assert_eq!(values(Format::Bgra8UnormSrgb, [1, 1], &[1, 2, 3, 4]), [3.0, 2.0, 1.0, 4.0]);
     }
 
     #[test]
-    fn numbers_are_what_a_shader_would_read() {
+    fn decoded_values_are_those_that_a_shader_reads() {
         assert_eq!(values(Format::R16Float, [2, 1], &[0x00, 0x3c, 0x00, 0xc0]), [1.0, -2.0]);
         assert_eq!(values(Format::Depth16Unorm, [1, 1], &[0xff, 0xff]), [1.0]);
         assert_eq!(values(Format::R8Sint, [1, 1], &[0xff]), [-1.0]);
@@ -169,23 +170,23 @@ mod tests {
     }
 
     #[test]
-    fn a_large_picture_keeps_the_middle_of_each_run_of_texels() {
-        let (width, height) = (SIDE * 4, 8);
+    fn a_large_image_keeps_the_middle_of_each_block_of_texels() {
+        let (width, height) = (MAX_SIDE_PX * 4, 8);
         let bytes: Vec<u8> = (0..height)
             .flat_map(|y| (0..width).flat_map(move |x| ((x * 16 + y) as u16).to_le_bytes()))
             .collect();
-        let shown = texels(Format::R16Uint, [width, height], &bytes).unwrap();
-        assert_eq!(shown.size_px, [SIDE, 2]);
-        let TexelValues::Floats(values) = shown.values else { panic!("numbers") };
+        let kept = decode(Format::R16Uint, [width, height], &bytes).unwrap();
+        assert_eq!(kept.size_px, [MAX_SIDE_PX, 2]);
+        let TexelValues::Floats(values) = kept.values else { panic!("numbers") };
         // Texel 2 of 0 to 3, row 2 of 0 to 3; then texel 6.
         assert_eq!(values[..2], [(2 * 16 + 2) as f32, (6 * 16 + 2) as f32]);
-        assert_eq!(values.len(), SIDE as usize * 2);
+        assert_eq!(values.len(), MAX_SIDE_PX as usize * 2);
     }
 
     #[test]
-    fn what_has_no_plain_texels_is_refused_with_its_format() {
-        let error = texels(Format::Bc1RgbaUnorm, [4, 4], &[0; 8]).unwrap_err();
+    fn a_format_without_plain_texels_is_an_error_that_names_it() {
+        let error = decode(Format::Bc1RgbaUnorm, [4, 4], &[0; 8]).unwrap_err();
         assert!(error.contains("Bc1RgbaUnorm"), "{error}");
-        assert!(texels(Format::R32Float, [2, 2], &[0; 8]).is_err(), "too few bytes");
+        assert!(decode(Format::R32Float, [2, 2], &[0; 8]).is_err(), "too few bytes");
     }
 }

@@ -1,35 +1,35 @@
-//! Results on their way back to the CPU.
+//! Reading results back to the CPU.
 
-mod arrival;
+mod completion;
 mod request;
 mod source;
 
 #[cfg(test)]
 mod tests;
 
+pub(crate) use request::ReadBackDecl;
 pub use request::ReadBackRequest;
-pub(crate) use request::Requested;
-pub(crate) use source::TexturePart;
+pub(super) use source::TexturePart;
 
 use crate::desc::TextureDesc;
 use crate::device::{device_is_lost, make};
 use crate::error::Error;
-use arrival::{Arrival, Outcome};
+use crate::pool::check_limit;
+use completion::{Completion, MapOutcome};
 use std::ops::Range;
 use std::pin::Pin;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-/// For how long [`ReadBack::wait`] gives another thread that is just submitting or polling, in steps.
-const PATIENCE: (u32, Duration) = (100, Duration::from_millis(10));
+/// How often and how long [`ReadBack::wait`] waits for another thread that is submitting or polling.
+const WAIT_STEPS: (u32, Duration) = (100, Duration::from_millis(10));
 
 /// Bytes of a texture or buffer on their way to the CPU: a future, or block with [`wait`](Self::wait).
 ///
-/// The copy is part of the encoder that it was recorded into. After that encoder is submitted nothing has to be
-/// called for it but what a program calls anyway: a later `Queue::submit` or `Device::poll`, from any thread, finds
-/// that the copy is done and wakes the future. The future itself polls no device: a program that only awaits it and
-/// does neither waits for ever.
+/// The copy is part of the encoder that it was recorded into. After that encoder has been submitted, a later
+/// `Queue::submit` or `Device::poll`, from any thread, notices that the copy is done and wakes the future. The future
+/// itself does not poll the device: a program that awaits it but calls neither waits forever.
 ///
 /// ```no_run
 /// # use shadowgraph_core::{Error, ReadBack, wgpu};
@@ -41,7 +41,7 @@ const PATIENCE: (u32, Duration) = (100, Duration::from_millis(10));
 ///         show(bytes).await;
 ///     }
 /// });
-/// // In each turn of the program's loop, drawing or not:
+/// // In each iteration of the program's loop, whether it draws or not:
 /// let _done = device.poll(wgpu::PollType::Poll);
 /// # Ok(())
 /// # }
@@ -52,17 +52,16 @@ const PATIENCE: (u32, Duration) = (100, Duration::from_millis(10));
 ///
 /// # Errors
 /// When the encoder is dropped without having been submitted, or the bytes cannot be mapped (a lost device). A
-/// submission that wgpu refused for a mistake elsewhere in it yields zeros: wgpu reports the mistake, but
-/// not here.
-#[must_use = "the bytes come only to whoever awaits this, or calls `wait`"]
+/// submission that wgpu rejects for an error elsewhere in it yields zeros; wgpu reports that error separately.
+#[must_use = "the bytes are returned only by awaiting this, or by `wait`"]
 pub struct ReadBack {
     name: String,
     buffer: wgpu::Buffer,
     rows: Rows,
-    arrival: Arc<Arrival>,
+    completion: Arc<Completion>,
 }
 
-/// Where the wanted bytes lie in the mapped buffer, in bytes.
+/// The location of the requested bytes in the mapped buffer, in bytes.
 #[derive(Clone, Copy)]
 struct Rows {
     offset: usize,
@@ -72,7 +71,7 @@ struct Rows {
 }
 
 impl ReadBack {
-    /// Records the copy of a part of a texture. `name` is for errors.
+    /// Records the copy of a part of a texture. `name` is used in errors.
     ///
     /// # Errors
     /// When the texture, its format or its usage does not allow the copy, or the part is not within it.
@@ -84,15 +83,15 @@ impl ReadBack {
         part: &TexturePart,
     ) -> Result<Self, Error> {
         if !texture.usage().contains(wgpu::TextureUsages::COPY_SRC) {
-            return Err(Error::ReadBack { resource: name.to_owned(), problem: source::no_usage() });
+            return Err(Error::ReadBack { resource: name.to_owned(), problem: source::missing_copy_src() });
         }
-        let copy = source::texture(name, &TextureDesc::of(texture), part)?;
-        let buffer = target(device, name, copy.bytes())?;
+        let copy = source::texture(name, &TextureDesc::from_texture(texture), part)?;
+        let buffer = create_target(device, name, copy.bytes())?;
         copy.record(encoder, texture, &buffer);
-        Ok(Self::of(encoder, name, buffer, copy.rows()))
+        Ok(Self::new(encoder, name, buffer, copy.rows()))
     }
 
-    /// Records the copy of a range of a buffer, in bytes. `name` is for errors.
+    /// Records the copy of a range of a buffer, in bytes. `name` is used in errors.
     ///
     /// # Errors
     /// When the buffer's usage does not allow the copy, or the range is empty or not within it.
@@ -105,53 +104,52 @@ impl ReadBack {
     ) -> Result<Self, Error> {
         let copied = source::buffer(name, buffer, &range)?;
         let copied_bytes = copied.end - copied.start;
-        let target = target(device, name, copied_bytes)?;
+        let target = create_target(device, name, copied_bytes)?;
         encoder.copy_buffer_to_buffer(buffer, copied.start, &target, 0, copied_bytes);
         let bytes = (range.end - range.start) as usize;
         let rows = Rows { offset: (range.start - copied.start) as usize, bytes, stride: bytes, count: 1 };
-        Ok(Self::of(encoder, name, target, rows))
+        Ok(Self::new(encoder, name, target, rows))
     }
 
-    fn of(encoder: &wgpu::CommandEncoder, name: &str, buffer: wgpu::Buffer, rows: Rows) -> Self {
-        let (arrival, messenger) = Arrival::new();
-        encoder
-            .map_buffer_on_submit(&buffer, wgpu::MapMode::Read, .., move |mapped| messenger.report(mapped));
-        Self { name: name.to_owned(), buffer, rows, arrival }
+    fn new(encoder: &wgpu::CommandEncoder, name: &str, buffer: wgpu::Buffer, rows: Rows) -> Self {
+        let (completion, sender) = Completion::new();
+        encoder.map_buffer_on_submit(&buffer, wgpu::MapMode::Read, .., move |mapped| sender.send(mapped));
+        Self { name: name.to_owned(), buffer, rows, completion }
     }
 
-    /// Returns whether awaiting and waiting return at once, with the bytes or with an error.
+    /// Returns whether the result is available, so that awaiting and waiting return at once.
     pub fn is_ready(&self) -> bool {
-        self.arrival.outcome().is_some()
+        self.completion.outcome().is_some()
     }
 
-    /// Blocks until the bytes are here, and returns them. Submit the encoder before, or from another thread.
+    /// Blocks until the bytes have arrived, and returns them. Submit the encoder before, or from another thread.
     ///
     /// # Errors
-    /// As the future, [`Error::DeviceLost`] where that is why the bytes do not come, and when no submission comes within a
-    /// second after the GPU has run out of work.
+    /// Those of the future; [`Error::DeviceLost`] if that is why the bytes do not arrive; and an error when nothing is
+    /// submitted within a second after the GPU has run out of work.
     pub fn wait(self, device: &wgpu::Device) -> Result<Vec<u8>, Error> {
-        let (steps, step) = PATIENCE;
+        let (steps, step) = WAIT_STEPS;
         for _ in 0..steps {
             let polled = device.poll(wgpu::PollType::wait_indefinitely());
-            polled.map_err(|error| self.problem(format!("the device cannot be waited for: {error}")))?;
-            // Not there means not submitted, or that another thread has taken the callback and not run it yet,
-            // or that it has submitted and not asked for the mapping yet. The last two take no time worth naming.
-            if let Some(outcome) = self.arrival.outcome_within(step) {
+            polled.map_err(|error| self.problem(format!("waiting for the device failed: {error}")))?;
+            // No outcome means that nothing was submitted, or that another thread has taken the callback but not run it
+            // yet, or has submitted but not requested the mapping yet. The last two take very little time.
+            if let Some(outcome) = self.completion.outcome_within(step) {
                 let lost = |error| if device_is_lost(device) { Error::DeviceLost } else { error };
                 return self.bytes(outcome).map_err(lost);
             }
         }
-        Err(self.problem("the encoder that copies it was not submitted: submit it before waiting".into()))
+        Err(self.problem("the encoder with its copy was not submitted: submit it before waiting".into()))
     }
 
-    fn bytes(&self, outcome: Outcome) -> Result<Vec<u8>, Error> {
+    fn bytes(&self, outcome: MapOutcome) -> Result<Vec<u8>, Error> {
         match outcome {
-            Outcome::Mapped => {}
-            Outcome::Failed => {
-                return Err(self.problem("its bytes could not be mapped; the device may be lost".into()));
+            MapOutcome::Mapped => {}
+            MapOutcome::Failed => {
+                return Err(self.problem("its bytes cannot be mapped; the device may be lost".into()));
             }
-            Outcome::NeverSubmitted => {
-                let problem = "the encoder that copies it was dropped: finish it and submit it";
+            MapOutcome::NeverSubmitted => {
+                let problem = "the encoder with its copy was dropped: finish and submit it";
                 return Err(self.problem(problem.into()));
             }
         }
@@ -169,7 +167,7 @@ impl Future for ReadBack {
     type Output = Result<Vec<u8>, Error>;
 
     fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
-        match self.arrival.outcome_or_wake(context.waker()) {
+        match self.completion.outcome_or_wake(context.waker()) {
             Some(outcome) => Poll::Ready(self.bytes(outcome)),
             None => Poll::Pending,
         }
@@ -186,8 +184,8 @@ impl Rows {
     }
 }
 
-fn target(device: &wgpu::Device, name: &str, size: u64) -> Result<wgpu::Buffer, Error> {
-    crate::pool::limit(name, "max_buffer_size", size, device.limits().max_buffer_size)?;
+fn create_target(device: &wgpu::Device, name: &str, size: u64) -> Result<wgpu::Buffer, Error> {
+    check_limit(name, "max_buffer_size", size, device.limits().max_buffer_size)?;
     let desc = wgpu::BufferDescriptor {
         label: Some(name),
         size,

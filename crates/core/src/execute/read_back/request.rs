@@ -1,4 +1,4 @@
-//! Asking for a read-back while a frame is declared, and recording it at the frame's end.
+//! Requesting read-backs while a frame is declared, and recording them at its end.
 
 #[cfg(test)]
 mod tests;
@@ -14,27 +14,27 @@ use crate::handle::{Buffer, ResourceId, Texture, Version};
 use crate::subresource::Subresource;
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// The right to take a [`ReadBack`] out of an executed frame.
+/// Identifies a requested [`ReadBack`] of a frame; see [`Executed::read_back`](crate::Executed::read_back).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadBackRequest {
     pub(crate) frame: u64,
-    /// Which of the frame's requests.
+    /// The index of the request in the frame.
     pub(crate) index: u32,
 }
 
-/// What is to be copied at the end of the frame.
+/// A copy at the end of the frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Requested {
+pub(crate) struct ReadBackDecl {
     resource: ResourceId,
     part: Subresource,
 }
 
 impl Frame<'_> {
-    /// Brings texels of the texture's present contents to the CPU: one mip level, any layers, one aspect, and of
-    /// colours a rectangle if need be, such as the one texel under the pointer.
+    /// Reads texels of the texture's current contents back to the CPU: one mip level, any layers, one aspect, and for
+    /// colours optionally a rectangle, such as the texel under the mouse pointer.
     ///
-    /// It is an export: passes that write the texture stay, all of it must have been written, and a later write to
-    /// it is an error. The copy is recorded after the frame's passes; [`Executed::read_back`] gives the future.
+    /// This exports the texture: passes that write it are not culled, all of it must have been written, and a later write
+    /// to it is an error. The copy is recorded after the frame's passes; [`Executed::read_back`] returns the future.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, Subresource, TextureDesc};
@@ -48,30 +48,30 @@ impl Frame<'_> {
     ///
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
-    /// let texels = executed.read_back(request).ok_or("asked for once")?;
+    /// let texels = executed.read_back(request).ok_or("taken once")?;
     /// queue.submit([encoder.finish()]);
-    /// // Here the program waits; one that draws on awaits, or looks at `is_ready` in later frames.
+    /// // This blocks. A program that keeps drawing awaits, or checks `is_ready` in later frames.
     /// let texels: Vec<u8> = texels.wait(&device)?;
     /// assert_eq!(texels.len(), 3 * 2 * 4, "rows follow each other without padding");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// `compile` returns [`Error::ReadBack`] where the part is not within the texture or is more than one copy can
-    /// take, or the texture is multisampled, has a format that no copy can read, or is an import without `COPY_SRC`.
+    /// `compile` returns [`Error::ReadBack`] if the part is not within the texture or is more than one copy can read, or if
+    /// the texture is multisampled, has a format that cannot be copied, or is an import without `COPY_SRC`.
     ///
     /// [`Executed::read_back`]: crate::Executed::read_back
     pub fn read_back_texture(&mut self, texture: &Texture, part: Subresource) -> ReadBackRequest {
         if let Some(desc) = self.texture_desc(texture) {
             self.check_read_back(texture.0, |name| {
-                source::texture(name, &desc, &TexturePart::of(name, &desc, &part)?).map(drop)
+                source::texture(name, &desc, &TexturePart::from_part(name, &desc, &part)?).map(drop)
             });
         }
         self.export(texture.0, TextureUsages::COPY_SRC, BufferUsages::empty());
         self.request(texture.id(), part)
     }
 
-    /// Brings bytes of the buffer's present contents to the CPU: all, or the range of `part`, which need not be
+    /// Reads bytes of the buffer's current contents back to the CPU: all, or the range of `part`, which need not be
     /// aligned. See [`read_back_texture`](Self::read_back_texture).
     ///
     /// ```
@@ -86,21 +86,22 @@ impl Frame<'_> {
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
     /// queue.submit([encoder.finish()]);
-    /// let bytes = executed.read_back(request).ok_or("asked for once")?.wait(&device)?;
+    /// let bytes = executed.read_back(request).ok_or("taken once")?.wait(&device)?;
     /// assert_eq!(bytes, [3, 4, 5]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// `compile` returns [`Error::ReadBack`] where the range is empty or not within the buffer, or the buffer is an
-    /// import without `COPY_SRC`.
+    /// `compile` returns [`Error::ReadBack`] if the range is empty or not within the buffer, or if the buffer is an import
+    /// without `COPY_SRC`.
     pub fn read_back_buffer(&mut self, buffer: &Buffer, part: Subresource) -> ReadBackRequest {
         if let Some(desc) = self.buffer_desc(buffer) {
             self.check_read_back(buffer.0, |name| match part.problem(&ResourceDesc::Buffer(desc)) {
                 None => Ok(()),
-                Some(problem) => {
-                    Err(Error::ReadBack { resource: name.to_owned(), problem: source::asked(&part, problem) })
-                }
+                Some(problem) => Err(Error::ReadBack {
+                    resource: name.to_owned(),
+                    problem: source::describe_request(&part, problem),
+                }),
             });
         }
         self.export(buffer.0, TextureUsages::empty(), BufferUsages::COPY_SRC);
@@ -116,7 +117,7 @@ impl Frame<'_> {
             ResourceDesc::Buffer(_) => resource.buffer_usage.contains(BufferUsages::COPY_SRC),
         };
         let checked = match import && !usable {
-            true => Err(Error::ReadBack { resource: name.to_owned(), problem: source::no_usage() }),
+            true => Err(Error::ReadBack { resource: name.to_owned(), problem: source::missing_copy_src() }),
             false => check(name),
         };
         if let Err(error) = checked {
@@ -126,16 +127,16 @@ impl Frame<'_> {
 
     fn request(&mut self, resource: ResourceId, part: Subresource) -> ReadBackRequest {
         let index = self.work.read_backs.len() as u32;
-        self.work.read_backs.push(Requested { resource, part });
+        self.work.read_backs.push(ReadBackDecl { resource, part });
         ReadBackRequest { frame: self.id(), index }
     }
 }
 
 impl Recording<'_> {
-    /// Records the copies that the frame asked for.
+    /// Records the copies of the frame's read-backs.
     pub(in crate::execute) fn read_backs(
         &self,
-        requests: &[Requested],
+        requests: &[ReadBackDecl],
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<Vec<Option<ReadBack>>, Error> {
         if !requests.is_empty() {
@@ -149,13 +150,17 @@ impl Recording<'_> {
         all
     }
 
-    fn read_back(&self, request: &Requested, encoder: &mut wgpu::CommandEncoder) -> Result<ReadBack, Error> {
-        let Requested { resource, part } = *request;
+    fn read_back(
+        &self,
+        request: &ReadBackDecl,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<ReadBack, Error> {
+        let ReadBackDecl { resource, part } = *request;
         let name = self.plan.decl.resource_name(resource);
         match self.plan.decl.resource(resource).desc {
             ResourceDesc::Texture(_) => {
                 let texture = self.texture(resource)?;
-                let part = TexturePart::of(name, &TextureDesc::of(texture), &part)?;
+                let part = TexturePart::from_part(name, &TextureDesc::from_texture(texture), &part)?;
                 ReadBack::texture(self.device, encoder, name, texture, &part)
             }
             ResourceDesc::Buffer(desc) => {

@@ -1,4 +1,4 @@
-//! What can be read back, and how it is laid out in the copy.
+//! Checks of read-backs, and the layout of their copies.
 
 use super::Rows;
 use crate::desc::{ResourceDesc, TextureDesc};
@@ -7,27 +7,27 @@ use crate::subresource::{Aspect, Rect, Subresource};
 use std::ops::Range;
 use wgpu::TextureDimension;
 
-/// One mip level of some layers of a texture, or a rectangle of them; of a 3D texture, slices of that level.
+/// One mip level of some layers of a texture (slices of a 3D texture), or a rectangle of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TexturePart {
     pub(crate) mip: u32,
     pub(crate) layers: Range<u32>,
-    /// `All` will do for every format but those of depth and stencil together.
+    /// `All` is valid for every format except combined depth-stencil ones.
     pub(crate) aspect: wgpu::TextureAspect,
     pub(crate) rect: Option<Rect>,
 }
 
 impl TexturePart {
-    /// Takes a declared part for what one copy can take.
-    pub(crate) fn of(name: &str, desc: &TextureDesc, part: &Subresource) -> Result<Self, Error> {
-        let refuse = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
+    /// Converts a declared part to what one copy can read.
+    pub(crate) fn from_part(name: &str, desc: &TextureDesc, part: &Subresource) -> Result<Self, Error> {
+        let error = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
         if let Some(problem) = part.problem(&ResourceDesc::Texture(*desc)) {
-            return Err(refuse(asked(part, problem)));
+            return Err(error(describe_request(part, problem)));
         }
         let (mip, end) = part.mips.unwrap_or((0, desc.mip_levels));
         if end - mip != 1 {
-            return Err(refuse(format!(
-                "{} of its mip levels are asked for, and one is read at a time: narrow the part with `mip`",
+            return Err(error(format!(
+                "{} mip levels are requested, but only one can be read at a time: narrow the part with `mip`",
                 end - mip
             )));
         }
@@ -52,7 +52,7 @@ pub(super) struct TextureCopy {
 }
 
 impl TextureCopy {
-    /// Bytes from row to row, as copies need it.
+    /// Returns the bytes from row to row, aligned as copies require.
     fn stride(&self) -> u32 {
         self.row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
     }
@@ -95,17 +95,17 @@ impl TextureCopy {
     }
 }
 
-/// Checks that the part can be copied, and lays it out.
+/// Checks that the part can be copied, and returns the layout of the copy.
 pub(super) fn texture(name: &str, desc: &TextureDesc, part: &TexturePart) -> Result<TextureCopy, Error> {
-    let refuse = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
+    let error = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
     if desc.samples > 1 {
-        return Err(refuse(format!(
-            "it has {} samples per texel: resolve it into a texture with one, and read that",
+        return Err(error(format!(
+            "it has {} samples per texel: resolve it into a texture with one sample, and read that",
             desc.samples
         )));
     }
-    let block_bytes = block_bytes(desc.format, part.aspect).map_err(refuse)?;
-    let size = part_size(desc, part).map_err(refuse)?.physical_size(desc.format);
+    let block_bytes = block_bytes(desc.format, part.aspect).map_err(error)?;
+    let size = part_size(desc, part).map_err(error)?.physical_size(desc.format);
     let (block_width, block_height) = desc.format.block_dimensions();
     Ok(TextureCopy {
         part: part.clone(),
@@ -115,38 +115,38 @@ pub(super) fn texture(name: &str, desc: &TextureDesc, part: &TexturePart) -> Res
     })
 }
 
-/// Checks that the range can be copied, and widens it to the multiples of 4 bytes that copies need.
+/// Checks that the range can be copied, and widens it to multiples of 4 bytes, as copies require.
 pub(super) fn buffer(name: &str, buffer: &wgpu::Buffer, range: &Range<u64>) -> Result<Range<u64>, Error> {
-    let refuse = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
+    let error = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
     if !buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
-        return Err(refuse(no_usage()));
+        return Err(error(missing_copy_src()));
     }
     let size = buffer.size();
     if range.is_empty() || range.end > size {
-        return Err(refuse(format!(
-            "it has {size} bytes, and {range:?} are asked for: ask for at least one of those it has"
+        return Err(error(format!(
+            "it has {size} bytes, but {range:?} are requested: request at least one byte within its size"
         )));
     }
     let align = wgpu::COPY_BUFFER_ALIGNMENT;
     let copied = range.start / align * align..range.end.next_multiple_of(align);
     if copied.end > size {
-        return Err(refuse(format!(
-            "its {size} bytes are no multiple of {align}, and copies cannot reach the last ones: create it larger"
+        return Err(error(format!(
+            "its size of {size} bytes is not a multiple of {align}, so copies cannot reach its end: create it larger"
         )));
     }
     Ok(copied)
 }
 
-/// What is wrong with a part, and which it was.
-pub(super) fn asked(part: &Subresource, problem: &str) -> String {
-    format!("{problem} (asked for: {})", part.to_string())
+/// Describes the problem with a requested part.
+pub(super) fn describe_request(part: &Subresource, problem: &str) -> String {
+    format!("{problem} (requested: {part})")
 }
 
-pub(super) fn no_usage() -> String {
+pub(super) fn missing_copy_src() -> String {
     "it was created without COPY_SRC: add that usage where you create it".into()
 }
 
-/// The layers of a mip level, or its slices.
+/// Returns the number of layers of a mip level, or of its slices.
 fn layers(desc: &TextureDesc, mip: u32) -> u32 {
     match desc.dimension {
         TextureDimension::D3 => desc.size.mip_level_size(mip, desc.dimension).depth_or_array_layers,
@@ -154,23 +154,26 @@ fn layers(desc: &TextureDesc, mip: u32) -> u32 {
     }
 }
 
-/// The size of the part in texels, if the texture has it.
+/// Returns the size of the part in texels, if it is within the texture.
 fn part_size(desc: &TextureDesc, part: &TexturePart) -> Result<wgpu::Extent3d, String> {
-    let (mips, asked) = (desc.mip_levels, &part.layers);
+    let (mips, requested) = (desc.mip_levels, &part.layers);
     if part.mip >= mips {
-        return Err(format!("it has {mips} mip levels, and level {} is asked for: count from 0", part.mip));
+        return Err(format!(
+            "it has {mips} mip levels, but level {} is requested: levels count from 0",
+            part.mip
+        ));
     }
     let available = layers(desc, part.mip);
-    if asked.is_empty() || asked.end > available {
+    if requested.is_empty() || requested.end > available {
         return Err(format!(
-            "it has {available} layers, and {asked:?} are asked for: ask for at least one of those it has"
+            "it has {available} layers, but {requested:?} are requested: request at least one that it has"
         ));
     }
     let size = desc.size.mip_level_size(part.mip, desc.dimension);
-    let size = wgpu::Extent3d { depth_or_array_layers: asked.end - asked.start, ..size };
+    let size = wgpu::Extent3d { depth_or_array_layers: requested.end - requested.start, ..size };
     let Some(rect) = part.rect else { return Ok(size) };
     if desc.format.is_depth_stencil_format() {
-        return Err("depth and stencil are copied whole: ask for the mip without a rectangle".into());
+        return Err("depth and stencil can only be copied whole: request the mip without a rectangle".into());
     }
     let (width, height) = desc.format.block_dimensions();
     let aligned = rect.x.is_multiple_of(width) && rect.y.is_multiple_of(height);
@@ -181,28 +184,26 @@ fn part_size(desc: &TextureDesc, part: &TexturePart) -> Result<wgpu::Extent3d, S
         || !ends(rect.x, rect.width, size.width, width)
         || !ends(rect.y, rect.height, size.height, height)
     {
-        return Err(format!(
-            "its blocks are {width}x{height} texels: begin and end the rectangle at whole blocks"
-        ));
+        return Err(format!("its blocks are {width}x{height} texels: align the rectangle to whole blocks"));
     }
     Ok(wgpu::Extent3d { width: rect.width, height: rect.height, ..size })
 }
 
-/// The bytes of a block in a copy, if the format and aspect can be copied.
+/// Returns the bytes of a block in a copy, if the format and aspect can be copied.
 fn block_bytes(format: wgpu::TextureFormat, aspect: wgpu::TextureAspect) -> Result<u32, String> {
     use wgpu::TextureAspect as Aspect;
     if format.is_multi_planar_format() {
         return Err(format!(
-            "{format:?} keeps its planes apart: copy a plane into a texture of its own, and read that"
+            "{format:?} has several planes: copy a plane into a separate texture, and read that"
         ));
     }
     if aspect == Aspect::All && format.is_combined_depth_stencil_format() {
-        return Err(format!("{format:?} has two aspects: ask for the depth or for the stencil alone"));
+        return Err(format!("{format:?} has two aspects: request only the depth or only the stencil"));
     }
     if format.aspect_specific_format(aspect).is_none() {
-        return Err(format!("{format:?} has no aspect {aspect:?}: ask for one that it has"));
+        return Err(format!("{format:?} has no aspect {aspect:?}: request one that it has"));
     }
-    format.block_copy_size(Some(aspect)).ok_or_else(|| {
-        format!("the depth of {format:?} has no layout that a copy could give: use Depth32Float instead")
-    })
+    format
+        .block_copy_size(Some(aspect))
+        .ok_or_else(|| format!("the depth of {format:?} cannot be copied: use Depth32Float instead"))
 }

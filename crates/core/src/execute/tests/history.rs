@@ -87,12 +87,12 @@ fn history_carries_contents_from_frame_to_frame() {
     each(|mut counter| {
         let halves = [counter.expect(1, false), counter.expect(2, true)];
         assert_ne!(halves[0], halves[1]);
-        let known = counter.graph.device.histories.known();
+        let known = counter.graph.device.histories.prior();
         for count in 3..8 {
             let half = counter.expect(count, true);
             assert_eq!(half, halves[(count as usize + 1) % 2], "the halves take turns");
         }
-        assert!(Arc::ptr_eq(&known, &counter.graph.device.histories.known()), "nothing is listed anew");
+        assert!(Arc::ptr_eq(&known, &counter.graph.device.histories.prior()), "nothing is listed anew");
         assert_eq!(counter.graph.bytes(), 2 * counter.desc.bytes());
         assert_eq!(counter.graph.plan_counts().compiled, 1, "the first frame has the same plan");
     });

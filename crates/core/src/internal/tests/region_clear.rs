@@ -89,7 +89,7 @@ fn check_depth_stencils(gpu: &Gpu, samples: u32) {
     }
 }
 
-/// Attachments of all classes, one of them left alone and one missing, with depth.
+/// PipelineTargets of all classes, one of them left alone and one missing, with depth.
 fn check_mixed(gpu: &Gpu, samples: u32) {
     let formats = [
         Some(Format::Rgba8Unorm),

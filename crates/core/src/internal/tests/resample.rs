@@ -5,7 +5,7 @@ use super::region_clear::{COLORS, DEPTH_STENCILS};
 use crate::Rect;
 use crate::desc::{Format, TextureDesc};
 use crate::internal::resample::{open_pass, view};
-use crate::internal::{RegionClear, RegionClears, Resampler, Targets, Unfit, resamples};
+use crate::internal::{RegionClear, RegionClears, ResampleError, Resampler, Targets, can_resample};
 use wgpu::TextureAspect::All;
 
 const SIZES: [([u32; 2], [u32; 2]); 5] =
@@ -148,7 +148,7 @@ fn every_format_that_fits_validates() {
     let gpu = Gpu::noop();
     let features = gpu.device.features();
     let formats = COLORS.iter().map(|(format, _)| *format).chain(DEPTH_STENCILS);
-    let fits = |format: &Format| resamples(&TextureDesc::d2(4, 4, *format), features).is_ok();
+    let fits = |format: &Format| can_resample(&TextureDesc::d2(4, 4, *format), features).is_ok();
     let fitting: Vec<_> = formats.filter(fits).collect();
     assert_eq!(fitting.len(), 28);
     for format in fitting {
@@ -161,13 +161,13 @@ fn shapes_that_do_not_fit_are_refused_with_the_reason() {
     let features = wgpu::Features::empty();
     let d2 = |format| TextureDesc::d2(4, 4, format);
     let plain = d2(Format::Rgba8Unorm);
-    assert_eq!(resamples(&plain, features), Ok(()));
+    assert_eq!(can_resample(&plain, features), Ok(()));
     for format in [Format::Stencil8, Format::Depth24PlusStencil8, Format::R8Snorm, Format::Bc1RgbaUnorm] {
-        assert_eq!(resamples(&d2(format), features), Err(Unfit::Format), "{format:?}");
+        assert_eq!(can_resample(&d2(format), features), Err(ResampleError::Format), "{format:?}");
     }
-    assert_eq!(resamples(&TextureDesc { samples: 4, ..plain }, features), Err(Unfit::Samples));
+    assert_eq!(can_resample(&TextureDesc { samples: 4, ..plain }, features), Err(ResampleError::Samples));
     let volume = TextureDesc { dimension: wgpu::TextureDimension::D3, ..plain };
-    assert_eq!(resamples(&volume, features), Err(Unfit::Dimension));
+    assert_eq!(can_resample(&volume, features), Err(ResampleError::Dimension));
 }
 
 #[test]
@@ -186,10 +186,10 @@ fn textures_that_do_not_fit_each_other_record_nothing() {
         view_formats: &[],
     });
     let pairs = [
-        (&sampled, &texture(Format::R8Unorm, 1), Unfit::Different),
-        (&sampled, &texture(Format::Rgba8Unorm, 2), Unfit::Different),
-        (&not_sampled, &sampled, Unfit::Usage),
-        (&sampled, &texture(Format::Depth24PlusStencil8, 1), Unfit::Format),
+        (&sampled, &texture(Format::R8Unorm, 1), ResampleError::Different),
+        (&sampled, &texture(Format::Rgba8Unorm, 2), ResampleError::Different),
+        (&not_sampled, &sampled, ResampleError::Usage),
+        (&sampled, &texture(Format::Depth24PlusStencil8, 1), ResampleError::Format),
     ];
     for (source, target, why) in pairs {
         let recorded =

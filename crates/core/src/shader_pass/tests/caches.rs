@@ -136,14 +136,14 @@ fn a_buffer_with_the_same_slot_keeps_its_group_and_another_sampler_gets_one() {
 }
 
 #[test]
-fn frames_declare_their_calls_in_the_memory_of_frames_before() {
+fn frames_declare_shader_passes_in_the_memory_of_frames_before() {
     let mut gpu = Gpu::noop();
     let shader = fragment("level");
     let formats = [Format::Rgba8Unorm; 20];
     let mut addresses = Vec::new();
     for _ in 0..10 {
         let frame = draws(&gpu, &shader, &formats);
-        addresses.push(frame.work.calls.address());
+        addresses.push(frame.work.shader_passes.address());
         gpu.run(frame).unwrap();
     }
     assert!(addresses[2..].iter().all(|address| *address == addresses[2]), "{addresses:?}");

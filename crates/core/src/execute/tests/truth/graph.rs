@@ -43,7 +43,7 @@ impl Span {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Transient,
-    /// Made by the caller; `true` if the frame may count on what it holds.
+    /// CachedPipeline by the caller; `true` if the frame may count on what it holds.
     Imported(bool),
     /// Of the history of that number.
     Previous(usize),

@@ -1,6 +1,6 @@
 //! Shaders as they are handed over.
 
-use super::validation::words;
+use super::validation::describe;
 use crate::device::now;
 use crate::error::Error;
 use rustc_hash::FxHasher;
@@ -8,18 +8,18 @@ use std::borrow::Cow;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-/// A string that need not be copied where it stands in the program.
+/// A string that is not copied where it is a literal.
 type Text = Cow<'static, str>;
 
-/// What pipelines are made of, but for what they draw into.
+/// A shader with its entry point and constants: what a pipeline is made of besides its targets.
 #[derive(Clone, Debug)]
-pub(crate) struct Program {
-    /// For labels and errors; two programs that differ in nothing else are the same.
+pub(crate) struct ProgrammableStage {
+    /// For labels and errors; stages that differ in nothing else are equivalent.
     pub(crate) name: Text,
     pub(super) source: Source,
-    pub(super) entry: Option<Text>,
+    pub(super) entry_point: Option<Text>,
     pub(super) constants: Vec<(Text, f64)>,
-    /// Of all but the name.
+    /// Hash of all but the name.
     pub(super) hash: u64,
 }
 
@@ -29,9 +29,9 @@ pub(super) enum Source {
     Module(wgpu::ShaderModule),
 }
 
-impl Program {
+impl ProgrammableStage {
     fn new(name: Text, source: Source) -> Self {
-        Self { name, source, entry: None, constants: Vec::new(), hash: 0 }.hashed()
+        Self { name, source, entry_point: None, constants: Vec::new(), hash: 0 }.hashed()
     }
 
     fn hashed(mut self) -> Self {
@@ -43,38 +43,38 @@ impl Program {
     }
 
     fn parts(&self) -> (&Source, &Option<Text>, usize) {
-        (&self.source, &self.entry, self.constants.len())
+        (&self.source, &self.entry_point, self.constants.len())
     }
 
     fn constants(&self) -> impl Iterator<Item = (&str, u64)> {
         self.constants.iter().map(|(name, value)| (&**name, value.to_bits()))
     }
 
-    /// Whether pipelines of one serve the other.
-    pub(super) fn is(&self, other: &Self) -> bool {
+    /// Returns whether both make the same pipelines.
+    pub(super) fn is_equivalent(&self, other: &Self) -> bool {
         self.hash == other.hash && self.parts() == other.parts() && self.constants().eq(other.constants())
     }
 
-    /// The error of what wgpu says against this program.
-    pub(crate) fn refused(&self, message: impl Into<String>) -> Error {
+    /// Returns an error of this shader.
+    pub(crate) fn error(&self, message: impl Into<String>) -> Error {
         Error::Shader { shader: self.name.to_string(), message: message.into() }
     }
 
-    /// Creates something of this program's, and makes wgpu's objection an error; `place` begins it.
+    /// Creates an object of this shader and returns wgpu's validation error, if any; `prefix` begins its message.
     pub(crate) fn checked<T>(
         &self,
         device: &wgpu::Device,
-        place: &str,
+        prefix: &str,
         create: impl FnOnce() -> T,
     ) -> Result<T, Error> {
         let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        // What the driver refuses, although wgpu did not.
+        // For what only the driver rejects.
         let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
         let created = create();
-        let objections = [now(internal.pop()), now(validation.pop())];
-        match objections.into_iter().flatten().next() {
+        let errors = [now(internal.pop()), now(validation.pop())];
+        match errors.into_iter().flatten().next() {
             None => Ok(created),
-            Some(objection) => Err(self.refused(format!("{place}{}", words(&objection)))),
+            Some(error) => Err(self.error(format!("{prefix}{}", describe(&error)))),
         }
     }
 }
@@ -83,35 +83,35 @@ macro_rules! shader {
     ($(#[$doc:meta])* $name:ident, $stage:literal) => {
         $(#[$doc])*
         #[derive(Clone, Debug)]
-        pub struct $name(pub(super) Arc<Program>);
+        pub struct $name(pub(crate) Arc<ProgrammableStage>);
 
         impl $name {
-            /// Takes a shader as WGSL text. `name` is for errors and for labels in graphics debuggers.
+            /// Creates a shader from WGSL text. `name` is for errors and for labels in graphics debuggers.
             ///
             /// Nothing is compiled before the first frame that uses it, or [`Graph::warm`](crate::Graph::warm).
             pub fn wgsl(name: impl Into<Cow<'static, str>>, text: impl Into<Cow<'static, str>>) -> Self {
-                Self(Arc::new(Program::new(name.into(), Source::Wgsl(text.into()))))
+                Self(Arc::new(ProgrammableStage::new(name.into(), Source::Wgsl(text.into()))))
             }
 
-            /// Takes a shader as a module of yours, such as one that a composer of shaders made.
+            /// Creates a shader from a module of yours, such as one that a shader composer made.
             pub fn module(name: impl Into<Cow<'static, str>>, module: &wgpu::ShaderModule) -> Self {
-                Self(Arc::new(Program::new(name.into(), Source::Module(module.clone()))))
+                Self(Arc::new(ProgrammableStage::new(name.into(), Source::Module(module.clone()))))
             }
 
             #[doc = concat!("Chooses the entry point; needed where there is more than one of the ", $stage, " stage.")]
             pub fn entry_point(self, entry: impl Into<Cow<'static, str>>) -> Self {
-                self.with(|program| program.entry = Some(entry.into()))
+                self.change(|stage| stage.entry_point = Some(entry.into()))
             }
 
             /// Sets an `override` constant of the shader, by its name, or by its number where it has an `@id`.
             pub fn constant(self, name: impl Into<Cow<'static, str>>, value: f64) -> Self {
-                self.with(|program| program.constants.push((name.into(), value)))
+                self.change(|stage| stage.constants.push((name.into(), value)))
             }
 
-            fn with(mut self, change: impl FnOnce(&mut Program)) -> Self {
-                let mut program = Arc::unwrap_or_clone(self.0);
-                change(&mut program);
-                self.0 = Arc::new(program.hashed());
+            fn change(mut self, change: impl FnOnce(&mut ProgrammableStage)) -> Self {
+                let mut stage = Arc::unwrap_or_clone(self.0);
+                change(&mut stage);
+                self.0 = Arc::new(stage.hashed());
                 self
             }
         }
@@ -119,15 +119,15 @@ macro_rules! shader {
 }
 
 shader!(
-    /// A fragment shader that is drawn over a whole target, or over a part of one, by [`Frame::fullscreen`].
+    /// A fragment shader that [`Frame::fullscreen`] draws over a whole target or a region of one.
     ///
-    /// The vertex stage is the graph's: it gives `@location(0) uv: vec2f`, (0, 0) at the upper left corner of what is
-    /// drawn and (1, 1) at the lower right, beside `@builtin(position)` in texels of the target. Take what you need
-    /// of them. Bindings are in group 0, numbered from 0 in the order of the calls that fill them, and exactly those
+    /// The vertex stage is built in: it outputs `@location(0) uv: vec2f`, (0, 0) at the upper left corner of the drawn
+    /// region and (1, 1) at the lower right, and `@builtin(position)` in texels of the target. Use either or both.
+    /// Bindings are in group 0, numbered from 0 in the order of the builder calls that fill them, and exactly those
     /// that the shader uses.
     ///
-    /// Make it once and keep it; a clone costs nothing. Pipelines are kept in the graph by what they are made of:
-    /// two shaders of the same text, entry point and constants share them.
+    /// Create it once and keep it; cloning is cheap. The graph caches pipelines: shaders with the same text, entry point
+    /// and constants share them.
     ///
     /// [`Frame::fullscreen`]: crate::Frame::fullscreen
     FullscreenShader,
@@ -136,11 +136,11 @@ shader!(
 shader!(
     /// A compute shader, dispatched by [`Frame::compute`].
     ///
-    /// Bindings are in group 0, numbered from 0 in the order of the calls that fill them, and exactly those that the
-    /// shader uses.
+    /// Bindings are in group 0, numbered from 0 in the order of the builder calls that fill them, and exactly those that
+    /// the shader uses.
     ///
-    /// Make it once and keep it; a clone costs nothing. Pipelines are kept in the graph by what they are made of:
-    /// two shaders of the same text, entry point and constants share them.
+    /// Create it once and keep it; cloning is cheap. The graph caches pipelines: shaders with the same text, entry point
+    /// and constants share them.
     ///
     /// [`Frame::compute`]: crate::Frame::compute
     ComputeShader,

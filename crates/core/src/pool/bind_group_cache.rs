@@ -1,6 +1,6 @@
-//! Bind groups by what they bind: the same views and buffers get the same group.
+//! Bind groups by what they bind: equal views and buffers get the same group.
 
-use super::views::Purpose;
+use super::view_cache::ViewUsage;
 use crate::error::Error;
 use crate::subresource::Subresource;
 use rustc_hash::{FxHashMap, FxHasher};
@@ -8,67 +8,67 @@ use slotmap::{SlotMap, new_key_type};
 use std::hash::{Hash, Hasher};
 use std::num::NonZeroU64;
 
-/// One bound object. Equality is identity of the wgpu object, which is never that of another, so a group is found
-/// again exactly as long as what it binds is the same.
+/// One bound object. Equality is identity of the wgpu object, which is never reused, so a group is found again exactly
+/// as long as it binds the same objects.
 #[derive(PartialEq, Eq, Hash)]
-pub(crate) enum Bound<'a> {
-    /// A part of a texture of the graph; its view is looked up only to create a group.
-    Texture(&'a wgpu::Texture, Subresource, Purpose),
+pub(crate) enum BoundResource<'a> {
+    /// A subresource of a texture of the graph; its view is looked up only to create a group.
+    Texture(&'a wgpu::Texture, Subresource, ViewUsage),
     View(&'a wgpu::TextureView),
     Sampler(&'a wgpu::Sampler),
     Buffer(&'a wgpu::Buffer, u64, Option<NonZeroU64>),
 }
 
-/// What a group was created from.
-enum Kept {
-    Texture(wgpu::Texture, Subresource, Purpose),
+/// A bound object that the cache owns.
+enum OwnedResource {
+    Texture(wgpu::Texture, Subresource, ViewUsage),
     View(wgpu::TextureView),
     Sampler(wgpu::Sampler),
     Buffer(wgpu::Buffer, u64, Option<NonZeroU64>),
 }
 
-impl Kept {
-    fn of(bound: &Bound<'_>) -> Self {
+impl OwnedResource {
+    fn new(bound: &BoundResource<'_>) -> Self {
         match *bound {
-            Bound::Texture(texture, part, purpose) => Self::Texture(texture.clone(), part, purpose),
-            Bound::View(view) => Self::View(view.clone()),
-            Bound::Sampler(sampler) => Self::Sampler(sampler.clone()),
-            Bound::Buffer(buffer, offset, size) => Self::Buffer(buffer.clone(), offset, size),
+            BoundResource::Texture(texture, part, purpose) => Self::Texture(texture.clone(), part, purpose),
+            BoundResource::View(view) => Self::View(view.clone()),
+            BoundResource::Sampler(sampler) => Self::Sampler(sampler.clone()),
+            BoundResource::Buffer(buffer, offset, size) => Self::Buffer(buffer.clone(), offset, size),
         }
     }
 
-    fn is(&self, bound: &Bound<'_>) -> bool {
-        let own = match self {
-            Self::Texture(texture, part, purpose) => Bound::Texture(texture, *part, *purpose),
-            Self::View(view) => Bound::View(view),
-            Self::Sampler(sampler) => Bound::Sampler(sampler),
-            Self::Buffer(buffer, offset, size) => Bound::Buffer(buffer, *offset, *size),
+    fn matches(&self, bound: &BoundResource<'_>) -> bool {
+        let owned = match self {
+            Self::Texture(texture, part, purpose) => BoundResource::Texture(texture, *part, *purpose),
+            Self::View(view) => BoundResource::View(view),
+            Self::Sampler(sampler) => BoundResource::Sampler(sampler),
+            Self::Buffer(buffer, offset, size) => BoundResource::Buffer(buffer, *offset, *size),
         };
-        own == *bound
+        owned == *bound
     }
 }
 
 struct Cached {
     layout: wgpu::BindGroupLayout,
-    entries: Vec<Kept>,
+    entries: Vec<OwnedResource>,
     group: wgpu::BindGroup,
     used: u64,
 }
 
 new_key_type! {
-    /// A bind group among those of a graph.
+    /// A bind group of the cache.
     pub(crate) struct GroupKey;
 }
 
-/// Bind groups, by a hash of layout and entries; those that share one by chance lie in one list.
+/// Bind groups, by a hash of layout and entries; colliding ones share a list.
 #[derive(Default)]
-pub(crate) struct BindGroups {
+pub(crate) struct BindGroupCache {
     frame: u64,
     groups: SlotMap<GroupKey, Cached>,
     by_hash: FxHashMap<u64, Vec<GroupKey>>,
 }
 
-impl BindGroups {
+impl BindGroupCache {
     /// Starts a frame and drops what was last used before frame `oldest`.
     pub(super) fn begin_frame(&mut self, frame: u64, oldest: u64) {
         self.frame = frame;
@@ -83,18 +83,18 @@ impl BindGroups {
         }
     }
 
-    /// Returns a group that was found before, if it is still there.
-    pub(crate) fn again(&mut self, key: GroupKey) -> Option<wgpu::BindGroup> {
+    /// Returns a group that was found before, if it is still cached.
+    pub(crate) fn get(&mut self, key: GroupKey) -> Option<wgpu::BindGroup> {
         let cached = self.groups.get_mut(key)?;
         cached.used = self.frame;
         Some(cached.group.clone())
     }
 
-    /// Returns the group that binds `entries` to bindings 0, 1, 2 and so on; `create` is asked where there is none.
-    pub(crate) fn get(
+    /// Returns the group that binds `entries` to bindings 0, 1, 2 and so on, or creates it.
+    pub(crate) fn get_or_create(
         &mut self,
         layout: &wgpu::BindGroupLayout,
-        entries: &[Bound<'_>],
+        entries: &[BoundResource<'_>],
         create: impl FnOnce() -> Result<wgpu::BindGroup, Error>,
     ) -> Result<(GroupKey, wgpu::BindGroup), Error> {
         let mut hasher = FxHasher::default();
@@ -106,7 +106,7 @@ impl BindGroups {
             groups.get(*key).is_some_and(|cached| {
                 cached.layout == *layout
                     && cached.entries.len() == entries.len()
-                    && cached.entries.iter().zip(entries).all(|(kept, bound)| kept.is(bound))
+                    && cached.entries.iter().zip(entries).all(|(owned, bound)| owned.matches(bound))
             })
         };
         let found = list.iter().copied().find(same);
@@ -117,7 +117,7 @@ impl BindGroups {
             return Ok((key, cached.group.clone()));
         }
         let group = create()?;
-        let entries = entries.iter().map(Kept::of).collect();
+        let entries = entries.iter().map(OwnedResource::new).collect();
         let cached = Cached { layout: layout.clone(), entries, group: group.clone(), used: self.frame };
         let key = groups.insert(cached);
         list.push(key);

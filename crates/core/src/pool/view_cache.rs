@@ -1,4 +1,4 @@
-//! Views of textures by the part that they show.
+//! Views of textures by subresource.
 
 use crate::subresource::{Aspect, Subresource};
 use rustc_hash::FxHashMap;
@@ -6,12 +6,12 @@ use wgpu::{TextureAspect, TextureViewDescriptor, TextureViewDimension};
 
 /// How a view will be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Purpose {
-    /// Bound to shaders: of a depth-stencil format one aspect, of an array all chosen layers.
+pub(crate) enum ViewUsage {
+    /// Bound to shaders: one aspect of a depth-stencil format, all selected layers of an array.
     Binding,
-    /// The same as an array, of one layer too.
+    /// Bound to shaders as an array, even for one layer.
     ArrayBinding,
-    /// Drawn into: one layer of one mip, all aspects.
+    /// Rendered to: one layer of one mip, all aspects.
     Attachment,
 }
 
@@ -20,52 +20,52 @@ struct Cached {
     used: u64,
 }
 
-/// Views that are used from frame to frame.
+/// Views that are reused from frame to frame.
 #[derive(Default)]
-pub(crate) struct Views {
+pub(crate) struct ViewCache {
     frame: u64,
-    views: FxHashMap<(wgpu::Texture, Subresource, Purpose), Cached>,
+    views: FxHashMap<(wgpu::Texture, Subresource, ViewUsage), Cached>,
 }
 
-impl Views {
+impl ViewCache {
     /// Starts a frame and drops what was last used before frame `oldest`.
     pub(super) fn begin_frame(&mut self, frame: u64, oldest: u64) {
         self.frame = frame;
         self.views.retain(|_, cached| cached.used >= oldest);
     }
 
-    /// Returns the view of a part.
+    /// Returns the view of a subresource.
     pub(crate) fn get(
         &mut self,
         texture: &wgpu::Texture,
         part: Subresource,
-        purpose: Purpose,
+        usage: ViewUsage,
     ) -> wgpu::TextureView {
-        let key = (texture.clone(), Subresource { rect: None, ..part }, purpose);
-        let new = || Cached { view: view(texture, part, purpose), used: 0 };
+        let key = (texture.clone(), Subresource { rect: None, ..part }, usage);
+        let new = || Cached { view: create_view(texture, part, usage), used: 0 };
         let cached = self.views.entry(key).or_insert_with(new);
         cached.used = self.frame;
         cached.view.clone()
     }
 }
 
-/// Creates a view of a part; a rectangle cannot be told from its mip.
-pub(crate) fn view(texture: &wgpu::Texture, part: Subresource, purpose: Purpose) -> wgpu::TextureView {
+/// Creates a view of a subresource; a rectangle gets the view of its whole mip.
+pub(crate) fn create_view(texture: &wgpu::Texture, part: Subresource, usage: ViewUsage) -> wgpu::TextureView {
     let format = texture.format();
-    let aspect = match (purpose, part.aspect) {
-        (Purpose::Attachment, _) => TextureAspect::All,
+    let aspect = match (usage, part.aspect) {
+        (ViewUsage::Attachment, _) => TextureAspect::All,
         (_, Aspect::Stencil) => TextureAspect::StencilOnly,
         _ if format.is_combined_depth_stencil_format() => TextureAspect::DepthOnly,
         _ => TextureAspect::All,
     };
     let volume = texture.dimension() == wgpu::TextureDimension::D3;
     let layers = part.layers.filter(|_| !volume);
-    let dimension = match purpose {
+    let dimension = match usage {
         _ if volume => None,
-        Purpose::ArrayBinding => Some(TextureViewDimension::D2Array),
-        Purpose::Attachment => Some(TextureViewDimension::D2),
+        ViewUsage::ArrayBinding => Some(TextureViewDimension::D2Array),
+        ViewUsage::Attachment => Some(TextureViewDimension::D2),
         // One layer is flat even if the texture has several.
-        Purpose::Binding => {
+        ViewUsage::Binding => {
             layers.is_some_and(|(first, end)| end - first == 1).then_some(TextureViewDimension::D2)
         }
     };

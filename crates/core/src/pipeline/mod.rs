@@ -1,0 +1,11 @@
+//! Shaders as they are handed over, and the pipelines that are made of them.
+
+mod cache;
+mod shader;
+mod targets;
+mod validation;
+
+pub(crate) use cache::PipelineCache;
+pub(crate) use shader::ProgrammableStage;
+pub use shader::{ComputeShader, FullscreenShader};
+pub(crate) use targets::{DepthTarget, PipelineTargets};
