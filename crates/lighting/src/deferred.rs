@@ -3,8 +3,11 @@
 use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc};
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
 
-use crate::screen_pass::{Key, ScreenPass, ScreenShader, texels};
-use crate::{Error, GBuffer, LitTarget, ViewBuffers};
+use crate::error::Error;
+use crate::forward::LitTarget;
+use crate::gbuffer::GBuffer;
+use crate::screen_pass::{PipelineKey, ScreenPass, ScreenShader, texels};
+use crate::uniforms::ViewBuffers;
 
 /// The pass that lights a G-buffer with the shadows of one technique.
 pub struct Deferred {
@@ -13,10 +16,10 @@ pub struct Deferred {
 }
 
 impl Deferred {
-    /// Makes what its pipelines share. The target has one sample a pixel.
+    /// Creates the state that its pipelines share. The target must have one sample per pixel.
     ///
     /// # Errors
-    /// If the technique's WGSL does not compose; [`Error::Samples`] for a target of several.
+    /// [`Error::Shader`] if the technique's WGSL does not compose; [`Error::Samples`] for a multisampled target.
     pub fn new(
         device: &wgpu::Device,
         technique: &dyn ShadowTechnique,
@@ -33,16 +36,16 @@ impl Deferred {
             blend: None,
         };
         let float = Float { filterable: false };
-        // Depth, and the textures of the G-buffer in their order.
-        let own = [Depth, float, float, Uint, float].map(texels);
-        Ok(Self { pass: ScreenPass::new(device, technique, shader, &own)?, target })
+        // Depth, and the textures of the G-buffer in order.
+        let textures = [Depth, float, float, Uint, float].map(texels);
+        Ok(Self { pass: ScreenPass::new(device, technique, shader, &textures)?, target })
     }
 
-    /// Adds the pass that lights what is seen into a new texture, and returns it. Where nothing is drawn it holds
-    /// `background`, in the texture's own terms.
+    /// Adds the pass that lights the G-buffer into a new texture, and returns it. Where nothing is drawn the texture contains
+    /// `background`, in its own encoding.
     ///
     /// # Errors
-    /// If the technique's WGSL does not compose in the variant that the frame asks for.
+    /// [`Error::Shader`] if the technique's WGSL does not compose in the variant that the frame needs.
     pub fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -53,7 +56,7 @@ impl Deferred {
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         let (variant, debug_light) = self.target.variant(shadows);
-        let key = Key { variant, constant: debug_light, extras: view.extras() };
+        let key = PipelineKey { variant, constant: debug_light, bindings: view.optional_bindings() };
         let pipeline = self.pass.pipeline(key, &self.target.constants(debug_light))?;
         let size = frame.texture_desc(depth).map(|desc| desc.size).unwrap_or_default();
         let desc = TextureDesc::d2(size.width, size.height, self.target.format);
@@ -66,9 +69,9 @@ impl Deferred {
         pass.body(move |ctx| {
             let view = view.bind_group(ctx, &self.pass.view_layouts)?;
             let shadows = shadows.bind_group(ctx, &self.pass.shadow_layout)?;
-            let own = ctx.bind_group(&self.pass.own_layout, &texels.map(Bind::Texture))?;
+            let textures = ctx.bind_group(&self.pass.pass_layout, &texels.map(Bind::Texture))?;
             ctx.pass.set_pipeline(&pipeline);
-            for (index, group) in (0..).zip([&view, &shadows, &own]) {
+            for (index, group) in (0..).zip([&view, &shadows, &textures]) {
                 ctx.pass.set_bind_group(index, group, &[]);
             }
             ctx.pass.draw(0..3, 0..1);

@@ -1,19 +1,19 @@
-//! What can go wrong while pipelines are made.
+//! Errors of creating pipelines.
 
-/// Why lit passes could not be set up.
+/// An error of creating lit passes.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The WGSL, that of the shadow technique included, does not go together.
+    /// The WGSL, including that of the shadow technique, does not compose.
     #[error(transparent)]
     Shader(#[from] shadowgraph_shaders::Error),
-    /// Deferred lighting of several samples a pixel.
-    #[error("--samples {samples}: deferred lighting has one sample a pixel")]
+    /// Deferred lighting with several samples per pixel.
+    #[error("deferred lighting supports 1 sample per pixel, not {samples}")]
     Samples {
-        /// How many were asked for.
+        /// The requested samples per pixel.
         samples: u32,
     },
-    /// The depth pipelines could not be made.
+    /// The depth pipelines could not be created.
     #[error(transparent)]
     Scene(#[from] shadowgraph_scene::Error),
 }

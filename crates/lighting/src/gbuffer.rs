@@ -1,25 +1,26 @@
-//! The surfaces that a view sees, as deferred lighting reads them.
+//! The G-buffer of deferred lighting.
 
 use std::sync::OnceLock;
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialKey, MaterialLayouts, vertex_layout};
 
+use crate::error::Error;
 use crate::prepass::{DEPTH_FORMAT, Geometry};
 use crate::shader::module;
-use crate::view_group::{Extras, ViewLayouts};
-use crate::{Error, ViewBuffers};
+use crate::uniforms::ViewBuffers;
+use crate::view_group::{OptionalBindings, ViewLayouts};
 
-/// What deferred lighting reads of each pixel, behind its depth: 20 bytes.
+/// The textures of the G-buffer, besides depth.
 #[derive(Clone, Debug)]
 pub struct GBuffer {
-    /// Linear colour, and in alpha what kind of surface it is.
+    /// Linear colour, and in alpha the kind of surface.
     pub base_color: Texture,
     /// Metallic, roughness, ambient occlusion.
     pub material: Texture,
-    /// The shading and the geometric normal, each as two numbers of 16 bits.
+    /// The shading and the geometric normal, each as two 16-bit values.
     pub normals: Texture,
-    /// What the surface gives off.
+    /// Emitted radiance.
     pub emissive: Texture,
 }
 
@@ -36,12 +37,12 @@ pub struct GBufferPass {
     empty: wgpu::BindGroup,
     shader: wgpu::ShaderModule,
     device: wgpu::Device,
-    /// By [`MaterialKey::index`].
-    made: Vec<OnceLock<wgpu::RenderPipeline>>,
+    /// The pipelines by [`MaterialKey::index`].
+    pipelines: Vec<OnceLock<wgpu::RenderPipeline>>,
 }
 
 impl GBufferPass {
-    /// Makes what its pipelines share; each is made when it is first drawn with.
+    /// Creates the state that its pipelines share; each pipeline is created on first use.
     ///
     /// # Errors
     /// None with the WGSL that Shadowgraph comes with.
@@ -55,7 +56,7 @@ impl GBufferPass {
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("G-buffer"),
             bind_group_layouts: &[
-                Some(view_layouts.of(Extras::default())),
+                Some(view_layouts.get(OptionalBindings::default())),
                 Some(&none),
                 Some(&layouts.material),
                 Some(&layouts.draw),
@@ -67,11 +68,11 @@ impl GBufferPass {
             layout: &none,
             entries: &[],
         });
-        let made = MaterialKey::all().map(|_| OnceLock::new()).collect();
-        Ok(Self { view_layouts, layout, empty, shader, device: device.clone(), made })
+        let pipelines = MaterialKey::all().map(|_| OnceLock::new()).collect();
+        Ok(Self { view_layouts, layout, empty, shader, device: device.clone(), pipelines })
     }
 
-    /// Adds the pass that draws all that is not blended, behind a prepass that drew `depth`.
+    /// Adds the pass that draws all geometry that is not blended. `depth` is the depth of the prepass.
     pub fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -101,11 +102,11 @@ impl GBufferPass {
             let view = view.bind_group(ctx, &self.view_layouts)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &self.empty, &[]);
-            let with = |draw: &Draw| {
-                let pipeline = self.made[draw.key.index()].get_or_init(|| self.pipeline(draw.key));
+            let pipeline_for = |draw: &Draw| {
+                let pipeline = self.pipelines[draw.key.index()].get_or_init(|| self.pipeline(draw.key));
                 Some(DrawPipeline { pipeline, reads_material: true })
             };
-            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
+            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &pipeline_for);
             ctx.report_draws(draws);
             Ok(())
         });
@@ -113,7 +114,7 @@ impl GBufferPass {
     }
 
     fn pipeline(&self, key: MaterialKey) -> wgpu::RenderPipeline {
-        debug_assert_ne!(key.alpha, AlphaKey::Blend, "what is blended is drawn over what is lit");
+        debug_assert_ne!(key.alpha, AlphaKey::Blend, "blended geometry is drawn in the blended pass");
         let targets = GBuffer::FORMATS.map(|format| Some(format.into()));
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("G-buffer"),

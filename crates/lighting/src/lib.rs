@@ -1,14 +1,14 @@
 //! Lit passes that consume shadows through the technique contract, as render-graph nodes.
 //!
-//! A frame is lit in a few calls, each of which adds passes to the graph:
+//! A frame takes a few calls, each of which adds passes to the graph:
 //!
-//! 1. [`ViewUniforms::upload`] writes the camera and the lights;
+//! 1. [`ViewUniforms::upload`] uploads the camera and the lights;
 //! 2. [`Prepass::add_to`] draws depth;
 //! 3. the shadow technique adds its maps (`shadowgraph_shadows::add_shadows`);
-//! 4. [`Forward::lit`] draws the scene, every light and material, asking `shadow_visibility` for each light;
-//! 5. [`Tonemap::add_to`] makes a picture of it.
+//! 4. [`Forward::lit`] draws the scene with every light and material, and calls `shadow_visibility` for each light;
+//! 5. [`Tonemap::add_to`] converts the result to a displayable image.
 //!
-//! Nothing here knows how a shadow technique works. Cameras are those of `shadowgraph_scene`, depth is reversed,
+//! This crate knows no shadow technique. Cameras are those of `shadowgraph_scene`, depth is reversed,
 //! and colours are scene-linear until the tonemap.
 
 mod clusters;
@@ -17,6 +17,7 @@ mod error;
 mod exposure;
 mod forward;
 mod gbuffer;
+mod jitter;
 pub mod post;
 mod prepass;
 mod screen_pass;

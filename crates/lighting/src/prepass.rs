@@ -1,32 +1,33 @@
-//! The depth of what is seen, before anything is lit.
+//! The depth prepass.
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialLayouts};
 
-use crate::{Error, GpuView, ViewBuffers};
+use crate::error::Error;
+use crate::uniforms::{GpuView, ViewBuffers};
 
-/// The format of the depth that cameras see.
+/// The format of camera depth.
 pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
 
-/// What is drawn, seen by which camera.
+/// The draws of a view.
 #[derive(Clone, Copy)]
 pub struct Geometry<'f> {
     /// The scene on the GPU.
     pub scene: &'f GpuScene,
-    /// Its visible draws.
+    /// The visible draws.
     pub draws: &'f DrawList,
-    /// Width and height of the picture, pixels.
+    /// Width and height of the image, pixels.
     pub size_px: [u32; 2],
 }
 
-/// The pass that draws depth alone.
+/// The pass that draws only depth.
 pub struct Prepass {
     pipelines: DepthPipelines,
     samples: u32,
 }
 
 impl Prepass {
-    /// Makes the pipelines for `layouts`' materials, with so many samples a pixel: 1, or 4.
+    /// Creates the pipelines for materials of these layouts, with 1 or 4 samples per pixel.
     ///
     /// # Errors
     /// None with the WGSL that Shadowgraph comes with.
@@ -54,11 +55,11 @@ impl Prepass {
         let view = pass.storage_buffer(&view.view);
         pass.depth(&mut depth, Contents::clear_depth(0.0));
         pass.body(move |ctx| {
-            let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
-            let group = ctx.bind_group(self.pipelines.view_layout(), &[whole])?;
+            let view = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
+            let group = ctx.bind_group(self.pipelines.view_layout(), &[view])?;
             ctx.pass.set_bind_group(0, &group, &[0]);
-            let with = |draw: &Draw| Some(self.pipelines.get(draw.key));
-            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &with);
+            let pipeline_for = |draw: &Draw| Some(self.pipelines.get(draw.key));
+            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &pipeline_for);
             ctx.report_draws(draws);
             Ok(())
         });

@@ -1,4 +1,4 @@
-//! Passes over the whole picture that ask for shadows.
+//! Fullscreen passes that evaluate shadows.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -7,23 +7,23 @@ use shadowgraph_core::Format;
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowTechnique, shadow_layout};
 
-use crate::Error;
+use crate::error::Error;
 use crate::shader::module;
-use crate::view_group::{Extras, ViewLayouts};
+use crate::view_group::{OptionalBindings, ViewLayouts};
 
-/// What such passes are made of: a built-in file with `vs` and `fs` entry points. Group 0 is the view's, 1 the technique's, 2 its own.
+/// The pipelines of a fullscreen pass from a built-in shader. Group 0 is the view, 1 the shadows, 2 the pass's own bindings.
 pub(crate) struct ScreenPass {
     device: wgpu::Device,
     pub(crate) view_layouts: ViewLayouts,
     pub(crate) shadow_layout: wgpu::BindGroupLayout,
-    pub(crate) own_layout: wgpu::BindGroupLayout,
+    pub(crate) pass_layout: wgpu::BindGroupLayout,
     shader: ScreenShader,
-    /// The technique's modules in each of its variants.
+    /// The technique's modules of each variant.
     modules: Vec<Vec<ModuleSource>>,
-    made: Mutex<BTreeMap<Key, wgpu::RenderPipeline>>,
+    pipelines: Mutex<BTreeMap<PipelineKey, wgpu::RenderPipeline>>,
 }
 
-/// A built-in file, and how it is drawn.
+/// A built-in shader, its entry points and its target.
 #[derive(Clone, Copy)]
 pub(crate) struct ScreenShader {
     pub(crate) file: &'static str,
@@ -32,15 +32,15 @@ pub(crate) struct ScreenShader {
     pub(crate) blend: Option<wgpu::BlendState>,
 }
 
-/// What pipelines differ in.
+/// The properties that distinguish the pipelines of a pass.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Key {
-    /// Of the technique's modules.
+pub(crate) struct PipelineKey {
+    /// The variant of the technique's modules.
     pub(crate) variant: u32,
-    /// Of the constants, whatever they mean to the shader.
+    /// The value of the constants; its meaning depends on the shader.
     pub(crate) constant: u32,
-    /// What is bound with the view.
-    pub(crate) extras: Extras,
+    /// The optional bindings of group 0.
+    pub(crate) bindings: OptionalBindings,
 }
 
 impl ScreenPass {
@@ -48,7 +48,7 @@ impl ScreenPass {
         device: &wgpu::Device,
         technique: &dyn ShadowTechnique,
         shader: ScreenShader,
-        own: &[wgpu::BindingType],
+        bindings: &[wgpu::BindingType],
     ) -> Result<Self, Error> {
         let entry = |(binding, &ty): (u32, &_)| wgpu::BindGroupLayoutEntry {
             binding,
@@ -56,46 +56,46 @@ impl ScreenPass {
             ty,
             count: None,
         };
-        let entries: Vec<_> = (0..).zip(own).map(entry).collect();
-        let own_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        let entries: Vec<_> = (0..).zip(bindings).map(entry).collect();
+        let pass_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(shader.file),
             entries: &entries,
         });
         let modules: Vec<_> =
             (0..technique.variant_count()).map(|variant| technique.modules(variant)).collect();
-        // What does not compose is told now, not in some frame.
+        // WGSL that does not compose is reported now and not in a later frame.
         shadowgraph_shaders::compose(shader.file, modules.first().map_or(&[], Vec::as_slice))?;
         Ok(Self {
             device: device.clone(),
             view_layouts: ViewLayouts::new(device),
             shadow_layout: shadow_layout(device, technique),
-            own_layout,
+            pass_layout,
             shader,
             modules,
-            made: Mutex::default(),
+            pipelines: Mutex::default(),
         })
     }
 
-    /// Returns the pipeline of a key, with these constants if it is made now.
+    /// Returns the pipeline of a key, which is created with these constants on first use.
     pub(crate) fn pipeline(
         &self,
-        key: Key,
+        key: PipelineKey,
         constants: &[(&'static str, f64)],
     ) -> Result<wgpu::RenderPipeline, Error> {
-        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = made.get(&key) {
+        let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = pipelines.get(&key) {
             return Ok(pipeline.clone());
         }
         let ScreenShader { file, entries: [vertex, fragment], format, blend } = self.shader;
         let modules = self.modules.get(key.variant as usize).or(self.modules.first());
-        let modules = key.extras.with(modules.map_or(&[], Vec::as_slice));
+        let modules = key.bindings.add_modules(modules.map_or(&[], Vec::as_slice));
         let module = module(&self.device, file, &modules)?;
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(file),
             bind_group_layouts: &[
-                Some(self.view_layouts.of(key.extras)),
+                Some(self.view_layouts.get(key.bindings)),
                 Some(&self.shadow_layout),
-                Some(&self.own_layout),
+                Some(&self.pass_layout),
             ],
             immediate_size: 0,
         });
@@ -124,12 +124,12 @@ impl ScreenPass {
             multiview_mask: None,
             cache: None,
         });
-        made.insert(key, pipeline.clone());
+        pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
     }
 }
 
-/// A texture that is read texel by texel.
+/// Returns the binding type of a texture that is read without a sampler.
 pub(crate) const fn texels(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
     wgpu::BindingType::Texture {
         sample_type,

@@ -1,13 +1,13 @@
-//! Shader modules, and what passes over the whole picture share.
+//! Creation of shader modules and of fullscreen shaders.
 
 use std::borrow::Cow;
 
 use shadowgraph_core::FullscreenShader;
 use shadowgraph_shaders::ModuleSource;
 
-use crate::Error;
+use crate::error::Error;
 
-/// Composes a built-in file with these modules.
+/// Composes a built-in shader with these modules.
 pub(crate) fn module(
     device: &wgpu::Device,
     file: &'static str,
@@ -20,7 +20,7 @@ pub(crate) fn module(
     }))
 }
 
-/// Composes a built-in file whose fragment shader `entry` is drawn over a target.
+/// Composes a built-in fullscreen shader with the fragment entry point `entry`.
 pub(crate) fn fullscreen(
     device: &wgpu::Device,
     file: &'static str,
@@ -30,8 +30,8 @@ pub(crate) fn fullscreen(
     Ok(FullscreenShader::module(file, &module).entry_point(entry))
 }
 
-/// A sampler that filters and ends at the edges.
-pub(crate) fn linear(device: &wgpu::Device) -> wgpu::Sampler {
+/// Creates a sampler that filters linearly and clamps to the edge.
+pub(crate) fn linear_sampler(device: &wgpu::Device) -> wgpu::Sampler {
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("linear"),
         mag_filter: wgpu::FilterMode::Linear,

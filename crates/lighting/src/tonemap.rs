@@ -1,8 +1,8 @@
-//! From scene-linear light to a picture.
+//! Tonemapping of scene-linear light.
 
 use shadowgraph_core::{Frame, FullscreenShader, Texture};
 
-use crate::Error;
+use crate::error::Error;
 use crate::shader::fullscreen;
 
 /// The filmic tonemap: one fullscreen pass into an sRGB target.
@@ -19,8 +19,8 @@ impl Tonemap {
         Ok(Self { shader: fullscreen(device, "tonemap.wgsl", "fs_tonemap")? })
     }
 
-    /// Adds the pass that covers `target`, which must have an sRGB format, with the picture of `light`, which is as large as
-    /// the target.
+    /// Adds the pass that overwrites `target`, which must have an sRGB format, with the tonemapped `light`. Both must have
+    /// the same size.
     pub fn add_to(&self, frame: &mut Frame<'_>, light: &Texture, target: &mut Texture) {
         frame.fullscreen("tonemap", &self.shader).sample(light).draw(target);
     }

@@ -1,13 +1,12 @@
-//! The camera and the lights as shaders read them: `View` and `Light` of `shadowgraph::view`.
+//! The uniforms of the camera and the lights: `View` and `Light` of `shadowgraph::view`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
 use shadowgraph_core::{Buffer, Frame, Texture};
-
-use crate::post::Jitter;
 use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 
-use crate::AmbientLight;
+use crate::exposure::AmbientLight;
+use crate::jitter::Jitter;
 
 /// The camera of a frame, 256 bytes. World space here is relative to the frame's origin.
 #[repr(C)]
@@ -19,19 +18,19 @@ pub struct GpuView {
     pub world_from_clip: Mat4,
     /// World to view space.
     pub view_from_world: Mat4,
-    /// Where the camera is, metres.
+    /// Position of the camera, metres.
     pub position: Vec3,
     /// Near plane, metres.
     pub near: f32,
-    /// Picture size, pixels.
+    /// Size of the image, pixels.
     pub size_px: Vec2,
     /// Far plane, metres; 0: infinitely far.
     pub far: f32,
-    /// What radiance is multiplied by.
+    /// The factor of radiance.
     pub exposure: f32,
     /// Radiance of the sky.
     pub ambient_sky: Vec3,
-    /// How many lights there are.
+    /// Number of lights.
     pub light_count: u32,
     /// Radiance of the ground.
     pub ambient_ground: Vec3,
@@ -43,13 +42,13 @@ pub struct GpuView {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct GpuLight {
-    /// Where it is, metres; zero for directional lights.
+    /// Position, metres; zero for directional lights.
     pub position: Vec3,
     /// 0 directional, 1 spot, 2 point.
     pub kind: u32,
-    /// The way the light travels, unit length; zero for point lights.
+    /// The direction in which the light travels, unit length; zero for point lights.
     pub direction: Vec3,
-    /// Metres; 0: no end.
+    /// Range, metres; 0: unlimited.
     pub range: f32,
     /// Linear colour times lux or candela.
     pub color: Vec3,
@@ -61,33 +60,33 @@ pub struct GpuLight {
     pub padding: [u32; 3],
 }
 
-/// A frame's camera and lights.
+/// The camera and the lights of a frame.
 pub struct ViewUniforms {
     /// The camera.
     pub view: GpuView,
     /// The lights, in the scene's order.
     pub lights: Vec<GpuLight>,
-    /// What pixels are shifted by.
+    /// The jitter of sample positions, pixels.
     pub jitter_px: Vec2,
 }
 
-/// What bind group 0 of passes that light holds.
+/// The contents of bind group 0 of lit passes.
 #[derive(Clone, Debug)]
 pub struct ViewBuffers {
     /// One [`GpuView`].
     pub view: Buffer,
-    /// [`GpuLight`]s; one of zeros where there is no light.
+    /// [`GpuLight`]s; one of zeros if there is no light.
     pub lights: Buffer,
-    /// Which lights reach which part of the view, where that was found out ([`Clusters`](crate::Clusters)).
+    /// The lights of each cluster, if they were computed ([`Clusters`](crate::Clusters)).
     pub clusters: Option<Texture>,
-    /// How much of the light from all around reaches what is seen, where that was found out ([`Occlusion`](crate::post::Occlusion)).
+    /// Ambient occlusion, if it was computed ([`Occlusion`](crate::post::Occlusion)).
     pub occlusion: Option<Texture>,
-    /// What pixels are shifted by in this frame ([`Jitter`]).
+    /// The jitter of sample positions in this frame, pixels ([`Jitter`]).
     pub jitter_px: Vec2,
 }
 
 impl ViewUniforms {
-    /// Describes what `camera` sees of `lights` in a picture of `size_px`, relative to `origin_world`.
+    /// Creates the uniforms of a camera and lights for an image of `size_px`, relative to `origin_world`.
     pub fn new(
         camera: &Camera,
         size_px: [u32; 2],
@@ -100,13 +99,13 @@ impl ViewUniforms {
             ambient_ground: ambient_light.ground,
             exposure: ambient_light.exposure,
             light_count: lights.len() as u32,
-            ..GpuView::of_camera(camera, size_px, origin_world)
+            ..GpuView::for_camera(camera, size_px, origin_world)
         };
         let lights = lights.iter().map(|light| GpuLight::new(light, origin_world)).collect();
         Self { view, lights, jitter_px: Vec2::ZERO }
     }
 
-    /// Has pixels look beside their middles, for anti-aliasing over several frames.
+    /// Offsets the sample positions of pixels, for temporal anti-aliasing.
     #[must_use]
     pub fn jittered(mut self, jitter: Jitter) -> Self {
         let [width, height] = self.view.size_px.to_array().map(|px| px as u32);
@@ -116,7 +115,7 @@ impl ViewUniforms {
         self
     }
 
-    /// Adds the node that writes the records.
+    /// Adds the node that uploads the uniforms.
     pub fn upload(&self, frame: &mut Frame<'_>) -> ViewBuffers {
         let none = [GpuLight::zeroed()];
         let lights = if self.lights.is_empty() { &none } else { &self.lights[..] };
@@ -131,9 +130,9 @@ impl ViewUniforms {
 }
 
 impl GpuView {
-    fn of_camera(camera: &Camera, size_px: [u32; 2], origin_world: DVec3) -> Self {
+    fn for_camera(camera: &Camera, size_px: [u32; 2], origin_world: DVec3) -> Self {
         let [width, height] = size_px.map(f64::from);
-        // In f64 up to the end: the translation is small once it is relative to the origin.
+        // In f64 until the end: the translation is small once it is relative to the origin.
         let view_from_world = camera.view_from_world() * DMat4::from_translation(origin_world);
         let clip_from_world = camera.clip_from_view(width / height) * view_from_world;
         Self {
@@ -151,24 +150,24 @@ impl GpuView {
 }
 
 impl GpuLight {
-    /// Describes a light relative to `origin_world`; one that is not usable gives no light.
+    /// Converts a light, relative to `origin_world`; one that is not usable becomes zeros, which give no light.
     pub fn new(light: &Light, origin_world: DVec3) -> Self {
         if !light.is_usable() {
             return Self::zeroed();
         }
         let relative = |position: DVec3| (position - origin_world).as_vec3();
         let range = |range: Option<f64>| range.map_or(0.0, |range| range as f32);
-        let record = Self {
+        let common = Self {
             kind: u32::from(light.kind.order()),
             color: light.color * light.intensity,
             ..Self::zeroed()
         };
         match light.kind {
             LightKind::Directional { direction } => {
-                Self { direction: direction.normalize().as_vec3(), ..record }
+                Self { direction: direction.normalize().as_vec3(), ..common }
             }
             LightKind::Point { position_world, range: end } => {
-                Self { position: relative(position_world), range: range(end), ..record }
+                Self { position: relative(position_world), range: range(end), ..common }
             }
             LightKind::Spot { position_world, direction, range: end, inner_angle, outer_angle } => {
                 // KHR_lights_punctual: full light up to the inner angle, none from the outer angle on.
@@ -179,7 +178,7 @@ impl GpuLight {
                     range: range(end),
                     spot_scale: scale as f32,
                     spot_offset: (-outer_angle.cos() * scale) as f32,
-                    ..record
+                    ..common
                 }
             }
         }
@@ -189,12 +188,15 @@ impl GpuLight {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
-    use super::*;
-    use shadowgraph_shaders::{MAPPED, compose, layout};
     use std::mem::offset_of;
 
+    use shadowgraph_shaders::{MAPPED, compose, layout};
+
+    use super::*;
+    use crate::exposure::KeyLight;
+
     #[test]
-    fn records_have_the_layout_of_the_wgsl() {
+    fn uniforms_have_the_layout_of_the_wgsl_structs() {
         let module = compose("forward.wgsl", &[MAPPED]).unwrap();
         let view = [
             ("clip_from_world", offset_of!(GpuView, clip_from_world)),
@@ -236,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spot_is_full_inside_its_inner_angle_and_nothing_outside_its_outer_angle() {
+    fn a_spot_light_is_full_inside_its_inner_angle_and_zero_outside_its_outer_angle() {
         let light = spot(0.3, 0.6);
         let factor = |angle: f32| (angle.cos() * light.spot_scale + light.spot_offset).clamp(0.0, 1.0);
         assert_eq!(factor(0.2), 1.0);
@@ -250,11 +252,10 @@ mod tests {
         let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
         let camera = Camera::look_at(eye, eye + DVec3::NEG_Z, DVec3::Y, projection);
         let origin_world = shadowgraph_scene::origin_near(eye);
-        let ambient_light =
-            AmbientLight::for_key_light(crate::KeyLight { directional_lx: 1.0, local_lx: 0.0 });
-        let records = ViewUniforms::new(&camera, [64, 64], &[], origin_world, &ambient_light);
-        assert_eq!(records.view.position.as_dvec3() + origin_world, eye);
-        let clip = records.view.clip_from_world * (records.view.position + Vec3::NEG_Z * 0.1).extend(1.0);
+        let ambient_light = AmbientLight::for_key_light(KeyLight { directional_lx: 1.0, local_lx: 0.0 });
+        let uniforms = ViewUniforms::new(&camera, [64, 64], &[], origin_world, &ambient_light);
+        assert_eq!(uniforms.view.position.as_dvec3() + origin_world, eye);
+        let clip = uniforms.view.clip_from_world * (uniforms.view.position + Vec3::NEG_Z * 0.1).extend(1.0);
         assert!((clip.z / clip.w - 1.0).abs() < 1e-4, "the near plane has depth 1: {clip}");
     }
 }

@@ -1,20 +1,20 @@
-//! Bind group 0 of passes that light: the view, the lights, which of them reach where, and what is occluded.
+//! Bind group 0 of lit passes: the view, the lights, the light clusters and ambient occlusion.
 
 use shadowgraph_core::{Bind, BufferToken, Error as GraphError, Pass, Resources, ShaderPass, TextureToken};
 use shadowgraph_shaders::{CLUSTERED, ModuleSource, OCCLUDED};
 
-use crate::ViewBuffers;
+use crate::uniforms::ViewBuffers;
 
-/// What of group 0 is there beside the view and the lights.
+/// The bindings of group 0 that exist besides the view and the lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Extras {
-    /// Each pixel asks the lights of its cluster.
+pub(crate) struct OptionalBindings {
+    /// The lights of each cluster.
     clusters: bool,
-    /// The light from all around is occluded.
+    /// Ambient occlusion.
     occlusion: bool,
 }
 
-impl Extras {
+impl OptionalBindings {
     pub(crate) const ALL: [Self; 4] = [
         Self { clusters: false, occlusion: false },
         Self { clusters: true, occlusion: false },
@@ -22,12 +22,12 @@ impl Extras {
         Self { clusters: true, occlusion: true },
     ];
 
-    /// Its place in [`ALL`](Self::ALL).
+    /// Returns the index in [`ALL`](Self::ALL).
     pub(crate) fn index(self) -> usize {
         usize::from(self.clusters) + 2 * usize::from(self.occlusion)
     }
 
-    /// Makes the layout of group 0.
+    /// Creates the layout of group 0.
     fn layout(self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
         let buffer = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: true },
@@ -40,22 +40,22 @@ impl Extras {
             multisampled: false,
         };
         let (both, fragment) = (wgpu::ShaderStages::VERTEX_FRAGMENT, wgpu::ShaderStages::FRAGMENT);
-        let mut bindings = vec![(both, buffer), (both, buffer)];
+        let mut types = vec![(both, buffer), (both, buffer)];
         if self.clusters {
-            bindings.push((fragment, texture(wgpu::TextureSampleType::Uint)));
+            types.push((fragment, texture(wgpu::TextureSampleType::Uint)));
         }
         if self.occlusion {
-            bindings.push((fragment, texture(wgpu::TextureSampleType::Float { filterable: false })));
+            types.push((fragment, texture(wgpu::TextureSampleType::Float { filterable: false })));
         }
         let entry =
             |(binding, (visibility, ty))| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
-        let entries: Vec<_> = (0..).zip(bindings).map(entry).collect();
+        let entries: Vec<_> = (0..).zip(types).map(entry).collect();
         let label = Some("view");
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
     }
 
-    /// The modules of a technique, with those of what is there.
-    pub(crate) fn with(self, modules: &[ModuleSource]) -> Vec<ModuleSource> {
+    /// Returns the modules of a technique together with those of the bindings.
+    pub(crate) fn add_modules(self, modules: &[ModuleSource]) -> Vec<ModuleSource> {
         let mut all = modules.to_vec();
         all.extend(self.clusters.then_some(CLUSTERED));
         if self.occlusion {
@@ -66,20 +66,20 @@ impl Extras {
     }
 }
 
-/// The layouts of group 0, by [`Extras::index`].
+/// The layouts of group 0, by [`OptionalBindings::index`].
 pub(crate) struct ViewLayouts([wgpu::BindGroupLayout; 4]);
 
 impl ViewLayouts {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        Self(Extras::ALL.map(|extras| extras.layout(device)))
+        Self(OptionalBindings::ALL.map(|bindings| bindings.layout(device)))
     }
 
-    pub(crate) fn of(&self, extras: Extras) -> &wgpu::BindGroupLayout {
-        &self.0[extras.index()]
+    pub(crate) fn get(&self, bindings: OptionalBindings) -> &wgpu::BindGroupLayout {
+        &self.0[bindings.index()]
     }
 }
 
-/// What a pass binds that has declared to read it.
+/// The tokens of a pass that has declared to read group 0.
 pub(crate) struct ViewTokens {
     view: BufferToken,
     lights: BufferToken,
@@ -88,12 +88,12 @@ pub(crate) struct ViewTokens {
 }
 
 impl ViewBuffers {
-    /// Returns what is there beside the view and the lights.
-    pub(crate) fn extras(&self) -> Extras {
-        Extras { clusters: self.clusters.is_some(), occlusion: self.occlusion.is_some() }
+    /// Returns the bindings that exist besides the view and the lights.
+    pub(crate) fn optional_bindings(&self) -> OptionalBindings {
+        OptionalBindings { clusters: self.clusters.is_some(), occlusion: self.occlusion.is_some() }
     }
 
-    /// Declares that `pass` reads all of it.
+    /// Declares that `pass` reads all of the buffers.
     pub(crate) fn read_in<K: ShaderPass>(&self, pass: &mut Pass<'_, '_, K>) -> ViewTokens {
         ViewTokens {
             view: pass.storage_buffer(&self.view),
@@ -110,8 +110,10 @@ impl ViewTokens {
         resources: &Resources<'_>,
         layouts: &ViewLayouts,
     ) -> Result<wgpu::BindGroup, GraphError> {
-        let extras = Extras { clusters: self.clusters.is_some(), occlusion: self.occlusion.is_some() };
-        let (view, lights, layout) = (Bind::Buffer(self.view), Bind::Buffer(self.lights), layouts.of(extras));
+        let bindings =
+            OptionalBindings { clusters: self.clusters.is_some(), occlusion: self.occlusion.is_some() };
+        let (view, lights, layout) =
+            (Bind::Buffer(self.view), Bind::Buffer(self.lights), layouts.get(bindings));
         match (self.clusters.map(Bind::Texture), self.occlusion.map(Bind::Texture)) {
             (None, None) => resources.bind_group(layout, &[view, lights]),
             (Some(one), None) | (None, Some(one)) => resources.bind_group(layout, &[view, lights, one]),

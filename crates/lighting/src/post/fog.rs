@@ -1,35 +1,36 @@
-//! Fog that scatters light, shadows included.
+//! Volumetric fog with shadows.
 
 use bytemuck::{NoUninit, bytes_of};
 use glam::Vec3;
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture};
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
 
-use crate::screen_pass::{Key, ScreenPass, ScreenShader, texels};
-use crate::{Error, ViewBuffers};
+use crate::error::Error;
+use crate::screen_pass::{PipelineKey, ScreenPass, ScreenShader, texels};
+use crate::uniforms::ViewBuffers;
 
-/// Thin fog: light of every light is scattered on its way to the camera, where no shadow keeps it, so that shafts of light are seen.
-/// It asks the technique's point function at steps along each pixel's way.
+/// Thin fog that scatters the light of every light towards the camera where it is not in shadow, which makes light shafts
+/// visible. It calls the technique's point evaluation at steps along the view ray of each pixel.
 pub struct Fog {
     pass: ScreenPass,
 }
 
-/// What fog is like.
+/// Settings of fog.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FogSettings {
-    /// The part of the light that is scattered and not swallowed, linear RGB, 0 to 1.
+    /// The fraction of the light that is scattered rather than absorbed, linear RGB, 0 to 1.
     pub albedo: [f32; 3],
-    /// How much is lost per metre up to `height_m`, from 0.
+    /// Extinction per metre up to `height_m`, 0 or more.
     pub density: f32,
-    /// The height in the world up to which it is dense, metres.
+    /// The height in the world up to which the density is constant, metres.
     pub height_m: f64,
-    /// How fast it gets thinner above, per metre, from 0.
+    /// Exponential falloff of the density above, per metre, 0 or more.
     pub falloff: f32,
-    /// Over -1, back to the light, to under 1, onwards; 0 is evenly.
+    /// Scattering anisotropy: above -1 (backward) to below 1 (forward); 0 is isotropic.
     pub anisotropy: f32,
-    /// How far it is looked for, metres: over 0.
+    /// The maximum distance of the fog from the camera, metres, above 0.
     pub distance_m: f32,
-    /// In how many steps, at least 1.
+    /// Number of steps along a ray, at least 1.
     pub steps: u32,
 }
 
@@ -50,7 +51,7 @@ impl Default for FogSettings {
 /// `Fog` of `post/fog.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct Block {
+struct FogUniforms {
     albedo: Vec3,
     density: f32,
     height: f32,
@@ -62,10 +63,10 @@ struct Block {
 }
 
 impl Fog {
-    /// Makes what its pipelines share.
+    /// Creates the state that its pipelines share.
     ///
     /// # Errors
-    /// If the technique's WGSL does not compose.
+    /// [`Error::Shader`] if the technique's WGSL does not compose.
     pub fn new(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> Result<Self, Error> {
         let shader = ScreenShader {
             file: "post/fog.wgsl",
@@ -73,20 +74,20 @@ impl Fog {
             format: Format::Rgba16Float,
             blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
         };
-        let block = wgpu::BindingType::Buffer {
+        let uniforms = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let own = [texels(wgpu::TextureSampleType::Depth), block];
-        Ok(Self { pass: ScreenPass::new(device, technique, shader, &own)? })
+        let bindings = [texels(wgpu::TextureSampleType::Depth), uniforms];
+        Ok(Self { pass: ScreenPass::new(device, technique, shader, &bindings)? })
     }
 
-    /// Adds the pass that lays fog over `light`. `depth` is that of what is drawn, `origin_y` the height of the frame's origin in the
-    /// world, metres.
+    /// Adds the pass that blends fog over `light`. `depth` is the scene's depth, `origin_y` the height of the frame's origin in
+    /// the world, metres.
     ///
     /// # Errors
-    /// If the technique's WGSL does not compose.
+    /// [`Error::Shader`] if the technique's WGSL does not compose.
     pub fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -97,11 +98,11 @@ impl Fog {
         settings: &FogSettings,
     ) -> Result<Texture, Error> {
         let view = ViewBuffers { occlusion: None, ..view.clone() };
-        // Points in the air are not on the screen: variant 0 answers for all.
-        let key = Key { variant: 0, constant: 0, extras: view.extras() };
+        // Points in the fog have no screen mask: variant 0 evaluates points anywhere.
+        let key = PipelineKey { variant: 0, constant: 0, bindings: view.optional_bindings() };
         let pipeline = self.pass.pipeline(key, &[])?;
         let FogSettings { albedo, density, height_m, falloff, anisotropy, distance_m, steps } = *settings;
-        let block = Block {
+        let uniforms = FogUniforms {
             albedo: albedo.into(),
             density,
             height: (height_m - origin_y) as f32,
@@ -111,7 +112,7 @@ impl Fog {
             steps: steps.max(1),
             padding: [0; 3],
         };
-        let block = frame.uniform(bytes_of(&block));
+        let uniforms = frame.uniform(bytes_of(&uniforms));
         let mut light = light.clone();
         let mut pass = frame.render_pass("fog");
         let (shadows, view) = (shadows.read_in(&mut pass), view.read_in(&mut pass));
@@ -120,9 +121,10 @@ impl Fog {
         pass.body(move |ctx| {
             let view = view.bind_group(ctx, &self.pass.view_layouts)?;
             let shadows = shadows.bind_group(ctx, &self.pass.shadow_layout)?;
-            let own = ctx.bind_group(&self.pass.own_layout, &[Bind::Texture(depth), Bind::Uniform(block)])?;
+            let group =
+                ctx.bind_group(&self.pass.pass_layout, &[Bind::Texture(depth), Bind::Uniform(uniforms)])?;
             ctx.pass.set_pipeline(&pipeline);
-            for (index, group) in (0..).zip([&view, &shadows, &own]) {
+            for (index, group) in (0..).zip([&view, &shadows, &group]) {
                 ctx.pass.set_bind_group(index, group, &[]);
             }
             ctx.pass.draw(0..3, 0..1);

@@ -1,11 +1,11 @@
-//! Smooth edges of a finished picture.
+//! FXAA.
 
 use shadowgraph_core::{Frame, FullscreenShader, Texture};
 
-use crate::Error;
-use crate::shader::{fullscreen, linear};
+use crate::error::Error;
+use crate::shader::{fullscreen, linear_sampler};
 
-/// Edges of a finished picture, smoothed by what the picture shows (Lottes, "FXAA", 2009).
+/// Anti-aliasing of the final image (Lottes, "FXAA", 2009).
 pub struct Fxaa {
     shader: FullscreenShader,
     linear: wgpu::Sampler,
@@ -17,11 +17,11 @@ impl Fxaa {
     /// # Errors
     /// None with the WGSL that Shadowgraph comes with.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
-        Ok(Self { shader: fullscreen(device, "post/fxaa.wgsl", "fs_fxaa")?, linear: linear(device) })
+        Ok(Self { shader: fullscreen(device, "post/fxaa.wgsl", "fs_fxaa")?, linear: linear_sampler(device) })
     }
 
-    /// Adds the pass that covers `target` with `picture`, which is as large.
-    pub fn add_to(&self, frame: &mut Frame<'_>, picture: &Texture, target: &mut Texture) {
-        frame.fullscreen("fxaa", &self.shader).sample(picture).sampler(&self.linear).draw(target);
+    /// Adds the pass that overwrites `target` with the smoothed `image`, which has the same size.
+    pub fn add_to(&self, frame: &mut Frame<'_>, image: &Texture, target: &mut Texture) {
+        frame.fullscreen("fxaa", &self.shader).sample(image).sampler(&self.linear).draw(target);
     }
 }

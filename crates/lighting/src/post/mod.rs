@@ -1,4 +1,4 @@
-//! What is done to the light of a picture before and behind the tonemap.
+//! Post-processing before and after tonemapping.
 
 mod bloom;
 mod fog;
@@ -16,4 +16,6 @@ pub use occlusion::{Occlusion, OcclusionSettings};
 pub use overlay::Overlay;
 pub use pyramid::DepthPyramid;
 pub use sky::{Sky, SkySettings};
-pub use temporal::{Jitter, Jitters, Temporal};
+pub use temporal::Temporal;
+
+pub use crate::jitter::{Jitter, Jitters};

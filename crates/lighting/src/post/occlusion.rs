@@ -1,28 +1,29 @@
-//! Ambient occlusion of the screen.
+//! Screen-space ambient occlusion.
 
 use bytemuck::{NoUninit, bytes_of};
 use shadowgraph_core::{Format, Frame, FullscreenShader, Texture, TextureDesc};
 
+use crate::error::Error;
 use crate::shader::fullscreen;
-use crate::{Error, ViewBuffers};
+use crate::uniforms::ViewBuffers;
 
-/// How much of the light from all around reaches what is seen, by the horizons in the depth of the picture (Jimenez et al.,
-/// "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
+/// Ambient occlusion from the horizons in screen-space depth (Jimenez et al., "Practical Real-Time Strategies for Accurate
+/// Indirect Occlusion", 2016).
 pub struct Occlusion {
     shader: FullscreenShader,
     blur: FullscreenShader,
 }
 
-/// How ambient occlusion is found.
+/// Settings of ambient occlusion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OcclusionSettings {
-    /// How far surroundings matter, metres: over 0.
+    /// Radius of occluders, metres, above 0.
     pub radius_m: f32,
-    /// 1 as it is, more for darker corners.
+    /// Exponent of the occlusion: 1 is physical, more is darker.
     pub power: f32,
-    /// In how many directions horizons are looked for, at least 1.
+    /// Number of directions in which horizons are searched, at least 1.
     pub slices: u32,
-    /// In how many steps each way, at least 1.
+    /// Number of steps per direction, at least 1.
     pub steps: u32,
 }
 
@@ -35,7 +36,7 @@ impl Default for OcclusionSettings {
 /// `Settings` of `post/occlusion.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct Block {
+struct OcclusionUniforms {
     radius_m: f32,
     power: f32,
     slices: u32,
@@ -54,8 +55,8 @@ impl Occlusion {
         })
     }
 
-    /// Adds the passes, and returns what passes that light bind so that they occlude the light from all around. `depth` has one
-    /// sample a pixel.
+    /// Adds the passes, and returns the buffers with ambient occlusion, for lit passes to read. `depth` must have one sample
+    /// per pixel.
     pub fn add_to(
         &self,
         frame: &mut Frame<'_>,
@@ -65,17 +66,17 @@ impl Occlusion {
     ) -> ViewBuffers {
         let size = frame.texture_desc(depth).map(|desc| desc.size).unwrap_or_default();
         let desc = TextureDesc::d2(size.width, size.height, Format::R8Unorm);
-        let mut grainy = frame.create_texture("occlusion with grain", desc);
+        let mut noisy = frame.create_texture("occlusion with grain", desc);
         let mut smooth = frame.create_texture("occlusion", desc);
         let &OcclusionSettings { radius_m, power, slices, steps } = settings;
-        let block = Block { radius_m, power, slices: slices.max(1), steps: steps.max(1) };
+        let uniforms = OcclusionUniforms { radius_m, power, slices: slices.max(1), steps: steps.max(1) };
         let horizons = frame.fullscreen("horizons", &self.shader).storage(&view.view).sample(depth);
-        horizons.uniform(bytes_of(&block)).draw(&mut grainy);
+        horizons.uniform(bytes_of(&uniforms)).draw(&mut noisy);
         frame
             .fullscreen("smooth", &self.blur)
             .storage(&view.view)
             .sample(depth)
-            .sample(&grainy)
+            .sample(&noisy)
             .draw(&mut smooth);
         ViewBuffers { occlusion: Some(smooth), ..view.clone() }
     }

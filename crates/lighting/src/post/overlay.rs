@@ -1,12 +1,12 @@
-//! Colours over a finished picture.
+//! Debug colours over the final image.
 
 use bytemuck::bytes_of;
 use shadowgraph_core::{Frame, FullscreenShader, Texture};
 
-use crate::Error;
+use crate::error::Error;
 use crate::shader::fullscreen;
 
-/// Colours over a finished picture, to debug by.
+/// Debug colours over the final image.
 pub struct Overlay {
     shader: FullscreenShader,
 }
@@ -20,16 +20,16 @@ impl Overlay {
         Ok(Self { shader: fullscreen(device, "post/overlay.wgsl", "fs_overlay")? })
     }
 
-    /// Adds the pass that covers `target` with `picture` and `colors` over it, which are stored as they are to be seen. All are as
-    /// large as each other; `strength` is 0 to 1.
+    /// Adds the pass that overwrites `target` with `image` and, blended over it, `colors`, which are display-referred. All
+    /// three have the same size; `strength` is 0 to 1.
     pub fn add_to(
         &self,
         frame: &mut Frame<'_>,
-        [picture, colors]: [&Texture; 2],
+        [image, colors]: [&Texture; 2],
         target: &mut Texture,
         strength: f32,
     ) {
-        let pass = frame.fullscreen("overlay", &self.shader).sample(picture).sample(colors);
+        let pass = frame.fullscreen("overlay", &self.shader).sample(image).sample(colors);
         pass.uniform(bytes_of(&strength)).draw(target);
     }
 }

@@ -1,22 +1,23 @@
-//! A plain sky.
+//! A simple sky.
 
 use bytemuck::{NoUninit, bytes_of};
 use shadowgraph_core::{Frame, FullscreenShader, Texture};
 
+use crate::error::Error;
 use crate::shader::fullscreen;
-use crate::{Error, ViewBuffers};
+use crate::uniforms::ViewBuffers;
 
-/// A sky where nothing is drawn: the light from all around, brighter towards the horizon, and the discs of directional lights.
+/// The sky behind the scene: the ambient light, brighter towards the horizon, and the discs of directional lights.
 pub struct Sky {
     shader: FullscreenShader,
 }
 
-/// What the sky looks like.
+/// Settings of the sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkySettings {
-    /// Radius of the discs, radians: the sun's is 0.00465.
+    /// Angular radius of the discs, radians; the sun's is 0.00465.
     pub disc_rad: f32,
-    /// How much brighter the horizon is than the light from above, from 0.
+    /// The additional brightness of the horizon relative to the zenith, 0 or more.
     pub haze: f32,
 }
 
@@ -29,7 +30,7 @@ impl Default for SkySettings {
 /// `Settings` of `post/sky.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct Block {
+struct SkyUniforms {
     disc_rad: f32,
     haze: f32,
     padding: [u32; 2],
@@ -44,7 +45,8 @@ impl Sky {
         Ok(Self { shader: fullscreen(device, "post/sky.wgsl", "fs_sky")? })
     }
 
-    /// Adds the pass that draws the sky into `light` where `depth` says that nothing is drawn. Both have as many samples.
+    /// Adds the pass that draws the sky into `light` where `depth` is at the far plane. Both must have the same number of
+    /// samples.
     pub fn add_to(
         &self,
         frame: &mut Frame<'_>,
@@ -53,9 +55,9 @@ impl Sky {
         light: &mut Texture,
         settings: &SkySettings,
     ) {
-        let block = Block { disc_rad: settings.disc_rad, haze: settings.haze, padding: [0; 2] };
+        let uniforms = SkyUniforms { disc_rad: settings.disc_rad, haze: settings.haze, padding: [0; 2] };
         let pass = frame.fullscreen("sky", &self.shader).storage(&view.view).storage(&view.lights);
-        let pass = pass.uniform(bytes_of(&block)).depth_test(depth, wgpu::CompareFunction::Equal);
+        let pass = pass.uniform(bytes_of(&uniforms)).depth_test(depth, wgpu::CompareFunction::Equal);
         pass.draw_over(light, None);
     }
 }

@@ -50,5 +50,5 @@ fn deferred_lighting_of_several_samples_is_refused_with_the_option() {
     let camera = scene.cameras[0].clone();
     let method = Method { samples: 4, pipeline: Pipeline::deferred(), ..Method::default() };
     let error = Renderer::with(&Gpu::noop().unwrap(), scene, &camera, Aov::Color, method).err().unwrap();
-    assert_eq!(error.to_string(), "--samples 4: deferred lighting has one sample a pixel");
+    assert_eq!(error.to_string(), "deferred lighting supports 1 sample per pixel, not 4");
 }
