@@ -22,7 +22,7 @@ impl Clusters {
     /// Composes the shader.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let file = "clusters.wgsl";
         let module = module(device, file, &[])?;

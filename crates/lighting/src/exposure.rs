@@ -97,7 +97,7 @@ impl AmbientLight {
 
 /// The fraction of the light of spot and point lights that becomes ambient light.
 const LOCAL_AMBIENT_FRACTION: f32 = 0.2;
-/// The least illuminance that exposure is computed for, lux.
+/// The minimum illuminance for which exposure is computed, lux.
 const MIN_LX: f32 = 1e-6;
 
 #[cfg(test)]
@@ -126,8 +126,8 @@ mod tests {
     #[test]
     fn a_point_light_inside_an_object_lights_it_from_at_least_its_radius() {
         let point = light(LightKind::Point { position_world: DVec3::ZERO, range: None }, 100.0);
-        let room = Aabb { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
-        assert!(KeyLight::estimate(&[point], &[room]).local_lx < 2.0);
+        let object = Aabb { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
+        assert!(KeyLight::estimate(&[point], &[object]).local_lx < 2.0);
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl GBufferPass {
     /// Creates the state that its pipelines share; each pipeline is created on first use.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
         let shader = module(device, "gbuffer.wgsl", &[])?;
         let view_layouts = ViewLayouts::new(device);

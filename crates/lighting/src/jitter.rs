@@ -58,10 +58,10 @@ impl Jitters {
 
 /// Returns the radical inverse of `index` in a base: its digits mirrored at the radix point.
 fn halton(mut index: u32, base: u32) -> f32 {
-    let (mut value, mut part) = (0.0, 1.0);
+    let (mut value, mut weight) = (0.0, 1.0);
     while index > 0 {
-        part /= base as f32;
-        value += part * (index % base) as f32;
+        weight /= base as f32;
+        value += weight * (index % base) as f32;
         index /= base;
     }
     value

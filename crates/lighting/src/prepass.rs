@@ -30,7 +30,7 @@ impl Prepass {
     /// Creates the pipelines for materials of these layouts, with 1 or 4 samples per pixel.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device, layouts: &MaterialLayouts, samples: u32) -> Result<Self, Error> {
         let target = DepthTarget { samples, ..DepthTarget::default() };
         Ok(Self { pipelines: DepthPipelines::new(device, layouts, &target)?, samples })

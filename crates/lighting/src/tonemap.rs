@@ -14,7 +14,7 @@ impl Tonemap {
     /// Composes the shader.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self { shader: fullscreen(device, "tonemap.wgsl", "fs_tonemap")? })
     }

@@ -14,7 +14,7 @@ pub enum Error {
         /// The error of the operating system.
         source: std::io::Error,
     },
-    /// The file holds something that is wrong or not supported.
+    /// The file contains something invalid or unsupported.
     #[error("{}: {location}: {reason}", file.display())]
     Invalid {
         /// The file.

@@ -20,7 +20,7 @@ impl Bloom {
     /// Composes the shaders.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let shader = |entry| fullscreen(device, "post/bloom.wgsl", entry);
         Ok(Self {

@@ -15,7 +15,7 @@ impl Fxaa {
     /// Composes the shader.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self { shader: fullscreen(device, "post/fxaa.wgsl", "fs_fxaa")?, linear: linear_sampler(device) })
     }

@@ -47,7 +47,7 @@ impl Occlusion {
     /// Composes the shaders.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self {
             shader: fullscreen(device, "post/occlusion.wgsl", "fs_occlusion")?,

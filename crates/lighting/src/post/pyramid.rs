@@ -16,7 +16,7 @@ impl DepthPyramid {
     /// Composes the shaders.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self {
             copy: fullscreen(device, "post/pyramid.wgsl", "fs_begin")?,

@@ -40,7 +40,7 @@ impl Sky {
     /// Composes the shader.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self { shader: fullscreen(device, "post/sky.wgsl", "fs_sky")? })
     }

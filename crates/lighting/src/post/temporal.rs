@@ -36,7 +36,7 @@ impl Temporal {
     /// Composes the shader.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let shader = fullscreen(device, "post/temporal.wgsl", "fs_temporal")?;
         Ok(Self { shader, linear: linear_sampler(device), previous: Mutex::default() })

@@ -109,15 +109,15 @@ impl<'a> PreparedVolume<'a> {
         }
         let mut mask = inside;
         let mut inside_all = true;
-        let mut record = |number, contains| if contains { mask.add(number) } else { inside_all = false };
+        let mut update = |number, contains| if contains { mask.add(number) } else { inside_all = false };
         if let Some(sphere) = &self.sphere {
-            record(SPHERE, inside.has(SPHERE) || sphere.contains(bounds));
+            update(SPHERE, inside.has(SPHERE) || sphere.contains(bounds));
         }
         if let Some(cone) = &self.cone {
-            record(CONE, inside.has(CONE) || cone.contains(bounds));
+            update(CONE, inside.has(CONE) || cone.contains(bounds));
         }
         for (number, plane) in self.planes() {
-            record(number, inside.has(number) || plane.contains(bounds));
+            update(number, inside.has(number) || plane.contains(bounds));
         }
         if inside_all { Containment::Inside } else { Containment::Partial(mask) }
     }

@@ -1,4 +1,4 @@
-//! Typed reading of accessors: every offset, count and index is checked against the bytes that are there.
+//! Typed reading of accessors: every offset, count and index is checked against the available bytes.
 
 use ::gltf::json;
 use json::accessor::{ComponentType, Type};
@@ -55,7 +55,7 @@ impl Buffers<'_> {
     /// Vectors of at least `min` components are filled up to `N` from `fill`.
     ///
     /// # Errors
-    /// The message says which part of the accessor is wrong and what is allowed.
+    /// The message says what in the accessor is invalid and what is allowed.
     pub(super) fn vectors<const N: usize>(
         &self,
         index: usize,
@@ -69,7 +69,7 @@ impl Buffers<'_> {
             return Err(format!("has {} components per element (allowed: {range})", layout.width));
         }
         if layout.component == ComponentType::U32 {
-            return Err("holds 32-bit integers (allowed: floats, 8-bit and 16-bit integers)".into());
+            return Err("contains 32-bit integers (allowed: floats, 8-bit and 16-bit integers)".into());
         }
         let mut vectors = vec![fill; layout.count];
         let read = |vector: &mut [f32; N], bytes: &[u8]| {
@@ -88,13 +88,13 @@ impl Buffers<'_> {
     /// Reads an accessor of indices; at most `max_count`.
     ///
     /// # Errors
-    /// The message says which part of the accessor is wrong and what is allowed.
+    /// The message says what in the accessor is invalid and what is allowed.
     pub(super) fn indices(&self, index: usize, max_count: usize) -> Result<Vec<u32>, String> {
         let layout = self.layout(index, max_count)?;
         let unsigned =
             matches!(layout.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
         if layout.width != 1 || !unsigned {
-            return Err("does not hold indices (allowed: SCALAR of unsigned integers)".into());
+            return Err("does not contain indices (allowed: SCALAR of unsigned integers)".into());
         }
         let mut indices = vec![0u32; layout.count];
         self.for_each(index, layout, |i, bytes| {
@@ -118,7 +118,7 @@ impl Buffers<'_> {
             return Err("has an unknown type (allowed: SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4)".into());
         };
         if matches!(kind, Type::Mat2 | Type::Mat3 | Type::Mat4) {
-            return Err("holds matrices (allowed: SCALAR, VEC2, VEC3, VEC4)".into());
+            return Err("contains matrices (allowed: SCALAR, VEC2, VEC3, VEC4)".into());
         }
         let count = usize::try_from(accessor.count.0).ok().filter(|count| *count <= max_count);
         let Some(count) = count else {

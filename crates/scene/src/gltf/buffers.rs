@@ -18,7 +18,7 @@ pub(super) struct Buffers<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View<'a> {
     pub(super) bytes: &'a [u8],
-    /// The distance between elements, bytes, if the file gives one.
+    /// The stride of elements, bytes, if the file has one.
     pub(super) stride: Option<usize>,
 }
 
@@ -39,10 +39,7 @@ impl<'a> Buffers<'a> {
                 (Some(uri), _) => Cow::Owned(files.read(uri).with_location(location)?),
                 (None, Some(bin)) if i == 0 => Cow::Borrowed(bin),
                 (None, _) => {
-                    return Err(ImportError::new(
-                        location(),
-                        "has no URI, and there is no binary chunk for it",
-                    ));
+                    return Err(ImportError::new(location(), "has no URI, and the file has no binary chunk"));
                 }
             };
             let present = data.len();

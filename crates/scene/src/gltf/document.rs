@@ -1,6 +1,6 @@
 //! The JSON of a glTF file, in the `gltf` crate's types.
 //!
-//! The top-level object is our own: what is not drawn (animations, skins) is only counted, so that an error there
+//! The top-level object is our own type, which only counts what is not drawn (animations, skins), so that an error there
 //! does not prevent the rest from being drawn.
 
 use ::gltf::json;

@@ -1,4 +1,4 @@
-//! Limits of what is loaded, and the checks of a file's references.
+//! Limits of an import, and checks of a file's references.
 
 use ::gltf::json;
 

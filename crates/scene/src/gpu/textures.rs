@@ -72,11 +72,11 @@ impl<'a> Textures<'a> {
     /// Returns the sampler with these properties.
     pub(super) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
         let device = self.device;
-        let make = || {
+        let create = || {
             let anisotropy = anisotropy(device.adapter_info().device_type);
             device.create_sampler(&sampler_descriptor(&sampler, anisotropy))
         };
-        self.samplers.entry(sampler).or_insert_with(make).clone()
+        self.samplers.entry(sampler).or_insert_with(create).clone()
     }
 
     fn upload(&mut self, image: &Image, reading: Reading) -> wgpu::TextureView {
