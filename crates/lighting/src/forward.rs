@@ -48,7 +48,7 @@ struct LitKey {
     variant: u32,
     /// The light whose debug colours are shown; 0 for none.
     debug_light: u32,
-    /// Whether the pass writes depth: there is no prepass.
+    /// Whether the pass writes depth, because there is no prepass.
     writes_depth: bool,
     bindings: OptionalBindings,
 }

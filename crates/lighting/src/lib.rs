@@ -8,7 +8,7 @@
 //! 4. [`Forward::lit`] draws the scene with every light and material, and calls `shadow_visibility` for each light;
 //! 5. [`Tonemap::add_to`] converts the result to a displayable image.
 //!
-//! This crate knows no shadow technique. Cameras are those of `shadowgraph_scene`, depth is reversed,
+//! Nothing here depends on how a shadow technique works. Cameras are those of `shadowgraph_scene`, depth is reversed,
 //! and colours are scene-linear until the tonemap.
 
 mod clusters;

@@ -54,9 +54,9 @@ pub struct GpuLight {
     pub color: Vec3,
     /// Spot cone: `saturate(cos(angle) * spot_scale + spot_offset)` squared.
     pub spot_scale: f32,
-    /// See `spot_scale`.
+    /// The offset of the spot cone; see `spot_scale`.
     pub spot_offset: f32,
-    /// Zero.
+    /// Padding, zero.
     pub padding: [u32; 3],
 }
 

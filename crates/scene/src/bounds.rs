@@ -38,7 +38,7 @@ impl Aabb {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Tells whether the box contains no point. A flat box or a single point is not empty.
+    /// Returns whether the box contains no point. A flat box or a single point is not empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
@@ -62,7 +62,7 @@ impl Aabb {
         self.half_extent().length()
     }
 
-    /// Tells whether the point lies in the box or on its surface.
+    /// Returns whether the point lies in the box or on its surface.
     #[must_use]
     pub fn contains_point(&self, point: DVec3) -> bool {
         self.min.cmple(point).all() && point.cmple(self.max).all()
@@ -119,7 +119,7 @@ pub struct ConvexVolume {
 }
 
 impl ConvexVolume {
-    /// Tells whether the box may intersect the volume. Conservative: boxes near an edge of the volume may be
+    /// Returns whether the box may intersect the volume. Conservative: boxes near an edge of the volume may be
     /// kept although they lie outside, but a box with a point inside is never rejected. An empty box never intersects.
     ///
     /// ```
@@ -140,7 +140,7 @@ impl ConvexVolume {
             })
     }
 
-    /// Tells whether the point lies in the volume or on its surface.
+    /// Returns whether the point lies in the volume or on its surface.
     #[must_use]
     pub fn contains_point(&self, point: DVec3) -> bool {
         self.planes.iter().all(|plane| plane.signed_distance(point) >= 0.0)

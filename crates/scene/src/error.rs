@@ -21,15 +21,15 @@ pub enum Error {
         file: PathBuf,
         /// The location in the file: "mesh 3 primitive 0".
         location: String,
-        /// What is wrong, with the allowed range if there is one.
+        /// The error, with the allowed range if there is one.
         reason: String,
     },
     /// The scene exceeds a limit of the adapter.
     #[error("{what}: {value} exceeds the adapter's {limit} of {max}")]
     Limit {
-        /// What is too large: "image 3 \"bark\" width".
+        /// The value that is too large: "image 3 \"bark\" width".
         what: String,
-        /// Its size.
+        /// The value.
         value: u64,
         /// The name of the limit in `wgpu::Limits`.
         limit: &'static str,
@@ -41,7 +41,7 @@ pub enum Error {
     Inconsistent {
         /// The part: "image 3 \"bark\"".
         what: String,
-        /// What is inconsistent.
+        /// The inconsistency.
         reason: String,
     },
     /// A shader of this crate could not be composed.

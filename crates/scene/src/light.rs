@@ -100,7 +100,7 @@ impl Light {
         Some(range.unwrap_or_else(|| (candela.max(0.0) / MIN_ILLUMINANCE_LX).sqrt()))
     }
 
-    /// Tells whether all values are in their documented ranges, except that the direction may have any length above 0. A
+    /// Returns whether all values are in their documented ranges, except that the direction may have any length above 0. A
     /// light that is not usable gives no light.
     #[must_use]
     pub fn is_usable(&self) -> bool {

@@ -5,31 +5,31 @@ use super::{Camera, Projection};
 /// The reason why a camera is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
-    /// Its transform has values that are not finite.
+    /// The transform has values that are not finite.
     #[error("the camera's transform must have finite values")]
     Transform,
-    /// Its field of view is out of range.
+    /// The field of view is out of range.
     #[error("the camera's vertical field of view is {0} radians; it must be above 0 and below pi")]
     FieldOfView(f64),
-    /// Its orthographic view has no size.
+    /// The orthographic view has no size.
     #[error(
         "the camera's half width is {half_width} m and its half height {half_height} m; both must be above 0"
     )]
     HalfSize {
-        /// Metres.
+        /// Half width, metres.
         half_width: f64,
-        /// Metres.
+        /// Half height, metres.
         half_height: f64,
     },
-    /// Its near plane is behind the camera or not finite.
+    /// The near plane is behind the camera or not finite.
     #[error("the camera's near plane is at {0} m; it must be finite, and above 0 in perspective")]
     Near(f64),
-    /// Its far plane is not beyond its near plane.
+    /// The far plane is not beyond the near plane.
     #[error("the camera's far plane is at {far} m; it must be beyond its near plane, at {near} m")]
     Far {
-        /// Metres.
+        /// Distance of the near plane, metres.
         near: f64,
-        /// Metres.
+        /// Distance of the far plane, metres.
         far: f64,
     },
     /// The aspect ratio of the image is out of range.

@@ -49,7 +49,7 @@ impl Node {
         start..items.min(start + self.capacity())
     }
 
-    /// Tells whether the slot belongs to the node.
+    /// Returns whether the slot belongs to the node.
     pub(crate) fn contains(self, slot: usize) -> bool {
         (self.first_leaf..self.first_leaf + self.leaves).contains(&(slot / LEAF_ITEMS))
     }

@@ -41,10 +41,10 @@ pub struct Cone {
 /// - a shape that intersects `inner` intersects `outer`;
 /// - a shape that contains `outer` contains and intersects `inner`.
 pub(crate) trait ConvexShape {
-    /// Tells whether the box may intersect the shape. Never false for a box with a point inside.
+    /// Returns whether the box may intersect the shape. Never false for a box with a point inside.
     fn intersects(&self, bounds: &Aabb) -> bool;
 
-    /// Tells whether the whole box certainly lies within the shape.
+    /// Returns whether the whole box certainly lies within the shape.
     fn contains(&self, bounds: &Aabb) -> bool;
 }
 
@@ -104,7 +104,7 @@ impl PreparedCone {
         }
     }
 
-    /// Tells whether a point at this distance along the axis and this squared distance from it is inside the cone,
+    /// Returns whether a point at this distance along the axis and this squared distance from it is inside the cone,
     /// ignoring the flat end.
     fn contains_point(&self, along: f64, across_squared: f64) -> bool {
         along >= 0.0 && across_squared * (self.cos * self.cos) <= (along * self.sin) * (along * self.sin)

@@ -106,7 +106,7 @@ impl CullTree {
         found.extend(items.filter(|(_, bounds)| keep(bounds)).map(|(&item, _)| item));
     }
 
-    /// Recomputes the bounds of the nodes around a slot, from its leaf up to where nothing changes. Tells whether this
+    /// Recomputes the bounds of the nodes around a slot, from its leaf up to where nothing changes. Returns whether this
     /// node's bounds changed.
     fn refit_path(&mut self, node: Node, slot: usize) -> bool {
         let child =

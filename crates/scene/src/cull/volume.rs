@@ -22,7 +22,7 @@ pub struct CullVolume {
 }
 
 impl CullVolume {
-    /// Tells whether the box may intersect the volume. Conservative: boxes near an edge of the volume may be kept
+    /// Returns whether the box may intersect the volume. Conservative: boxes near an edge of the volume may be kept
     /// although they lie outside, but a box with a point inside all shapes is never rejected, within rounding: the point
     /// must be inside by 10^-14 of the coordinates. An empty box never intersects. Boxes that extend beyond 10^100 m,
     /// infinite ones included, are clipped there.
@@ -94,7 +94,7 @@ impl<'a> PreparedVolume<'a> {
         Self { sphere: volume.sphere, cone, planes: &volume.planes.planes }
     }
 
-    /// Tells whether the box may intersect all shapes, given those that contain a box around it.
+    /// Returns whether the box may intersect all shapes, given those that contain a box around it.
     pub(crate) fn intersects(&self, bounds: &Aabb, inside: ShapeMask) -> bool {
         !bounds.is_empty()
             && self.sphere.iter().all(|sphere| inside.has(SPHERE) || sphere.intersects(bounds))

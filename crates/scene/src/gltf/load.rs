@@ -49,7 +49,7 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
 /// Loads a glTF or GLB file, and reports its progress, always on the calling thread.
 ///
 /// # Errors
-/// As [`load`].
+/// The same as [`load`].
 pub fn load_with_progress(path: &Path, progress: &mut dyn FnMut(Progress)) -> Result<Scene, Error> {
     let unreadable = |source| Error::Read { file: path.to_owned(), source };
     progress(Progress { stage: "reading", fraction: 0.0 });

@@ -49,12 +49,12 @@ impl Default for DepthTarget {
 /// Group 0 is [`view_layout`](Self::view_layout), group 1 is unused.
 pub struct DepthPipelines {
     view_layout: wgpu::BindGroupLayout,
-    /// By [`MaterialKey::index`].
+    /// The pipelines by [`MaterialKey::index`].
     pipelines: Vec<wgpu::RenderPipeline>,
 }
 
 impl DepthPipelines {
-    /// Makes the pipelines for a target.
+    /// Creates the pipelines for a target.
     ///
     /// # Errors
     ///
@@ -106,7 +106,7 @@ pub struct CasterPipelines {
 }
 
 impl CasterPipelines {
-    /// Makes the pipelines for a target.
+    /// Creates the pipelines for a target.
     ///
     /// # Errors
     ///

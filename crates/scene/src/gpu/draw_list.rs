@@ -22,7 +22,7 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// Tells whether this draw equals `first` but for its instance number, which is `instance`.
+    /// Returns whether this draw equals `first` but for its instance number, which is `instance`.
     pub(super) fn continues(&self, first: &Self, instance: u32) -> bool {
         *self == Self { instance, ..*first }
     }

@@ -5,7 +5,7 @@ use crate::material::{AlphaMode, Material};
 /// The properties of a material and an instance that select the pipeline. Ordered as draws are: opaque, mask, blend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialKey {
-    /// How alpha is used.
+    /// The alpha mode.
     pub alpha: AlphaKey,
     /// Whether back faces are drawn.
     pub double_sided: bool,

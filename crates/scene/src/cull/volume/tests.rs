@@ -28,7 +28,7 @@ fn distance_from_cone(cone: &Cone, point: DVec3) -> f64 {
     if along * cos + across * sin < 0.0 { from_tip.length() } else { across * cos - along * sin }
 }
 
-/// Tells whether the point is inside all shapes by more than the rounding error.
+/// Returns whether the point is inside all shapes by more than the rounding error.
 fn contains(volume: &CullVolume, point: DVec3) -> bool {
     let rounding = |size: f64| 1e-14 * (point.abs().max_element() + size.abs());
     let in_sphere = |sphere: &BoundingSphere| {
