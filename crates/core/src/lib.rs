@@ -66,6 +66,7 @@ mod pool;
 #[cfg(feature = "gpu")]
 mod shader_pass;
 mod subresource;
+mod suggest;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
 mod times;
@@ -108,6 +109,7 @@ pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
 pub use shader_pass::{ShaderPassBuilder, UniformSource};
 pub use subresource::{Aspect, Rect, Subresource};
+pub use suggest::{closest_name, did_you_mean};
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary, trace_json};
 #[cfg(feature = "gpu")]
 pub use wgpu;

@@ -15,6 +15,7 @@ use kind::SettingsKind;
 use crate::techniques::{ContactSettings, ScreenSettings};
 use crate::{Error, ShadowSettings};
 use serde_json::Value;
+use shadowgraph_core::closest_name;
 
 /// The techniques that there are.
 ///
@@ -110,8 +111,8 @@ impl Techniques {
         let names: Vec<_> = self.kinds.iter().map(|kind| kind.name.to_owned()).collect();
         let modifiers = MODIFIERS.map(|known| format!("+{}", known.settings.name));
         let of_place = if name.starts_with('+') { &modifiers[..] } else { &names[..] };
-        let near: Vec<_> = of_place.iter().filter(|known| strsim::osa_distance(known, name) == 1).collect();
-        let near = if let [near] = near[..] { format!("did you mean `{near}`? ") } else { String::new() };
+        let near = closest_name(name, of_place);
+        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
         let (names, modifiers) = (names.join(", "), modifiers.join(" or "));
         let hint = format!("; {near}expected one of: {names}; each also with {modifiers}");
         Error::UnknownTechnique { name: name.into(), hint }

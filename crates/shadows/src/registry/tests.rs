@@ -95,21 +95,17 @@ fn a_technique_of_another_crate_is_found_by_its_name() {
 #[test]
 fn what_is_no_technique_is_refused_with_the_part_that_is_none_and_what_there_is() {
     let techniques = Techniques::built_in();
-    let wrong = [
-        ("", ""),
-        ("soft", "soft"),
-        ("pcf+soft", "+soft"),
-        ("pcf+pcss", "+pcss"),
-        ("pcf+", "+"),
-        ("PCF", "PCF"),
-    ];
+    let wrong = [("", ""), ("soft", "soft"), ("pcf+soft", "+soft"), ("pcf+pcss", "+pcss"), ("pcf+", "+")];
     for (name, part) in wrong {
         let error = techniques.find(name).unwrap_err().to_string();
         assert!(error.starts_with(&format!("unknown technique `{part}`; expected one of: pcf, ")), "{error}");
     }
-    for (name, part, near) in
-        [("pfc", "pfc", "pcf"), ("evms", "evms", "evsm"), ("msm+scren", "+scren", "+screen")]
-    {
+    for (name, part, near) in [
+        ("pfc", "pfc", "pcf"),
+        ("PCF", "PCF", "pcf"),
+        ("evms", "evms", "evsm"),
+        ("msm+scren", "+scren", "+screen"),
+    ] {
         let error = techniques.find(name).unwrap_err().to_string();
         let expected =
             format!("unknown technique `{part}`; did you mean `{near}`? expected one of: pcf, pcss, ");

@@ -4,9 +4,7 @@ use crate::dump::words::{list, quoted};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
-
-/// Names that are no more alike than this are not suggested; 1 is equal.
-const ALIKE: f64 = 0.7;
+use crate::suggest::closest_name;
 
 impl Plan {
     /// Says why every pass and every resource of a name is as it is. Both are known by their path, such as `post/blur`, or
@@ -80,14 +78,12 @@ impl Plan {
         if !members.is_empty() {
             return refused(format!(": it is a node, of {}", list(&members, 200)));
         }
-        let wanted = name.to_lowercase();
         let paths = self.passes().flat_map(|(id, pass)| [self.pass_path(id), pass.name.to_owned()]);
         let names =
             paths.chain(self.resources().flat_map(|(id, own)| [self.resource_path(id), own.name.to_owned()]));
-        let rated = names.map(|known| (strsim::jaro_winkler(&known.to_lowercase(), &wanted), known));
-        let nearest = rated.filter(|(alike, _)| *alike >= ALIKE).max_by(|a, b| a.0.total_cmp(&b.0));
+        let nearest = closest_name(name, names);
         let hint = match nearest {
-            Some((_, nearest)) => format!("; did you mean `{nearest}`?"),
+            Some(nearest) => format!("; did you mean `{nearest}`?"),
             None => "; `dump` lists them".into(),
         };
         refused(hint)
