@@ -8,10 +8,10 @@
 use glam::{DVec3, Vec3};
 use shadowgraph::core::{PassTime, Timer};
 use shadowgraph::options::Aov;
-use shadowgraph::pipelines::Choices;
+use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
-use shadowgraph::{Gpu, Method, Pipeline, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Pipeline, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 
@@ -48,8 +48,8 @@ impl Example for Lamps {
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
         let name = word.unwrap_or("forward_plus");
-        let method = Method::from(Pipeline::built_in(name, &Choices::default())?);
-        let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method)?;
+        let config = RenderConfig::from(Pipeline::built_in(name, &Parameters::default())?);
+        let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config)?;
         // A driver may compile shaders at the first draw.
         renderer.draw(gpu, &options)?;
         let drawn = renderer.draw_timed(gpu, &options, Some(&mut Timer::new()))?;

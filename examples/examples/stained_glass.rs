@@ -25,7 +25,7 @@ impl Example for StainedGlass {
         let scene = stained_glass();
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
-        let renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, technique)?;
+        let renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, technique)?;
         Ok(Self { renderer, options })
     }
 

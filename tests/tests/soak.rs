@@ -4,10 +4,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 use shadowgraph::options::{AdapterChoice, Aov};
-use shadowgraph::pipelines::Choices;
+use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::Technique;
-use shadowgraph::{Gpu, Method, Pipeline, Registry, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_tests::skip;
 use std::io::Write;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -157,16 +157,16 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
         let file = folder.path().join("soak.ron");
         let text = pipeline(&mut random);
         std::fs::write(&file, &text).unwrap();
-        let pipeline = Pipeline::load(&file, &nodes, &techniques, &Choices::default())
+        let pipeline = Pipeline::load(&file, &nodes, &techniques, &Parameters::default())
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
         let name = names[random.below(names.len() as u64) as usize];
         let technique: Technique = techniques.find(name).unwrap();
-        let method = Method { technique: Some(technique), pipeline, samples: 1 };
+        let config = RenderConfig { technique: Some(technique), pipeline, samples: 1 };
         let mut own = scene.clone();
         own.lights.truncate(random.below(own.lights.len() as u64 + 1) as usize);
         let camera = scene.cameras[random.below(scene.cameras.len() as u64) as usize].clone();
         watched.send(format!("the renderer of frame {drawn}, {name}\n{text}")).unwrap();
-        let mut renderer = Renderer::with(gpu, own, &camera, Aov::Color, method).unwrap();
+        let mut renderer = Renderer::with_config(gpu, own, &camera, Aov::Color, config).unwrap();
         let mut size_px = [256, 144];
         for _ in 0..8 + random.below(16) {
             if random.below(6) == 0 {
@@ -178,7 +178,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
             options.shadows.atlas.cache = random.flip();
             watched.send(format!("frame {drawn}, {name}, {size_px:?} px\n{text}")).unwrap();
             let view = renderer.draw(gpu, &options).unwrap_or_else(|error| panic!("{error}, {name}\n{text}"));
-            assert_eq!(view.picture.rgba8.len(), (size_px[0] * size_px[1] * 4) as usize);
+            assert_eq!(view.image.rgba8.len(), (size_px[0] * size_px[1] * 4) as usize);
             drawn += 1;
         }
         drop(renderer);

@@ -18,7 +18,7 @@ use shadowgraph::shadows::{
     CullSettings, MapPlan, OrthoFit, ShadowInputs, ShadowPlan, ShadowSettings, SpotCone, SpotFit,
     light_from_world, plan_shadows,
 };
-use shadowgraph::{Gpu, Method, Renderer, ViewOptions};
+use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -156,8 +156,8 @@ fn overdraw() -> Result<(), Failure> {
         let pipelines = [Pipeline::minimal(), Pipeline::forward(), Pipeline::screen_shadows()];
         let mut renderers = Vec::new();
         for pipeline in pipelines {
-            let method = Method::from(pipeline);
-            renderers.push(Renderer::with(&gpu, scene.clone(), &options.camera, Aov::Color, method)?);
+            let config = RenderConfig::from(pipeline);
+            renderers.push(Renderer::with_config(&gpu, scene.clone(), &options.camera, Aov::Color, config)?);
         }
         let mut times = vec![Vec::new(); 3];
         for round in 0..FRAMES + 2 {

@@ -4,35 +4,34 @@ use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, Draw, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, ShadowCasters, TINT_FORMAT};
 
-use crate::Error;
+use crate::error::Error;
 
-/// The instances of a scene on the GPU, as casters, with the numbers that they have there. They cast
-/// the shadows that their materials say.
+/// The instances of a scene on the GPU as casters, by the same indices. Their materials decide how they cast shadows.
 pub struct SceneCasters {
     /// The scene.
     pub scene: GpuScene,
-    /// For each format of a map.
+    /// Pipelines by map format.
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
-    /// Of all that casts shadows.
+    /// Bounds of all casters.
     bounds: Aabb,
-    /// Whether something casts none.
+    /// Whether an instance casts no shadow.
     some_off: bool,
 }
 
 impl SceneCasters {
-    /// Makes the pipelines that draw the casters.
+    /// Creates the pipelines that draw the casters.
     ///
     /// # Errors
-    /// If a shader does not compose.
+    /// For a shader that does not compose.
     pub fn new(device: &wgpu::Device, scene: GpuScene) -> Result<Self, Error> {
         let target = DepthTarget { clamp_near: true, ..DepthTarget::default() };
         Self::with_target(device, scene, &target)
     }
 
-    /// Draws the casters in another way than usual; the formats of `target` are not looked at.
+    /// Creates pipelines with another depth target than the default; the formats of `target` are ignored.
     ///
     /// # Errors
-    /// If a shader does not compose.
+    /// For a shader that does not compose.
     pub fn with_target(device: &wgpu::Device, scene: GpuScene, target: &DepthTarget) -> Result<Self, Error> {
         let pipelines = |depth: DepthFormat| {
             let format = depth.texture_format();
@@ -48,7 +47,7 @@ impl SceneCasters {
         Ok(Self { bounds: all, some_off, scene, pipelines })
     }
 
-    /// Returns how many triangles some casters have.
+    /// Returns the number of triangles of some casters.
     pub fn triangle_count(&self, casters: &[u32]) -> u64 {
         let draws = casters.iter().filter_map(|&number| self.scene.draw_for(number));
         draws.map(|draw| u64::from(self.scene.triangle_count(draw))).sum()
@@ -73,7 +72,7 @@ impl ShadowCasters for SceneCasters {
         self.bounds
     }
 
-    /// A scene on the GPU stays as it was uploaded.
+    /// Returns 0: a scene on the GPU does not change after the upload.
     fn version(&self, _caster: u32) -> Option<u64> {
         Some(0)
     }
@@ -91,9 +90,9 @@ impl ShadowCasters for SceneCasters {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
-        let made = self.pipelines.iter().find(|(format, _)| *format == view.target.format);
+        let pipelines = self.pipelines.iter().find(|(format, _)| *format == view.target.format);
         // Maps have no other formats.
-        let Some((_, pipelines)) = made else { return 0 };
+        let Some((_, pipelines)) = pipelines else { return 0 };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_for(number));
         self.scene.draw(pass, draws, &|draw| match view.target.pass {
             CasterPass::Depth => pipelines.get(draw.casts),

@@ -1,118 +1,116 @@
-//! What can go wrong between a scene and its picture.
+//! Errors.
 
-/// Why a scene could not be drawn. Every message is one line.
+/// An error while a scene is drawn. Every message is one line.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Pictures cannot be drawn with this many samples a pixel.
-    #[error("--samples {samples}: pictures have 1 or 4 samples a pixel")]
-    Samples {
-        /// How many were asked for.
+    /// The number of samples per pixel is not supported.
+    #[error("unsupported sample count {samples}; expected 1 or 4")]
+    SampleCount {
+        /// The number of samples.
         samples: u32,
     },
-    /// A pipeline has a node that cannot be drawn with several samples a pixel.
-    #[error(
-        "--samples {samples}: the pipeline's `{kind}` has one sample a pixel: leave the node out, or draw with one"
-    )]
-    OneSample {
+    /// A pipeline has a node that does not support multisampling.
+    #[error("the node `{kind}` does not support {samples} samples per pixel: remove it, or use 1 sample")]
+    SingleSampleOnly {
         /// The kind of node.
         kind: &'static str,
-        /// How many were asked for.
+        /// The number of samples.
         samples: u32,
     },
-    /// There is no adapter to draw with.
+    /// There is no adapter that was asked for.
     #[error("no usable graphics adapter ({wanted}): {reason}")]
     NoAdapter {
-        /// Which was asked for.
+        /// The adapter that was asked for.
         wanted: String,
-        /// What was found, and what to install.
+        /// The adapters that were found, and what to install.
         reason: String,
     },
-    /// The adapter gives no device.
-    #[error("{adapter} gives no device: {reason}")]
+    /// The adapter does not create a device.
+    #[error("failed to create a device on {adapter}: {reason}")]
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// What the driver said.
+        /// The driver's message.
         reason: String,
     },
-    /// The picture is larger than the adapter allows.
-    #[error("--size {width}x{height}: this adapter's max_texture_dimension_2d is {limit}")]
-    PictureSize {
-        /// Pixels.
+    /// The image is larger than the adapter allows.
+    #[error("image size {width}x{height} exceeds the adapter's max_texture_dimension_2d, {limit}")]
+    ImageSize {
+        /// Width, pixels.
         width: u32,
-        /// Pixels.
+        /// Height, pixels.
         height: u32,
-        /// Pixels.
+        /// The limit, pixels.
         limit: u32,
     },
-    /// The target is not for colours.
-    #[error("the target has the format {format:?}, which stores light as it is: give an sRGB format")]
+    /// The target of a colour image has no sRGB format.
+    #[error("the target's format {format:?} does not encode colours; expected an sRGB format")]
     TargetFormat {
         /// The target's format.
         format: shadowgraph_core::Format,
     },
-    /// A renderer of another output.
-    #[error("only --aov color is measured: the passes encoded by hand draw nothing else")]
+    /// The renderer that is benchmarked draws another output than colours.
+    #[error("only the output `color` can be benchmarked: the hand-written encoder draws nothing else")]
     BenchAov,
     /// A light that the scene does not have.
-    #[error("--aov visibility:{light}: {there_are}")]
-    NoLight {
-        /// The index asked for.
+    #[error("unknown light {light}; {lights}")]
+    UnknownLight {
+        /// The index.
         light: u32,
-        /// How many there are.
-        there_are: String,
+        /// The lights of the scene.
+        lights: String,
     },
     /// A texture that the graph does not have.
-    #[error("--aov {name}: there is no such output or texture{hint}")]
-    NoTexture {
-        /// The name asked for.
+    #[error("unknown output or texture `{name}`{hint}")]
+    UnknownTexture {
+        /// The name.
         name: String,
-        /// A name that is like it, or all.
+        /// The closest name, or all.
         hint: String,
     },
-    /// A texture that is no picture.
+    /// A texture of a format that cannot be displayed.
     #[error(
-        "--aov {name}: {format:?} holds whole numbers, which are no picture; `dump -o frame.html` shows them"
+        "texture `{name}` ({format:?}): integer textures cannot be displayed; the HTML page of the frame shows them"
     )]
-    NoPicture {
+    NotDisplayable {
         /// The texture's name.
         name: String,
         /// Its format.
         format: shadowgraph_core::Format,
     },
-    /// A pipeline is not right.
+    /// A pipeline is invalid.
     #[error(transparent)]
-    Pipeline(#[from] crate::pipelines::PipelineError),
-    /// A pipeline has no such output.
-    #[error("--aov {aov}: the outputs of pipeline {pipeline} name no `{output}`")]
-    NoOutput {
-        /// What is to be shown.
+    Pipeline(#[from] PipelineError),
+    /// A pipeline does not have an output that an AOV needs.
+    #[error("`{aov}` needs the output `{output}`, which the pipeline {pipeline} does not have")]
+    MissingOutput {
+        /// The AOV.
         aov: String,
         /// The pipeline.
         pipeline: String,
-        /// What that would need.
+        /// The output that it needs.
         output: &'static str,
     },
-    /// A kind of node contradicts itself: a mistake of whoever wrote it.
-    #[error("the kind of node `{kind}` is wrong: {fault}")]
+    /// The implementation of a kind of node is invalid.
+    #[error("invalid node kind `{kind}`: {reason}")]
     NodeKind {
-        /// Its name.
+        /// The name of the kind.
         kind: &'static str,
         /// What is wrong.
-        fault: String,
+        reason: String,
     },
-    /// A kind of node that there is not.
-    #[error("there is no kind of node `{name}`{hint}")]
-    NoNodeKind {
-        /// The name asked for.
+    /// A kind of node that is not registered.
+    #[error("unknown node kind `{name}`{hint}")]
+    UnknownNodeKind {
+        /// The name.
         name: String,
-        /// A name that is like it, or all.
+        /// The closest name, or all.
         hint: String,
     },
-    /// A node that the frame gives nothing to read.
-    #[error("`{port}` of `{node}` is not there in this frame: feed it, or leave the node out")]
-    Unfed {
+    /// An input of a node has no value in this frame.
+    #[error("input `{port}` of `{node}` is not connected in this frame: connect it, or remove the node")]
+    Unconnected {
         /// The node.
         node: String,
         /// Its input.
@@ -126,28 +124,38 @@ pub enum Error {
         /// What is wrong, where, and what is allowed.
         reason: String,
     },
-    /// Pictures that are compared do not fit together.
+    /// Images that are compared do not match.
     #[error(transparent)]
     Metrics(#[from] crate::measure::metrics::MetricsError),
-    /// The GPU refused something that was recorded, or was lost.
-    #[error("the GPU failed: {0}")]
+    /// wgpu reported a validation error or an internal error.
+    #[error("wgpu error: {0}")]
     Gpu(String),
-    /// The frame does not compile or record.
+    /// The frame cannot be compiled or executed.
     #[error(transparent)]
     Graph(#[from] shadowgraph_core::Error),
-    /// The scene does not load or fit.
+    /// The scene cannot be loaded or uploaded.
     #[error(transparent)]
     Scene(#[from] shadowgraph_scene::Error),
-    /// The camera sees nothing.
+    /// The camera is invalid.
     #[error(transparent)]
     Camera(#[from] shadowgraph_scene::CameraError),
-    /// The shadows cannot be planned.
+    /// The shadows cannot be drawn.
     #[error(transparent)]
     Shadows(#[from] shadowgraph_shadows::Error),
-    /// The lit passes cannot be made.
+    /// The lit passes cannot be built.
     #[error(transparent)]
     Lighting(#[from] shadowgraph_lighting::Error),
     /// A shader does not compose.
     #[error(transparent)]
     Shader(#[from] shadowgraph_shaders::Error),
+}
+
+/// An error in a pipeline: where it is, what is wrong, and what is expected, in one line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{location}: {problem}")]
+pub struct PipelineError {
+    /// The file, with line and column if it is one location in it.
+    pub location: String,
+    /// What is wrong, and what is expected.
+    pub problem: String,
 }

@@ -1,35 +1,35 @@
-//! Finding an adapter and opening a device.
+//! Choosing an adapter and opening a device.
 
 use shadowgraph_core::device_is_lost;
 
-use crate::Error;
-use crate::options::AdapterChoice;
+use crate::error::Error;
+use crate::options::adapter::AdapterChoice;
 
-/// What to do where no adapter is found.
+/// The advice if no adapter is found.
 const INSTALL: &str = "install a Vulkan driver, for example `sudo apt-get install mesa-vulkan-drivers`";
 
-/// Features that are used where the adapter has them.
-const WANTED: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
+/// Features that are used if the adapter has them.
+const OPTIONAL_FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
     .union(wgpu::Features::TIMESTAMP_QUERY)
     .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS)
     .union(wgpu::Features::PIPELINE_STATISTICS_QUERY);
 
-/// The features that are of use on an adapter. Timestamps inside a render pass tell passes apart that were merged, but
-/// software and GPUs that draw in tiles do most of the work when the render pass ends, behind all of them.
-fn wanted(adapter: &wgpu::AdapterInfo) -> wgpu::Features {
+/// Returns the features to use on an adapter. Timestamps inside a render pass measure merged passes separately, but software
+/// adapters and tile-based GPUs do most of the work at the end of the render pass, after all of them.
+fn optional_features(adapter: &wgpu::AdapterInfo) -> wgpu::Features {
     match adapter.device_type {
-        wgpu::DeviceType::DiscreteGpu => WANTED | wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES,
-        _ => WANTED,
+        wgpu::DeviceType::DiscreteGpu => OPTIONAL_FEATURES | wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES,
+        _ => OPTIONAL_FEATURES,
     }
 }
 
-/// A device, its queue and the adapter they come from.
+/// A device with its queue and adapter.
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
-    /// Its queue.
+    /// The queue.
     pub queue: wgpu::Queue,
-    /// The adapter, for people.
+    /// Information about the adapter.
     pub adapter: wgpu::AdapterInfo,
 }
 
@@ -37,8 +37,8 @@ impl Gpu {
     /// Opens a device without a window.
     ///
     /// # Errors
-    /// [`Error::NoAdapter`] says what to install, or which adapters there are; [`Error::NoDevice`] if the driver
-    /// refuses.
+    /// [`Error::NoAdapter`] with the available adapters and what to install; [`Error::NoDevice`] if the driver does not create a
+    /// device.
     pub fn open(choice: &AdapterChoice) -> Result<Self, Error> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
@@ -51,7 +51,7 @@ impl Gpu {
     /// Opens a device that can draw into a window.
     ///
     /// # Errors
-    /// As [`open`](Self::open), of the adapters that can.
+    /// As [`open`](Self::open), for the adapters that can.
     #[cfg(feature = "view")]
     pub(crate) fn for_surface(
         instance: &wgpu::Instance,
@@ -64,10 +64,10 @@ impl Gpu {
         Ok((Self::from_adapter(&adapter)?, adapter))
     }
 
-    /// Opens wgpu's noop device: everything is validated and nothing is drawn. For plans without a GPU.
+    /// Opens wgpu's noop device, which validates everything and draws nothing. It is used for plans without a GPU.
     ///
     /// # Errors
-    /// None in practice: the noop adapter is always there.
+    /// None in practice: the noop adapter is always available.
     pub fn noop() -> Result<Self, Error> {
         let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -79,10 +79,10 @@ impl Gpu {
         Self::from_adapter(&choose(adapters, &AdapterChoice::Auto)?)
     }
 
-    /// Opens a device of `adapter`, with the features that are of use here and its limits for sizes.
+    /// Opens a device of an adapter, with the optional features that it has and its limits of sizes.
     ///
     /// # Errors
-    /// [`Error::NoDevice`] if the driver refuses.
+    /// [`Error::NoDevice`] if the driver does not create a device.
     pub fn from_adapter(adapter: &wgpu::Adapter) -> Result<Self, Error> {
         let info = adapter.get_info();
         let (has, default) = (adapter.limits(), wgpu::Limits::default());
@@ -93,7 +93,7 @@ impl Gpu {
         };
         let device = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("shadowgraph"),
-            required_features: adapter.features() & wanted(&info),
+            required_features: adapter.features() & optional_features(&info),
             required_limits: limits,
             ..Default::default()
         }));
@@ -104,13 +104,13 @@ impl Gpu {
 }
 
 impl Gpu {
-    /// Runs `work`, and returns what the device found wrong with it as an error: by default wgpu ends the program. Whatever
-    /// goes wrong on a lost device does so for that.
+    /// Runs `work` and returns wgpu's errors, which would end the program by default. On a lost device every error is
+    /// [`DeviceLost`](shadowgraph_core::Error::DeviceLost).
     pub(crate) fn checked<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
         let scopes = [Internal, OutOfMemory, Validation].map(|filter| self.device.push_error_scope(filter));
         let done = work();
-        // Scopes end in reverse order, all of them.
+        // All scopes end, in reverse order.
         let errors: Vec<_> =
             scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
         match (errors.first(), done) {
@@ -122,19 +122,19 @@ impl Gpu {
     }
 }
 
-/// wgpu's words in one line.
-pub(crate) fn one_line(words: &str) -> String {
-    let lines: Vec<_> = words.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+/// Joins the lines of wgpu's message.
+pub(crate) fn one_line(message: &str) -> String {
+    let lines: Vec<_> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     lines.join("; ")
 }
 
-/// The best adapter of those that are asked for.
+/// Returns the best adapter that matches the choice.
 fn choose(adapters: Vec<wgpu::Adapter>, choice: &AdapterChoice) -> Result<wgpu::Adapter, Error> {
     let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
-    let fits = |info: &wgpu::AdapterInfo| match choice {
+    let matches = |info: &wgpu::AdapterInfo| match choice {
         AdapterChoice::Auto => true,
         AdapterChoice::Cpu => info.device_type == wgpu::DeviceType::Cpu,
-        AdapterChoice::Name(_) => choice.is_named(&info.name),
+        AdapterChoice::Name(_) => choice.matches_name(&info.name),
     };
     let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
         wgpu::DeviceType::DiscreteGpu => 0,
@@ -143,17 +143,17 @@ fn choose(adapters: Vec<wgpu::Adapter>, choice: &AdapterChoice) -> Result<wgpu::
         wgpu::DeviceType::Other => 3,
         wgpu::DeviceType::Cpu => 4,
     };
-    let found = adapters.into_iter().filter(|adapter| fits(&adapter.get_info())).min_by_key(rank);
+    let found = adapters.into_iter().filter(|adapter| matches(&adapter.get_info())).min_by_key(rank);
     found.ok_or_else(|| {
         let wanted = match choice {
             AdapterChoice::Auto => "any",
-            AdapterChoice::Cpu => "a software driver",
+            AdapterChoice::Cpu => "a software adapter",
             AdapterChoice::Name(name) => name,
         };
         let reason = match names.as_slice() {
             [] => INSTALL.into(),
-            names if matches!(choice, AdapterChoice::Name(_)) => format!("there is: {}", names.join(", ")),
-            names => format!("there is: {}; {INSTALL}", names.join(", ")),
+            names if matches!(choice, AdapterChoice::Name(_)) => format!("found: {}", names.join(", ")),
+            names => format!("found: {}; {INSTALL}", names.join(", ")),
         };
         Error::NoAdapter { wanted: wanted.into(), reason }
     })

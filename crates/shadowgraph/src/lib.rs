@@ -4,8 +4,8 @@
 //!   scenes or shadows.
 //! - [`scene`] has cameras, lights, meshes and materials, and imports glTF.
 //! - [`shadows`] has the shadow techniques and their contract, [`lighting`] the passes that consume them.
-//! - This crate wires them up: [`Renderer`] draws a scene with a pipeline of [`pipelines`], which is a script of one
-//!   call per step, there to be copied and edited.
+//! - This crate connects them: [`Renderer`] draws a scene with a pipeline of [`pipelines`], which is a file of nodes or a
+//!   script with one call per step.
 //!
 //! ```
 //! use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
@@ -18,7 +18,7 @@
 //! # Ok::<(), shadowgraph::core::Error>(())
 //! ```
 //!
-//! A picture of a scene; `Gpu::open` takes a real device:
+//! An image of a scene; `Gpu::open` opens a real device:
 //!
 //! ```
 //! use shadowgraph::glam::DVec3;
@@ -35,47 +35,49 @@
 //! let mut renderer = Renderer::new(&gpu, demo_scene(), &camera, Aov::Color)?;
 //! let shadows = ShadowSettings { distance_m: 80.0, ..ShadowSettings::default() };
 //! let options = ViewOptions { camera, size_px: [640, 360], shadows };
-//! let picture = renderer.draw(&gpu, &options)?.picture;
-//! write_png("out.png".as_ref(), 640, 360, Pixels::Rgba, &picture.rgba8)?;
+//! let image = renderer.draw(&gpu, &options)?.image;
+//! write_png("out.png".as_ref(), 640, 360, Pixels::Rgba, &image.rgba8)?;
 //! # Ok(())
 //! # }
 //! ```
 
 pub mod bench;
+mod build_context;
 mod casters;
+mod debug_blit;
 mod error;
 mod gpu;
 mod inspect;
 pub mod measure;
-mod method;
 pub mod nodes;
 mod occluders;
 pub mod options;
 pub mod output;
-mod permutations;
-mod picture;
 pub mod pipelines;
 pub mod program;
 mod registry;
+mod render_config;
+mod render_view;
+mod rendered;
 mod renderer;
 mod ron_file;
-mod show;
 mod surfaces;
 mod techniques;
 mod view_options;
 
+pub use build_context::BuildContext;
 pub use casters::SceneCasters;
+pub use debug_blit::DebugBlit;
 pub use error::Error;
 pub use gpu::Gpu;
-pub use inspect::Inspected;
-pub use method::Method;
+pub use inspect::InspectedFrame;
 pub use occluders::ray_scene;
-pub use permutations::{Permutations, permutations};
-pub use picture::{Drawn, Picture};
 pub use pipelines::Pipeline;
 pub use registry::Registry;
+pub use render_config::RenderConfig;
+pub use render_view::RenderView;
+pub use rendered::{RenderedFrame, RenderedImage};
 pub use renderer::Renderer;
-pub use show::Show;
 pub use view_options::ViewOptions;
 
 pub use glam;
@@ -94,7 +96,7 @@ mod readme {
     mod project {}
 }
 
-/// The pages of the book whose code is tested here; `docs/errors.md` is the core's.
+/// The pages of the book whose code is tested here; `docs/errors.md` is tested in the core.
 #[cfg(doctest)]
 mod book {
     #[doc = include_str!("../../../docs/graph.md")]

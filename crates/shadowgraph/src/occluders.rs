@@ -1,4 +1,4 @@
-//! A scene's triangles, as they stop light.
+//! A scene's triangles as occluders of rays.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use shadowgraph_scene::{
@@ -7,14 +7,14 @@ use shadowgraph_scene::{
 use shadowgraph_shadows::Error;
 use shadowgraph_shadows::rays::{self, ChannelTexture, Cut, Occluder, RayScene, Surface, Tint};
 
-/// The cutoff of surfaces whose material names none.
-const HALF: f32 = 0.5;
+/// The alpha cutoff of dithered surfaces.
+const DITHER_CUTOFF: f32 = 0.5;
 
-/// Makes the tree of a scene's triangles, relative to `origin_world`. What is alpha-cut has its holes, what is
-/// translucent its colours.
+/// Creates the acceleration structure of a scene's triangles, relative to `origin_world`. Alpha-tested surfaces have their holes,
+/// translucent surfaces their colours.
 ///
 /// # Errors
-/// More triangles than the tree can number.
+/// For more triangles than the acceleration structure can index.
 pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> {
     let mut textures = Textures::default();
     let mut occluders = Vec::new();
@@ -27,13 +27,14 @@ pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> 
         if material.caster_mode() == CasterMode::Off {
             continue;
         }
-        let skin = Skin::of(material, scene, &mut textures)?;
+        let occluder_material = OccluderMaterial::new(material, scene, &mut textures)?;
         for triangle in mesh.indices.chunks_exact(3) {
             let vertices =
                 [triangle[0], triangle[1], triangle[2]].map(|index| mesh.vertices.get(index as usize));
             let [Some(a), Some(b), Some(c)] = vertices else { continue };
             let corners = [a, b, c].map(|vertex| position(instance, vertex, origin_world));
-            let surface = skin.as_ref().map_or(Surface::Opaque, |skin| skin.surface([a, b, c]));
+            let surface =
+                occluder_material.as_ref().map_or(Surface::Opaque, |material| material.surface([a, b, c]));
             occluders.push(Occluder { corners, surface });
         }
     }
@@ -45,23 +46,23 @@ fn position(instance: &Instance, vertex: &Vertex, origin_world: DVec3) -> Vec3 {
     (instance.world_from_local.transform_point3(local) - origin_world).as_vec3()
 }
 
-/// What of a material its triangles need.
-struct Skin {
-    /// Below this alpha there are holes; none: light is coloured.
+/// The properties of a material that its triangles need.
+struct OccluderMaterial {
+    /// The alpha below which there are holes; `None` for a surface that colours light.
     cutoff: Option<f32>,
     color: Vec4,
     texture: Option<(u32, TextureRef)>,
 }
 
-impl Skin {
-    /// `None` if no light passes.
-    fn of(material: &Material, scene: &Scene, textures: &mut Textures) -> Result<Option<Self>, Error> {
+impl OccluderMaterial {
+    /// Returns `None` if no light passes.
+    fn new(material: &Material, scene: &Scene, textures: &mut Textures) -> Result<Option<Self>, Error> {
         let cutoff = match (material.caster_mode(), material.alpha) {
             (CasterMode::On | CasterMode::Off, _) => return Ok(None),
             (CasterMode::Tint, _) => None,
             (CasterMode::Clip, AlphaMode::Mask { cutoff }) => Some(cutoff),
-            // A ray meets something or not: what is dithered is cut where more than half of it is left out.
-            (CasterMode::Clip | CasterMode::Dither, _) => Some(HALF),
+            // A ray hits or misses: dithered surfaces have holes where more than half of the pixels are discarded.
+            (CasterMode::Clip | CasterMode::Dither, _) => Some(DITHER_CUTOFF),
         };
         let channels: &[usize] = if cutoff.is_none() { &[3, 0, 1, 2] } else { &[3] };
         let texture = match material.base_color_texture {
@@ -88,18 +89,18 @@ fn uv(vertex: &Vertex, used: &TextureRef) -> Vec2 {
     Vec2::new(x, y)
 }
 
-/// Channels of textures, each once.
+/// Channels of textures, without duplicates.
 #[derive(Default)]
 struct Textures {
-    known: Vec<(Key, u32)>,
+    known: Vec<(TextureKey, u32)>,
     all: Vec<ChannelTexture>,
 }
 
-/// An image, how it is read, and how many of its channels are.
-type Key = (usize, [rays::Wrap; 2], rays::Filter, usize);
+/// An image, how it is sampled, and the number of channels.
+type TextureKey = (usize, [rays::Wrap; 2], rays::Filter, usize);
 
 impl Textures {
-    /// Returns the index of the first of some channels of a texture; `None` if there is no such image.
+    /// Returns the index of the first channel of a texture; `None` if the image does not exist.
     fn get(&mut self, scene: &Scene, used: TextureRef, channels: &[usize]) -> Result<Option<u32>, Error> {
         let wrap = [used.sampler.wrap_u, used.sampler.wrap_v].map(|wrap| match wrap {
             Wrap::Repeat => rays::Wrap::Repeat,

@@ -1,43 +1,43 @@
-//! Files that are written whole or not at all.
+//! Files that are written completely or not at all.
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Why a file could not be written. The message is one line; nothing is left behind.
+/// An error while a file is written. The message is one line; no partial file is left.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutputError {
-    /// The path does not name a file.
-    #[error("{}: is not the name of a file", file.display())]
+    /// The path is not the name of a file.
+    #[error("{}: not a file name", file.display())]
     NotAFile {
         /// The path.
         file: PathBuf,
     },
-    /// The system refused.
+    /// The system returned an error.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {
         /// The file.
         file: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// The pixels do not make a picture.
-    #[error("{}: a picture of {width_px}x{height_px} pixels needs {expected} bytes, not {given}", file.display())]
+    /// The number of bytes does not match the size.
+    #[error("{}: an image of {width_px}x{height_px} pixels needs {expected} bytes, not {given}", file.display())]
     Pixels {
         /// The file.
         file: PathBuf,
-        /// Pixels from left to right.
+        /// Width, pixels.
         width_px: u32,
-        /// Pixels from top to bottom.
+        /// Height, pixels.
         height_px: u32,
-        /// Bytes that the size asks for.
+        /// Bytes that the size needs.
         expected: u64,
         /// Bytes that were given.
         given: u64,
     },
 }
 
-/// What a pixel of a PNG holds, 8 bit a channel, rows from the top without padding.
+/// The pixel format of a PNG: 8 bit per channel, rows from the top without padding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pixels {
     /// One channel.
@@ -61,19 +61,19 @@ impl Pixels {
     }
 }
 
-/// Writes a PNG. A missing folder is created; an older file is replaced only by a whole new one.
+/// Writes a PNG. Missing directories are created; an older file is replaced only by a complete new one.
 ///
 /// ```
 /// use shadowgraph::output::{Pixels, write_png};
-/// let folder = tempfile::tempdir()?;
-/// let file = folder.path().join("new/folder/grey.png");
+/// let directory = tempfile::tempdir()?;
+/// let file = directory.path().join("new/directory/grey.png");
 /// write_png(&file, 2, 1, Pixels::Grey, &[0, 255])?;
 /// assert!(file.is_file());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// When the bytes are not `width_px * height_px` pixels, or the system refuses.
+/// If the bytes are not `width_px * height_px` pixels, or the file cannot be written.
 pub fn write_png(
     file: &Path,
     width_px: u32,
@@ -86,7 +86,7 @@ pub fn write_png(
     if expected != given || given == 0 {
         return Err(OutputError::Pixels { file: file.to_owned(), width_px, height_px, expected, given });
     }
-    write_whole(file, &mut |out| {
+    write_atomically(file, &mut |out| {
         let encoder = image::codecs::png::PngEncoder::new(out);
         let done = image::ImageEncoder::write_image(encoder, bytes, width_px, height_px, pixels.color());
         done.map_err(|error| match error {
@@ -96,38 +96,39 @@ pub fn write_png(
     })
 }
 
-/// Writes text. A missing folder is created; an older file is replaced only by a whole new one.
+/// Writes text. Missing directories are created; an older file is replaced only by a complete new one.
 ///
 /// # Errors
-/// When the path names no file or the system refuses.
+/// If the path is not the name of a file, or the file cannot be written.
 pub fn write_text(file: &Path, text: &str) -> Result<(), OutputError> {
-    write_whole(file, &mut |out| out.write_all(text.as_bytes()))
+    write_atomically(file, &mut |out| out.write_all(text.as_bytes()))
 }
 
-/// Writes beside the file and renames at the end, so that nobody sees a part of it.
-fn write_whole(
+/// Writes a temporary file next to the file and renames it at the end, so that nobody reads a partial file.
+fn write_atomically(
     file: &Path,
     write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
     if file.file_name().is_none() || file.is_dir() {
         return Err(OutputError::NotAFile { file: file.to_owned() });
     }
-    let refused = |source: io::Error| OutputError::Write { file: file.to_owned(), source };
+    let error = |source: io::Error| OutputError::Write { file: file.to_owned(), source };
     let target = match std::fs::metadata(file) {
-        // A device or a pipe is written to, not replaced.
-        Ok(data) if !data.is_file() => return write_into_device(file, write).map_err(refused),
-        // A link stays a link.
-        Ok(_) => std::fs::canonicalize(file).map_err(refused)?,
+        // A device or a pipe is not replaced.
+        Ok(data) if !data.is_file() => return write_into_device(file, write).map_err(error),
+        // A symbolic link stays a link.
+        Ok(_) => std::fs::canonicalize(file).map_err(error)?,
         Err(_) => file.to_owned(),
     };
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(refused)?;
-    // Dropped on the way out, the temporary file is removed.
-    let mut temporary = temporary_file(folder).map_err(refused)?;
+    let directory =
+        target.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    std::fs::create_dir_all(directory).map_err(error)?;
+    // The temporary file is removed when it is dropped after an error.
+    let mut temporary = temporary_file(directory).map_err(error)?;
     let mut out = BufWriter::new(temporary.as_file_mut());
-    write(&mut out).and_then(|()| out.flush()).map_err(refused)?;
+    write(&mut out).and_then(|()| out.flush()).map_err(error)?;
     drop(out);
-    temporary.persist(&target).map_err(|error| refused(error.error))?;
+    temporary.persist(&target).map_err(|persist| error(persist.error))?;
     Ok(())
 }
 
@@ -137,13 +138,13 @@ fn write_into_device(file: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::R
     out.flush()
 }
 
-fn temporary_file(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+fn temporary_file(directory: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".shadowgraph-").suffix(".part");
-    // What is written is as readable as any other new file, by the user's mask.
+    // Permissions like those of any other new file, by the user's mask.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    builder.tempfile_in(directory)
 }
 
 #[cfg(test)]
@@ -151,59 +152,60 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use super::*;
 
-    fn entries(folder: &Path) -> Vec<String> {
-        let names = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
+    fn entries(directory: &Path) -> Vec<String> {
+        let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name());
         names.map(|name| name.into_string().unwrap()).collect()
     }
 
     #[test]
-    fn a_picture_reads_back_as_written() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("a/b/picture.png");
+    fn an_image_reads_back_as_written() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("a/b/image.png");
         write_png(&file, 1, 2, Pixels::GreyAlpha, &[10, 255, 20, 0]).unwrap();
-        let picture = image::open(&file).unwrap();
-        assert_eq!(picture.as_luma_alpha8().unwrap().as_raw(), &[10, 255, 20, 0]);
+        let read = image::open(&file).unwrap();
+        assert_eq!(read.as_luma_alpha8().unwrap().as_raw(), &[10, 255, 20, 0]);
     }
 
     #[test]
     fn an_older_file_is_replaced_and_nothing_else_is_left() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("plan.txt");
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("plan.txt");
         write_text(&file, "old and longer").unwrap();
         write_text(&file, "new").unwrap();
         assert_eq!(std::fs::read_to_string(&file).unwrap(), "new");
-        assert_eq!(entries(folder.path()), ["plan.txt"]);
+        assert_eq!(entries(directory.path()), ["plan.txt"]);
     }
 
     #[test]
-    fn a_failure_half_way_leaves_the_older_file_and_nothing_else() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("plan.txt");
+    fn an_error_half_way_keeps_the_older_file_and_leaves_nothing_else() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("plan.txt");
         write_text(&file, "old").unwrap();
-        let fail = write_whole(&file, &mut |out| {
+        let fail = write_atomically(&file, &mut |out| {
             out.write_all(b"half")?;
             Err(io::Error::other("the disk is full"))
         });
         assert!(fail.unwrap_err().to_string().ends_with("plan.txt: cannot be written: the disk is full"));
         assert_eq!(std::fs::read_to_string(&file).unwrap(), "old");
-        assert_eq!(entries(folder.path()), ["plan.txt"]);
+        assert_eq!(entries(directory.path()), ["plan.txt"]);
     }
 
     #[test]
     fn too_few_pixels_are_refused_before_anything_is_written() {
-        let folder = tempfile::tempdir().unwrap();
-        let error = write_png(&folder.path().join("a.png"), 2, 2, Pixels::Rgba, &[0; 15]).unwrap_err();
-        assert!(error.to_string().ends_with("a picture of 2x2 pixels needs 16 bytes, not 15"));
-        assert!(write_png(&folder.path().join("a.png"), 0, 2, Pixels::Rgba, &[]).is_err());
-        assert_eq!(entries(folder.path()), Vec::<String>::new());
+        let directory = tempfile::tempdir().unwrap();
+        let error = write_png(&directory.path().join("a.png"), 2, 2, Pixels::Rgba, &[0; 15]).unwrap_err();
+        assert!(error.to_string().ends_with("an image of 2x2 pixels needs 16 bytes, not 15"));
+        assert!(write_png(&directory.path().join("a.png"), 0, 2, Pixels::Rgba, &[]).is_err());
+        assert_eq!(entries(directory.path()), Vec::<String>::new());
     }
 
     #[test]
-    fn a_path_that_cannot_be_a_file_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let plain = folder.path().join("plain");
+    fn a_path_that_is_not_a_file_is_refused() {
+        let directory = tempfile::tempdir().unwrap();
+        let plain = directory.path().join("plain");
         write_text(&plain, "x").unwrap();
-        for path in [folder.path().to_owned(), folder.path().join(".."), PathBuf::new(), plain.join("below")]
+        for path in
+            [directory.path().to_owned(), directory.path().join(".."), PathBuf::new(), plain.join("below")]
         {
             assert!(write_text(&path, "x").is_err(), "{}", path.display());
         }
@@ -220,10 +222,10 @@ mod tests {
     #[test]
     fn a_link_stays_a_link_and_a_new_file_is_readable_by_the_group() {
         use std::os::unix::fs::PermissionsExt;
-        let folder = tempfile::tempdir().unwrap();
-        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        let directory = tempfile::tempdir().unwrap();
+        let (file, link) = (directory.path().join("file"), directory.path().join("link"));
         write_text(&file, "old").unwrap();
-        let ordinary = folder.path().join("ordinary");
+        let ordinary = directory.path().join("ordinary");
         std::fs::write(&ordinary, "").unwrap();
         let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&file), mode(&ordinary));

@@ -1,20 +1,20 @@
-//! What there is to choose from by name.
+//! Techniques and nodes by name.
 
 use shadowgraph_shadows::Techniques;
 
-use crate::nodes::Nodes;
+use crate::nodes::registry::Nodes;
 
-/// The techniques and kinds of nodes that options and pipeline files can name.
+/// The techniques and the kinds of nodes that options and pipeline files can name.
 #[derive(Clone)]
 pub struct Registry {
-    /// Ways of making shadows.
+    /// Shadow techniques.
     pub techniques: Techniques,
-    /// What pipelines are composed of.
+    /// Kinds of nodes.
     pub nodes: Nodes,
 }
 
 impl Registry {
-    /// Returns what Shadowgraph comes with.
+    /// Returns the built-in techniques and nodes.
     pub fn built_in() -> Self {
         Self { techniques: Techniques::built_in(), nodes: Nodes::built_in() }
     }

@@ -1,80 +1,86 @@
-//! Drawing a scene: what stays from frame to frame.
+//! Drawing a scene: the state that is kept from frame to frame.
 
+mod aov;
 mod draw;
 mod record;
-mod shown;
 
 pub(crate) use draw::nothing_read;
-use shown::lit_output;
+
+use aov::lit_output;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
-use shadowgraph_core::{Format, Graph, Plan};
-use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget};
+use shadowgraph_core::{Graph, Plan};
+use shadowgraph_lighting::{AmbientLight, KeyLight, LitTarget, LitOutput};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near};
 use shadowgraph_shadows::{ShadowTechnique, Unshadowed};
 
-use crate::options::Aov;
-use crate::pipelines::{Build, View, Wiring};
-use crate::{Error, Gpu, Method, Pipeline, SceneCasters, Show, ViewOptions, techniques};
+use crate::build_context::BuildContext;
+use crate::casters::SceneCasters;
+use crate::debug_blit::DebugBlit;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::options::aov::Aov;
+use crate::pipelines::instance::PipelineInstance;
+use crate::pipelines::pipeline::Pipeline;
+use crate::render_config::RenderConfig;
+use crate::render_view::RenderView;
+use crate::techniques;
+use crate::view_options::ViewOptions;
 
-/// Draws one scene by one method.
+/// Draws one scene with one configuration.
 pub struct Renderer {
     pub(crate) casters: SceneCasters,
     pub(crate) technique: Box<dyn ShadowTechnique>,
-    method: Method,
-    wiring: Box<dyn Wiring>,
-    show: Show,
-    output: LitOutput,
+    config: RenderConfig,
+    instance: Box<dyn PipelineInstance>,
+    debug_blit: DebugBlit,
+    lit_output: LitOutput,
     scene: Scene,
     aov: Aov,
-    /// Whose view shadows are made for, where that is not the one who looks.
+    /// The camera that shadows are fitted to, if it is not that of the view.
     pub(crate) shadow_camera: Option<Camera>,
-    /// A frame borrows the renderer while the graph compiles and records it.
+    /// Behind a mutex because a frame borrows the renderer while the graph compiles and executes it.
     graph: Mutex<Graph>,
 }
 
-/// The format of finished pictures.
-pub(crate) const PICTURE_FORMAT: Format = Format::Rgba8UnormSrgb;
-
 impl Renderer {
-    /// Uploads a scene and makes the pipelines for pictures of `aov`. GPU space is relative to a point near
+    /// Uploads a scene and builds the default pipeline for images of `aov`. GPU space is relative to a point near
     /// `eye` until a view moves it.
     ///
     /// # Errors
-    /// Names the limit of the device that the scene is over, or the light that `aov` asks for and that is not there.
+    /// For a scene that exceeds a limit of the device, and for an unknown light in `aov`.
     pub fn new(gpu: &Gpu, scene: Scene, eye: &Camera, aov: Aov) -> Result<Self, Error> {
-        Self::with(gpu, scene, eye, aov, Method::default())
+        Self::with_config(gpu, scene, eye, aov, RenderConfig::default())
     }
 
-    /// Is like [`new`](Self::new), by another method than the default one.
+    /// Creates a renderer like [`new`](Self::new), with another configuration than the default.
     ///
     /// # Errors
-    /// As `new`; for `raytraced` also a scene whose triangles or alpha textures do not fit the device's buffers; for a number
-    /// of samples that cannot be.
-    pub fn with(
+    /// As `new`, and for an unsupported sample count; for `raytraced` also for a scene whose triangles or alpha textures do not fit
+    /// the device's buffers.
+    pub fn with_config(
         gpu: &Gpu,
         scene: Scene,
         eye: &Camera,
         aov: Aov,
-        method: impl Into<Method>,
+        config: impl Into<RenderConfig>,
     ) -> Result<Self, Error> {
-        let mut method = method.into();
-        if !matches!(method.samples, 1 | 4) {
-            return Err(Error::Samples { samples: method.samples });
+        let mut config = config.into();
+        if !matches!(config.samples, 1 | 4) {
+            return Err(Error::SampleCount { samples: config.samples });
         }
         if aov != Aov::Color {
-            // Data is not mixed.
-            method.samples = 1;
+            // Data must not be averaged.
+            config.samples = 1;
         }
-        Self::on(gpu, scene, origin_near(eye.position_world()), aov, method)
+        Self::create(gpu, scene, origin_near(eye.position_world()), aov, config)
     }
 
-    /// Makes anew on another device all that this renderer has on its own, to go on after [`DeviceLost`]: the scene and what it
-    /// is drawn by stay, what passes kept from frame to frame is forgotten. Give up the lost device's [`Gpu`] for another
-    /// by [`Gpu::open`].
+    /// Recreates the renderer on another device after [`DeviceLost`]. Scene and configuration stay; what passes kept from frame to
+    /// frame is lost. Replace the [`Gpu`] of the lost device with a new one from [`Gpu::open`].
     ///
     /// ```
     /// use shadowgraph::options::Aov;
@@ -86,53 +92,59 @@ impl Renderer {
     /// let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color)?;
     /// let options = ViewOptions { camera, size_px: [64, 36], shadows: Default::default() };
     /// # gpu.device.destroy();
-    /// let mut drawn = renderer.draw(&gpu, &options);
-    /// if let Err(shadowgraph::Error::Graph(shadowgraph::core::Error::DeviceLost)) = drawn {
+    /// let mut result = renderer.draw(&gpu, &options);
+    /// if let Err(shadowgraph::Error::Graph(shadowgraph::core::Error::DeviceLost)) = result {
     ///     gpu = open()?;
-    ///     renderer.move_to(&gpu)?;
-    ///     drawn = renderer.draw(&gpu, &options);
+    ///     renderer.recreate_on(&gpu)?;
+    ///     result = renderer.draw(&gpu, &options);
     /// }
-    /// assert!(drawn.is_ok());
+    /// assert!(result.is_ok());
     /// # Ok::<(), shadowgraph::Error>(())
     /// ```
     ///
     /// # Errors
-    /// As [`with`](Self::with); the renderer is as it was then.
+    /// As [`with_config`](Self::with_config); the renderer is as it was then.
     ///
     /// [`DeviceLost`]: shadowgraph_core::Error::DeviceLost
-    pub fn move_to(&mut self, gpu: &Gpu) -> Result<(), Error> {
+    pub fn recreate_on(&mut self, gpu: &Gpu) -> Result<(), Error> {
         let (scene, origin_world) = (self.scene.clone(), self.casters.scene.origin_world());
-        let moved = Self::on(gpu, scene, origin_world, self.aov.clone(), self.method.clone())?;
-        *self = Self { shadow_camera: self.shadow_camera.take(), ..moved };
+        let created = Self::create(gpu, scene, origin_world, self.aov.clone(), self.config.clone())?;
+        *self = Self { shadow_camera: self.shadow_camera.take(), ..created };
         Ok(())
     }
 
-    fn on(gpu: &Gpu, scene: Scene, origin_world: DVec3, aov: Aov, method: Method) -> Result<Self, Error> {
-        gpu.checked(|| Self::unchecked(gpu, scene, origin_world, aov, method))
-    }
-
-    fn unchecked(
+    fn create(
         gpu: &Gpu,
         scene: Scene,
         origin_world: DVec3,
         aov: Aov,
-        method: Method,
+        config: RenderConfig,
+    ) -> Result<Self, Error> {
+        gpu.checked(|| Self::create_unchecked(gpu, scene, origin_world, aov, config))
+    }
+
+    fn create_unchecked(
+        gpu: &Gpu,
+        scene: Scene,
+        origin_world: DVec3,
+        aov: Aov,
+        config: RenderConfig,
     ) -> Result<Self, Error> {
         let device = &gpu.device;
-        let method = Method { pipeline: method.pipeline.on(gpu.adapter.device_type)?, ..method };
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique = techniques::make(&method, gpu, &scene, origin_world)?;
-        let (output, format) = lit_output(&aov, &scene.lights)?;
-        let lit = LitTarget { format, output, samples: method.samples };
+        let technique = techniques::create(&config, gpu, &scene, origin_world)?;
+        let (lit_output, format) = lit_output(&aov, &scene.lights)?;
+        let lit = LitTarget { format, output: lit_output, samples: config.samples };
         let layouts = uploaded.layouts();
-        let wiring = method.pipeline.make(&Build { device, layouts, technique: technique.as_ref(), lit })?;
+        let instance =
+            config.pipeline.build(&BuildContext { device, layouts, technique: technique.as_ref(), lit })?;
         Ok(Self {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
-            method,
-            wiring,
-            show: Show::new(device)?,
-            output,
+            config,
+            instance,
+            debug_blit: DebugBlit::new(device)?,
+            lit_output,
             scene,
             aov,
             shadow_camera: None,
@@ -145,18 +157,17 @@ impl Renderer {
         &self.scene
     }
 
-    /// Puts other lights in the place of the scene's, for instance to move the sun.
+    /// Replaces the scene's lights, for instance to move the sun.
     ///
     /// # Errors
-    /// If pictures show the visibility of a light that is not among them.
+    /// If the AOV is the visibility of a light that is not among them.
     pub fn set_lights(&mut self, lights: Vec<Light>) -> Result<(), Error> {
         lit_output(&self.aov, &lights)?;
         self.scene.lights = lights;
         Ok(())
     }
 
-    /// Makes shadows for this camera's view, whoever looks, so that they can be seen from outside; `None`: for the view that
-    /// is drawn.
+    /// Fits shadows to this camera instead of the view's, so that they can be seen from outside; `None` for the view's camera.
     pub fn set_shadow_camera(&mut self, camera: Option<Camera>) {
         self.shadow_camera = camera;
     }
@@ -166,47 +177,47 @@ impl Renderer {
         &self.casters
     }
 
-    /// Returns the pipeline that draws.
+    /// Returns the pipeline.
     pub fn pipeline(&self) -> &Pipeline {
-        &self.method.pipeline
+        &self.config.pipeline
     }
 
-    /// Returns how many samples each pixel has while it is drawn.
+    /// Returns the number of samples per pixel.
     pub fn samples(&self) -> u32 {
-        self.method.samples
+        self.config.samples
     }
 
-    /// Returns what pictures show.
+    /// Returns the AOV of the images.
     pub(crate) fn aov(&self) -> &Aov {
         &self.aov
     }
 
-    /// Compiles the frame of a view without drawing it. Any device will do, [`Gpu::noop`] too.
+    /// Compiles the frame of a view without drawing it. It works on any device, also on [`Gpu::noop`].
     ///
     /// # Errors
-    /// Settings out of range, or a camera that sees nothing.
+    /// For settings out of range, and for an invalid camera.
     pub fn plan(&self, options: &ViewOptions) -> Result<(Arc<Plan>, Vec<Unshadowed>), Error> {
         options.camera.check(options.aspect())?;
         let view = self.view(options, None);
         let mut frame = self.graph().frame();
         let output = self.add(&mut frame, &view)?;
-        frame.export_texture(&output.picture);
+        frame.export_texture(&output.image);
         Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
     }
 
-    /// Culls and sorts what the view sees. A colour picture goes to `target`.
+    /// Culls and sorts the geometry of a view. `target` is the target of a colour image.
     pub(crate) fn view<'v>(
         &'v self,
         options: &'v ViewOptions,
         target: Option<&'v wgpu::Texture>,
-    ) -> View<'v> {
+    ) -> RenderView<'v> {
         let gpu_scene = &self.casters.scene;
-        let mut seen = Vec::new();
-        gpu_scene.cull(&options.camera.frustum(options.aspect()).into(), &mut seen);
-        let draws = gpu_scene.draw_list(&seen, options.camera.position_world());
+        let mut visible = Vec::new();
+        gpu_scene.cull(&options.camera.frustum(options.aspect()).into(), &mut visible);
+        let draws = gpu_scene.draw_list(&visible, options.camera.position_world());
         let key = KeyLight::estimate(&self.scene.lights, gpu_scene.bounds());
-        View {
-            number: 0,
+        RenderView {
+            index: 0,
             options,
             draws,
             ambient_light: AmbientLight::for_key_light(key),
@@ -214,12 +225,12 @@ impl Renderer {
             casters: &self.casters,
             technique: self.technique.as_ref(),
             shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
-            output: self.output,
+            lit_output: self.lit_output,
             target: target.filter(|_| self.aov == Aov::Color),
         }
     }
 
-    /// Checks the camera, and moves GPU space to it.
+    /// Checks the camera, and moves the origin of GPU space to it.
     pub(crate) fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         options.camera.check(options.aspect())?;
         let origin_world = origin_near(options.camera.position_world());
@@ -227,12 +238,12 @@ impl Renderer {
             return Ok(());
         }
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
-        // It may hold positions.
-        self.technique = techniques::make(&self.method, gpu, &self.scene, origin_world)?;
+        // It may keep positions.
+        self.technique = techniques::create(&self.config, gpu, &self.scene, origin_world)?;
         Ok(())
     }
 
-    /// What outlives frames; hold it for no longer than one call.
+    /// Returns the graph; the guard must not outlive one call.
     pub(crate) fn graph(&self) -> MutexGuard<'_, Graph> {
         self.graph.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! Files in RON: what is wrong in them is told with the file, the line, the column and the way out.
+//! Files in RON: errors name the file, the line, the column and what is expected.
 
 use std::fmt;
 
@@ -8,49 +8,49 @@ use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use shadowgraph_core::did_you_mean;
 
-use crate::nodes::near_words;
-
-/// What is wrong in a file, and where: `file:line:column`, or the file alone.
+/// An error in a file, with its location: `file:line:column`, or the file alone.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Wrong {
-    pub(crate) place: String,
+pub(crate) struct ParseError {
+    pub(crate) location: String,
     pub(crate) problem: String,
 }
 
-impl fmt::Display for Wrong {
+impl fmt::Display for ParseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.problem)
+        write!(f, "{}: {}", self.location, self.problem)
     }
 }
 
-impl From<Wrong> for crate::Error {
-    fn from(Wrong { place, problem }: Wrong) -> Self {
-        Self::Cases { place, reason: problem }
+impl From<ParseError> for crate::Error {
+    fn from(ParseError { location, problem }: ParseError) -> Self {
+        Self::Cases { place: location, reason: problem }
     }
 }
 
-/// Reads a value from the text of a file; `Some` need not be written.
+/// Parses the text of a file; `Some` need not be written.
 ///
 /// # Errors
-/// What is wrong, and where.
-pub(crate) fn read<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<T, Wrong> {
-    read_at(text).map_err(|(offset, problem)| Wrong { place: place(file, text, offset), problem })
+/// What is wrong, and its location.
+pub(crate) fn parse_file<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<T, ParseError> {
+    parse_text(text)
+        .map_err(|(offset, problem)| ParseError { location: location(file, text, offset), problem })
 }
 
-/// Reads a value from a text.
+/// Parses a text.
 ///
 /// # Errors
-/// Where it is wrong, in bytes from the begin, and what is.
-pub(crate) fn read_at<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, (usize, String)> {
+/// The offset of the error in bytes, and what is wrong.
+pub(crate) fn parse_text<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, (usize, String)> {
     options().from_str(text).map_err(|error| match text.trim() {
-        "" => (0, "there is nothing in the file".to_owned()),
-        _ => told(text, &error),
+        "" => (0, "the file is empty".to_owned()),
+        _ => describe(text, &error),
     })
 }
 
-/// Where a text is wrong, in bytes from the begin, and what is.
-fn told(text: &str, error: &SpannedError) -> (usize, String) {
+/// Returns the offset of an error in bytes, and what is wrong.
+fn describe(text: &str, error: &SpannedError) -> (usize, String) {
     if error.code == ron::Error::Eof {
         return (text.trim_end().len(), problem(&error.code));
     }
@@ -60,26 +60,26 @@ fn told(text: &str, error: &SpannedError) -> (usize, String) {
     let name = before.rsplit(no_letter).next().unwrap_or_default();
     let word = after.split(no_letter).next().unwrap_or_default();
     use ron::Error as E;
-    let words = match &error.code {
+    let problem = match &error.code {
         E::ExpectedComma if after.starts_with('.') => problem(&E::ExpectedInteger),
         E::ExpectedComma if before.trim_end().ends_with('"') && !word.is_empty() => {
-            "a comma is missing here, or a quote before it".to_owned()
+            "expected a comma, or a quote before it".to_owned()
         }
-        E::ExpectedString if !word.is_empty() => format!("a text stands in quotes: \"{word}\""),
+        E::ExpectedString if !word.is_empty() => format!("expected a string in quotes: \"{word}\""),
         E::ExpectedStructLike | E::ExpectedNamedStructLike(_) if !name.is_empty() => {
-            format!("`{name}` needs its values in brackets here: {name}(...)")
+            format!("expected the values of `{name}` in parentheses: {name}(...)")
         }
         code => problem(code),
     };
-    (offset, one_line(&words))
+    (offset, one_line(&problem))
 }
 
-/// Where the parser stood, and from there the next thing that is no blank.
-fn offset_of_error(text: &str, at: ron::error::Position) -> usize {
-    let start: usize = text.split_inclusive('\n').take(at.line.saturating_sub(1)).map(str::len).sum();
+/// Returns the offset of the parser's position, or of the next character that is no blank.
+fn offset_of_error(text: &str, position: ron::error::Position) -> usize {
+    let start: usize = text.split_inclusive('\n').take(position.line.saturating_sub(1)).map(str::len).sum();
     let rest = text.get(start..).unwrap_or_default();
-    let column = rest.char_indices().nth(at.col.saturating_sub(1));
-    let offset = start + column.map_or(rest.len(), |(at, _)| at);
+    let column = rest.char_indices().nth(position.col.saturating_sub(1));
+    let offset = start + column.map_or(rest.len(), |(index, _)| index);
     let rest = text.get(offset..).unwrap_or_default();
     let blank = rest.len() - rest.trim_start().len();
     if blank < rest.len() { offset + blank } else { offset }
@@ -89,37 +89,42 @@ fn options() -> Options {
     Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
 }
 
-/// A place in words: file, line and column, from 1.
-pub(crate) fn place(file: &str, text: &str, offset: usize) -> String {
+/// Returns `file:line:column`, from 1.
+pub(crate) fn location(file: &str, text: &str, offset: usize) -> String {
     let before = text.get(..offset).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
     format!("{file}:{line}:{column}")
 }
 
-/// What is wrong with the value behind a path of fields and indices, such as `cases.0.views`. The place is that of the nearest
-/// value around it that stands in the text, or the file where that is none.
-pub(crate) fn wrong_field(file: &str, text: &str, path: &str, problem: impl fmt::Display) -> Wrong {
-    let place = match values(text, path).last() {
-        Some(value) => place(file, text, offset_of(text, value)),
+/// Returns an error about the value at a path of fields and indices, such as `cases.0.views`. If the text does not have the value,
+/// the location is that of the closest value around it, or the file.
+pub(crate) fn field_error(file: &str, text: &str, path: &str, problem: impl fmt::Display) -> ParseError {
+    let location = match values(text, path).last() {
+        Some(value) => location(file, text, offset_of(text, value)),
         None => file.to_owned(),
     };
-    Wrong { place, problem: one_line(&problem.to_string()) }
+    ParseError { location, problem: one_line(&problem.to_string()) }
 }
 
-/// What is wrong inside the value behind a path, which was read by itself with this error; `whose` begins the words.
-pub(crate) fn wrong_inside(file: &str, text: &str, path: &str, whose: &str, error: &SpannedError) -> Wrong {
+/// Returns an error inside the value at a path, which was parsed separately with this error; `owner` begins the message.
+pub(crate) fn nested_error(
+    file: &str,
+    text: &str,
+    path: &str,
+    owner: &str,
+    error: &SpannedError,
+) -> ParseError {
     let Some(value) = values(text, path).pop() else {
-        return Wrong {
-            place: file.to_owned(),
-            problem: one_line(&format!("{whose}: {}", problem(&error.code))),
-        };
+        let problem = one_line(&format!("{owner}: {}", problem(&error.code)));
+        return ParseError { location: file.to_owned(), problem };
     };
-    let (offset, problem) = told(value.get_ron(), error);
-    Wrong { place: place(file, text, start_of(text, value) + offset), problem: format!("{whose}: {problem}") }
+    let (offset, problem) = describe(value.get_ron(), error);
+    let location = location(file, text, start_of(text, value) + offset);
+    ParseError { location, problem: format!("{owner}: {problem}") }
 }
 
-/// The values behind a path of fields and indices, from the outermost to the innermost that stands in the text.
+/// Returns the values along a path of fields and indices, from the outermost to the innermost that the text has.
 fn values<'t>(text: &'t str, path: &str) -> Vec<&'t RawValue> {
     let mut found: Vec<&RawValue> = Vec::new();
     for field in path.split('.') {
@@ -131,25 +136,25 @@ fn values<'t>(text: &'t str, path: &str) -> Vec<&'t RawValue> {
     found
 }
 
-/// The value behind a path of fields and indices, as it stands in a text; `None` where it does not.
+/// Returns the text of the value at a path of fields and indices; `None` if there is none.
 pub(crate) fn value<'t>(text: &'t str, path: &str) -> Option<&'t str> {
     let found = values(text, path);
     (found.len() == path.split('.').count()).then(|| found.last().map(|value| value.get_ron().trim()))?
 }
 
-/// Where a raw part of a text begins, in bytes, blanks before the value included. Raw values are slices of the text that they were
-/// read from.
+/// Returns the offset in bytes of a raw value, including blanks before it. Raw values are slices of the text that they were parsed
+/// from.
 pub(crate) fn start_of(text: &str, raw: &RawValue) -> usize {
     (raw.get_ron().as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
 }
 
-/// Where the value of a raw part of a text begins, in bytes.
+/// Returns the offset in bytes of a raw value, after the blanks before it.
 pub(crate) fn offset_of(text: &str, raw: &RawValue) -> usize {
     let inner = raw.get_ron();
     start_of(text, raw) + inner.len() - inner.trim_start().len()
 }
 
-/// The fields of a record, the entries of a map with names, or the elements of a list by index.
+/// The fields of a struct, the entries of a map, or the elements of a list by index.
 struct Fields<'t>(Vec<(String, &'t RawValue)>);
 
 impl<'de: 't, 't> Deserialize<'de> for Fields<'t> {
@@ -182,7 +187,7 @@ impl<'de: 't, 't> Deserialize<'de> for Fields<'t> {
     }
 }
 
-/// The name of a field, or a text.
+/// The name of a field, or a string.
 struct Name(String);
 
 impl<'de> Deserialize<'de> for Name {
@@ -203,63 +208,54 @@ impl<'de> Deserialize<'de> for Name {
     }
 }
 
-/// The parser's words, for people who write files and not Rust.
+/// Returns the parser's message, for people who write files and not Rust.
 fn problem(error: &ron::Error) -> String {
     use ron::Error as E;
-    let words = match error {
+    let problem = match error {
         E::NoSuchStructField { found, expected, .. } => {
-            return format!(
-                "there is no field `{found}` here{}",
-                near_words(found, expected.iter().copied())
-            );
+            return format!("unknown field `{found}`{}", did_you_mean(found, expected.iter().copied()));
         }
         E::NoSuchEnumVariant { found, expected, .. } => {
-            return format!("there is no `{found}` here{}", near_words(found, expected.iter().copied()));
+            return format!("unknown value `{found}`{}", did_you_mean(found, expected.iter().copied()));
         }
-        E::MissingStructField { field, .. } => return format!("the field `{field}` is missing here"),
-        E::DuplicateStructField { field, .. } => return format!("the field `{field}` stands here twice"),
-        E::Eof => "the file ends too early: close what is open, with ), ], } or \"",
-        E::ExpectedComma => "a comma is missing here, or a closing bracket",
-        E::ExpectedMapColon => "a colon is missing here, between a name and its value",
-        E::ExpectedArray => "a list has to stand here, such as [1, 2]",
-        E::ExpectedArrayEnd => "the list is not closed: ] is missing here",
-        E::ExpectedMap => "a map has to stand here, such as {\"name\": 1}",
-        E::ExpectedMapEnd => "the map is not closed: } is missing here",
+        E::MissingStructField { field, .. } => return format!("missing field `{field}`"),
+        E::DuplicateStructField { field, .. } => return format!("duplicate field `{field}`"),
+        E::Eof => "unexpected end of the file; expected ), ], } or \"",
+        E::ExpectedComma => "expected a comma or a closing bracket",
+        E::ExpectedMapColon => "expected a colon between a name and its value",
+        E::ExpectedArray => "expected a list, such as [1, 2]",
+        E::ExpectedArrayEnd => "expected ] at the end of the list",
+        E::ExpectedMap => "expected a map, such as {\"name\": 1}",
+        E::ExpectedMapEnd => "expected } at the end of the map",
         E::ExpectedStructLike | E::ExpectedNamedStructLike(_) | E::ExpectedUnit => {
-            "a record has to stand here, such as (field: 1)"
+            "expected a struct in parentheses, such as (field: 1)"
         }
-        E::ExpectedStructLikeEnd | E::ExpectedOptionEnd => "a record is not closed: ) is missing here",
-        E::ExpectedBoolean => "true or false has to stand here",
-        E::ExpectedInteger | E::InvalidIntegerDigit { .. } => "a whole number has to stand here, such as 4",
-        E::ExpectedFloat | E::UnderscoreAtBeginning | E::FloatUnderscore => {
-            "a number has to stand here, such as 0.5"
-        }
-        E::IntegerOutOfBounds => {
-            "the number is too large or too small: a whole number from 0 on has to stand here"
-        }
-        E::ExpectedString => "a text in quotes has to stand here, such as \"name\"",
-        E::ExpectedStringEnd => "the text is not closed: a quote is missing",
+        E::ExpectedStructLikeEnd | E::ExpectedOptionEnd => "expected ) at the end of a struct",
+        E::ExpectedBoolean => "expected true or false",
+        E::ExpectedInteger | E::InvalidIntegerDigit { .. } => "expected an integer, such as 4",
+        E::ExpectedFloat | E::UnderscoreAtBeginning | E::FloatUnderscore => "expected a number, such as 0.5",
+        E::IntegerOutOfBounds => "the integer is too large, or negative",
+        E::ExpectedString => "expected a string in quotes, such as \"name\"",
+        E::ExpectedStringEnd => "expected a quote at the end of the string",
         E::ExpectedIdentifier | E::InvalidIdentifier(_) | E::SuggestRawIdentifier(_) => {
-            "a name without quotes has to stand here, such as count in (count: 4), On(\"bloom\"), or Tent5"
+            "expected a name without quotes, such as count in (count: 4), On(\"bloom\"), or Tent5"
         }
-        E::ExpectedDifferentStructName { .. } => "a record in brackets has to stand here, such as (field: 1)",
-        E::TrailingCharacters => {
-            "there is more behind the end of the file's value: is a bracket closed too early?"
-        }
-        E::UnclosedBlockComment => "the comment is not closed: */ is missing",
-        E::UnexpectedChar('#') => "'#' cannot stand here; comments begin with //",
-        E::UnexpectedChar('$') => "'$' cannot stand here; \"$name\" in quotes stands for a parameter",
-        E::UnexpectedChar(found) => return format!("{found:?} cannot stand here"),
-        E::ExceededRecursionLimit => "the brackets are nested too deep",
+        E::ExpectedDifferentStructName { .. } => "expected a struct in parentheses, such as (field: 1)",
+        E::TrailingCharacters => "unexpected text after the end of the value: is a bracket closed too early?",
+        E::UnclosedBlockComment => "expected */ at the end of the comment",
+        E::UnexpectedChar('#') => "unexpected '#'; comments begin with //",
+        E::UnexpectedChar('$') => "unexpected '$'; write a parameter in quotes, \"$name\"",
+        E::UnexpectedChar(found) => return format!("unexpected {found:?}"),
+        E::ExceededRecursionLimit => "brackets are nested too deep",
         other => return other.to_string(),
     };
-    words.to_owned()
+    problem.to_owned()
 }
 
-/// Words in one line, whatever stands in the names that they quote.
-pub(crate) fn one_line(words: &str) -> String {
+/// Escapes control characters, so that a message stays in one line.
+pub(crate) fn one_line(text: &str) -> String {
     let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    words.chars().map(escaped).collect()
+    text.chars().map(escaped).collect()
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
-//! Drawing the surfaces that a view sees.
+//! The pass that draws the visible surfaces of a view.
 
 use shadowgraph_core::{Format, Frame, Texture};
 use shadowgraph_lighting::{Forward, Geometry, LitOutput, LitTarget, Prepass, ViewBuffers};
 use shadowgraph_scene::gpu::MaterialLayouts;
 use shadowgraph_shadows::{NoShadows, ShadowOutputs, SurfaceBuffers};
 
-use crate::Error;
+use crate::error::Error;
 
 /// The pass that draws positions and geometric normals.
 pub(crate) struct SurfaceDrawer {
@@ -20,7 +20,7 @@ impl SurfaceDrawer {
         Ok(Self { prepass: Prepass::new(device, layouts, 1)?, forward })
     }
 
-    /// Adds the pass, behind a prepass that drew `depth`.
+    /// Adds the pass after a prepass that drew `depth`.
     pub(crate) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -32,9 +32,9 @@ impl SurfaceDrawer {
         Ok(self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])?)
     }
 
-    /// Adds a prepass of its own and the pass for a technique that reads surfaces: where the picture's prepass has more
-    /// samples, or there is none.
-    pub(crate) fn screen_alone<'f>(
+    /// Adds a separate prepass and the pass for a technique that reads surfaces, if the view's prepass has several samples or there
+    /// is none.
+    pub(crate) fn screen_with_prepass<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,

@@ -1,25 +1,25 @@
-//! What one view needs.
+//! Options of a view.
 
 use shadowgraph_scene::{Camera, Scene, visible_instances};
 use shadowgraph_shadows::ShadowSettings;
 
-use crate::options::ShadowDistance;
+use crate::options::distance::ShadowDistance;
 
-/// What a view shows, and how.
+/// The options of a view.
 #[derive(Clone, Debug)]
 pub struct ViewOptions {
-    /// Who looks.
+    /// The camera.
     pub camera: Camera,
-    /// Width and height of the picture, pixels.
+    /// Width and height of the image, pixels.
     pub size_px: [u32; 2],
-    /// What the user chose of shadows. They reach 150 m by default; the program sets another distance, see
+    /// The shadow settings. The default shadow distance is 150 m; the program sets another one by
     /// [`with_shadow_distance`](Self::with_shadow_distance).
     pub shadows: ShadowSettings,
 }
 
 impl ViewOptions {
-    /// Sets how far shadows reach. `Auto` is so far that all that is seen of the scene lies before their fade, at
-    /// most the far plane, and what the program does by default.
+    /// Sets the shadow distance. `Auto`, the program's default, is so large that the fade begins behind the visible part of the
+    /// scene, and at most the far plane.
     pub fn with_shadow_distance(mut self, distance: ShadowDistance, scene: &Scene) -> Self {
         self.shadows.distance_m = match distance {
             ShadowDistance::Metres(metres) => metres as f32,
@@ -35,8 +35,8 @@ impl ViewOptions {
     fn automatic_distance_m(&self, scene: &Scene) -> f64 {
         let bounds: Vec<_> = (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect();
         let view_from_world = self.camera.view_from_world();
-        let seen = visible_instances(scene, &bounds, &self.camera.frustum(self.aspect()));
-        let corners = seen.iter().flat_map(|&instance| bounds[instance as usize].corners());
+        let visible = visible_instances(scene, &bounds, &self.camera.frustum(self.aspect()));
+        let corners = visible.iter().flat_map(|&instance| bounds[instance as usize].corners());
         let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
         let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
         let near = self.camera.near();

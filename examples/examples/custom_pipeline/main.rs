@@ -9,10 +9,10 @@ mod vignette;
 
 use script::Script;
 use shadowgraph::options::Aov;
-use shadowgraph::pipelines::{Choices, Pipeline};
+use shadowgraph::pipelines::{Parameters, Pipeline};
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::EVSM;
-use shadowgraph::{Gpu, Method, Registry, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, main_of};
 use std::process::ExitCode;
 use vignette::Vignette;
@@ -33,14 +33,15 @@ impl Example for Mine {
         let Registry { mut nodes, techniques } = Registry::built_in();
         nodes.register::<Vignette>()?;
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/custom_pipeline/pipeline.ron");
-        let file = Pipeline::load(path.as_ref(), &nodes, &techniques, &Choices::default())?;
+        let file = Pipeline::load(path.as_ref(), &nodes, &techniques, &Parameters::default())?;
         let script = Pipeline::script("script", |build| Ok(Box::new(Script::new(build)?)));
-        let script = Method { technique: Some(EVSM.into()), ..Method::from(script) };
+        let script = RenderConfig { technique: Some(EVSM.into()), ..RenderConfig::from(script) };
         let scene = demo_scene();
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
-        let renderer =
-            |method: Method| Renderer::with(gpu, scene.clone(), &options.camera, Aov::Color, method);
+        let renderer = |config: RenderConfig| {
+            Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Color, config)
+        };
         let mut renderers = [renderer(script)?, renderer(file.into())?];
         match word {
             None | Some("file") => {}

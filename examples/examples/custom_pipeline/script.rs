@@ -1,12 +1,12 @@
 //! The pipeline of `pipeline.ron` in Rust.
 
 use crate::vignette::Vignette;
-use shadowgraph::Error;
 use shadowgraph::core::{Format, Frame};
 use shadowgraph::lighting::post::{Bloom, Jitters, Occlusion, OcclusionSettings, Sky, SkySettings, Temporal};
 use shadowgraph::lighting::{Forward, Tonemap};
 use shadowgraph::nodes::GeometryNode;
-use shadowgraph::pipelines::{Build, Output, View, Wiring};
+use shadowgraph::pipelines::{PipelineInstance, PipelineOutput};
+use shadowgraph::{BuildContext, Error, RenderView};
 
 /// What the pipeline keeps from frame to frame; each frame is one call per step.
 pub(crate) struct Script {
@@ -22,30 +22,34 @@ pub(crate) struct Script {
 }
 
 impl Script {
-    pub(crate) fn new(build: &Build<'_>) -> Result<Self, Error> {
+    pub(crate) fn new(context: &BuildContext<'_>) -> Result<Self, Error> {
         Ok(Self {
             jitters: Jitters::default(),
-            geometry: GeometryNode::new(build)?,
-            occlusion: Occlusion::new(build.device)?,
-            lighting: Forward::new(build.device, build.layouts, build.technique, build.lit)?,
-            sky: Sky::new(build.device)?,
-            temporal: Temporal::new(build.device)?,
-            bloom: Bloom::new(build.device)?,
-            vignette: Vignette::with(0.6),
-            tonemap: Tonemap::new(build.device)?,
+            geometry: GeometryNode::new(context)?,
+            occlusion: Occlusion::new(context.device)?,
+            lighting: Forward::new(context.device, context.layouts, context.technique, context.lit)?,
+            sky: Sky::new(context.device)?,
+            temporal: Temporal::new(context.device)?,
+            bloom: Bloom::new(context.device)?,
+            vignette: Vignette::with_strength(0.6),
+            tonemap: Tonemap::new(context.device)?,
         })
     }
 }
 
-impl Wiring for Script {
-    fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f View<'f>) -> Result<Output<'f>, Error> {
-        let (geometry, camera) = (view.geometry(), (view.number, &view.options.camera));
+impl PipelineInstance for Script {
+    fn add<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f RenderView<'f>,
+    ) -> Result<PipelineOutput<'f>, Error> {
+        let (geometry, camera) = (view.geometry(), (view.index, &view.options.camera));
         let light =
             |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
 
-        let buffers = view.uniforms().jittered(self.jitters.next(view.number)).upload(frame);
+        let buffers = view.uniforms().jittered(self.jitters.next(view.index)).upload(frame);
         let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
-        let shadows = view.shadows(frame, screen.as_ref())?;
+        let shadows = view.add_shadows(frame, screen.as_ref())?;
         let occluded = frame.node("occlusion", |frame| {
             self.occlusion.add_to(frame, &buffers, &depth, &OcclusionSettings::default())
         });
@@ -66,7 +70,7 @@ impl Wiring for Script {
             self.vignette.draw(frame, &bloomed, &mut target);
             target
         });
-        let picture = view.tonemapped(frame, &self.tonemap, &darker);
-        Ok(Output { picture, light: Some(lit), depth: Some(depth), view: Some(buffers), shadows })
+        let image = view.add_tonemap(frame, &self.tonemap, &darker);
+        Ok(PipelineOutput { image, light: Some(lit), depth: Some(depth), view: Some(buffers), shadows })
     }
 }

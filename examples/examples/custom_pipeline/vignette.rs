@@ -1,9 +1,8 @@
 //! A node of one's own, for files and for scripts.
 
-use shadowgraph::Error;
 use shadowgraph::core::{Format, Frame, FullscreenShader, Texture};
 use shadowgraph::nodes::{Node, Port, Ports, Setting, SettingType, Settings};
-use shadowgraph::pipelines::{Build, View};
+use shadowgraph::{BuildContext, Error, RenderView};
 
 /// Darkens the corners of the picture.
 pub(crate) struct Vignette {
@@ -19,14 +18,14 @@ impl Node for Vignette {
     const SETTINGS: &'static [Setting] =
         &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "how dark corners are")];
 
-    fn new(_build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        Ok(Self::with(settings.number("strength")?))
+    fn new(_context: &BuildContext<'_>, settings: &Settings) -> Result<Self, Error> {
+        Ok(Self::with_strength(settings.number("strength")?))
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let mut darker = ports.create("light", frame, view.texture_desc(Format::Rgba16Float));
@@ -37,7 +36,7 @@ impl Node for Vignette {
 }
 
 impl Vignette {
-    pub(crate) fn with(strength: f32) -> Self {
+    pub(crate) fn with_strength(strength: f32) -> Self {
         Self { shader: FullscreenShader::wgsl("vignette", include_str!("vignette.wgsl")), strength }
     }
 

@@ -3,10 +3,10 @@
 use crate::stage::{camera, cube_on_floor, draw, gpu, sun, view};
 use glam::DVec3;
 use shadowgraph::options::{Aov, ShadowDistance};
-use shadowgraph::pipelines::Choices;
+use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::Scene;
 use shadowgraph::scene::demo::demo_scene;
-use shadowgraph::{Error, Method, Picture, Pipeline, Registry, Renderer, ViewOptions};
+use shadowgraph::{Error, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
 use std::collections::HashSet;
 
 fn cube() -> (Scene, ViewOptions) {
@@ -15,9 +15,9 @@ fn cube() -> (Scene, ViewOptions) {
     (scene, view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0))
 }
 
-fn cube_picture(aov: Aov) -> Option<Picture> {
+fn cube_picture(aov: Aov) -> Option<RenderedImage> {
     let (scene, options) = cube();
-    Some(draw(gpu()?, scene, aov, &options).picture)
+    Some(draw(gpu()?, scene, aov, &options).image)
 }
 
 /// Pixels of the picture: sky, sunlit floor, shadowed floor and the top of the cube.
@@ -57,7 +57,7 @@ fn each_cascade_has_its_own_colour() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
     let options = view(camera(DVec3::new(0.0, 1.0, 18.0), DVec3::ZERO), 40.0);
-    let picture = draw(gpu, scene, Aov::Cascade, &options).picture;
+    let picture = draw(gpu, scene, Aov::Cascade, &options).image;
     let hue = |p: &[u8]| (p[0] > p[1], p[1] > p[2], p[0] > p[2]);
     let hues: HashSet<_> = picture.rgba8.chunks_exact(4).filter(|p| p[0] != p[1]).map(hue).collect();
     assert!(hues.len() >= 3, "{hues:?}");
@@ -79,7 +79,7 @@ fn the_atlas_output_shows_both_maps_and_runs_only_their_passes() {
     let greys = |range: std::ops::Range<u32>| -> HashSet<_> {
         range
             .flat_map(|x| (0..180).map(move |y| (x, y)))
-            .map(|(x, y)| drawn.picture.pixel(x, y).unwrap()[0])
+            .map(|(x, y)| drawn.image.pixel(x, y).unwrap()[0])
             .collect()
     };
     assert!(greys(0..160).len() > 20 && greys(160..320).len() > 20, "something is drawn into each map");
@@ -89,15 +89,15 @@ fn the_atlas_output_shows_both_maps_and_runs_only_their_passes() {
 fn any_texture_of_the_graph_can_be_shown_and_the_error_for_an_unknown_one_lists_them() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = cube();
-    let lit = draw(gpu, scene, Aov::Texture("lit".into()), &options).picture;
+    let lit = draw(gpu, scene, Aov::Texture("lit".into()), &options).image;
     assert_ne!(lit.pixel(TOP.0, TOP.1), lit.pixel(SKY.0, SKY.1));
     for (name, hint) in
-        [("visibilty:0", "did you mean `visibility:0`?"), ("?", "there is: color, visibility:0, ")]
+        [("visibilty:0", "did you mean `visibility:0`?"), ("?", "expected one of: color, visibility:0, ")]
     {
         let (scene, options) = cube();
         let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Texture(name.into())).unwrap();
         let error = renderer.draw(gpu, &options).unwrap_err();
-        assert!(matches!(error, Error::NoTexture { .. }), "{error}");
+        assert!(matches!(error, Error::UnknownTexture { .. }), "{error}");
         assert!(error.to_string().contains(hint), "{error}");
     }
 }
@@ -108,15 +108,16 @@ fn integer_textures_are_refused_and_single_channel_textures_are_grey() {
     let draw = |name: &str, pipeline: Pipeline| {
         let (scene, options) = cube();
         let aov = Aov::Texture(name.into());
-        let mut renderer = Renderer::with(gpu, scene, &options.camera, aov, Method::from(pipeline)).unwrap();
-        renderer.draw(gpu, &options).map(|drawn| drawn.picture)
+        let mut renderer =
+            Renderer::with_config(gpu, scene, &options.camera, aov, RenderConfig::from(pipeline)).unwrap();
+        renderer.draw(gpu, &options).map(|drawn| drawn.image)
     };
     let error = draw("normals", Pipeline::deferred()).unwrap_err().to_string();
     assert!(error.starts_with("--aov normals: Rg32Uint holds whole numbers"), "{error}");
     let everything = shadowgraph_tests::repository().join("docs/everything.ron");
     let Registry { nodes, techniques } = Registry::built_in();
-    let choices = Choices { parameters: vec![("ssao".into(), true.into())], ..Choices::default() };
-    let pipeline = Pipeline::load(&everything, &nodes, &techniques, &choices).unwrap();
+    let parameters = Parameters(vec![("ssao".into(), true.into())]);
+    let pipeline = Pipeline::load(&everything, &nodes, &techniques, &parameters).unwrap();
     let occlusion = draw("occlusion", pipeline).unwrap();
     assert!(occlusion.rgba8.chunks(4).all(|texel| texel[0] == texel[1] && texel[1] == texel[2]));
 }
@@ -135,7 +136,7 @@ fn rendering_a_view_twice_gives_equal_images_and_plans() {
     let (scene, options) = cube();
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color).unwrap();
     let (first, second) = (renderer.draw(gpu, &options).unwrap(), renderer.draw(gpu, &options).unwrap());
-    assert_eq!(first.picture, second.picture);
+    assert_eq!(first.image, second.image);
     assert_eq!(first.plan, second.plan);
 }
 
@@ -151,7 +152,7 @@ fn shadows_fade_out_at_the_shadow_distance() {
     );
     scene.add_light(sun(DVec3::NEG_Y));
     let options = view(camera(DVec3::new(0.0, 5.0, 18.0), DVec3::ZERO), 16.0);
-    let picture = draw(gpu, scene, Aov::Visibility(0), &options).picture;
+    let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
     let column: Vec<u8> = (0..180)
         .rev()
         .map(|y| picture.pixel(160, y).unwrap())

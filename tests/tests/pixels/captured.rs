@@ -4,18 +4,18 @@ use shadowgraph::core::TexelValues;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::{ShadowSettings, Techniques};
-use shadowgraph::{Inspected, Renderer, ViewOptions};
+use shadowgraph::{InspectedFrame, Renderer, ViewOptions};
 
 use crate::stage::gpu;
 
-fn inspect(technique: &str) -> Option<(Inspected, shadowgraph::Drawn)> {
+fn inspect(technique: &str) -> Option<(InspectedFrame, shadowgraph::RenderedFrame)> {
     let gpu = gpu()?;
     let scene = demo_scene();
     let camera = scene.cameras[0].clone();
     let shadows = ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() };
     let options = ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows };
     let technique = Techniques::built_in().find(technique).unwrap();
-    let new = || Renderer::with(gpu, scene.clone(), &camera, Aov::Color, technique).unwrap();
+    let new = || Renderer::with_config(gpu, scene.clone(), &camera, Aov::Color, technique).unwrap();
     let inspected = new().inspect(gpu, &options).unwrap();
     Some((inspected, new().draw(gpu, &options).unwrap()))
 }
@@ -24,15 +24,15 @@ fn inspect(technique: &str) -> Option<(Inspected, shadowgraph::Drawn)> {
 fn a_captured_frame_has_the_plan_and_the_pixels_of_an_uncaptured_frame() {
     for technique in ["pcf", "evsm", "sdsm", "pcf+contact"] {
         let Some((inspected, drawn)) = inspect(technique) else { return };
-        assert_eq!(inspected.drawn.plan, drawn.plan, "{technique}");
-        assert_eq!(inspected.drawn.picture, drawn.picture, "{technique}");
-        assert!(!inspected.drawn.times.is_empty() && !inspected.pictures.is_empty());
+        assert_eq!(inspected.frame.plan, drawn.plan, "{technique}");
+        assert_eq!(inspected.frame.image, drawn.image, "{technique}");
+        assert!(!inspected.frame.times.is_empty() && !inspected.textures.is_empty());
         // What the capture itself drew, to the texel where all of them are kept.
         let picture = drawn.plan.find_resource("picture").unwrap();
-        let captured = inspected.pictures.iter().rfind(|shot| shot.resource == picture).unwrap();
+        let captured = inspected.textures.iter().rfind(|shot| shot.resource == picture).unwrap();
         let texels = captured.texels.as_ref().unwrap();
-        assert_eq!(texels.size_px, drawn.picture.size_px);
-        assert_eq!(texels.values, TexelValues::Bytes(drawn.picture.rgba8.clone()), "{technique}");
+        assert_eq!(texels.size_px, drawn.image.size_px);
+        assert_eq!(texels.values, TexelValues::Bytes(drawn.image.rgba8.clone()), "{technique}");
     }
 }
 

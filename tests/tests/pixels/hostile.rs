@@ -6,7 +6,7 @@ use shadowgraph::Pipeline;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Camera, Light, LightKind, Projection, Scene};
 use shadowgraph::shadows::{AtlasTiles, NONE, PCF, RAYTRACED, ShadowSettings, UnshadowedReason};
-use shadowgraph::{Drawn, Gpu, Method, Renderer, ViewOptions};
+use shadowgraph::{Gpu, RenderConfig, RenderedFrame, Renderer, ViewOptions};
 
 fn eye() -> Camera {
     camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0))
@@ -30,18 +30,18 @@ struct Ways(Vec<Renderer>);
 
 impl Ways {
     fn new(gpu: &Gpu) -> Self {
-        let ways: [Method; 5] = [
+        let ways: [RenderConfig; 5] = [
             PCF.into(),
             Pipeline::screen_shadows().into(),
             Pipeline::minimal().into(),
             RAYTRACED.into(),
             NONE.into(),
         ];
-        let renderer = |way| Renderer::with(gpu, lit_by(Vec::new()), &eye(), Aov::Color, way).unwrap();
+        let renderer = |way| Renderer::with_config(gpu, lit_by(Vec::new()), &eye(), Aov::Color, way).unwrap();
         Self(ways.map(renderer).into())
     }
 
-    fn draw(&mut self, gpu: &Gpu, lights: &[Light], options: &ViewOptions) -> Vec<Drawn> {
+    fn draw(&mut self, gpu: &Gpu, lights: &[Light], options: &ViewOptions) -> Vec<RenderedFrame> {
         let draw = |renderer: &mut Renderer| {
             renderer.set_lights(lights.to_vec()).unwrap();
             renderer.draw(gpu, options).unwrap()
@@ -51,13 +51,13 @@ impl Ways {
 }
 
 /// How many pixels differ by more than a quarter of the way to white.
-fn different(a: &Drawn, b: &Drawn) -> usize {
-    let pixels = a.picture.rgba8.chunks_exact(4).zip(b.picture.rgba8.chunks_exact(4));
+fn different(a: &RenderedFrame, b: &RenderedFrame) -> usize {
+    let pixels = a.image.rgba8.chunks_exact(4).zip(b.image.rgba8.chunks_exact(4));
     pixels.filter(|(a, b)| (0..3).any(|i| a[i].abs_diff(b[i]) > 64)).count()
 }
 
 /// All but the last are like ray tracing, that is like the one before the last.
-fn agree(drawn: &[Drawn]) {
+fn agree(drawn: &[RenderedFrame]) {
     let [others @ .., truth, _] = drawn else { panic!("five ways") };
     for other in others {
         let wrong = different(other, truth);
@@ -70,8 +70,8 @@ fn a_scene_without_lights_renders_without_shadow_maps() {
     let Some(gpu) = gpu() else { return };
     let drawn = Ways::new(gpu).draw(gpu, &[], &options());
     assert!(drawn.iter().all(|drawn| drawn.unshadowed.is_empty()));
-    assert!(drawn.iter().all(|other| other.picture == drawn[0].picture));
-    assert!(drawn[0].picture.rgba8.chunks_exact(4).any(|rgba| rgba[0] > 20), "all around there is light");
+    assert!(drawn.iter().all(|other| other.image == drawn[0].image));
+    assert!(drawn[0].image.rgba8.chunks_exact(4).any(|rgba| rgba[0] > 20), "all around there is light");
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn invalid_lights_contribute_nothing() {
         let together = ways.draw(gpu, &[broken, good.clone()], &options());
         for (alone, together) in alone.iter().zip(&together) {
             assert!(
-                alone.picture == together.picture,
+                alone.image == together.image,
                 "light {index}: {} pixels differ",
                 different(alone, together)
             );
@@ -145,8 +145,8 @@ fn invalid_cameras_and_image_sizes_are_errors_that_name_the_field() {
     let perspective = |near, far| Projection::Perspective { fov_y: 0.9, near, far: Some(far) };
     for technique in [PCF, RAYTRACED, NONE] {
         let scene = lit_by(vec![sun(DVec3::NEG_Y)]);
-        let mut renderer = Renderer::with(gpu, scene, &eye(), Aov::Color, technique).unwrap();
-        let good = renderer.draw(gpu, &options()).unwrap().picture;
+        let mut renderer = Renderer::with_config(gpu, scene, &eye(), Aov::Color, technique).unwrap();
+        let good = renderer.draw(gpu, &options()).unwrap().image;
         let mut refused = |options: &ViewOptions, part: &str| {
             let error = renderer.draw(gpu, options).unwrap_err().to_string();
             assert!(error.contains(part) && error.lines().count() == 1, "{error}");
@@ -162,7 +162,7 @@ fn invalid_cameras_and_image_sizes_are_errors_that_name_the_field() {
         refused(&ViewOptions { size_px: [64, 0], ..options() }, "width over its height");
         refused(&ViewOptions { size_px: [1 << 20, 64], ..options() }, "max_texture_dimension_2d");
         // It draws on as before.
-        assert!(renderer.draw(gpu, &options()).unwrap().picture == good);
+        assert!(renderer.draw(gpu, &options()).unwrap().image == good);
     }
 }
 
@@ -171,7 +171,7 @@ fn settings_out_of_range_are_errors_that_name_the_field_and_the_next_frame_rende
     let Some(gpu) = gpu() else { return };
     let scene = lit_by(vec![sun(DVec3::NEG_Y)]);
     let mut renderer = Renderer::new(gpu, scene, &eye(), Aov::Color).unwrap();
-    let good = renderer.draw(gpu, &options()).unwrap().picture;
+    let good = renderer.draw(gpu, &options()).unwrap().image;
     let mut wrong = [(); 4].map(|()| ShadowSettings::default());
     wrong[0].cascades.map_size_px = 0;
     wrong[1].atlas.map_size_px = 0;
@@ -182,6 +182,6 @@ fn settings_out_of_range_are_errors_that_name_the_field_and_the_next_frame_rende
         let options = ViewOptions { shadows, ..options() };
         let error = renderer.draw(gpu, &options).unwrap_err().to_string();
         assert!(error.contains(field) && error.contains("allowed"), "{error}");
-        assert!(renderer.draw(gpu, &self::options()).unwrap().picture == good);
+        assert!(renderer.draw(gpu, &self::options()).unwrap().image == good);
     }
 }

@@ -4,9 +4,9 @@ use crate::stage::gpu;
 use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Subresource, TextureDesc};
 use shadowgraph::lighting::post::DepthPyramid;
 use shadowgraph::options::Aov;
-use shadowgraph::pipelines::Choices;
+use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::demo::demo_scene;
-use shadowgraph::{Gpu, Method, Picture, Pipeline, Registry, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
 
 /// `forward` with more nodes; `picture` is where the picture comes from.
 fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
@@ -23,29 +23,30 @@ fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
     );
     std::fs::write(&file, text).unwrap();
     let Registry { nodes, techniques } = Registry::built_in();
-    Pipeline::load(&file, &nodes, &techniques, &Choices::default()).unwrap_or_else(|error| panic!("{error}"))
+    Pipeline::load(&file, &nodes, &techniques, &Parameters::default())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 const VIEW: &str = "\"view\": \"view\"";
 
-fn draw(gpu: &Gpu, pipeline: &Pipeline, aov: Aov, size_px: [u32; 2], frames: u32) -> Picture {
+fn draw(gpu: &Gpu, pipeline: &Pipeline, aov: Aov, size_px: [u32; 2], frames: u32) -> RenderedImage {
     let scene = demo_scene();
     let options = ViewOptions { camera: scene.cameras[0].clone(), size_px, shadows: Default::default() };
-    let mut renderer = Renderer::with(gpu, scene, &options.camera, aov, pipeline.clone()).unwrap();
-    let mut picture = renderer.draw(gpu, &options).unwrap().picture;
+    let mut renderer = Renderer::with_config(gpu, scene, &options.camera, aov, pipeline.clone()).unwrap();
+    let mut picture = renderer.draw(gpu, &options).unwrap().image;
     for _ in 1..frames {
-        picture = renderer.draw(gpu, &options).unwrap().picture;
+        picture = renderer.draw(gpu, &options).unwrap().image;
     }
     picture
 }
 
-fn mean(picture: &Picture) -> f64 {
+fn mean(picture: &RenderedImage) -> f64 {
     let values = picture.rgba8.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
     values.map(|&value| f64::from(value)).sum::<f64>() / (picture.rgba8.len() / 4 * 3) as f64
 }
 
 /// How far a picture is from one of four times its size, in each direction, made as small: root mean square of 255.
-fn error(picture: &Picture, large: &Picture) -> f64 {
+fn error(picture: &RenderedImage, large: &RenderedImage) -> f64 {
     let [width, height] = picture.size_px;
     let mut sum = 0.0;
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
@@ -120,7 +121,7 @@ fn bloom_spreads_light_and_conserves_energy() {
     assert!(none == plain && some != plain);
     assert!((mean(&some) / mean(&plain) - 1.0).abs() < 0.05, "{} and {}", mean(&some), mean(&plain));
     // Nothing but what spread: neighbours hardly differ.
-    let rough = |picture: &Picture| {
+    let rough = |picture: &RenderedImage| {
         let pairs = picture.rgba8.chunks_exact(4).zip(picture.rgba8.chunks_exact(4).skip(1));
         pairs.map(|(a, b)| u64::from(a[1].abs_diff(b[1]))).sum::<u64>()
     };
@@ -171,20 +172,21 @@ fn fog_is_darker_inside_shadows() {
              (name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"fog\"}})"
         );
         let technique = Some(Registry::built_in().techniques.find(technique).unwrap());
-        let method = Method { technique, pipeline: pipeline("", VIEW, &more, "picture"), samples: 1 };
+        let config = RenderConfig { technique, pipeline: pipeline("", VIEW, &more, "picture"), samples: 1 };
         let scene = demo_scene();
         let options =
             ViewOptions { camera: scene.cameras[0].clone(), size_px: [160, 90], shadows: Default::default() };
-        let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method).unwrap();
-        renderer.draw(gpu, &options).unwrap().picture
+        let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config).unwrap();
+        renderer.draw(gpu, &options).unwrap().image
     };
     let plain = draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1);
     assert!(fog("pcf", "\"density\": 0.0") == plain, "no fog is nothing");
     let thin = "\"density\": 0.03, \"falloff\": 0.0, \"height_m\": 100.0, \"steps\": 48";
     let (with, without) = (fog("pcf", thin), fog("none", thin));
     // Above the walls there is nothing but fog, and the towers' shadows in it.
-    let sky =
-        |picture: &Picture| picture.rgba8[..160 * 20 * 4].chunks_exact(4).map(|p| p[1]).collect::<Vec<_>>();
+    let sky = |picture: &RenderedImage| {
+        picture.rgba8[..160 * 20 * 4].chunks_exact(4).map(|p| p[1]).collect::<Vec<_>>()
+    };
     let (with, without) = (sky(&with), sky(&without));
     let darker = with.iter().zip(&without).filter(|(a, b)| a < b).count();
     let brighter = with.iter().zip(&without).filter(|(a, b)| **a > **b + 1).count();

@@ -27,7 +27,7 @@ fn every_shared_scene_renders() {
         let options = ViewOptions { camera, size_px, shadows: Default::default() }
             .with_shadow_distance(ShadowDistance::Auto, &scene);
         let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color).unwrap();
-        let picture = renderer.draw(gpu, &options).unwrap().picture;
+        let picture = renderer.draw(gpu, &options).unwrap().image;
         let colors: HashSet<_> = picture.rgba8.chunks_exact(4).collect();
         assert!(colors.len() > 16, "{name} is more than a background: {} colours", colors.len());
     }

@@ -10,7 +10,7 @@ use shadowgraph::scene::{
     AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
 };
 use shadowgraph::shadows::{EVSM, NONE, PCF, PCSS, RAYTRACED, Technique, Techniques};
-use shadowgraph::{Gpu, Method, Picture, Renderer, ViewOptions};
+use shadowgraph::{Gpu, RenderConfig, RenderedImage, Renderer, ViewOptions};
 
 const CELL_PX: [u32; 2] = [320, 160];
 const GAP_PX: u32 = 4;
@@ -18,13 +18,13 @@ const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
 
 /// The first is what the others are compared with. All techniques that there are come, as do the other pipelines, and what goes
 /// on top of techniques.
-fn ways() -> Vec<(String, Method)> {
-    let mut ways: Vec<(String, Method)> = vec![("truth".into(), RAYTRACED.into())];
+fn ways() -> Vec<(String, RenderConfig)> {
+    let mut ways: Vec<(String, RenderConfig)> = vec![("truth".into(), RAYTRACED.into())];
     ways.extend(Techniques::built_in().kinds().iter().map(|&kind| (kind.name.into(), kind.into())));
     ways.extend([
         ("pcf, minimal".into(), Pipeline::minimal().into()),
         ("pcf, screen_shadows".into(), Pipeline::screen_shadows().into()),
-        ("pcf, 4 samples".into(), Method { samples: 4, ..Method::default() }),
+        ("pcf, 4 samples".into(), RenderConfig { samples: 4, ..RenderConfig::default() }),
     ]);
     let on_top = [
         Technique::from(PCF).with_contact(),
@@ -42,8 +42,8 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     let mut sheet = Sheet::new();
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
-    for (row, (way, method)) in ways().into_iter().enumerate() {
-        let pictures = pictures(gpu, method.clone(), row == 0);
+    for (row, (way, config)) in ways().into_iter().enumerate() {
+        let pictures = pictures(gpu, config.clone(), row == 0);
         if row == 0 {
             truth.clone_from(&pictures);
         }
@@ -51,11 +51,11 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
             sheet.paste(picture, column, row);
             let (darker, lighter) = differing(picture, truth);
             // Without shadows there is too much light.
-            let wrong_part = if method.technique() == NONE { darker } else { darker + lighter };
+            let wrong_part = if config.technique() == NONE { darker } else { darker + lighter };
             let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[column]);
             println!("{line}");
             let has_shadows = MIXES[column] != "no light";
-            let shows_none = method.technique() == NONE && has_shadows && lighter < 0.05;
+            let shows_none = config.technique() == NONE && has_shadows && lighter < 0.05;
             if wrong_part > 0.03 || shows_none {
                 wrong.push(line);
             }
@@ -68,7 +68,7 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
 }
 
 /// One for each mix of lights.
-fn pictures(gpu: &Gpu, method: Method, is_truth: bool) -> Vec<Picture> {
+fn pictures(gpu: &Gpu, config: RenderConfig, is_truth: bool) -> Vec<RenderedImage> {
     let mut scene = demo_scene();
     add_panels(&mut scene);
     let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
@@ -76,10 +76,10 @@ fn pictures(gpu: &Gpu, method: Method, is_truth: bool) -> Vec<Picture> {
     let mut options = if is_truth { hard(&options) } else { options };
     options.shadows.cascades.map_size_px = 2048;
     let own = scene.lights.clone();
-    let mut renderer = Renderer::with(gpu, scene, &options.camera, Aov::Color, method).unwrap();
+    let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config).unwrap();
     let mut picture = |mix: &&str| {
         renderer.set_lights(lights(mix, &own)).unwrap();
-        renderer.draw(gpu, &options).unwrap().picture
+        renderer.draw(gpu, &options).unwrap().image
     };
     MIXES.iter().map(&mut picture).collect()
 }
@@ -149,7 +149,7 @@ fn add_panels(scene: &mut Scene) {
 }
 
 /// The parts of the pixels that are darker and lighter than the truth by more than a sixth of the way to white.
-fn differing(picture: &Picture, truth: &Picture) -> (f64, f64) {
+fn differing(picture: &RenderedImage, truth: &RenderedImage) -> (f64, f64) {
     let luma = |rgba: &[u8]| rgba[..3].iter().map(|&byte| i32::from(byte)).sum::<i32>() / 3;
     let pairs = picture.rgba8.chunks_exact(4).zip(truth.rgba8.chunks_exact(4));
     let by: Vec<i32> = pairs.map(|(a, b)| luma(a) - luma(b)).collect();
@@ -166,7 +166,7 @@ impl Sheet {
         Self(RgbaImage::from_pixel(width, height, Rgba([255; 4])))
     }
 
-    fn paste(&mut self, picture: &Picture, column: usize, row: usize) {
+    fn paste(&mut self, picture: &RenderedImage, column: usize, row: usize) {
         let [left, top] = [column as u32 * (CELL_PX[0] + GAP_PX), row as u32 * (CELL_PX[1] + GAP_PX)];
         for (x, y) in (0..CELL_PX[1]).flat_map(|y| (0..CELL_PX[0]).map(move |x| (x, y))) {
             self.0.put_pixel(left + x, top + y, Rgba(picture.pixel(x, y).unwrap()));

@@ -36,9 +36,9 @@ fn fine() -> PcssSettings {
 /// How wide the edge is on the floor, from a tenth to nine tenths of the light, metres.
 fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
     let aov = Aov::Visibility(0);
-    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
+    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
     let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, options, 0).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().picture;
+    let picture = renderer.draw(gpu, options).unwrap().image;
     let pixels = ground.surfaces.positions.iter().zip(picture.rgba8.chunks_exact(4));
     let between = pixels.filter(|(_, rgba)| rgba[3] == 255 && (26..=229).contains(&rgba[0]));
     let mut between: Vec<f32> = between.map(|(position, _)| position.x).collect();

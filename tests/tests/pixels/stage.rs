@@ -6,7 +6,7 @@ use shadowgraph::scene::{
     AlphaMode, Camera, Instance, Light, LightKind, Material, Mesh, Projection, Scene, Vertex,
 };
 use shadowgraph::shadows::{RaytracedSettings, ShadowSettings};
-use shadowgraph::{Drawn, Gpu, Renderer, ViewOptions};
+use shadowgraph::{Gpu, RenderedFrame, Renderer, ViewOptions};
 use std::sync::OnceLock;
 
 pub(crate) const SIZE_PX: [u32; 2] = [320, 180];
@@ -119,7 +119,7 @@ pub(crate) fn view(camera: Camera, distance_m: f32) -> ViewOptions {
     ViewOptions { camera, size_px: SIZE_PX, shadows }
 }
 
-pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> Drawn {
+pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> RenderedFrame {
     let mut renderer = Renderer::new(gpu, scene, &options.camera, aov).unwrap();
     renderer.draw(gpu, options).unwrap()
 }

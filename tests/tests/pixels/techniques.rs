@@ -11,13 +11,18 @@ use shadowgraph::shadows::{
     ContactSettings, EVSM, EvsmMoments, EvsmPrecision, EvsmSettings, MSM, PCF, PCSS, RAYTRACED,
     RaytracedSettings, SDSM, Technique, TechniqueKind,
 };
-use shadowgraph::{Gpu, Method, Renderer, ViewOptions};
+use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
 
 /// The visibility of light 0 in each pixel; `None` where nothing is drawn or the surface faces away.
-fn greys(gpu: &Gpu, scene: &Scene, options: &ViewOptions, method: impl Into<Method>) -> Vec<Option<u8>> {
+fn greys(
+    gpu: &Gpu,
+    scene: &Scene,
+    options: &ViewOptions,
+    config: impl Into<RenderConfig>,
+) -> Vec<Option<u8>> {
     let mut renderer =
-        Renderer::with(gpu, scene.clone(), &options.camera, Aov::Visibility(0), method).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().picture;
+        Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), config).unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().image;
     picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 

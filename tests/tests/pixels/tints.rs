@@ -22,8 +22,8 @@ fn lit_by(light: usize) -> (Scene, ViewOptions) {
 /// The screen mask of the only light: what of it each pixel's surface sees.
 fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -> Vec<Vec3> {
     let aov = Aov::Texture("shadow mask".into());
-    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().picture;
+    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
+    let picture = renderer.draw(gpu, options).unwrap().image;
     let color =
         |rgba: &[u8]| Vec3::from([rgba[0], rgba[1], rgba[2]].map(|byte| linear_from_srgb(byte) as f32));
     picture.rgba8.chunks_exact(4).map(color).collect()
@@ -32,9 +32,9 @@ fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -
 /// Which pixels show surfaces that face the light: what the others see of it does not matter.
 fn facing(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<bool> {
     let mut renderer =
-        Renderer::with(gpu, scene.clone(), &options.camera, Aov::Visibility(0), Technique::from(NONE))
+        Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), Technique::from(NONE))
             .unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().picture;
+    let picture = renderer.draw(gpu, options).unwrap().image;
     picture.rgba8.chunks_exact(4).map(|rgba| rgba[3] == 255).collect()
 }
 
@@ -117,7 +117,7 @@ fn cached_tints_equal_tints_rendered_every_frame() {
             options.camera.world_from_view.translation = scene.cameras[0].position_world() + DVec3::X * step;
             let drawn = renderer.draw(gpu, &options).unwrap();
             let passes = drawn.plan.order().iter().map(|&pass| drawn.plan.pass_path(pass).to_string());
-            (drawn.picture, passes.filter(|path| path.contains(" tints/")).count())
+            (drawn.image, passes.filter(|path| path.contains(" tints/")).count())
         })
     };
     let (kept, anew) = (draw(true), draw(false));

@@ -3,15 +3,10 @@
 use std::process::Command;
 
 #[test]
-fn row_36_nodes_prints_the_numbers_of_shader_variants() {
+fn nodes_lists_pipelines_techniques_and_their_settings() {
     let output = Command::new(shadowgraph_tests::program().unwrap()).arg("nodes").output().unwrap();
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
-    let (_, permutations) = text.split_once("permutations").unwrap();
-    let pcf = permutations.lines().find(|line| line.trim_start().starts_with("pcf")).unwrap();
-    let counts: Vec<u32> = pcf.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect();
-    // With and without collecting.
-    assert_eq!(counts, [6, 1, 6], "{text}");
     for name in ["forward", "screen_shadows", "minimal", "raytraced", "none", "+contact", "filter_taps: 24"] {
         assert!(text.contains(name), "{text}");
     }
@@ -29,11 +24,11 @@ fn told(arguments: &[&str]) -> (Option<i32>, String, String) {
 fn nodes_describes_a_node_a_pipeline_a_technique_and_the_shared_settings() {
     let (code, text, _) = told(&["bloom"]);
     assert!(
-        code == Some(0) && text.contains("set    strength           0.06; a number from 0 to 1"),
+        code == Some(0) && text.contains("setting  strength           0.06; a number from 0 to 1"),
         "{text}"
     );
     let (_, text, _) = told(&["deferred"]);
-    assert!(text.starts_with("pipeline deferred, as a file") && text.contains("takes  gbuffer"), "{text}");
+    assert!(text.starts_with("pipeline deferred, as a file") && text.contains("input    gbuffer"), "{text}");
     let (_, text, _) = told(&["pcss"]);
     assert!(text.contains("filter_taps") && text.contains("24; 1 to 64"), "{text}");
     let (_, text, _) = told(&["pcf+contact"]);

@@ -14,7 +14,7 @@ use wgpu::{BindingResource, TextureUsages};
 
 use super::objects::{attachment, begin, buffer, comparison_sampler, group, range};
 use super::{Clock, Counts, FrameTime};
-use crate::pipelines::View;
+use crate::render_view::RenderView;
 use crate::{Error, Gpu, Renderer};
 
 const DEPTH: Format = Format::Depth32Float;
@@ -23,7 +23,7 @@ const VIEW_BYTES: u32 = size_of::<ShadowView>() as u32;
 /// What stays the same from frame to frame.
 pub(super) struct ByHand<'v> {
     renderer: &'v Renderer,
-    view: &'v View<'v>,
+    view: &'v RenderView<'v>,
     counts: Counts,
     /// The view, the lights, the views of shadow maps, the lights' shadows.
     buffers: [wgpu::Buffer; 4],
@@ -57,7 +57,7 @@ impl<'v> ByHand<'v> {
     pub(super) fn new(
         gpu: &Gpu,
         renderer: &'v Renderer,
-        view: &'v View<'v>,
+        view: &'v RenderView<'v>,
         target: &wgpu::Texture,
     ) -> Result<Self, Error> {
         let device = &gpu.device;
@@ -247,7 +247,7 @@ fn tonemap(device: &wgpu::Device, format: Format) -> Result<wgpu::RenderPipeline
     }))
 }
 
-fn records(renderer: &Renderer, view: &View<'_>) -> Result<Records, Error> {
+fn records(renderer: &Renderer, view: &RenderView<'_>) -> Result<Records, Error> {
     let options = view.options;
     let (camera, size_px, lights) = (&options.camera, options.size_px, &renderer.scene().lights);
     let (casters, settings) = (&renderer.casters, &options.shadows);
@@ -272,7 +272,7 @@ fn bytes(records: &Records) -> [Vec<u8>; 4] {
     ]
 }
 
-fn counts(records: &Records, view: &View<'_>) -> Counts {
+fn counts(records: &Records, view: &RenderView<'_>) -> Counts {
     let maps = [&records.shadows.cascades, &records.shadows.atlas];
     let casters = maps.into_iter().flatten().flat_map(|map| &map.tiles).map(|tile| tile.casters.len());
     let draws = casters.sum::<usize>() + 2 * view.draws.solid.len() + view.draws.blend.len() + 1;

@@ -20,7 +20,7 @@ use shadowgraph_core::{Format, Graph, PassTime, TimeHistory, TimeSummary, Timer}
 
 use self::by_hand::ByHand;
 use crate::options::Aov;
-use crate::pipelines::View;
+use crate::render_view::RenderView;
 use crate::{Error, Gpu, Renderer, ViewOptions};
 
 /// What is drawn into, as a window's surface would be.
@@ -141,7 +141,7 @@ fn compare_unchecked(
 fn through_graph(
     gpu: &Gpu,
     renderer: &Renderer,
-    view: &View<'_>,
+    view: &RenderView<'_>,
     graph: &mut Graph,
 ) -> Result<FrameTime, Error> {
     let mut clock = Clock::start();
@@ -198,7 +198,7 @@ fn only_color(renderer: &Renderer) -> Result<(), Error> {
 fn target(device: &wgpu::Device, [width, height]: [u32; 2]) -> Result<wgpu::Texture, Error> {
     let limit = device.limits().max_texture_dimension_2d;
     if width.max(height) > limit {
-        return Err(Error::PictureSize { width, height, limit });
+        return Err(Error::ImageSize { width, height, limit });
     }
     Ok(device.create_texture(&wgpu::TextureDescriptor {
         label: Some("target"),

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::options::{AdapterChoice, ShadowDistance};
-use crate::picture::Picture;
+use crate::rendered::RenderedImage;
 use shadowgraph_core::{Frame, PassKind, Plan, Subresource};
 use shadowgraph_scene::{Camera, Scene, demo::demo_scene};
 use shadowgraph_shadows::ShadowSettings;
@@ -104,7 +104,7 @@ fn pass_times_are_those_of_every_pass_in_order() {
     assert!(times.iter().all(|time| (time.cpu_ms.median > 0.0) != bare(time)), "{times:?}");
 }
 
-fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Picture {
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> RenderedImage {
     let size_px = [texture.width(), texture.height()];
     let mut frame = Frame::new();
     let texture = frame.import_texture("target", texture, true);
@@ -113,7 +113,7 @@ fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Picture {
     let mut executed =
         frame.compile().unwrap().execute(&mut Graph::new(), &gpu.device, &mut encoder).unwrap();
     gpu.queue.submit([encoder.finish()]);
-    Picture { size_px, rgba8: executed.read_back(request).unwrap().wait(&gpu.device).unwrap() }
+    RenderedImage { size_px, rgba8: executed.read_back(request).unwrap().wait(&gpu.device).unwrap() }
 }
 
 /// The draws of both sides are the same: what is drawn is the same, to the bit.

@@ -1,16 +1,20 @@
-//! Cameras, cascades and lamps from above.
+//! Cameras, cascades and shadow maps from above.
 
 use glam::{DVec2, DVec3, Vec3, Vec4};
 use shadowgraph_core::{Drawing, Outline};
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{NOT_A_CASCADE, ShadowView};
 
-use super::Inspected;
-use crate::ViewOptions;
+use super::InspectedFrame;
+use crate::view_options::ViewOptions;
 
-/// Outlines of what the camera sees up to the shadow distance, and of the volumes of its shadow maps: +X to the right, +Z
-/// down, metres from the camera. `None` without maps.
-pub(super) fn from_above(inspected: &Inspected, lights: &[Light], options: &ViewOptions) -> Option<Drawing> {
+/// Returns the outlines of the camera's frustum up to the shadow distance, and of the volumes of its shadow maps: +X to the right,
+/// +Z down, metres from the camera. `None` without maps.
+pub(super) fn from_above(
+    inspected: &InspectedFrame,
+    lights: &[Light],
+    options: &ViewOptions,
+) -> Option<Drawing> {
     let origin = shadowgraph_scene::origin_near(options.camera.position_world());
     let eye = options.camera.position_world() - origin;
     let flat = |point: DVec3| DVec2::new(point.x - eye.x, point.z - eye.z);
@@ -25,8 +29,8 @@ pub(super) fn from_above(inspected: &Inspected, lights: &[Light], options: &View
                 .push(Outline { name, points: hull(corners(view).map(|corner| flat(corner.as_dvec3()))) });
         }
     }
-    let caption = "Seen from above, +X to the right and +Z down: what the camera sees up to the shadow distance, and the \
-                   volumes that shadow maps are drawn of.";
+    let caption = "Seen from above, +X to the right and +Z down: the camera's frustum up to the shadow distance, and the \
+                   volumes of the shadow maps.";
     (outlines.len() > 1).then(|| Drawing {
         title: "Cameras and shadow maps from above".into(),
         caption: caption.into(),
@@ -43,7 +47,7 @@ fn camera(options: &ViewOptions, flat: impl Fn(DVec3) -> DVec2, origin: DVec3) -
 }
 
 fn name(light: usize, lights: &[Light], view: &ShadowView, number: Option<usize>) -> String {
-    // As the passes that draw the maps are named, with the light's own name behind.
+    // Named like the passes that draw the maps, followed by the light's name.
     let own = lights.get(light).and_then(|light| light.name.as_deref());
     let name = own.map_or(format!("light {light}"), |own| format!("light {light} ({own})"));
     match (view.cascade, number) {
@@ -55,7 +59,7 @@ fn name(light: usize, lights: &[Light], view: &ShadowView, number: Option<usize>
 
 const SIDES: [&str; 6] = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
 
-/// The corners of a tile's volume, relative to the frame's origin.
+/// Returns the corners of a tile's volume, relative to the frame's origin.
 fn corners(view: &ShadowView) -> [Vec3; 8] {
     let world_from_clip = view.clip_from_world.inverse();
     std::array::from_fn(|corner| {
@@ -66,7 +70,7 @@ fn corners(view: &ShadowView) -> [Vec3; 8] {
     })
 }
 
-/// The smallest convex outline around points (Andrew's monotone chain, 1979).
+/// Returns the convex hull of points (Andrew's monotone chain, 1979).
 fn hull(points: [DVec2; 8]) -> Vec<[f32; 2]> {
     let mut points: Vec<DVec2> = points.into_iter().filter(|point| point.is_finite()).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -98,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_outline_holds_the_corners_of_a_box_and_nothing_inside() {
+    fn the_hull_of_a_box_has_its_corners_and_no_inner_points() {
         let corners =
             [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0), (1.0, 1.0), (2.0, 2.0), (2.0, 0.0), (4.0, 3.0)];
         let outline = hull(corners.map(|(x, y)| DVec2::new(x, y)));
@@ -106,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_one_place_are_a_point() {
+    fn equal_points_are_one_point() {
         assert_eq!(hull([DVec2::ONE; 8]), [[1.0, 1.0]]);
         assert_eq!(hull([DVec2::NAN; 8]), [[0.0, 0.0]]);
     }

@@ -1,19 +1,19 @@
-//! A scene's lights in words.
+//! The table of a scene's lights.
 
 use shadowgraph_core::{HtmlPage, PageTable, PassTime, Plan};
 use shadowgraph_scene::{Light, LightKind};
 use shadowgraph_shadows::Unshadowed;
 
-use crate::Drawn;
+use crate::rendered::RenderedFrame;
 
-impl Drawn {
-    /// Returns the page about the frame: its plan, times where it was measured, and the scene's lights.
+impl RenderedFrame {
+    /// Returns the HTML page of the frame: its plan, times if they were measured, and the scene's lights.
     pub fn page(&self, lights: &[Light]) -> HtmlPage<'_> {
         page(&self.plan, &self.times, lights, &self.unshadowed)
     }
 }
 
-/// The page about a plan, with times and the scene's lights.
+/// Returns the HTML page of a plan, with times and the scene's lights.
 pub(crate) fn page<'p>(
     plan: &'p Plan,
     times: &'p [PassTime],
@@ -26,16 +26,16 @@ pub(crate) fn page<'p>(
 }
 
 fn table(lights: &[Light], unshadowed: &[Unshadowed]) -> PageTable {
-    let columns = ["Light", "Kind", "Name", "Strength", "Shadows"].map(String::from).to_vec();
+    let columns = ["Light", "Kind", "Name", "Intensity", "Shadows"].map(String::from).to_vec();
     let row = |(index, light): (usize, &Light)| {
-        let strength = format!("{:.1} {}", light.intensity, unit(light));
+        let intensity = format!("{:.1} {}", light.intensity, unit(light));
         let name = light.name.clone().unwrap_or_default();
-        vec![index.to_string(), kind(light).into(), name, strength, shadows(light, index, unshadowed)]
+        vec![index.to_string(), kind(light).into(), name, intensity, shadows(light, index, unshadowed)]
     };
     PageTable { title: "Lights".into(), columns, rows: lights.iter().enumerate().map(row).collect() }
 }
 
-/// What kind it is.
+/// Returns the kind of a light.
 pub(crate) fn kind(light: &Light) -> &'static str {
     match light.kind {
         LightKind::Directional { .. } => "directional",
@@ -44,16 +44,16 @@ pub(crate) fn kind(light: &Light) -> &'static str {
     }
 }
 
-/// The unit of its strength.
+/// Returns the unit of a light's intensity.
 pub(crate) fn unit(light: &Light) -> &'static str {
     if matches!(light.kind, LightKind::Directional { .. }) { "lx" } else { "cd" }
 }
 
-/// Whether it casts shadows, and why not.
+/// Describes whether a light casts shadows, or why it does not.
 pub(crate) fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String {
     let missing = unshadowed.iter().find(|unshadowed| unshadowed.light as usize == index);
     match missing {
-        _ if !light.casts_shadow => "no shadows asked for".into(),
+        _ if !light.casts_shadow => "no shadows requested".into(),
         Some(missing) => format!("no shadows: {}", missing.reason.text()),
         None => "casts shadows".into(),
     }

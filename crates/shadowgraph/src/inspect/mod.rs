@@ -1,4 +1,4 @@
-//! Looking into a frame: what its passes wrote, and how long they took.
+//! The contents of a frame: what its passes wrote, and how long they took.
 
 mod above;
 pub(crate) mod lights;
@@ -7,33 +7,36 @@ use shadowgraph_core::{Buffer, FrameCapture, HtmlPage, PendingCapture, TextureSn
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowLight, ShadowView};
 
-use crate::{Drawn, Error, Gpu, Renderer, ViewOptions};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::rendered::RenderedFrame;
+use crate::renderer::Renderer;
+use crate::view_options::ViewOptions;
 
-/// A drawn view with what its passes wrote.
+/// A view that was drawn, with what its passes wrote.
 #[derive(Debug)]
-pub struct Inspected {
-    /// The view as it is always drawn, with times.
-    pub drawn: Drawn,
-    /// Every texture of its frame, behind each pass that wrote it.
-    pub pictures: Vec<TextureSnapshot>,
-    /// The records that its shadow maps are drawn by; none of a technique without maps.
+pub struct InspectedFrame {
+    /// The view as [`draw`](Renderer::draw) draws it, with times.
+    pub frame: RenderedFrame,
+    /// Every texture of the frame, after each pass that wrote it.
+    pub textures: Vec<TextureSnapshot>,
+    /// The views of shadow maps; empty for a technique without maps.
     pub views: Vec<ShadowView>,
-    /// Which of them lights have, by light; none of a technique without maps.
+    /// The range of views of each light; empty for a technique without maps.
     pub lights: Vec<ShadowLight>,
 }
 
 impl Renderer {
-    /// Draws a view as [`draw`](Self::draw) does, measures it, and draws it once more to take pictures of all that its
-    /// passes write.
+    /// Draws a view like [`draw`](Self::draw), measures it, and draws it once more to capture all that its passes write.
     ///
     /// # Errors
     /// As `draw`.
-    pub fn inspect(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<Inspected, Error> {
-        // A driver may compile shaders at the first draw.
+    pub fn inspect(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<InspectedFrame, Error> {
+        // Drivers may compile shaders at the first draw.
         self.draw(gpu, options)?;
-        let drawn = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;
+        let frame = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;
         let mut capture: Option<PendingCapture> = None;
-        let (_, records) = self.draw_by(gpu, options, |compiled, graph, encoder| {
+        let (_, records) = self.draw_with(gpu, options, |compiled, graph, encoder| {
             let (executed, taken) = compiled.execute_captured(graph, &gpu.device, encoder)?;
             capture = Some(taken);
             Ok(executed)
@@ -43,25 +46,25 @@ impl Renderer {
             None => FrameCapture::default(),
         };
         let (views, lights) = match &records {
-            Some([views, lights]) => (records_of(&captured, views), records_of(&captured, lights)),
+            Some([views, lights]) => (read_structs(&captured, views), read_structs(&captured, lights)),
             None => (Vec::new(), Vec::new()),
         };
-        Ok(Inspected { drawn, pictures: captured.textures, views, lights })
+        Ok(InspectedFrame { frame, textures: captured.textures, views, lights })
     }
 }
 
-impl Inspected {
-    /// Returns the page about the frame: its plan, times and pictures, its lights, and where its shadow maps look.
+impl InspectedFrame {
+    /// Returns the HTML page of the frame: its plan, times and textures, its lights, and the volumes of its shadow maps.
     pub fn page(&self, scene_lights: &[Light], options: &ViewOptions) -> HtmlPage<'_> {
-        let mut page = self.drawn.page(scene_lights);
-        page.snapshots.clone_from(&self.pictures);
+        let mut page = self.frame.page(scene_lights);
+        page.snapshots.clone_from(&self.textures);
         page.drawings.extend(above::from_above(self, scene_lights, options));
         page
     }
 }
 
-/// The last bytes of a buffer, as records. A buffer may be larger than what is in it.
-fn records_of<R: bytemuck::AnyBitPattern>(captured: &FrameCapture, buffer: &Buffer) -> Vec<R> {
+/// Returns the last captured contents of a buffer as structs. A buffer may be larger than its contents.
+fn read_structs<R: bytemuck::AnyBitPattern>(captured: &FrameCapture, buffer: &Buffer) -> Vec<R> {
     let last = captured.buffers.iter().rev().find(|(id, _)| *id == buffer.id());
     let bytes = last.map_or(&[][..], |(_, bytes)| bytes);
     bytes.chunks_exact(size_of::<R>()).map(bytemuck::pod_read_unaligned).collect()

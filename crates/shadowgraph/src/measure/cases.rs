@@ -103,14 +103,14 @@ impl CaseSet {
     /// [`Error::Cases`] with line and column, or the value that is out of range and its range.
     pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
         let file = place.display().to_string();
-        let set: Self = ron_file::read(&file, text)?;
+        let set: Self = ron_file::parse_file(&file, text)?;
         if set.cases.is_empty() {
             return Err(
-                ron_file::wrong_field(&file, text, "cases", "there is no case; give at least one").into()
+                ron_file::field_error(&file, text, "cases", "there is no case; give at least one").into()
             );
         }
         for (index, case) in set.cases.iter().enumerate() {
-            let wrong = |problem| ron_file::wrong_field(&file, text, &format!("cases.{index}"), problem);
+            let wrong = |problem| ron_file::field_error(&file, text, &format!("cases.{index}"), problem);
             case.check().map_err(wrong)?;
         }
         Ok(set)

@@ -30,7 +30,7 @@ pub fn measure_flicker(
     far.camera.world_from_view.translation += FAR_OUT_M;
     let scene = moved(renderer.scene(), FAR_OUT_M);
     let aov = Aov::Visibility(light as u32);
-    let mut renderer = Renderer::with(gpu, scene, &far.camera, aov, technique)?;
+    let mut renderer = Renderer::with_config(gpu, scene, &far.camera, aov, technique)?;
     found.extend(of_scene(gpu, &mut renderer, &far, light, frames, true)?);
     Ok(found)
 }

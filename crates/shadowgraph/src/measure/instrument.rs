@@ -127,7 +127,7 @@ impl<'g> Instrument<'g> {
         let drawn = renderer.draw(self.gpu, options)?;
         let Ground { surfaces, truth, soft, texels, .. } = ground;
         let mut n_dot_l = truth.n_dot_l.clone();
-        let visibility = visibility(&drawn.picture.rgba8, &mut n_dot_l);
+        let visibility = visibility(&drawn.image.rgba8, &mut n_dot_l);
         let seen = Seen::new(Images {
             size_px: options.size_px,
             pixel_m_at_1m: pixel_m_at_1m(&options.camera, options.size_px[1]),

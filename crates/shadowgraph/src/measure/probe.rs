@@ -12,7 +12,7 @@ use super::Surfaces;
 use super::counting::CountingCasters;
 use super::instrument::pixel_m_at_1m;
 use super::report::Cost;
-use crate::pipelines::View;
+use crate::render_view::RenderView;
 use crate::renderer::nothing_read;
 use crate::surfaces::SurfaceDrawer;
 use crate::{Error, Gpu, Renderer, ViewOptions};
@@ -168,7 +168,7 @@ impl Probe {
             ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
         let buffers = records.upload(&mut frame);
         let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-        let screen = self.surfaces.as_ref().map(|drawer| drawer.screen_alone(&mut frame, &buffers, geometry));
+        let screen = self.surfaces.as_ref().map(|drawer| drawer.screen_with_prepass(&mut frame, &buffers, geometry));
         let screen = screen.transpose()?;
         let inputs = ShadowInputs {
             view: 0,
@@ -218,7 +218,7 @@ impl Probe {
 #[derive(Clone, Copy)]
 struct Asked<'f> {
     renderer: &'f Renderer,
-    view: &'f View<'f>,
+    view: &'f RenderView<'f>,
     casters: &'f CountingCasters<'f>,
     points: &'f Points,
     question: Question,

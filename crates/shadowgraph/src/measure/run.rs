@@ -8,7 +8,7 @@ use super::{
     measure_seam,
 };
 use crate::options::{Aov, ShadowDistance};
-use crate::{Error, Gpu, Picture, Renderer, ViewOptions};
+use crate::{Error, Gpu, RenderedImage, Renderer, ViewOptions};
 
 /// How a scene is measured.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ pub struct Measured {
 #[derive(Clone, Debug)]
 pub struct CasePictures {
     /// What the technique draws, in colour.
-    pub color: Picture,
+    pub color: RenderedImage,
     /// What was compared.
     pub compared: ViewPictures,
 }
@@ -121,7 +121,7 @@ impl<'a> Run<'a> {
             .views
             .first()
             .map_or_else(|| scene.framing_camera(1.0), |(_, camera)| camera.clone());
-        let renderer = |aov| Renderer::with(self.gpu, scene.clone(), &eye, aov, technique);
+        let renderer = |aov| Renderer::with_config(self.gpu, scene.clone(), &eye, aov, technique);
         let visibility = renderer(Aov::Visibility(light.index as u32))?;
         let color = self.task.pictures.then(|| renderer(Aov::Color)).transpose()?;
         let probe = Probe::new(self.gpu, &visibility)?;
@@ -213,6 +213,6 @@ impl Bench {
         compared: ViewPictures,
     ) -> Result<Option<CasePictures>, Error> {
         let Some(renderer) = &mut self.color else { return Ok(None) };
-        Ok(Some(CasePictures { color: renderer.draw(gpu, options)?.picture, compared }))
+        Ok(Some(CasePictures { color: renderer.draw(gpu, options)?.image, compared }))
     }
 }

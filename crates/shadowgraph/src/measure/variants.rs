@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use shadowgraph_shadows::{ShadowSettings, Techniques};
 
-use crate::options::wrong_setting;
+use crate::options::settings::setting_error;
 use crate::{Error, ron_file};
 
 /// Shadow settings with a name.
@@ -34,8 +34,8 @@ impl VariantSet {
     /// [`Error::Cases`] with line and column, or the variant and what is wrong with it.
     pub fn parse(text: &str, place: &Path, techniques: &Techniques) -> Result<Self, Error> {
         let file = place.display().to_string();
-        let wrong = |path: &str, problem: &str| ron_file::wrong_field(&file, text, path, problem);
-        let set: Self = ron_file::read(&file, text)?;
+        let wrong = |path: &str, problem: &str| ron_file::field_error(&file, text, path, problem);
+        let set: Self = ron_file::parse_file(&file, text)?;
         if set.variants.is_empty() {
             return Err(wrong("variants", "there is no variant; give at least one").into());
         }
@@ -52,7 +52,7 @@ impl VariantSet {
             }
             let parents = format!("variants.{index}.settings.");
             let checked = techniques.check(settings);
-            checked.map_err(|error| wrong_setting(&file, text, &parents, &error))?;
+            checked.map_err(|error| setting_error(&file, text, &parents, &error))?;
         }
         Ok(set)
     }

@@ -1,10 +1,10 @@
-//! What nodes take and give.
+//! Inputs and outputs of nodes.
 
 use shadowgraph_core::{Buffer, Format, Texture};
 use shadowgraph_lighting::{GBuffer, ViewBuffers};
-use shadowgraph_shadows::{ShadowOutputs, SurfaceBuffers};
+use shadowgraph_shadows::{SurfaceBuffers, ShadowOutputs};
 
-/// What a port hands on.
+/// The kind of a port's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortKind {
     /// A texture of the frame.
@@ -13,7 +13,7 @@ pub enum PortKind {
     Buffer,
     /// The camera and the lights, as shaders read them.
     View,
-    /// The surfaces that the picture shows, for techniques that ask for them.
+    /// Positions and normals of the visible surfaces, for techniques that read them.
     Surfaces,
     /// Shadows, as lit passes read them.
     Shadows,
@@ -22,7 +22,7 @@ pub enum PortKind {
 }
 
 impl PortKind {
-    /// Returns it in a word.
+    /// Returns the name of the kind.
     pub fn name(self) -> &'static str {
         match self {
             Self::Texture => "texture",
@@ -35,39 +35,39 @@ impl PortKind {
     }
 }
 
-/// Whether a port has to be fed, or is always there.
+/// Whether a port is always connected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Need {
-    /// An input that has to be fed; an output that is always there.
+pub enum Presence {
+    /// An input that has to be connected; an output that is set in every frame.
     #[default]
     Required,
-    /// An input that the node does without; an output that not every frame has.
+    /// An input that may be left unconnected; an output that is not set in every frame.
     Optional,
-    /// An input in whose place a texture of one texel of this colour is read.
-    StandIn([f64; 4]),
+    /// An input that reads a texture of one texel of this colour if it is not connected.
+    Placeholder([f64; 4]),
 }
 
 /// One input or output of a kind of node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Port {
-    /// What it is called.
+    /// The name.
     pub name: &'static str,
-    /// What it hands on.
+    /// The kind of value.
     pub kind: PortKind,
-    /// What is in it, in a phrase.
+    /// What the value is, in a phrase.
     pub about: &'static str,
-    /// Of a texture: the format that an output has, or the only one that an input takes; `None` for any.
+    /// Format of a texture: of an output, or the only one that an input accepts; `None` for any.
     pub format: Option<Format>,
-    /// Whether it has to be fed.
-    pub need: Need,
-    /// Whether the node draws over what it is fed: whoever else reads it does so before, and its output takes its place.
-    pub taken: bool,
+    /// Whether it is always connected.
+    pub presence: Presence,
+    /// Whether the node overwrites this input in place: other consumers read it before, and the node's first output replaces it.
+    pub in_place: bool,
 }
 
 impl Port {
-    /// Describes a port that has to be fed, or that is always there.
+    /// Describes a required port.
     pub const fn new(name: &'static str, kind: PortKind, about: &'static str) -> Self {
-        Self { name, kind, about, format: None, need: Need::Required, taken: false }
+        Self { name, kind, about, format: None, presence: Presence::Required, in_place: false }
     }
 
     /// Describes a texture.
@@ -75,32 +75,32 @@ impl Port {
         Self::new(name, PortKind::Texture, about)
     }
 
-    /// Says which format the texture has.
+    /// Sets the format of the texture.
     #[must_use]
-    pub const fn of(self, format: Format) -> Self {
+    pub const fn with_format(self, format: Format) -> Self {
         Self { format: Some(format), ..self }
     }
 
-    /// Says that it need not be there.
+    /// Makes the port optional.
     #[must_use]
     pub const fn optional(self) -> Self {
-        Self { need: Need::Optional, ..self }
+        Self { presence: Presence::Optional, ..self }
     }
 
-    /// Says that the node draws over what this input is fed.
+    /// Declares that the node overwrites this input in place.
     #[must_use]
-    pub const fn taken(self) -> Self {
-        Self { taken: true, ..self }
+    pub const fn in_place(self) -> Self {
+        Self { in_place: true, ..self }
     }
 
-    /// Says that a texel of this colour takes the place of what is not fed.
+    /// Sets the colour of the texel that is read if the input is not connected.
     #[must_use]
-    pub const fn or_texel(self, color: [f64; 4]) -> Self {
-        Self { need: Need::StandIn(color), ..self }
+    pub const fn or_placeholder(self, color: [f64; 4]) -> Self {
+        Self { presence: Presence::Placeholder(color), ..self }
     }
 }
 
-/// What is in a port in a frame.
+/// The value of a port in a frame.
 pub enum Value<'f> {
     /// A texture.
     Texture(Texture),
@@ -108,16 +108,16 @@ pub enum Value<'f> {
     Buffer(Buffer),
     /// The camera and the lights.
     View(ViewBuffers),
-    /// What the picture shows.
+    /// Positions and normals of the visible surfaces.
     Surfaces(SurfaceBuffers),
     /// Shadows.
     Shadows(ShadowOutputs<'f>),
-    /// What deferred lighting reads.
+    /// The textures that deferred lighting reads.
     GBuffer(GBuffer),
 }
 
 impl Value<'_> {
-    /// Returns what kind of port it fits.
+    /// Returns the kind of port that it fits.
     pub fn kind(&self) -> PortKind {
         match self {
             Self::Texture(_) => PortKind::Texture,

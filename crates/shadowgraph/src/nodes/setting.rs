@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::Error;
+use crate::error::Error;
 
 /// One setting of a kind of node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,7 +130,7 @@ impl Settings {
         let found = self.values.iter().find(|(known, _)| *known == name);
         found.and_then(|(_, value)| read(value)).ok_or_else(|| Error::NodeKind {
             kind: self.kind,
-            fault: format!("it reads a setting `{name}` that it does not describe, or not of that type"),
+            reason: format!("it reads a setting `{name}` that it does not declare, or as another type"),
         })
     }
 

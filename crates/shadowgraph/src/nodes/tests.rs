@@ -1,9 +1,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 use super::*;
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::render_view::RenderView;
 use serde_json::json;
+use shadowgraph_core::Frame;
 
-/// A kind of node that does nothing, with these.
+/// Declares a kind of node that does nothing.
 macro_rules! kind {
     ($name:ident, $text:literal, $inputs:expr, $outputs:expr, $settings:expr) => {
         struct $name;
@@ -13,13 +17,13 @@ macro_rules! kind {
             const INPUTS: &'static [Port] = $inputs;
             const OUTPUTS: &'static [Port] = $outputs;
             const SETTINGS: &'static [Setting] = $settings;
-            fn new(_build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
+            fn new(_context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
                 Ok(Self)
             }
             fn add<'f>(
                 &'f self,
                 _frame: &mut Frame<'f>,
-                _view: &'f View<'f>,
+                _view: &'f RenderView<'f>,
                 _ports: &mut Ports<'_, 'f>,
             ) -> Result<(), Error> {
                 Ok(())
@@ -32,49 +36,44 @@ kind!(Known, "tonemap", &[], &[], &[]);
 kind!(TwoInputs, "a", &[Port::texture("x", ""), Port::texture("x", "")], &[], &[]);
 kind!(TwoOutputs, "b", &[], &[Port::texture("x", ""), Port::texture("x", "")], &[]);
 kind!(Default_, "c", &[], &[], &[Setting::new("n", SettingType::Integer(9, 0, 8), "")]);
-kind!(StandIn, "d", &[Port::new("x", PortKind::Buffer, "").or_texel([0.0; 4])], &[], &[]);
+kind!(PlaceholderBuffer, "d", &[Port::new("x", PortKind::Buffer, "").or_placeholder([0.0; 4])], &[], &[]);
 kind!(
     Good,
     "e",
-    &[Port::texture("x", "what is read")],
+    &[Port::texture("x", "the source")],
     &[],
     &[Setting::new("n", SettingType::Integer(8, 0, 8), "how many")]
 );
 
-fn refused<N: Node>() -> String {
+fn error<N: Node>() -> String {
     Nodes::built_in().register::<N>().unwrap_err().to_string()
 }
 
 #[test]
-fn a_kind_that_contradicts_itself_is_refused() {
-    assert!(refused::<Known>().contains("a kind of that name already"));
-    assert!(refused::<TwoInputs>().contains("two inputs `x`"));
-    assert!(refused::<TwoOutputs>().contains("two outputs `x`"));
-    assert!(
-        refused::<Default_>()
-            .contains("a default is out of its range: n is 9; it can be a whole number from 0 to 8")
-    );
-    assert!(refused::<StandIn>().contains("only textures have stand-ins"));
+fn an_invalid_kind_is_refused() {
+    assert!(error::<Known>().contains("a kind of this name is already registered"));
+    assert!(error::<TwoInputs>().contains("duplicate input `x`"));
+    assert!(error::<TwoOutputs>().contains("duplicate output `x`"));
+    assert!(error::<Default_>().contains("invalid default: n is 9; it can be a whole number from 0 to 8"));
+    assert!(error::<PlaceholderBuffer>().contains("only textures have placeholders"));
 }
 
 #[test]
-fn a_kind_is_told_with_ports_ranges_and_defaults() {
+fn a_kind_is_described_with_ports_ranges_and_defaults() {
     let mut nodes = Nodes::built_in();
     nodes.register::<Good>().unwrap();
     let text = nodes.describe("e").unwrap();
-    assert!(text.contains("takes  x") && text.contains("texture: what is read"), "{text}");
+    assert!(text.contains("input    x") && text.contains("texture: the source"), "{text}");
     assert!(text.contains("8; a whole number from 0 to 8: how many"), "{text}");
     assert!(nodes.describe("tonemapp").unwrap_err().to_string().ends_with("did you mean `tonemap`?"));
-    assert!(nodes.describe("?").unwrap_err().to_string().contains("there is: view"));
+    assert!(nodes.describe("?").unwrap_err().to_string().contains("expected one of: view"));
 }
 
 #[test]
-fn every_kind_that_comes_along_is_right_and_has_a_phrase_for_everything() {
+fn every_built_in_kind_is_valid_and_describes_everything() {
     let built_in = Nodes::built_in();
+    assert_eq!(built_in.check_all(), Ok(()));
     for kind in built_in.kinds() {
-        let others =
-            Nodes(built_in.kinds().iter().filter(|other| other.name != kind.name).copied().collect());
-        assert_eq!(others.fault(kind), None, "{}", kind.name);
         assert!(!kind.about.is_empty() && !kind.outputs.is_empty(), "{}", kind.name);
         let ports = kind.inputs.iter().chain(kind.outputs).map(|port| port.about);
         let phrases = ports.chain(kind.settings.iter().map(|setting| setting.about));
@@ -100,10 +99,10 @@ fn values_out_of_range_or_of_another_type_are_told_with_what_is_allowed() {
 }
 
 #[test]
-fn a_setting_that_is_not_described_is_the_mistake_of_the_kind() {
+fn reading_a_setting_that_is_not_declared_is_an_error_of_the_kind() {
     let settings = Settings::new("mine", vec![("radius", json!(0.5))]);
     assert_eq!(settings.number("radius").unwrap(), 0.5);
     for error in [settings.number("radios").unwrap_err(), settings.toggle("radius").unwrap_err()] {
-        assert!(error.to_string().contains("the kind of node `mine` is wrong"), "{error}");
+        assert!(error.to_string().contains("invalid node kind `mine`"), "{error}");
     }
 }

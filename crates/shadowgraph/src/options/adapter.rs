@@ -1,29 +1,29 @@
-//! `--adapter`
+//! The choice of a GPU.
 
-use super::OptionError;
+use super::error::OptionError;
 use std::str::FromStr;
 
-/// Which GPU draws.
+/// The GPU to use.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AdapterChoice {
-    /// The best one there is; a software driver when there is no other.
+    /// The best one; a software adapter if there is no other.
     #[default]
     Auto,
-    /// A software driver, and nothing else.
+    /// A software adapter.
     Cpu,
-    /// The one whose name contains this text, in any case of letters.
+    /// The one whose name contains this text, ignoring case.
     Name(String),
 }
 
 impl AdapterChoice {
-    /// Returns whether an adapter of this name is asked for. `cpu` is told by its kind, not by its name.
+    /// Returns whether the choice is a name that an adapter's name contains.
     ///
     /// ```
     /// use shadowgraph::options::AdapterChoice;
-    /// assert!(AdapterChoice::Name("radeon".to_owned()).is_named("AMD Radeon Graphics"));
+    /// assert!(AdapterChoice::Name("radeon".to_owned()).matches_name("AMD Radeon Graphics"));
     /// ```
     #[must_use]
-    pub fn is_named(&self, adapter_name: &str) -> bool {
+    pub fn matches_name(&self, adapter_name: &str) -> bool {
         matches!(self, Self::Name(wanted) if adapter_name.to_lowercase().contains(&wanted.to_lowercase()))
     }
 }
@@ -34,8 +34,8 @@ impl FromStr for AdapterChoice {
     fn from_str(text: &str) -> Result<Self, OptionError> {
         match text.trim() {
             "" => Err(OptionError::new(
-                "--adapter",
-                "it is empty; give auto, cpu or a part of an adapter's name",
+                "adapter",
+                "empty value; expected auto, cpu or a part of an adapter's name",
             )),
             "auto" => Ok(Self::Auto),
             "cpu" => Ok(Self::Cpu),
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn auto_and_cpu_are_words_and_the_rest_is_a_name() {
+    fn auto_and_cpu_are_keywords_and_the_rest_is_a_name() {
         assert_eq!("auto".parse(), Ok(AdapterChoice::Auto));
         assert_eq!("cpu".parse(), Ok(AdapterChoice::Cpu));
         assert_eq!("llvmpipe".parse(), Ok(AdapterChoice::Name("llvmpipe".to_owned())));
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn only_a_name_matches_a_name() {
-        assert!(!AdapterChoice::Auto.is_named("auto"));
-        assert!(!AdapterChoice::Name("intel".to_owned()).is_named("AMD Radeon"));
+        assert!(!AdapterChoice::Auto.matches_name("auto"));
+        assert!(!AdapterChoice::Name("intel".to_owned()).matches_name("AMD Radeon"));
     }
 }

@@ -1,21 +1,21 @@
-//! `--aov`: what the picture shows.
+//! The output that the image shows.
 
-use super::OptionError;
+use super::error::OptionError;
 use std::fmt;
 use std::str::FromStr;
 
-const OPTION: &str = "--aov";
+const OPTION: &str = "aov";
 
-/// What the picture shows (AOV: arbitrary output variable).
+/// The output that the image shows (AOV: arbitrary output variable).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Aov {
-    /// The finished picture.
+    /// The finished image.
     #[default]
     Color,
-    /// The visibility of a light by its index, 8 bit each of grey (255 lit, 0 in shadow) and alpha (0
-    /// where nothing is drawn or the surface faces away from the light).
+    /// The visibility of a light by index: 8 bit grey (255 lit, 0 in shadow) and alpha (0 where nothing is drawn or the
+    /// surface faces away from the light).
     Visibility(u32),
-    /// Which cascade shades each pixel.
+    /// The cascade of each pixel.
     Cascade,
     /// The depth.
     Depth,
@@ -28,7 +28,7 @@ pub enum Aov {
 }
 
 impl Aov {
-    /// What there is besides the textures of the graph.
+    /// The names that are not textures of the graph.
     pub(crate) const NAMES: [&str; 6] = ["color", "visibility:0", "cascade", "depth", "normal", "atlas"];
 }
 
@@ -60,11 +60,11 @@ impl FromStr for Aov {
         if let Some(light) = light {
             let number = light.trim_start_matches(':').parse().ok();
             let reason =
-                format!("`{text}` needs the number of a light, such as visibility:0 (dump lists the lights)");
+                format!("invalid value `{text}`; expected the index of a light, such as visibility:0");
             return number.map(Self::Visibility).ok_or_else(|| OptionError::new(OPTION, reason));
         }
         Ok(match text {
-            "" => return Err(OptionError::new(OPTION, "it is empty; color is the default")),
+            "" => return Err(OptionError::new(OPTION, "empty value; the default is color")),
             "color" => Self::Color,
             "cascade" => Self::Cascade,
             "depth" => Self::Depth,
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_name_reads_as_it_prints() {
+    fn every_name_is_parsed_from_its_display() {
         for text in [
             "color",
             "visibility:3",
@@ -97,14 +97,14 @@ mod tests {
     }
 
     #[test]
-    fn none_of_the_names_is_looked_for_among_the_textures_of_the_graph() {
+    fn no_aov_name_is_parsed_as_a_texture() {
         for name in Aov::NAMES {
             assert!(!matches!(name.parse().unwrap(), Aov::Texture(_)), "{name}");
         }
     }
 
     #[test]
-    fn visibility_without_a_lights_number_is_refused() {
+    fn visibility_without_the_index_of_a_light_is_refused() {
         for text in ["visibility", "visibility:", "visibility:sun", "visibility:-1", "visibility:99999999999"]
         {
             assert!(text.parse::<Aov>().unwrap_err().to_string().contains("such as visibility:0"), "{text}");

@@ -1,12 +1,12 @@
-//! `--camera`: a camera of the file by index or name, or a free one.
+//! A camera of the scene by index or name, or a free one.
 
-use super::OptionError;
+use super::error::OptionError;
 use super::pairs::{Pairs, Range};
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Projection, Scene};
 use std::str::FromStr;
 
-const OPTION: &str = "--camera";
+const OPTION: &str = "camera";
 const KEYS: [&str; 5] = ["eye", "target", "fov_deg", "near", "far"];
 const COORDINATE: Range = Range::within(-1.0e9, 1.0e9, "metres");
 const FOV_DEG: Range = Range::within(0.1, 175.0, "degrees");
@@ -15,47 +15,47 @@ const FAR: Range = Range::above(0.0, 1.0e9, "metres");
 const DEFAULT_FOV_DEG: f64 = 50.0;
 const DEFAULT_NEAR_M: f64 = 0.1;
 
-/// Which camera looks at the scene.
+/// The camera of the image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum CameraChoice {
-    /// The file's first camera, else one that frames the scene.
+    /// The scene's first camera, or else one that frames the scene.
     #[default]
     Default,
-    /// A camera of the file by its index or, where that finds none, by its name.
-    OfFile(String),
+    /// A camera of the scene by its index, or else by its name.
+    Scene(String),
     /// A free camera.
     Free(Camera),
 }
 
 impl CameraChoice {
-    /// Returns the chosen camera of a scene. `aspect` is the picture's width over its height, above 0.
+    /// Returns the camera for a scene. `aspect` is the image's width over its height, above 0.
     ///
     /// ```
     /// use shadowgraph::options::CameraChoice;
     /// let scene = shadowgraph_scene::Scene::default();
-    /// let camera = "eye=0,2,5 target=0,1,0 fov_deg=40".parse::<CameraChoice>()?.of(&scene, 1.5)?;
+    /// let camera = "eye=0,2,5 target=0,1,0 fov_deg=40".parse::<CameraChoice>()?.resolve(&scene, 1.5)?;
     /// assert_eq!(camera.position_world().y, 2.0);
     /// # Ok::<(), shadowgraph::options::OptionError>(())
     /// ```
     ///
     /// # Errors
-    /// When the file has no such camera; the message lists those it has.
-    pub fn of(&self, scene: &Scene, aspect: f64) -> Result<Camera, OptionError> {
+    /// For a camera that the scene does not have; the message lists its cameras.
+    pub fn resolve(&self, scene: &Scene, aspect: f64) -> Result<Camera, OptionError> {
         match self {
             Self::Default => {
                 Ok(scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(aspect)))
             }
             Self::Free(camera) => Ok(camera.clone()),
-            Self::OfFile(wanted) => {
+            Self::Scene(wanted) => {
                 let by_index = wanted.parse().ok().and_then(|index: usize| scene.cameras.get(index));
                 let by_name = || scene.cameras.iter().find(|camera| camera.name.as_ref() == Some(wanted));
-                by_index.or_else(by_name).cloned().ok_or_else(|| no_such_camera(wanted, scene))
+                by_index.or_else(by_name).cloned().ok_or_else(|| unknown_camera(wanted, scene))
             }
         }
     }
 }
 
-fn no_such_camera(wanted: &str, scene: &Scene) -> OptionError {
+fn unknown_camera(wanted: &str, scene: &Scene) -> OptionError {
     const SHOWN: usize = 8;
     let name = |(index, camera): (usize, &Camera)| match &camera.name {
         Some(name) => format!("{index} \"{name}\""),
@@ -65,8 +65,11 @@ fn no_such_camera(wanted: &str, scene: &Scene) -> OptionError {
     if scene.cameras.len() > SHOWN {
         list.push(format!("{} more", scene.cameras.len() - SHOWN));
     }
-    let has = if list.is_empty() { "no camera".to_owned() } else { list.join(", ") };
-    OptionError::new(OPTION, format!("there is no camera `{wanted}`; the scene has {has}"))
+    let hint = match list.is_empty() {
+        true => "the scene has no cameras".to_owned(),
+        false => format!("expected one of: {}", list.join(", ")),
+    };
+    OptionError::new(OPTION, format!("unknown camera `{wanted}`; {hint}"))
 }
 
 impl FromStr for CameraChoice {
@@ -76,10 +79,10 @@ impl FromStr for CameraChoice {
         if text.trim().is_empty() {
             return Err(OptionError::new(
                 OPTION,
-                "it is empty; give an index, a name or eye=X,Y,Z target=X,Y,Z",
+                "empty value; expected an index, a name or eye=X,Y,Z target=X,Y,Z",
             ));
         }
-        if text.contains('=') { free(text).map(Self::Free) } else { Ok(Self::OfFile(text.to_owned())) }
+        if text.contains('=') { free(text).map(Self::Free) } else { Ok(Self::Scene(text.to_owned())) }
     }
 }
 
@@ -89,7 +92,7 @@ fn free(text: &str) -> Result<Camera, OptionError> {
     let eye = pairs.vector("eye", COORDINATE)?.ok_or_else(|| pairs.missing("eye", FORM))?;
     let target = pairs.vector("target", COORDINATE)?.ok_or_else(|| pairs.missing("target", FORM))?;
     if eye == target {
-        return Err(OptionError::new(OPTION, "eye and target are the same point; there is no way to look"));
+        return Err(OptionError::new(OPTION, "eye and target must not be the same point"));
     }
     let fov_y = pairs.number("fov_deg", FOV_DEG)?.unwrap_or(DEFAULT_FOV_DEG).to_radians();
     let near = pairs.number("near", NEAR)?.unwrap_or(DEFAULT_NEAR_M);
@@ -118,11 +121,11 @@ mod tests {
     }
 
     fn chosen_x(text: &str) -> f64 {
-        text.parse::<CameraChoice>().unwrap().of(&scene(), 1.0).unwrap().position_world().x
+        text.parse::<CameraChoice>().unwrap().resolve(&scene(), 1.0).unwrap().position_world().x
     }
 
     fn error(text: &str) -> String {
-        text.parse::<CameraChoice>().and_then(|choice| choice.of(&scene(), 1.0)).unwrap_err().to_string()
+        text.parse::<CameraChoice>().and_then(|choice| choice.resolve(&scene(), 1.0)).unwrap_err().to_string()
     }
 
     #[test]
@@ -132,18 +135,18 @@ mod tests {
         assert_eq!(chosen_x("Left side"), 3.0);
         assert_eq!(
             error("Right"),
-            "--camera: there is no camera `Right`; the scene has 0, 1 \"7\", 2 \"Left side\""
+            "camera: unknown camera `Right`; expected one of: 0, 1 \"7\", 2 \"Left side\""
         );
     }
 
     #[test]
-    fn without_the_option_the_first_camera_or_a_framing_one_is_taken() {
-        assert_eq!(CameraChoice::Default.of(&scene(), 1.0).unwrap().position_world().x, 1.0);
-        assert!(CameraChoice::Default.of(&Scene::default(), 1.0).unwrap().world_from_view.is_finite());
+    fn the_default_is_the_first_camera_or_one_that_frames_the_scene() {
+        assert_eq!(CameraChoice::Default.resolve(&scene(), 1.0).unwrap().position_world().x, 1.0);
+        assert!(CameraChoice::Default.resolve(&Scene::default(), 1.0).unwrap().world_from_view.is_finite());
     }
 
     #[test]
-    fn a_free_camera_takes_degrees_and_metres() {
+    fn a_free_camera_is_in_degrees_and_metres() {
         let choice = "eye=1,2,3 target=1,2,-3 fov_deg=90 near=0.5 far=100".parse().unwrap();
         let CameraChoice::Free(camera) = choice else { panic!("{choice:?}") };
         assert_eq!(camera.position_world(), DVec3::new(1.0, 2.0, 3.0));
@@ -159,12 +162,12 @@ mod tests {
     }
 
     #[test]
-    fn wrong_values_are_named_with_their_range() {
+    fn errors_name_the_value_and_its_range() {
         assert_eq!(
             error("ey=1,2,3"),
-            "--camera: there is no key `ey`; the keys are eye, target, fov_deg, near, far"
+            "camera: unknown key `ey`; expected one of: eye, target, fov_deg, near, far"
         );
-        assert!(error("eye=1,2,3").contains("target is missing; write \"eye=X,Y,Z target"));
+        assert!(error("eye=1,2,3").contains("missing key `target`; expected \"eye=X,Y,Z target"));
         assert!(error("eye=1,2,3 target=1,2,3").contains("same point"));
         assert!(error("eye=1,2,3 target=0,0,NaN").contains("target=0,0,NaN is out of range: -1000000000 to"));
         assert!(

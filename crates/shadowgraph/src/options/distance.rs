@@ -1,19 +1,19 @@
-//! `--shadow-distance`
+//! The shadow distance.
 
-use super::OptionError;
+use super::error::OptionError;
 use super::pairs::Range;
 use std::str::FromStr;
 
-const OPTION: &str = "--shadow-distance";
+const OPTION: &str = "shadow_distance";
 const METRES: Range = Range::above(0.0, 1.0e6, "metres");
 
-/// How far from the camera the sun's shadows reach.
+/// The distance from the camera that the sun's shadows reach.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ShadowDistance {
     /// As far as the visible part of the scene's bounds, at most the far plane.
     #[default]
     Auto,
-    /// This far, metres, above 0.
+    /// A distance in metres, above 0.
     Metres(f64),
 }
 
@@ -30,7 +30,7 @@ impl FromStr for ShadowDistance {
             return Ok(Self::Auto);
         }
         let metres = text.parse().ok().filter(|metres| METRES.contains(*metres));
-        let reason = || format!("`{text}` is neither auto nor in the range {METRES}");
+        let reason = || format!("invalid value `{text}`; expected auto, or {METRES}");
         metres.map(Self::Metres).ok_or_else(|| OptionError::new(OPTION, reason()))
     }
 }
@@ -41,13 +41,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_neither_auto_nor_a_distance_is_refused_with_the_range() {
+    fn an_invalid_distance_is_refused_with_the_range() {
         for text in ["", "0", "-1", "NaN", "inf", "far", "1e7"] {
             let error = text.parse::<ShadowDistance>().unwrap_err().to_string();
             assert_eq!(
                 error,
                 format!(
-                    "--shadow-distance: `{text}` is neither auto nor in the range above 0 to 1000000 metres"
+                    "shadow_distance: invalid value `{text}`; expected auto, or above 0 to 1000000 metres"
                 )
             );
         }

@@ -1,17 +1,17 @@
-//! What can be wrong with an option.
+//! Errors of options.
 
-/// An option's value that is refused. The message is one line: the option, what is wrong, what is allowed.
+/// An invalid value of an option. The message is one line: the option, what is wrong, and what is expected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{option}: {reason}")]
 pub struct OptionError {
-    /// The option as it is written on the command line: `--camera`.
+    /// The name of the option, such as `shadow_distance`.
     pub option: &'static str,
-    /// What is wrong and what is allowed.
+    /// What is wrong, and what is expected.
     pub reason: String,
 }
 
 impl OptionError {
-    /// Makes the error of an option.
+    /// Creates the error of an option.
     #[must_use]
     pub fn new(option: &'static str, reason: impl Into<String>) -> Self {
         Self { option, reason: reason.into() }

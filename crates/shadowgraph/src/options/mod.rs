@@ -1,8 +1,7 @@
-//! The program's options as plain values: parsed, checked, and applied to a scene.
+//! Options as plain values: parsed, checked, and applied to a scene.
 //!
-//! Every option is a type with [`FromStr`](std::str::FromStr), so other tools can take the same words.
-//! Angles are degrees here and radians in the scene's types; unknown keys and values out of range are
-//! refused with the key and the range.
+//! Every option is a type with [`FromStr`](std::str::FromStr), so that other tools can read the same syntax. Angles are degrees here
+//! and radians in the types of the scene. An error about an unknown key or a value out of range names the key and the range.
 //!
 //! ```
 //! use shadowgraph::options::{Aov, Size, SunChoice};
@@ -10,19 +9,19 @@
 //! assert_eq!(size.aspect(), 16.0 / 9.0);
 //! assert_eq!("visibility:2".parse::<Aov>()?, Aov::Visibility(2));
 //! let error = "dir=0,-1,0 lux=-3".parse::<SunChoice>().unwrap_err();
-//! assert_eq!(error.to_string(), "--sun: lux=-3 is out of range: 0 to 1000000 lux");
+//! assert_eq!(error.to_string(), "sun: lux=-3 is out of range: 0 to 1000000 lux");
 //! # Ok::<(), shadowgraph::options::OptionError>(())
 //! ```
 
-mod adapter;
-mod aov;
-mod camera;
-mod distance;
-mod error;
+pub(crate) mod adapter;
+pub(crate) mod aov;
+pub(crate) mod camera;
+pub(crate) mod distance;
+pub(crate) mod error;
 mod pairs;
-mod settings;
-mod size;
-mod sun;
+pub(crate) mod settings;
+pub(crate) mod size;
+pub(crate) mod sun;
 
 pub use adapter::AdapterChoice;
 pub use aov::Aov;
@@ -30,44 +29,43 @@ pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
 pub use error::OptionError;
 pub use settings::SettingsFile;
-pub(crate) use settings::wrong_setting;
 pub use size::Size;
 pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
 
-use crate::{Method, Pipeline};
+use crate::{Pipeline, RenderConfig};
 use shadowgraph_shadows::{ShadowSettings, Technique};
 
-/// Everything that the options of a drawing command say, without the scene's file and the output's.
+/// The options of a drawing command, without the files of the scene and the output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The pipeline that draws.
+    /// The pipeline.
     pub pipeline: Pipeline,
-    /// The shadow technique; `None`: that of the pipeline.
+    /// The shadow technique; `None` for that of the pipeline.
     pub technique: Option<Technique>,
-    /// How many samples each pixel has while colours are drawn, 1 or 4.
+    /// Samples per pixel of colour images, 1 or 4.
     pub samples: u32,
-    /// The settings of the shadows.
+    /// The shadow settings.
     pub settings: ShadowSettings,
-    /// The size of the picture.
+    /// The size of the image.
     pub size: Size,
     /// The camera.
     pub camera: CameraChoice,
     /// The directional lights.
     pub sun: SunChoice,
-    /// How far shadows reach; `settings.distance_m` is not looked at.
+    /// The shadow distance, instead of `settings.distance_m`.
     pub shadow_distance: ShadowDistance,
-    /// What the picture shows.
+    /// The AOV that the image shows.
     pub aov: Aov,
-    /// The GPU that draws.
+    /// The GPU.
     pub adapter: AdapterChoice,
-    /// Whether times per pass are asked for.
+    /// Whether times per pass are measured.
     pub timings: bool,
 }
 
 impl Options {
-    /// Returns how pictures are drawn.
-    pub fn method(&self) -> Method {
-        Method { technique: self.technique, pipeline: self.pipeline.clone(), samples: self.samples }
+    /// Returns the configuration of the renderer.
+    pub fn render_config(&self) -> RenderConfig {
+        RenderConfig { technique: self.technique, pipeline: self.pipeline.clone(), samples: self.samples }
     }
 }
 

@@ -1,37 +1,37 @@
-//! `key=value key=value`: the form of `--camera` and `--sun`.
+//! `key=value key=value`: the syntax of cameras and suns.
 
-use super::OptionError;
+use super::error::OptionError;
 use glam::DVec3;
 use std::fmt;
 
-/// The values that a key may have.
+/// The range of a key's value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Range {
     min: f64,
     max: f64,
-    /// Whether `min` itself is left out.
-    open: bool,
+    /// Whether `min` itself is excluded.
+    exclusive: bool,
     unit: &'static str,
 }
 
 impl Range {
     pub(super) const fn within(min: f64, max: f64, unit: &'static str) -> Self {
-        Self { min, max, open: false, unit }
+        Self { min, max, exclusive: false, unit }
     }
 
     pub(super) const fn above(min: f64, max: f64, unit: &'static str) -> Self {
-        Self { min, max, open: true, unit }
+        Self { min, max, exclusive: true, unit }
     }
 
     /// Returns whether a value lies in the range; NaN never does.
     pub(super) fn contains(&self, value: f64) -> bool {
-        value <= self.max && if self.open { value > self.min } else { value >= self.min }
+        value <= self.max && if self.exclusive { value > self.min } else { value >= self.min }
     }
 }
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let start = if self.open { "above " } else { "" };
+        let start = if self.exclusive { "above " } else { "" };
         write!(
             f,
             "{start}{} to {}{}{}",
@@ -50,44 +50,44 @@ pub(super) struct Pairs<'a> {
 }
 
 impl<'a> Pairs<'a> {
-    /// Splits `text`; a key that is not among `known`, or comes twice, is refused.
+    /// Splits `text`, and refuses unknown and duplicate keys.
     pub(super) fn parse(option: &'static str, text: &'a str, known: &[&str]) -> Result<Self, OptionError> {
         let mut pairs: Vec<(&str, &str)> = Vec::new();
         for word in text.split_whitespace() {
             let Some((key, value)) = word.split_once('=') else {
                 let reason =
-                    format!("`{word}` is not of the form key=value; the keys are {}", known.join(", "));
+                    format!("invalid value `{word}`; expected key=value with the keys {}", known.join(", "));
                 return Err(OptionError::new(option, reason));
             };
             if !known.contains(&key) {
-                let reason = format!("there is no key `{key}`; the keys are {}", known.join(", "));
+                let reason = format!("unknown key `{key}`; expected one of: {}", known.join(", "));
                 return Err(OptionError::new(option, reason));
             }
             if pairs.iter().any(|(other, _)| *other == key) {
-                return Err(OptionError::new(option, format!("{key} is given twice")));
+                return Err(OptionError::new(option, format!("duplicate key `{key}`")));
             }
             pairs.push((key, value));
         }
         Ok(Self { option, pairs })
     }
 
-    /// Returns the error for a key that must be given.
+    /// Returns the error for a missing key.
     pub(super) fn missing(&self, key: &str, form: &str) -> OptionError {
-        OptionError::new(self.option, format!("{key} is missing; write {form}"))
+        OptionError::new(self.option, format!("missing key `{key}`; expected {form}"))
     }
 
-    /// Returns a number within a range, `None` when the key is absent.
+    /// Returns a number within a range; `None` if the key is missing.
     pub(super) fn number(&self, key: &str, range: Range) -> Result<Option<f64>, OptionError> {
         let Some(text) = self.get(key) else { return Ok(None) };
         self.one(key, text, text, range).map(Some)
     }
 
-    /// Returns three numbers, each within a range, `None` when the key is absent.
+    /// Returns three numbers, each within a range; `None` if the key is missing.
     pub(super) fn vector(&self, key: &str, range: Range) -> Result<Option<DVec3>, OptionError> {
         let Some(text) = self.get(key) else { return Ok(None) };
         let parts: Vec<&str> = text.split(',').collect();
         let [x, y, z] = parts.as_slice() else {
-            let reason = format!("{key}={text} is not three numbers X,Y,Z without spaces");
+            let reason = format!("invalid value {key}={text}; expected three numbers X,Y,Z without spaces");
             return Err(OptionError::new(self.option, reason));
         };
         let one = |part: &str| self.one(key, text, part, range);
@@ -100,7 +100,10 @@ impl<'a> Pairs<'a> {
 
     fn one(&self, key: &str, whole: &str, part: &str, range: Range) -> Result<f64, OptionError> {
         let value: f64 = part.parse().map_err(|_| {
-            OptionError::new(self.option, format!("{key}={whole}: `{part}` is not a number; it is {range}"))
+            OptionError::new(
+                self.option,
+                format!("{key}={whole}: `{part}` is not a number; expected {range}"),
+            )
         })?;
         if range.contains(value) {
             return Ok(value);
@@ -117,18 +120,18 @@ mod tests {
     const RANGE: Range = Range::above(0.0, 10.0, "m");
 
     fn error(text: &str) -> String {
-        let number = |text| Pairs::parse("--o", text, &["a", "b"])?.number("a", RANGE);
+        let number = |text| Pairs::parse("o", text, &["a", "b"])?.number("a", RANGE);
         number(text).unwrap_err().to_string()
     }
 
     #[test]
     fn an_unknown_key_is_named_with_the_known_ones() {
-        assert_eq!(error("c=1"), "--o: there is no key `c`; the keys are a, b");
+        assert_eq!(error("c=1"), "o: unknown key `c`; expected one of: a, b");
     }
 
     #[test]
-    fn a_key_given_twice_is_refused() {
-        assert_eq!(error("a=1 b=2 a=3"), "--o: a is given twice");
+    fn a_duplicate_key_is_refused() {
+        assert_eq!(error("a=1 b=2 a=3"), "o: duplicate key `a`");
     }
 
     #[test]
@@ -136,14 +139,14 @@ mod tests {
         for text in ["a=NaN", "a=inf", "a=-inf", "a=0", "a=10.5", "a=1e999"] {
             assert!(error(text).ends_with("is out of range: above 0 to 10 m"), "{}", error(text));
         }
-        assert_eq!(error("a=ten"), "--o: a=ten: `ten` is not a number; it is above 0 to 10 m");
-        assert_eq!(error("a="), "--o: a=: `` is not a number; it is above 0 to 10 m");
+        assert_eq!(error("a=ten"), "o: a=ten: `ten` is not a number; expected above 0 to 10 m");
+        assert_eq!(error("a="), "o: a=: `` is not a number; expected above 0 to 10 m");
     }
 
     #[test]
     fn a_vector_needs_exactly_three_numbers() {
-        let pairs = Pairs::parse("--o", "a=1,2 b=1,2,3", &["a", "b"]).unwrap();
-        assert!(pairs.vector("a", RANGE).unwrap_err().to_string().contains("not three numbers"));
+        let pairs = Pairs::parse("o", "a=1,2 b=1,2,3", &["a", "b"]).unwrap();
+        assert!(pairs.vector("a", RANGE).unwrap_err().to_string().contains("expected three numbers"));
         assert_eq!(pairs.vector("b", RANGE).unwrap(), Some(DVec3::new(1.0, 2.0, 3.0)));
     }
 }

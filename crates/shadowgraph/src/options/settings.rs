@@ -1,78 +1,76 @@
-//! `--settings FILE`: shadow settings in RON.
+//! Files of shadow settings in RON.
 
-use super::OptionError;
-use crate::ron_file;
+use super::error::OptionError;
+use crate::ron_file::{self, ParseError};
 use serde::Deserialize;
 use shadowgraph_shadows::{ShadowSettings, Techniques};
 use std::path::Path;
 
-const OPTION: &str = "--settings";
+const OPTION: &str = "settings";
 
-/// Shadow settings as a file has them.
+/// The shadow settings of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SettingsFile {
-    /// The settings; what the file leaves out is the default.
+    /// The settings; fields that the file leaves out have their defaults.
     pub settings: ShadowSettings,
-    /// Whether the file itself says how far shadows reach.
+    /// Whether the file sets the shadow distance.
     pub has_distance: bool,
 }
 
 impl SettingsFile {
-    /// Reads a RON file and checks every value, those of `techniques` too.
+    /// Reads a RON file and checks every value, also those of `techniques`.
     ///
     /// # Errors
-    /// When the file cannot be read, does not parse, has an unknown field, or a value is out of range: one
-    /// line with the file, the place, and the field.
+    /// For a file that cannot be read or parsed, an unknown field, and a value out of range: one line with the file, the location
+    /// and the field.
     pub fn load(file: &Path, techniques: &Techniques) -> Result<Self, OptionError> {
-        let refused = |reason: String| OptionError::new(OPTION, format!("{}: {reason}", file.display()));
-        let text =
-            std::fs::read_to_string(file).map_err(|error| refused(format!("cannot be read: {error}")))?;
         let name = file.display().to_string();
-        let refused = |wrong: ron_file::Wrong| OptionError::new(OPTION, wrong.to_string());
-        let settings: ShadowSettings = ron_file::read(&name, &text).map_err(refused)?;
-        techniques.check(&settings).map_err(|error| refused(wrong_setting(&name, &text, "", &error)))?;
+        let text = std::fs::read_to_string(file)
+            .map_err(|error| OptionError::new(OPTION, format!("{name}: cannot be read: {error}")))?;
+        let error = |error: ParseError| OptionError::new(OPTION, error.to_string());
+        let settings: ShadowSettings = ron_file::parse_file(&name, &text).map_err(error)?;
+        let checked = techniques.check(&settings);
+        checked.map_err(|setting| error(setting_error(&name, &text, "", &setting)))?;
         Ok(Self { settings, has_distance: has_distance(&text) })
     }
 
-    /// What is wrong with settings that this file gave.
-    pub(crate) fn wrong(file: &Path, error: &shadowgraph_shadows::Error) -> OptionError {
+    /// Returns the error of settings that were read from this file.
+    pub(crate) fn error(file: &Path, error: &shadowgraph_shadows::Error) -> OptionError {
         let text = std::fs::read_to_string(file).unwrap_or_default();
-        OptionError::new(OPTION, wrong_setting(&file.display().to_string(), &text, "", error).to_string())
+        OptionError::new(OPTION, setting_error(&file.display().to_string(), &text, "", error).to_string())
     }
 }
 
-/// An error of checked settings, with the place of the field that it is about; `parents` is the path of the settings in the
-/// file, with a point behind each.
-pub(crate) fn wrong_setting(
+/// Adds the location of the field to an error of checked settings; `parents` is the path of the settings in the file, with a dot
+/// after each part.
+pub(crate) fn setting_error(
     file: &str,
     text: &str,
     parents: &str,
     error: &shadowgraph_shadows::Error,
-) -> ron_file::Wrong {
+) -> ParseError {
     use shadowgraph_shadows::Error as E;
     let field = match error {
         E::Setting { field, .. } => (*field).to_owned(),
         E::TechniqueSetting { technique, field, .. } => format!("techniques.{technique}.{field}"),
-        E::Technique { technique: name, .. } | E::UnknownTechnique { name, .. } => {
-            format!("techniques.{name}")
-        }
+        E::Technique { technique: name, .. } | E::UnknownTechnique { name, .. } => format!("techniques.{name}"),
         E::UnknownLight { entry, .. } | E::DuplicateLight { entry, .. } => format!("lights.{entry}.light"),
         E::MalformedSettings { technique, reason } => {
-            let whose = format!("technique `{technique}`");
-            return ron_file::wrong_inside(
+            let owner = format!("technique `{technique}`");
+            return ron_file::nested_error(
                 file,
                 text,
                 &format!("{parents}techniques.{technique}"),
-                &whose,
+                &owner,
                 reason,
             );
         }
         _ => String::new(),
     };
-    ron_file::wrong_field(file, text, &format!("{parents}{field}"), error)
+    ron_file::field_error(file, text, &format!("{parents}{field}"), error)
 }
 
-/// The one field for which it matters whether it was left out.
+/// Returns whether a file sets the shadow distance.
 fn has_distance(text: &str) -> bool {
     #[derive(Deserialize)]
     struct Distance {
@@ -82,7 +80,7 @@ fn has_distance(text: &str) -> bool {
     fn absent() -> f64 {
         f64::NAN
     }
-    ron_file::read_at(text).is_ok_and(|distance: Distance| !distance.distance_m.is_nan())
+    ron_file::parse_text(text).is_ok_and(|distance: Distance| !distance.distance_m.is_nan())
 }
 
 #[cfg(test)]
@@ -99,12 +97,12 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_record_is_the_default() {
+    fn an_empty_struct_is_the_default() {
         assert_eq!(load("()"), Ok(SettingsFile::default()));
     }
 
     #[test]
-    fn a_file_that_says_the_distance_is_told_from_one_that_does_not() {
+    fn a_file_that_sets_the_distance_is_known() {
         let cascades = "cascades: (count: 2, split: Practical(lambda: 0.5))";
         let without = load(&format!("({cascades})")).unwrap();
         assert!(!without.has_distance && without.settings.cascades.count == 2);
@@ -114,12 +112,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_file_line_column_and_the_way_out() {
+    fn errors_name_the_file_line_and_column_and_what_is_expected() {
         let cases: &[(&str, &str)] = include!("settings/malformed.rs");
         assert!(cases.len() >= 59, "{}", cases.len());
         let mut wrong = Vec::new();
         for (text, expected) in cases {
-            let error = load(text).err().unwrap_or_else(|| "it is taken".into());
+            let error = load(text).err().unwrap_or_else(|| "it is accepted".into());
             let error = error.replace("settings.ron", "s.ron");
             if !error.contains(expected) || error.lines().count() != 1 {
                 wrong.push(format!("{text}\n  {error}\n  expected: {expected}"));
@@ -129,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_field_is_named_with_the_file_and_the_place() {
+    fn an_unknown_field_is_named_with_the_file_and_the_location() {
         let error = load("(no_such_field: 3)").unwrap_err();
         assert!(error.contains("settings.ron:1:") && error.contains("no_such_field"), "{error}");
         assert_eq!(error.lines().count(), 1);
@@ -142,11 +140,11 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_not_there_is_named() {
+    fn a_missing_file_is_named() {
         let error = SettingsFile::load(Path::new("no/such/file.ron"), &Techniques::built_in())
             .unwrap_err()
             .to_string();
-        assert!(error.starts_with("--settings: no/such/file.ron: cannot be read"), "{error}");
+        assert!(error.starts_with("settings: no/such/file.ron: cannot be read"), "{error}");
     }
 
     #[test]
@@ -158,7 +156,7 @@ mod tests {
         for file in &files {
             load(file).unwrap_or_else(|error| panic!("{error} in\n{file}"));
         }
-        // One has all fields, at their defaults.
+        // One has all fields with their defaults.
         let all = files.iter().find(|file| file.contains("techniques: {},")).unwrap();
         assert_eq!(load(all).unwrap().settings, ShadowSettings::default());
         let written = ron::to_string(&ShadowSettings::default()).unwrap();
@@ -167,7 +165,7 @@ mod tests {
         for field in fields.filter(|name| !name.is_empty()) {
             assert!(all.contains(&format!("{field}:")), "{field} is missing");
         }
-        // And one has the settings of all techniques, at theirs.
+        // And one has the settings of all techniques with theirs.
         let own = files.iter().find(|file| file.contains("techniques: {\n")).unwrap();
         let own: TechniquesOnly = ron::from_str(own).unwrap();
         let techniques = Techniques::built_in();

@@ -1,36 +1,34 @@
-//! `--sun`: the file's directional lights, none, or one given here.
+//! The directional lights of the scene, none, or another one.
 
-use super::OptionError;
+use super::error::OptionError;
 use super::pairs::{Pairs, Range};
 use glam::{DVec3, Vec3};
 use shadowgraph_scene::{Light, LightKind, Scene};
 use std::str::FromStr;
 
-const OPTION: &str = "--sun";
+const OPTION: &str = "sun";
 const KEYS: [&str; 3] = ["dir", "lux", "color"];
 const DIR: Range = Range::within(-1.0e6, 1.0e6, "");
 const LUX: Range = Range::within(0.0, 1.0e6, "lux");
 const COLOR: Range = Range::within(0.0, 1.0, "(linear)");
 
-/// The illuminance of a sun that does not say its own, lux.
+/// The default illuminance of a sun, lux.
 pub const DEFAULT_SUN_LUX: f32 = 20_000.0;
 
-/// Which directional light the scene has.
+/// The directional light of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SunChoice {
-    /// Those of the file; a scene with no light at all gets [`default_sun`].
+    /// Those of the scene; a scene without any light gets [`default_sun`].
     #[default]
-    OfFile,
-    /// None.
+    Scene,
+    /// No directional light.
     None,
-    /// This one in place of those of the file. It is light 0.
+    /// This one, instead of those of the scene. It is light 0.
     Sun(Light),
 }
 
 impl SunChoice {
-    /// Puts the choice into a scene's lights.
-    ///
-    /// Returns a line to show when the scene had no light and got one.
+    /// Changes a scene's lights accordingly. Returns a note if the scene had no light and got the default sun.
     ///
     /// ```
     /// use shadowgraph::options::SunChoice;
@@ -41,13 +39,11 @@ impl SunChoice {
     /// ```
     pub fn apply(&self, scene: &mut Scene) -> Option<String> {
         match self {
-            Self::OfFile if scene.lights.is_empty() => {
+            Self::Scene if scene.lights.is_empty() => {
                 scene.add_light(default_sun());
-                Some(format!(
-                    "the scene has no light; a default sun of {DEFAULT_SUN_LUX} lux is added (see --sun)"
-                ))
+                Some(format!("the scene has no light; a default sun of {DEFAULT_SUN_LUX} lux is added"))
             }
-            Self::OfFile => None,
+            Self::Scene => None,
             Self::None => {
                 remove_directional(scene);
                 None
@@ -61,7 +57,7 @@ impl SunChoice {
     }
 }
 
-/// Returns the sun of a scene that has no light: white, from above, the front and the left.
+/// Returns the sun of a scene without lights: white, from above, the front and the left.
 #[must_use]
 pub fn default_sun() -> Light {
     sun(DVec3::new(0.5, -1.0, -0.6).normalize(), DEFAULT_SUN_LUX, Vec3::ONE)
@@ -84,11 +80,11 @@ impl FromStr for SunChoice {
             return Ok(Self::None);
         }
         let pairs = Pairs::parse(OPTION, text, &KEYS)?;
-        let form = "\"dir=X,Y,Z lux=L color=R,G,B\" (dir = the way the light travels) or none";
+        let form = "\"dir=X,Y,Z lux=L color=R,G,B\" (dir: the direction in which the light travels), or none";
         let dir = pairs.vector("dir", DIR)?.ok_or_else(|| pairs.missing("dir", form))?;
-        let direction = dir
-            .try_normalize()
-            .ok_or_else(|| OptionError::new(OPTION, "dir has no length; it is the way the light travels"))?;
+        let direction = dir.try_normalize().ok_or_else(|| {
+            OptionError::new(OPTION, "dir must not be zero; it is the direction in which the light travels")
+        })?;
         let lux = pairs.number("lux", LUX)?.map_or(DEFAULT_SUN_LUX, |lux| lux as f32);
         let color = pairs.vector("color", COLOR)?.map_or(Vec3::ONE, |color| color.as_vec3());
         Ok(Self::Sun(sun(direction, lux, color)))
@@ -138,25 +134,25 @@ mod tests {
     }
 
     #[test]
-    fn only_a_scene_without_any_light_gets_the_default_sun_and_a_note() {
+    fn only_a_scene_without_lights_gets_the_default_sun_and_a_note() {
         let mut dark = Scene::default();
-        assert!(SunChoice::OfFile.apply(&mut dark).unwrap().contains("no light"));
+        assert!(SunChoice::Scene.apply(&mut dark).unwrap().contains("no light"));
         assert_eq!(dark.lights, [default_sun()]);
         let mut lit = scene();
-        assert_eq!(SunChoice::OfFile.apply(&mut lit), None);
+        assert_eq!(SunChoice::Scene.apply(&mut lit), None);
         assert_eq!(lit, scene());
     }
 
     #[test]
-    fn wrong_values_are_named_with_their_range() {
-        assert!(error("").contains("dir is missing; write \"dir=X,Y,Z"));
-        assert!(error("noon").contains("`noon` is not of the form key=value"));
-        assert!(error("dir=0,0,0").contains("dir has no length"));
+    fn errors_name_the_value_and_its_range() {
+        assert!(error("").contains("missing key `dir`; expected \"dir=X,Y,Z"));
+        assert!(error("noon").contains("invalid value `noon`; expected key=value"));
+        assert!(error("dir=0,0,0").contains("dir must not be zero"));
         assert!(error("dir=0,-1,0 lux=nan").contains("lux=nan is out of range: 0 to 1000000 lux"));
         assert!(error("dir=0,-1,0 color=1,1,2").contains("color=1,1,2 is out of range: 0 to 1 (linear)"));
         assert!(
             error("dir=0,-1,0 kelvin=5000")
-                .contains("there is no key `kelvin`; the keys are dir, lux, color")
+                .contains("unknown key `kelvin`; expected one of: dir, lux, color")
         );
     }
 }

@@ -11,7 +11,7 @@ use super::progress::Progress;
 use super::report;
 use crate::bench::{Comparison, FrameTime, Spread, compare, pass_times};
 use crate::core::TimeSummary;
-use crate::{Gpu, Method, Registry, Renderer, ViewOptions};
+use crate::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
 
 /// Frames on a real GPU, of which each is waited for.
 const GPU_FRAMES: u32 = 20;
@@ -32,7 +32,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     };
     console::print(&heading(args, &input))?;
     let measuring = Progress::if_slow("measuring");
-    let comparison = match input.options.method() == Method::default() {
+    let comparison = match input.options.render_config() == RenderConfig::default() {
         true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
         false => {
             "Only the pipeline forward with pcf and one sample is compared with passes encoded by hand.\n"
@@ -46,7 +46,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
 
 fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
     let (scene, aov) = (input.scene.clone(), input.options.aov.clone());
-    Ok(Renderer::with(gpu, scene, &input.camera, aov, input.options.method())?)
+    Ok(Renderer::with_config(gpu, scene, &input.camera, aov, input.options.render_config())?)
 }
 
 fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
@@ -61,7 +61,7 @@ fn heading(args: &BenchArgs, input: &Input) -> String {
     let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
     format!(
         "{scene}, {size}, pipeline {pipeline}, technique {}{samples}\n",
-        input.options.method().technique().name()
+        input.options.render_config().technique().name()
     )
 }
 

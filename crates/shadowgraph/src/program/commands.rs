@@ -12,7 +12,7 @@ use crate::options::{Aov, Options};
 use crate::output::{Pixels, write_png};
 use crate::scene::gltf::Progress as LoadProgress;
 use crate::scene::{Camera, Scene};
-use crate::{Drawn, Gpu, Picture, Registry, Renderer, ViewOptions};
+use crate::{Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
 
 /// What every drawing command starts from.
 pub(crate) struct Input {
@@ -27,7 +27,7 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let input = input(&args.draw, registry)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let drawn = draw(&gpu, input, args.frames)?;
-    let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.picture);
+    let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.image);
     let [width, height] = drawn.size_px;
     write_png(&args.output, width, height, pixels, &bytes)?;
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
@@ -39,7 +39,7 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
 }
 
 pub(super) struct DrawnView {
-    pub(super) view: Drawn,
+    pub(super) view: RenderedFrame,
     size_px: [u32; 2],
     aov: Aov,
     timings: bool,
@@ -49,8 +49,8 @@ pub(super) struct DrawnView {
 pub(super) fn draw(gpu: &Gpu, input: Input, frames: u32) -> Result<DrawnView, Failure> {
     let drawing = Progress::if_slow("drawing");
     let Options { aov, timings, .. } = input.options.clone();
-    let (view, method) = (view_options(&input), input.options.method());
-    let mut renderer = Renderer::with(gpu, input.scene, &input.camera, aov.clone(), method)?;
+    let (view, config) = (view_options(&input), input.options.render_config());
+    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov.clone(), config)?;
     let mut timer = timings.then(Timer::new);
     if timings {
         // A software driver compiles shaders at the first draw.
@@ -89,7 +89,7 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
         console::warning(&note);
     }
     args.check_lights(&options.settings, &scene)?;
-    let camera = options.camera.of(&scene, options.size.aspect())?;
+    let camera = options.camera.resolve(&scene, options.size.aspect())?;
     Ok(Input { options, scene, camera })
 }
 
@@ -114,7 +114,7 @@ pub(crate) fn view_options(input: &Input) -> ViewOptions {
 }
 
 /// What of a picture goes into the file.
-fn file_pixels(aov: &Aov, picture: Picture) -> (Pixels, Vec<u8>) {
+fn file_pixels(aov: &Aov, picture: RenderedImage) -> (Pixels, Vec<u8>) {
     let pixels = picture.rgba8.chunks_exact(4);
     match aov {
         Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),

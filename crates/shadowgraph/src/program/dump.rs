@@ -10,9 +10,8 @@ use super::progress::Progress;
 use super::report::{self, Planned};
 use crate::core::{Dump, HtmlPage, trace_json};
 use crate::inspect::lights;
-use crate::options::OptionError;
 use crate::output::write_text;
-use crate::{Drawn, Gpu, Pipeline, Registry, Renderer};
+use crate::{Gpu, Pipeline, Registry, RenderedFrame, Renderer};
 
 /// What pages are called, with the scene's file behind it.
 const TITLE: &str = "Shadowgraph frame";
@@ -51,15 +50,15 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
 /// The page about a frame, with pictures where there is something to draw with.
 fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
     let view = view_options(&input);
-    let (aov, method) = (input.options.aov.clone(), input.options.method());
+    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
     let (scene_lights, mut notes) = (input.scene.lights.clone(), input.scene.notes.clone());
     let [width, height] = view.size_px;
     notes.insert(
         0,
         format!(
             "{width} x {height} pixels, technique {}, pipeline {}.",
-            method.technique().name(),
-            method.pipeline.name()
+            config.technique().name(),
+            config.pipeline.name()
         ),
     );
     let mut finish = |mut page: HtmlPage<'_>| {
@@ -81,11 +80,11 @@ fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
         }
     };
     let _drawing = Progress::if_slow("drawing");
-    let mut renderer = Renderer::with(&gpu, input.scene, &input.camera, aov, method)?;
+    let mut renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
     let inspected = renderer.inspect(&gpu, &view)?;
     let mut page = inspected.page(&scene_lights, &view);
     page.notes.push(format!("Drawn by {}.", gpu.adapter.name));
-    page.notes.extend(report::unshadowed(&inspected.drawn.unshadowed));
+    page.notes.extend(report::unshadowed(&inspected.frame.unshadowed));
     Ok(finish(page))
 }
 
@@ -117,14 +116,14 @@ fn usage(message: &str) -> Failure {
 /// `shadowgraph explain`
 pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Failure> {
     let input = input(&args.draw, registry)?;
-    let pipeline = input.options.method().pipeline;
+    let pipeline = input.options.render_config().pipeline;
     let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input)?;
     let told = match &args.before {
         Some(after) => plan.explain_order(&args.name, after),
         None => plan.explain(&args.name),
     };
-    console::print(&told.map_err(|error| match pipeline.leaves_out(&args.name) {
-        true => Failure::from(OptionError::new("explain", left_out(&args.name, &pipeline))),
+    console::print(&told.map_err(|error| match pipeline.is_disabled(&args.name) {
+        true => Failure { code: Failure::INPUT, message: disabled(&args.name, &pipeline) },
         false => error.into(),
     })?)?;
     let asked = [Some(&args.name), args.before.as_ref()];
@@ -137,16 +136,16 @@ pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Fai
     }
 }
 
-fn left_out(node: &str, pipeline: &Pipeline) -> String {
+fn disabled(node: &str, pipeline: &Pipeline) -> String {
     let name = pipeline.name();
-    format!("the node `{node}` of {name} is left out, as its `when` does not hold: see --set and --tier")
+    format!("the node `{node}` of {name} is disabled, as its `when` does not hold: see --set")
 }
 
 /// A plan needs no GPU, but times do, and an adapter that is named is to be there.
 fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let Drawn { plan, times, unshadowed, .. } = draw(&gpu, input, 1)?.view;
+        let RenderedFrame { plan, times, unshadowed, .. } = draw(&gpu, input, 1)?.view;
         return Ok((gpu, Planned { plan, times, unshadowed }));
     }
     let gpu = if args.names_adapter() {
@@ -155,8 +154,8 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
         Gpu::noop()?
     };
     let view = view_options(&input);
-    let (aov, method) = (input.options.aov.clone(), input.options.method());
-    let renderer = Renderer::with(&gpu, input.scene, &input.camera, aov, method)?;
+    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
+    let renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
 }

@@ -1,4 +1,7 @@
-//! How a command ends when it does not end well.
+//! How a command fails.
+
+use crate::Error;
+use crate::options::error::OptionError;
 
 /// One line for the user and the exit code.
 #[derive(Debug, PartialEq, Eq)]
@@ -23,9 +26,32 @@ impl Failure {
     }
 }
 
-/// What comes from the input, a setting or the output.
-impl<E: std::error::Error> From<E> for Failure {
+/// Errors of the input, a setting or the output. Where an option is the cause, its name begins the message.
+impl<E: std::error::Error + 'static> From<E> for Failure {
     fn from(error: E) -> Self {
-        Self { code: Self::INPUT, message: error.to_string() }
+        let any: &(dyn std::error::Error + 'static) = &error;
+        let message = if let Some(OptionError { option, reason }) = any.downcast_ref() {
+            format!("--{}: {reason}", option.replace('_', "-"))
+        } else if let Some(option) = any.downcast_ref().and_then(option_of) {
+            format!("--{option}: {error}")
+        } else {
+            error.to_string()
+        };
+        Self { code: Self::INPUT, message }
+    }
+}
+
+/// Returns the option whose value causes an error of the library.
+fn option_of(error: &Error) -> Option<&'static str> {
+    match error {
+        Error::SampleCount { .. } | Error::SingleSampleOnly { .. } => Some("samples"),
+        Error::Lighting(crate::lighting::Error::Samples { .. }) => Some("samples"),
+        Error::ImageSize { .. } => Some("size"),
+        Error::UnknownLight { .. }
+        | Error::UnknownTexture { .. }
+        | Error::NotDisplayable { .. }
+        | Error::MissingOutput { .. }
+        | Error::BenchAov => Some("aov"),
+        _ => None,
     }
 }

@@ -107,7 +107,7 @@ fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, Option
             chosen.extend(known.kinds().iter().map(|&kind| Technique::from(kind)));
             chosen.extend([Technique::default().collected(), Technique::default().with_contact()]);
         } else {
-            chosen.push(technique("--techniques", name, known)?);
+            chosen.push(technique("techniques", name, known)?);
         }
     }
     Ok(chosen)
@@ -129,7 +129,7 @@ fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
         console::warning(&note);
     }
     let view = |choice: &String| -> Result<(String, Camera), OptionError> {
-        let camera = choice.parse::<CameraChoice>()?.of(&scene, size.aspect())?;
+        let camera = choice.parse::<CameraChoice>()?.resolve(&scene, size.aspect())?;
         Ok((camera.name.clone().unwrap_or_else(|| choice.clone()), camera))
     };
     let mut views = args.camera.iter().map(view).collect::<Result<Vec<_>, _>>()?;

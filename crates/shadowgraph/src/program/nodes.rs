@@ -6,10 +6,10 @@ use super::args::NodesArgs;
 use super::console;
 use super::failure::Failure;
 use super::limits::{Check, check_own, check_shared, rows, shared};
-use crate::nodes::near_words;
+use crate::core::did_you_mean;
 use crate::pipelines::{BUILT_IN, Pipeline, schema};
 use crate::shadows::{ShadowSettings, Techniques};
-use crate::{Registry, permutations, ron_file};
+use crate::{Registry, ron_file};
 use serde_json::Value;
 
 /// Prints all that there is, one of it, or the schema of files.
@@ -26,7 +26,7 @@ pub(crate) fn nodes(args: &NodesArgs, registry: &Registry) -> Result<(), Failure
 fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     let Registry { techniques, nodes } = registry;
     let mut told = String::new();
-    if let Some(text) = Pipeline::text_of(name) {
+    if let Some(text) = Pipeline::built_in_text(name) {
         let _ = write!(told, "pipeline {name}, as a file\n\n{text}");
     }
     let of_technique = techniques.find(name).is_ok().then(|| technique(name, techniques)).transpose()?;
@@ -40,8 +40,8 @@ fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
         let of_techniques = techniques.kinds().iter().map(|kind| kind.name);
         let tops = Techniques::modifiers().map(|(top, ..)| top);
         let all = BUILT_IN.iter().copied().chain(kinds).chain(of_techniques).chain(tops).chain([SHARED]);
-        let near = near_words(name, all);
-        let message = format!("there is no pipeline, kind of node or technique `{name}`{near}");
+        let hint = did_you_mean(name, all);
+        let message = format!("unknown pipeline, node kind or technique `{name}`{hint}");
         return Err(Failure { code: Failure::INPUT, message });
     }
     Ok(told)
@@ -96,7 +96,7 @@ fn table(out: &mut String, root: &Value, defaults: &str, check: Check<'_>) {
             _ => String::new(),
         };
         let allowed = if words.is_empty() { String::new() } else { format!("; {words}") };
-        let _ = writeln!(out, "  set    {name:<32} {default}{allowed}");
+        let _ = writeln!(out, "  setting  {name:<32} {default}{allowed}");
     }
 }
 
@@ -120,28 +120,7 @@ fn all(registry: &Registry) -> Result<String, Failure> {
         let _ = writeln!(out, "  {:<16}{what}", format!("+{name}"));
         settings(&mut out, name, Some(defaults));
     }
-    permutation_table(&mut out, techniques)?;
     Ok(out)
-}
-
-fn permutation_table(out: &mut String, techniques: &Techniques) -> Result<(), Failure> {
-    out.push_str("\nin how many permutations the shaders of lit passes come\n");
-    let _ =
-        writeln!(out, "  {:<16}{:>16}{:>16}{:>32}", "", "asked", "collected", "collected, blended surfaces");
-    for kind in techniques.kinds() {
-        let counts = permutations((*kind).into())?;
-        let _ = writeln!(
-            out,
-            "  {:<16}{:>16}{:>16}{:>32}",
-            kind.name, counts.asked, counts.collected, counts.collected_and_asked
-        );
-    }
-    out.push_str(
-        "\nasked: where each pixel asks for its shadows; collected: in a screen mask, as by pipeline screen_shadows. Each is\n\
-         compiled for those kinds of material (opaque, mask, blend; double-sided; mirrored: up to 12) that are drawn, when it\n\
-         is first needed.\n",
-    );
-    Ok(())
 }
 
 /// What a settings file has in its `techniques`.

@@ -1,22 +1,23 @@
-//! Views that are recorded into an encoder of the caller's.
+//! Views that are recorded into an encoder of the caller.
 
 use shadowgraph_core::{Executed, Format, Frame, Timer};
 
 use super::Renderer;
-use crate::options::Aov;
-use crate::pipelines::View;
-use crate::{Error, Gpu, ViewOptions};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::options::aov::Aov;
+use crate::render_view::RenderView;
+use crate::view_options::ViewOptions;
 
 impl Renderer {
-    /// Records a view into an encoder of the caller's, who submits it. The picture covers `target`, such as a
-    /// window's surface, and is as large as it; `options.size_px` is not looked at. Colours need a target of an
-    /// sRGB format with `RENDER_ATTACHMENT`; other outputs are copied, so they need `Rgba8Unorm` (textures that are
-    /// not depth: `Rgba8UnormSrgb`) with `COPY_DST`.
+    /// Records a view into the caller's encoder, for the caller to submit. The image covers `target`, such as a window's
+    /// surface texture; `options.size_px` is ignored. Colours need a target of an sRGB format with `RENDER_ATTACHMENT`; other
+    /// AOVs are copied, so they need `Rgba8Unorm` (textures that are not depth: `Rgba8UnormSrgb`) with `COPY_DST`.
     ///
-    /// The returned frame holds the plan.
+    /// The result holds the plan.
     ///
     /// # Errors
-    /// Settings out of range, or a target that does not fit.
+    /// For settings out of range, and for a target of another format.
     pub fn record(
         &mut self,
         gpu: &Gpu,
@@ -27,7 +28,7 @@ impl Renderer {
         self.record_timed(gpu, encoder, target, options, None)
     }
 
-    /// Records like [`record`](Self::record) and measures every pass with `timer`: read it when the encoder is
+    /// Records a view like [`record`](Self::record), and measures every pass with `timer`: read it when the encoder is
     /// submitted.
     ///
     /// # Errors
@@ -49,11 +50,11 @@ impl Renderer {
         self.execute(frame, gpu, encoder, timer)
     }
 
-    /// Records several views in one frame, each into a target of its own, such as the halves of a split screen or two eyes: each
-    /// has its own shadow maps.
+    /// Records several views in one frame, each into its own target, such as the halves of a split screen or two eyes. Each has
+    /// its own shadow maps.
     ///
     /// # Errors
-    /// As [`record`](Self::record); views whose GPU space cannot be the same, as they are kilometres apart.
+    /// As [`record`](Self::record), and for views that are too far apart, kilometres, to share one GPU space.
     pub fn record_views(
         &mut self,
         gpu: &Gpu,
@@ -65,36 +66,36 @@ impl Renderer {
         if let Some(first) = all.first() {
             self.move_origin(gpu, first)?;
         }
-        let planned: Vec<(View<'_>, &wgpu::Texture)> = (0u32..)
+        let planned: Vec<(RenderView<'_>, &wgpu::Texture)> = (0u32..)
             .zip(all.iter().zip(views))
-            .map(|(number, (options, (target, _)))| {
-                (View { number, ..self.view(options, Some(target)) }, *target)
+            .map(|(index, (options, (target, _)))| {
+                (RenderView { index, ..self.view(options, Some(target)) }, *target)
             })
             .collect();
         let mut frame = self.graph().frame();
         for (view, target) in &planned {
-            let name = format_args!("view {}", view.number);
+            let name = format_args!("view {}", view.index);
             frame.node(name, |frame| self.add_into(frame, view, target))?;
         }
         self.execute(frame, gpu, encoder, None)
     }
 
-    /// Adds the passes of a view whose picture goes to `target`.
+    /// Adds the passes of a view, and the copy to `target` if the AOV is not drawn into it.
     fn add_into<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         target: &wgpu::Texture,
     ) -> Result<(), Error> {
         let output = self.add(frame, view)?;
         if self.aov != Aov::Color {
             let mut target = frame.import_texture("target", target, false);
-            frame.copy_pass("copy to target").texture(&output.picture, &mut target);
+            frame.copy_pass("copy to target").texture(&output.image, &mut target);
         }
         Ok(())
     }
 
-    /// Pictures of colours need a format that encodes them.
+    /// Refuses formats that do not encode colours.
     fn check_target(&self, format: Format) -> Result<(), Error> {
         if self.aov == Aov::Color && !format.is_srgb() {
             return Err(Error::TargetFormat { format });
@@ -102,7 +103,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Compiles and records a frame; one that is declared like one before has its plan, textures and bind groups.
+    /// Compiles and executes a frame; a frame that is declared like an earlier one reuses its plan, textures and bind groups.
     pub(super) fn execute(
         &self,
         frame: Frame<'_>,
@@ -119,7 +120,7 @@ impl Renderer {
     }
 }
 
-/// The options of a view that is as large as its target.
+/// Returns the options of a view with the size of its target.
 fn options_for(target: &wgpu::Texture, options: &ViewOptions) -> ViewOptions {
     ViewOptions { size_px: [target.width(), target.height()], ..options.clone() }
 }

@@ -1,8 +1,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use super::*;
-use shadowgraph_core::Executed;
 use shadowgraph_core::StoreReason;
+use shadowgraph_core::{Executed, Format};
 use shadowgraph_scene::demo::demo_scene;
 use shadowgraph_shadows::ShadowSettings;
 use wgpu::TextureUsages;

@@ -2,23 +2,23 @@
 use super::*;
 
 #[test]
-fn a_field_is_found_by_its_path_through_records_variants_and_maps() {
+fn a_field_is_found_by_its_path_through_structs_variants_and_maps() {
     let text = "(\n  first: 1,\n  cascades: ( count: 9, split: Practical(lambda: 2.0)),\n  techniques: {\"evsm\": (blur_px: 99)},\n)";
-    let at = |path: &str| wrong_field("a.ron", text, path, "").place;
+    let at = |path: &str| field_error("a.ron", text, path, "").location;
     assert_eq!(at("first"), "a.ron:2:10");
     assert_eq!(at("cascades.count"), "a.ron:3:22");
     assert_eq!(at("cascades.split.lambda"), "a.ron:3:50");
     assert_eq!(at("techniques.evsm.blur_px"), "a.ron:4:34");
-    assert_eq!(at("cascades.depth_bias"), "a.ron:3:13", "the record that it is missing in");
+    assert_eq!(at("cascades.depth_bias"), "a.ron:3:13", "the struct without the field");
     assert_eq!(at("filter"), "a.ron");
-    assert_eq!(wrong_field("a.ron", "[(x: 1), (x: 2)]", "1.x", "odd").to_string(), "a.ron:1:14: odd");
+    assert_eq!(field_error("a.ron", "[(x: 1), (x: 2)]", "1.x", "odd").to_string(), "a.ron:1:14: odd");
 }
 
 #[test]
 fn characters_are_counted_and_not_bytes() {
-    let wrong = read::<(String, f32)>("a.ron", "(\"äöü\", x)").unwrap_err();
-    assert_eq!(wrong.place, "a.ron:1:9");
-    assert_eq!(place("a.ron", "äö\nüx", 7), "a.ron:2:2");
+    let error = parse_file::<(String, f32)>("a.ron", "(\"äöü\", x)").unwrap_err();
+    assert_eq!(error.location, "a.ron:1:9");
+    assert_eq!(location("a.ron", "äö\nüx", 7), "a.ron:2:2");
 }
 
 /// Numbers that are the same in every run (xorshift, Marsaglia 2003).
@@ -33,7 +33,7 @@ impl Random {
     }
 }
 
-/// A text with some mistakes: parts left out, written twice, moved, and odd characters put in.
+/// Returns a text with some errors: parts removed, duplicated or moved, and odd characters inserted.
 fn broken(text: &str, random: &mut Random) -> String {
     const ODD: [&str; 16] =
         ["(", ")", "[", "]", "{", "}", ",", ":", "\"", "-", "1e999", "NaN", "Some(", "//", "\u{0}", "é"];
@@ -54,20 +54,19 @@ fn broken(text: &str, random: &mut Random) -> String {
     chars.into_iter().collect()
 }
 
-/// Each kind of file that the program reads, broken in ever other ways: `SHADOWGRAPH_FUZZ` says in how many, 2000 of each kind by
-/// default. `cargo xtask soak` tries many more.
+/// Checks files of each kind with random errors: `SHADOWGRAPH_FUZZ` of each kind, 2000 by default. `cargo xtask soak` tries many more.
 #[test]
-fn broken_files_are_refused_in_one_line_with_the_place_or_taken() {
+fn damaged_files_are_refused_in_one_line_with_the_location_or_accepted() {
     use crate::measure::report::Bounds;
     use crate::measure::{CaseSet, VariantSet};
-    use crate::pipelines::{BUILT_IN, Choices, Pipeline};
+    use crate::pipelines::{BUILT_IN, Parameters, Pipeline};
     use std::path::Path;
 
     let techniques = shadowgraph_shadows::Techniques::built_in();
     let settings = include_str!("../../../../docs/shadows.md").split("```ron\n").skip(1);
     let mut files: Vec<(&str, &str)> =
         settings.map(|rest| ("settings", rest.split("```").next().unwrap())).collect();
-    files.extend(BUILT_IN.iter().map(|name| ("pipeline", Pipeline::text_of(name).unwrap())));
+    files.extend(BUILT_IN.iter().map(|name| ("pipeline", Pipeline::built_in_text(name).unwrap())));
     files.push(("variants", include_str!("../../../../docs/variants.ron")));
     files.push(("cases", include_str!("../measure/cases.ron")));
     files.push(("bounds", include_str!("../../../../tests/bounds/quick.ron")));
@@ -85,14 +84,14 @@ fn broken_files_are_refused_in_one_line_with_the_place_or_taken() {
             let error = match kind {
                 "settings" => {
                     std::fs::write(&path, &text).unwrap();
-                    let read = crate::options::SettingsFile::load(&path, &techniques);
-                    read.err().map(|error| error.to_string().replacen("--settings: ", "", 1))
+                    let result = crate::options::SettingsFile::load(&path, &techniques);
+                    result.err().map(|error| error.to_string().replacen("settings: ", "", 1))
                 }
                 "pipeline" => {
                     std::fs::write(&path, &text).unwrap();
                     let nodes = crate::nodes::Nodes::built_in();
-                    let read = Pipeline::load(&path, &nodes, &techniques, &Choices::default());
-                    read.err().map(|error| error.to_string())
+                    let result = Pipeline::load(&path, &nodes, &techniques, &Parameters::default());
+                    result.err().map(|error| error.to_string())
                 }
                 "variants" => {
                     VariantSet::parse(&text, &path, &techniques).err().map(|error| error.to_string())

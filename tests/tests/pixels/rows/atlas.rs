@@ -178,9 +178,14 @@ fn row_17_without_shadows_maps_are_one_texel() {
         scene
     };
     let largest = [scene, with_sun].map(|scene| {
-        let renderer =
-            Renderer::with(&shadowgraph::Gpu::noop().unwrap(), scene, &options.camera, Aov::Color, PCF)
-                .unwrap();
+        let renderer = Renderer::with_config(
+            &shadowgraph::Gpu::noop().unwrap(),
+            scene,
+            &options.camera,
+            Aov::Color,
+            PCF,
+        )
+        .unwrap();
         let (plan, _) = renderer.plan(&options).unwrap();
         let text = plan.to_text();
         (text.contains("no cascades"), text.contains("4096x4096"))

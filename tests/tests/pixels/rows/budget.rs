@@ -53,7 +53,7 @@ fn row_28_the_time_of_the_shadow_passes_is_reported() {
     let options = pillar_view(|_| ());
     let shadow_ms = |technique, timer: Option<&mut Timer>| {
         let mut renderer =
-            Renderer::with(gpu, scene.clone(), &options.camera, Aov::Color, technique).unwrap();
+            Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Color, technique).unwrap();
         let drawn = renderer.draw_timed(gpu, &options, timer).unwrap();
         let all: Option<f64> = drawn.times.iter().map(|time| time.gpu_ms).sum();
         (drawn.shadow_ms(), all)

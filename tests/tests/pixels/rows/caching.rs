@@ -38,7 +38,7 @@ fn tiles(plan: &shadowgraph::core::Plan) -> Vec<String> {
 
 fn draw(renderer: &mut Renderer, options: &ViewOptions) -> (Greys, Vec<String>) {
     let drawn = renderer.draw(gpu().unwrap(), options).unwrap();
-    let greys = drawn.picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0]));
+    let greys = drawn.image.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0]));
     (greys.collect(), tiles(&drawn.plan))
 }
 

@@ -9,7 +9,7 @@ use shadowgraph::shadows::{
     CascadeBlend, CascadeFitting, CascadeSelection, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES,
     ShadowSettings, SplitScheme,
 };
-use shadowgraph::{Picture, Renderer};
+use shadowgraph::{RenderedImage, Renderer};
 
 fn pillars_in_sun() -> Scene {
     let mut scene = pillars(12);
@@ -69,7 +69,7 @@ fn row_13_cascades_are_shown_in_colour() {
     let colours = |change: fn(&mut ShadowSettings)| {
         let options = pillar_view(change);
         let mut renderer = Renderer::new(gpu, pillars_in_sun(), &options.camera, Aov::Cascade).unwrap();
-        let picture: Picture = renderer.draw(gpu, &options).unwrap().picture;
+        let picture: RenderedImage = renderer.draw(gpu, &options).unwrap().image;
         // Colours are shaded: what tells them apart is which of the three is strongest, and by how much.
         let hue = |rgba: &[u8]| {
             let most = f32::from(*rgba[..3].iter().max().unwrap());
@@ -110,7 +110,7 @@ fn row_13_the_cascades_of_the_most_important_light_are_shown() {
     let mut renderer = Renderer::new(gpu, scene, &camera, Aov::Cascade).unwrap();
     let mut cascades = |own: Vec<LightShadows>| {
         let options = pillar_view(|settings| settings.lights = own);
-        renderer.draw(gpu, &options).unwrap().picture.rgba8
+        renderer.draw(gpu, &options).unwrap().image.rgba8
     };
     let of = |light| LightShadows::new(LightRef::Index(light));
     let brightest = cascades(Vec::new());
@@ -260,7 +260,7 @@ fn row_28_slices_move_from_frame_to_frame() {
     let mut seen = Vec::new();
     for ends in [vec![6.0, 12.0, 30.0], vec![10.0, 20.0, 40.0], vec![6.0, 12.0, 30.0]] {
         let options = pillar_view(|settings| settings.cascades.split = SplitScheme::Metres(ends));
-        seen.push(renderer.draw(gpu, &options).unwrap().picture.rgba8);
+        seen.push(renderer.draw(gpu, &options).unwrap().image.rgba8);
     }
     assert!(seen[0] != seen[1] && seen[0] == seen[2]);
 }

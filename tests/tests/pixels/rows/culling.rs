@@ -125,7 +125,7 @@ fn row_33_a_cascade_without_receivers_has_no_pass() {
     assert!(tiles[0].casters.is_empty() && !tiles[2].casters.is_empty(), "{tiles:?}");
     let gpu = shadowgraph::Gpu::noop().unwrap();
     let aov = shadowgraph::options::Aov::Color;
-    let renderer = shadowgraph::Renderer::with(&gpu, scene, &options.camera, aov, PCF).unwrap();
+    let renderer = shadowgraph::Renderer::with_config(&gpu, scene, &options.camera, aov, PCF).unwrap();
     let text = renderer.plan(&options).unwrap().0.to_text();
     assert!(text.contains("cascade 2") && !text.contains("cascade 0"), "{text}");
 }

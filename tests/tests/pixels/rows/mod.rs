@@ -33,8 +33,8 @@ fn greys_with(
     technique: TechniqueKind,
 ) -> Greys {
     let aov = Aov::Visibility(light);
-    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
-    let picture = renderer.draw(gpu, &crate::stage::hard(options)).unwrap().picture;
+    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
+    let picture = renderer.draw(gpu, &crate::stage::hard(options)).unwrap().image;
     picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 

@@ -11,11 +11,11 @@ use shadowgraph::shadows::{
     CascadeSelection, Pcf, ScreenSettings, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
     SurfaceBuffers,
 };
-use shadowgraph::{Gpu, Picture, Renderer, ViewOptions, wgpu};
+use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions, wgpu};
 
-fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> Picture {
-    let mut renderer = Renderer::with(gpu, scene.clone(), &options.camera, aov, pipeline).unwrap();
-    renderer.draw(gpu, options).unwrap().picture
+fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> RenderedImage {
+    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, pipeline).unwrap();
+    renderer.draw(gpu, options).unwrap().image
 }
 
 fn screen_greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {

@@ -7,7 +7,7 @@ use shadowgraph::Pipeline;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::Scene;
 use shadowgraph::shadows::PCF;
-use shadowgraph::{Error, Gpu, Method, Renderer};
+use shadowgraph::{Error, Gpu, RenderConfig, Renderer};
 
 fn pillars_in_sun() -> Scene {
     let mut scene = pillars(12);
@@ -22,10 +22,10 @@ fn row_40_four_samples_smooth_edges_and_change_nothing_else() {
     let options = pillar_view(|_| ());
     for pipeline in [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()] {
         let draw = |samples| {
-            let method = Method { pipeline: pipeline.clone(), samples, ..Method::default() };
+            let config = RenderConfig { pipeline: pipeline.clone(), samples, ..RenderConfig::default() };
             let mut renderer =
-                Renderer::with(gpu, pillars_in_sun(), &options.camera, Aov::Color, method).unwrap();
-            renderer.draw(gpu, &options).unwrap().picture.rgba8
+                Renderer::with_config(gpu, pillars_in_sun(), &options.camera, Aov::Color, config).unwrap();
+            renderer.draw(gpu, &options).unwrap().image.rgba8
         };
         let (one, four) = (draw(1), draw(4));
         // Where the four neighbours of a pixel have its colour, it is inside a surface.
@@ -52,10 +52,11 @@ fn row_40_four_samples_smooth_edges_and_change_nothing_else() {
 #[test]
 fn row_40_other_sample_counts_are_errors() {
     for samples in [0, 2, 3, 8, 16] {
-        let method = Method { samples, ..Method::default() };
+        let config = RenderConfig { samples, ..RenderConfig::default() };
         let camera = pillar_view(|_| ()).camera;
-        let made = Renderer::with(&Gpu::noop().unwrap(), pillars_in_sun(), &camera, Aov::Color, method);
-        let error = made.err().map(|error| (matches!(error, Error::Samples { .. }), error.to_string()));
+        let made =
+            Renderer::with_config(&Gpu::noop().unwrap(), pillars_in_sun(), &camera, Aov::Color, config);
+        let error = made.err().map(|error| (matches!(error, Error::SampleCount { .. }), error.to_string()));
         assert!(error.is_some_and(|(known, text)| known && text.contains("1 or 4")));
     }
 }
@@ -70,13 +71,13 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
     for pipeline in [Pipeline::forward(), Pipeline::screen_shadows()] {
         let make = || {
             let aov = Aov::Visibility(0);
-            Renderer::with(gpu, pillars_in_sun(), &left.camera, aov, pipeline.clone()).unwrap()
+            Renderer::with_config(gpu, pillars_in_sun(), &left.camera, aov, pipeline.clone()).unwrap()
         };
         let mut together = make();
         for _ in 0..2 {
             let pictures = together.draw_views(gpu, &[left.clone(), right.clone()]).unwrap();
             for (picture, options) in pictures.iter().zip([&left, &right]) {
-                let alone = make().draw(gpu, options).unwrap().picture;
+                let alone = make().draw(gpu, options).unwrap().image;
                 assert!(*picture == alone, "{pipeline:?}");
                 assert!(
                     alone.rgba8.chunks_exact(4).filter(|rgba| rgba[0] == 0 && rgba[3] == 255).count() > 100
@@ -89,7 +90,8 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
         assert_eq!(first.len(), 1);
         assert_eq!(*second.pipeline(), pipeline);
     }
-    let none =
-        Renderer::with(gpu, pillars_in_sun(), &left.camera, Aov::Color, PCF).unwrap().draw_views(gpu, &[]);
+    let none = Renderer::with_config(gpu, pillars_in_sun(), &left.camera, Aov::Color, PCF)
+        .unwrap()
+        .draw_views(gpu, &[]);
     assert!(none.unwrap().is_empty());
 }

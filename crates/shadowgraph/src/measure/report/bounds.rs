@@ -40,9 +40,9 @@ impl Bounds {
     /// [`Error::Cases`] with line and column, or the metric that there is not.
     pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
         let file = place.display().to_string();
-        let bounds: Self = ron_file::read(&file, text)?;
+        let bounds: Self = ron_file::parse_file(&file, text)?;
         for (index, bound) in bounds.bounds.iter().enumerate() {
-            let wrong = |problem| ron_file::wrong_field(&file, text, &format!("bounds.{index}"), problem);
+            let wrong = |problem| ron_file::field_error(&file, text, &format!("bounds.{index}"), problem);
             bound.check().map_err(wrong)?;
         }
         Ok(bounds)

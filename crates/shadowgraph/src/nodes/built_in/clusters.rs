@@ -3,9 +3,13 @@
 use shadowgraph_core::Frame;
 use shadowgraph_lighting::Clusters as ClusterPass;
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct Clusters {
     pass: ClusterPass,
@@ -14,19 +18,19 @@ pub(super) struct Clusters {
 impl Node for Clusters {
     const NAME: &'static str = "clusters";
     const ABOUT: &'static str =
-        "finds which lights reach which part of the view, so that each pixel asks few of many";
+        "assigns lights to clusters of the view, so that each pixel visits only the lights near it";
     const INPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera and the lights")];
     const OUTPUTS: &'static [Port] =
-        &[Port::new("view", PortKind::View, "the same, with what was found out: for whoever lights")];
+        &[Port::new("view", PortKind::View, "the same with the clusters, for lighting nodes")];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { pass: ClusterPass::new(build.device)? })
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        Ok(Self { pass: ClusterPass::new(context.device)? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let found = self.pass.add_to(frame, &ports.view("view")?, view.lights.len());

@@ -3,30 +3,34 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::{Deferred as DeferredPass, Forward};
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct Deferred {
     pass: DeferredPass,
-    /// For what is blended.
+    /// Draws blended geometry.
     forward: Forward,
 }
 
 impl Node for Deferred {
     const NAME: &'static str = "deferred";
-    const ABOUT: &'static str = "lights what a G-buffer holds, and draws what is blended over it";
+    const ABOUT: &'static str = "lights a G-buffer and draws blended geometry over it";
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera and the lights"),
         Port::new("shadows", PortKind::Shadows, "the shadows"),
-        Port::texture("depth", "that of `geometry`").of(Format::Depth32Float),
-        Port::new("gbuffer", PortKind::GBuffer, "that of `gbuffer`"),
+        Port::texture("depth", "the depth of `geometry`").with_format(Format::Depth32Float),
+        Port::new("gbuffer", PortKind::GBuffer, "the G-buffer"),
     ];
     const OUTPUTS: &'static [Port] =
-        &[Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float)];
+        &[Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float)];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        let Build { device, layouts, technique, lit } = *build;
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        let BuildContext { device, layouts, technique, lit } = *context;
         let forward = Forward::new(device, layouts, technique, lit)?;
         Ok(Self { pass: DeferredPass::new(device, technique, lit)?, forward })
     }
@@ -34,7 +38,7 @@ impl Node for Deferred {
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);

@@ -3,9 +3,13 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::Forward as ForwardPasses;
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct Forward {
     passes: ForwardPasses,
@@ -13,33 +17,33 @@ pub(super) struct Forward {
 
 impl Node for Forward {
     const NAME: &'static str = "forward";
-    const ABOUT: &'static str = "draws what is seen, lit by every light, each pixel asking for its shadows";
+    const ABOUT: &'static str = "draws lit geometry with all lights and looks shadows up per pixel";
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera and the lights"),
         Port::new("shadows", PortKind::Shadows, "the shadows"),
-        Port::texture("depth", "that of `geometry`; without it what is covered later is lit too")
-            .of(Format::Depth32Float)
+        Port::texture("depth", "the depth of `geometry`; without it hidden pixels are lit too")
+            .with_format(Format::Depth32Float)
             .optional(),
     ];
     const OUTPUTS: &'static [Port] = &[
-        Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float),
-        Port::texture("depth", "reversed depth").of(Format::Depth32Float),
+        Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float),
+        Port::texture("depth", "reversed depth").with_format(Format::Depth32Float),
     ];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        let passes = ForwardPasses::new(build.device, build.layouts, build.technique, build.lit)?;
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        let passes = ForwardPasses::new(context.device, context.layouts, context.technique, context.lit)?;
         Ok(Self { passes })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);
         let (geometry, background) = (view.geometry(), view.background());
-        let (light, depth) = if ports.has("depth") {
+        let (light, depth) = if ports.is_connected("depth") {
             let depth = ports.texture("depth")?;
             (self.passes.lit(frame, &buffers, shadows, &depth, geometry, background)?, depth)
         } else {

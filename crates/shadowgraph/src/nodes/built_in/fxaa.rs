@@ -3,9 +3,13 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::Fxaa as FxaaPass;
 
-use crate::Error;
-use crate::nodes::{Node, Port, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::Port;
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct Fxaa {
     pass: FxaaPass,
@@ -13,20 +17,20 @@ pub(super) struct Fxaa {
 
 impl Node for Fxaa {
     const NAME: &'static str = "fxaa";
-    const ABOUT: &'static str = "smooths edges of a finished picture";
+    const ABOUT: &'static str = "smooths edges of a tonemapped image";
     const INPUTS: &'static [Port] =
-        &[Port::texture("picture", "behind the tonemap").of(Format::Rgba8UnormSrgb)];
+        &[Port::texture("picture", "the tonemapped image").with_format(Format::Rgba8UnormSrgb)];
     const OUTPUTS: &'static [Port] =
-        &[Port::texture("picture", "the same with smooth edges").of(Format::Rgba8UnormSrgb)];
+        &[Port::texture("picture", "the same with smooth edges").with_format(Format::Rgba8UnormSrgb)];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { pass: FxaaPass::new(build.device)? })
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        Ok(Self { pass: FxaaPass::new(context.device)? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let mut target = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));

@@ -3,9 +3,13 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::GBufferPass;
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct GBuffer {
     pass: GBufferPass,
@@ -13,21 +17,22 @@ pub(super) struct GBuffer {
 
 impl Node for GBuffer {
     const NAME: &'static str = "gbuffer";
-    const ABOUT: &'static str = "draws colours, materials and normals of what is seen, for `deferred`";
+    const ABOUT: &'static str = "draws a G-buffer with colours, materials and normals, for `deferred`";
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera"),
-        Port::texture("depth", "that of `geometry`").of(Format::Depth32Float),
+        Port::texture("depth", "the depth of `geometry`").with_format(Format::Depth32Float),
     ];
-    const OUTPUTS: &'static [Port] = &[Port::new("gbuffer", PortKind::GBuffer, "what was drawn")];
+    const OUTPUTS: &'static [Port] =
+        &[Port::new("gbuffer", PortKind::GBuffer, "colours, materials and normals")];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { pass: GBufferPass::new(build.device, build.layouts)? })
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        Ok(Self { pass: GBufferPass::new(context.device, context.layouts)? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let buffers = ports.view("view")?;

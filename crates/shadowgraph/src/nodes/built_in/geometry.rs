@@ -4,12 +4,16 @@ use shadowgraph_core::{Format, Frame, Texture};
 use shadowgraph_lighting::{Prepass, ViewBuffers};
 use shadowgraph_shadows::SurfaceBuffers;
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 use crate::surfaces::SurfaceDrawer;
 
-/// What is seen: its depth, and where the technique asks for it, its surfaces.
+/// A depth prepass, and positions and normals if the technique reads them.
 pub struct Geometry {
     prepass: Prepass,
     surfaces: Option<SurfaceDrawer>,
@@ -17,32 +21,32 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Makes the pipelines.
+    /// Creates the pipelines.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
-    pub fn new(build: &Build<'_>) -> Result<Self, Error> {
-        let reads = build.technique.reads_surface_buffers();
-        let surfaces = reads.then(|| SurfaceDrawer::new(build.device, build.layouts)).transpose()?;
-        let samples = build.lit.samples;
-        Ok(Self { prepass: Prepass::new(build.device, build.layouts, samples)?, surfaces, samples })
+    /// None with the built-in WGSL.
+    pub fn new(context: &BuildContext<'_>) -> Result<Self, Error> {
+        let reads = context.technique.reads_surface_buffers();
+        let surfaces = reads.then(|| SurfaceDrawer::new(context.device, context.layouts)).transpose()?;
+        let samples = context.lit.samples;
+        Ok(Self { prepass: Prepass::new(context.device, context.layouts, samples)?, surfaces, samples })
     }
 
-    /// Adds the passes and returns the depth, and the surfaces where the technique asks for them.
+    /// Adds the passes and returns the depth, and the surfaces if the technique reads them.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// None with the built-in WGSL.
     pub fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         buffers: &ViewBuffers,
     ) -> Result<(Texture, Option<SurfaceBuffers>), Error> {
         let geometry = view.geometry();
         let depth = self.prepass.add_to(frame, buffers, geometry);
         let screen = self.surfaces.as_ref().map(|drawer| match self.samples {
             1 => drawer.screen(frame, buffers, &depth, geometry),
-            _ => drawer.screen_alone(frame, buffers, geometry),
+            _ => drawer.screen_with_prepass(frame, buffers, geometry),
         });
         Ok((depth, screen.transpose()?))
     }
@@ -51,22 +55,22 @@ impl Geometry {
 impl Node for Geometry {
     const NAME: &'static str = "geometry";
     const ABOUT: &'static str =
-        "draws the depth of what is seen, and its surfaces where the technique asks for them";
+        "draws a depth prepass, and positions and normals if the technique reads them";
     const INPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera")];
     const OUTPUTS: &'static [Port] = &[
-        Port::texture("depth", "reversed depth, with as many samples as colours have")
-            .of(Format::Depth32Float),
+        Port::texture("depth", "reversed depth, with the sample count of the colours")
+            .with_format(Format::Depth32Float),
         Port::new("surfaces", PortKind::Surfaces, "positions and normals, for the technique").optional(),
     ];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Self::new(build)
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        Self::new(context)
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (depth, surfaces) = self.add_to(frame, view, &ports.view("view")?)?;

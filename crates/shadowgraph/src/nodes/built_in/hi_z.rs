@@ -3,9 +3,13 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::DepthPyramid;
 
-use crate::Error;
-use crate::nodes::{Node, Port, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::Port;
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct HiZ {
     passes: DepthPyramid,
@@ -13,21 +17,23 @@ pub(super) struct HiZ {
 
 impl Node for HiZ {
     const NAME: &'static str = "hi_z";
-    const ABOUT: &'static str = "halves depth again and again, each texel the farthest of those below it";
+    const ABOUT: &'static str =
+        "builds a depth pyramid; each texel has the farthest depth of the four below it";
     const INPUTS: &'static [Port] =
-        &[Port::texture("depth", "reversed, of one sample").of(Format::Depth32Float)];
+        &[Port::texture("depth", "reversed depth with one sample per pixel")
+            .with_format(Format::Depth32Float)];
     const OUTPUTS: &'static [Port] =
-        &[Port::texture("pyramid", "with all mips down to one texel").of(Format::R32Float)];
+        &[Port::texture("pyramid", "all mips down to one texel").with_format(Format::R32Float)];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        build.one_sample(Self::NAME)?;
-        Ok(Self { passes: DepthPyramid::new(build.device)? })
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        context.require_single_sample(Self::NAME)?;
+        Ok(Self { passes: DepthPyramid::new(context.device)? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        _view: &'f View<'f>,
+        _view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let pyramid = self.passes.add_to(frame, &ports.texture("depth")?);

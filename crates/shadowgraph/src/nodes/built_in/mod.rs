@@ -1,4 +1,4 @@
-//! The kinds that Shadowgraph comes with, a file each.
+//! The built-in kinds, a file each.
 
 mod bloom;
 mod clusters;
@@ -7,44 +7,39 @@ mod fog;
 mod forward;
 mod fxaa;
 mod gbuffer;
-mod geometry;
+pub(crate) mod geometry;
 mod hi_z;
 mod overlay;
 mod shadow_debug;
-mod shadows;
+pub(crate) mod shadows;
 mod sky;
 mod ssao;
 mod surfaces;
-mod taa;
+pub(crate) mod taa;
 mod tonemap;
-mod view;
+pub(crate) mod view;
 
-pub use geometry::Geometry;
-pub(crate) use shadows::Shadows;
-pub(crate) use taa::Taa;
-pub(crate) use view::ViewUniforms;
-
-use super::NodeKind;
+use super::kind::NodeKind;
 
 pub(super) fn kinds() -> [NodeKind; 18] {
     [
-        NodeKind::of::<ViewUniforms>(),
-        NodeKind::of::<geometry::Geometry>(),
-        NodeKind::of::<surfaces::Surfaces>(),
-        NodeKind::of::<shadows::Shadows>(),
-        NodeKind::of::<clusters::Clusters>(),
-        NodeKind::of::<forward::Forward>(),
-        NodeKind::of::<gbuffer::GBuffer>(),
-        NodeKind::of::<deferred::Deferred>(),
-        NodeKind::of::<ssao::Ssao>(),
-        NodeKind::of::<sky::Sky>(),
-        NodeKind::of::<fog::Fog>(),
-        NodeKind::of::<hi_z::HiZ>(),
-        NodeKind::of::<bloom::Bloom>(),
-        NodeKind::of::<Taa>(),
-        NodeKind::of::<tonemap::Tonemap>(),
-        NodeKind::of::<fxaa::Fxaa>(),
-        NodeKind::of::<shadow_debug::ShadowDebug>(),
-        NodeKind::of::<overlay::Overlay>(),
+        NodeKind::new::<view::ViewNode>(),
+        NodeKind::new::<geometry::Geometry>(),
+        NodeKind::new::<surfaces::Surfaces>(),
+        NodeKind::new::<shadows::Shadows>(),
+        NodeKind::new::<clusters::Clusters>(),
+        NodeKind::new::<forward::Forward>(),
+        NodeKind::new::<gbuffer::GBuffer>(),
+        NodeKind::new::<deferred::Deferred>(),
+        NodeKind::new::<ssao::Ssao>(),
+        NodeKind::new::<sky::Sky>(),
+        NodeKind::new::<fog::Fog>(),
+        NodeKind::new::<hi_z::HiZ>(),
+        NodeKind::new::<bloom::Bloom>(),
+        NodeKind::new::<taa::Taa>(),
+        NodeKind::new::<tonemap::Tonemap>(),
+        NodeKind::new::<fxaa::Fxaa>(),
+        NodeKind::new::<shadow_debug::ShadowDebug>(),
+        NodeKind::new::<overlay::Overlay>(),
     ]
 }

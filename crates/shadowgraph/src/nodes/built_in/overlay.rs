@@ -3,9 +3,13 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::post::Overlay as OverlayPass;
 
-use crate::Error;
-use crate::nodes::{Node, Port, Ports, Setting, SettingType, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::Port;
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::{Setting, SettingType, Settings};
+use crate::render_view::RenderView;
 
 pub(super) struct Overlay {
     pass: OverlayPass,
@@ -14,26 +18,27 @@ pub(super) struct Overlay {
 
 impl Node for Overlay {
     const NAME: &'static str = "overlay";
-    const ABOUT: &'static str = "lays colours over a finished picture";
+    const ABOUT: &'static str = "blends colours over a tonemapped image";
     const INPUTS: &'static [Port] = &[
-        Port::texture("picture", "behind the tonemap").of(Format::Rgba8UnormSrgb),
-        Port::texture("colors", "as they are to be seen").or_texel([0.0; 4]),
+        Port::texture("picture", "the tonemapped image").with_format(Format::Rgba8UnormSrgb),
+        Port::texture("colors", "sRGB colours with alpha").or_placeholder([0.0; 4]),
     ];
-    const OUTPUTS: &'static [Port] = &[Port::texture("picture", "both").of(Format::Rgba8UnormSrgb)];
+    const OUTPUTS: &'static [Port] =
+        &[Port::texture("picture", "the image with the colours").with_format(Format::Rgba8UnormSrgb)];
     const SETTINGS: &'static [Setting] =
-        &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "1: nothing but the colours")];
+        &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "opacity of the colours")];
 
-    fn new(build: &Build<'_>, settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { pass: OverlayPass::new(build.device)?, strength: settings.number("strength")? })
+    fn new(context: &BuildContext<'_>, settings: &Settings) -> Result<Self, Error> {
+        Ok(Self { pass: OverlayPass::new(context.device)?, strength: settings.number("strength")? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let (picture, colors) = (ports.texture("picture")?, ports.texture_or_stand_in("colors", frame)?);
+        let (picture, colors) = (ports.texture("picture")?, ports.texture_or_placeholder("colors", frame)?);
         let mut target = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
         self.pass.add_to(frame, [&picture, &colors], &mut target, self.strength);
         ports.set("picture", target);

@@ -1,11 +1,15 @@
 //! `shadow_debug`
 
 use shadowgraph_core::{Format, Frame};
-use shadowgraph_lighting::{Forward, LitOutput, LitTarget};
+use shadowgraph_lighting::{Forward, LitTarget, LitOutput};
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct ShadowDebug {
     passes: Forward,
@@ -17,13 +21,14 @@ impl Node for ShadowDebug {
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera and the lights"),
         Port::new("shadows", PortKind::Shadows, "the shadows"),
-        Port::texture("depth", "that of `geometry`").of(Format::Depth32Float),
+        Port::texture("depth", "the depth of `geometry`").with_format(Format::Depth32Float),
     ];
     const OUTPUTS: &'static [Port] =
-        &[Port::texture("colors", "as they are to be seen, alpha 0 where nothing is").of(Format::Rgba8Unorm)];
+        &[Port::texture("colors", "sRGB colours, alpha 0 where nothing is drawn")
+            .with_format(Format::Rgba8Unorm)];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        let Build { device, layouts, technique, lit } = *build;
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        let BuildContext { device, layouts, technique, lit } = *context;
         let target = LitTarget { format: Format::Rgba8Unorm, output: LitOutput::Debug, ..lit };
         Ok(Self { passes: Forward::new(device, layouts, technique, target)? })
     }
@@ -31,7 +36,7 @@ impl Node for ShadowDebug {
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);

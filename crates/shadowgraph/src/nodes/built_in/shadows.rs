@@ -2,52 +2,58 @@
 
 use shadowgraph_core::Frame;
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Setting, SettingType, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::{Setting, SettingType, Settings};
+use crate::render_view::RenderView;
 
-/// By whatever technique: a pipeline is made with it.
+/// Adds the shadows of the technique that the pipeline is built with.
 pub(crate) struct Shadows;
 
 impl Shadows {
     /// The setting that names the technique.
     pub(crate) const TECHNIQUE: &'static str = "technique";
-    /// The setting that has shadows collected on the screen.
+    /// The setting that computes shadows in a screen-space mask.
     pub(crate) const COLLECTED: &'static str = "collected";
 }
 
 impl Node for Shadows {
     const NAME: &'static str = "shadows";
-    const ABOUT: &'static str = "makes the shadows of all lights, by a technique";
+    const ABOUT: &'static str = "adds the shadow passes of a technique for all lights";
     const INPUTS: &'static [Port] =
-        &[Port::new("surfaces", PortKind::Surfaces, "for techniques that ask for them").optional()];
-    const OUTPUTS: &'static [Port] = &[Port::new("shadows", PortKind::Shadows, "for whoever lights")];
+        &[Port::new("surfaces", PortKind::Surfaces, "positions and normals, for techniques that read them")
+            .optional()];
+    const OUTPUTS: &'static [Port] =
+        &[Port::new("shadows", PortKind::Shadows, "the shadows, for lighting nodes")];
     const SETTINGS: &'static [Setting] = &[
         Setting::new(
             Self::TECHNIQUE,
             SettingType::Text(""),
-            "a technique by name; empty: that of --technique",
+            "a technique by name; empty for that of the render configuration",
         ),
         Setting::new(
             Self::COLLECTED,
             SettingType::Toggle(false),
-            "whether shadows are collected in a screen mask first",
+            "whether shadows are computed in a screen-space mask before lighting",
         ),
     ];
     const GROUPS_ITSELF: bool = true;
 
-    fn new(_build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
+    fn new(_context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
         Ok(Self)
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let screen = ports.surfaces("surfaces")?;
-        let shadows = view.shadows(frame, screen.as_ref())?;
+        let shadows = view.add_shadows(frame, screen.as_ref())?;
         ports.set("shadows", shadows);
         Ok(())
     }

@@ -2,9 +2,13 @@
 
 use shadowgraph_core::Frame;
 
-use crate::Error;
-use crate::nodes::{Node, Port, PortKind, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 use crate::surfaces::SurfaceDrawer;
 
 pub(super) struct Surfaces {
@@ -13,25 +17,26 @@ pub(super) struct Surfaces {
 
 impl Node for Surfaces {
     const NAME: &'static str = "surfaces";
-    const ABOUT: &'static str = "draws the surfaces that are seen where the technique asks for them, for pipelines without `geometry`";
+    const ABOUT: &'static str =
+        "draws positions and normals if the technique reads them, for pipelines without `geometry`";
     const INPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera")];
     const OUTPUTS: &'static [Port] =
         &[Port::new("surfaces", PortKind::Surfaces, "positions and normals, for the technique").optional()];
     const GROUPS_ITSELF: bool = true;
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        let reads = build.technique.reads_surface_buffers();
-        Ok(Self { drawer: reads.then(|| SurfaceDrawer::new(build.device, build.layouts)).transpose()? })
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        let reads = context.technique.reads_surface_buffers();
+        Ok(Self { drawer: reads.then(|| SurfaceDrawer::new(context.device, context.layouts)).transpose()? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         if let Some(drawer) = &self.drawer {
-            let screen = drawer.screen_alone(frame, &ports.view("view")?, view.geometry())?;
+            let screen = drawer.screen_with_prepass(frame, &ports.view("view")?, view.geometry())?;
             ports.set("surfaces", screen);
         }
         Ok(())

@@ -3,9 +3,13 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::Tonemap as TonemapPass;
 
-use crate::Error;
-use crate::nodes::{Node, Port, Ports, Settings};
-use crate::pipelines::{Build, View};
+use crate::build_context::BuildContext;
+use crate::error::Error;
+use crate::nodes::node::Node;
+use crate::nodes::port::Port;
+use crate::nodes::ports::Ports;
+use crate::nodes::setting::Settings;
+use crate::render_view::RenderView;
 
 pub(super) struct Tonemap {
     pass: TonemapPass,
@@ -13,20 +17,20 @@ pub(super) struct Tonemap {
 
 impl Node for Tonemap {
     const NAME: &'static str = "tonemap";
-    const ABOUT: &'static str = "makes a picture of light, by a filmic curve";
+    const ABOUT: &'static str = "tonemaps light with a filmic curve";
     const INPUTS: &'static [Port] =
-        &[Port::texture("light", "scene-linear, exposure applied").of(Format::Rgba16Float)];
-    const OUTPUTS: &'static [Port] =
-        &[Port::texture("picture", "eight bits a channel").of(Format::Rgba8UnormSrgb)];
+        &[Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float)];
+    const OUTPUTS: &'static [Port] = &[Port::texture("picture", "the tonemapped image, 8 bit per channel")
+        .with_format(Format::Rgba8UnormSrgb)];
 
-    fn new(build: &Build<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { pass: TonemapPass::new(build.device)? })
+    fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
+        Ok(Self { pass: TonemapPass::new(context.device)? })
     }
 
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f View<'f>,
+        view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let mut picture = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));

@@ -1,4 +1,4 @@
-//! A pipeline file as data, each part with its place.
+//! A pipeline file as data, each part with its location.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -9,49 +9,43 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-use super::source::{PipelineError, Source, Spot, parse, read};
+use super::source::{SourceText, Spanned, parse, parse_raw};
+use crate::error::PipelineError;
 
-/// What the program reads of a file. All but `nodes` can be left out.
+/// The contents of a file. All but `nodes` can be left out.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Document {
     pub(super) about: String,
-    pub(super) include: Vec<Spot<String>>,
     pub(super) parameters: Pairs<Value>,
-    pub(super) tiers: Vec<(Spot<String>, Pairs<Value>)>,
-    pub(super) tier_for: Pairs<String>,
-    pub(super) nodes: Vec<Entry>,
-    pub(super) outputs: Vec<Feed>,
+    pub(super) nodes: Vec<NodeEntry>,
+    pub(super) outputs: Vec<Connection>,
 }
 
-/// A node.
+/// A node of the file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
-    pub(super) name: Spot<String>,
-    pub(super) kind: Spot<String>,
-    pub(super) inputs: Vec<Feed>,
+pub(super) struct NodeEntry {
+    pub(super) name: Spanned<String>,
+    pub(super) kind: Spanned<String>,
+    pub(super) inputs: Vec<Connection>,
     pub(super) settings: Pairs<Value>,
-    pub(super) when: Option<Spot<Condition>>,
+    pub(super) when: Option<Spanned<Condition>>,
 }
 
 /// Entries of a map, in the order of the file.
-pub(super) type Pairs<T> = Vec<(Spot<String>, Spot<T>)>;
+pub(super) type Pairs<T> = Vec<(Spanned<String>, Spanned<T>)>;
 
-/// An input and what feeds it: the first of these that is there.
-pub(super) type Feed = (Spot<String>, Vec<Spot<String>>);
+/// An input and the outputs that it is connected to: the first whose node is enabled counts.
+pub(super) type Connection = (Spanned<String>, Vec<Spanned<String>>);
 
-/// When a node is there.
+/// When a node is enabled.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(super) enum Condition {
     /// The parameter is true.
     On(String),
-    /// The parameter has this value.
-    Is(String, Value),
     Not(Box<Condition>),
-    All(Vec<Condition>),
-    Any(Vec<Condition>),
 }
 
-/// A map as it stands in the file: in order, and with what stands there twice.
+/// A map of the file in its order, with duplicates.
 struct Entries<'t, T>(Vec<(&'t RawValue, T)>);
 
 impl<T> Default for Entries<'_, T> {
@@ -88,13 +82,7 @@ struct RawDocument<'t> {
     #[serde(default)]
     about: String,
     #[serde(borrow, default)]
-    include: Vec<&'t RawValue>,
-    #[serde(borrow, default)]
     parameters: Entries<'t, &'t RawValue>,
-    #[serde(borrow, default)]
-    tiers: Entries<'t, Entries<'t, &'t RawValue>>,
-    #[serde(borrow, default)]
-    tier_for: Entries<'t, &'t RawValue>,
     #[serde(borrow)]
     nodes: Vec<&'t RawValue>,
     #[serde(borrow, default)]
@@ -103,7 +91,7 @@ struct RawDocument<'t> {
 
 #[derive(Deserialize)]
 #[serde(rename = "", deny_unknown_fields)]
-struct RawEntry<'t> {
+struct RawNodeEntry<'t> {
     #[serde(borrow)]
     name: &'t RawValue,
     #[serde(borrow)]
@@ -117,71 +105,70 @@ struct RawEntry<'t> {
 }
 
 impl Document {
-    /// Reads a file's text.
-    pub(super) fn parse(source: &Arc<Source>) -> Result<Self, PipelineError> {
+    /// Parses the text of a file.
+    pub(super) fn parse(source: &Arc<SourceText>) -> Result<Self, PipelineError> {
         let raw: RawDocument<'_> = parse(source, &source.text, 0)?;
-        let tier = |(name, values): (&RawValue, Entries<'_, _>)| {
-            Ok((read(source, name)?, pairs(source, values, "the parameter")?))
-        };
         Ok(Self {
             about: raw.about,
-            include: raw.include.into_iter().map(|raw| read(source, raw)).collect::<Result<_, _>>()?,
-            parameters: pairs(source, raw.parameters, "the parameter")?,
-            tiers: raw.tiers.0.into_iter().map(tier).collect::<Result<_, _>>()?,
-            tier_for: pairs(source, raw.tier_for, "the tier for")?,
-            nodes: raw.nodes.into_iter().map(|raw| entry(source, raw)).collect::<Result<_, _>>()?,
-            outputs: feeds(source, raw.outputs, "the output")?,
+            parameters: pairs(source, raw.parameters, "parameter")?,
+            nodes: raw.nodes.into_iter().map(|raw| node_entry(source, raw)).collect::<Result<_, _>>()?,
+            outputs: connections(source, raw.outputs, "output")?,
         })
+    }
+
+    /// Returns the entry of a node.
+    pub(super) fn entry(&self, node: &str) -> Option<&NodeEntry> {
+        self.nodes.iter().find(|entry| entry.name.value == node)
     }
 }
 
-fn entry(source: &Arc<Source>, raw: &RawValue) -> Result<Entry, PipelineError> {
-    let entry: Spot<RawEntry<'_>> = read(source, raw)?;
-    let RawEntry { name, kind, inputs, settings, when } = entry.value;
-    Ok(Entry {
-        name: read(source, name)?,
-        kind: read(source, kind)?,
-        inputs: feeds(source, inputs, "the input")?,
-        settings: pairs(source, settings, "the setting")?,
-        when: when.map(|raw| read(source, raw)).transpose()?,
+fn node_entry(source: &Arc<SourceText>, raw: &RawValue) -> Result<NodeEntry, PipelineError> {
+    let entry: Spanned<RawNodeEntry<'_>> = parse_raw(source, raw)?;
+    let RawNodeEntry { name, kind, inputs, settings, when } = entry.value;
+    Ok(NodeEntry {
+        name: parse_raw(source, name)?,
+        kind: parse_raw(source, kind)?,
+        inputs: connections(source, inputs, "input")?,
+        settings: pairs(source, settings, "setting")?,
+        when: when.map(|raw| parse_raw(source, raw)).transpose()?,
     })
 }
 
-/// The entries of a map, each name once; `what` they are is for the error.
+/// Parses the entries of a map and refuses duplicates; `what` names an entry in the error.
 fn pairs<T: for<'de> Deserialize<'de>>(
-    source: &Arc<Source>,
+    source: &Arc<SourceText>,
     entries: Entries<'_, &RawValue>,
     what: &str,
 ) -> Result<Pairs<T>, PipelineError> {
     let mut found: Pairs<T> = Vec::new();
     for (name, value) in entries.0 {
-        let name: Spot<String> = read(source, name)?;
+        let name: Spanned<String> = parse_raw(source, name)?;
         if found.iter().any(|(known, _)| known.value == name.value) {
-            return Err(name.error(format!("{what} `{}` stands here twice: keep one", name.value)));
+            return Err(name.error(format!("duplicate {what} `{}`", name.value)));
         }
-        found.push((name, read(source, value)?));
+        found.push((name, parse_raw(source, value)?));
     }
     Ok(found)
 }
 
-fn feeds(
-    source: &Arc<Source>,
+fn connections(
+    source: &Arc<SourceText>,
     entries: Entries<'_, &RawValue>,
     what: &str,
-) -> Result<Vec<Feed>, PipelineError> {
+) -> Result<Vec<Connection>, PipelineError> {
     let pairs: Pairs<Value> = pairs(source, entries, what)?;
-    let feed = |(name, from): (Spot<String>, Spot<Value>)| {
+    let connection = |(name, outputs): (Spanned<String>, Spanned<Value>)| {
         let one = |value: &Value| {
             let text = value.as_str().ok_or_else(|| {
-                from.error("an output is named by a text such as \"lighting.light\", or several in a list")
+                outputs.error("expected the name of an output, such as \"lighting.light\", or a list of them")
             })?;
-            Ok(Spot { value: text.to_owned(), place: from.place.clone() })
+            Ok(Spanned { value: text.to_owned(), location: outputs.location.clone() })
         };
-        let outputs = match &from.value {
+        let outputs = match &outputs.value {
             Value::Array(several) => several.iter().map(one).collect::<Result<_, _>>()?,
             value => vec![one(value)?],
         };
         Ok((name, outputs))
     };
-    pairs.into_iter().map(feed).collect()
+    pairs.into_iter().map(connection).collect()
 }

@@ -1,60 +1,59 @@
-//! A camera that jitters and temporal anti-aliasing belong together.
+//! Warnings about jitter without temporal anti-aliasing, and the other way round.
 
-use super::document::{Document, Entry};
-use super::resolve::{Placed, Resolved};
-use super::source::{PipelineError, Place};
-use crate::nodes::{Node, Nodes, Port, PortKind, TaaNode, ViewNode};
+use super::document::{Document, NodeEntry};
+use super::resolve::{ResolvedNode, ResolvedPipeline};
+use super::source::Location;
+use crate::error::PipelineError;
+use crate::nodes::built_in::taa::Taa;
+use crate::nodes::built_in::view::ViewNode;
+use crate::nodes::node::Node;
+use crate::nodes::port::{Port, PortKind};
+use crate::nodes::registry::Nodes;
 
 impl Document {
-    /// Tells of temporal anti-aliasing that sees each pixel from the same place in every frame, and of a camera that jitters
-    /// for nothing.
-    pub(super) fn jitter_alone(&self, there: &Resolved) -> Vec<PipelineError> {
-        let of_kind = |kind: &'static str| there.nodes.iter().filter(move |node| node.kind.name == kind);
+    /// Returns warnings about temporal anti-aliasing without jitter, and about a camera whose jitter nothing resolves.
+    pub(super) fn jitter_warnings(&self, resolved: &ResolvedPipeline) -> Vec<PipelineError> {
+        let of_kind = |kind: &'static str| resolved.nodes.iter().filter(move |node| node.kind.name == kind);
         let built_in = Nodes::built_in();
-        // A kind that is not ours may mix frames too.
-        let only_ours = there.nodes.iter().all(|node| built_in.get(node.kind.name).is_some());
-        let mut told = Vec::new();
+        // A kind of another crate may accumulate frames too.
+        let only_built_in = resolved.nodes.iter().all(|node| built_in.get(node.kind.name).is_some());
+        let mut warnings = Vec::new();
         for view in of_kind(ViewNode::NAME) {
-            let through = there.through(view);
-            let mut mixing =
-                of_kind(TaaNode::NAME).filter(|taa| through.contains(&taa.name.as_str())).peekable();
+            let users = resolved.camera_users(view);
+            let mut temporal = of_kind(Taa::NAME).filter(|taa| users.contains(&taa.name.as_str())).peekable();
             let jitters = view.settings.toggle(ViewNode::JITTER).unwrap_or_default();
-            if jitters && mixing.peek().is_none() && only_ours {
+            if jitters && temporal.peek().is_none() && only_built_in {
                 let problem = format!(
-                    "`{}` jitters and no `taa` takes it, so edges swim: add one, or take the setting out",
+                    "`{}` jitters the camera without a `taa` node, so edges shimmer: add `taa` or remove the setting",
                     view.name
                 );
-                told.extend(self.entry(view).map(|entry| jitter_of(entry).error(&problem)));
+                warnings.extend(self.entry(&view.name).map(|entry| jitter_location(entry).error(&problem)));
             }
             if !jitters {
-                told.extend(mixing.filter_map(|taa| {
+                warnings.extend(temporal.filter_map(|taa| {
                     let problem = format!(
-                        "`{}` (taa) smooths no edge without jitter: give `{}` settings: {{\"jitter\": true}}",
+                        "`{}` (taa) has no effect on edges without jitter: add settings: {{\"jitter\": true}} to `{}`",
                         taa.name, view.name
                     );
-                    Some(self.entry(taa)?.name.place.error(problem))
+                    Some(self.entry(&taa.name)?.name.error(problem))
                 }));
             }
         }
-        told
-    }
-
-    fn entry(&self, node: &Placed) -> Option<&Entry> {
-        self.nodes.iter().find(|entry| entry.name.value == node.name)
+        warnings
     }
 }
 
-impl Resolved {
-    /// The nodes that look through a view's camera, by way of others too that pass it on.
-    fn through(&self, view: &Placed) -> Vec<&str> {
+impl ResolvedPipeline {
+    /// Returns the nodes that use a view's camera, also through nodes that pass it on.
+    fn camera_users(&self, view: &ResolvedNode) -> Vec<&str> {
         let cameras = |ports: &[(Port, usize)]| {
-            let of_kind = ports.iter().filter(|(port, _)| port.kind == PortKind::View);
-            of_kind.map(|(_, place)| *place).collect::<Vec<_>>()
+            let cameras = ports.iter().filter(|(port, _)| port.kind == PortKind::View);
+            cameras.map(|(_, value)| *value).collect::<Vec<_>>()
         };
-        let (mut places, mut names) = (cameras(&view.outputs), Vec::new());
+        let (mut values, mut names) = (cameras(&view.outputs), Vec::new());
         for node in &self.nodes {
-            if node.inputs.iter().any(|(_, place)| place.is_some_and(|place| places.contains(&place))) {
-                places.extend(cameras(&node.outputs));
+            if node.inputs.iter().any(|(_, value)| value.is_some_and(|value| values.contains(&value))) {
+                values.extend(cameras(&node.outputs));
                 names.push(node.name.as_str());
             }
         }
@@ -62,7 +61,7 @@ impl Resolved {
     }
 }
 
-fn jitter_of(entry: &Entry) -> &Place {
+fn jitter_location(entry: &NodeEntry) -> &Location {
     let setting = entry.settings.iter().find(|(name, _)| name.value == ViewNode::JITTER);
-    setting.map_or(&entry.name.place, |(name, _)| &name.place)
+    setting.map_or(&entry.name.location, |(name, _)| &name.location)
 }

@@ -1,21 +1,18 @@
-//! Pipelines from files: read, include, choose, resolve, wire.
+//! Pipelines from files: parse, resolve, build.
 
-mod choose;
+mod connect;
 mod document;
-mod include;
+mod instance;
 mod jitter;
+mod order;
+pub(crate) mod parameters;
 mod resolve;
-mod schema;
+pub(crate) mod schema;
 mod source;
 mod unused;
-mod wiring;
 
 #[cfg(test)]
 mod tests;
-
-pub use choose::Choices;
-pub use schema::schema;
-pub use source::PipelineError;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -23,148 +20,138 @@ use std::sync::Arc;
 use shadowgraph_shadows::{Technique, Techniques};
 
 use self::document::Document;
-use self::resolve::Resolved;
-use self::source::{Place, Source};
-use self::wiring::FileWiring;
-use super::{Build, Wiring};
-use crate::Error;
-use crate::nodes::{Nodes, ShadowsNode, near_words};
+use self::instance::FileInstance;
+use self::parameters::Parameters;
+use self::resolve::{ResolvedNode, ResolvedPipeline};
+use self::source::{Location, SourceText};
+use super::instance::PipelineInstance;
+use crate::build_context::BuildContext;
+use crate::error::{Error, PipelineError};
+use crate::nodes::built_in::shadows::Shadows;
+use crate::nodes::node::Node;
+use crate::nodes::registry::Nodes;
 
-/// A file that was read and checked.
+/// A file that was parsed and checked.
 #[derive(Clone)]
 pub(super) struct PipelineFile {
     pub(super) name: String,
     document: Arc<Document>,
     nodes: Nodes,
-    techniques: Techniques,
-    choices: Choices,
-    resolved: Arc<Resolved>,
-    /// The technique that it insists on.
+    parameters: Parameters,
+    resolved: Arc<ResolvedPipeline>,
+    /// The technique that the file names.
     pub(super) technique: Option<Technique>,
-    /// Whether shadows are collected in a screen mask.
-    pub(super) collected: bool,
-}
-
-impl PipelineError {
-    pub(super) fn unknown(name: &str, known: &[&str]) -> Self {
-        let near = near_words(name, known.iter().copied());
-        Self { place: name.into(), problem: format!("there is no pipeline `{name}`{near}") }
-    }
+    /// Whether shadows are computed in a screen-space mask.
+    pub(super) screen_shadows: bool,
 }
 
 impl PipelineFile {
-    /// Reads a file and what it includes.
+    /// Reads and checks a file.
     pub(super) fn load(
         file: &Path,
         nodes: &Nodes,
         techniques: &Techniques,
-        choices: &Choices,
+        parameters: &Parameters,
     ) -> Result<Self, PipelineError> {
-        let document = Arc::new(include::read_all(file)?);
-        Self::checked(&file.display().to_string(), document, nodes, techniques, choices)
+        let name = file.display().to_string();
+        let text = std::fs::read_to_string(file).map_err(|error| PipelineError {
+            location: name.clone(),
+            problem: format!("cannot be read: {error}"),
+        })?;
+        let document = Arc::new(Document::parse(&Arc::new(SourceText { name: name.clone(), text }))?);
+        Self::checked(&name, document, nodes, techniques, parameters)
     }
 
-    /// Reads a built-in file.
-    pub(super) fn of_text(name: &str, text: &str, choices: &Choices) -> Result<Self, PipelineError> {
-        let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
+    /// Parses and checks a built-in file.
+    pub(super) fn parse(name: &str, text: &str, parameters: &Parameters) -> Result<Self, PipelineError> {
+        let source = Arc::new(SourceText { name: name.to_owned(), text: text.to_owned() });
         let document = Arc::new(Document::parse(&source)?);
-        if let Some(include) = document.include.first() {
-            return Err(include.error("a built-in pipeline includes nothing"));
-        }
-        Self::checked(name, document, &Nodes::built_in(), &Techniques::built_in(), choices)
+        Self::checked(name, document, &Nodes::built_in(), &Techniques::built_in(), parameters)
     }
 
-    /// Checks all tiers, and takes the choices.
+    /// Checks the file with its default parameters and with those that are set.
     fn checked(
         name: &str,
         document: Arc<Document>,
         nodes: &Nodes,
         techniques: &Techniques,
-        choices: &Choices,
+        parameters: &Parameters,
     ) -> Result<Self, PipelineError> {
         document.check_parameters()?;
-        for tier in document.all_choices() {
-            Self::chosen(name, &document, nodes, techniques, &tier)?;
-        }
-        // What the file says by itself is right by now.
-        Self::chosen(name, &document, nodes, techniques, choices)
-            .map_err(|error| PipelineError { problem: format!("{}{choices}", error.problem), ..error })
+        Self::resolved(name, &document, nodes, techniques, &Parameters::default())?;
+        // Any error that is left is due to the parameters.
+        Self::resolved(name, &document, nodes, techniques, parameters)
+            .map_err(|error| PipelineError { problem: format!("{}{parameters}", error.problem), ..error })
     }
 
-    /// Returns the nodes whose `when` does not hold.
-    pub(super) fn left_out(&self) -> impl Iterator<Item = &str> {
-        let names = self.document.nodes.iter().map(|entry| entry.name.value.as_str());
-        names.filter(|name| self.resolved.nodes.iter().all(|node| node.name != *name))
-    }
-
-    /// Tells what serves nothing, or not what it is for.
-    pub(super) fn warnings(&self) -> Vec<PipelineError> {
-        let mut told = self.document.unused(&self.nodes, &self.resolved);
-        told.extend(self.document.jitter_alone(&self.resolved));
-        told
-    }
-
-    fn chosen(
+    fn resolved(
         name: &str,
         document: &Arc<Document>,
         nodes: &Nodes,
         techniques: &Techniques,
-        choices: &Choices,
+        parameters: &Parameters,
     ) -> Result<Self, PipelineError> {
-        let resolved = document.resolve(name, nodes, &document.choose(name, choices)?)?;
-        let mut file = Self {
+        let resolved = document.resolve(name, nodes, &document.parameter_values(name, parameters)?)?;
+        let is_shadows = |node: &&ResolvedNode| node.kind.name == Shadows::NAME;
+        let shadows = resolved.nodes.iter().find(is_shadows);
+        let technique = shadows.map(|node| technique(document, node, techniques)).transpose()?.flatten();
+        let screen_shadows =
+            shadows.is_some_and(|node| node.settings.toggle(Shadows::COLLECTED).unwrap_or_default());
+        Ok(Self {
             name: name.to_owned(),
             document: document.clone(),
             nodes: nodes.clone(),
-            techniques: techniques.clone(),
-            choices: choices.clone(),
+            parameters: parameters.clone(),
             resolved: Arc::new(resolved),
-            technique: None,
-            collected: false,
-        };
-        file.find_technique()?;
-        Ok(file)
+            technique,
+            screen_shadows,
+        })
     }
 
-    fn find_technique(&mut self) -> Result<(), PipelineError> {
-        let of_shadows =
-            |node: &&resolve::Placed| node.kind.name == <ShadowsNode as crate::nodes::Node>::NAME;
-        let resolved = self.resolved.clone();
-        let Some(node) = resolved.nodes.iter().find(of_shadows) else { return Ok(()) };
-        let place = || {
-            let entry = self.document.nodes.iter().find(|entry| entry.name.value == node.name);
-            let setting = entry.and_then(|entry| {
-                let mut settings = entry.settings.iter();
-                settings.find(|(name, _)| name.value == ShadowsNode::TECHNIQUE).map(|(_, value)| &value.place)
-            });
-            setting.map_or_else(|| self.name.clone(), Place::words)
-        };
-        let refused = |problem: String| PipelineError { place: place(), problem };
-        let asked = node.settings.text(ShadowsNode::TECHNIQUE).unwrap_or_default();
-        let technique = (!asked.is_empty()).then(|| self.techniques.find(asked)).transpose();
-        let technique = technique.map_err(|error| refused(error.to_string()))?;
-        self.collected = node.settings.toggle(ShadowsNode::COLLECTED).unwrap_or_default();
-        self.technique = technique;
-        Ok(())
+    /// Returns the nodes whose `when` does not hold.
+    pub(super) fn disabled_nodes(&self) -> impl Iterator<Item = &str> {
+        let names = self.document.nodes.iter().map(|entry| entry.name.value.as_str());
+        names.filter(|name| self.resolved.nodes.iter().all(|node| node.name != *name))
     }
 
-    /// The same on a device of this kind, where no tier was asked for.
-    pub(super) fn on(&self, device: &'static str) -> Result<Self, PipelineError> {
-        let choices = Choices { device: Some(device), ..self.choices.clone() };
-        Self::chosen(&self.name, &self.document, &self.nodes, &self.techniques, &choices)
+    /// Returns warnings about what is valid and has no effect, or not the intended one.
+    pub(super) fn warnings(&self) -> Vec<PipelineError> {
+        let mut warnings = self.document.unused(&self.nodes, &self.resolved);
+        warnings.extend(self.document.jitter_warnings(&self.resolved));
+        warnings
     }
 
-    /// Whether the same was chosen of a file of the same name.
-    pub(super) fn is(&self, other: &Self) -> bool {
-        let Choices { parameters, tier, device: _ } = &self.choices;
-        (&self.name, parameters, tier) == (&other.name, &other.choices.parameters, &other.choices.tier)
+    /// Returns whether both have the same name and parameters.
+    pub(super) fn has_same_source(&self, other: &Self) -> bool {
+        (&self.name, &self.parameters) == (&other.name, &other.parameters)
     }
 
     pub(super) fn about(&self) -> &str {
         &self.document.about
     }
 
-    pub(super) fn make(&self, build: &Build<'_>) -> Result<Box<dyn Wiring>, Error> {
-        Ok(Box::new(FileWiring::new(self.resolved.clone(), build)?))
+    pub(super) fn build(&self, context: &BuildContext<'_>) -> Result<Box<dyn PipelineInstance>, Error> {
+        Ok(Box::new(FileInstance::new(self.resolved.clone(), context)?))
     }
+}
+
+/// Finds the technique that a `shadows` node names.
+fn technique(
+    document: &Document,
+    node: &ResolvedNode,
+    techniques: &Techniques,
+) -> Result<Option<Technique>, PipelineError> {
+    let name = node.settings.text(Shadows::TECHNIQUE).unwrap_or_default();
+    if name.is_empty() {
+        return Ok(None);
+    }
+    let location = || {
+        let mut settings = document.entry(&node.name)?.settings.iter();
+        let setting = settings.find(|(name, _)| name.value == Shadows::TECHNIQUE);
+        setting.map(|(_, value)| Location::describe(&value.location))
+    };
+    techniques.find(name).map(Some).map_err(|error| PipelineError {
+        location: location().unwrap_or_default(),
+        problem: error.to_string(),
+    })
 }

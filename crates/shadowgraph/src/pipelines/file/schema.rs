@@ -2,26 +2,21 @@
 
 use serde_json::{Value, json};
 
-use crate::nodes::Nodes;
+use crate::nodes::kind::NodeKind;
+use crate::nodes::registry::Nodes;
 
-/// Returns the schema of a pipeline file that names these kinds of nodes. RON's maps and records are its objects.
+/// Returns the schema of a pipeline file that uses these kinds of nodes. RON maps and structs are objects in it.
 pub fn schema(nodes: &Nodes) -> Value {
     let text = || json!({ "type": "string" });
-    let texts = || json!({ "type": "array", "items": text() });
-    let values = || json!({ "type": "object" });
-    let map = |of: Value| json!({ "type": "object", "additionalProperties": of });
-    let output = || json!({ "anyOf": [text(), texts()] });
-    let kinds: Vec<Value> = nodes.kinds().iter().map(|kind| kind.schema()).collect();
+    let output = || json!({ "anyOf": [text(), { "type": "array", "items": text() }] });
+    let kinds: Vec<Value> = nodes.kinds().iter().map(NodeKind::schema).collect();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "A pipeline of Shadowgraph",
+        "title": "Shadowgraph pipeline",
         "type": "object",
         "properties": {
             "about": text(),
-            "include": texts(),
-            "parameters": values(),
-            "tiers": map(values()),
-            "tier_for": map(text()),
+            "parameters": { "type": "object" },
             "nodes": { "type": "array", "items": { "anyOf": kinds } },
             "outputs": {
                 "type": "object",

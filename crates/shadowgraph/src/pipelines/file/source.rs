@@ -1,82 +1,69 @@
-//! A file's text, and places in it.
+//! The text of a file, and locations in it.
 
 use std::sync::Arc;
 
 use ron::value::RawValue;
 use serde::Deserialize;
 
+use crate::error::PipelineError;
 use crate::ron_file;
 
-/// What is wrong with a pipeline, where, and the way out: one line.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {problem}")]
-pub struct PipelineError {
-    /// The file, with line and column where it is one place in it.
-    pub place: String,
-    /// What is wrong, and what would be right.
-    pub problem: String,
-}
-
-/// A file as it was read.
+/// The text of a file.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Source {
-    /// What messages call it.
+pub(super) struct SourceText {
+    /// The name in messages.
     pub(super) name: String,
     pub(super) text: String,
 }
 
-/// A place in a file.
+/// A location in a file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Place {
-    source: Arc<Source>,
-    /// Bytes from its begin.
+pub(super) struct Location {
+    source: Arc<SourceText>,
+    /// The offset from the start of the file, bytes.
     offset: usize,
 }
 
-/// Something that stands somewhere.
+/// A value with its location.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Spot<T> {
+pub(super) struct Spanned<T> {
     pub(super) value: T,
-    pub(super) place: Place,
+    pub(super) location: Location,
 }
 
-impl<T> Spot<T> {
+impl<T> Spanned<T> {
     pub(super) fn error(&self, problem: impl Into<String>) -> PipelineError {
-        self.place.error(problem)
+        self.location.error(problem)
     }
 }
 
-impl Place {
-    /// The place in words: file, line, column, from 1.
-    pub(super) fn words(&self) -> String {
-        ron_file::place(&self.source.name, &self.source.text, self.offset)
+impl Location {
+    /// Returns `file:line:column`, from 1.
+    pub(super) fn describe(&self) -> String {
+        ron_file::location(&self.source.name, &self.source.text, self.offset)
     }
 
     pub(super) fn error(&self, problem: impl Into<String>) -> PipelineError {
-        PipelineError { place: self.words(), problem: ron_file::one_line(&problem.into()) }
+        PipelineError { location: self.describe(), problem: ron_file::one_line(&problem.into()) }
     }
 }
 
-/// Parses the text that begins at `offset` of a file; errors tell of the place in the file.
+/// Parses text that starts at `offset` of a file; errors have the location in the file.
 pub(super) fn parse<'t, T: Deserialize<'t>>(
-    source: &Arc<Source>,
+    source: &Arc<SourceText>,
     text: &'t str,
     offset: usize,
 ) -> Result<T, PipelineError> {
-    ron_file::read_at(text)
-        .map_err(|(inside, problem)| Place { source: source.clone(), offset: offset + inside }.error(problem))
+    let location = |inside| Location { source: source.clone(), offset: offset + inside };
+    ron_file::parse_text(text).map_err(|(inside, problem)| location(inside).error(problem))
 }
 
-/// Where a raw part of the file begins.
-pub(super) fn place_of(source: &Arc<Source>, raw: &RawValue) -> Place {
-    Place { source: source.clone(), offset: ron_file::offset_of(&source.text, raw) }
-}
-
-/// Parses a raw part of the file.
-pub(super) fn read<'t, T: Deserialize<'t>>(
-    source: &Arc<Source>,
+/// Parses a raw value of the file.
+pub(super) fn parse_raw<'t, T: Deserialize<'t>>(
+    source: &Arc<SourceText>,
     raw: &'t RawValue,
-) -> Result<Spot<T>, PipelineError> {
-    let start = ron_file::start_of(&source.text, raw);
-    Ok(Spot { value: parse(source, raw.get_ron(), start)?, place: place_of(source, raw) })
+) -> Result<Spanned<T>, PipelineError> {
+    let value = parse(source, raw.get_ron(), ron_file::start_of(&source.text, raw))?;
+    let offset = ron_file::offset_of(&source.text, raw);
+    Ok(Spanned { value, location: Location { source: source.clone(), offset } })
 }

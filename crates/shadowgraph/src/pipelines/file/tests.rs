@@ -8,21 +8,19 @@ mod warnings;
 
 const FORWARD: &str = include_str!("../../../pipelines/forward.ron");
 
-/// Loads a file of this text, from a folder where `part.ron` is another.
-fn load_beside(text: &str, part: &str, choices: &Choices) -> Result<Pipeline, String> {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("mine.ron");
+fn load_with(text: &str, parameters: &Parameters) -> Result<Pipeline, String> {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("mine.ron");
     std::fs::write(&file, text).unwrap();
-    std::fs::write(folder.path().join("part.ron"), part).unwrap();
     let (nodes, techniques) = (Nodes::built_in(), Techniques::built_in());
-    Pipeline::load(&file, &nodes, &techniques, choices).map_err(|error| {
+    Pipeline::load(&file, &nodes, &techniques, parameters).map_err(|error| {
         let text = error.to_string();
-        text.replace(&format!("{}/", folder.path().display()), "")
+        text.replace(&format!("{}/", directory.path().display()), "")
     })
 }
 
 fn load(text: &str) -> Result<Pipeline, String> {
-    load_beside(text, "", &Choices::default())
+    load_with(text, &Parameters::default())
 }
 
 /// The file of `forward` with parts of it replaced.
@@ -34,12 +32,12 @@ fn changed(changes: &[(&str, &str)]) -> String {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_file_line_column_and_the_way_out() {
+fn errors_name_the_file_line_and_column_and_what_is_expected() {
     let cases: &[(&[(&str, &str)], &str)] = include!("tests/malformed.rs");
-    assert!(cases.len() >= 55, "{}", cases.len());
+    assert!(cases.len() >= 53, "{}", cases.len());
     let mut wrong = Vec::new();
     for (changes, expected) in cases {
-        let error = load(&changed(changes)).err().unwrap_or_else(|| "it is taken".into());
+        let error = load(&changed(changes)).err().unwrap_or_else(|| "it is accepted".into());
         if !error.contains(expected) || error.lines().count() != 1 {
             wrong.push(format!("{changes:?}\n  {error}\n  expected: {expected}"));
         }
@@ -48,15 +46,15 @@ fn what_is_wrong_is_told_with_file_line_column_and_the_way_out() {
 }
 
 #[test]
-fn files_that_are_cut_off_or_mixed_up_are_refused_in_one_line_or_taken() {
-    // A corpus made from the built-in files: each cut off at every place, and with every character left out once.
+fn truncated_and_damaged_files_are_refused_in_one_line_or_accepted() {
+    // Each built-in file, truncated at every character, and with every character removed once.
     for name in crate::pipelines::BUILT_IN {
-        let text = Pipeline::text_of(name).unwrap();
+        let text = Pipeline::built_in_text(name).unwrap();
         let ends = text.char_indices().map(|(at, _)| text[..at].to_owned());
         let holes =
             text.char_indices().map(|(at, c)| format!("{}{}", &text[..at], &text[at + c.len_utf8()..]));
         for broken in ends.chain(holes) {
-            if let Err(error) = PipelineFile::of_text(name, &broken, &Choices::default()) {
+            if let Err(error) = PipelineFile::parse(name, &broken, &Parameters::default()) {
                 let error = error.to_string();
                 assert!(error.lines().count() == 1 && error.starts_with(name), "{error}");
             }
@@ -65,7 +63,7 @@ fn files_that_are_cut_off_or_mixed_up_are_refused_in_one_line_or_taken() {
 }
 
 #[test]
-fn a_file_without_changes_is_taken_whatever_the_order_of_its_nodes() {
+fn a_file_is_valid_in_any_order_of_its_nodes() {
     assert!(load(FORWARD).is_ok());
     let mut lines: Vec<&str> = FORWARD.lines().collect();
     let (first, last) = (
@@ -76,16 +74,10 @@ fn a_file_without_changes_is_taken_whatever_the_order_of_its_nodes() {
     assert!(load(&lines.join("\n")).is_ok());
 }
 
-/// A file whose lighting is switched, by a parameter and by tiers.
+/// A file whose prepass and technique are parameters.
 fn switched() -> String {
     changed(&[
-        (
-            "nodes: [",
-            "parameters: {\"prepass\": true, \"technique\": \"pcf\"},
-             tiers: {\"low\": {\"prepass\": false}, \"high\": {\"technique\": \"evsm\"}},
-             tier_for: {\"cpu\": \"low\"},
-             nodes: [",
-        ),
+        ("nodes: [", "parameters: {\"prepass\": true, \"technique\": \"pcf\"},\n nodes: ["),
         ("(name: \"geometry\", ", "(name: \"geometry\", when: On(\"prepass\"), "),
         (
             "inputs: {\"surfaces\": \"geometry\"}",
@@ -95,71 +87,47 @@ fn switched() -> String {
     ])
 }
 
-fn names(choices: &Choices) -> (Vec<String>, Option<String>) {
-    let source = Arc::new(Source { name: "switched".into(), text: switched() });
+fn set(name: &str, value: serde_json::Value) -> Parameters {
+    Parameters(vec![(name.into(), value)])
+}
+
+fn names(text: &str, parameters: &Parameters) -> (Vec<String>, Option<String>) {
+    let source = Arc::new(SourceText { name: "switched".into(), text: text.into() });
     let document = Arc::new(Document::parse(&source).unwrap());
     let (nodes, techniques) = (Nodes::built_in(), Techniques::built_in());
-    let file = PipelineFile::checked("switched", document, &nodes, &techniques, choices).unwrap();
+    let file = PipelineFile::checked("switched", document, &nodes, &techniques, parameters).unwrap();
     let nodes = file.resolved.nodes.iter().map(|node| node.name.clone()).collect();
     (nodes, file.technique.map(|technique| technique.name()))
 }
 
 #[test]
-fn parameters_tiers_and_devices_choose_what_is_there() {
+fn parameters_choose_the_nodes_and_the_technique() {
     let all = ["view", "geometry", "shadows", "lighting", "picture"];
     let without = ["view", "shadows", "lighting", "picture"];
-    let tier = |tier: &str| Choices { tier: Some(tier.into()), ..Choices::default() };
-    let of = |choices: &Choices| names(choices);
-    assert_eq!(of(&Choices::default()), (all.map(String::from).to_vec(), Some("pcf".into())));
-    assert_eq!(of(&tier("low")).0, without);
-    assert_eq!(of(&tier("high")), (all.map(String::from).to_vec(), Some("evsm".into())));
-    let on_cpu = Choices { device: Some("cpu"), ..Choices::default() };
-    assert_eq!(of(&on_cpu).0, without);
-    // What is asked for by name goes before what the tier says, and a tier that is asked for before that of the device.
-    let both = Choices { parameters: vec![("prepass".into(), json!(true))], ..on_cpu.clone() };
-    assert_eq!(of(&both).0, all);
-    assert_eq!(of(&Choices { device: Some("cpu"), ..tier("high") }).0, all);
+    let with = |parameters: &Parameters| names(&switched(), parameters);
+    assert_eq!(with(&Parameters::default()), (all.map(String::from).to_vec(), Some("pcf".into())));
+    assert_eq!(with(&set("prepass", json!(false))).0, without);
+    let evsm = with(&set("technique", json!("evsm")));
+    assert_eq!(evsm, (all.map(String::from).to_vec(), Some("evsm".into())));
+    let opposite = switched().replace("when: On(\"prepass\")", "when: Not(On(\"prepass\"))");
+    assert_eq!(names(&opposite, &Parameters::default()).0, without);
+    assert_eq!(names(&opposite, &set("prepass", json!(false))).0, all);
 }
 
 #[test]
-fn a_choice_that_the_file_does_not_have_is_told_with_those_that_it_has() {
-    let choose = |choices: Choices| load_beside(&switched(), "", &choices).err().unwrap();
-    let parameter =
-        |name: &str, value| Choices { parameters: vec![(name.into(), value)], ..Choices::default() };
-    let error = choose(parameter("prepas", json!(true)));
-    assert!(error.contains("there is no parameter `prepas`; did you mean `prepass`?"), "{error}");
-    let error = choose(parameter("prepass", json!(3)));
+fn an_unknown_parameter_or_one_of_another_type_is_refused() {
+    let error = |parameters| load_with(&switched(), &parameters).err().unwrap();
+    let unknown = error(set("prepas", json!(true)));
+    assert!(unknown.contains("unknown parameter `prepas`; did you mean `prepass`?"), "{unknown}");
+    let other_type = error(set("prepass", json!(3)));
     assert!(
-        error.contains("parameter `prepass`: 3 is a number, and the parameter is true or false"),
-        "{error}"
+        other_type.contains("parameter `prepass`: expected a boolean, found 3, a number"),
+        "{other_type}"
     );
-    let error = choose(Choices { tier: Some("ultra".into()), ..Choices::default() });
-    assert!(error.contains("there is no tier `ultra`; there is: low, high"), "{error}");
 }
 
 #[test]
-fn a_file_includes_nodes_of_another_and_replaces_its_parameters() {
-    let part = "(parameters: {\"technique\": \"pcf\"}, nodes: [(name: \"view\", kind: \"view\"), \
-                (name: \"shadows\", kind: \"shadows\", settings: {\"technique\": \"$technique\"})])";
-    let text = "(include: [\"part.ron\"], parameters: {\"technique\": \"msm\"}, nodes: [
-        (name: \"lighting\", kind: \"forward\", inputs: {\"view\": \"view\", \"shadows\": \"shadows\"}),
-        (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"lighting\"}),
-    ], outputs: {\"picture\": \"picture\"})";
-    let pipeline = load_beside(text, part, &Choices::default()).unwrap();
-    assert_eq!(pipeline.technique().map(|technique| technique.name()).as_deref(), Some("msm"));
-    let wrong = |text: &str, part: &str| load_beside(text, part, &Choices::default()).err().unwrap();
-    let error = wrong(text, &part.replace("shadows\", settings", "shadow\", settings"));
-    assert!(error.starts_with("part.ron:1:") && error.contains("no kind of node `shadow`"), "{error}");
-    let error = wrong(&text.replace("\"lighting\", kind", "\"view\", kind"), part);
-    assert!(error.starts_with("mine.ron:2:16: there is a node `view` already, at part.ron:1:"), "{error}");
-    let error = wrong(text, "(include: [\"mine.ron\"], nodes: [])");
-    assert!(error.starts_with("part.ron:1:12: `mine.ron` includes itself by this"), "{error}");
-    let error = wrong(&text.replace("part.ron", "parts.ron"), part);
-    assert!(error.starts_with("mine.ron:1:12: `parts.ron` cannot be read: "), "{error}");
-}
-
-#[test]
-fn what_is_drawn_over_is_read_before_and_named_by_what_draws_last() {
+fn what_is_overwritten_in_place_is_read_before_and_outputs_name_the_last_node() {
     let sky = |name: &str, from: &str| {
         format!(
             "(name: \"{name}\", kind: \"sky\", inputs: {{\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"{from}\"}}),\n        "
@@ -174,15 +142,15 @@ fn what_is_drawn_over_is_read_before_and_named_by_what_draws_last() {
     let two = sky("late", "early") + &sky("early", "lighting");
     assert!(load(&with(&two, "late")).is_ok());
     let error = load(&with(&two, "lighting")).err().unwrap();
-    assert!(error.contains("`lighting.light` is drawn over: name \"late.light\""), "{error}");
+    assert!(error.contains("`lighting.light` is overwritten in place: name `late.light`"), "{error}");
     let twice = sky("one", "lighting") + &sky("other", "lighting");
     let error = load(&with(&twice, "one")).err().unwrap();
-    assert!(error.contains("draws over what feeds its `light`, and so does `one`"), "{error}");
+    assert!(error.contains("overwrites its input `light` in place, and so does `one`"), "{error}");
 }
 
 #[test]
 fn the_schema_has_every_kind_with_its_ports_and_ranges() {
-    let schema = schema(&Nodes::built_in());
+    let schema = schema::schema(&Nodes::built_in());
     let kinds = schema["properties"]["nodes"]["items"]["anyOf"].as_array().unwrap();
     assert_eq!(kinds.len(), Nodes::built_in().kinds().len());
     let forward = kinds.iter().find(|kind| kind["properties"]["kind"]["const"] == "forward").unwrap();
@@ -192,7 +160,7 @@ fn the_schema_has_every_kind_with_its_ports_and_ranges() {
 }
 
 #[test]
-fn what_is_wrong_with_a_choice_is_told_with_the_option_and_a_node_left_out_is_known() {
+fn an_error_due_to_a_parameter_names_it_and_a_disabled_node_is_known() {
     let text = changed(&[
         ("nodes: [", "parameters: {\"blur\": 0.1, \"on\": false},\n nodes: ["),
         (
@@ -201,17 +169,9 @@ fn what_is_wrong_with_a_choice_is_told_with_the_option_and_a_node_left_out_is_kn
         ),
         ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": [\"glow\", \"lighting\"]})"),
     ]);
-    let choose = |blur: f64, on: bool| Choices {
-        parameters: vec![("blur".into(), json!(blur)), ("on".into(), json!(on))],
-        ..Choices::default()
-    };
-    let error = load_beside(&text, "", &choose(5.0, true)).unwrap_err();
-    assert!(
-        error.ends_with(
-            "it can be a number from 0 to 1, by the parameter `blur` (with --set blur=5.0 --set on=true)"
-        ),
-        "{error}"
-    );
-    assert!(load_beside(&text, "", &choose(0.5, false)).unwrap().leaves_out("glow"));
-    assert!(!load_beside(&text, "", &choose(0.5, true)).unwrap().leaves_out("glow"));
+    let set = |blur: f64, on: bool| Parameters(vec![("blur".into(), json!(blur)), ("on".into(), json!(on))]);
+    let error = load_with(&text, &set(5.0, true)).unwrap_err();
+    assert!(error.ends_with(", set by the parameter `blur` (with blur=5.0 on=true)"), "{error}");
+    assert!(load_with(&text, &set(0.5, false)).unwrap().is_disabled("glow"));
+    assert!(!load_with(&text, &set(0.5, true)).unwrap().is_disabled("glow"));
 }

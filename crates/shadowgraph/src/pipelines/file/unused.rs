@@ -1,65 +1,68 @@
-//! What stands in a file and serves nothing.
+//! Warnings about nodes and parameters without effect.
 
-use super::choose::parameter_of;
-use super::document::{Condition, Document, Entry, Feed};
-use super::resolve::Resolved;
-use super::source::{PipelineError, Spot};
-use crate::nodes::Nodes;
+use super::document::{Condition, Connection, Document, NodeEntry};
+use super::parameters::referenced_parameter;
+use super::resolve::ResolvedPipeline;
+use super::source::Spanned;
+use crate::error::PipelineError;
+use crate::nodes::registry::Nodes;
 
 impl Document {
-    /// Tells of nodes, of those that are there, which lead to no output, and of parameters that nothing asks for, whatever is chosen.
-    pub(super) fn unused(&self, nodes: &Nodes, there: &Resolved) -> Vec<PipelineError> {
-        let here = |entry: &Entry| there.nodes.iter().any(|node| node.name == entry.name.value);
-        let idle = self.idle_nodes(nodes).filter(|entry| here(entry));
-        let node = |Entry { name, kind, .. }: &Entry| {
+    /// Returns warnings about enabled nodes that no output depends on, and about parameters that are never used.
+    pub(super) fn unused(&self, nodes: &Nodes, resolved: &ResolvedPipeline) -> Vec<PipelineError> {
+        let is_enabled = |entry: &&NodeEntry| resolved.nodes.iter().any(|node| node.name == entry.name.value);
+        let node = |NodeEntry { name, kind, .. }: &NodeEntry| {
             name.error(format!(
-                "`{}` ({}) leads to no output: name it in the inputs of a node that does, or take it out",
+                "no output depends on `{}` ({}): connect it to a node that an output depends on, or remove it",
                 name.value, kind.value
             ))
         };
-        let parameter = |name: &Spot<String>| {
+        let parameter = |name: &Spanned<String>| {
             let own = &name.value;
             name.error(format!(
-                "nothing asks for the parameter `{own}`: a setting does by \"${own}\", or a node by `when`"
+                "unused parameter `{own}`: use it as \"${own}\" in a setting, or in a node's `when`"
             ))
         };
-        idle.map(node).chain(self.idle_parameters().map(parameter)).collect()
+        let unused_nodes = self.unused_nodes(nodes).filter(is_enabled);
+        unused_nodes.map(node).chain(self.unused_parameters().map(parameter)).collect()
     }
 
-    fn idle_nodes(&self, nodes: &Nodes) -> impl Iterator<Item = &Entry> {
-        // A kind without outputs is there for what it does.
-        let gives = |entry: &Entry| nodes.get(&entry.kind.value).is_none_or(|kind| !kind.outputs.is_empty());
-        let mut serves: Vec<bool> = self.nodes.iter().map(|entry| !gives(entry)).collect();
-        let mut feeds: Vec<&Feed> = self.outputs.iter().collect();
-        feeds.extend(self.nodes.iter().filter(|entry| !gives(entry)).flat_map(|entry| &entry.inputs));
-        while let Some((_, from)) = feeds.pop() {
-            for reference in from {
-                let node = reference.value.split('.').next().unwrap_or_default();
-                if let Some(at) = self.nodes.iter().position(|entry| entry.name.value == node)
-                    && !std::mem::replace(&mut serves[at], true)
+    fn unused_nodes(&self, nodes: &Nodes) -> impl Iterator<Item = &NodeEntry> {
+        // A kind without outputs is used for its side effects.
+        let has_outputs =
+            |entry: &NodeEntry| nodes.get(&entry.kind.value).is_none_or(|kind| !kind.outputs.is_empty());
+        let mut used: Vec<bool> = self.nodes.iter().map(|entry| !has_outputs(entry)).collect();
+        let mut connections: Vec<&Connection> = self.outputs.iter().collect();
+        connections
+            .extend(self.nodes.iter().filter(|entry| !has_outputs(entry)).flat_map(|entry| &entry.inputs));
+        while let Some((_, outputs)) = connections.pop() {
+            for output in outputs {
+                let node = output.value.split('.').next().unwrap_or_default();
+                if let Some(index) = self.nodes.iter().position(|entry| entry.name.value == node)
+                    && !std::mem::replace(&mut used[index], true)
                 {
-                    feeds.extend(&self.nodes[at].inputs);
+                    connections.extend(&self.nodes[index].inputs);
                 }
             }
         }
-        self.nodes.iter().zip(serves).filter(|(_, serves)| !serves).map(|(entry, _)| entry)
+        self.nodes.iter().zip(used).filter(|(_, used)| !used).map(|(entry, _)| entry)
     }
 
-    fn idle_parameters(&self) -> impl Iterator<Item = &Spot<String>> {
+    fn unused_parameters(&self) -> impl Iterator<Item = &Spanned<String>> {
         let settings = self.nodes.iter().flat_map(|entry| &entry.settings);
-        let mut asked: Vec<&str> = settings.filter_map(|(_, value)| parameter_of(&value.value)).collect();
-        self.nodes.iter().filter_map(|entry| entry.when.as_ref()).for_each(|when| when.value.ask(&mut asked));
-        self.parameters.iter().map(|(name, _)| name).filter(move |name| !asked.contains(&name.value.as_str()))
+        let in_settings = settings.filter_map(|(_, value)| referenced_parameter(&value.value));
+        let conditions = self.nodes.iter().filter_map(|entry| entry.when.as_ref());
+        let used: Vec<&str> = in_settings.chain(conditions.map(|when| when.value.parameter())).collect();
+        self.parameters.iter().map(|(name, _)| name).filter(move |name| !used.contains(&name.value.as_str()))
     }
 }
 
 impl Condition {
-    /// Adds the parameters that it looks at.
-    fn ask<'c>(&'c self, asked: &mut Vec<&'c str>) {
+    /// Returns the parameter that it depends on.
+    fn parameter(&self) -> &str {
         match self {
-            Self::On(name) | Self::Is(name, _) => asked.push(name),
-            Self::Not(inner) => inner.ask(asked),
-            Self::All(list) | Self::Any(list) => list.iter().for_each(|inner| inner.ask(asked)),
+            Self::On(name) => name,
+            Self::Not(inner) => inner.parameter(),
         }
     }
 }

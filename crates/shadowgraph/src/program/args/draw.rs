@@ -1,9 +1,9 @@
 //! What all drawing commands ask for, and what it comes to.
 
 use crate::Registry;
-use crate::nodes::near_words;
+use crate::core::did_you_mean;
 use crate::options::{OptionError, Options, SettingsFile, ShadowDistance};
-use crate::pipelines::{BUILT_IN, Choices, Pipeline};
+use crate::pipelines::{BUILT_IN, Parameters, Pipeline};
 use crate::program::failure::Failure;
 use crate::scene::Scene;
 use crate::shadows::{ShadowSettings, Technique, Techniques};
@@ -22,9 +22,6 @@ pub(crate) struct DrawArgs {
     /// A parameter of the pipeline; can be given several times
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// A tier of quality of the pipeline. Default: what its file has for the device
-    #[arg(long, value_name = "NAME")]
-    tier: Option<String>,
     /// The shadow technique, one of those that `nodes` lists, such as pcf, or pcf+contact
     #[arg(long, value_name = "NAME")]
     technique: Option<String>,
@@ -79,7 +76,7 @@ impl DrawArgs {
     pub(crate) fn check_lights(&self, settings: &ShadowSettings, scene: &Scene) -> Result<(), OptionError> {
         let wrong = settings.check_lights(&scene.lights).err();
         match (wrong, &self.settings) {
-            (Some(error), Some(file)) => Err(SettingsFile::wrong(file, &error)),
+            (Some(error), Some(file)) => Err(SettingsFile::error(file, &error)),
             _ => Ok(()),
         }
     }
@@ -96,7 +93,7 @@ impl DrawArgs {
     pub(crate) fn options(&self, registry: &Registry) -> Result<Options, Failure> {
         let techniques = &registry.techniques;
         let file = settings_file(self.settings.as_deref(), techniques)?;
-        let named = self.technique.as_deref().map(|name| technique("--technique", name, techniques));
+        let named = self.technique.as_deref().map(|name| technique("technique", name, techniques));
         let shadow_distance = match &self.shadow_distance {
             None if file.has_distance => ShadowDistance::Metres(file.settings.distance_m.into()),
             given => or_default(given.as_deref())?,
@@ -122,19 +119,19 @@ impl DrawArgs {
     /// One line with the place and what is wrong there.
     pub(crate) fn pipeline(&self, registry: &Registry) -> Result<Pipeline, OptionError> {
         let parameters = self.set.iter().map(|text| parameter(text)).collect::<Result<_, _>>()?;
-        let choices = Choices { parameters, tier: self.tier.clone(), device: None };
+        let parameters = Parameters(parameters);
         let file = Path::new(&self.pipeline);
         let is_file = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
         let pipeline = if is_file {
-            Pipeline::load(file, &registry.nodes, &registry.techniques, &choices)
+            Pipeline::load(file, &registry.nodes, &registry.techniques, &parameters)
         } else if BUILT_IN.contains(&self.pipeline.as_str()) {
-            Pipeline::built_in(&self.pipeline, &choices)
+            Pipeline::built_in(&self.pipeline, &parameters)
         } else {
-            let near = near_words(&self.pipeline, BUILT_IN.iter().copied());
-            let reason = format!("there is no pipeline `{}` (files end in .ron){near}", self.pipeline);
-            return Err(OptionError::new("--pipeline", reason));
+            let hint = did_you_mean(&self.pipeline, BUILT_IN.iter().copied());
+            let reason = format!("unknown pipeline `{}` (files end in .ron){hint}", self.pipeline);
+            return Err(OptionError::new("pipeline", reason));
         };
-        pipeline.map_err(|error| OptionError::new("--pipeline", error.to_string()))
+        pipeline.map_err(|error| OptionError::new("pipeline", error.to_string()))
     }
 
     /// Returns the pipeline's file, if it is one.
@@ -148,7 +145,7 @@ impl DrawArgs {
 /// `name=value`, the value as a pipeline file has it; a text needs no quotes.
 fn parameter(text: &str) -> Result<(String, serde_json::Value), OptionError> {
     let Some((name, value)) = text.split_once('=') else {
-        return Err(OptionError::new("--set", format!("`{text}` is not NAME=VALUE")));
+        return Err(OptionError::new("set", format!("invalid value `{text}`; expected NAME=VALUE")));
     };
     let value = ron::from_str(value).ok().filter(|value: &serde_json::Value| !value.is_null());
     let text = || serde_json::Value::String(text[name.len() + 1..].to_owned());
@@ -222,10 +219,10 @@ mod tests {
             ("--pipeline;my.ron", "--pipeline: my.ron: cannot be read: "),
             (
                 "--pipeline;mine",
-                "--pipeline: there is no pipeline `mine` (files end in .ron); did you mean `minimal`?",
+                "--pipeline: unknown pipeline `mine` (files end in .ron); did you mean `minimal`?",
             ),
-            ("--size;0x4", "--size: the width 0"),
-            ("--sun;dir=0,0,0", "--sun: dir has no length"),
+            ("--size;0x4", "--size: width 0"),
+            ("--sun;dir=0,0,0", "--sun: dir must not be zero"),
             ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
         ] {
             let error = options(line).unwrap_err();
@@ -249,6 +246,6 @@ mod tests {
     #[test]
     fn a_value_that_starts_with_a_minus_sign_reaches_its_option() {
         let error = options("--shadow-distance;-3").unwrap_err();
-        assert!(error.starts_with("--shadow-distance: `-3` is neither auto"), "{error}");
+        assert!(error.starts_with("--shadow-distance: invalid value `-3`"), "{error}");
     }
 }

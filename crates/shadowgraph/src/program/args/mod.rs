@@ -92,7 +92,7 @@ impl DumpArgs {
             Some(other) => {
                 let reason =
                     format!("`.{other}` is no form of a dump: txt, html, json, dot or mmd, or say --format");
-                return Err(OptionError::new("--output", reason));
+                return Err(OptionError::new("output", reason));
             }
         })
     }

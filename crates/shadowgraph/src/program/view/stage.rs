@@ -12,7 +12,7 @@ use crate::program::commands::{Input, load};
 use crate::program::failure::Failure;
 use crate::scene::Scene;
 use crate::shadows::{ShadowSettings, Technique};
-use crate::{Gpu, Method, Pipeline, Registry, Renderer, ViewOptions, wgpu};
+use crate::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, wgpu};
 
 /// Frames that times are kept of.
 const FRAMES: usize = 60;
@@ -66,7 +66,7 @@ impl Stage {
         Ok(Self {
             fly: Fly::new(input.camera, reach_m),
             scene: input.scene,
-            technique: input.options.method().technique(),
+            technique: input.options.render_config().technique(),
             registry,
             draw: args.draw.clone(),
             pipeline: input.options.pipeline,
@@ -197,9 +197,10 @@ impl Stage {
             return made.clone().map_err(crate::Error::Gpu);
         }
         let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
-        let method = Method { technique, pipeline, samples: self.samples };
-        let made = gpu
-            .checked(|| Renderer::with(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), method));
+        let config = RenderConfig { technique, pipeline, samples: self.samples };
+        let made = gpu.checked(|| {
+            Renderer::with_config(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), config)
+        });
         let failed = made.as_ref().err().map(ToString::to_string);
         self.made = Some((wanted, failed.map_or(Ok(()), Err)));
         let renderer = made?;

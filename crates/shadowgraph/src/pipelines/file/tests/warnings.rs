@@ -1,9 +1,9 @@
-//! What is valid and serves nothing, or not what it is for.
+//! Warnings about valid files.
 
 use super::*;
 
-fn warnings(text: &str, part: &str) -> Vec<String> {
-    let pipeline = load_beside(text, part, &Choices::default()).unwrap();
+fn warnings(text: &str) -> Vec<String> {
+    let pipeline = load(text).unwrap();
     let own = |warning: &PipelineError| {
         let text = warning.to_string();
         text.rsplit('/').next().unwrap().to_owned()
@@ -12,7 +12,7 @@ fn warnings(text: &str, part: &str) -> Vec<String> {
 }
 
 #[test]
-fn nodes_that_lead_to_no_output_are_told_each_with_its_place() {
+fn nodes_that_no_output_depends_on_are_reported_with_their_locations() {
     let text = changed(&[(
         "(name: \"picture\"",
         "(name: \"pyramid\", kind: \"hi_z\", inputs: {\"depth\": \"geometry\"}),
@@ -20,20 +20,23 @@ fn nodes_that_lead_to_no_output_are_told_each_with_its_place() {
         (name: \"clusters\", kind: \"clusters\", inputs: {\"view\": \"occlusion\"}),
         (name: \"picture\"",
     )]);
-    let told = warnings(&text, "");
-    let [pyramid, occlusion, clusters] = &told[..] else { panic!("{told:?}") };
+    let found = warnings(&text);
+    let [pyramid, occlusion, clusters] = &found[..] else { panic!("{found:?}") };
     let line = 1 + text[..text.find("pyramid").unwrap()].matches('\n').count();
-    let place = |line| format!("mine.ron:{line}:");
-    assert!(pyramid.starts_with(&place(line)), "{pyramid}");
-    assert!(pyramid.contains("`pyramid` (hi_z) leads to no output: name it in the inputs"), "{pyramid}");
-    // What feeds only those leads to none either.
-    assert!(occlusion.starts_with(&place(line + 1)) && clusters.starts_with(&place(line + 2)), "{told:?}");
+    let location = |line| format!("mine.ron:{line}:");
+    assert!(pyramid.starts_with(&location(line)), "{pyramid}");
+    assert!(pyramid.contains("no output depends on `pyramid` (hi_z): connect it"), "{pyramid}");
+    // Nor does one depend on what only those read.
+    assert!(
+        occlusion.starts_with(&location(line + 1)) && clusters.starts_with(&location(line + 2)),
+        "{found:?}"
+    );
 }
 
 #[test]
-fn a_node_that_any_choice_makes_use_of_or_that_is_not_there_is_not_told() {
-    assert_eq!(warnings(&switched(), ""), [""; 0]);
-    // The first of a list is taken where it is there, and the second where not.
+fn a_node_that_is_used_with_other_parameters_or_is_disabled_is_not_reported() {
+    assert_eq!(warnings(&switched()), [""; 0]);
+    // The first of a list counts if it is enabled, else the second.
     let text = changed(&[
         ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": [\"glow.light\", \"lighting\"]})"),
         ("nodes: [", "parameters: {\"glow\": true}, nodes: ["),
@@ -43,41 +46,42 @@ fn a_node_that_any_choice_makes_use_of_or_that_is_not_there_is_not_told() {
         (name: \"picture\"",
         ),
     ]);
-    assert_eq!(warnings(&text, ""), [""; 0]);
-    // One that is not there now says nothing.
+    assert_eq!(warnings(&text), [""; 0]);
+    // A disabled node is not reported.
     let off = text.replace("[\"glow.light\", \"lighting\"]", "\"lighting\"");
-    assert_eq!(warnings(&off, "").len(), 1);
-    assert_eq!(warnings(&off.replace("\"glow\": true", "\"glow\": false"), ""), [""; 0]);
+    assert_eq!(warnings(&off).len(), 1);
+    assert_eq!(warnings(&off.replace("\"glow\": true", "\"glow\": false")), [""; 0]);
 }
 
 #[test]
-fn parameters_that_nothing_asks_for_are_told_and_those_for_an_included_node_are_not() {
-    let part = "(nodes: [(name: \"view\", kind: \"view\"), \
-                (name: \"shadows\", kind: \"shadows\", settings: {\"technique\": \"$technique\"})])";
-    let text = "(include: [\"part.ron\"], parameters: {\"technique\": \"msm\", \"bloom\": 0.1}, nodes: [
-        (name: \"lighting\", kind: \"forward\", inputs: {\"view\": \"view\", \"shadows\": \"shadows\"}),
-        (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"lighting\"}),
-    ], tiers: {\"low\": {\"bloom\": 0.0}}, outputs: {\"picture\": \"picture\"})";
-    let told = warnings(text, part);
-    let problem = "mine.ron:1:58: nothing asks for the parameter `bloom`: a setting does by \"$bloom\", or a node by `when`";
-    assert_eq!(told, [problem]);
+fn unused_parameters_are_reported() {
+    let text = changed(&[
+        ("nodes: [", "parameters: {\"technique\": \"msm\", \"bloom\": 0.1}, nodes: ["),
+        (
+            "inputs: {\"surfaces\": \"geometry\"}",
+            "inputs: {\"surfaces\": \"geometry\"}, settings: {\"technique\": \"$technique\"}",
+        ),
+    ]);
+    let expected =
+        "mine.ron:3:38: unused parameter `bloom`: use it as \"$bloom\" in a setting, or in a node's `when`";
+    assert_eq!(warnings(&text), [expected]);
 }
 
 #[test]
-fn temporal_anti_aliasing_without_jitter_is_told_and_so_is_jitter_without_it() {
+fn temporal_anti_aliasing_without_jitter_is_reported_and_jitter_without_it() {
     const TAA: (&str, &str) = (
         "(name: \"picture\"",
         "(name: \"temporal\", kind: \"taa\", inputs: {\"view\": \"view\", \"light\": \"lighting\", \"depth\": \"geometry\"}),
         (name: \"picture\"",
     );
-    const TAKEN: (&str, &str) = ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": \"temporal\"})");
+    const USED: (&str, &str) = ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": \"temporal\"})");
     const JITTER: (&str, &str) = ("kind: \"view\"", "kind: \"view\", settings: {\"jitter\": true}");
-    let still = "mine.ron:8:16: `temporal` (taa) smooths no edge without jitter: give `view` settings: {\"jitter\": true}";
-    assert_eq!(warnings(&changed(&[TAKEN, TAA]), ""), [still]);
-    assert_eq!(warnings(&changed(&[TAKEN, TAA, JITTER]), ""), [""; 0]);
-    // By way of a node that passes the camera on.
+    let still = "mine.ron:8:16: `temporal` (taa) has no effect on edges without jitter: add settings: {\"jitter\": true} to `view`";
+    assert_eq!(warnings(&changed(&[USED, TAA])), [still]);
+    assert_eq!(warnings(&changed(&[USED, TAA, JITTER])), [""; 0]);
+    // Through a node that passes the camera on.
     let through = [
-        TAKEN,
+        USED,
         (
             TAA.0,
             "(name: \"clusters\", kind: \"clusters\", inputs: {\"view\": \"view\"}),\n(name: \"picture\"",
@@ -85,18 +89,18 @@ fn temporal_anti_aliasing_without_jitter_is_told_and_so_is_jitter_without_it() {
         (TAA.0, &*TAA.1.replacen("\"view\": \"view\"", "\"view\": \"clusters\"", 1)),
         JITTER,
     ];
-    assert_eq!(warnings(&changed(&through), ""), [""; 0]);
-    let swims = "mine.ron:4:49: `view` jitters and no `taa` takes it, so edges swim: add one, or take the setting out";
-    assert_eq!(warnings(&changed(&[JITTER]), ""), [swims]);
+    assert_eq!(warnings(&changed(&through)), [""; 0]);
+    let shimmers = "mine.ron:4:49: `view` jitters the camera without a `taa` node, so edges shimmer: add `taa` or remove the setting";
+    assert_eq!(warnings(&changed(&[JITTER])), [shimmers]);
 }
 
 #[test]
-fn built_in_pipelines_and_those_of_the_documents_have_nothing_that_serves_nothing() {
+fn built_in_pipelines_and_those_of_the_documents_have_no_warnings() {
     let page = include_str!("../../../../../../docs/pipelines.md");
     let (_, after) = page.split_once("```ron\n").unwrap();
     let (of_page, _) = after.split_once("```").unwrap();
-    let built_in = crate::pipelines::BUILT_IN.iter().map(|name| Pipeline::text_of(name).unwrap());
+    let built_in = crate::pipelines::BUILT_IN.iter().map(|name| Pipeline::built_in_text(name).unwrap());
     for text in built_in.chain([of_page, include_str!("../../../../../../docs/everything.ron")]) {
-        assert_eq!(warnings(text, ""), [""; 0], "{text}");
+        assert_eq!(warnings(text), [""; 0], "{text}");
     }
 }

@@ -1,19 +1,19 @@
-//! Nodes that make pictures of the graph's textures.
+//! Passes that display textures of the graph.
 
 use std::borrow::Cow;
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{GpuView, ViewBuffers};
 
-use crate::Error;
+use crate::error::Error;
 
-/// The format of pictures of data: what is written is what the file holds.
-const PLAIN: Format = Format::Rgba8Unorm;
-/// The format of pictures of colours.
+/// The format of displayed data: the file holds the values that are written.
+const LINEAR: Format = Format::Rgba8Unorm;
+/// The format of displayed colours.
 const SRGB: Format = Format::Rgba8UnormSrgb;
 
 /// Pipelines that draw a texture into a viewport.
-pub struct Show {
+pub struct DebugBlit {
     view_layout: wgpu::BindGroupLayout,
     depth_layout: wgpu::BindGroupLayout,
     float_layout: wgpu::BindGroupLayout,
@@ -23,11 +23,11 @@ pub struct Show {
     grey: wgpu::RenderPipeline,
 }
 
-impl Show {
-    /// Makes the pipelines.
+impl DebugBlit {
+    /// Creates the pipelines.
     ///
     /// # Errors
-    /// None with the WGSL that Shadowgraph comes with.
+    /// None with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let module = shadowgraph_shaders::compose("show.wgsl", &[])?;
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -49,21 +49,21 @@ impl Show {
         );
         let depth_layout = layout(device, texture(wgpu::TextureSampleType::Depth));
         let float_layout = layout(device, texture(wgpu::TextureSampleType::Float { filterable: false }));
-        let make = |groups: [&wgpu::BindGroupLayout; 2], vertex, fragment, format| {
+        let create = |groups: [&wgpu::BindGroupLayout; 2], vertex, fragment, format| {
             pipeline(device, &shader, groups, vertex, fragment, format)
         };
         Ok(Self {
-            camera_depth: make([&view_layout, &depth_layout], "vs_show_depth", "fs_show_depth", PLAIN),
-            raw_depth: make([&view_layout, &depth_layout], "vs_show_depth", "fs_show_atlas", PLAIN),
-            float: make([&view_layout, &float_layout], "vs_show_texture", "fs_show_texture", SRGB),
-            grey: make([&view_layout, &float_layout], "vs_show_texture", "fs_show_grey", SRGB),
+            camera_depth: create([&view_layout, &depth_layout], "vs_show_depth", "fs_show_depth", LINEAR),
+            raw_depth: create([&view_layout, &depth_layout], "vs_show_depth", "fs_show_atlas", LINEAR),
+            float: create([&view_layout, &float_layout], "vs_show_texture", "fs_show_texture", SRGB),
+            grey: create([&view_layout, &float_layout], "vs_show_texture", "fs_show_grey", SRGB),
             view_layout,
             depth_layout,
             float_layout,
         })
     }
 
-    /// Adds the pass that shows the camera's depth: white near, dark far, black where nothing is drawn.
+    /// Adds the pass that displays the camera's depth: white near, dark far, black where nothing is drawn.
     pub fn depth<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -71,11 +71,11 @@ impl Show {
         depth: &Texture,
         size_px: [u32; 2],
     ) -> Texture {
-        self.show(frame, view, &[depth], &self.camera_depth, PLAIN, size_px)
+        self.blit(frame, view, &[depth], &self.camera_depth, LINEAR, size_px)
     }
 
-    /// Adds the pass that shows textures side by side, each as large as it fits: depth as it lies in the texture,
-    /// stretched to the range that is used; a single channel grey; colours as they are.
+    /// Adds the pass that displays textures side by side, each as large as fits: depth stretched to the range of its values, a
+    /// single channel as grey, colours unchanged.
     pub fn textures<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -85,14 +85,14 @@ impl Show {
     ) -> Texture {
         let depth = textures.iter().any(|texture| is_depth(frame, texture));
         let (pipeline, format) = match depth {
-            true => (&self.raw_depth, PLAIN),
+            true => (&self.raw_depth, LINEAR),
             false if textures.iter().all(|texture| has_one_channel(frame, texture)) => (&self.grey, SRGB),
             false => (&self.float, SRGB),
         };
-        self.show(frame, view, textures, pipeline, format, size_px)
+        self.blit(frame, view, textures, pipeline, format, size_px)
     }
 
-    fn show<'f>(
+    fn blit<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
@@ -101,19 +101,19 @@ impl Show {
         format: Format,
         size_px: [u32; 2],
     ) -> Texture {
-        let places = side_by_side(textures.iter().map(|texture| size_of_texture(frame, texture)), size_px);
-        let mut picture = frame.create_texture("shown", TextureDesc::d2(size_px[0], size_px[1], format));
-        let layout = if format == PLAIN { &self.depth_layout } else { &self.float_layout };
+        let viewports = side_by_side(textures.iter().map(|texture| size_of_texture(frame, texture)), size_px);
+        let mut image = frame.create_texture("shown", TextureDesc::d2(size_px[0], size_px[1], format));
+        let layout = if format == LINEAR { &self.depth_layout } else { &self.float_layout };
         let mut pass = frame.render_pass("show");
         let tokens: Vec<_> = textures.iter().map(|texture| pass.sample(texture)).collect();
         let view = pass.storage_buffer(&view.view);
-        pass.color(&mut picture, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
+        pass.color(&mut image, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
         pass.body(move |ctx| {
             let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
             let view = ctx.bind_group(&self.view_layout, &[whole])?;
             ctx.pass.set_pipeline(pipeline);
             ctx.pass.set_bind_group(0, &view, &[]);
-            for (token, [x, y, width, height]) in tokens.into_iter().zip(places) {
+            for (token, [x, y, width, height]) in tokens.into_iter().zip(viewports) {
                 let texture = ctx.bind_group(layout, &[Bind::Texture(token)])?;
                 ctx.pass.set_bind_group(1, &texture, &[]);
                 ctx.pass.set_viewport(x, y, width, height, 0.0, 1.0);
@@ -122,7 +122,7 @@ impl Show {
             }
             Ok(())
         });
-        picture
+        image
     }
 }
 
@@ -139,17 +139,17 @@ fn size_of_texture(frame: &Frame<'_>, texture: &Texture) -> [f32; 2] {
     [size.width.max(1) as f32, size.height.max(1) as f32]
 }
 
-/// Places pictures in equal columns of `size_px`, each as large as it fits, in the middle: x, y, width, height.
+/// Returns viewports in equal columns of `size_px`, each as large as fits and centred: x, y, width, height.
 fn side_by_side(sizes: impl ExactSizeIterator<Item = [f32; 2]>, size_px: [u32; 2]) -> Vec<[f32; 4]> {
     let [width, height] = size_px.map(|px| px as f32);
     let column = width / sizes.len().max(1) as f32;
-    let place = |(index, [w, h]): (usize, [f32; 2])| {
+    let viewport = |(index, [w, h]): (usize, [f32; 2])| {
         let scale = (column / w).min(height / h);
         let (w, h) = ((w * scale).min(column).max(1.0), (h * scale).min(height).max(1.0));
         let x = (index as f32 * column + (column - w) / 2.0).min(width - w);
         [x.max(0.0), ((height - h) / 2.0).max(0.0), w, h]
     };
-    sizes.enumerate().map(place).collect()
+    sizes.enumerate().map(viewport).collect()
 }
 
 fn layout(device: &wgpu::Device, ty: wgpu::BindingType) -> wgpu::BindGroupLayout {
@@ -201,15 +201,15 @@ mod tests {
     use super::side_by_side;
 
     #[test]
-    fn pictures_side_by_side_fit_and_do_not_overlap() {
-        let places = side_by_side([[4096.0, 4096.0], [100.0, 400.0]].into_iter(), [320, 180]);
-        assert_eq!(places[0], [0.0, 10.0, 160.0, 160.0]);
-        let [x, y, width, height] = places[1];
-        assert!(x >= 160.0 && x + width <= 320.0 && y >= 0.0 && height <= 180.0, "{places:?}");
+    fn viewports_side_by_side_fit_and_do_not_overlap() {
+        let viewports = side_by_side([[4096.0, 4096.0], [100.0, 400.0]].into_iter(), [320, 180]);
+        assert_eq!(viewports[0], [0.0, 10.0, 160.0, 160.0]);
+        let [x, y, width, height] = viewports[1];
+        assert!(x >= 160.0 && x + width <= 320.0 && y >= 0.0 && height <= 180.0, "{viewports:?}");
     }
 
     #[test]
-    fn a_wide_picture_is_as_wide_as_there_is_room() {
+    fn a_wide_texture_fills_the_width() {
         assert_eq!(side_by_side([[1000.0, 10.0]].into_iter(), [100, 100]), [[0.0, 49.5, 100.0, 1.0]]);
     }
 }

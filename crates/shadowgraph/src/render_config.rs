@@ -1,46 +1,46 @@
-//! How pictures are drawn.
+//! How images are rendered.
 
 use shadowgraph_shadows::{Technique, TechniqueKind};
 
-use crate::Pipeline;
+use crate::pipelines::pipeline::Pipeline;
 
-/// How pictures are drawn.
+/// How images are rendered.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Method {
-    /// The shadows; `None`: those that the pipeline says, `pcf` where it says nothing.
+pub struct RenderConfig {
+    /// The shadow technique; `None` for that of the pipeline, or `pcf` if it names none.
     pub technique: Option<Technique>,
-    /// The passes.
+    /// The pipeline.
     pub pipeline: Pipeline,
-    /// How many samples each pixel has while colours are drawn: 1, or 4 for smooth edges.
+    /// Samples per pixel of colour images: 1, or 4 for smooth edges.
     pub samples: u32,
 }
 
-impl Default for Method {
+impl Default for RenderConfig {
     fn default() -> Self {
         Self { technique: None, pipeline: Pipeline::default(), samples: 1 }
     }
 }
 
-impl Method {
-    /// Returns the technique that shadows are made with, without what the pipeline adds to it.
+impl RenderConfig {
+    /// Returns the shadow technique, without what the pipeline adds to it.
     pub fn technique(&self) -> Technique {
         self.technique.or(self.pipeline.technique()).unwrap_or_default()
     }
 }
 
-impl From<Technique> for Method {
+impl From<Technique> for RenderConfig {
     fn from(technique: Technique) -> Self {
         Self { technique: Some(technique), ..Self::default() }
     }
 }
 
-impl From<TechniqueKind> for Method {
+impl From<TechniqueKind> for RenderConfig {
     fn from(kind: TechniqueKind) -> Self {
         Technique::from(kind).into()
     }
 }
 
-impl From<Pipeline> for Method {
+impl From<Pipeline> for RenderConfig {
     fn from(pipeline: Pipeline) -> Self {
         Self { pipeline, ..Self::default() }
     }

@@ -1,0 +1,105 @@
+//! One view of a frame.
+
+use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
+use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, Tonemap, ViewUniforms};
+use shadowgraph_scene::gpu::DrawList;
+use shadowgraph_scene::{Camera, Light};
+use shadowgraph_shadows::{SurfaceBuffers, ShadowInputs, ShadowOutputs, ShadowTechnique, add_shadows};
+
+use crate::casters::SceneCasters;
+use crate::error::Error;
+use crate::view_options::ViewOptions;
+
+/// The format of finished images.
+pub(crate) const IMAGE_FORMAT: Format = Format::Rgba8UnormSrgb;
+
+/// One view of a frame: its camera, the visible geometry, and the target of its image.
+pub struct RenderView<'v> {
+    /// The index of the view in the frame.
+    pub index: u32,
+    /// Camera, size and shadow settings.
+    pub options: &'v ViewOptions,
+    /// The visible geometry.
+    pub draws: DrawList,
+    /// The ambient light and the exposure.
+    pub ambient_light: AmbientLight,
+    /// The scene's lights.
+    pub lights: &'v [Light],
+    /// The scene on the GPU.
+    pub casters: &'v SceneCasters,
+    /// The shadow technique.
+    pub technique: &'v dyn ShadowTechnique,
+    /// The camera that shadows are fitted to.
+    pub shadow_camera: &'v Camera,
+    /// What lit passes write.
+    pub lit_output: LitOutput,
+    /// The target of the colour image: a texture of the caller, as large as the view; `None` for a texture of the frame.
+    pub target: Option<&'v wgpu::Texture>,
+}
+
+impl<'v> RenderView<'v> {
+    /// Returns the GPU data of the camera and the lights.
+    pub fn uniforms(&self) -> ViewUniforms {
+        let ViewOptions { camera, size_px, .. } = self.options;
+        let origin_world = self.casters.scene.origin_world();
+        ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light)
+    }
+
+    /// Returns the visible geometry.
+    pub fn geometry(&self) -> Geometry<'_> {
+        Geometry { scene: &self.casters.scene, draws: &self.draws, size_px: self.options.size_px }
+    }
+
+    /// Adds the shadows of all lights. A technique that reads surface buffers needs `screen`.
+    ///
+    /// # Errors
+    /// For settings out of range, and for a technique that breaks its contract.
+    pub fn add_shadows(
+        &'v self,
+        frame: &mut Frame<'v>,
+        screen: Option<&SurfaceBuffers>,
+    ) -> Result<ShadowOutputs<'v>, Error> {
+        Ok(add_shadows(self.technique, frame, &self.shadow_inputs(), screen)?)
+    }
+
+    /// Returns the inputs of the shadow technique.
+    pub fn shadow_inputs(&self) -> ShadowInputs<'_> {
+        ShadowInputs {
+            view: self.index,
+            camera: self.shadow_camera,
+            aspect: self.options.aspect(),
+            lights: self.lights,
+            casters: self.casters,
+            origin_world: self.casters.scene.origin_world(),
+            settings: &self.options.shadows,
+        }
+    }
+
+    /// Returns the clear colour of lit passes: the sky, or nothing if they write data.
+    pub fn background(&self) -> [f64; 4] {
+        if self.lit_output == LitOutput::Light { self.ambient_light.background() } else { [0.0; 4] }
+    }
+
+    /// Returns the descriptor of a texture as large as the view.
+    pub fn texture_desc(&self, format: Format) -> TextureDesc {
+        let [width, height] = self.options.size_px;
+        TextureDesc::d2(width, height, format)
+    }
+
+    /// Adds the node that tonemaps light into the view's image, for pipelines that end with it.
+    pub fn add_tonemap(&self, frame: &mut Frame<'_>, tonemap: &Tonemap, light: &Texture) -> Texture {
+        frame.node("picture", |frame| {
+            let mut image = self.target_texture(frame);
+            tonemap.add_to(frame, light, &mut image);
+            image
+        })
+    }
+
+    /// Imports the target of the view's image, or creates a texture of the frame.
+    pub fn target_texture(&self, frame: &mut Frame<'_>) -> Texture {
+        match self.target {
+            Some(texture) => frame.import_texture("target", texture, false),
+            None => frame.create_texture("picture", self.texture_desc(IMAGE_FORMAT)),
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Images on the CPU.
+
+use std::sync::Arc;
+
+use shadowgraph_core::{PassTime, Plan};
+use shadowgraph_shadows::Unshadowed;
+
+/// An image: 8 bit red, green, blue and alpha, rows from the top without padding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RenderedImage {
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// Four bytes per pixel.
+    pub rgba8: Vec<u8>,
+}
+
+impl RenderedImage {
+    /// Returns the pixel at `x` from the left and `y` from the top; `None` outside.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        let [width, height] = self.size_px;
+        let start = (x < width && y < height).then(|| (y as usize * width as usize + x as usize) * 4)?;
+        self.rgba8.get(start..start + 4)?.try_into().ok()
+    }
+}
+
+/// A view that was drawn and read back.
+#[derive(Debug)]
+pub struct RenderedFrame {
+    /// The image.
+    pub image: RenderedImage,
+    /// The plan; equal frames share it.
+    pub plan: Arc<Plan>,
+    /// The time of each pass, if it was measured.
+    pub times: Vec<PassTime>,
+    /// The lights that should cast shadows and do not, with the reason.
+    pub unshadowed: Vec<Unshadowed>,
+}
+
+impl RenderedFrame {
+    /// Returns the GPU time of the shadow passes, milliseconds: 0 without any. `None` if times were not measured, or the device
+    /// does not support it. Shadow lookups are part of the lighting, unless they are computed in a screen-space mask.
+    pub fn shadow_ms(&self) -> Option<f64> {
+        let is_shadow = |time: &&PassTime| time.pass.split('/').any(|part| part.ends_with("shadows"));
+        if self.times.is_empty() {
+            return None;
+        }
+        self.times.iter().filter(is_shadow).map(PassTime::gpu_share_ms).sum()
+    }
+}

@@ -1,0 +1,110 @@
+//! The image of a view, by AOV.
+
+use shadowgraph_core::{Buffer, Format, Frame, Texture, did_you_mean};
+use shadowgraph_lighting::LitOutput;
+use shadowgraph_scene::Light;
+use shadowgraph_shadows::{ShadowOutputs, Unshadowed};
+
+use super::Renderer;
+use crate::error::Error;
+use crate::options::aov::Aov;
+use crate::pipelines::instance::PipelineOutput;
+use crate::render_view::RenderView;
+
+impl Renderer {
+    /// Adds the passes of a view, and those that display the AOV.
+    pub(crate) fn add<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f RenderView<'f>,
+    ) -> Result<ViewOutput, Error> {
+        let output = self.instance.add(frame, view)?;
+        let image = self.aov_image(frame, view, &output)?;
+        let ShadowOutputs { debug_buffers: records, unshadowed, .. } = output.shadows;
+        Ok(ViewOutput { image, records, unshadowed })
+    }
+
+    /// Returns the image of the AOV; passes that it does not need are culled.
+    fn aov_image<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f RenderView<'f>,
+        output: &PipelineOutput<'f>,
+    ) -> Result<Texture, Error> {
+        let missing = |output| Error::MissingOutput {
+            aov: self.aov.to_string(),
+            pipeline: self.config.pipeline.name().into(),
+            output,
+        };
+        let (size_px, blit) = (view.options.size_px, &self.debug_blit);
+        let buffers = || output.view.as_ref().ok_or_else(|| missing("view"));
+        match &self.aov {
+            Aov::Color => Ok(output.image.clone()),
+            Aov::Visibility(_) | Aov::Cascade | Aov::Normal => {
+                output.light.clone().ok_or_else(|| missing("light"))
+            }
+            Aov::Depth => {
+                let depth = output.depth.as_ref().ok_or_else(|| missing("depth"))?;
+                let buffers = buffers()?;
+                Ok(frame.node("picture", |frame| blit.depth(frame, buffers, depth, size_px)))
+            }
+            Aov::Atlas => {
+                let maps: Vec<&Texture> = output.shadows.debug.iter().map(|(_, texture)| texture).collect();
+                let buffers = buffers()?;
+                Ok(frame.node("picture", |frame| blit.textures(frame, buffers, &maps, size_px)))
+            }
+            Aov::Texture(name) => {
+                let texture = frame.find_texture(name).ok_or_else(|| unknown_texture(frame, name))?;
+                check_displayable(frame, &texture, name)?;
+                let buffers = buffers()?;
+                Ok(frame.node("picture", |frame| blit.textures(frame, buffers, &[&texture], size_px)))
+            }
+        }
+    }
+}
+
+/// The outputs of a view.
+pub(crate) struct ViewOutput {
+    /// Four bytes per pixel, as large as the view.
+    pub(crate) image: Texture,
+    /// The GPU data of shadow maps, if there are any.
+    pub(crate) records: Option<[Buffer; 2]>,
+    /// The lights that should cast shadows and do not, with the reason.
+    pub(crate) unshadowed: Vec<Unshadowed>,
+}
+
+/// Refuses integer textures.
+fn check_displayable(frame: &Frame<'_>, texture: &Texture, name: &str) -> Result<(), Error> {
+    let desc = frame.texture_desc(texture);
+    let Some(format) = desc.map(|desc| desc.format).filter(|format| !format.is_depth_stencil_format()) else {
+        return Ok(());
+    };
+    match format.sample_type(None, None) {
+        Some(wgpu::TextureSampleType::Float { .. }) => Ok(()),
+        _ => Err(Error::NotDisplayable { name: name.into(), format }),
+    }
+}
+
+fn unknown_texture(frame: &Frame<'_>, name: &str) -> Error {
+    let textures = frame.texture_names().filter(|name| !Aov::NAMES.contains(name));
+    let hint = did_you_mean(name, Aov::NAMES.into_iter().chain(textures));
+    Error::UnknownTexture { name: name.into(), hint }
+}
+
+/// Returns what the lit passes write for an AOV, and in which format.
+pub(super) fn lit_output(aov: &Aov, lights: &[Light]) -> Result<(LitOutput, Format), Error> {
+    Ok(match aov {
+        Aov::Visibility(light) if *light as usize >= lights.len() => {
+            let lights = match lights.len() {
+                0 => "the scene has no light".into(),
+                1 => "the scene has one light, 0".into(),
+                count => format!("the scene has lights 0 to {}", count - 1),
+            };
+            return Err(Error::UnknownLight { light: *light, lights });
+        }
+        Aov::Visibility(light) => (LitOutput::Visibility(*light), Format::Rgba8Unorm),
+        Aov::Cascade => (LitOutput::Debug, Format::Rgba8Unorm),
+        Aov::Normal => (LitOutput::Normal, Format::Rgba8Unorm),
+        Aov::Color | Aov::Depth | Aov::Atlas | Aov::Texture(_) => (LitOutput::Light, Format::Rgba16Float),
+    })
+}
