@@ -4,7 +4,7 @@ use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, Tonemap, ViewUniforms};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_scene::{Camera, Light};
-use shadowgraph_shadows::{SurfaceBuffers, ShadowInputs, ShadowOutputs, ShadowTechnique, add_shadows};
+use shadowgraph_shadows::{ShadowInputs, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
 
 use crate::casters::SceneCasters;
 use crate::error::Error;

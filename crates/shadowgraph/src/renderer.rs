@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use shadowgraph_core::{Graph, Plan};
-use shadowgraph_lighting::{AmbientLight, KeyLight, LitTarget, LitOutput};
+use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near};
 use shadowgraph_shadows::{ShadowTechnique, Unshadowed};

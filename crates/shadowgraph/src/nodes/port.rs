@@ -2,7 +2,7 @@
 
 use shadowgraph_core::{Buffer, Format, Texture};
 use shadowgraph_lighting::{GBuffer, ViewBuffers};
-use shadowgraph_shadows::{SurfaceBuffers, ShadowOutputs};
+use shadowgraph_shadows::{ShadowOutputs, SurfaceBuffers};
 
 /// The kind of a port's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use shadowgraph_core::{Buffer, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{GBuffer, ViewBuffers};
-use shadowgraph_shadows::{SurfaceBuffers, ShadowOutputs};
+use shadowgraph_shadows::{ShadowOutputs, SurfaceBuffers};
 
 use super::port::{Port, Presence, Value};
 use crate::error::Error;

@@ -53,7 +53,9 @@ pub(crate) fn setting_error(
     let field = match error {
         E::Setting { field, .. } => (*field).to_owned(),
         E::TechniqueSetting { technique, field, .. } => format!("techniques.{technique}.{field}"),
-        E::Technique { technique: name, .. } | E::UnknownTechnique { name, .. } => format!("techniques.{name}"),
+        E::Technique { technique: name, .. } | E::UnknownTechnique { name, .. } => {
+            format!("techniques.{name}")
+        }
         E::UnknownLight { entry, .. } | E::DuplicateLight { entry, .. } => format!("lights.{entry}.light"),
         E::MalformedSettings { technique, reason } => {
             let owner = format!("technique `{technique}`");

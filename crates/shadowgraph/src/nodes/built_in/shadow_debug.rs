@@ -1,7 +1,7 @@
 //! `shadow_debug`
 
 use shadowgraph_core::{Format, Frame};
-use shadowgraph_lighting::{Forward, LitTarget, LitOutput};
+use shadowgraph_lighting::{Forward, LitOutput, LitTarget};
 
 use crate::build_context::BuildContext;
 use crate::error::Error;
