@@ -11,7 +11,7 @@ use crate::shader::module;
 use crate::uniforms::ViewBuffers;
 use crate::view_group::{OptionalBindings, ViewLayouts};
 
-/// The textures of the G-buffer, besides depth.
+/// The textures of the G-buffer, besides depth: 24 bytes per pixel.
 #[derive(Clone, Debug)]
 pub struct GBuffer {
     /// Linear colour, and in alpha the kind of surface.
