@@ -2,5 +2,5 @@
 #define_import_path shadowgraph::ray_surfaces
 
 // Surfaces with holes, and those that colour light.
-const CUTS: bool = true;
+const CUTOUTS: bool = true;
 const TINTS: bool = true;

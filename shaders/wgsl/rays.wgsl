@@ -1,5 +1,5 @@
 #define_import_path shadowgraph::rays
-#import shadowgraph::ray_surfaces::{CUTS, TINTS}
+#import shadowgraph::ray_surfaces::{CUTOUTS, TINTS}
 // Shadow rays through a tree of triangles: the same arithmetic as the CPU's.
 
 // A box of the tree, 32 bytes. With a count of 0, `first` is the first of its two boxes, else of its triangles.
@@ -14,7 +14,7 @@ struct RayNode {
 struct RayTriangle {
     a: vec3f,
     // RAY_NONE: no light passes.
-    cut: u32,
+    material: u32,
     b: vec3f,
     unused_b: u32,
     c: vec3f,
@@ -22,7 +22,7 @@ struct RayTriangle {
 }
 
 // Where light passes through a triangle, 64 bytes.
-struct RayCut {
+struct RayMaterial {
     uv_a: vec2f,
     uv_b: vec2f,
     uv_c: vec2f,
@@ -49,7 +49,7 @@ struct RayTexture {
 
 @group(1) @binding(0) var<storage, read> ray_nodes: array<RayNode>;
 @group(1) @binding(1) var<storage, read> ray_triangles: array<RayTriangle>;
-@group(1) @binding(2) var<storage, read> ray_cuts: array<RayCut>;
+@group(1) @binding(2) var<storage, read> ray_materials: array<RayMaterial>;
 @group(1) @binding(3) var<storage, read> ray_textures: array<RayTexture>;
 // Four to a word, the first in its lowest byte.
 @group(1) @binding(4) var<storage, read> ray_texels: array<u32>;
@@ -173,29 +173,29 @@ fn ray_value(image: RayTexture, uv: vec2f) -> f32 {
 }
 
 // What one of a triangle's channels has where it is hit.
-fn ray_channel(cut: RayCut, channel: u32, weights: vec3f) -> f32 {
-    if cut.texture == RAY_NONE {
+fn ray_channel(material: RayMaterial, channel: u32, weights: vec3f) -> f32 {
+    if material.texture == RAY_NONE {
         return 1.0;
     }
-    let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
-    return ray_value(ray_textures[cut.texture + channel], uv);
+    let uv = material.uv_a * weights.x + material.uv_b * weights.y + material.uv_c * weights.z;
+    return ray_value(ray_textures[material.texture + channel], uv);
 }
 
 // Whether a triangle stops light where it is hit; if it does not, what it leaves of it.
 fn ray_stops(index: u32, weights: vec3f, passed: ptr<function, vec3f>) -> bool {
-    if !(CUTS || TINTS) || index == RAY_NONE {
+    if !(CUTOUTS || TINTS) || index == RAY_NONE {
         return true;
     }
-    let cut = ray_cuts[index];
-    var alpha = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
-    alpha *= ray_channel(cut, 0u, weights);
-    if !TINTS || cut.cutoff != RAY_TINT {
-        return alpha >= cut.cutoff;
+    let material = ray_materials[index];
+    var alpha = material.alpha.x * weights.x + material.alpha.y * weights.y + material.alpha.z * weights.z;
+    alpha *= ray_channel(material, 0u, weights);
+    if !TINTS || material.cutoff != RAY_TINT {
+        return alpha >= material.cutoff;
     }
     let texture = vec3f(
-        ray_channel(cut, 1u, weights), ray_channel(cut, 2u, weights), ray_channel(cut, 3u, weights));
+        ray_channel(material, 1u, weights), ray_channel(material, 2u, weights), ray_channel(material, 3u, weights));
     let corners = mat3x3f(
-        unpack4x8unorm(cut.color.x).rgb, unpack4x8unorm(cut.color.y).rgb, unpack4x8unorm(cut.color.z).rgb);
+        unpack4x8unorm(material.color.x).rgb, unpack4x8unorm(material.color.y).rgb, unpack4x8unorm(material.color.z).rgb);
     alpha = saturate(alpha);
     *passed *= (1.0 - alpha) * mix(vec3f(1.0), corners * weights * texture, alpha * (2.0 - alpha));
     return false;
@@ -216,7 +216,7 @@ fn ray_meets(ray: ShadowRay, triangle: RayTriangle, passed: ptr<function, vec3f>
     }
     let weights = areas / area;
     let t = weights.x * a.z + weights.y * b.z + weights.z * c.z;
-    return t >= ray.min_t && t < ray.max_t && ray_stops(triangle.cut, weights, passed);
+    return t >= ray.min_t && t < ray.max_t && ray_stops(triangle.material, weights, passed);
 }
 
 fn ray_meets_any(ray: ShadowRay, node: RayNode, passed: ptr<function, vec3f>) -> bool {

@@ -5,7 +5,7 @@ use shadowgraph_scene::{
     AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap, linear_from_srgb,
 };
 use shadowgraph_shadows::Error;
-use shadowgraph_shadows::rays::{self, ChannelTexture, Cut, Occluder, RayScene, Surface, Tint};
+use shadowgraph_shadows::rays::{self, ChannelTexture, Cutout, Occluder, RayScene, Surface, Tint};
 
 /// The alpha cutoff of dithered surfaces.
 const DITHER_CUTOFF: f32 = 0.5;
@@ -77,7 +77,9 @@ impl OccluderMaterial {
         let uv = vertices.map(|vertex| self.texture.map_or(Vec2::ZERO, |(_, used)| uv(vertex, &used)));
         let color = vertices.map(|vertex| self.color * Vec4::from(vertex.color.map(f32::from)) / 255.0);
         match self.cutoff {
-            Some(cutoff) => Surface::Cut(Cut { texture, uv, alpha: color.map(|color| color.w), cutoff }),
+            Some(cutoff) => {
+                Surface::Cutout(Cutout { texture, uv, alpha: color.map(|color| color.w), cutoff })
+            }
             None => Surface::Tint(Tint { texture, uv, color }),
         }
     }

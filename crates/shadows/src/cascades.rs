@@ -3,7 +3,8 @@
 use glam::{DMat3, DVec3};
 use shadowgraph_scene::{BoundingSphere, Camera};
 
-use crate::{CascadeFitting, CascadeSettings, OrthoFit, SplitScheme};
+use crate::ortho::OrthoFit;
+use crate::settings::{CascadeFitting, CascadeSettings, SplitScheme};
 
 /// The part of the view that one cascade serves, and its place in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
-use crate::TileKind;
+use crate::plan::TileKind;
 
 /// The things that can cast shadows. Implement it for a scene of your own.
 ///

@@ -1,16 +1,16 @@
 //! The shadow filter: a tent of bilinear comparisons.
 //!
-//! `shadows/tent.wgsl` has the same weights; [`filter_taps`] is its twin for tests and tools.
+//! `shadows/tent.wgsl` has the same weights; [`filter_taps`] is its reference implementation for tests and tools.
 
 use serde::{Deserialize, Serialize};
 
-/// How shadows' edges are smoothed: by how many texels each way, and by how many bilinear comparisons.
+/// The filter that smooths the edges of shadows: its width in texels and its number of bilinear comparisons.
 ///
-/// The weights are those of a tent: each texel counts with the area of a triangle, as wide as the filter and centred at
-/// the point, over it.
+/// The weights are those of a tent: each texel counts with the area over it of a triangle that is centred at the point and
+/// as wide as the filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum ShadowFilter {
-    /// 2 x 2 texels, 1 comparison: the bilinear mix that hardware does. What others call hard shadows.
+    /// 2 x 2 texels, 1 comparison: the hardware's bilinear filter, usually called hard shadows.
     Tent2,
     /// 3 x 3 texels, 4 comparisons.
     Tent3,
@@ -22,10 +22,10 @@ pub enum ShadowFilter {
 }
 
 impl ShadowFilter {
-    /// All of them, from hard to soft.
+    /// All filters, from hard to soft.
     pub const ALL: [Self; 4] = [Self::Tent2, Self::Tent3, Self::Tent5, Self::Tent7];
 
-    /// Returns how many comparisons it makes along each axis, 1 to 4.
+    /// Returns the number of comparisons along each axis, 1 to 4.
     #[must_use]
     pub fn taps(self) -> u32 {
         match self {
@@ -36,13 +36,13 @@ impl ShadowFilter {
         }
     }
 
-    /// Returns how far from the point it is asked for it reads, in texels of the map: 1 to 4. Tiles have a border as wide.
+    /// Returns the radius that it reads around a point, texels of the map, 1 to 4. The borders of tiles are as wide.
     #[must_use]
     pub fn kernel_radius_texels(self) -> f32 {
         self.taps() as f32
     }
 
-    /// Returns the border on each side of a tile, pixels: as wide as the filter reaches.
+    /// Returns the border on each side of a tile, pixels: the filter's radius.
     #[must_use]
     pub fn border_px(self) -> u32 {
         self.taps()
@@ -60,8 +60,8 @@ impl ShadowFilter {
 
 /// Returns the bilinear taps of a filter along one axis: the weight and the offset of each, in texels.
 ///
-/// `fraction` is how far the point is past the centre of the texel that offsets count from, 0 up to 1. `width` makes the
-/// tent narrower, above 0 to 1; it never gets narrower than one texel. Weights add up to 1.
+/// `fraction` is the distance of the point past the centre of the texel that offsets count from, 0 up to 1. `width` scales
+/// the tent, above 0 to 1; it never gets narrower than one texel. The weights add up to 1.
 ///
 /// ```
 /// use shadowgraph_shadows::{ShadowFilter, filter_taps};
@@ -88,36 +88,8 @@ pub fn filter_taps(
     })
 }
 
-/// The area, of 1 in all, of a tent from its left end at `-half` to `x`: 0 to 1.
+/// Returns the area of a tent from its left end at `-half` to `x`, relative to the whole: 0 to 1.
 fn tent_integral(x: f64, half: f64) -> f64 {
     let t = (x / half).clamp(-1.0, 1.0);
     0.5 + t - 0.5 * t * t.abs()
-}
-
-/// What shared services must know about a technique: how wide it reads, how it moves its lookups, and how far
-/// from a receiver it looks for things that block light.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Requirements {
-    /// Texels around the point that the filter reads, 0 to 24: borders of tiles are as wide.
-    pub kernel_radius_texels: f32,
-    /// The longest way that a lookup is moved sideways in its tile, texels.
-    pub bias_texels: f32,
-    /// How far beside a receiver a blocker can be and still matter, metres, beyond the kernel: casters that are nearer are drawn.
-    pub blocker_reach_m: f32,
-    /// Whether passes fit the cascades: each then has all casters that matter to the view, the last one covers the whole view, the
-    /// first view that covers a point is read, and no cascade is kept from frame to frame.
-    pub fits_on_gpu: bool,
-}
-
-impl Requirements {
-    /// Those of a technique without maps.
-    pub const NONE: Self =
-        Self { kernel_radius_texels: 0.0, bias_texels: 0.0, blocker_reach_m: 0.0, fits_on_gpu: false };
-
-    /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that
-    /// snapping can be off.
-    #[must_use]
-    pub fn margin_px(&self) -> f64 {
-        f64::from(self.kernel_radius_texels) + f64::from(self.bias_texels) + 1.0
-    }
 }

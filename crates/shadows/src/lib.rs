@@ -30,6 +30,7 @@ mod plan;
 mod planner;
 pub mod rays;
 mod registry;
+mod requirements;
 mod select;
 mod settings;
 mod spot;
@@ -45,13 +46,14 @@ pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distance
 pub use casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TINT_FORMAT, caster_view_layout};
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use error::Error;
-pub use filter::{Requirements, ShadowFilter, filter_taps};
+pub use filter::{ShadowFilter, filter_taps};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
 pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TileKind, TilePlan, plan_shadows, plan_shadows_after};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind, Techniques,
 };
+pub use requirements::Requirements;
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,

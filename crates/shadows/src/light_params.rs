@@ -1,19 +1,20 @@
-//! The settings of one light: those of its map, and what is different for it.
+//! The parameters of one light's shadows: the settings of its map, and the light's own.
 
 use shadowgraph_scene::Light;
 
-use crate::{
-    BiasSettings, Error, LightRef, LightShadows, NormalBias, Requirements, ShadowFilter, ShadowSettings,
-};
+use crate::error::Error;
+use crate::filter::ShadowFilter;
+use crate::requirements::Requirements;
+use crate::settings::{BiasSettings, LightRef, LightShadows, NormalBias, ShadowSettings};
 
-/// How one light's shadows are made and read.
+/// The parameters of one light's shadows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LightShadowParams {
     pub(crate) bias: BiasSettings,
     pub(crate) filter: ShadowFilter,
-    /// How far from the point it is asked for the technique reads, texels.
+    /// Radius around a point that the technique reads, texels.
     pub(crate) kernel_radius_texels: f32,
-    /// How far beyond that a blocker can be and still matter, metres.
+    /// Distance beyond that at which a blocker still matters, metres.
     pub(crate) blocker_reach_m: f64,
     pub(crate) strength: f32,
     pub(crate) fade_fraction: f32,
@@ -22,7 +23,7 @@ pub(crate) struct LightShadowParams {
 }
 
 impl LightShadowParams {
-    /// Of a light in the map of cascades, or of one in the atlas.
+    /// Returns the parameters of a light in the map of cascades, or of one in the atlas.
     pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
         let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
         let bias = settings.bias.clone();
@@ -58,18 +59,18 @@ impl LightShadowParams {
         }
     }
 
-    /// For a technique that needs more than the settings do.
-    pub(crate) fn needing(self, requirements: &Requirements) -> Self {
+    /// Adds a technique's requirements.
+    pub(crate) fn with_requirements(self, requirements: &Requirements) -> Self {
         let kernel_radius_texels = self.kernel_radius_texels.max(requirements.kernel_radius_texels);
         Self { kernel_radius_texels, blocker_reach_m: f64::from(requirements.blocker_reach_m), ..self }
     }
 
-    /// How far beside a point things matter, metres, where a texel is `texel_m` wide.
-    pub(crate) fn reach_m(&self, texel_m: f64, bias_scale: f32) -> f64 {
+    /// Returns the distance around a point within which casters matter, metres, for texels of width `texel_m`.
+    pub(crate) fn radius_m(&self, texel_m: f64, bias_scale: f32) -> f64 {
         self.margin_px(bias_scale) * texel_m + self.blocker_reach_m
     }
 
-    /// The border on each side of a tile, pixels: as wide as is read.
+    /// Returns the border on each side of a tile, pixels: the radius that is read.
     pub(crate) fn border_px(&self) -> u32 {
         self.kernel_radius_texels.ceil() as u32
     }
@@ -78,7 +79,7 @@ impl LightShadowParams {
         self.bias.normal == NormalBias::Sine
     }
 
-    /// The longest way along the normal, texels.
+    /// Returns the largest offset along the normal, texels.
     pub(crate) fn normal_texels(&self) -> f32 {
         let scale = if self.normal_sine() {
             1.0
@@ -88,28 +89,28 @@ impl LightShadowParams {
         self.bias.normal_texels * scale
     }
 
-    /// The pixels inside each edge of a tile that points must keep away from: filter, bias, and the texel that snapping
-    /// can be off.
+    /// Returns the margin inside each edge of a tile that points must keep, pixels: filter, bias, and the texel by which
+    /// snapping can be off.
     pub(crate) fn margin_px(&self, bias_scale: f32) -> f64 {
         f64::from(self.kernel_radius_texels + self.normal_texels() * bias_scale.max(1.0)) + 1.0
     }
 }
 
-/// The settings of each light of the scene that has some of its own.
+/// Returns the individual settings of each light of the scene, `None` for lights without.
 ///
 /// # Errors
-/// If there is no such light.
+/// If a light of the settings does not exist, or has two entries.
 pub(crate) fn of_lights<'s>(
     settings: &'s ShadowSettings,
     lights: &[Light],
 ) -> Result<Vec<Option<&'s LightShadows>>, Error> {
-    let mut of_lights = vec![None; lights.len()];
+    let mut by_light = vec![None; lights.len()];
     for (entry, own) in settings.lights.iter().enumerate() {
         let index = match &own.light {
             LightRef::Index(index) => Some(*index as usize),
             LightRef::Name(name) => lights.iter().position(|light| light.name.as_ref() == Some(name)),
         };
-        let slot = index.and_then(|index| Some((index, of_lights.get_mut(index)?)));
+        let slot = index.and_then(|index| Some((index, by_light.get_mut(index)?)));
         let Some((light, slot)) = slot else {
             return Err(Error::UnknownLight { entry, light: own.light.to_string(), count: lights.len() });
         };
@@ -117,5 +118,18 @@ pub(crate) fn of_lights<'s>(
             return Err(Error::DuplicateLight { entry, light });
         }
     }
-    Ok(of_lights)
+    Ok(by_light)
+}
+
+/// Returns the largest requirements of any light's settings.
+pub(crate) fn settings_requirements(settings: &ShadowSettings) -> Requirements {
+    let all = [true, false].into_iter().flat_map(|has_cascades| {
+        let lights = settings.lights.iter().map(Some).chain([None]);
+        lights.map(move |own| LightShadowParams::new(settings, own, has_cascades))
+    });
+    all.fold(Requirements::NONE, |most, params| Requirements {
+        kernel_radius_texels: most.kernel_radius_texels.max(params.filter.kernel_radius_texels()),
+        bias_texels: most.bias_texels.max(params.normal_texels()),
+        ..most
+    })
 }

@@ -4,13 +4,17 @@
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Light};
 
-use crate::light_params::LightShadowParams;
+use crate::allocation::AtlasAllocation;
+use crate::atlas::TileRect;
+use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters};
+use crate::error::Error;
+use crate::light_params::settings_requirements;
 use crate::planner::Planner;
+use crate::requirements::Requirements;
+use crate::select::Unshadowed;
+use crate::settings::{DepthFormat, ShadowSettings};
 use crate::techniques::PcfVariant;
-use crate::{
-    AtlasAllocation, CasterPass, CasterTarget, CasterView, DepthFormat, Error, Requirements, ShadowCasters,
-    ShadowLight, ShadowSettings, ShadowView, TileRect, Unshadowed,
-};
+use crate::views::{ShadowLight, ShadowView};
 
 /// What shadows are planned for.
 #[derive(Clone, Copy)]
@@ -193,7 +197,7 @@ impl ShadowPlan {
             lights: vec![ShadowLight::default(); light_count],
             unshadowed: Vec::new(),
             atlas_allocation: AtlasAllocation::default(),
-            requirements: requirements(settings),
+            requirements: settings_requirements(settings),
         }
     }
 
@@ -227,19 +231,6 @@ impl ShadowPlan {
     pub fn light_bytes(&self) -> Vec<u8> {
         bytes_or_one(&self.lights)
     }
-}
-
-/// What the `pcf` technique needs of shared services: the most that any light does.
-pub(crate) fn requirements(settings: &ShadowSettings) -> Requirements {
-    let all = [true, false].into_iter().flat_map(|has_cascades| {
-        let owns = settings.lights.iter().map(Some).chain([None]);
-        owns.map(move |own| LightShadowParams::new(settings, own, has_cascades))
-    });
-    all.fold(Requirements::NONE, |most, params| Requirements {
-        kernel_radius_texels: most.kernel_radius_texels.max(params.filter.kernel_radius_texels()),
-        bias_texels: most.bias_texels.max(params.normal_texels()),
-        ..most
-    })
 }
 
 fn bytes_or_one<T: bytemuck::Pod>(records: &[T]) -> Vec<u8> {

@@ -8,12 +8,16 @@ use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
 use culling::Seen;
 
+use crate::allocation::AtlasAllocation;
+use crate::atlas::TileRect;
+use crate::error::Error;
 use crate::light_params::{self, LightShadowParams};
+use crate::plan::{ShadowInputs, ShadowPlan};
+use crate::requirements::Requirements;
 use crate::select::{Candidate, ShadowRange, Shape, candidate};
-use crate::{
-    AtlasAllocation, Error, LightShadows, Requirements, ShadowInputs, ShadowLight, ShadowPlan, TilePlacement,
-    TileRect, Unshadowed, UnshadowedReason,
-};
+use crate::select::{Unshadowed, UnshadowedReason};
+use crate::settings::LightShadows;
+use crate::views::{ShadowLight, TilePlacement};
 
 /// A plan in the making.
 pub(crate) struct Planner<'a> {
@@ -89,7 +93,8 @@ impl<'a> Planner<'a> {
     }
 
     fn params(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightShadowParams {
-        LightShadowParams::new(self.inputs.settings, candidate.own, has_cascades).needing(&self.requirements)
+        LightShadowParams::new(self.inputs.settings, candidate.own, has_cascades)
+            .with_requirements(&self.requirements)
     }
 
     fn cull(&self, volume: &CullVolume) -> Vec<u32> {

@@ -6,7 +6,9 @@ use std::f64::consts::FRAC_PI_4;
 use glam::{DMat3, DVec3, Vec3};
 use shadowgraph_scene::{Aabb, BoundingSphere, Camera, ConvexVolume, Light, LightKind, Plane};
 
-use crate::{LightShadows, SpotCone, light_from_world};
+use crate::basis::light_from_world;
+use crate::settings::LightShadows;
+use crate::spot::SpotCone;
 
 /// A light that is to cast shadows but has none in this frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,11 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadowgraph_scene::BoundingSphere;
 
+use crate::atlas::TileRect;
 use crate::light_params::LightShadowParams;
-use crate::{BiasMethod, CascadeBlend, CascadeSelection, OrthoFit, ShadowSettings, SpotFit, TileRect};
+use crate::ortho::OrthoFit;
+use crate::settings::{BiasMethod, CascadeBlend, CascadeSelection, ShadowSettings};
+use crate::spot::SpotFit;
 
 /// One tile, 256 bytes: the dynamic offset at which it is bound to draw into it, and what is needed to look
 /// something up in it. World space here is relative to the frame's origin.

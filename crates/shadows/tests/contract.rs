@@ -1,4 +1,4 @@
-//! What a technique gives to a frame is checked against what it said.
+//! The output of a technique is validated against its declarations.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use glam::{DVec3, Vec3};
@@ -11,9 +11,9 @@ use shadowgraph_shadows::{
     binding,
 };
 
-struct Nothing;
+struct NoCasters;
 
-impl ShadowCasters for Nothing {
+impl ShadowCasters for NoCasters {
     fn cull(&self, _: &CullVolume, _: &mut Vec<u32>) {}
     fn bounds(&self) -> Aabb {
         Aabb::EMPTY
@@ -23,21 +23,21 @@ impl ShadowCasters for Nothing {
     }
 }
 
-/// Says one thing and gives another.
+/// A technique whose output differs from its declarations.
 #[derive(Clone, Copy)]
-enum Liar {
+enum Inconsistent {
     TooFew,
     OtherKind,
     OtherFormat,
     MaskOfOtherSize,
     MaskOfOtherFormat,
     NoSuchVariant,
-    Honest,
+    Consistent,
 }
 
-impl ShadowTechnique for Liar {
+impl ShadowTechnique for Inconsistent {
     fn name(&self) -> &str {
-        "liar"
+        "inconsistent"
     }
 
     fn requirements(&self, _: &ShadowInputs<'_>) -> Result<Requirements, Error> {
@@ -56,9 +56,10 @@ impl ShadowTechnique for Liar {
         &'f self,
         frame: &mut Frame<'f>,
         _: &ShadowInputs<'f>,
+        _: &Requirements,
         _: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let buffer = ShadowBinding::Buffer(frame.upload_buffer("records", vec![0; 16]));
+        let buffer = ShadowBinding::Buffer(frame.upload_buffer("buffer", vec![0; 16]));
         let format = if matches!(self, Self::OtherFormat) { Format::R32Float } else { Format::Depth32Float };
         let map = ShadowBinding::Texture(frame.create_texture("map", TextureDesc::d2(4, 4, format)));
         let bindings = match self {
@@ -69,7 +70,7 @@ impl ShadowTechnique for Liar {
         let mask = match self {
             Self::MaskOfOtherSize => Some(TextureDesc::d2(32, 64, Format::Rgba8Unorm)),
             Self::MaskOfOtherFormat => Some(TextureDesc::d2(64, 64, Format::R8Unorm)),
-            Self::Honest => Some(TextureDesc::d2(64, 64, Format::Rgba8Unorm)),
+            Self::Consistent => Some(TextureDesc::d2(64, 64, Format::Rgba8Unorm)),
             _ => None,
         };
         let mask = mask.map(|desc| frame.create_texture("mask", desc));
@@ -83,54 +84,51 @@ fn sun() -> Light {
     Light { name: None, kind, color: Vec3::ONE, intensity: 1.0, casts_shadow: true }
 }
 
-/// What a frame says to a technique.
-fn added(technique: &dyn ShadowTechnique, settings: &ShadowSettings) -> Result<(), Error> {
+/// Adds a technique to a frame.
+fn add(technique: &dyn ShadowTechnique, settings: &ShadowSettings) -> Result<(), Error> {
     let (lights, camera) = ([sun()], Camera::framing(&Aabb::EMPTY, 1.0));
     let inputs = ShadowInputs {
         view: 0,
         camera: &camera,
         aspect: 1.0,
         lights: &lights,
-        casters: &Nothing,
+        casters: &NoCasters,
         origin_world: DVec3::ZERO,
         settings,
     };
     let mut frame = Frame::new();
     let mut surfaces = frame.create_texture("surfaces", TextureDesc::d2(64, 64, Format::Rgba32Float));
     frame.render_pass("surfaces").color(&mut surfaces, Contents::clear_color([0.0; 4]));
-    let screen = SurfaceBuffers {
+    let buffers = SurfaceBuffers {
         size_px: [64, 64],
         view: frame.upload_buffer("view", vec![0; 256]),
         lights: frame.upload_buffer("lights", vec![0; 64]),
         surfaces,
         has_blended: false,
     };
-    add_shadows(technique, &mut frame, &inputs, Some(&screen)).map(drop)
+    add_shadows(technique, &mut frame, &inputs, Some(&buffers)).map(drop)
 }
 
 #[test]
-fn a_frame_names_the_technique_that_lies_and_how() {
+fn an_error_names_the_technique_and_the_inconsistency() {
     let settings = ShadowSettings::default();
-    for (liar, part) in [
-        (Liar::TooFew, "a frame has 1 bindings, and `binding_types` says 2"),
-        (Liar::OtherKind, "binding 0 of a frame is a texture Depth32Float as D2"),
-        (Liar::OtherFormat, "binding 1 of a frame is a texture R32Float as D2"),
-        (
-            Liar::MaskOfOtherSize,
-            "its screen mask is 32x64 Rgba8Unorm with 1 layers, and the picture's has to be 64x64",
-        ),
-        (Liar::MaskOfOtherFormat, "its screen mask is 64x64 R8Unorm"),
-        (Liar::NoSuchVariant, "a frame asks for variant 1, and there are 1"),
+    for (technique, part) in [
+        (Inconsistent::TooFew, "`add_to` returned 1 bindings, but `binding_types` has 2"),
+        (Inconsistent::OtherKind, "returned a texture Depth32Float as D2 as binding 0, but"),
+        (Inconsistent::OtherFormat, "returned a texture R32Float as D2 as binding 1, but"),
+        (Inconsistent::MaskOfOtherSize, "the screen mask is 32x64 Rgba8Unorm with 1 layers; expected 64x64"),
+        (Inconsistent::MaskOfOtherFormat, "the screen mask is 64x64 R8Unorm"),
+        (Inconsistent::NoSuchVariant, "`add_to` returned variant 1, but `variant_count` is 1"),
     ] {
-        let error = added(&liar, &settings).unwrap_err().to_string();
-        assert!(error.starts_with("technique `liar`: ") && error.contains(part), "{error}");
+        let error = add(&technique, &settings).unwrap_err().to_string();
+        assert!(error.starts_with("technique `inconsistent`: ") && error.contains(part), "{error}");
         assert_eq!(error.lines().count(), 1);
     }
-    assert_eq!(added(&Liar::Honest, &settings), Ok(()));
+    assert_eq!(add(&Inconsistent::Consistent, &settings), Ok(()));
 }
 
 #[test]
-fn settings_that_a_technique_cannot_have_end_the_frame_with_its_name() {
+fn invalid_settings_of_a_technique_are_an_error_with_its_name() {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let make = |technique: Technique| technique.make(&TechniqueContext::new(&device)).unwrap();
     let kinds = Techniques::built_in();
@@ -149,7 +147,7 @@ fn settings_that_a_technique_cannot_have_end_the_frame_with_its_name() {
         let settings: ShadowSettings =
             ron::from_str(&format!("(techniques: {{\"{name}\": {text}}})")).unwrap();
         let technique = make(kinds.find(name).unwrap());
-        let error = added(technique.as_ref(), &settings).unwrap_err().to_string();
+        let error = add(technique.as_ref(), &settings).unwrap_err().to_string();
         assert!(error.starts_with(&format!("technique `{name}`: ")) && error.contains(part), "{error}");
         // The registry finds it before any frame.
         assert_eq!(kinds.check(&settings).unwrap_err().to_string(), error);
@@ -157,14 +155,14 @@ fn settings_that_a_technique_cannot_have_end_the_frame_with_its_name() {
 }
 
 #[test]
-fn every_technique_and_what_goes_on_top_of_it_gives_what_it_says() {
+fn every_technique_with_every_modifier_is_consistent_with_its_declarations() {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     for &kind in Techniques::built_in().kinds() {
         let alone = Technique::from(kind);
         for technique in [alone, alone.collected(), alone.with_contact()] {
             let made = technique.make(&TechniqueContext::new(&device)).unwrap();
             assert_eq!(made.name(), technique.name());
-            assert_eq!(added(made.as_ref(), &ShadowSettings::default()), Ok(()), "{}", technique.name());
+            assert_eq!(add(made.as_ref(), &ShadowSettings::default()), Ok(()), "{}", technique.name());
         }
     }
 }

@@ -7,10 +7,10 @@ use shadowgraph_core::{
 };
 use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
-    CasterView, CullSettings, Pcf, ShadowCasters, ShadowInputs, ShadowSettings, ShadowTechnique,
+    CasterView, CullSettings, Pcf, ShadowCasters, ShadowInputs, ShadowSettings, add_shadows,
 };
 
-/// Boxes that cast shadows.
+/// Boxes as casters.
 struct Boxes(Vec<Aabb>);
 
 impl ShadowCasters for Boxes {
@@ -24,7 +24,7 @@ impl ShadowCasters for Boxes {
     }
 
     fn receivers(&self) -> Aabb {
-        // A wide ground that casts no shadow: cascades reach as far as the settings say.
+        // A wide ground that casts no shadow: cascades extend as far as the settings say.
         Aabb { min: DVec3::splat(-500.0), max: DVec3::splat(500.0) }
     }
 
@@ -45,7 +45,7 @@ fn sun() -> Light {
     light(LightKind::Directional { direction: DVec3::new(0.3, -1.0, 0.2) })
 }
 
-fn lamp(index: usize) -> Light {
+fn spot(index: usize) -> Light {
     let position_world = DVec3::new(index as f64 * 0.1, 4.0, 0.0);
     let direction = -position_world;
     let kind =
@@ -53,7 +53,7 @@ fn lamp(index: usize) -> Light {
     light(kind)
 }
 
-/// Plans a frame in which a pass reads all that the technique gives, as a lit pass does.
+/// Plans a frame with a pass that reads all outputs of the technique, as a lit pass does.
 fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let technique = Pcf::new(&device);
@@ -61,7 +61,7 @@ fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
     let camera = Camera::look_at(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO, DVec3::Y, projection);
     let mut settings = ShadowSettings::default();
     settings.cascades.count = cascades;
-    // Every cascade has its casters, whatever finer ones serve.
+    // Every cascade has its casters, even those that finer cascades cover.
     settings.cull = CullSettings::NONE;
     let origin_world = origin_near(camera.position_world());
     let (casters, settings) = (Boxes(casters), &settings);
@@ -75,7 +75,7 @@ fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
         settings,
     };
     let mut frame = Frame::new();
-    let shadows = technique.add_to(&mut frame, &inputs, None).unwrap();
+    let shadows = add_shadows(&technique, &mut frame, &inputs, None).unwrap();
     let mut lit = frame.create_texture("lit", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     let mut pass = frame.render_pass("lit");
     shadows.read_in(&mut pass);
@@ -84,13 +84,13 @@ fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
     frame.compile().unwrap().into_plan()
 }
 
-/// The steps that draw, each as the names of its passes.
+/// Returns the steps that draw, each as the names of its passes.
 fn drawn(plan: &Plan) -> Vec<Vec<&str>> {
     let steps = plan.steps().filter(|step| plan.pass(step.passes[0]).kind == PassKind::Render);
     steps.map(|step| step.passes.iter().map(|&pass| plan.pass(pass).name).collect()).collect()
 }
 
-/// What a pass that draws depth does to its map at the begin and at the end.
+/// Returns the load and store operations of a pass that draws depth.
 fn operations(plan: &Plan, pass: PassId) -> (LoadAction, bool, StoreAction) {
     let ops = plan.accesses(pass).find_map(|access| access.ops).unwrap();
     (ops.load, ops.clear_drawn, ops.store)
@@ -98,8 +98,8 @@ fn operations(plan: &Plan, pass: PassId) -> (LoadAction, bool, StoreAction) {
 
 #[test]
 fn row_01_tiles_of_a_map_share_one_render_pass_that_begins_with_one_clear() {
-    // Three cascades and three lamps leave a quarter of each map without a tile.
-    let lights = [sun(), lamp(1), lamp(2), lamp(3)];
+    // Three cascades and three spot lights leave a quarter of each map without a tile.
+    let lights = [sun(), spot(1), spot(2), spot(3)];
     let plan = plan(&lights, vec![cube(DVec3::ZERO)], 3);
     let cascades = ["clear", "cascade 0", "cascade 1", "cascade 2"];
     let atlas = ["clear", "light 1", "light 2", "light 3"];
@@ -111,14 +111,14 @@ fn row_01_tiles_of_a_map_share_one_render_pass_that_begins_with_one_clear() {
         assert!(matches!(own[0], (LoadAction::Clear(_), false, StoreAction::Continue)), "{own:?}");
         let (last, between) = own[1..].split_last().unwrap();
         assert_eq!(*last, (LoadAction::Continue, false, StoreAction::Store));
-        let goes_on = (LoadAction::Continue, false, StoreAction::Continue);
-        assert!(between.iter().all(|ops| *ops == goes_on), "{own:?}");
+        let continues = (LoadAction::Continue, false, StoreAction::Continue);
+        assert!(between.iter().all(|ops| *ops == continues), "{own:?}");
     }
 }
 
 #[test]
-fn tiles_wait_for_the_clear_of_their_map_and_not_for_each_other() {
-    let plan = plan(&[sun(), lamp(1), lamp(2)], vec![cube(DVec3::ZERO)], 4);
+fn tiles_depend_on_the_clear_of_their_map_and_not_on_each_other() {
+    let plan = plan(&[sun(), spot(1), spot(2)], vec![cube(DVec3::ZERO)], 4);
     let is_tile = |pass| ["cascade ", "light "].iter().any(|tile| plan.pass(pass).name.starts_with(tile));
     let tiles: Vec<_> = plan.order().iter().copied().filter(|&pass| is_tile(pass)).collect();
     assert_eq!(tiles.len(), 6);
@@ -131,15 +131,15 @@ fn tiles_wait_for_the_clear_of_their_map_and_not_for_each_other() {
 }
 
 #[test]
-fn every_number_of_tiles_leaves_a_map_that_can_be_read_as_a_whole() {
+fn with_every_number_of_tiles_the_whole_map_is_defined() {
     for cascades in 1..=4 {
         let plan = plan(&[sun()], vec![cube(DVec3::ZERO)], cascades);
         assert_eq!(drawn(&plan)[0].len(), 1 + cascades as usize);
     }
-    for lamps in 1..=16 {
-        let lights: Vec<_> = (0..lamps).map(lamp).collect();
+    for spots in 1..=16 {
+        let lights: Vec<_> = (0..spots).map(spot).collect();
         let plan = plan(&lights, vec![cube(DVec3::ZERO)], 4);
-        assert_eq!(drawn(&plan)[0].len(), 1 + lamps);
+        assert_eq!(drawn(&plan)[0].len(), 1 + spots);
     }
 }
 
@@ -154,5 +154,5 @@ fn a_tile_without_casters_is_cleared_and_has_no_pass() {
 
 #[test]
 fn row_01_without_casters_nothing_is_drawn_for_shadows() {
-    assert_eq!(drawn(&plan(&[sun(), lamp(1)], vec![], 4)), [["lit"]]);
+    assert_eq!(drawn(&plan(&[sun(), spot(1)], vec![], 4)), [["lit"]]);
 }

@@ -83,11 +83,11 @@ impl ShadowTechnique for Esm {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let settings: EsmSettings = inputs.settings.techniques.get()?;
-        let requirements = self.requirements(inputs)?;
-        let maps = frame.node("esm", |frame| self.maps.add_to(frame, inputs, &requirements))?;
+        let maps = frame.node("esm", |frame| self.maps.add_to(frame, inputs, requirements))?;
         let falloff = Falloff { per_metre: 1.0 / settings.falloff_m };
         let mut bindings = maps.bindings();
         bindings.push(ShadowBinding::Uniform(frame.uniform(bytemuck::bytes_of(&falloff))));

@@ -14,9 +14,9 @@ struct SoftLights {
     // Of directional lights: the tangent of half the angle they take up in the sky.
     sun_radius: f32,
     // Of others, metres.
-    lamp_radius: f32,
+    punctual_radius: f32,
     // The most that an edge is softened to either side.
-    most_texels: f32,
+    max_texels: f32,
     blocker_taps: u32,
     filter_taps: u32,
 }
@@ -50,7 +50,7 @@ fn edge_texels(shadow_view: ShadowView, point: f32, blocker: f32) -> f32 {
     }
     let near_m = axis_distance(shadow_view, blocker);
     let far_m = axis_distance(shadow_view, point);
-    return soft_lights.lamp_radius * (far_m - near_m) / (near_m * far_m * shadow_view.texel_world);
+    return soft_lights.punctual_radius * (far_m - near_m) / (near_m * far_m * shadow_view.texel_world);
 }
 
 // The depth that a tap so many texels beside the point is compared with: the nearest of the texels that it reads.
@@ -68,7 +68,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let turn = TURN * pixel_noise(receiver.pixel);
 
     // What is in the way, and how far from the point it is on average.
-    let widest = clamp(edge_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, soft_lights.most_texels);
+    let widest = clamp(edge_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, soft_lights.max_texels);
     var blockers = 0.0;
     var depths = 0.0;
     for (var i = 0u; i < soft_lights.blocker_taps; i++) {
@@ -84,7 +84,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     }
 
     let edge = edge_texels(shadow_view, lookup.plane.depth, depths / blockers);
-    let radius = clamp(edge, LEAST_TEXELS, soft_lights.most_texels);
+    let radius = clamp(edge, LEAST_TEXELS, soft_lights.max_texels);
     var lit = 0.0;
     for (var i = 0u; i < soft_lights.filter_taps; i++) {
         let tap = radius * spiral(i, soft_lights.filter_taps, turn);

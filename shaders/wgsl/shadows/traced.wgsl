@@ -6,13 +6,13 @@
 
 struct Traced {
     // The largest coordinate of the rays' scene.
-    reach: f32,
+    max_coordinate: f32,
     // How many there are; one goes to the light's middle, several over its disc.
     rays: u32,
     // Of directional lights: the tangent of half the angle they take up in the sky.
     sun_radius: f32,
     // Of others, metres.
-    lamp_radius: f32,
+    punctual_radius: f32,
     // For each light its layer of the screen mask, TRACED_UNMASKED, or TRACED_LIT.
     layers: array<u32>,
 }
@@ -40,7 +40,7 @@ fn across(direction: vec3f) -> mat2x3f {
 
 // The part of the light that a surface sees: none of it, if it faces away from its middle. Rays are turned from pixel to pixel.
 fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel: vec2f) -> vec3f {
-    let origin = ray_origin(position, geometric_normal, distance(position, view.position), traced.reach);
+    let origin = ray_origin(position, geometric_normal, distance(position, view.position), traced.max_coordinate);
     let is_sun = lights[light].kind == LIGHT_DIRECTIONAL;
     let to_middle = select(lights[light].position - origin, -lights[light].direction, is_sun);
     let distance = length(to_middle);
@@ -48,7 +48,7 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
         return vec3f(0.0);
     }
     let disc = across(to_middle / distance);
-    let radius = select(traced.lamp_radius, traced.sun_radius, is_sun);
+    let radius = select(traced.punctual_radius, traced.sun_radius, is_sun);
     let turn = TURN * pixel_noise(pixel);
     var seen = vec3f(0.0);
     for (var i = 0u; i < traced.rays; i++) {

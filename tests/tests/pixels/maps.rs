@@ -4,7 +4,7 @@ use crate::stage::gpu;
 use shadowgraph::core::{Frame, Graph, PassKind};
 use shadowgraph::scene::Camera;
 use shadowgraph::shadows::{
-    Pcf, ShadowCasters, ShadowInputs, ShadowPlan, ShadowSettings, ShadowTechnique, plan_shadows,
+    Pcf, ShadowCasters, ShadowInputs, ShadowPlan, ShadowSettings, add_shadows, plan_shadows,
 };
 use shadowgraph::{Gpu, SceneCasters};
 
@@ -36,7 +36,7 @@ pub(crate) fn draw_map(
         ShadowInputs { view: 0, camera, aspect: 16.0 / 9.0, lights, casters, origin_world, settings };
     let plan = plan_shadows(&inputs).unwrap();
     let mut frame = Frame::new();
-    technique.add_to(&mut frame, &inputs, None).unwrap();
+    add_shadows(technique, &mut frame, &inputs, None).unwrap();
     let map = &frame.find_texture(name).unwrap();
     let size = frame.texture_desc(map).unwrap().size;
     let size_px = [size.width, size.height];
@@ -82,7 +82,7 @@ fn without_a_caster_in_range_there_is_no_pass_and_a_map_of_one_lit_texel() {
         settings: &settings,
     };
     let mut frame = Frame::new();
-    let outputs = technique.add_to(&mut frame, &inputs, None).unwrap();
+    let outputs = add_shadows(&technique, &mut frame, &inputs, None).unwrap();
     for (name, map) in &outputs.debug {
         let size = frame.texture_desc(map).unwrap().size;
         assert_eq!((size.width, size.height), (1, 1), "{name}");

@@ -64,7 +64,7 @@ impl Traced {
                 view_distance_m: position.distance(self.eye),
             };
             let ray = self.light.shape.ray(&self.rays, &receiver, glam::Vec2::ZERO);
-            ray.map_or(0.0, |ray| self.rays.passed_by_all(&ray).element_sum() / 3.0)
+            ray.map_or(0.0, |ray| self.rays.transmittance_brute_force(&ray).element_sum() / 3.0)
         });
         let truth: Vec<f32> = truth.collect();
         self.unlike(&truth, &n_dot_l)

@@ -2,7 +2,9 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::{ShadowCasters, ShadowView, TileRect};
+use crate::atlas::TileRect;
+use crate::casters::ShadowCasters;
+use crate::views::ShadowView;
 
 /// A map that outlives frames.
 pub(super) struct CachedMap {

@@ -6,7 +6,10 @@ use shadowgraph_core::{Bind, Contents, Format, Frame, Pass, Rendering, Subresour
 
 use super::cache::{CachedMap, TileKey};
 use super::{DrawnMap, ShadowMaps, Views};
-use crate::{CasterPass, MapPlan, ShadowCasters, ShadowView, TINT_FORMAT, TileKind, TilePlan, TileRect};
+use crate::atlas::TileRect;
+use crate::casters::{CasterPass, ShadowCasters, TINT_FORMAT};
+use crate::plan::{MapPlan, TileKind, TilePlan};
+use crate::views::ShadowView;
 
 /// The bytes of a view: also the step of its dynamic offset.
 const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;

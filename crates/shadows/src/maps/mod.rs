@@ -10,12 +10,17 @@ use cache::CachedMap;
 use draw::{ATLAS, CASCADES, Source};
 use shadowgraph_core::{Buffer, Frame, Texture};
 
+use crate::allocation::AtlasAllocation;
+use crate::atlas::TileRect;
+use crate::casters::{TINT_FORMAT, caster_view_layout};
+use crate::error::Error;
+use crate::plan::{ShadowInputs, ShadowPlan, plan_shadows_after};
+use crate::requirements::Requirements;
+use crate::select::Unshadowed;
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE};
 use crate::technique::{ShadowBinding, ShadowOutputs};
-use crate::{
-    AtlasAllocation, Error, PcfVariant, Requirements, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT,
-    TileRect, Unshadowed, caster_view_layout, plan_shadows_after,
-};
+use crate::techniques::PcfVariant;
+use crate::views::ShadowView;
 
 /// What techniques of shadow maps have in common: it plans the maps of each frame, and draws casters into their tiles.
 ///

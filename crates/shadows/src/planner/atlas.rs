@@ -1,14 +1,18 @@
 //! The atlas.
 
 use super::{Planner, place};
+use crate::allocation::{AtlasConfig, TileRequest, allocate_tiles};
+use crate::atlas::{MAX_ATLAS_TILES, TileRect, even_tiles, smallest_atlas_tile_px};
+use crate::cascades::{Slice, slice_sphere};
 use crate::light_params::LightShadowParams;
+use crate::ortho::OrthoFit;
+use crate::plan::{MapPlan, TileKind, TilePlan};
+use crate::select::UnshadowedReason;
 use crate::select::{Candidate, ShadowRange, Shape, point_face};
+use crate::settings::AtlasTiles;
+use crate::spot::SpotFit;
+use crate::views::{MAP_ATLAS, ShadowView, TilePlacement};
 use crate::views::{SELECT_FACE, SELECT_MAP};
-use crate::{
-    AtlasConfig, AtlasTiles, MAP_ATLAS, MAX_ATLAS_TILES, MapPlan, OrthoFit, ShadowView, Slice, SpotFit,
-    TileKind, TilePlacement, TilePlan, TileRect, TileRequest, UnshadowedReason, allocate_tiles, even_tiles,
-    slice_sphere, smallest_atlas_tile_px,
-};
 
 /// A light that casts shadows, and the casters of each of its tiles.
 struct Asking<'s> {

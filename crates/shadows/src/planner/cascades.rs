@@ -3,12 +3,14 @@
 use glam::DMat3;
 
 use super::{Planner, place};
+use crate::atlas::{TileLayout, even_tiles};
+use crate::cascades::{CascadeFit, fit_cascades, split_distances};
 use crate::light_params::LightShadowParams;
+use crate::plan::{MapPlan, TileKind, TilePlan};
+use crate::select::UnshadowedReason;
 use crate::select::{Candidate, Shape};
-use crate::{
-    CascadeFit, CascadeSelection, MAP_CASCADES, MapPlan, ShadowView, TileKind, TileLayout, TilePlan,
-    UnshadowedReason, even_tiles, fit_cascades, split_distances,
-};
+use crate::settings::CascadeSelection;
+use crate::views::{MAP_CASCADES, ShadowView};
 
 /// A light's cascades.
 struct Cascades<'s> {

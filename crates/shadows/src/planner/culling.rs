@@ -4,12 +4,14 @@ use glam::DVec3;
 use shadowgraph_scene::{Aabb, BoundingSphere, Cone, ConvexVolume, CullVolume};
 
 use super::Planner;
+use crate::cascades::CascadeFit;
+use crate::cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 use crate::light_params::LightShadowParams;
+use crate::ortho::OrthoFit;
+use crate::plan::ShadowInputs;
 use crate::select::ShadowRange;
-use crate::{
-    CascadeFit, CascadeSelection, CascadeSettings, CoveredByFinerCascade, LightSpaceView, OrthoFit,
-    ReceiverHull, RedundantCasters, ShadowInputs, SpotFit,
-};
+use crate::settings::{CascadeSelection, CascadeSettings};
+use crate::spot::SpotFit;
 
 /// What is seen, to tell which casters matter.
 pub(super) struct Seen {
@@ -54,7 +56,7 @@ impl Planner<'_> {
         let mut planes = fit.cull_volume();
         if self.inputs.settings.cull.unseen {
             let to_light = fit.light_from_world.transpose().z_axis;
-            planes.planes.extend(self.seen.towards(to_light, params.reach_m(fit.texel_m, 1.0)).planes);
+            planes.planes.extend(self.seen.towards(to_light, params.radius_m(fit.texel_m, 1.0)).planes);
         }
         self.cull(&planes.into())
     }
@@ -64,7 +66,7 @@ impl Planner<'_> {
         let mut planes = fit.cull_volume();
         let cone = fit.cone;
         if self.inputs.settings.cull.unseen && !self.inputs.settings.atlas.cache {
-            let pad_m = params.reach_m(fit.texel_per_m() * fit.far_m, 1.0);
+            let pad_m = params.radius_m(fit.texel_per_m() * fit.far_m, 1.0);
             planes.planes.extend(self.seen.around(cone.position_world, pad_m).planes);
         }
         // The pyramid around the cone has corners that the light does not reach, but its filter can.
@@ -98,7 +100,7 @@ impl Planner<'_> {
         let served = self.served(fits, params, &receivers);
         let axes = glam::DAffine3::from_mat3(light_from_world);
         for (cascade, (fit, casters)) in fits.iter().zip(&mut casters).enumerate().skip(1) {
-            let reach_m = params.reach_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
+            let reach_m = params.radius_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
             let query = RedundantCasters::new(&view, &served[..cascade], reach_m + self.seen.precision_m);
             let bounds_of = |caster| self.inputs.casters.bounds_of(caster).transformed(&axes);
             casters.retain(|&caster| !query.is_redundant(&bounds_of(caster)));

@@ -1,29 +1,29 @@
-//! Channels of textures, and how they are read: the same arithmetic as in `rays.wgsl`.
+//! Channels of textures, and their sampling: the same arithmetic as in `rays.wgsl`.
 
 use glam::Vec2;
 
 use super::Error;
 
-/// What a texture shows outside of its square, along one axis.
+/// The address mode of a texture along one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Wrap {
-    /// The same again.
+    /// Repeats the texture.
     #[default]
     Repeat = 0,
-    /// The same again, every other time mirrored.
+    /// Repeats the texture, mirrored every other time.
     Mirror = 1,
-    /// The texels of the edge.
+    /// Extends the texels of the edge.
     Clamp = 2,
 }
 
-/// What a texture shows between the centres of its texels.
+/// The filter between the centres of texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Filter {
-    /// The texel around the point.
+    /// The texel that contains the point.
     Nearest = 0,
-    /// The four nearest texels, mixed.
+    /// The four nearest texels, interpolated.
     #[default]
     Bilinear = 1,
 }
@@ -38,11 +38,11 @@ pub struct ChannelTexture {
 }
 
 impl ChannelTexture {
-    /// A texture of `size_px` columns and rows, row by row, 0 to 255.
+    /// Creates a texture of `size_px` columns and rows. `texels` has them row by row, 0 to 255.
     ///
     /// # Errors
     ///
-    /// [`Error::Texels`] if there is not exactly one byte a pixel, if there is no pixel, or if there are
+    /// [`Error::Texels`] if there is not exactly one byte per texel, if there is no texel, or if there are
     /// more than 2^31 - 1 in a row or column.
     pub fn new(size_px: [u32; 2], texels: Vec<u8>, wrap: [Wrap; 2], filter: Filter) -> Result<Self, Error> {
         let [width, height] = size_px;
@@ -54,31 +54,31 @@ impl ChannelTexture {
         Ok(Self { size_px, texels, wrap, filter })
     }
 
-    /// Columns and rows.
+    /// Returns the numbers of columns and rows.
     #[must_use]
     pub fn size_px(&self) -> [u32; 2] {
         self.size_px
     }
 
-    /// The texels, row by row.
+    /// Returns the texels, row by row.
     #[must_use]
     pub fn texels(&self) -> &[u8] {
         &self.texels
     }
 
-    /// What is outside of the square, along u and along v.
+    /// Returns the address modes along u and v.
     #[must_use]
     pub fn wrap(&self) -> [Wrap; 2] {
         self.wrap
     }
 
-    /// What is between the texels' centres.
+    /// Returns the filter.
     #[must_use]
     pub fn filter(&self) -> Filter {
         self.filter
     }
 
-    /// The value at a point, 0 to 1.
+    /// Returns the value at a point, 0 to 1.
     #[must_use]
     pub fn value(&self, uv: Vec2) -> f32 {
         let x = folded(uv.x, self.wrap[0]) * self.size_px[0] as f32;
@@ -88,38 +88,38 @@ impl ChannelTexture {
         }
         let (x, y) = (x - 0.5, y - 0.5);
         let (left, top) = (x.floor(), y.floor());
-        let (right_part, bottom_part) = (x - left, y - top);
+        let (right_weight, bottom_weight) = (x - left, y - top);
         let row = |y: i32| {
             let (a, b) = (self.texel(left as i32, y), self.texel(left as i32 + 1, y));
-            a + (b - a) * right_part
+            a + (b - a) * right_weight
         };
         let (a, b) = (row(top as i32), row(top as i32 + 1));
-        a + (b - a) * bottom_part
+        a + (b - a) * bottom_weight
     }
 
-    /// The value of a texel, 0 to 1; columns and rows from -1 to the size.
+    /// Returns the value of a texel, 0 to 1; columns and rows are from -1 to the size.
     fn texel(&self, x: i32, y: i32) -> f32 {
-        let column = inside(x, self.size_px[0], self.wrap[0]);
-        let row = inside(y, self.size_px[1], self.wrap[1]);
+        let column = wrapped(x, self.size_px[0], self.wrap[0]);
+        let row = wrapped(y, self.size_px[1], self.wrap[1]);
         let index = row as usize * self.size_px[0] as usize + column as usize;
         f32::from(self.texels.get(index).copied().unwrap_or(u8::MAX)) * (1.0 / 255.0)
     }
 }
 
-/// A texture coordinate moved into the square, 0 to 1.
-fn folded(at: f32, wrap: Wrap) -> f32 {
+/// Returns a texture coordinate wrapped into 0 to 1.
+fn folded(coordinate: f32, wrap: Wrap) -> f32 {
     match wrap {
-        Wrap::Repeat => at - at.floor(),
+        Wrap::Repeat => coordinate - coordinate.floor(),
         Wrap::Mirror => {
-            let period = at - 2.0 * (at * 0.5).floor();
+            let period = coordinate - 2.0 * (coordinate * 0.5).floor();
             period.min(2.0 - period)
         }
-        Wrap::Clamp => at.clamp(0.0, 1.0),
+        Wrap::Clamp => coordinate.clamp(0.0, 1.0),
     }
 }
 
-/// The texel that stands for one up to one step outside. A mirror shows the edge's texel twice, as a clamp does.
-fn inside(index: i32, size: u32, wrap: Wrap) -> i32 {
+/// Wraps the index of a texel that is at most one step outside. A mirror repeats the edge's texel, as a clamp does.
+fn wrapped(index: i32, size: u32, wrap: Wrap) -> i32 {
     let size = size as i32;
     match wrap {
         Wrap::Repeat if index < 0 => index + size,

@@ -1,49 +1,51 @@
-//! What can go wrong with a scene of rays.
+//! Errors of ray scenes.
 
-/// Why a [`RayScene`](super::RayScene) or its [GPU form](super::GpuRayScene) could not be made.
+/// Errors of creating a [`RayScene`](super::RayScene) or a [`GpuRayScene`](super::GpuRayScene).
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A channel's texels do not fill its size, or it has none.
+    /// The number of texels does not match the size of the channel, or is zero.
     #[error(
-        "a channel of a texture of {width} x {height} pixels has {bytes} bytes; it needs one a pixel, at least one"
+        "a texture channel of {width} x {height} texels has {bytes} bytes; expected one byte per texel, at least one"
     )]
     Texels {
-        /// Its width, pixels.
+        /// Width, texels.
         width: u32,
-        /// Its height, pixels.
+        /// Height, texels.
         height: u32,
-        /// The bytes that were given.
+        /// Number of bytes passed.
         bytes: usize,
     },
-    /// An occluder names a channel that was not given.
-    #[error("occluder {occluder} reads channel {texture}, but there are {count}")]
+    /// An occluder refers to a channel that does not exist.
+    #[error("occluder {occluder} refers to channel {texture}; the scene has {count} channels")]
     NoTexture {
         /// The occluder's index.
         occluder: usize,
-        /// The channel it names.
+        /// The channel that it refers to.
         texture: u32,
-        /// How many there are.
+        /// Number of channels.
         count: usize,
     },
     /// There are more occluders than the tree can number.
     #[error("a ray scene of {count} triangles; at most {limit} are allowed")]
     TooMany {
-        /// How many there are.
+        /// Number of triangles.
         count: usize,
-        /// The most that are allowed.
+        /// Largest allowed number.
         limit: usize,
     },
-    /// A buffer of the GPU form is larger than a binding can be.
-    #[error("the {what} of the ray scene need {bytes} bytes; a storage buffer binding holds {limit}: {help}")]
+    /// A buffer of the GPU scene is larger than a binding can be.
+    #[error(
+        "the {what} of the ray scene need {bytes} bytes; a storage buffer binding is limited to {limit}: {help}"
+    )]
     TooBig {
-        /// What the buffer holds, such as `triangles`.
+        /// Contents of the buffer, such as `triangles`.
         what: &'static str,
-        /// The bytes it needs.
+        /// Required size, bytes.
         bytes: u64,
-        /// The bytes that are allowed.
+        /// Largest allowed size, bytes.
         limit: u64,
-        /// What can be done about it.
+        /// A way to fix it.
         help: &'static str,
     },
 }

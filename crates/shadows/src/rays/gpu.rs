@@ -1,70 +1,70 @@
-//! The scene as the buffers of `rays.wgsl`.
+//! The scene in the buffers of `rays.wgsl`.
 
 use bytemuck::Zeroable;
 use shadowgraph_shaders::ModuleSource;
 
 use super::{
     ChannelTexture, Error, RayScene,
-    records::{NO_CUT, RayCut, RayNode, RayTexture, RayTriangle, TINT},
+    gpu_structs::{NO_MATERIAL, RayMaterial, RayNode, RayTexture, RayTriangle, TINT},
 };
 
-const FEWER_TRIANGLES: &str = "leave out what casts no shadow into view, use coarser meshes, or ask the device \
-                               for a larger max_storage_buffer_binding_size";
-const FEWER_TEXELS: &str = "use smaller textures, or ask the device for a larger \
+const FEWER_TRIANGLES: &str = "remove casters whose shadows are not visible, use coarser meshes, or request a device \
+                               with a larger max_storage_buffer_binding_size";
+const FEWER_TEXELS: &str = "use smaller textures, or request a device with a larger \
                             max_storage_buffer_binding_size";
 
-/// The buffers of `rays.wgsl`. None is empty: an empty scene has one triangle that no ray meets.
+/// The buffers of `rays.wgsl`. None is empty: an empty scene has one triangle that no ray hits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GpuRayScene {
-    /// The tree's boxes; the first one is the root.
+    /// The nodes of the tree; the first one is the root.
     pub nodes: Vec<RayNode>,
     /// The triangles, in the tree's order.
     pub triangles: Vec<RayTriangle>,
-    /// Where light passes through triangles.
-    pub cuts: Vec<RayCut>,
+    /// The materials of triangles that let light through.
+    pub materials: Vec<RayMaterial>,
     /// The channels of textures.
     pub textures: Vec<RayTexture>,
-    /// The texels of all channels, four to a word, the first in its lowest byte.
+    /// The texels of all channels, packed four to a word with the first in the lowest byte.
     pub texels: Vec<u32>,
-    /// What the shader needs for the rays' origins: [`RayScene::reach_m`].
-    pub reach_m: f32,
+    /// [`RayScene::max_coordinate_m`], from which the shader computes the rays' origins.
+    pub max_coordinate_m: f32,
 }
 
 impl GpuRayScene {
-    /// Writes the buffers. `max_binding_bytes` is the device's `max_storage_buffer_binding_size`.
+    /// Creates the contents of the buffers. `max_binding_bytes` is the device's `max_storage_buffer_binding_size`.
     ///
     /// # Errors
     ///
-    /// [`Error::TooBig`] if one of them would be larger than that.
+    /// [`Error::TooBig`] if one of the buffers would be larger than that.
     pub fn new(scene: &RayScene, max_binding_bytes: u64) -> Result<Self, Error> {
         let texels: u64 = scene.textures().iter().map(|texture| texture.texels().len() as u64).sum();
-        fits::<RayNode>("boxes", scene.bvh().nodes.len(), max_binding_bytes)?;
+        fits::<RayNode>("nodes", scene.bvh().nodes.len(), max_binding_bytes)?;
         fits::<RayTriangle>("triangles", scene.triangles().len(), max_binding_bytes)?;
-        fits::<RayCut>("cuts", scene.cuts().len(), max_binding_bytes)?;
+        fits::<RayMaterial>("materials", scene.materials().len(), max_binding_bytes)?;
         let (bytes, limit) = (texels.next_multiple_of(4), max_binding_bytes.min(u64::from(u32::MAX)));
         if bytes > limit {
             return Err(Error::TooBig { what: "texels", bytes, limit, help: FEWER_TEXELS });
         }
         let mut gpu = Self {
             nodes: nodes(scene),
-            triangles: or_one(scene.triangles(), RayTriangle::new([glam::Vec3::ZERO; 3], NO_CUT)),
-            cuts: or_one(scene.cuts(), RayCut::zeroed()),
+            triangles: or_one(scene.triangles(), RayTriangle::new([glam::Vec3::ZERO; 3], NO_MATERIAL)),
+            materials: or_one(scene.materials(), RayMaterial::zeroed()),
             textures: Vec::new(),
             texels: Vec::new(),
-            reach_m: scene.reach_m(),
+            max_coordinate_m: scene.max_coordinate_m(),
         };
         gpu.pack(scene.textures());
         Ok(gpu)
     }
 
-    /// Returns the WGSL that says what rays can meet, in the place of `ray_surfaces.wgsl`: what no triangle has is not compiled in.
+    /// Returns the replacement of `ray_surfaces.wgsl`: code for kinds of materials that no triangle has is not compiled.
     #[must_use]
     pub fn surfaces(&self) -> ModuleSource {
-        let of = |cut: u32| self.cuts.get(cut as usize).map(|cut| cut.cutoff == TINT);
-        let has = |tints| self.triangles.iter().any(|triangle| of(triangle.cut) == Some(tints));
+        let tints = |index: u32| self.materials.get(index as usize).map(|material| material.cutoff == TINT);
+        let has = |value| self.triangles.iter().any(|triangle| tints(triangle.material) == Some(value));
         let source = format!(
             "#define_import_path shadowgraph::ray_surfaces\n\
-             const CUTS: bool = {};\n\
+             const CUTOUTS: bool = {};\n\
              const TINTS: bool = {};\n",
             has(false),
             has(true),
@@ -72,13 +72,13 @@ impl GpuRayScene {
         ModuleSource::new("ray_surfaces.wgsl of a scene", source)
     }
 
-    /// The bytes of the buffers, in the order of their bindings: boxes, triangles, cuts, channels, texels.
+    /// Returns the bytes of the buffers, in the order of their bindings: nodes, triangles, materials, channels, texels.
     #[must_use]
     pub fn buffers(&self) -> [&[u8]; 5] {
         [
             bytemuck::cast_slice(&self.nodes),
             bytemuck::cast_slice(&self.triangles),
-            bytemuck::cast_slice(&self.cuts),
+            bytemuck::cast_slice(&self.materials),
             bytemuck::cast_slice(&self.textures),
             bytemuck::cast_slice(&self.texels),
         ]
@@ -109,17 +109,17 @@ fn fits<T>(what: &'static str, count: usize, limit: u64) -> Result<(), Error> {
 }
 
 fn nodes(scene: &RayScene) -> Vec<RayNode> {
-    let record = |node: &obvhs::bvh2::node::Bvh2Node| RayNode {
+    let gpu_node = |node: &obvhs::bvh2::node::Bvh2Node| RayNode {
         lowest: node.aabb().min.into(),
         first: node.first_index,
         highest: node.aabb().max.into(),
         count: node.prim_count,
     };
-    let nodes: Vec<RayNode> = scene.bvh().nodes.iter().map(record).collect();
+    let nodes: Vec<RayNode> = scene.bvh().nodes.iter().map(gpu_node).collect();
     or_one(&nodes, RayNode { count: 1, ..RayNode::zeroed() })
 }
 
-/// The records, or this one where there are none: bindings cannot be empty.
-fn or_one<T: Copy>(records: &[T], one: T) -> Vec<T> {
-    if records.is_empty() { vec![one] } else { records.to_vec() }
+/// Returns the elements, or `one` if there are none: bindings cannot be empty.
+fn or_one<T: Copy>(elements: &[T], one: T) -> Vec<T> {
+    if elements.is_empty() { vec![one] } else { elements.to_vec() }
 }

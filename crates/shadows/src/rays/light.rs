@@ -1,49 +1,49 @@
-//! How much of a light a receiver sees.
+//! The visibility of a light from a receiver.
 
 use glam::{Vec2, Vec3};
 
 use super::{Ray, RayScene, ReceiverPoint};
 
-/// The part of the way to a point light that its rays go: they end just before what may hang around it.
+/// The fraction of the distance to a point light that its rays travel: they end just before geometry around the light.
 pub const LIGHT_DISTANCE_FRACTION: f32 = 1.0 - 1.0 / (1 << 12) as f32;
 
 /// The angle from one sample on the light's disc to the next, radians.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// Where a light is and how large it looks.
+/// The position and the size of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightShape {
-    /// So far away that it is in the same direction from everywhere.
+    /// A light at infinity, in the same direction from everywhere.
     Directional {
-        /// Towards the light, unit length.
+        /// The direction towards the light, unit length.
         to_light: Vec3,
-        /// Half of the angle that it takes up in the sky, radians, from 0 to below a right angle. The sun's is
+        /// Half of its angular diameter, radians, from 0 to below a right angle. The sun's is
         /// 0.004 65.
         angular_radius: f32,
     },
-    /// A point or spot light. What lies outside of a spot light's cone is not asked here.
+    /// A point or spot light. A spot light's cone is not taken into account.
     Point {
-        /// Its centre, metres relative to the frame's origin.
+        /// The centre, metres relative to the frame's origin.
         position: Vec3,
-        /// The radius of the disc, always turned to the receiver, that it shines from, metres, 0 or above.
+        /// Radius of the emitting disc, which always faces the receiver, metres, 0 or above.
         radius_m: f32,
     },
 }
 
-/// What a receiver truly sees of a light's centre.
+/// The exact visibility of a light's centre from a receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundTruth {
-    /// What of its light it sees, linear red, green and blue: 1 all, 0 none, between behind what is translucent.
+    /// Visibility of the light, linear red, green and blue: 1 lit, 0 in shadow, in between behind translucent surfaces.
     pub visibility: Vec3,
-    /// The surface itself faces away from the light or stands edge-on to it: dark without any blocker.
+    /// Whether the surface faces away from the light or is edge-on to it: dark without any blocker.
     pub faces_away: bool,
-    /// The distance to the nearest thing between that no light passes, metres; `None` if there is none, if it was not asked for, or if
+    /// Distance to the nearest opaque blocker, metres; `None` if there is none, if it was not requested, or if
     /// the surface faces away.
     pub blocker_m: Option<f32>,
 }
 
-/// Finds what the receiver sees of the light's centre, and if `with_blocker` how near the nearest blocker is,
-/// which takes longer.
+/// Returns the visibility of the light's centre from the receiver, and the distance of the nearest blocker if
+/// `with_blocker`, which takes longer.
 #[must_use]
 pub fn trace_hard(
     scene: &RayScene,
@@ -54,14 +54,14 @@ pub fn trace_hard(
     let Some(ray) = light.ray(scene, receiver, Vec2::ZERO) else {
         return GroundTruth { visibility: Vec3::ZERO, faces_away: true, blocker_m: None };
     };
-    let blocker_m = if with_blocker { scene.nearest(&ray) } else { None };
-    let visibility = if blocker_m.is_some() { Vec3::ZERO } else { scene.passed(&ray) };
+    let blocker_m = if with_blocker { scene.nearest_distance(&ray) } else { None };
+    let visibility = if blocker_m.is_some() { Vec3::ZERO } else { scene.transmittance(&ray) };
     GroundTruth { visibility, faces_away: false, blocker_m }
 }
 
-/// Returns how much of the light the receiver sees, linear red, green and blue, 0 to 1, by `rays` rays (at least one) to the
-/// points of a Vogel spiral over the light's disc: always the same ones, each for the same area. 0 where the surface faces
-/// away from the light's centre; points of the light below the surface's horizon count as not seen.
+/// Returns the visibility of the light's disc from the receiver, linear red, green and blue, 0 to 1, by `rays` rays (at least
+/// one) to points of a Vogel spiral over the disc: always the same points, each for the same area. 0 where the surface faces
+/// away from the light's centre; points of the light below the surface's horizon count as occluded.
 #[must_use]
 pub fn trace_soft(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint, rays: u32) -> Vec3 {
     if light.ray(scene, receiver, Vec2::ZERO).is_none() {
@@ -69,10 +69,10 @@ pub fn trace_soft(scene: &RayScene, light: &LightShape, receiver: &ReceiverPoint
     }
     let rays = rays.max(1);
     let ray = |index| light.ray(scene, receiver, on_disc(index, rays));
-    (0..rays).filter_map(ray).map(|ray| scene.passed(&ray)).sum::<Vec3>() / rays as f32
+    (0..rays).filter_map(ray).map(|ray| scene.transmittance(&ray)).sum::<Vec3>() / rays as f32
 }
 
-/// Point `index` of `count` on a disc of radius 1.
+/// Returns point `index` of `count` on a disc of radius 1.
 fn on_disc(index: u32, count: u32) -> Vec2 {
     let radius = ((f64::from(index) + 0.5) / f64::from(count)).sqrt();
     let (sin, cos) = (f64::from(index) * GOLDEN_ANGLE).sin_cos();
@@ -80,11 +80,11 @@ fn on_disc(index: u32, count: u32) -> Vec2 {
 }
 
 impl LightShape {
-    /// The ray to a point of the light's disc (the disc's radius is 1); `None` if the surface faces away from
+    /// Returns the ray to a point of the light's disc (the disc's radius is 1); `None` if the surface faces away from
     /// that point, or if the receiver is at the light.
     #[must_use]
     pub fn ray(&self, scene: &RayScene, receiver: &ReceiverPoint, on_disc: Vec2) -> Option<Ray> {
-        let origin = receiver.ray_origin(scene.reach_m());
+        let origin = receiver.ray_origin(scene.max_coordinate_m());
         let (to_point, max_m) = match *self {
             Self::Directional { to_light, angular_radius } => {
                 (to_light + across(to_light, on_disc) * angular_radius.tan(), f32::INFINITY)
@@ -100,8 +100,8 @@ impl LightShape {
     }
 }
 
-/// The vector of these coordinates in the plane across `direction`.
-fn across(direction: Vec3, at: Vec2) -> Vec3 {
+/// Returns the vector of these coordinates in the plane perpendicular to `direction`.
+fn across(direction: Vec3, point: Vec2) -> Vec3 {
     let (right, up) = direction.any_orthonormal_pair();
-    right * at.x + up * at.y
+    right * point.x + up * point.y
 }

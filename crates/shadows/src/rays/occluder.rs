@@ -1,41 +1,41 @@
-//! What stops light: triangles, some of them with holes, some of them translucent.
+//! Occluders: triangles, some of them alpha-tested, some of them translucent.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
-/// Corners farther than this from the origin along an axis, metres, are taken for broken ones: products of
+/// Largest absolute coordinate of a valid corner, metres: products of
 /// three such numbers still fit into f32.
-pub(crate) const FARTHEST_M: f32 = 1e9;
+pub(crate) const MAX_COORDINATE_M: f32 = 1e9;
 
-/// A triangle that is in the way of light from both sides.
+/// A triangle that blocks light from both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occluder {
-    /// Its corners, metres relative to the frame's origin.
+    /// The corners, metres relative to the frame's origin.
     pub corners: [Vec3; 3],
-    /// What passes it.
+    /// How light passes through it.
     pub surface: Surface,
 }
 
-/// What light passes through a triangle.
+/// How light passes through a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Surface {
-    /// None.
+    /// Blocks all light.
     #[default]
     Opaque,
-    /// All of it through holes.
-    Cut(Cut),
-    /// Some of it everywhere.
+    /// Lets all light through its holes.
+    Cutout(Cutout),
+    /// Lets some light through everywhere.
     Tint(Tint),
 }
 
-/// Where a triangle has holes: where its alpha is below a cutoff.
+/// An alpha test: a triangle has holes where its alpha is below a cutoff.
 ///
 /// Alpha at a point is the channel's value (1 without one) times the factor, both interpolated over the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cut {
-    /// The index of its alpha channel; `None` for the factor alone.
+pub struct Cutout {
+    /// Index of the alpha channel; `None` for the factor alone.
     pub texture: Option<u32>,
-    /// Where each corner is in the texture: (0, 0) is the first texel's outer corner, (1, 1) the last one's.
-    /// The material's transform is applied already.
+    /// Texture coordinates of each corner: (0, 0) is the first texel's outer corner, (1, 1) the last one's,
+    /// with the material's transform applied.
     pub uv: [Vec2; 3],
     /// The material's alpha times the vertex's, at each corner.
     pub alpha: [f32; 3],
@@ -43,31 +43,31 @@ pub struct Cut {
     pub cutoff: f32,
 }
 
-/// How a triangle colours light: where alpha is a and the colour c, the part `(1 - a) * mix(1, c, a * (2 - a))` of it passes.
+/// Coloured transmittance: with alpha a and colour c, the light is multiplied by `(1 - a) * mix(1, c, a * (2 - a))`.
 ///
 /// Both are the channels' values times the factor, interpolated over the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tint {
-    /// The first of four channels: alpha, and linear red, green and blue; `None` for the factor alone.
+    /// Index of the first of four channels, alpha and linear red, green and blue; `None` for the factor alone.
     pub texture: Option<u32>,
-    /// Where each corner is in the texture, as in [`Cut::uv`].
+    /// Texture coordinates of each corner, as in [`Cutout::uv`].
     pub uv: [Vec2; 3],
-    /// The material's linear colour and alpha times the vertex's, at each corner. Colours are kept to 1/255.
+    /// The material's linear colour and alpha times the vertex's, at each corner. Colours are rounded to 1/255.
     pub color: [Vec4; 3],
 }
 
 impl Occluder {
-    /// A triangle that no light passes.
+    /// Creates an opaque triangle.
     #[must_use]
-    pub fn solid(corners: [Vec3; 3]) -> Self {
+    pub fn opaque(corners: [Vec3; 3]) -> Self {
         Self { corners, surface: Surface::Opaque }
     }
 
-    /// Tells whether rays can be tested against it: all numbers finite, corners within 1e9 m, area above 0, no cutoff below 0.
+    /// Returns whether rays can be tested against it: all numbers finite, corners within 1e9 m, area above 0, no cutoff below 0.
     #[must_use]
-    pub fn is_sound(&self) -> bool {
-        let near = |corner: &Vec3| corner.is_finite() && corner.abs().max_element() <= FARTHEST_M;
-        self.corners.iter().all(near) && self.has_area() && self.surface.is_sound()
+    pub fn is_valid(&self) -> bool {
+        let near = |corner: &Vec3| corner.is_finite() && corner.abs().max_element() <= MAX_COORDINATE_M;
+        self.corners.iter().all(near) && self.has_area() && self.surface.is_valid()
     }
 
     fn has_area(&self) -> bool {
@@ -77,11 +77,11 @@ impl Occluder {
 }
 
 impl Surface {
-    fn is_sound(&self) -> bool {
+    fn is_valid(&self) -> bool {
         let finite = |uv: &[Vec2; 3]| uv.iter().all(|uv| uv.is_finite());
         match self {
             Self::Opaque => true,
-            Self::Cut(Cut { uv, alpha, cutoff, .. }) => {
+            Self::Cutout(Cutout { uv, alpha, cutoff, .. }) => {
                 finite(uv)
                     && alpha.iter().all(|alpha| alpha.is_finite())
                     && *cutoff >= 0.0
@@ -91,11 +91,11 @@ impl Surface {
         }
     }
 
-    /// The channels that it reads: the first, and how many.
+    /// Returns the channels that it reads: the first and their number.
     pub(crate) fn channels(&self) -> Option<(u32, u32)> {
         match self {
             Self::Opaque => None,
-            Self::Cut(cut) => Some((cut.texture?, 1)),
+            Self::Cutout(cut) => Some((cut.texture?, 1)),
             Self::Tint(tint) => Some((tint.texture?, 4)),
         }
     }

@@ -1,8 +1,8 @@
-//! A ray, and the test whether it meets a triangle.
+//! A ray, and its intersection with a triangle.
 
 use glam::{Vec3, Vec3Swizzles};
 
-/// A part of a straight line: the points `origin + t * direction`, `t` from `min_m` up to but not including
+/// A segment of a ray: the points `origin + t * direction`, with `t` from `min_m` up to but not including
 /// `max_m`.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
@@ -11,11 +11,11 @@ pub struct Ray {
     min_m: f32,
     max_m: f32,
     along: Along,
-    /// What takes the direction to (0, 0, 1): x and y per z, and z per metre.
+    /// The shear that maps the direction to (0, 0, 1): x and y per z, and z per metre.
     shear: Vec3,
 }
 
-/// The axis along which a direction is longest.
+/// The axis of a direction's largest component.
 #[derive(Clone, Copy, Debug)]
 enum Along {
     X,
@@ -23,17 +23,17 @@ enum Along {
     Z,
 }
 
-/// Where a ray meets a triangle.
+/// The intersection of a ray and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleHit {
-    /// How far along the ray, metres.
+    /// Distance along the ray, metres.
     pub distance_m: f32,
-    /// How much of each corner there is at this point: each from 0 to 1, together 1.
+    /// Barycentric weights of the corners: each from 0 to 1, with a sum of 1.
     pub weights: Vec3,
 }
 
 impl Ray {
-    /// A ray. `direction` has unit length, so that `min_m` and `max_m` are metres; `max_m` can be infinite.
+    /// Creates a ray. `direction` has unit length, so that `min_m` and `max_m` are metres; `max_m` can be infinite.
     #[must_use]
     pub fn new(origin: Vec3, direction: Vec3, min_m: f32, max_m: f32) -> Self {
         let size = direction.abs();
@@ -49,7 +49,7 @@ impl Ray {
         Self { origin, direction, min_m, max_m, along, shear }
     }
 
-    /// Finds where the ray meets a triangle, from either side.
+    /// Returns the intersection with a triangle, from either side.
     ///
     /// This is the test of Woop, Benthin and Wald (*Watertight Ray/Triangle Intersection*, JCGT 2013): the
     /// triangle is sheared so that the ray runs along z, and the ray is inside if it lies on the same side of
@@ -72,13 +72,13 @@ impl Ray {
         inside.then_some(TriangleHit { distance_m, weights })
     }
 
-    /// The point as the ray sees it: x and y across, z along the ray, metres.
+    /// Returns the point in ray space: x and y across, z along the ray, metres.
     fn sheared(&self, point: Vec3) -> Vec3 {
         let p = self.along.turned(point - self.origin);
         Vec3::new(p.x - self.shear.x * p.z, p.y - self.shear.y * p.z, self.shear.z * p.z)
     }
 
-    /// The same ray for the tree.
+    /// Returns the ray in the tree's type.
     pub(crate) fn for_boxes(&self) -> obvhs::ray::Ray {
         let inverse = |d: f32| 1.0 / if d.abs() < 1e-20 { 1e-20 } else { d };
         obvhs::ray::Ray {
@@ -92,7 +92,7 @@ impl Ray {
 }
 
 impl Along {
-    /// The point with this axis as z, the axes in the same cyclic order.
+    /// Returns the point with this axis as z, with the axes in the same cyclic order.
     fn turned(self, p: Vec3) -> Vec3 {
         match self {
             Self::X => p.yzx(),
@@ -102,18 +102,18 @@ impl Along {
     }
 }
 
-/// Twice the area of the triangle of the ray, `p` and `q`: above 0 on one side, below on the other; with `p` and
+/// Returns twice the signed area of the triangle of the ray, `p` and `q`; with `p` and
 /// `q` swapped exactly the negative. The numbers are split into halves of 12 bits, whose products f32 holds
-/// exactly, so that this is wrong by 2⁻³⁶ of |p| |q| instead of 2⁻²⁴: long thin triangles need it. It does not
+/// exactly, so the error is 2⁻³⁶ of |p| |q| instead of 2⁻²⁴, which long thin triangles need. It does not
 /// depend on whether the machine fuses products and sums.
 fn side(p: Vec3, q: Vec3) -> f32 {
     let [(px, px_low), (py, py_low)] = [halves(p.x), halves(p.y)];
     let [(qx, qx_low), (qy, qy_low)] = [halves(q.x), halves(q.y)];
-    let mixed = (px * qy_low - py * qx_low) + (px_low * qy - py_low * qx);
-    (px * qy - py * qx) + (mixed + (px_low * qy_low - py_low * qx_low))
+    let cross_terms = (px * qy_low - py * qx_low) + (px_low * qy - py_low * qx);
+    (px * qy - py * qx) + (cross_terms + (px_low * qy_low - py_low * qx_low))
 }
 
-/// The number as a sum of two, each of 12 bits.
+/// Splits a number into a sum of two, each of 12 bits.
 fn halves(x: f32) -> (f32, f32) {
     let high = f32::from_bits(x.to_bits() & 0xffff_f000);
     (high, x - high)

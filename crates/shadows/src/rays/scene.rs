@@ -10,81 +10,81 @@ use obvhs::{
 
 use super::{
     ChannelTexture, Error, Occluder, Ray, TriangleHit,
-    records::{NO_CUT, NO_TEXTURE, RayCut, RayTriangle, TINT, unpacked},
+    gpu_structs::{NO_MATERIAL, NO_TEXTURE, RayMaterial, RayTriangle, TINT, unpacked},
     tree,
 };
 
-/// So many that the tree's nodes can be numbered in u32.
+/// Largest number of occluders: the indices of the tree's nodes fit into u32.
 const MAX_OCCLUDERS: usize = 1 << 30;
 
 /// Triangles, channels of textures, and a tree over the triangles.
 #[derive(Clone)]
 pub struct RayScene {
     bvh: Bvh2,
-    /// In the order in which the tree's leaves name them.
+    /// In the order of the tree's leaves.
     triangles: Vec<RayTriangle>,
-    cuts: Vec<RayCut>,
+    materials: Vec<RayMaterial>,
     textures: Vec<ChannelTexture>,
     dropped: usize,
-    reach_m: f32,
+    max_coordinate_m: f32,
 }
 
 impl RayScene {
-    /// Builds the tree. Occluders that are not [sound](Occluder::is_sound) are dropped. No occluders are
-    /// allowed: nothing is then blocked.
+    /// Builds the tree. Occluders that are not [valid](Occluder::is_valid) are dropped. A scene without occluders is
+    /// allowed: nothing is blocked.
     ///
     /// # Errors
     ///
-    /// [`Error::NoTexture`] if a surface names a channel beyond the last, [`Error::TooMany`] past 2^30 occluders.
+    /// [`Error::NoTexture`] if a surface refers to a channel beyond the last, [`Error::TooMany`] past 2^30 occluders.
     pub fn new(occluders: &[Occluder], textures: Vec<ChannelTexture>) -> Result<Self, Error> {
         check(occluders, textures.len())?;
-        let sound: Vec<&Occluder> = occluders.iter().filter(|occluder| occluder.is_sound()).collect();
-        let corners = || sound.iter().flat_map(|occluder| occluder.corners);
-        let reach_m = corners().map(|corner| corner.abs().max_element()).fold(0.0, f32::max);
-        let bvh = tree::build(&sound, reach_m);
-        let mut cuts = Vec::new();
-        let mut record = |occluder: &Occluder| {
-            let cut = RayCut::new(&occluder.surface).map_or(NO_CUT, |cut| {
-                cuts.push(cut);
-                (cuts.len() - 1) as u32
+        let valid: Vec<&Occluder> = occluders.iter().filter(|occluder| occluder.is_valid()).collect();
+        let corners = || valid.iter().flat_map(|occluder| occluder.corners);
+        let max_coordinate_m = corners().map(|corner| corner.abs().max_element()).fold(0.0, f32::max);
+        let bvh = tree::build(&valid, max_coordinate_m);
+        let mut materials = Vec::new();
+        let mut triangle = |occluder: &Occluder| {
+            let material = RayMaterial::new(&occluder.surface).map_or(NO_MATERIAL, |material| {
+                materials.push(material);
+                (materials.len() - 1) as u32
             });
-            RayTriangle::new(occluder.corners, cut)
+            RayTriangle::new(occluder.corners, material)
         };
-        let in_order = bvh.primitive_indices.iter().filter_map(|&index| sound.get(index as usize));
-        let triangles = in_order.map(|occluder| record(occluder)).collect();
-        let dropped = occluders.len() - sound.len();
-        Ok(Self { bvh, triangles, cuts, textures, dropped, reach_m })
+        let in_order = bvh.primitive_indices.iter().filter_map(|&index| valid.get(index as usize));
+        let triangles = in_order.map(|occluder| triangle(occluder)).collect();
+        let dropped = occluders.len() - valid.len();
+        Ok(Self { bvh, triangles, materials, textures, dropped, max_coordinate_m })
     }
 
-    /// Tells whether the ray meets anything but holes and what is translucent.
+    /// Returns whether the ray hits an opaque surface.
     #[must_use]
-    pub fn blocked(&self, ray: &Ray) -> bool {
+    pub fn is_occluded(&self, ray: &Ray) -> bool {
         let distance = |_: &obvhs::ray::Ray, index| self.distance(ray, index).unwrap_or(f32::INFINITY);
         !self.bvh.ray_traverse_miss(ray.for_boxes(), distance)
     }
 
-    /// Returns what of light passes along the ray, linear red, green and blue, 0 to 1.
+    /// Returns the transmittance along the ray, linear red, green and blue, 0 to 1.
     #[must_use]
-    pub fn passed(&self, ray: &Ray) -> Vec3 {
-        let passed = Cell::new(Vec3::ONE);
-        let distance = |_: &obvhs::ray::Ray, index| match self.meet(ray, index) {
-            Some(Meeting { distance_m, passed: None }) => distance_m,
-            Some(Meeting { passed: Some(part), .. }) => {
-                passed.set(passed.get() * part);
+    pub fn transmittance(&self, ray: &Ray) -> Vec3 {
+        let transmittance = Cell::new(Vec3::ONE);
+        let distance = |_: &obvhs::ray::Ray, index| match self.hit(ray, index) {
+            Some(Hit { distance_m, transmittance: None }) => distance_m,
+            Some(Hit { transmittance: Some(factor), .. }) => {
+                transmittance.set(transmittance.get() * factor);
                 f32::INFINITY
             }
             None => f32::INFINITY,
         };
-        if self.bvh.ray_traverse_miss(ray.for_boxes(), distance) { passed.get() } else { Vec3::ZERO }
+        if self.bvh.ray_traverse_miss(ray.for_boxes(), distance) { transmittance.get() } else { Vec3::ZERO }
     }
 
-    /// The distance along the ray to the first thing it meets that is neither a hole nor translucent, metres.
+    /// Returns the distance along the ray to the first opaque surface, metres.
     #[must_use]
-    pub fn nearest(&self, ray: &Ray) -> Option<f32> {
+    pub fn nearest_distance(&self, ray: &Ray) -> Option<f32> {
         self.nearest_triangle(ray).map(|(distance_m, _)| distance_m)
     }
 
-    /// The same as [`nearest`](Self::nearest), and which of the [`triangles`](Self::triangles) it is.
+    /// Returns the [nearest distance](Self::nearest_distance) and the index of the hit [triangle](Self::triangles).
     #[must_use]
     pub fn nearest_triangle(&self, ray: &Ray) -> Option<(f32, usize)> {
         let distance = |_: &obvhs::ray::Ray, index| self.distance(ray, index).unwrap_or(f32::INFINITY);
@@ -93,101 +93,102 @@ impl RayScene {
         (hit.primitive_id != INVALID_ID).then_some((hit.t, hit.primitive_id as usize))
     }
 
-    /// The same as [`nearest`](Self::nearest) by a test of every triangle: slow, for tests of the tree.
+    /// Returns the [nearest distance](Self::nearest_distance) by a test of every triangle: slow, for tests of the tree.
     #[must_use]
-    pub fn nearest_of_all(&self, ray: &Ray) -> Option<f32> {
+    pub fn nearest_distance_brute_force(&self, ray: &Ray) -> Option<f32> {
         (0..self.triangles.len()).filter_map(|index| self.distance(ray, index)).reduce(f32::min)
     }
 
-    /// The same as [`blocked`](Self::blocked) by a test of every triangle: slow, for tests of the tree.
+    /// Returns [whether the ray is occluded](Self::is_occluded) by a test of every triangle: slow, for tests of the tree.
     #[must_use]
-    pub fn blocked_by_any_of_all(&self, ray: &Ray) -> bool {
+    pub fn is_occluded_brute_force(&self, ray: &Ray) -> bool {
         (0..self.triangles.len()).any(|index| self.distance(ray, index).is_some())
     }
 
-    /// The same as [`passed`](Self::passed) by a test of every triangle: slow, for tests of the tree.
+    /// Returns the [transmittance](Self::transmittance) by a test of every triangle: slow, for tests of the tree.
     #[must_use]
-    pub fn passed_by_all(&self, ray: &Ray) -> Vec3 {
-        let meetings = (0..self.triangles.len()).filter_map(|index| self.meet(ray, index));
-        meetings.map(|meeting| meeting.passed.unwrap_or(Vec3::ZERO)).product()
+    pub fn transmittance_brute_force(&self, ray: &Ray) -> Vec3 {
+        let hits = (0..self.triangles.len()).filter_map(|index| self.hit(ray, index));
+        hits.map(|hit| hit.transmittance.unwrap_or(Vec3::ZERO)).product()
     }
 
-    /// The triangles that can be hit, in the tree's order.
+    /// Returns the triangles that can be hit, in the tree's order.
     #[must_use]
     pub fn triangles(&self) -> &[RayTriangle] {
         &self.triangles
     }
 
-    /// How many occluders were dropped as not [sound](Occluder::is_sound).
+    /// Returns the number of occluders that were dropped because they are not [valid](Occluder::is_valid).
     #[must_use]
     pub fn dropped(&self) -> usize {
         self.dropped
     }
 
-    /// The largest coordinate of any corner, either sign, metres.
+    /// Returns the largest absolute coordinate of any corner, metres.
     #[must_use]
-    pub fn reach_m(&self) -> f32 {
-        self.reach_m
+    pub fn max_coordinate_m(&self) -> f32 {
+        self.max_coordinate_m
     }
 
     pub(crate) fn bvh(&self) -> &Bvh2 {
         &self.bvh
     }
 
-    pub(crate) fn cuts(&self) -> &[RayCut] {
-        &self.cuts
+    pub(crate) fn materials(&self) -> &[RayMaterial] {
+        &self.materials
     }
 
     pub(crate) fn textures(&self) -> &[ChannelTexture] {
         &self.textures
     }
 
-    /// How far along the ray it is to this triangle, if it is hit and no light passes there.
+    /// Returns the distance along the ray to this triangle, if it is hit at an opaque point.
     fn distance(&self, ray: &Ray, index: usize) -> Option<f32> {
-        self.meet(ray, index).filter(|meeting| meeting.passed.is_none()).map(|meeting| meeting.distance_m)
+        self.hit(ray, index).filter(|hit| hit.transmittance.is_none()).map(|hit| hit.distance_m)
     }
 
-    /// Where the ray meets this triangle, unless in a hole.
-    fn meet(&self, ray: &Ray, index: usize) -> Option<Meeting> {
+    /// Returns the hit of this triangle, unless it is in a hole.
+    fn hit(&self, ray: &Ray, index: usize) -> Option<Hit> {
         let triangle = self.triangles.get(index)?;
         let TriangleHit { distance_m, weights } = ray.hit(triangle.corners())?;
-        let Some(cut) = self.cuts.get(triangle.cut as usize) else {
-            return Some(Meeting { distance_m, passed: None });
+        let Some(material) = self.materials.get(triangle.material as usize) else {
+            return Some(Hit { distance_m, transmittance: None });
         };
-        let alpha = self.alpha(cut, weights);
-        if cut.cutoff != TINT {
-            return (alpha >= cut.cutoff).then_some(Meeting { distance_m, passed: None });
+        let alpha = self.alpha(material, weights);
+        if material.cutoff != TINT {
+            return (alpha >= material.cutoff).then_some(Hit { distance_m, transmittance: None });
         }
         let alpha = alpha.clamp(0.0, 1.0);
-        let passed = (1.0 - alpha) * Vec3::ONE.lerp(self.color(cut, weights), alpha * (2.0 - alpha));
-        Some(Meeting { distance_m, passed: Some(passed) })
+        let transmittance =
+            (1.0 - alpha) * Vec3::ONE.lerp(self.color(material, weights), alpha * (2.0 - alpha));
+        Some(Hit { distance_m, transmittance: Some(transmittance) })
     }
 
-    fn alpha(&self, cut: &RayCut, weights: Vec3) -> f32 {
-        cut.alpha.dot(weights) * self.value(cut, 0, weights)
+    fn alpha(&self, material: &RayMaterial, weights: Vec3) -> f32 {
+        material.alpha.dot(weights) * self.value(material, 0, weights)
     }
 
-    fn color(&self, cut: &RayCut, weights: Vec3) -> Vec3 {
-        let [a, b, c] = cut.color.map(unpacked);
+    fn color(&self, material: &RayMaterial, weights: Vec3) -> Vec3 {
+        let [a, b, c] = material.color.map(unpacked);
         let factor = a * weights.x + b * weights.y + c * weights.z;
-        factor * Vec3::from([1, 2, 3].map(|channel| self.value(cut, channel, weights)))
+        factor * Vec3::from([1, 2, 3].map(|channel| self.value(material, channel, weights)))
     }
 
-    /// What one of its channels has at a point; 1 without any.
-    fn value(&self, cut: &RayCut, channel: usize, weights: Vec3) -> f32 {
-        if cut.texture == NO_TEXTURE {
+    /// Returns the value of a channel at a point; 1 without a texture.
+    fn value(&self, material: &RayMaterial, channel: usize, weights: Vec3) -> f32 {
+        if material.texture == NO_TEXTURE {
             return 1.0;
         }
-        let uv: Vec2 = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
-        self.textures.get(cut.texture as usize + channel).map_or(1.0, |texture| texture.value(uv))
+        let uv: Vec2 = material.uv_a * weights.x + material.uv_b * weights.y + material.uv_c * weights.z;
+        self.textures.get(material.texture as usize + channel).map_or(1.0, |texture| texture.value(uv))
     }
 }
 
-/// Where a ray meets a triangle.
-struct Meeting {
+/// A hit of a triangle.
+struct Hit {
     distance_m: f32,
-    /// What of the light passes there; `None`: it is stopped.
-    passed: Option<Vec3>,
+    /// The transmittance; `None` at an opaque point.
+    transmittance: Option<Vec3>,
 }
 
 fn check(occluders: &[Occluder], count: usize) -> Result<(), Error> {

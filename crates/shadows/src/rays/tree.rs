@@ -1,4 +1,4 @@
-//! The tree over the triangles.
+//! The bounding volume hierarchy over the triangles.
 
 use std::ops::Range;
 
@@ -11,38 +11,38 @@ use obvhs::{
 
 use super::Occluder;
 
-/// The most levels of the tree: the shader's stack has an entry for each.
+/// Largest depth of the tree: the shader's stack has an entry for each level.
 pub const MAX_DEPTH: usize = 64;
 
-/// How much the tree's boxes are widened at least, in parts of the scene's reach: 64 times the rounding error of
-/// f32, more than the test of a ray and a box can be wrong (16 times, with WGSL's division).
+/// Smallest margin around the tree's boxes, relative to the scene's largest coordinate: 64 times the rounding error of
+/// f32, more than the error of the test of a ray and a box (16 times, with WGSL's division).
 const BOX_MARGIN: f32 = 1.0 / (1 << 18) as f32;
 
-/// The most triangles in a leaf of a balanced tree.
+/// Largest number of triangles in a leaf of a balanced tree.
 const BALANCED_LEAF: usize = 4;
 
-/// A tree of at most [`MAX_DEPTH`] levels.
-pub(crate) fn build(occluders: &[&Occluder], reach_m: f32) -> Bvh2 {
+/// Builds a tree of at most [`MAX_DEPTH`] levels.
+pub(crate) fn build(occluders: &[&Occluder], max_coordinate_m: f32) -> Bvh2 {
     if occluders.is_empty() {
         return Bvh2::default();
     }
-    let margin_m = reach_m * BOX_MARGIN;
+    let margin_m = max_coordinate_m * BOX_MARGIN;
     let boxes: Vec<Aabb> =
         (0u32..).zip(occluders).map(|(i, occluder)| bounds(i, occluder, margin_m)).collect();
     let tree = clustered(&boxes);
     if depth(&tree) > MAX_DEPTH { balanced(&boxes) } else { tree }
 }
 
-/// The box of a triangle, widened by one to two margins. How much differs from box to box: of many equal ones,
+/// Returns the box of a triangle, widened by one to two margins. The margins of boxes differ: among equal boxes,
 /// clustering would find only one pair at a time.
 fn bounds(index: u32, occluder: &Occluder, margin_m: f32) -> Aabb {
     let [a, b, c] = occluder.corners;
-    let part = (index.wrapping_mul(0x9e37_79b9) >> 8) as f32 / (1 << 24) as f32;
-    let margin_m = margin_m * (1.0 + part);
+    let fraction = (index.wrapping_mul(0x9e37_79b9) >> 8) as f32 / (1 << 24) as f32;
+    let margin_m = margin_m * (1.0 + fraction);
     Aabb::new((a.min(b).min(c) - margin_m).into(), (a.max(b).max(c) + margin_m).into())
 }
 
-/// What `obvhs::bvh2::builder::build_bvh2` makes, without its validation, which can panic.
+/// Builds a tree as `obvhs::bvh2::builder::build_bvh2` does, without its validation, which can panic.
 fn clustered(boxes: &[Aabb]) -> Bvh2 {
     let indices = (0..boxes.len() as u32).collect();
     let params = BvhBuildParams::medium_build();
@@ -57,8 +57,8 @@ fn clustered(boxes: &[Aabb]) -> Bvh2 {
     tree
 }
 
-/// A tree that halves the triangles at each level: slower to follow, but at most 30 levels deep whatever the
-/// triangles are (clustering makes a chain of boxes of which each fits into the next).
+/// Builds a tree that halves the triangles at each level: slower to traverse, but at most 30 levels deep for any
+/// triangles (clustering builds a chain of nested boxes for some).
 fn balanced(boxes: &[Aabb]) -> Bvh2 {
     let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
     let mut nodes = vec![Bvh2Node::default()];
@@ -83,7 +83,7 @@ fn around(boxes: &[Aabb], indices: &[u32]) -> Aabb {
     boxes.fold(Aabb::empty(), |all, one| all.union(one))
 }
 
-/// Puts the boxes that are lower along the axis into the first half of the range.
+/// Moves the boxes that are lower along the axis into the first half of the range, and returns the halves.
 fn halves(boxes: &[Aabb], order: &mut [u32], range: &Range<usize>, axis: usize) -> [Range<usize>; 2] {
     let middle = range.start + range.len() / 2;
     let center = |index: &u32| boxes[*index as usize].center_axis(axis);
@@ -92,7 +92,7 @@ fn halves(boxes: &[Aabb], order: &mut [u32], range: &Range<usize>, axis: usize) 
     [range.start..middle, middle..range.end]
 }
 
-/// How many levels the tree has.
+/// Returns the number of levels of the tree.
 fn depth(tree: &Bvh2) -> usize {
     let mut deepest = 0;
     let mut open = vec![(0, 1)];

@@ -45,6 +45,7 @@ impl ShadowTechnique for Liar {
         &'f self,
         _: &mut Frame<'f>,
         _: &ShadowInputs<'f>,
+        _: &Requirements,
         _: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         Ok(ShadowOutputs::default())

@@ -1,33 +1,47 @@
-//! What a technique gave is what it said it would.
+//! Validation of a technique's output against its declarations.
 
 use shadowgraph_core::{Frame, Texture, TextureDesc};
 use shadowgraph_scene::Light;
 
 use super::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::techniques::MASK_FORMAT;
-use crate::{Error, ShadowInputs, masked_lights};
+use crate::error::Error;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::techniques::{MASK_FORMAT, masked_lights};
 
-/// Adds the passes of a technique to the frame, and checks what it gives. `screen` has to be there for techniques that
-/// [read surfaces](ShadowTechnique::reads_surface_buffers).
+/// Adds the passes of a technique to the frame, and validates its output. `buffers` must be `Some` for techniques that
+/// [read them](ShadowTechnique::reads_surface_buffers).
 ///
 /// # Errors
-/// As [`ShadowTechnique::add_to`]; [`Error::Technique`] for bindings that are not what the technique said, or a mask of the
-/// wrong shape.
+/// As [`ShadowTechnique::requirements`] and [`ShadowTechnique::add_to`]; [`Error::Technique`] for bindings that differ from
+/// the declared ones, or a mask of the wrong shape.
 pub fn add_shadows<'f>(
     technique: &'f dyn ShadowTechnique,
     frame: &mut Frame<'f>,
     inputs: &ShadowInputs<'f>,
-    screen: Option<&SurfaceBuffers>,
+    buffers: Option<&SurfaceBuffers>,
 ) -> Result<ShadowOutputs<'f>, Error> {
-    let outputs = technique.add_to(frame, inputs, screen)?;
+    let requirements = technique.requirements(inputs)?;
+    add_checked(technique, frame, inputs, &requirements, buffers)
+}
+
+/// Adds the passes of a technique whose requirements are known, and validates its output.
+pub(crate) fn add_checked<'f>(
+    technique: &'f dyn ShadowTechnique,
+    frame: &mut Frame<'f>,
+    inputs: &ShadowInputs<'f>,
+    requirements: &Requirements,
+    buffers: Option<&SurfaceBuffers>,
+) -> Result<ShadowOutputs<'f>, Error> {
+    let outputs = technique.add_to(frame, inputs, requirements, buffers)?;
     let failed = |reason: String| Error::Technique { technique: technique.name().to_owned(), reason };
     check_bindings(frame, &outputs.bindings, &technique.binding_types()).map_err(failed)?;
     if let Some(mask) = &outputs.mask {
-        check_mask(frame, mask, inputs.lights, screen).map_err(failed)?;
+        check_mask(frame, mask, inputs.lights, buffers).map_err(failed)?;
     }
-    if outputs.variant >= technique.variant_count() {
-        let count = technique.variant_count();
-        return Err(failed(format!("a frame asks for variant {}, and there are {count}", outputs.variant)));
+    let (variant, count) = (outputs.variant, technique.variant_count());
+    if variant >= count {
+        return Err(failed(format!("`add_to` returned variant {variant}, but `variant_count` is {count}")));
     }
     Ok(outputs)
 }
@@ -38,40 +52,41 @@ fn check_bindings(
     types: &[wgpu::BindingType],
 ) -> Result<(), String> {
     if bindings.len() != types.len() {
-        let (given, said) = (bindings.len(), types.len());
-        return Err(format!("a frame has {given} bindings, and `binding_types` says {said}"));
+        let (actual, declared) = (bindings.len(), types.len());
+        return Err(format!("`add_to` returned {actual} bindings, but `binding_types` has {declared}"));
     }
     let mut pairs = bindings.iter().zip(types).enumerate();
     let wrong = pairs.find_map(|(number, (binding, ty))| {
-        let given = given(frame, binding);
-        (!given.fits(ty)).then(|| {
-            format!("binding {number} of a frame is {}, and `binding_types` says {ty:?}", given.what())
+        let actual = actual(frame, binding);
+        (!actual.matches(ty)).then(|| {
+            let actual = actual.describe();
+            format!("`add_to` returned {actual} as binding {number}, but `binding_types` has {ty:?}")
         })
     });
     wrong.map_or(Ok(()), Err)
 }
 
-/// A binding of a frame, as far as it can be compared with what it was said to be.
-enum Given {
+/// The properties of a binding that can be compared with the declared type.
+enum Actual {
     Storage,
     Uniform,
     Sampler,
     Texture(Option<TextureDesc>, wgpu::TextureViewDimension),
 }
 
-fn given(frame: &Frame<'_>, binding: &ShadowBinding<'_>) -> Given {
+fn actual(frame: &Frame<'_>, binding: &ShadowBinding<'_>) -> Actual {
     use wgpu::TextureViewDimension::{D2, D2Array};
     match binding {
-        ShadowBinding::Buffer(_) | ShadowBinding::ExternalBuffer(_) => Given::Storage,
-        ShadowBinding::Uniform(_) => Given::Uniform,
-        ShadowBinding::Sampler(_) => Given::Sampler,
-        ShadowBinding::Texture(texture) => Given::Texture(frame.texture_desc(texture), D2),
-        ShadowBinding::TextureArray(texture) => Given::Texture(frame.texture_desc(texture), D2Array),
+        ShadowBinding::Buffer(_) | ShadowBinding::ExternalBuffer(_) => Actual::Storage,
+        ShadowBinding::Uniform(_) => Actual::Uniform,
+        ShadowBinding::Sampler(_) => Actual::Sampler,
+        ShadowBinding::Texture(texture) => Actual::Texture(frame.texture_desc(texture), D2),
+        ShadowBinding::TextureArray(texture) => Actual::Texture(frame.texture_desc(texture), D2Array),
     }
 }
 
-impl Given {
-    fn fits(&self, ty: &wgpu::BindingType) -> bool {
+impl Actual {
+    fn matches(&self, ty: &wgpu::BindingType) -> bool {
         use wgpu::{BindingType, BufferBindingType, TextureSampleType};
         match (self, ty) {
             (Self::Storage, BindingType::Buffer { ty: BufferBindingType::Storage { read_only }, .. }) => {
@@ -83,14 +98,14 @@ impl Given {
                 Self::Texture(desc, dimension),
                 BindingType::Texture { sample_type, view_dimension, multisampled },
             ) => {
-                let of_format = desc.and_then(|desc| desc.format.sample_type(None, None));
-                let sampled = match (of_format, sample_type) {
-                    // Every texture of numbers can be read without a filter.
+                let format_type = desc.and_then(|desc| desc.format.sample_type(None, None));
+                let sampled = match (format_type, sample_type) {
+                    // Every float texture can be read without a filter.
                     (
                         Some(TextureSampleType::Float { .. }),
                         TextureSampleType::Float { filterable: false },
                     ) => true,
-                    (Some(of_format), wanted) => of_format == *wanted,
+                    (Some(format_type), declared) => format_type == *declared,
                     (None, _) => true,
                 };
                 sampled
@@ -101,7 +116,7 @@ impl Given {
         }
     }
 
-    fn what(&self) -> String {
+    fn describe(&self) -> String {
         match self {
             Self::Storage => "a storage buffer".into(),
             Self::Uniform => "a uniform block".into(),
@@ -118,19 +133,19 @@ fn check_mask(
     frame: &Frame<'_>,
     mask: &Texture,
     lights: &[Light],
-    screen: Option<&SurfaceBuffers>,
+    buffers: Option<&SurfaceBuffers>,
 ) -> Result<(), String> {
-    let (Some(screen), Some(desc)) = (screen, frame.texture_desc(mask)) else {
-        return Err("it gives a mask without a picture to mask".into());
+    let (Some(buffers), Some(desc)) = (buffers, frame.texture_desc(mask)) else {
+        return Err("`add_to` returned a screen mask without surface buffers".into());
     };
-    let [width, height] = screen.size_px;
-    let wanted = TextureDesc::d2(width, height, MASK_FORMAT).layers(masked_lights(lights).len() as u32);
-    if desc == wanted {
+    let [width, height] = buffers.size_px;
+    let expected = TextureDesc::d2(width, height, MASK_FORMAT).layers(masked_lights(lights).len() as u32);
+    if desc == expected {
         return Ok(());
     }
     let shape = |desc: TextureDesc| {
         let size = desc.size;
         format!("{}x{} {:?} with {} layers", size.width, size.height, desc.format, size.depth_or_array_layers)
     };
-    Err(format!("its screen mask is {}, and the picture's has to be {}", shape(desc), shape(wanted)))
+    Err(format!("the screen mask is {}; expected {}", shape(desc), shape(expected)))
 }

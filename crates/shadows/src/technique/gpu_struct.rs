@@ -1,27 +1,27 @@
-//! Structs that lie in memory as WGSL reads them.
+//! Structs that Rust writes and WGSL reads.
 
 use shadowgraph_shaders::{Error, layout, naga};
 
-/// How a struct of Rust lies in memory, to be compared with the struct of that name in a technique's WGSL. Made by
+/// The memory layout of a Rust struct, to be compared with the struct of that name in a technique's WGSL. Created by
 /// [`gpu_struct!`](crate::gpu_struct).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GpuStruct {
     /// The struct's name in WGSL.
     pub name: &'static str,
-    /// Bytes.
+    /// Size, bytes.
     pub size: usize,
-    /// The fields and where they are, bytes.
+    /// The fields and their offsets, bytes.
     pub fields: Vec<(&'static str, usize)>,
 }
 
 impl GpuStruct {
-    /// Compares it with the module's struct.
+    /// Compares the layout with the struct in the module.
     pub(crate) fn check(&self, module: &naga::Module) -> Result<(), Error> {
         layout::check(module, self.name, self.size, &self.fields)
     }
 }
 
-/// Describes a struct by its fields, all that WGSL has.
+/// Describes the layout of a struct by its fields: all those that the WGSL struct has.
 ///
 /// ```
 /// #[repr(C)]
@@ -29,8 +29,8 @@ impl GpuStruct {
 ///     density: f32,
 ///     height_m: f32,
 /// }
-/// let record = shadowgraph_shadows::gpu_struct!(Haze { density, height_m });
-/// assert_eq!((record.name, record.size, record.fields[1]), ("Haze", 8, ("height_m", 4)));
+/// let layout = shadowgraph_shadows::gpu_struct!(Haze { density, height_m });
+/// assert_eq!((layout.name, layout.size, layout.fields[1]), ("Haze", 8, ("height_m", 4)));
 /// ```
 #[macro_export]
 macro_rules! gpu_struct {

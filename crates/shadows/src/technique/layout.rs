@@ -1,10 +1,10 @@
-//! Bind group 1, as techniques describe it.
+//! The layout of bind group 1.
 
 use super::ShadowTechnique;
 
-/// What bindings of techniques usually are.
+/// Common types of bindings.
 pub mod binding {
-    /// A storage buffer that is read.
+    /// A read-only storage buffer.
     pub const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
         ty: wgpu::BufferBindingType::Storage { read_only: true },
         has_dynamic_offset: false,
@@ -18,19 +18,19 @@ pub mod binding {
         min_binding_size: None,
     };
 
-    /// A map of depths.
+    /// A depth map.
     pub const DEPTH_MAP: wgpu::BindingType = texture(wgpu::TextureSampleType::Depth);
 
-    /// A texture of numbers that samplers filter.
+    /// A float texture that is sampled with a filter.
     pub const FILTERED_MAP: wgpu::BindingType = texture(wgpu::TextureSampleType::Float { filterable: true });
 
-    /// A texture of numbers that are read one by one.
+    /// A float texture that is read without a filter.
     pub const FLOAT_MAP: wgpu::BindingType = texture(wgpu::TextureSampleType::Float { filterable: false });
 
-    /// A sampler that filters.
+    /// A filtering sampler.
     pub const SAMPLER: wgpu::BindingType = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
 
-    /// A sampler that compares.
+    /// A comparison sampler.
     pub const COMPARISON_SAMPLER: wgpu::BindingType =
         wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
 
@@ -43,12 +43,13 @@ pub mod binding {
     }
 }
 
-/// Makes the layout of a technique's bind group 1, for those who light and who compute.
+/// Creates the layout of a technique's bind group 1, for lit passes and compute passes.
 pub fn shadow_layout(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> wgpu::BindGroupLayout {
     layout(device, technique.name(), &technique.binding_types())
 }
 
-/// Makes a layout with these bindings, from 0, for those who light and who compute. What is written is only computed.
+/// Creates a layout with these bindings, numbered from 0, for fragment and compute shaders. Storage textures are visible to
+/// compute shaders only.
 pub(crate) fn layout(
     device: &wgpu::Device,
     label: &str,

@@ -1,10 +1,11 @@
-//! The contract between shadow techniques and whoever lights a scene.
+//! The contract between shadow techniques and the passes that light a scene.
 
 mod check;
 mod gpu_struct;
 mod layout;
 mod outputs;
 
+pub(crate) use check::add_checked;
 pub use check::add_shadows;
 pub use gpu_struct::GpuStruct;
 pub(crate) use layout::layout;
@@ -14,52 +15,54 @@ pub use outputs::{ShadowBinding, ShadowOutputs, ShadowTokens};
 use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_shaders::ModuleSource;
 
-use crate::{Error, Requirements, ShadowInputs};
+use crate::error::Error;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
 
-/// A way of making shadows: nodes for the graph, and a WGSL module that answers "how much of this light arrives
-/// here".
+/// A way of making shadows: nodes for the graph, and a WGSL module that returns how much of a light arrives at a point.
 ///
 /// The first module has `#define_import_path shadowgraph::technique` and the functions
 /// `shadow_visibility(light: u32, receiver: Receiver) -> vec3f` (1 lit, 0 in shadow) and
 /// `shadow_debug_color(light: u32, receiver: Receiver) -> vec3f`. It is called in loops and from compute passes, so
-/// it never uses implicit derivatives. All of bind group 1 is its own.
+/// it never uses implicit derivatives. Bind group 1 belongs to the technique alone.
 ///
-/// What it holds is what stays the same for all frames: all that a user can choose comes with the
-/// [settings](crate::ShadowSettings) of each frame. Frames call [`add_shadows`], which checks what the technique gives.
+/// The value holds what stays the same for all frames: everything that a user can choose comes with the
+/// [settings](crate::ShadowSettings) of each frame. Frames call [`add_shadows`], which validates the technique's output.
 pub trait ShadowTechnique: Send + Sync {
     /// Returns the name that users choose it by.
     fn name(&self) -> &str;
 
-    /// Returns what it needs of shared services, with the settings in use.
+    /// Returns what it requires of shared services with the current settings. [`add_shadows`] calls it once for each frame.
     ///
     /// # Errors
-    /// For settings of its own that are out of range.
+    /// For settings of the technique that are out of range.
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error>;
 
-    /// Whether it reads the surfaces that the picture shows ([`SurfaceBuffers`]).
+    /// Returns whether it reads [`SurfaceBuffers`].
     fn reads_surface_buffers(&self) -> bool {
         false
     }
 
-    /// Returns how many variants of its WGSL there are, at least 1. Variant 0 serves every frame; others have less in them,
-    /// and [`ShadowOutputs::variant`] says which of them a frame is best lit with.
+    /// Returns the number of variants of its WGSL, at least 1. Variant 0 works for every frame; others contain less code,
+    /// and [`ShadowOutputs::variant`] is the best one for a frame.
     fn variant_count(&self) -> u32 {
         1
     }
 
-    /// Returns its WGSL modules in a variant: the one with the functions, and those that take the place of built-in ones.
+    /// Returns the WGSL modules of a variant: the one with the functions, and those that replace built-in ones.
     fn modules(&self, variant: u32) -> Vec<ModuleSource>;
 
-    /// Returns what each binding of group 1 is, by number. Fragments and compute passes see all of them.
+    /// Returns the type of each binding of group 1, by number. All of them are visible to fragment and compute shaders.
     fn binding_types(&self) -> Vec<wgpu::BindingType>;
 
-    /// Returns the structs that it writes in Rust and reads in WGSL: they are compared when it is registered.
+    /// Returns the structs that it writes in Rust and reads in WGSL: their layouts are compared when it is registered.
     fn gpu_structs(&self) -> Vec<GpuStruct> {
         Vec::new()
     }
 
-    /// Adds its passes to the frame. What is not needed (no shadowed light, no caster in reach) adds no pass.
-    /// `screen` is there if [`reads_surface_buffers`](Self::reads_surface_buffers) says so.
+    /// Adds its passes to the frame. Without a shadowed light or a caster in range it adds none. `requirements` are those that
+    /// [`requirements`](Self::requirements) returned for these inputs. `buffers` is `Some` if
+    /// [`reads_surface_buffers`](Self::reads_surface_buffers) returns true.
     ///
     /// # Errors
     /// For settings, a camera or an aspect ratio that are out of range; [`Error::MissingSurfaceBuffers`].
@@ -67,22 +70,23 @@ pub trait ShadowTechnique: Send + Sync {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error>;
 }
 
-/// What the picture shows, for techniques that ask for it.
+/// The visible surfaces, camera and lights, for techniques that read them.
 #[derive(Clone, Debug)]
 pub struct SurfaceBuffers {
-    /// Width and height of the picture, pixels.
+    /// Width and height of the image, pixels.
     pub size_px: [u32; 2],
     /// The camera: the storage buffer `view` of `shadowgraph::view`.
     pub view: Buffer,
     /// The lights: the storage buffer `lights` of `shadowgraph::view`.
     pub lights: Buffer,
-    /// Where surfaces are and which way they face, those of all that is not blended: `Rgba32Float`, as
-    /// `shadowgraph::surface` says.
+    /// Positions and normals of all visible surfaces that are not blended: `Rgba32Float`, in the encoding of
+    /// `shadowgraph::surface`.
     pub surfaces: Texture,
-    /// Whether something is blended over the surfaces.
+    /// Whether blended geometry is drawn over the surfaces.
     pub has_blended: bool,
 }

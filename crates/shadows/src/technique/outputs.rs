@@ -1,49 +1,49 @@
-//! What a technique gives to the passes that light.
+//! The output of a technique.
 
 use shadowgraph_core::{Bind, Error as GraphError, Pass, Resources, ShaderPass};
 use shadowgraph_core::{Buffer, BufferToken, Texture, TextureToken, Uniform};
 
-use crate::Unshadowed;
+use crate::select::Unshadowed;
 
-/// What a technique gives to the passes that light.
+/// The output of a technique, for the passes that light.
 #[derive(Default)]
 pub struct ShadowOutputs<'f> {
-    /// Which variant of the technique's modules has all that this frame needs, and the least beyond; see
+    /// The smallest variant of the technique's modules that this frame can use; see
     /// [`ShadowTechnique::modules`](super::ShadowTechnique::modules).
     pub variant: u32,
-    /// The light whose `shadow_debug_color` tells most: the main one, 0 where there is none.
+    /// The light to show with `shadow_debug_color`: the main one, or 0 if there is none.
     pub debug_light: u32,
-    /// Bind group 1: its place in the list is the binding number.
+    /// Bind group 1: the index in the list is the binding number.
     pub bindings: Vec<ShadowBinding<'f>>,
-    /// The screen mask, if there is one: `Rgba8Unorm`, as large as the picture, a layer for each of the [masked
-    /// lights](crate::masked_lights); what light arrives at each pixel's surface.
+    /// The screen mask, if there is one: `Rgba8Unorm`, as large as the image, with a layer for each of the [masked
+    /// lights](crate::masked_lights): the visibility of the light from each pixel's surface.
     pub mask: Option<Texture>,
-    /// Textures worth looking at, by name.
+    /// Textures for debugging, by name.
     pub debug: Vec<(&'static str, Texture)>,
-    /// The [`ShadowView`](crate::ShadowView)s and [`ShadowLight`](crate::ShadowLight)s of its maps, for tools that show them; `None`
-    /// of a technique without.
+    /// The buffers of the [`ShadowView`](crate::ShadowView)s and [`ShadowLight`](crate::ShadowLight)s of its maps, for tools that
+    /// show them; `None` for a technique without maps.
     pub debug_buffers: Option<[Buffer; 2]>,
-    /// The lights that are to cast shadows but have none in this frame, and why.
+    /// The lights with `casts_shadow` that have no shadows in this frame, and why.
     pub unshadowed: Vec<Unshadowed>,
 }
 
 /// One binding of group 1.
 pub enum ShadowBinding<'f> {
-    /// A storage buffer, read.
+    /// A read-only storage buffer.
     Buffer(Buffer),
     /// A sampled texture.
     Texture(Texture),
     /// A sampled texture, as a 2D array.
     TextureArray(Texture),
-    /// A storage buffer of the technique's own, read.
+    /// A read-only storage buffer that the technique owns.
     ExternalBuffer(&'f wgpu::Buffer),
-    /// A sampler of the technique's.
+    /// A sampler that the technique owns.
     Sampler(&'f wgpu::Sampler),
     /// A uniform block of the frame.
     Uniform(Uniform),
 }
 
-/// The bindings of a pass that has declared to read them.
+/// The bindings of a pass that has declared that it reads them.
 pub struct ShadowTokens<'f>(Vec<Token<'f>>);
 
 enum Token<'f> {
@@ -69,7 +69,7 @@ impl Token<'_> {
 }
 
 impl<'f> ShadowOutputs<'f> {
-    /// Declares that `pass` reads the shadows; move what it returns into the pass's body.
+    /// Declares that `pass` reads the shadows. Move the returned tokens into the pass's body.
     pub fn read_in<K: ShaderPass>(&self, pass: &mut Pass<'_, 'f, K>) -> ShadowTokens<'f> {
         let declare = |binding: &ShadowBinding<'f>| match binding {
             ShadowBinding::Buffer(buffer) => Token::Buffer(pass.storage_buffer(buffer)),
@@ -87,7 +87,7 @@ impl ShadowTokens<'_> {
     /// Returns bind group 1.
     ///
     /// # Errors
-    /// If used in another pass than it was declared in.
+    /// If called in another pass than the one that declared the reads.
     pub fn bind_group(
         &self,
         resources: &Resources<'_>,

@@ -1,10 +1,10 @@
-//! Compute passes of techniques.
+//! Helpers for the compute passes of techniques.
 
 use std::borrow::Cow;
 
 use shadowgraph_shaders::naga;
 
-/// Makes a shader of composed WGSL.
+/// Creates a shader from composed WGSL.
 pub(crate) fn shader(device: &wgpu::Device, label: &str, module: naga::Module) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
@@ -12,7 +12,7 @@ pub(crate) fn shader(device: &wgpu::Device, label: &str, module: naga::Module) -
     })
 }
 
-/// Makes the pipeline of an entry point; the layouts are those of its bind groups, from 0.
+/// Creates the pipeline of an entry point. `layouts` are those of its bind groups, from 0.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
@@ -35,7 +35,7 @@ pub(crate) fn pipeline(
     })
 }
 
-/// Runs so many workgroups along each axis.
+/// Dispatches the workgroups `[x, y, z]`.
 pub(crate) fn dispatch(
     pass: &mut wgpu::ComputePass<'_>,
     pipeline: &wgpu::ComputePipeline,

@@ -1,4 +1,4 @@
-//! The techniques that come with Shadowgraph, a room each.
+//! The built-in techniques.
 
 pub(crate) mod compute;
 mod mask;

@@ -1,10 +1,12 @@
-//! `none`: everything is lit. The floor of what shadows cost, and for passes that want surfaces alone.
+//! `none`: everything is lit. The lower bound of cost, and for passes that need surface buffers only.
 
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{ModuleSource, NONE};
 
+use crate::error::Error;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
 use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Error, Requirements, ShadowInputs};
 
 /// The technique without shadows.
 pub struct NoShadows;
@@ -30,7 +32,8 @@ impl ShadowTechnique for NoShadows {
         &'f self,
         _frame: &mut Frame<'f>,
         _inputs: &ShadowInputs<'f>,
-        _screen: Option<&SurfaceBuffers>,
+        _requirements: &Requirements,
+        _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         Ok(ShadowOutputs::default())
     }
@@ -40,12 +43,13 @@ impl ShadowTechnique for NoShadows {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::{CasterView, ShadowCasters, ShadowSettings};
+    use crate::casters::{CasterView, ShadowCasters};
+    use crate::settings::ShadowSettings;
     use glam::DVec3;
     use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
-    struct Nothing;
-    impl ShadowCasters for Nothing {
+    struct NoCasters;
+    impl ShadowCasters for NoCasters {
         fn cull(&self, _: &CullVolume, _: &mut Vec<u32>) {}
         fn bounds(&self) -> Aabb {
             Aabb::EMPTY
@@ -62,12 +66,12 @@ mod tests {
             camera: &Camera::framing(&Aabb::EMPTY, 1.0),
             aspect: 1.0,
             lights: &[],
-            casters: &Nothing,
+            casters: &NoCasters,
             origin_world: DVec3::ZERO,
             settings: &ShadowSettings::default(),
         };
         let mut frame = Frame::new();
-        let outputs = NoShadows.add_to(&mut frame, &inputs, None).unwrap();
+        let outputs = NoShadows.add_to(&mut frame, &inputs, &Requirements::NONE, None).unwrap();
         assert!(outputs.bindings.is_empty() && outputs.debug.is_empty());
         assert_eq!(frame.compile().unwrap().plan().pass_count(), 0);
     }

@@ -4,11 +4,12 @@ use shadowgraph_core::{Buffer, Frame};
 use shadowgraph_shaders::{MAPPED, ModuleSource};
 
 use super::variant::PcfVariant;
-use crate::maps::comparison_sampler;
-use crate::plan;
+use crate::error::Error;
+use crate::maps::{ShadowMaps, comparison_sampler};
+use crate::plan::{ShadowInputs, ShadowPlan};
+use crate::requirements::Requirements;
 use crate::technique::binding::COMPARISON_SAMPLER;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Error, Requirements, ShadowInputs, ShadowMaps, ShadowPlan};
 
 /// The default technique; see the modules `shadows/tiles.wgsl` and `shadows/pcf.wgsl` for how its maps are read.
 pub struct Pcf {
@@ -17,7 +18,12 @@ pub struct Pcf {
 }
 
 impl Pcf {
-    /// Adds the passes as `add_to` does, with views that `fit` may put in the place of the plan's.
+    /// Creates what stays the same for all frames.
+    pub fn new(device: &wgpu::Device) -> Self {
+        Self { maps: ShadowMaps::new(device), sampler: comparison_sampler(device) }
+    }
+
+    /// Adds the passes as `add_to` does, with views that `fit` may replace.
     pub(super) fn add_fitted<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -30,11 +36,6 @@ impl Pcf {
         bindings.push(ShadowBinding::Sampler(&self.sampler));
         Ok(ShadowOutputs { variant: maps.variant.index(), ..maps.outputs(bindings) })
     }
-
-    /// Creates what stays the same for all frames.
-    pub fn new(device: &wgpu::Device) -> Self {
-        Self { maps: ShadowMaps::new(device), sampler: comparison_sampler(device) }
-    }
 }
 
 impl ShadowTechnique for Pcf {
@@ -42,8 +43,9 @@ impl ShadowTechnique for Pcf {
         "pcf"
     }
 
-    fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
-        Ok(plan::requirements(inputs.settings))
+    fn requirements(&self, _inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        // Each light's own filter sets the borders of its tiles.
+        Ok(Requirements::NONE)
     }
 
     fn variant_count(&self) -> u32 {
@@ -62,8 +64,9 @@ impl ShadowTechnique for Pcf {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        self.add_fitted(frame, inputs, &Requirements::NONE, |_, _, views, _| views.clone())
+        self.add_fitted(frame, inputs, requirements, |_, _, views, _| views.clone())
     }
 }

@@ -1,28 +1,28 @@
-//! The variants of `pcf`'s WGSL: what no light of a frame needs is not compiled in.
+//! The variants of `pcf`'s WGSL: code that no light of a frame needs is not compiled.
 
 use shadowgraph_shaders::ModuleSource;
 
-use crate::ShadowFilter;
+use crate::filter::ShadowFilter;
 
-/// What the lights that have shadows in a frame need of the shader.
+/// The filters of the shadowed lights of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PcfVariant {
-    /// Different filters.
+    /// Several filters.
     Mixed,
     /// One filter for all: [`ShadowFilter::taps`], 1 to 4.
     OneFilter {
-        /// How many comparisons it makes along each axis.
+        /// Number of comparisons along each axis.
         taps: u32,
     },
-    /// There are none: no shadow code at all.
+    /// No shadowed light: no shadow code at all.
     Unshadowed,
 }
 
 impl PcfVariant {
-    /// How many there are.
+    /// Number of variants.
     pub const COUNT: u32 = 2 + ShadowFilter::ALL.len() as u32;
 
-    /// Returns its number, below [`COUNT`](Self::COUNT); 0 serves every frame.
+    /// Returns the index of the variant, below [`COUNT`](Self::COUNT); 0 works for every frame.
     #[must_use]
     pub fn index(self) -> u32 {
         match self {
@@ -40,7 +40,7 @@ impl PcfVariant {
         }
     }
 
-    /// Takes the place of `shadows/variant.wgsl`.
+    /// Returns the replacement of `shadows/variant.wgsl`.
     pub(crate) fn module(self) -> ModuleSource {
         let taps = if let Self::OneFilter { taps } = self { taps } else { 0 };
         let shadowed = self != Self::Unshadowed;

@@ -1,7 +1,7 @@
 use glam::{Vec2, Vec3};
 use shadowgraph_shadows::rays::{ChannelTexture, Error, Filter, RayScene, Surface, Wrap};
 
-use crate::common::{cut_square, ray, texture};
+use crate::common::{cutout_square, ray, texture};
 
 const RAMP: [u8; 4] = [0, 51, 102, 255];
 
@@ -10,14 +10,14 @@ fn ramp(wrap: Wrap, filter: Filter, u: f32) -> f32 {
 }
 
 #[test]
-fn nearest_reads_the_texel_around_the_point() {
+fn nearest_reads_the_texel_that_contains_the_point() {
     for (u, texel) in [(0.0, 0.0), (0.24, 0.0), (0.26, 51.0), (0.74, 102.0), (0.99, 255.0)] {
         assert_eq!(ramp(Wrap::Repeat, Filter::Nearest, u), texel, "{u}");
     }
 }
 
 #[test]
-fn bilinear_mixes_the_texels_around_the_point() {
+fn bilinear_interpolates_the_texels_around_the_point() {
     for (u, texel) in [(0.125, 0.0), (0.25, 26.0), (0.375, 51.0), (0.5, 77.0)] {
         assert_eq!(ramp(Wrap::Repeat, Filter::Bilinear, u), texel, "{u}");
     }
@@ -27,7 +27,7 @@ fn bilinear_mixes_the_texels_around_the_point() {
 }
 
 #[test]
-fn outside_the_square_each_axis_wraps_in_its_way() {
+fn outside_the_square_each_axis_uses_its_own_address_mode() {
     let nearest = |wrap| [-0.4, -0.1, 1.1, 1.9, 2.1].map(|u| ramp(wrap, Filter::Nearest, u));
     assert_eq!(nearest(Wrap::Repeat), [102.0, 255.0, 0.0, 255.0, 0.0]);
     assert_eq!(nearest(Wrap::Mirror), [51.0, 0.0, 255.0, 0.0, 0.0]);
@@ -43,43 +43,43 @@ fn outside_the_square_each_axis_wraps_in_its_way() {
 }
 
 #[test]
-fn rays_pass_the_holes_of_a_checkerboard_and_no_more() {
+fn rays_pass_only_the_holes_of_a_checkerboard() {
     let texels: Vec<u8> = (0..64).map(|i| if (i % 8 + i / 8) % 2 == 0 { 255 } else { 0 }).collect();
     let board = texture([8, 8], &texels, Wrap::Repeat, Filter::Nearest);
-    let scene = RayScene::new(&cut_square(1.0, 4.0, Some(0), 1.0), vec![board]).unwrap();
+    let scene = RayScene::new(&cutout_square(1.0, 4.0, Some(0), 1.0), vec![board]).unwrap();
     for (column, row) in (0..64).map(|n| (n % 8, n / 8)) {
         let below = Vec3::new(column as f32 - 3.5, 0.0, row as f32 - 3.4);
         let ray = ray(below, below + Vec3::Y);
-        assert_eq!(scene.blocked(&ray), (column + row) % 2 == 0, "{below}");
-        assert_eq!(scene.nearest(&ray).is_some(), (column + row) % 2 == 0, "{below}");
+        assert_eq!(scene.is_occluded(&ray), (column + row) % 2 == 0, "{below}");
+        assert_eq!(scene.nearest_distance(&ray).is_some(), (column + row) % 2 == 0, "{below}");
     }
 }
 
 #[test]
-fn a_ray_goes_on_through_a_hole_to_what_is_behind_it() {
-    let mut occluders = cut_square(1.0, 1.0, None, 0.2);
-    occluders.extend(cut_square(2.0, 1.0, None, 0.8));
+fn a_ray_continues_through_a_hole_to_the_surface_behind_it() {
+    let mut occluders = cutout_square(1.0, 1.0, None, 0.2);
+    occluders.extend(cutout_square(2.0, 1.0, None, 0.8));
     let scene = RayScene::new(&occluders, Vec::new()).unwrap();
-    assert_eq!(scene.nearest(&ray(Vec3::ZERO, Vec3::Y)), Some(2.0));
+    assert_eq!(scene.nearest_distance(&ray(Vec3::ZERO, Vec3::Y)), Some(2.0));
 }
 
 #[test]
 fn the_factor_is_interpolated_and_multiplies_the_texture() {
     let half = texture([1, 1], &[128], Wrap::Repeat, Filter::Bilinear);
-    let mut occluders = cut_square(1.0, 1.0, Some(0), 1.0);
+    let mut occluders = cutout_square(1.0, 1.0, Some(0), 1.0);
     for occluder in &mut occluders {
         let across = occluder.corners.map(|corner| corner.x + 1.0);
-        let Surface::Cut(cut) = &mut occluder.surface else { panic!() };
-        cut.alpha = across;
+        let Surface::Cutout(cutout) = &mut occluder.surface else { panic!() };
+        cutout.alpha = across;
     }
     let scene = RayScene::new(&occluders, vec![half]).unwrap();
-    let blocked = |x: f32| scene.blocked(&ray(Vec3::new(x, 0.0, 0.3), Vec3::new(x, 1.0, 0.3)));
+    let is_occluded = |x: f32| scene.is_occluded(&ray(Vec3::new(x, 0.0, 0.3), Vec3::new(x, 1.0, 0.3)));
     // 128 / 255 times x + 1 is one half at x = -0.0039.
-    assert!(!blocked(-0.02) && blocked(0.02));
+    assert!(!is_occluded(-0.02) && is_occluded(0.02));
 }
 
 #[test]
-fn a_texture_needs_one_byte_a_pixel() {
+fn a_texture_needs_one_byte_per_texel() {
     let wrap = [Wrap::Repeat; 2];
     for (size, bytes) in [([2, 2], 3), ([2, 2], 5), ([0, 4], 0), ([4, 0], 0)] {
         let error = ChannelTexture::new(size, vec![0; bytes], wrap, Filter::Nearest).unwrap_err();

@@ -1,29 +1,29 @@
-//! Meshes and rays.
+//! Meshes and rays for the tests.
 
 use glam::{Vec2, Vec3};
 use shadowgraph_shadows::rays::{
-    ChannelTexture, Cut, Filter, Occluder, Ray, RayScene, ReceiverPoint, Surface, Wrap,
+    ChannelTexture, Cutout, Filter, Occluder, Ray, RayScene, ReceiverPoint, Surface, Wrap,
 };
 
-/// Two triangles, from `corner` along `u` and `v`.
+/// Returns two triangles, from `corner` along `u` and `v`.
 pub(crate) fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Vec<Occluder> {
     let across = corner + u + v;
-    [[corner, corner + u, across], [corner, across, corner + v]].map(Occluder::solid).to_vec()
+    [[corner, corner + u, across], [corner, across, corner + v]].map(Occluder::opaque).to_vec()
 }
 
-/// A level square around (0, `height`, 0).
+/// Returns a horizontal square around (0, `height`, 0).
 pub(crate) fn level_square(height: f32, half: f32) -> Vec<Occluder> {
     quad(Vec3::new(-half, height, -half), Vec3::X * 2.0 * half, Vec3::Z * 2.0 * half)
 }
 
-/// The same with this cut, the texture stretched once over it: u along x, v along z.
-pub(crate) fn cut_square(height: f32, half: f32, texture: Option<u32>, alpha: f32) -> Vec<Occluder> {
+/// Returns the same with an alpha test, the texture stretched once over it: u along x, v along z.
+pub(crate) fn cutout_square(height: f32, half: f32, texture: Option<u32>, alpha: f32) -> Vec<Occluder> {
     let uv = |p: Vec3| Vec2::new(p.x + half, p.z + half) / (2.0 * half);
-    let cut = |o: Occluder| {
-        let cut = Cut { texture, uv: o.corners.map(uv), alpha: [alpha; 3], cutoff: 0.5 };
-        Occluder { surface: Surface::Cut(cut), ..o }
+    let with_cutout = |o: Occluder| {
+        let cutout = Cutout { texture, uv: o.corners.map(uv), alpha: [alpha; 3], cutoff: 0.5 };
+        Occluder { surface: Surface::Cutout(cutout), ..o }
     };
-    level_square(height, half).into_iter().map(cut).collect()
+    level_square(height, half).into_iter().map(with_cutout).collect()
 }
 
 pub(crate) fn texture(size_px: [u32; 2], texels: &[u8], wrap: Wrap, filter: Filter) -> ChannelTexture {
@@ -38,13 +38,13 @@ pub(crate) fn ray(origin: Vec3, to: Vec3) -> Ray {
     Ray::new(origin, (to - origin).normalize(), 0.0, f32::INFINITY)
 }
 
-/// On a level floor, seen from above.
+/// Returns a receiver on a horizontal floor, seen from above.
 pub(crate) fn on_floor(position: Vec3) -> ReceiverPoint {
     ReceiverPoint { position, geometric_normal: Vec3::Y, view_distance_m: 10.0 }
 }
 
-/// The triangles of a ball of radius 1: an icosahedron, each triangle cut in four `times` times.
-pub(crate) fn ball(times: u32) -> Vec<[Vec3; 3]> {
+/// Returns the triangles of a sphere of radius 1: an icosahedron, subdivided `times` times.
+pub(crate) fn sphere(times: u32) -> Vec<[Vec3; 3]> {
     let g = (1.0 + 5f32.sqrt()) / 2.0;
     let corners: Vec<Vec3> = [(1.0, g), (-1.0, g), (1.0, -g), (-1.0, -g)]
         .into_iter()

@@ -1,30 +1,30 @@
 use glam::{Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 use shadowgraph_shadows::rays::{
-    ChannelTexture, Cut, Filter, GpuRayScene, NO_CUT, NO_TEXTURE, Occluder, Ray, RayNode, RayScene,
+    ChannelTexture, Cutout, Filter, GpuRayScene, NO_MATERIAL, NO_TEXTURE, Occluder, Ray, RayNode, RayScene,
     RayTexture, Surface, TINT, Tint, Wrap,
 };
 
-/// `ray_passed` of `rays.wgsl`, line by line.
-fn passed(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> Vec3 {
+/// The function `ray_passed` of `rays.wgsl`, line by line.
+fn transmittance(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> Vec3 {
     let inverse = direction.to_array().map(|d| 1.0 / if d.abs() < 1e-20 { 1e-20 } else { d }).into();
     let root = gpu.nodes[0];
-    let mut passed = Vec3::ONE;
-    if enters(root, origin, inverse) >= f32::MAX {
-        return passed;
+    let mut transmittance = Vec3::ONE;
+    if entry_distance(root, origin, inverse) >= f32::MAX {
+        return transmittance;
     }
     if root.count > 0 {
-        let is_stopped = meets_any(gpu, root, ray, &mut passed);
-        return if is_stopped { Vec3::ZERO } else { passed };
+        let is_occluded = hits_any(gpu, root, ray, &mut transmittance);
+        return if is_occluded { Vec3::ZERO } else { transmittance };
     }
     let (mut stack, mut height, mut pair) = ([0u32; 64], 0, root.first);
     loop {
         let [node, other] = [gpu.nodes[pair as usize], gpu.nodes[pair as usize + 1]];
-        let hit = |node: RayNode| enters(node, origin, inverse) < f32::MAX;
+        let hit = |node: RayNode| entry_distance(node, origin, inverse) < f32::MAX;
         let mut next = 0;
         for node in [node, other].into_iter().filter(|&node| hit(node)) {
             if node.count > 0 {
-                if meets_any(gpu, node, ray, &mut passed) {
+                if hits_any(gpu, node, ray, &mut transmittance) {
                     return Vec3::ZERO;
                 }
             } else if next == 0 {
@@ -36,7 +36,7 @@ fn passed(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> Vec3 {
         }
         if next == 0 {
             if height == 0 {
-                return passed;
+                return transmittance;
             }
             height -= 1;
             next = stack[height];
@@ -45,45 +45,46 @@ fn passed(gpu: &GpuRayScene, origin: Vec3, direction: Vec3, ray: &Ray) -> Vec3 {
     }
 }
 
-fn enters(node: RayNode, origin: Vec3, inverse: Vec3) -> f32 {
+fn entry_distance(node: RayNode, origin: Vec3, inverse: Vec3) -> f32 {
     let (a, b) = ((node.lowest - origin) * inverse, (node.highest - origin) * inverse);
     let (enters, leaves) = (a.min(b).max_element(), a.max(b).min_element());
     if leaves >= enters && leaves >= 0.0 { enters } else { f32::MAX }
 }
 
-fn meets_any(gpu: &GpuRayScene, node: RayNode, ray: &Ray, passed: &mut Vec3) -> bool {
+fn hits_any(gpu: &GpuRayScene, node: RayNode, ray: &Ray, transmittance: &mut Vec3) -> bool {
     let triangles = &gpu.triangles[node.first as usize..(node.first + node.count) as usize];
     triangles.iter().any(|triangle| {
-        ray.hit(triangle.corners()).is_some_and(|hit| stops(gpu, triangle.cut, hit.weights, passed))
+        ray.hit(triangle.corners())
+            .is_some_and(|hit| is_opaque(gpu, triangle.material, hit.weights, transmittance))
     })
 }
 
-fn stops(gpu: &GpuRayScene, index: u32, weights: Vec3, passed: &mut Vec3) -> bool {
-    if index == NO_CUT {
+fn is_opaque(gpu: &GpuRayScene, index: u32, weights: Vec3, transmittance: &mut Vec3) -> bool {
+    if index == NO_MATERIAL {
         return true;
     }
-    let cut = gpu.cuts[index as usize];
-    let uv = cut.uv_a * weights.x + cut.uv_b * weights.y + cut.uv_c * weights.z;
-    let channel = |channel| match cut.texture {
+    let material = gpu.materials[index as usize];
+    let uv = material.uv_a * weights.x + material.uv_b * weights.y + material.uv_c * weights.z;
+    let channel = |channel| match material.texture {
         NO_TEXTURE => 1.0,
         texture => unpacked(gpu, gpu.textures[(texture + channel) as usize]).value(uv),
     };
-    let factor = cut.alpha.x * weights.x + cut.alpha.y * weights.y + cut.alpha.z * weights.z;
+    let factor = material.alpha.x * weights.x + material.alpha.y * weights.y + material.alpha.z * weights.z;
     let alpha = factor * channel(0);
-    if cut.cutoff != TINT {
-        return alpha >= cut.cutoff;
+    if material.cutoff != TINT {
+        return alpha >= material.cutoff;
     }
-    let part = |color: u32, shift: u32| (color >> shift & 255) as f32 / 255.0;
-    let corner = |color| Vec3::new(part(color, 0), part(color, 8), part(color, 16));
-    let [a, b, c] = cut.color.map(corner);
+    let channel_of = |color: u32, shift: u32| (color >> shift & 255) as f32 / 255.0;
+    let corner = |color| Vec3::new(channel_of(color, 0), channel_of(color, 8), channel_of(color, 16));
+    let [a, b, c] = material.color.map(corner);
     let color =
         (a * weights.x + b * weights.y + c * weights.z) * Vec3::new(channel(1), channel(2), channel(3));
     let alpha = alpha.clamp(0.0, 1.0);
-    *passed *= (1.0 - alpha) * Vec3::ONE.lerp(color, alpha * (2.0 - alpha));
+    *transmittance *= (1.0 - alpha) * Vec3::ONE.lerp(color, alpha * (2.0 - alpha));
     false
 }
 
-/// The texture that the packed words stand for.
+/// Returns the texture of the packed words.
 fn unpacked(gpu: &GpuRayScene, image: RayTexture) -> ChannelTexture {
     let texel = |index: u32| (gpu.texels[index as usize / 4] >> (8 * (index % 4))) as u8;
     let texels = (0..image.width * image.height).map(|i| texel(image.first_texel + i)).collect();
@@ -119,19 +120,19 @@ fn occluder() -> impl Strategy<Value = Occluder> {
 fn surface() -> impl Strategy<Value = Surface> {
     let uv = || prop::array::uniform3(prop::array::uniform2(-3f32..3.0).prop_map(Vec2::from));
     let texture = || prop::option::weighted(0.8, 0u32..2);
-    let cut = (texture(), uv(), prop::array::uniform3(0.3f32..1.5))
-        .prop_map(|(texture, uv, alpha)| Surface::Cut(Cut { texture, uv, alpha, cutoff: 0.5 }));
+    let cutout = (texture(), uv(), prop::array::uniform3(0.3f32..1.5))
+        .prop_map(|(texture, uv, alpha)| Surface::Cutout(Cutout { texture, uv, alpha, cutoff: 0.5 }));
     let color = prop::array::uniform3(prop::array::uniform4(0f32..1.0).prop_map(Vec4::from));
     let tint =
         (texture(), uv(), color).prop_map(|(texture, uv, color)| Surface::Tint(Tint { texture, uv, color }));
-    prop_oneof![Just(Surface::Opaque), cut, tint]
+    prop_oneof![Just(Surface::Opaque), cutout, tint]
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn the_tree_the_flat_tree_and_all_triangles_one_by_one_agree(
+    fn the_tree_the_gpu_tree_and_brute_force_agree(
         occluders in prop::collection::vec(occluder(), 0..80),
         textures in textures(),
         rays in prop::collection::vec((vector(), vector()), 50),
@@ -141,14 +142,14 @@ proptest! {
         for (origin, direction) in rays {
             let (origin, direction) = (origin * 15.0, direction.normalize_or(Vec3::Y));
             let ray = Ray::new(origin, direction, 0.0, f32::INFINITY);
-            let truth = scene.blocked_by_any_of_all(&ray);
-            prop_assert_eq!(scene.blocked(&ray), truth);
-            prop_assert_eq!(scene.nearest(&ray), scene.nearest_of_all(&ray));
-            let all = scene.passed_by_all(&ray);
-            prop_assert_eq!(all == Vec3::ZERO, truth);
+            let expected = scene.is_occluded_brute_force(&ray);
+            prop_assert_eq!(scene.is_occluded(&ray), expected);
+            prop_assert_eq!(scene.nearest_distance(&ray), scene.nearest_distance_brute_force(&ray));
+            let all = scene.transmittance_brute_force(&ray);
+            prop_assert_eq!(all == Vec3::ZERO, expected);
             // Products in another order.
-            prop_assert!(scene.passed(&ray).abs_diff_eq(all, 1e-6));
-            prop_assert!(passed(&gpu, origin, direction, &ray).abs_diff_eq(all, 1e-6));
+            prop_assert!(scene.transmittance(&ray).abs_diff_eq(all, 1e-6));
+            prop_assert!(transmittance(&gpu, origin, direction, &ray).abs_diff_eq(all, 1e-6));
         }
     }
 }
@@ -157,6 +158,6 @@ proptest! {
 fn the_buffers_of_an_empty_scene_block_nothing_and_none_is_empty() {
     let gpu = GpuRayScene::new(&RayScene::new(&[], Vec::new()).unwrap(), 1 << 27).unwrap();
     let ray = Ray::new(Vec3::Y, Vec3::NEG_Y, 0.0, f32::INFINITY);
-    assert_eq!(passed(&gpu, Vec3::Y, Vec3::NEG_Y, &ray), Vec3::ONE);
+    assert_eq!(transmittance(&gpu, Vec3::Y, Vec3::NEG_Y, &ray), Vec3::ONE);
     assert_eq!(gpu.buffers().map(<[u8]>::len), [32, 48, 64, 16, 4]);
 }

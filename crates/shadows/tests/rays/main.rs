@@ -1,4 +1,4 @@
-//! Shadow rays on the CPU, and their form for the GPU.
+//! Shadow rays on the CPU, and their buffers for the GPU.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod channel;

@@ -42,33 +42,34 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
     #[test]
-    fn no_surface_shades_itself(largest in prop::sample::select(vec![1.0, 30.0, 1500.0]), seed in cases(1.0)) {
+    fn no_surface_shadows_itself(largest in prop::sample::select(vec![1.0, 30.0, 1500.0]), seed in cases(1.0)) {
         let mut case = seed;
         case.corners = case.corners.map(|corner| corner * largest);
         case.receiver.position *= largest;
         let light = LightShape::Directional { to_light: case.to_light, angular_radius: 0.0 };
-        let truth = trace_hard(&scene(&[Occluder::solid(case.corners)]), &light, &case.receiver, true);
+        let truth = trace_hard(&scene(&[Occluder::opaque(case.corners)]), &light, &case.receiver, true);
         prop_assert!(truth.faces_away || truth.visibility == Vec3::ONE, "{:?} {:?}", case, truth);
     }
 }
 
 #[test]
-fn without_the_offset_surfaces_shade_themselves() {
+fn without_the_offset_surfaces_shadow_themselves() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
-    let blocked = |case: Case| {
+    let is_occluded = |case: Case| {
         let ray = Ray::new(case.receiver.position, case.to_light, 0.0, f32::INFINITY);
-        scene(&[Occluder::solid(case.corners)]).blocked(&ray)
+        scene(&[Occluder::opaque(case.corners)]).is_occluded(&ray)
     };
     let strategy = cases(1500.0);
-    let shaded = (0..500).filter(|_| blocked(strategy.new_tree(&mut runner).unwrap().current())).count();
-    assert!(shaded > 100, "{shaded} of 500");
+    let shadowed =
+        (0..500).filter(|_| is_occluded(strategy.new_tree(&mut runner).unwrap().current())).count();
+    assert!(shadowed > 100, "{shadowed} of 500");
 }
 
 #[test]
 fn the_offset_is_as_large_as_documented() {
-    let offset = |position: f32, reach: f32, view_distance_m: f32| {
+    let offset = |position: f32, largest: f32, view_distance_m: f32| {
         let position = Vec3::new(0.0, -position, 0.0);
-        ReceiverPoint { position, geometric_normal: Vec3::Y, view_distance_m }.offset_m(reach)
+        ReceiverPoint { position, geometric_normal: Vec3::Y, view_distance_m }.offset_m(largest)
     };
     for (given, millimetres) in
         [((1500.0, 1500.0, 1500.0), 15.7), ((150.0, 150.0, 150.0), 1.57), ((10.0, 150.0, 10.0), 0.24)]

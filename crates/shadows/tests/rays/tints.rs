@@ -1,4 +1,4 @@
-//! Light behind what is translucent.
+//! Light through translucent surfaces.
 
 use glam::{Vec2, Vec3, Vec4};
 use shadowgraph_shadows::rays::{
@@ -7,7 +7,7 @@ use shadowgraph_shadows::rays::{
 
 use crate::common::{level_square, on_floor, ray, texture};
 
-/// A level pane around (0, `height`, 0), the texture stretched once over it.
+/// Returns a horizontal pane around (0, `height`, 0), the texture stretched once over it.
 fn pane(height: f32, texture: Option<u32>, color: Vec4) -> Vec<Occluder> {
     let uv = |p: Vec3| Vec2::new(p.x + 1.0, p.z + 1.0) / 2.0;
     let tint = |o: Occluder| {
@@ -17,9 +17,9 @@ fn pane(height: f32, texture: Option<u32>, color: Vec4) -> Vec<Occluder> {
     level_square(height, 1.0).into_iter().map(tint).collect()
 }
 
-fn passed(occluders: &[Occluder]) -> Vec3 {
+fn transmittance(occluders: &[Occluder]) -> Vec3 {
     let scene = RayScene::new(occluders, Vec::new()).unwrap();
-    scene.passed(&ray(Vec3::new(0.3, 0.0, 0.1), Vec3::new(0.3, 1.0, 0.1)))
+    scene.transmittance(&ray(Vec3::new(0.3, 0.0, 0.1), Vec3::new(0.3, 1.0, 0.1)))
 }
 
 #[track_caller]
@@ -28,27 +28,27 @@ fn assert_near(color: Vec3, expected: [f32; 3]) {
 }
 
 #[test]
-fn clear_glass_changes_nothing_and_opaque_glass_stops_all_light_whatever_their_colour() {
+fn clear_glass_lets_all_light_through_and_opaque_glass_none_for_any_colour() {
     let red = Vec3::new(1.0, 0.0, 0.0);
-    assert_eq!(passed(&pane(1.0, None, red.extend(0.0))), Vec3::ONE);
-    assert_eq!(passed(&pane(1.0, None, red.extend(1.0))), Vec3::ZERO);
-    assert_eq!(passed(&pane(1.0, None, Vec4::ONE)), Vec3::ZERO);
+    assert_eq!(transmittance(&pane(1.0, None, red.extend(0.0))), Vec3::ONE);
+    assert_eq!(transmittance(&pane(1.0, None, red.extend(1.0))), Vec3::ZERO);
+    assert_eq!(transmittance(&pane(1.0, None, Vec4::ONE)), Vec3::ZERO);
 }
 
 #[test]
-fn what_gets_past_takes_on_the_colour() {
+fn transmitted_light_is_coloured() {
     // Half of the light, times three quarters of the way from white to (1, 0.2, 0).
-    assert_near(passed(&pane(1.0, None, Vec4::new(1.0, 0.2, 0.0, 0.5))), [0.5, 0.2, 0.125]);
+    assert_near(transmittance(&pane(1.0, None, Vec4::new(1.0, 0.2, 0.0, 0.5))), [0.5, 0.2, 0.125]);
 }
 
 #[test]
-fn panes_in_any_order_multiply_and_what_is_opaque_behind_them_stops_light() {
+fn panes_multiply_in_any_order_and_opaque_surfaces_behind_them_block_light() {
     let (red, blue) = (Vec4::new(1.0, 0.2, 0.0, 0.5), Vec4::new(0.0, 0.2, 1.0, 0.5));
     let both = [pane(1.0, None, red), pane(2.0, None, blue)].concat();
-    assert_near(passed(&both), [0.0625, 0.04, 0.0625]);
-    let turned = [pane(2.0, None, red), pane(1.0, None, blue)].concat();
-    assert_eq!(passed(&turned), passed(&both));
-    assert_eq!(passed(&[both, level_square(3.0, 1.0)].concat()), Vec3::ZERO);
+    assert_near(transmittance(&both), [0.0625, 0.04, 0.0625]);
+    let swapped = [pane(2.0, None, red), pane(1.0, None, blue)].concat();
+    assert_eq!(transmittance(&swapped), transmittance(&both));
+    assert_eq!(transmittance(&[both, level_square(3.0, 1.0)].concat()), Vec3::ZERO);
 }
 
 #[test]
@@ -57,13 +57,13 @@ fn texture_and_factor_multiply_and_the_channels_are_alpha_red_green_blue() {
     let glass = pane(1.0, Some(0), Vec4::new(0.5, 1.0, 1.0, 0.5));
     let scene = RayScene::new(&glass, channels.to_vec()).unwrap();
     let up = ray(Vec3::new(0.3, 0.0, 0.1), Vec3::new(0.3, 1.0, 0.1));
-    assert_near(scene.passed(&up), [0.3125, 0.3125, 0.125]);
+    assert_near(scene.transmittance(&up), [0.3125, 0.3125, 0.125]);
     let error = RayScene::new(&glass, channels[..3].to_vec()).err();
     assert_eq!(error, Some(Error::NoTexture { occluder: 0, texture: 3, count: 3 }));
 }
 
 #[test]
-fn truth_is_coloured_and_its_nearest_blocker_is_the_nearest_that_is_opaque() {
+fn ground_truth_is_coloured_and_its_nearest_blocker_is_the_nearest_opaque_surface() {
     let glass = [pane(1.0, None, Vec4::new(1.0, 0.0, 0.0, 0.5)), level_square(4.0, 0.5)].concat();
     let scene = RayScene::new(&glass, Vec::new()).unwrap();
     let sun = LightShape::Directional { to_light: Vec3::Y, angular_radius: 0.004 };

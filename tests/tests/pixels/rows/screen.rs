@@ -9,7 +9,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, Scene};
 use shadowgraph::shadows::{
     CascadeSelection, Pcf, ScreenSettings, ScreenShadows, ShadowFilter, ShadowInputs, ShadowTechnique,
-    SurfaceBuffers,
+    SurfaceBuffers, add_shadows,
 };
 use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions, wgpu};
 
@@ -126,14 +126,14 @@ fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
     let mut frame = Frame::new();
     let mut surfaces = frame.create_texture("surfaces", TextureDesc::d2(64, 64, Format::Rgba32Float));
     frame.render_pass("surfaces").color(&mut surfaces, Contents::clear_color([0.0; 4]));
-    let screen = SurfaceBuffers {
+    let buffers = SurfaceBuffers {
         size_px: [64, 64],
         view: frame.upload_buffer("view", vec![0; 256]),
         lights: frame.upload_buffer("lights", vec![0; 64]),
         surfaces,
         has_blended,
     };
-    let outputs = screen_shadows.add_to(&mut frame, &inputs, Some(&screen)).unwrap();
+    let outputs = add_shadows(&screen_shadows, &mut frame, &inputs, Some(&buffers)).unwrap();
     let modules = screen_shadows.modules(outputs.variant);
     let text = modules.iter().map(|module| module.source.as_ref()).collect();
     (outputs.variant == screen_shadows.variant_count() - 1, text)

@@ -2,7 +2,7 @@
 //! a map of cells that are painted.
 
 use super::*;
-use crate::TileRect;
+use crate::atlas::TileRect;
 
 /// Panics if an allocation breaks a rule. The config must be normalized, the requests finite and their owners unique.
 pub(super) fn check(

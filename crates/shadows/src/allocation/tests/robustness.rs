@@ -1,7 +1,7 @@
 //! Arbitrary inputs.
 
 use super::*;
-use crate::TileRect;
+use crate::atlas::TileRect;
 
 const ODD: [f64; 9] =
     [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, -1.0, f64::MAX, f64::MIN_POSITIVE, 100.0];

@@ -13,7 +13,8 @@ mod splits;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{AtlasTiles, Error, ShadowSettings, SplitScheme};
+use crate::error::Error;
+use crate::settings::{AtlasTiles, ShadowSettings, SplitScheme};
 
 const BUDGET_MS: f64 = 2.0;
 

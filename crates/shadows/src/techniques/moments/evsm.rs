@@ -1,12 +1,13 @@
-//! What users choose of `evsm`, and how its moments are stored.
+//! Settings of `evsm`, and the encodings of its moments.
 
 use serde::{Deserialize, Serialize};
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{EVSM, ModuleSource};
 
 use super::{MomentParams, Moments};
+use crate::error::Error;
+use crate::settings::TechniqueSettings;
 use crate::settings::in_range;
-use crate::{Error, TechniqueSettings};
 
 /// Settings of the technique `evsm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
-//! `evsm` and `msm`: maps of moments of depth, which can be blurred and halved as colours can.
+//! `evsm` and `msm`: maps of moments of depth, which can be blurred and downsampled like colours.
 //!
-//! The maps of depths are drawn as for [`Pcf`](crate::Pcf). Passes then turn them into moments (`prefilter.wgsl`), and whoever
-//! lights reads four texels and bounds from them how much of the light is blocked (`shadows/moments.wgsl`).
+//! The depth maps are drawn as for [`Pcf`](crate::Pcf). Passes then turn them into moments (`prefilter.wgsl`). Lit passes read
+//! four texels and compute an upper bound of how much of the light is blocked (`shadows/moments.wgsl`).
 
 mod evsm;
 mod msm;
@@ -14,10 +14,17 @@ use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_shaders::{MAPPED, MOMENTS, ModuleSource};
 
+use crate::error::Error;
+use crate::gpu_struct;
+use crate::light_params::settings_requirements;
+use crate::maps::ShadowMaps;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::settings::TechniqueSettings;
 use crate::settings::in_range;
+use crate::technique::GpuStruct;
 use crate::technique::binding::UNIFORM;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Error, GpuStruct, Requirements, ShadowInputs, ShadowMaps, TechniqueSettings, gpu_struct, plan};
 use prefilter::Prefilter;
 
 /// `evsm`: two or four exponentially warped moments (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008).
@@ -26,28 +33,28 @@ pub type Evsm = MomentShadows<EvsmSettings>;
 /// `msm`: four moments in 16 bits each (Peters and Klein, "Moment Shadow Mapping", 2015).
 pub type Msm = MomentShadows<MsmSettings>;
 
-/// A technique of maps that hold moments of depth; which, its settings say.
+/// A technique whose maps store moments of depth. Its settings say which moments.
 pub struct MomentShadows<S> {
     maps: ShadowMaps,
     prefilter: Prefilter,
     settings: std::marker::PhantomData<fn() -> S>,
 }
 
-/// What techniques of moments differ in.
+/// The differences between the techniques that use moments.
 pub trait Moments: TechniqueSettings {
-    /// In how many forms they can be stored.
+    /// Number of encodings in which moments can be stored.
     const LAYOUTS: u32;
 
-    /// Returns the modules of a form: `shadowgraph::shadows::encoding`, and those that take the place of built-in ones.
+    /// Returns the modules of an encoding: `shadowgraph::shadows::encoding`, and those that replace built-in ones.
     fn modules(layout: u32) -> Vec<ModuleSource>;
 
-    /// Returns what a texel of a form is: one, two or four whole numbers of 32 bits.
+    /// Returns the texture format of an encoding: one, two or four 32-bit integers.
     fn format(layout: u32) -> Format;
 
-    /// Returns which form these settings ask for, below [`LAYOUTS`](Self::LAYOUTS).
+    /// Returns the encoding that these settings select, below [`LAYOUTS`](Self::LAYOUTS).
     fn layout(&self) -> u32;
 
-    /// Returns what shaders read of them.
+    /// Returns the parameters that shaders read.
     fn params(&self) -> MomentParams;
 }
 
@@ -55,39 +62,40 @@ pub trait Moments: TechniqueSettings {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct MomentParams {
-    /// By how much depths are warped towards the light and away from it; 0 without a warp.
+    /// Exponents of the warp away from the light and towards it; 0 without a warp.
     pub exponents: [f32; 2],
-    /// The part of the light behind a blocker that is taken for light that leaks there.
+    /// Fraction of the light in a shadow that is treated as light leaking.
     pub bleed: f32,
-    /// How far apart depths count as one, in parts of the tile's range, or how far moments are moved to those of any depth.
+    /// Depth difference that counts as zero, relative to the tile's range; or the weight that blends moments towards those of an
+    /// arbitrary depth.
     pub bias: f32,
-    /// How many texels of the map of depths a texel of moments stands for along each axis.
+    /// Number of depth texels per moment texel along each axis.
     pub downscale: u32,
-    /// How many texels of moments are blurred over to either side.
+    /// Radius of the blur, texels of moments.
     pub radius: u32,
-    /// How many times the map is halved, and once.
+    /// Number of mip levels.
     pub mips: u32,
     /// Zero.
     pub unused: u32,
 }
 
 impl MomentParams {
-    /// How far around a point the map of depths is read, texels.
+    /// Returns the radius around a point within which the depth map is read, texels.
     fn kernel_radius_texels(&self) -> f32 {
         let coarsest = 1 << (self.mips - 1);
         self.downscale as f32 * (self.radius as f32 + 1.5 * coarsest as f32)
     }
 
-    /// What a technique with these params needs.
+    /// Returns the requirements of a technique with these parameters.
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Requirements {
-        let requirements = plan::requirements(inputs.settings);
+        let base = settings_requirements(inputs.settings);
         Requirements {
-            kernel_radius_texels: requirements.kernel_radius_texels.max(self.kernel_radius_texels()),
-            ..requirements
+            kernel_radius_texels: base.kernel_radius_texels.max(self.kernel_radius_texels()),
+            ..base
         }
     }
 
-    /// Checks what all settings of moments have in common.
+    /// Checks the settings that the techniques have in common.
     fn validate(&self) -> Result<(), Error> {
         in_range("bleed", self.bleed, 0.0, 0.95, "0 to 0.95 (part of the light)")?;
         let whole = |field, value: u32, allowed: &'static [u32], words| match allowed.contains(&value) {
@@ -145,18 +153,18 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let own: S = inputs.settings.techniques.get()?;
         let (layout, params) = (own.layout(), own.params());
-        let requirements = params.requirements(inputs);
         frame.node("shadows", |frame| {
-            let maps = self.maps.add_to(frame, inputs, &requirements)?;
+            let maps = self.maps.add_to(frame, inputs, requirements)?;
             let block = frame.uniform(bytemuck::bytes_of(&params));
-            let mut of =
+            let mut moments =
                 |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &params, block));
-            let cascades = of("cascade moments", &maps.cascades);
-            let atlas = of("atlas moments", &maps.atlas);
+            let cascades = moments("cascade moments", &maps.cascades);
+            let atlas = moments("atlas moments", &maps.atlas);
             let mut bindings = maps.bindings();
             bindings.extend([cascades, atlas].map(ShadowBinding::Texture));
             bindings.push(ShadowBinding::Uniform(block));

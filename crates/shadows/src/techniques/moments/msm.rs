@@ -1,12 +1,13 @@
-//! What users choose of `msm`.
+//! Settings of `msm`.
 
 use serde::{Deserialize, Serialize};
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{MSM, ModuleSource};
 
 use super::{MomentParams, Moments};
+use crate::error::Error;
+use crate::settings::TechniqueSettings;
 use crate::settings::in_range;
-use crate::{Error, TechniqueSettings};
 
 /// Settings of the technique `msm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

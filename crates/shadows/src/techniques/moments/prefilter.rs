@@ -1,36 +1,37 @@
-//! The passes that turn maps of depths into maps of moments.
+//! The passes that turn depth maps into maps of moments.
 
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Subresource, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
 
 use super::{MomentParams, Moments};
+use crate::error::Error;
+use crate::maps::DrawnMap;
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::layout;
 use crate::techniques::compute::{dispatch, pipeline, shader};
-use crate::{DrawnMap, Error};
 
-/// A map of moments, as it is read: whole numbers that are unpacked.
+/// The binding of a map of moments: integers that the shader unpacks.
 pub(super) const MOMENT_MAP: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Uint,
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
 
-/// What moments are before they are packed.
+/// The format of moments before they are packed.
 const UNPACKED: Format = Format::Rgba32Float;
 
 /// The side of a workgroup, texels.
 const WORKGROUP: u32 = 8;
 
-/// The passes, for each form that moments are stored in.
+/// The passes, for each encoding of moments.
 pub(super) struct Prefilter {
     map_layout: wgpu::BindGroupLayout,
-    forms: Vec<Form>,
-    /// Bound where there is no map.
+    encodings: Vec<Encoding>,
+    /// A placeholder for a missing map.
     no_moments: wgpu::Texture,
 }
 
-struct Form {
+struct Encoding {
     format: Format,
     resolve: Step,
     across: Step,
@@ -38,7 +39,7 @@ struct Form {
     halve: Step,
 }
 
-/// A pass's own bindings, and its pipeline.
+/// The layout of a pass's bindings, and its pipeline.
 struct Step {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
@@ -47,8 +48,8 @@ struct Step {
 impl Prefilter {
     pub(super) fn new<S: Moments>(device: &wgpu::Device) -> Result<Self, Error> {
         let map_layout = layout(device, "moments of a map", &[STORAGE, STORAGE, UNIFORM]);
-        let forms = (0..S::LAYOUTS)
-            .map(|form| Form::new::<S>(device, &map_layout, form))
+        let encodings = (0..S::LAYOUTS)
+            .map(|encoding| Encoding::new::<S>(device, &map_layout, encoding))
             .collect::<Result<_, _>>()?;
         let no_moments = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("no moments"),
@@ -60,19 +61,20 @@ impl Prefilter {
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        Ok(Self { map_layout, forms, no_moments })
+        Ok(Self { map_layout, encodings, no_moments })
     }
 
-    /// Adds the passes that make moments of a map's depths, and returns the moments, with their mips.
+    /// Adds the passes that compute the moments of a depth map, and returns the moments with their mips.
     pub(super) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         name: &'static str,
         map: &DrawnMap,
         views: &Buffer,
-        (form, params, block): (u32, &MomentParams, Uniform),
+        (encoding, params, block): (u32, &MomentParams, Uniform),
     ) -> Texture {
-        let (Some(form), Some(desc)) = (self.forms.get(form as usize), frame.texture_desc(&map.texture))
+        let (Some(encoding), Some(desc)) =
+            (self.encodings.get(encoding as usize), frame.texture_desc(&map.texture))
         else {
             return frame.import_texture("no moments", &self.no_moments, true);
         };
@@ -83,25 +85,25 @@ impl Prefilter {
         frame.node(name, |frame| {
             let tiles: Vec<u32> = map.tiles.iter().map(|(_, view)| *view).collect();
             let tiles = frame.upload_buffer("tiles", bytemuck::cast_slice(&tiles).to_vec());
-            let of = (views, &tiles, block);
+            let shared = (views, &tiles, block);
             let unpacked = TextureDesc::d2(width, height, UNPACKED);
             let mut resolved = frame.create_texture("resolved", unpacked);
-            self.step(frame, ("resolve", &form.resolve), of, (&map.texture, 0), (&mut resolved, 0));
+            self.step(frame, ("resolve", &encoding.resolve), shared, (&map.texture, 0), (&mut resolved, 0));
             let mut across = frame.create_texture("blurred across", unpacked);
-            self.step(frame, ("across", &form.across), of, (&resolved, 0), (&mut across, 0));
+            self.step(frame, ("across", &encoding.across), shared, (&resolved, 0), (&mut across, 0));
             let moments =
-                TextureDesc { mip_levels: params.mips, ..TextureDesc::d2(width, height, form.format) };
+                TextureDesc { mip_levels: params.mips, ..TextureDesc::d2(width, height, encoding.format) };
             let mut moments = frame.create_texture("moments", moments);
-            self.step(frame, ("down", &form.down), of, (&across, 0), (&mut moments, 0));
+            self.step(frame, ("down", &encoding.down), shared, (&across, 0), (&mut moments, 0));
             for mip in 1..params.mips {
                 let finer = moments.clone();
-                self.step(frame, ("halve", &form.halve), of, (&finer, mip - 1), (&mut moments, mip));
+                self.step(frame, ("halve", &encoding.halve), shared, (&finer, mip - 1), (&mut moments, mip));
             }
             moments
         })
     }
 
-    /// Adds a pass that makes a mip of one texture of a mip of another.
+    /// Adds a pass that computes a mip of one texture from a mip of another.
     fn step<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -128,20 +130,20 @@ impl Prefilter {
     }
 }
 
-impl Form {
+impl Encoding {
     fn new<S: Moments>(
         device: &wgpu::Device,
         map_layout: &wgpu::BindGroupLayout,
-        form: u32,
+        encoding: u32,
     ) -> Result<Self, Error> {
-        let format = S::format(form);
-        let word = match format {
+        let format = S::format(encoding);
+        let format_name = match format {
             Format::R32Uint => "r32uint",
             Format::Rg32Uint => "rg32uint",
             _ => "rgba32uint",
         };
-        let source = PREFILTER.source.replace("FORMAT, write", &format!("{word}, write"));
-        let module = compose_source(&ModuleSource::new(PREFILTER.file, source), &S::modules(form))?;
+        let source = PREFILTER.source.replace("FORMAT, write", &format!("{format_name}, write"));
+        let module = compose_source(&ModuleSource::new(PREFILTER.file, source), &S::modules(encoding))?;
         let shader = shader(device, "prefilter.wgsl", module);
         let step = |entry, from, to| Step::new(device, &shader, entry, map_layout, [from, written(to)]);
         Ok(Self {

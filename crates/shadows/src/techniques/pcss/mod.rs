@@ -1,7 +1,7 @@
-//! `pcss`: shadow maps whose edges get softer away from what casts them, as those of real lights do.
+//! `pcss`: shadow maps with penumbrae that widen with the distance to the occluder, as those of real lights do.
 //!
-//! Fernando, "Percentage-Closer Soft Shadows" (SIGGRAPH sketches, 2005): a search around the point finds how far away what is in
-//! the way is on average; from that and the light's size follows how wide the edge is, and so how wide to filter.
+//! Fernando, "Percentage-Closer Soft Shadows" (SIGGRAPH sketches, 2005): a search around the point finds the mean
+//! distance of the blockers; the width of the penumbra, and so of the filter, follows from that and the light's size.
 
 mod settings;
 
@@ -11,11 +11,16 @@ use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{MAPPED, ModuleSource, PCSS};
 
-use crate::maps::comparison_sampler;
-use crate::plan;
+use crate::error::Error;
+use crate::gpu_struct;
+use crate::light_params::settings_requirements;
+use crate::maps::{ShadowMaps, comparison_sampler};
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::settings::TechniqueSettings;
+use crate::technique::GpuStruct;
 use crate::technique::binding::{COMPARISON_SAMPLER, UNIFORM};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Error, GpuStruct, Requirements, ShadowInputs, ShadowMaps, TechniqueSettings, gpu_struct};
 
 /// Soft shadows from the maps of [`Pcf`](crate::Pcf); see the module `shadows/pcss.wgsl`.
 pub struct Pcss {
@@ -28,8 +33,8 @@ pub struct Pcss {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct SoftLights {
     sun_radius: f32,
-    lamp_radius: f32,
-    most_texels: f32,
+    punctual_radius: f32,
+    max_texels: f32,
     blocker_taps: u32,
     filter_taps: u32,
 }
@@ -38,8 +43,8 @@ impl SoftLights {
     fn new(settings: &PcssSettings) -> Self {
         Self {
             sun_radius: settings.sun_radius_rad.tan(),
-            lamp_radius: settings.lamp_radius_m,
-            most_texels: settings.most_texels,
+            punctual_radius: settings.lamp_radius_m,
+            max_texels: settings.most_texels,
             blocker_taps: settings.blocker_taps,
             filter_taps: settings.filter_taps,
         }
@@ -53,22 +58,15 @@ impl Pcss {
     }
 }
 
-/// What it needs with these settings of its own.
-fn requirements(inputs: &ShadowInputs<'_>, own: &PcssSettings) -> Requirements {
-    let requirements = plan::requirements(inputs.settings);
-    Requirements {
-        kernel_radius_texels: requirements.kernel_radius_texels.max(own.most_texels),
-        ..requirements
-    }
-}
-
 impl ShadowTechnique for Pcss {
     fn name(&self) -> &str {
         PcssSettings::NAME
     }
 
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
-        Ok(requirements(inputs, &inputs.settings.techniques.get()?))
+        let own: PcssSettings = inputs.settings.techniques.get()?;
+        let base = settings_requirements(inputs.settings);
+        Ok(Requirements { kernel_radius_texels: base.kernel_radius_texels.max(own.most_texels), ..base })
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
@@ -80,18 +78,18 @@ impl ShadowTechnique for Pcss {
     }
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
-        vec![gpu_struct!(SoftLights { sun_radius, lamp_radius, most_texels, blocker_taps, filter_taps })]
+        vec![gpu_struct!(SoftLights { sun_radius, punctual_radius, max_texels, blocker_taps, filter_taps })]
     }
 
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        _screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let own = inputs.settings.techniques.get()?;
-        let requirements = requirements(inputs, &own);
-        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, &requirements))?;
+        let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, requirements))?;
         let soft = frame.uniform(bytemuck::bytes_of(&SoftLights::new(&own)));
         let mut bindings = maps.bindings();
         bindings.extend([ShadowBinding::Sampler(&self.sampler), ShadowBinding::Uniform(soft)]);

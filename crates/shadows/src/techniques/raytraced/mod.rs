@@ -1,4 +1,4 @@
-//! `raytraced`: shadows by rays through the scene's triangles.
+//! `raytraced`: shadows from rays through the scene's triangles.
 
 mod settings;
 
@@ -12,11 +12,14 @@ use wgpu::util::DeviceExt as _;
 use super::compute::{dispatch, pipeline, shader};
 use super::mask::pass::{Layers, MaskPass, mask_texture, workgroups};
 use super::mask::{MASK, TARGET, masked_lights, no_mask};
+use crate::error::Error;
+use crate::plan::ShadowInputs;
 use crate::rays::GpuRayScene;
+use crate::requirements::Requirements;
+use crate::settings::TechniqueSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
 use crate::technique::layout;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Error, Requirements, ShadowInputs, TechniqueSettings};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;
@@ -24,21 +27,21 @@ const UNMASKED: u32 = u32::MAX - 1;
 /// `TRACED_LIT` of `traced.wgsl`.
 const LIT: u32 = u32::MAX;
 
-/// Every light that casts shadows sees a surface or does not, at any distance: with one ray to the middle of each light, other
-/// techniques are measured against it ([`RaytracedSettings::hard`]); with several, over the light's disc, edges are soft. Noise can be
-/// averaged over a few pixels of the same surface. No other settings change it.
+/// Shadows that are exact at any distance: with one ray to the centre of each light, other techniques are measured against it
+/// ([`RaytracedSettings::hard`]); with several rays over the light's disc, edges are soft. Noise can be averaged over a few pixels of
+/// the same surface. No other settings affect it.
 ///
-/// What the picture shows is traced by a compute pass into a screen mask, a layer a light, the first
-/// [`MAX_MASK_LAYERS`](super::MAX_MASK_LAYERS) of them; blended surfaces and points elsewhere are traced where they are asked for.
+/// A compute pass traces the visible surfaces into a screen mask with a layer for each of the first
+/// [`MAX_MASK_LAYERS`](super::MAX_MASK_LAYERS) lights; blended surfaces and all other points are traced in the pass that shades them.
 pub struct Raytraced {
     trace: Trace,
     denoise: MaskPass,
     /// The bindings of `rays.wgsl`.
     rays: [wgpu::Buffer; 5],
-    reach_m: f32,
+    max_coordinate_m: f32,
     /// See [`GpuRayScene::surfaces`].
     surfaces: ModuleSource,
-    /// What is bound where there is no mask.
+    /// A placeholder for a missing mask.
     no_mask: wgpu::Texture,
 }
 
@@ -51,7 +54,7 @@ struct Trace {
 }
 
 impl Raytraced {
-    /// Uploads the triangles. They are relative to a frame's origin: for frames with another origin, make another.
+    /// Uploads the triangles. They are relative to a frame's origin: frames with another origin need another value.
     ///
     /// # Errors
     /// If a shader does not compose.
@@ -64,26 +67,26 @@ impl Raytraced {
             trace: Trace::new(device, &scene.surfaces())?,
             denoise: MaskPass::new(device, "denoise", "denoise.wgsl", "cs_denoise")?,
             rays: scene.buffers().map(buffer),
-            reach_m: scene.reach_m,
+            max_coordinate_m: scene.max_coordinate_m,
             surfaces: scene.surfaces(),
             no_mask: no_mask(device),
         })
     }
 
-    /// Adds the pass that traces all that the picture shows.
+    /// Adds the pass that traces all visible surfaces.
     fn trace<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        screen: &SurfaceBuffers,
+        buffers: &SurfaceBuffers,
         traced: &Buffer,
         layers: Layers,
     ) -> Texture {
-        let mut mask = mask_texture(frame, "shadow mask", screen, layers);
+        let mut mask = mask_texture(frame, "shadow mask", buffers, layers);
         let mut pass = frame.compute_pass("trace");
-        let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
-        let (traced, surfaces) = (pass.storage_buffer(traced), pass.sample(&screen.surfaces));
+        let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let (traced, surfaces) = (pass.storage_buffer(traced), pass.sample(&buffers.surfaces));
         let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
-        let size_px = screen.size_px;
+        let size_px = buffers.size_px;
         pass.body(move |ctx| {
             let Trace { view_layout, rays_layout, screen_layout, pipeline } = &self.trace;
             let mut rays: Vec<_> = self.rays.iter().map(Bind::ExternalBuffer).collect();
@@ -99,11 +102,11 @@ impl Raytraced {
         mask
     }
 
-    /// Adds the passes that make the mask; `None` if no light has a layer.
+    /// Adds the passes that compute the mask; returns `None` if no light has a layer.
     fn mask<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        screen: &SurfaceBuffers,
+        buffers: &SurfaceBuffers,
         traced: &Buffer,
         (lights, settings): (&[Light], &RaytracedSettings),
     ) -> Option<Texture> {
@@ -111,12 +114,12 @@ impl Raytraced {
         if layers.count == 0 {
             return None;
         }
-        let mask = self.trace(frame, screen, traced, layers);
+        let mask = self.trace(frame, buffers, traced, layers);
         if settings.rays == 1 || settings.denoise_px == 0 {
             return Some(mask);
         }
         let own = frame.uniform(bytemuck::bytes_of(&[settings.denoise_px, 0, 0, 0]));
-        Some(self.denoise.add_to(frame, screen, &mask, layers, own))
+        Some(self.denoise.add_to(frame, buffers, &mask, layers, own))
     }
 }
 
@@ -146,14 +149,17 @@ impl ShadowTechnique for Raytraced {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&SurfaceBuffers>,
+        _requirements: &Requirements,
+        buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
+        let buffers =
+            buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
         let settings: RaytracedSettings = inputs.settings.techniques.get()?;
         let layers = mask_layers(inputs.lights);
         Ok(frame.node("shadows", |frame| {
-            let traced = frame.upload_buffer("traced lights", record(self.reach_m, &settings, &layers));
-            let mask = self.mask(frame, screen, &traced, (inputs.lights, &settings));
+            let traced =
+                frame.upload_buffer("traced lights", traced_bytes(self.max_coordinate_m, &settings, &layers));
+            let mask = self.mask(frame, buffers, &traced, (inputs.lights, &settings));
             let bound =
                 mask.clone().unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
             let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::ExternalBuffer).collect();
@@ -164,23 +170,23 @@ impl ShadowTechnique for Raytraced {
     }
 }
 
-/// What each light of the scene has: a layer, rays alone, or light.
+/// Returns the layer of each light of the scene, or [`UNMASKED`], or [`LIT`].
 fn mask_layers(lights: &[Light]) -> Vec<u32> {
-    let unmasked = |light: &Light| if light.casts_shadow { UNMASKED } else { LIT };
-    let mut layers: Vec<u32> = lights.iter().map(unmasked).collect();
+    let without_layer = |light: &Light| if light.casts_shadow { UNMASKED } else { LIT };
+    let mut layers: Vec<u32> = lights.iter().map(without_layer).collect();
     for (layer, light) in (0..).zip(masked_lights(lights)) {
         layers[light as usize] = layer;
     }
     layers
 }
 
-/// A `Traced` of `traced.wgsl`.
-fn record(reach_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8> {
+/// Returns the bytes of the struct `Traced` of `traced.wgsl`.
+fn traced_bytes(max_coordinate_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8> {
     let none = [LIT];
     let layers = if layers.is_empty() { &none } else { layers };
     let sizes = [settings.sun_radius_rad.tan(), settings.lamp_radius_m];
-    let head = [reach_m.to_bits(), settings.rays, sizes[0].to_bits(), sizes[1].to_bits()];
-    [bytemuck::bytes_of(&head), bytemuck::cast_slice(layers)].concat()
+    let header = [max_coordinate_m.to_bits(), settings.rays, sizes[0].to_bits(), sizes[1].to_bits()];
+    [bytemuck::bytes_of(&header), bytemuck::cast_slice(layers)].concat()
 }
 
 impl Trace {
@@ -208,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn lights_that_cast_shadows_get_layers_until_there_are_no_more() {
+    fn lights_that_cast_shadows_get_layers_up_to_the_limit() {
         let mut lights = vec![light(true), light(false)];
         lights.extend((0..16).map(|_| light(true)));
         let layers = mask_layers(&lights);
@@ -217,10 +223,10 @@ mod tests {
     }
 
     #[test]
-    fn the_record_of_no_light_is_not_empty() {
+    fn the_struct_without_lights_is_not_empty() {
         let hard = RaytracedSettings::hard();
-        let empty = record(2.5, &hard, &[]);
+        let empty = traced_bytes(2.5, &hard, &[]);
         assert_eq!((empty.len(), &empty[..4], &empty[16..]), (20, &2.5f32.to_le_bytes()[..], &[255; 4][..]));
-        assert_eq!(record(0.0, &hard, &[0, 1]).len(), 24);
+        assert_eq!(traced_bytes(0.0, &hard, &[0, 1]).len(), 24);
     }
 }

@@ -1,4 +1,4 @@
-//! Asking a technique for everything that the picture shows.
+//! The pass that evaluates a technique for all visible surfaces.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use shadowgraph_core::{Bind, Contents, Frame, Texture};
 use shadowgraph_shaders::compose;
 
-use crate::Error;
+use crate::error::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers, layout, shadow_layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
@@ -19,7 +19,7 @@ pub(super) struct Collect {
     view_layout: wgpu::BindGroupLayout,
     shadow_layout: wgpu::BindGroupLayout,
     layout: wgpu::BindGroupLayout,
-    /// For each of the technique's variants that frames have asked for.
+    /// Pipelines by the technique's variants, created on first use.
     pipelines: Mutex<BTreeMap<u32, Arc<wgpu::ComputePipeline>>>,
 }
 
@@ -32,12 +32,12 @@ impl Collect {
             layout: layout(device, "collect", &[FLOAT_MAP, TARGET, UNIFORM]),
             pipelines: Mutex::default(),
         };
-        // What does not compose is told now, not in some frame.
+        // Reports composition errors now, not in some frame.
         collect.pipeline(technique, 0)?;
         Ok(collect)
     }
 
-    /// The pipeline that asks the technique in one of its variants.
+    /// Returns the pipeline that evaluates a variant of the technique.
     fn pipeline(
         &self,
         technique: &dyn ShadowTechnique,
@@ -55,29 +55,29 @@ impl Collect {
         Ok(pipeline)
     }
 
-    /// Adds the pass that asks for everything that the picture shows.
+    /// Adds the pass that evaluates the technique for all visible surfaces.
     pub(super) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         technique: &'f dyn ShadowTechnique,
-        screen: &SurfaceBuffers,
+        buffers: &SurfaceBuffers,
         shadows: &ShadowOutputs<'f>,
         layers: Layers,
     ) -> Result<Texture, Error> {
         let pipeline = self.pipeline(technique, shadows.variant)?;
-        let mut mask = mask_texture(frame, "shadow mask", screen, layers);
+        let mut mask = mask_texture(frame, "shadow mask", buffers, layers);
         let mut pass = frame.compute_pass("collect");
         let shadows = shadows.read_in(&mut pass);
-        let (view, lights) = (pass.storage_buffer(&screen.view), pass.storage_buffer(&screen.lights));
-        let surfaces = pass.sample(&screen.surfaces);
+        let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let surfaces = pass.sample(&buffers.surfaces);
         let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
-        let size_px = screen.size_px;
+        let size_px = buffers.size_px;
         pass.body(move |ctx| {
-            let own = [Bind::Texture(surfaces), Bind::TextureArray(target), Bind::Uniform(layers.record)];
+            let bindings = [Bind::Texture(surfaces), Bind::TextureArray(target), Bind::Uniform(layers.block)];
             let groups = [
                 ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
                 shadows.bind_group(ctx, &self.shadow_layout)?,
-                ctx.bind_group(&self.layout, &own)?,
+                ctx.bind_group(&self.layout, &bindings)?,
             ];
             dispatch(&mut ctx.pass, &pipeline, &groups, workgroups(size_px, layers));
             Ok(())

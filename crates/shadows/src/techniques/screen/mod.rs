@@ -1,5 +1,5 @@
-//! `screen`: shadows of another technique, collected in a screen mask before anything is lit; and `contact`, which adds short
-//! shadows to such a mask.
+//! `screen`: the shadows of another technique in screen space, evaluated into a mask before lighting; and `contact`, which adds
+//! contact shadows to such a mask.
 
 mod collect;
 mod settings;
@@ -11,14 +11,18 @@ use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
 
 use super::mask::pass::{Layers, MaskPass};
 use super::mask::{MASK, no_mask};
+use crate::error::Error;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::settings::{ShadowSettings, TechniqueSettings};
+use crate::technique::GpuStruct;
 use crate::technique::binding::UNIFORM;
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
-use crate::{Error, GpuStruct, Requirements, ShadowInputs, ShadowSettings, TechniqueSettings};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};
 use collect::Collect;
 
-/// Asks another technique once for each pixel and light, in a compute pass, and blurs what it says; a technique that gives a
-/// mask itself is not asked. Whoever lights reads one texel: its shaders know nothing of the other technique, unless something
-/// is blended or there are more lights than layers.
+/// Evaluates another technique once per pixel and light in a compute pass, and blurs the result; the mask of a technique that
+/// has one is used as it is. Lit passes read one texel: their shaders contain no code of the other technique, unless there is
+/// blended geometry or there are more lights than layers.
 ///
 /// After Engel, "Cascaded Shadow Maps" (ShaderX5, 2006), *shadow prepass*, and Pranckevičius, "Deferred Cascaded Shadow
 /// Maps" (2009).
@@ -32,7 +36,7 @@ pub struct ScreenShadows {
 }
 
 impl ScreenShadows {
-    /// Collects the shadows of `inner`.
+    /// Creates the screen-space form of `inner`.
     ///
     /// # Errors
     /// If a shader does not compose.
@@ -47,32 +51,32 @@ impl ScreenShadows {
         })
     }
 
-    /// Collects the shadows of `inner`, and adds short ones that maps are too coarse for: a march over the picture from each
-    /// surface towards each light ([`ContactSettings`]).
+    /// Creates the screen-space form of `inner` with contact shadows, for which maps are too coarse: a ray march over the surface
+    /// buffers from each surface towards each light ([`ContactSettings`]).
     ///
     /// # Errors
     /// If a shader does not compose.
     pub fn with_contact(device: &wgpu::Device, inner: Box<dyn ShadowTechnique>) -> Result<Self, Error> {
-        let screen = Self::new(device, inner)?;
+        let base = Self::new(device, inner)?;
         let contact = MaskPass::new(device, "contact", "contact.wgsl", "cs_contact")?;
         Ok(Self {
-            name: format!("{}+{}", screen.inner.name(), ContactSettings::NAME),
+            name: format!("{}+{}", base.inner.name(), ContactSettings::NAME),
             contact: Some(contact),
-            ..screen
+            ..base
         })
     }
 
-    /// The variant without any of the inner technique.
+    /// Returns the variant without code of the inner technique.
     fn mask_only(&self) -> u32 {
         self.inner.variant_count()
     }
 
-    /// Adds the passes over a mask that the settings ask for.
+    /// Adds the passes over a mask that the settings enable.
     fn passes<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         settings: &ShadowSettings,
-        screen: &SurfaceBuffers,
+        buffers: &SurfaceBuffers,
         mut mask: Texture,
         layers: Layers,
     ) -> Result<Texture, Error> {
@@ -84,12 +88,12 @@ impl ScreenShadows {
                 blur.depth_threshold,
                 0.0,
             ]));
-            mask = self.blur.add_to(frame, screen, &mask, layers, own);
+            mask = self.blur.add_to(frame, buffers, &mask, layers, own);
         }
         if let Some(contact) = &self.contact {
             let settings: ContactSettings = settings.techniques.get()?;
             let own = contact_block(frame, &settings);
-            mask = contact.add_to(frame, screen, &mask, layers, own);
+            mask = contact.add_to(frame, buffers, &mask, layers, own);
         }
         Ok(mask)
     }
@@ -146,11 +150,12 @@ impl ShadowTechnique for ScreenShadows {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name.clone() })?;
+        let buffers = buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name.clone() })?;
         let inner = self.inner.as_ref();
-        let mut outputs = add_shadows(inner, frame, inputs, Some(screen))?;
+        let mut outputs = add_checked(inner, frame, inputs, requirements, Some(buffers))?;
         let layers = Layers::new(frame, inputs.lights);
         outputs.mask = frame.node("collected shadows", |frame| {
             if layers.count == 0 {
@@ -158,25 +163,25 @@ impl ShadowTechnique for ScreenShadows {
             }
             let mask = match outputs.mask.take() {
                 Some(mask) => mask,
-                None => self.collect.add_to(frame, inner, screen, &outputs, layers)?,
+                None => self.collect.add_to(frame, inner, buffers, &outputs, layers)?,
             };
-            self.passes(frame, inputs.settings, screen, mask, layers).map(Some)
+            self.passes(frame, inputs.settings, buffers, mask, layers).map(Some)
         })?;
         let bound = outputs.mask.clone();
         let bound = bound.unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
         outputs
             .bindings
-            .extend([ShadowBinding::TextureArray(bound.clone()), ShadowBinding::Uniform(layers.record)]);
+            .extend([ShadowBinding::TextureArray(bound.clone()), ShadowBinding::Uniform(layers.block)]);
         outputs.debug.push(("shadow mask", bound));
         let casting = inputs.lights.iter().filter(|light| light.casts_shadow).count();
-        if casting == layers.count as usize && !screen.has_blended {
+        if casting == layers.count as usize && !buffers.has_blended {
             outputs.variant = self.mask_only();
         }
         Ok(outputs)
     }
 }
 
-/// A `Contact` of `contact.wgsl`.
+/// Uploads the struct `Contact` of `contact.wgsl`.
 fn contact_block(frame: &mut Frame<'_>, settings: &ContactSettings) -> Uniform {
     let ContactSettings { length_m, thickness_m, steps } = *settings;
     frame.uniform(bytemuck::cast_slice(&[length_m.to_bits(), thickness_m.to_bits(), steps, 0]))

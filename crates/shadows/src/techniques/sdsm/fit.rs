@@ -5,18 +5,19 @@ use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Frame, Uniform};
 use shadowgraph_shaders::compose;
 
 use super::SdsmSettings;
+use crate::error::Error;
+use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{SurfaceBuffers, layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
-use crate::{Error, ShadowInputs, ShadowPlan};
 
-/// The side of a workgroup of the passes over the picture, pixels.
+/// The side of a workgroup of the passes over the image, pixels.
 const WORKGROUP_PX: u32 = 8;
 
-/// The views that a workgroup of the last pass writes.
+/// Number of views that a workgroup of the last pass writes.
 const WORKGROUP_VIEWS: u32 = 64;
 
-/// A storage buffer that is written.
+/// A writable storage buffer.
 const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: false },
     has_dynamic_offset: false,
@@ -67,12 +68,12 @@ impl GpuFit {
         })
     }
 
-    /// Adds the passes, and returns the buffer of fitted views; that of the plan, where there is nothing to fit.
+    /// Adds the passes, and returns the buffer of fitted views, or that of the plan if there is nothing to fit.
     pub(super) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'_>,
-        (screen, own): (&SurfaceBuffers, &SdsmSettings),
+        (buffers, own): (&SurfaceBuffers, &SdsmSettings),
         plan: &ShadowPlan,
         [views, lights]: [&Buffer; 2],
     ) -> Buffer {
@@ -91,15 +92,15 @@ impl GpuFit {
             nearness: own.nearness,
             unused: 0,
         };
-        // Least and greatest, as nothing has changed them yet.
+        // Minimum and maximum, initialized for atomic min and max.
         let no_depths = vec![[u32::MAX, 0]];
         let no_bounds = vec![[u32::MAX, u32::MAX, u32::MAX, 0, 0, 0]; map.tiles.len()];
         frame.node("fit cascades", |frame| {
             let depths = frame.upload_buffer("view depths", bytemuck::cast_slice(&no_depths).to_vec());
             let bounds = frame.upload_buffer("cascade bounds", bytemuck::cast_slice(&no_bounds).to_vec());
             let block = frame.uniform(bytemuck::bytes_of(&fit));
-            let mut steps = Steps { screen, views, lights, block, depths, bounds };
-            let [width, height] = screen.size_px.map(|side| side.div_ceil(WORKGROUP_PX));
+            let mut steps = Steps { buffers, views, lights, block, depths, bounds };
+            let [width, height] = buffers.size_px.map(|side| side.div_ceil(WORKGROUP_PX));
             self.step(frame, &mut steps, ("depths", &self.depths), [width, height], None);
             self.step(frame, &mut steps, ("bounds", &self.bounds), [width, height], None);
             let bytes = BufferDesc::new(plan.view_bytes().len() as u64);
@@ -119,8 +120,9 @@ impl GpuFit {
         fitted: Option<&mut Buffer>,
     ) {
         let mut pass = frame.compute_pass(name);
-        let eye = [&steps.screen.view, &steps.screen.lights].map(|buffer| pass.storage_buffer(buffer));
-        let surfaces = pass.sample(&steps.screen.surfaces);
+        let view_and_lights =
+            [&steps.buffers.view, &steps.buffers.lights].map(|buffer| pass.storage_buffer(buffer));
+        let surfaces = pass.sample(&steps.buffers.surfaces);
         let planned = [steps.views, steps.lights].map(|buffer| pass.storage_buffer(buffer));
         let found = [&mut steps.depths, &mut steps.bounds]
             .map(|buffer| pass.storage_buffer_mut(buffer, Contents::Preserve));
@@ -132,7 +134,7 @@ impl GpuFit {
             own.push(Bind::Uniform(block));
             own.extend(found.map(Bind::Buffer));
             let mut groups = vec![
-                ctx.bind_group(&self.view_layout, &eye.map(Bind::Buffer))?,
+                ctx.bind_group(&self.view_layout, &view_and_lights.map(Bind::Buffer))?,
                 ctx.bind_group(&self.layout, &own)?,
             ];
             if let Some(fitted) = fitted {
@@ -144,9 +146,9 @@ impl GpuFit {
     }
 }
 
-/// What all steps of a frame read and write.
+/// The resources that all steps of a frame share.
 struct Steps<'s> {
-    screen: &'s SurfaceBuffers,
+    buffers: &'s SurfaceBuffers,
     views: &'s Buffer,
     lights: &'s Buffer,
     block: Uniform,
@@ -162,7 +164,7 @@ mod tests {
     use std::mem::offset_of;
 
     #[test]
-    fn the_block_lies_in_wgsl_as_in_rust() {
+    fn the_uniform_block_has_the_same_layout_in_wgsl_and_rust() {
         let module = compose("sdsm.wgsl", &[]).unwrap();
         let fields = [
             ("views", offset_of!(Fit, views)),

@@ -1,8 +1,8 @@
-//! `sdsm`: cascades that the GPU fits to what the picture shows.
+//! `sdsm`: cascades that the GPU fits to the visible surfaces.
 //!
 //! Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps" (2011): passes find the view depths and the extents of all
-//! surfaces, and write splits and matrices into the buffer of views from which casters are then drawn. The CPU knows neither, so it
-//! draws all casters that matter to the view into every cascade.
+//! visible surfaces, and write splits and matrices into the buffer of views that casters are drawn with. The CPU knows neither, so
+//! every cascade draws all casters that matter to the view.
 
 mod fit;
 mod settings;
@@ -13,13 +13,17 @@ use shadowgraph_core::Frame;
 use shadowgraph_shaders::ModuleSource;
 
 use super::Pcf;
+use crate::error::Error;
+use crate::light_params::settings_requirements;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::settings::TechniqueSettings;
 use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Error, Requirements, ShadowInputs, TechniqueSettings};
 use fit::GpuFit;
 
-/// The maps of [`Pcf`], with all cascades but the last fitted to the surfaces that are seen. The last covers the whole view: what is
-/// blended, or beside the picture, finds its shadows there. Of [`CascadeSettings`](crate::CascadeSettings) it takes neither `split`
-/// and `fit` nor `select` and `cache`.
+/// The maps of [`Pcf`], with all cascades but the last fitted to the visible surfaces. The last cascade covers the whole view, for
+/// blended geometry and points outside the image. It ignores `split`, `fit`, `select` and `cache` of
+/// [`CascadeSettings`](crate::CascadeSettings).
 pub struct Sdsm {
     pcf: Pcf,
     fit: GpuFit,
@@ -41,7 +45,7 @@ impl ShadowTechnique for Sdsm {
     }
 
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
-        Ok(Requirements { fits_on_gpu: true, ..self.pcf.requirements(inputs)? })
+        Ok(Requirements { fits_on_gpu: true, ..settings_requirements(inputs.settings) })
     }
 
     fn reads_surface_buffers(&self) -> bool {
@@ -64,13 +68,14 @@ impl ShadowTechnique for Sdsm {
         &'f self,
         frame: &mut Frame<'f>,
         inputs: &ShadowInputs<'f>,
-        screen: Option<&SurfaceBuffers>,
+        requirements: &Requirements,
+        buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let screen = screen.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
-        let (requirements, own) =
-            (self.requirements(inputs)?, inputs.settings.techniques.get::<SdsmSettings>()?);
-        self.pcf.add_fitted(frame, inputs, &requirements, |frame, plan, views, lights| {
-            self.fit.add_to(frame, inputs, (screen, &own), plan, [views, lights])
+        let buffers =
+            buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
+        let own = inputs.settings.techniques.get::<SdsmSettings>()?;
+        self.pcf.add_fitted(frame, inputs, requirements, |frame, plan, views, lights| {
+            self.fit.add_to(frame, inputs, (buffers, &own), plan, [views, lights])
         })
     }
 }
