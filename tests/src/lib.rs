@@ -1,4 +1,4 @@
-//! What the tests that need the whole house share: places, skips, the built program.
+//! Shared by the tests of the whole workspace: paths, skips, the built program.
 
 mod places;
 mod program;

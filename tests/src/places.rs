@@ -1,4 +1,4 @@
-//! Where things lie.
+//! Paths of the repository and of the shared test material.
 
 use std::path::{Path, PathBuf};
 
@@ -9,9 +9,9 @@ pub fn repository() -> PathBuf {
     here.parent().unwrap_or(here).to_path_buf()
 }
 
-/// Returns a folder of the test material that is not in the repository, if it is on this machine.
+/// Returns a directory of the test material that is not in the repository, if this machine has it.
 ///
-/// It is looked for in the folder that the variable `SHADOWGRAPH_SHARED` names, else in `shared` beside
+/// It is a subdirectory of the one that the variable `SHADOWGRAPH_SHARED` names, by default of `shared` next to
 /// the repository.
 #[must_use]
 pub fn shared(folder: &str) -> Option<PathBuf> {

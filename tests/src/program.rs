@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
-/// Why there is no program to test.
+/// The reason why the program could not be built.
 #[derive(Clone, Debug)]
 pub struct ProgramError(String);
 
@@ -18,7 +18,7 @@ impl std::fmt::Display for ProgramError {
 
 impl std::error::Error for ProgramError {}
 
-/// Returns the path of the program, built once in each test program.
+/// Returns the path of the program, which each test program builds once.
 ///
 /// # Errors
 /// When cargo cannot build it.
@@ -30,7 +30,7 @@ pub fn program() -> Result<&'static Path, ProgramError> {
 fn build() -> Result<PathBuf, ProgramError> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    // The whole workspace is named so that features are those of `cargo test --workspace`, which has
+    // Naming the whole workspace gives the features of `cargo test --workspace`, which has
     // built nearly everything already.
     command.args(["build", "--quiet", "--workspace", "--bin", "shadowgraph"]);
     command

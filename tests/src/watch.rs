@@ -1,4 +1,4 @@
-//! A program under a limit of time and memory.
+//! Runs programs under limits of time and memory.
 
 use std::io::{self, Read};
 use std::process::{Child, Command, Stdio};
@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 const POLL: Duration = Duration::from_millis(4);
 
-/// What a program may use.
+/// Limits of a program's run.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Time from start to end.
+    /// The longest time from start to end.
     pub time: Duration,
-    /// Resident memory at its highest, bytes. Watched on Linux only.
+    /// The largest resident memory, bytes. Only checked on Linux.
     pub memory_bytes: u64,
 }
 
@@ -21,22 +21,22 @@ pub struct Limits {
 pub struct Outcome {
     /// The exit code; `None` when a signal ended it.
     pub code: Option<i32>,
-    /// What it wrote to standard output.
+    /// The text on standard output.
     pub stdout: String,
-    /// What it wrote to standard error.
+    /// The text on standard error.
     pub stderr: String,
-    /// How long it ran.
+    /// The time that it ran.
     pub time: Duration,
-    /// The highest resident memory that was seen, bytes; 0 where it cannot be watched.
+    /// The peak of resident memory, bytes; 0 where it cannot be read.
     pub peak_bytes: u64,
-    /// The limit for which it was stopped.
+    /// The limit that stopped it.
     pub stopped: Option<&'static str>,
 }
 
-/// Runs a program to its end, or stops it at the first limit that it goes over.
+/// Runs a program to its end, or stops it at the first limit that it exceeds.
 ///
 /// # Errors
-/// When it cannot be started or waited for.
+/// If it cannot be started or waited for.
 pub fn run(command: &mut Command, limits: Limits) -> io::Result<Outcome> {
     let start = Instant::now();
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
@@ -74,7 +74,7 @@ fn over(limits: Limits, time: Duration, peak_bytes: u64) -> Option<&'static str>
     }
 }
 
-/// The kernel's own record of the highest resident size, so that nothing is missed between two looks.
+/// Reads the peak of resident memory that the kernel keeps, so that no peak between two polls is missed.
 fn peak_of(child: &Child) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -86,7 +86,7 @@ fn peak_of(child: &Child) -> u64 {
 fn collect(mut pipe: impl Read + Send + 'static) -> JoinHandle<Vec<u8>> {
     spawn(move || {
         let mut bytes = Vec::new();
-        // A pipe that breaks has given what there was.
+        // A broken pipe has already delivered its data.
         let _broken = pipe.read_to_end(&mut bytes);
         bytes
     })

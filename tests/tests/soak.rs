@@ -1,6 +1,6 @@
-//! Many frames with everything changing: pipelines, techniques, sizes, lights. `SHADOWGRAPH_SOAK` says how many, 120 by default,
-//! and `SHADOWGRAPH_SOAK_SEED` which. Many are shared out among processes: Mesa's software driver keeps the code of shaders whose
-//! pipelines are long gone, about 100 MiB for each renderer, so one process for all would run out of memory.
+//! Many frames in which pipelines, techniques, sizes and lights change. `SHADOWGRAPH_SOAK` is their number, 120 by default,
+//! and `SHADOWGRAPH_SOAK_SEED` the seed. Many frames are split among processes: Mesa's software driver keeps the code of shaders whose
+//! pipelines were destroyed, about 100 MiB for each renderer, so one process for all would run out of memory.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 use shadowgraph::options::{AdapterChoice, Aov};
@@ -14,22 +14,22 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// Frames where nobody asks for more.
+/// The default number of frames.
 const FRAMES: u32 = 120;
 
-/// The most frames of one process.
+/// The largest number of frames of one process.
 const SHARE: u32 = 120;
 
-/// No frame takes as long, pipelines and a busy machine included.
+/// More than any frame takes, including the creation of pipelines on a busy machine.
 const FRAME_LIMIT: Duration = Duration::from_secs(300);
 
-/// Numbers that are the same in every run (xorshift, Marsaglia 2003).
+/// Pseudo-random numbers that are the same in every run (xorshift, Marsaglia 2003).
 struct Random(u64);
 
 impl Random {
     fn new(seed: u32) -> Self {
         let mut random = Self(0x9e37_79b9_7f4a_7c15 ^ (u64::from(seed) << 32));
-        // The first numbers of seeds that are alike are alike.
+        // The first numbers of similar seeds are similar.
         (0..16).for_each(|_| {
             random.flip();
         });
@@ -48,7 +48,7 @@ impl Random {
     }
 }
 
-/// A pipeline file with some of the nodes that can be left out.
+/// Returns a pipeline file with some of the optional nodes.
 fn pipeline(random: &mut Random) -> String {
     let deferred = random.flip();
     let mut nodes = vec![
@@ -111,18 +111,18 @@ fn pipeline(random: &mut Random) -> String {
     format!("(nodes: [{}], outputs: {{\"picture\": \"{picture}\"}})", nodes.join(",\n"))
 }
 
-/// Memory of this process, MiB; `None` where it cannot be told.
+/// Returns the memory of this process, MiB; `None` where it cannot be read.
 fn memory_mib() -> Option<u64> {
     let pages = std::fs::read_to_string("/proc/self/statm").ok()?;
     Some(pages.split_whitespace().nth(1)?.parse::<u64>().ok()? / 256)
 }
 
-/// A whole number that the environment may name.
-fn asked(variable: &str, default: u32) -> u32 {
+/// Returns an integer that the environment may set.
+fn from_env(variable: &str, default: u32) -> u32 {
     std::env::var(variable).map_or(default, |number| number.parse().unwrap())
 }
 
-/// Ends the process where what was last sent is not followed in time: a driver that never comes back cannot be asked to.
+/// Ends the process when no message follows the last one in time: a driver that hangs cannot be interrupted.
 fn watch(limit: Duration) -> Sender<String> {
     let (sender, doing) = channel::<String>();
     std::thread::spawn(move || {
@@ -133,7 +133,8 @@ fn watch(limit: Duration) -> Sender<String> {
                 Err(RecvTimeoutError::Disconnected) => return,
                 Err(RecvTimeoutError::Timeout) => {
                     // Not `eprintln!`: that would be captured, and end with the process.
-                    let _ = writeln!(std::io::stderr(), "soak: not done after {} s: {now}", limit.as_secs());
+                    let _ =
+                        writeln!(std::io::stderr(), "soak: not finished after {} s: {now}", limit.as_secs());
                     std::process::exit(1);
                 }
             }
@@ -142,15 +143,15 @@ fn watch(limit: Duration) -> Sender<String> {
     sender
 }
 
-/// Draws frames by ever other pipelines, techniques, sizes and lights. `each` is called when the renderer of some frames is gone,
-/// with the part of the frames that are drawn, in quarters.
+/// Renders frames of random pipelines, techniques, sizes and lights. `each` is called when the renderer of some frames was dropped,
+/// with the quarter of the frames that has been reached.
 fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
     let Registry { nodes, techniques } = Registry::built_in();
     let kinds = techniques.kinds().iter().map(|kind| kind.name);
     let names: Vec<&str> = kinds.filter(|name| *name != "raytraced").collect();
     let folder = tempfile::tempdir().unwrap();
     let scene = demo_scene();
-    let mut random = Random::new(asked("SHADOWGRAPH_SOAK_SEED", 0));
+    let mut random = Random::new(from_env("SHADOWGRAPH_SOAK_SEED", 0));
     let mut drawn = 0;
     let watched = watch(FRAME_LIMIT);
     while drawn < frames {
@@ -187,7 +188,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
     }
 }
 
-/// Runs this program for each share of the frames, as many at a time as there are cores, up to four: they take some GiB each.
+/// Runs this program for each share of the frames, at most one per core and at most four at once: each takes some GiB.
 fn in_processes(frames: u32) {
     let processes = frames.div_ceil(SHARE);
     let next = AtomicU32::new(0);
@@ -197,13 +198,13 @@ fn in_processes(frames: u32) {
             if seed >= processes {
                 return;
             }
-            // Those that are left over when all have the same go to the first.
+            // The first processes render the remainder.
             in_process(seed, frames / processes + u32::from(seed < frames % processes));
         }
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| (0..cores.min(4)).for_each(|_| drop(scope.spawn(work))));
-    println!("soak: {frames} frames, nothing wrong");
+    println!("soak: {frames} frames without an error");
 }
 
 fn in_process(seed: u32, share: u32) {
@@ -212,25 +213,25 @@ fn in_process(seed: u32, share: u32) {
     program.arg("--nocapture").envs(variables.map(|(name, number)| (name, number.to_string())));
     let done = program.output().unwrap();
     let text = String::from_utf8_lossy(&done.stdout);
-    let told: Vec<_> =
-        text.lines().filter_map(|line| line.split_once("soak: ")).map(|(_, told)| told).collect();
-    println!("soak: seed {seed}: {}", told.join("; "));
+    let lines: Vec<_> =
+        text.lines().filter_map(|line| line.split_once("soak: ")).map(|(_, lines)| lines).collect();
+    println!("soak: seed {seed}: {}", lines.join("; "));
     let said = String::from_utf8_lossy(&done.stderr);
     assert!(done.status.success(), "{variables:?}\n{text}\n{said}");
 }
 
-/// On the device that draws nothing, the process's memory is ours and wgpu's: it stays. On a software driver, the device's memory
-/// comes back; that of the process is not looked at, as Mesa keeps the code of shaders whose pipelines are gone.
+/// On the noop device, the process's memory is that of this project and wgpu: it must not grow. On a software driver, the device's memory
+/// must be freed; that of the process is not checked, as Mesa keeps the code of shaders whose pipelines were destroyed.
 #[test]
 fn changing_pipelines_sizes_techniques_and_lights_leaks_no_memory() {
-    let frames = asked("SHADOWGRAPH_SOAK", FRAMES);
+    let frames = from_env("SHADOWGRAPH_SOAK", FRAMES);
     if frames > SHARE {
         return in_processes(frames);
     }
     let mut most = [0; 4];
     let note = |quarter: usize| most[quarter] = most[quarter].max(memory_mib().unwrap_or_default());
     soak(&Gpu::noop().unwrap(), frames * 2, note);
-    println!("soak: most memory of the process by quarter of {} frames: {most:?} MiB", frames * 2);
+    println!("soak: peak memory of the process by quarter of {} frames: {most:?} MiB", frames * 2);
     assert!(most[3] <= most[1].max(most[0]) * 5 / 4 + 16, "{most:?} MiB");
 
     let gpu = match Gpu::open(&AdapterChoice::Cpu) {
@@ -243,7 +244,7 @@ fn changing_pipelines_sizes_techniques_and_lights_leaks_no_memory() {
     let mut renderers = 0;
     soak(&gpu, frames, |_| {
         let now = allocated();
-        assert!(now <= before + (1 << 20), "{now} bytes are allocated, and {before} were before");
+        assert!(now <= before + (1 << 20), "{now} bytes are allocated, {before} were before");
         renderers += 1;
     });
     println!(

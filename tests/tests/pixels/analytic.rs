@@ -1,4 +1,4 @@
-//! The shadow of a cube on a floor against its computed outline.
+//! Compares the shadow of a cube on a floor with its computed outline.
 
 use crate::stage::{
     CUBE_MAX, CUBE_MIN, SIZE_PX, camera, cube_on_floor, draw, gpu, light, pixel_ray, ray_box, sun,
@@ -10,12 +10,12 @@ use shadowgraph::scene::{LightKind, Scene, origin_near};
 use shadowgraph::shadows::{ShadowInputs, ShadowPlan, ShadowView, plan_shadows};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
-/// How far from the computed outline the drawn one may lie, shadow texels.
+/// The largest distance between the computed and the rendered outline, shadow texels.
 const OUTLINE_TEXELS: f64 = 1.5;
-/// Beyond this the filter does not reach the outline: light is full.
+/// The distance from which the filter does not reach the outline, shadow texels: visibility is 1.
 const CLEAR_TEXELS: f64 = 4.5;
 
-/// What is seen at a pixel.
+/// The visible surface at a pixel.
 struct Hit {
     position: DVec3,
     normal: DVec3,
@@ -45,14 +45,14 @@ fn cube_corner(index: usize) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|a| if index >> a & 1 == 0 { CUBE_MIN[a] } else { CUBE_MAX[a] }))
 }
 
-/// The two axes across the light, to look at things as the light does.
+/// Projects points onto the plane perpendicular to the light.
 fn across(to_light: DVec3) -> impl Fn(DVec3) -> DVec2 {
     let right = to_light.any_orthonormal_vector();
     let up = to_light.cross(right);
     move |p: DVec3| DVec2::new(p.dot(right), p.dot(up))
 }
 
-/// The distance of a point from the cube's outline as the light sees it, metres across the light.
+/// Returns the distance of a point from the cube's silhouette as the light sees it, metres in that plane.
 fn outline_distance(position: DVec3, to_light: DVec3) -> f64 {
     let flat = across(to_light);
     let hull = convex_hull((0..8).map(|i| flat(cube_corner(i))).collect());
@@ -60,7 +60,7 @@ fn outline_distance(position: DVec3, to_light: DVec3) -> f64 {
     edges.map(|(&a, &b)| segment_distance(flat(position), a, b)).fold(f64::MAX, f64::min)
 }
 
-/// The distance of a point from the nearest edge of the cube as the light sees it, metres across the light.
+/// Returns the distance of a point from the nearest edge of the cube as the light sees it, metres in that plane.
 fn edge_distance(position: DVec3, to_light: DVec3) -> f64 {
     let flat = across(to_light);
     let edges = (0..8).flat_map(|a| [1, 2, 4].map(|bit| (a, a ^ bit)));
@@ -112,7 +112,7 @@ fn plan(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> ShadowPlan {
     .unwrap()
 }
 
-/// The view that the shader reads at a position: the first whose inner tile has it. Its texel there, metres.
+/// Returns the texel size at a position, metres, of the view that the shader samples: the first whose inner tile contains it.
 fn texel_at(views: &[ShadowView], position: Vec3) -> Option<f64> {
     views.iter().find_map(|view| {
         let map = view.map_from_world * position.extend(1.0);
@@ -122,16 +122,16 @@ fn texel_at(views: &[ShadowView], position: Vec3) -> Option<f64> {
     })
 }
 
-/// Counts what a picture got wrong.
+/// Errors of an image.
 #[derive(Debug, Default)]
 struct Report {
     lit: u32,
     dark: u32,
-    /// The wrong floor pixel that is farthest from the outline, texels.
+    /// Distance from the outline of the misclassified floor pixel that is farthest from it, texels.
     worst_outline_texels: f64,
-    /// Lit faces of the cube that are drawn dark.
+    /// Pixels of lit faces of the cube that are rendered dark.
     dark_faces: u32,
-    /// Lit pixels out of the filter's reach of any edge that are not fully lit.
+    /// Lit pixels beyond the filter radius of any edge that are not fully lit.
     acne: Vec<(u32, u32, u8)>,
 }
 
@@ -153,7 +153,7 @@ fn examine(
         if hit.normal.dot(to_light) <= 0.1 {
             continue;
         }
-        // Silhouette pixels can show either side.
+        // Silhouette pixels can show either surface.
         if alpha == 0 {
             continue;
         }
@@ -187,7 +187,7 @@ fn assert_clean(report: &Report, what: &str) {
         report.worst_outline_texels,
         report.acne.len()
     );
-    assert!(report.dark > 50 && report.lit > 10_000, "{what}: the shadow is in the picture: {report:?}");
+    assert!(report.dark > 50 && report.lit > 10_000, "{what}: the shadow is in the image: {report:?}");
     assert!(report.worst_outline_texels <= OUTLINE_TEXELS, "{what}: {report:?}");
     assert_eq!(report.dark_faces, 0, "{what}: {report:?}");
     assert!(report.acne.is_empty(), "{what}: {report:?}");
@@ -258,7 +258,7 @@ fn the_outline_of_a_spot_lights_shadow_is_where_geometry_says() {
                     && ray_box(point + DVec3::Y * 1e-9, way.normalize(), CUBE_MIN, CUBE_MAX)
                         .is_some_and(|(distance, _)| distance < way.length())
             };
-            // Around the outline by as many texels, the truth is not one thing.
+            // Within that many texels around the outline, both results are allowed.
             let texel_m = texel_at(&views, hit.position.as_vec3()).unwrap();
             let reach = |texels: f64| {
                 let stretch = texels * texel_m / hit.normal.dot(to_light);
@@ -284,7 +284,7 @@ fn visibility_is_full_where_no_caster_is_in_range() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(sun(DVec3::new(0.2, -1.0, 0.1).normalize()));
-    // Beside the cube and its shadow, looking away.
+    // Next to the cube and its shadow, looking away.
     let options = view(camera(DVec3::new(8.0, 1.0, 8.0), DVec3::new(12.0, 0.0, 12.0)), 5.0);
     let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
     assert!(picture.rgba8.chunks_exact(4).all(|p| p[3] == 0 || p[0] == 255));

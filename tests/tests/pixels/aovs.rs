@@ -1,4 +1,4 @@
-//! What each output of the program shows.
+//! Images of each output of the program.
 
 use crate::stage::{camera, cube_on_floor, draw, gpu, sun, view};
 use glam::DVec3;
@@ -20,7 +20,7 @@ fn cube_picture(aov: Aov) -> Option<RenderedImage> {
     Some(draw(gpu()?, scene, aov, &options).image)
 }
 
-/// Pixels of the picture: sky, sunlit floor, shadowed floor and the top of the cube.
+/// Pixels of the image: sky and the top of the cube.
 const SKY: (u32, u32) = (2, 2);
 const TOP: (u32, u32) = (160, 72);
 
@@ -71,7 +71,7 @@ fn the_atlas_output_shows_both_maps_and_runs_only_their_passes() {
     let drawn = draw(gpu, scene, Aov::Atlas, &options);
     let paths: Vec<_> = drawn.plan.order().iter().map(|&id| drawn.plan.pass_path(id)).collect();
     let runs = |path: &str| paths.iter().any(|own| own == path);
-    // Each tile is a pass of its own.
+    // Each tile is a separate pass.
     for map in ["shadows/cascades/cascade 0", "shadows/cascades/cascade 3", "shadows/atlas/light 1"] {
         assert!(runs(map), "{map}: {paths:?}");
     }
@@ -82,7 +82,7 @@ fn the_atlas_output_shows_both_maps_and_runs_only_their_passes() {
             .map(|(x, y)| drawn.image.pixel(x, y).unwrap()[0])
             .collect()
     };
-    assert!(greys(0..160).len() > 20 && greys(160..320).len() > 20, "something is drawn into each map");
+    assert!(greys(0..160).len() > 20 && greys(160..320).len() > 20, "each map has casters");
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn rendering_a_view_twice_gives_equal_images_and_plans() {
 #[test]
 fn shadows_fade_out_at_the_shadow_distance() {
     let Some(gpu) = gpu() else { return };
-    // A roof over everything: the floor is dark up to the shadow distance, then light.
+    // A roof over the whole floor, which is dark up to the shadow distance and lit beyond it.
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.instances[1].world_from_local = glam::DAffine3::from_scale_rotation_translation(
         DVec3::new(60.0, 1.0, 60.0),
@@ -169,6 +169,6 @@ fn shadows_fade_out_at_the_shadow_distance() {
 fn the_automatic_shadow_distance_covers_the_visible_scene() {
     let (scene, options) = cube();
     let distance = options.with_shadow_distance(ShadowDistance::Auto, &scene).shadows.distance_m;
-    // The far corner of the floor is some 32 m from the camera.
+    // The far corner of the floor is about 32 m from the camera.
     assert!((20.0..40.0).contains(&distance), "{distance}");
 }

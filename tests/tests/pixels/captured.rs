@@ -1,4 +1,4 @@
-//! A frame whose textures are captured draws the same, by a plan that is said to be the same.
+//! Capturing textures changes neither the image of a frame nor its plan.
 
 use shadowgraph::core::TexelValues;
 use shadowgraph::options::Aov;
@@ -27,7 +27,7 @@ fn a_captured_frame_has_the_plan_and_the_pixels_of_an_uncaptured_frame() {
         assert_eq!(inspected.frame.plan, drawn.plan, "{technique}");
         assert_eq!(inspected.frame.image, drawn.image, "{technique}");
         assert!(!inspected.frame.times.is_empty() && !inspected.textures.is_empty());
-        // What the capture itself drew, to the texel where all of them are kept.
+        // The captured texels, where all of them are kept.
         let picture = drawn.plan.find_resource("picture").unwrap();
         let captured = inspected.textures.iter().rfind(|shot| shot.resource == picture).unwrap();
         let texels = captured.texels.as_ref().unwrap();
@@ -50,6 +50,6 @@ fn the_page_outlines_the_frustum_of_every_shadow_map() {
     let names: Vec<_> = page.drawings[0].outlines.iter().map(|outline| &*outline.name).collect();
     assert_eq!(names.len(), 1 + 4 + 3, "{names:?}");
     assert!(names[1].starts_with("cascade 0, 0.1 to ") && names.contains(&"light 2 (teal)"), "{names:?}");
-    // Fitted to the picture on the GPU: the nearest cascade begins where the nearest surface is.
+    // Fitted to the visible depths on the GPU: the nearest cascade begins at the nearest surface.
     assert!(inspected.views[0].end_m < 60.0 && inspected.views[0].end_m > 0.0);
 }

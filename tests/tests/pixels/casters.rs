@@ -1,4 +1,4 @@
-//! What casts a shadow, and what does not.
+//! Which geometry casts a shadow.
 
 use crate::maps::draw_map;
 use crate::stage::{
@@ -11,7 +11,7 @@ use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
 use shadowgraph::scene::{AlphaMode, Image, Mesh, Scene, TextureRef};
 use shadowgraph::shadows::{Pcf, ShadowSettings};
 
-/// A floor under a sun straight above, and over it a square of 2 m whose left half is cut out by its texture.
+/// Returns a floor under a vertical sun, and above it a square of 2 m whose left half is transparent in its texture.
 fn half_cut_sheet(alpha: AlphaMode) -> Scene {
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let mut vertices = corners.map(|(x, z)| vertex(DVec3::new(x, 0.0, z), [0.0, 1.0, 0.0]));
@@ -35,7 +35,7 @@ fn half_cut_sheet(alpha: AlphaMode) -> Scene {
     scene
 }
 
-/// The visibility of a floor point, seen from the side, under the sheet.
+/// Returns the visibility of a floor point below the sheet, seen from the side.
 fn visibility(scene: Scene, at: DVec3) -> Option<u8> {
     let gpu = gpu()?;
     let options = view(camera(DVec3::new(0.0, 0.7, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
@@ -46,7 +46,7 @@ fn visibility(scene: Scene, at: DVec3) -> Option<u8> {
     let x = ((ndc.x * 0.5 + 0.5) * f64::from(SIZE_PX[0])) as u32;
     let y = ((0.5 - ndc.y * 0.5) * f64::from(SIZE_PX[1])) as u32;
     let [grey, _, _, alpha] = picture.pixel(x, y).unwrap();
-    assert_eq!(alpha, 255, "the floor is seen at {x} {y}");
+    assert_eq!(alpha, 255, "the floor is visible at {x} {y}");
     Some(grey)
 }
 
@@ -60,7 +60,7 @@ fn an_alpha_masked_sheet_casts_the_shadow_of_its_opaque_part() {
     assert_eq!(
         visibility(half_cut_sheet(AlphaMode::Opaque), hole),
         Some(0),
-        "and not through an opaque sheet"
+        "but not through an opaque sheet"
     );
 }
 
@@ -76,7 +76,7 @@ fn a_blended_sheet_casts_the_shadow_of_its_opaque_part() {
 #[test]
 fn a_single_sided_wall_casts_shadows_on_both_sides() {
     let mut scene = half_cut_sheet(AlphaMode::Opaque);
-    // Upside down: the sun sees only its back.
+    // Upside down: the sun sees only back faces.
     scene.instances[1].world_from_local.matrix3 = glam::DMat3::from_rotation_x(std::f64::consts::PI);
     let Some(grey) = visibility(scene, DVec3::new(0.6, 0.0, 0.3)) else { return };
     assert_eq!(grey, 0);
@@ -85,7 +85,7 @@ fn a_single_sided_wall_casts_shadows_on_both_sides() {
 #[test]
 fn a_caster_far_above_the_view_keeps_its_shadow() {
     let mut scene = half_cut_sheet(AlphaMode::Opaque);
-    // Far over the sphere that the cascades are fitted to: kept by the clamp to the near plane.
+    // Far above the sphere that the cascades are fitted to: clamped to the near plane.
     scene.instances[1].world_from_local.translation.y = 500.0;
     let Some(grey) = visibility(scene, DVec3::new(0.6, 0.0, 0.3)) else { return };
     assert_eq!(grey, 0);
@@ -104,7 +104,7 @@ fn depth_clamp_in_the_fragment_shader_gives_the_map_of_the_hardware_clamp() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     let direction = DVec3::new(0.3, -1.0, 0.2).normalize();
     scene.add_light(sun(direction));
-    // Another cube high over the cascades on the way of the light, so that something is clamped.
+    // Another cube high above the cascades towards the light, so that depth is clamped.
     add_instance(&mut scene, 1, 0, direction * -60.0);
     let upload = || GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
     let maps = [false, true].map(|emulate_clamp| {

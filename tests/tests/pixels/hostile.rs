@@ -1,4 +1,4 @@
-//! Inputs that nobody means: a clear error, or a picture as it should be.
+//! Invalid and extreme inputs: a clear error or a correct image.
 
 use crate::stage::{camera, cube_on_floor, draw, gpu, light, sun, sun_direction, view};
 use glam::DVec3;
@@ -20,25 +20,26 @@ fn lit_by(lights: Vec<Light>) -> Scene {
     Scene { lights, ..cube_on_floor(DVec3::ZERO) }
 }
 
-fn lamp(position_world: DVec3, direction: DVec3) -> Light {
+fn spot(position_world: DVec3, direction: DVec3) -> Light {
     let (range, inner_angle, outer_angle) = (Some(20.0), 0.3, 0.5);
     light(LightKind::Spot { position_world, direction, range, inner_angle, outer_angle }, 2000.0)
 }
 
-/// Every technique and pipeline.
-struct Ways(Vec<Renderer>);
+/// A renderer for each technique and pipeline.
+struct Renderers(Vec<Renderer>);
 
-impl Ways {
+impl Renderers {
     fn new(gpu: &Gpu) -> Self {
-        let ways: [RenderConfig; 5] = [
+        let configs: [RenderConfig; 5] = [
             PCF.into(),
             Pipeline::screen_shadows().into(),
             Pipeline::minimal().into(),
             RAYTRACED.into(),
             NONE.into(),
         ];
-        let renderer = |way| Renderer::with_config(gpu, lit_by(Vec::new()), &eye(), Aov::Color, way).unwrap();
-        Self(ways.map(renderer).into())
+        let renderer =
+            |config| Renderer::with_config(gpu, lit_by(Vec::new()), &eye(), Aov::Color, config).unwrap();
+        Self(configs.map(renderer).into())
     }
 
     fn draw(&mut self, gpu: &Gpu, lights: &[Light], options: &ViewOptions) -> Vec<RenderedFrame> {
@@ -50,15 +51,15 @@ impl Ways {
     }
 }
 
-/// How many pixels differ by more than a quarter of the way to white.
+/// Counts the pixels that differ by more than a quarter of white.
 fn different(a: &RenderedFrame, b: &RenderedFrame) -> usize {
     let pixels = a.image.rgba8.chunks_exact(4).zip(b.image.rgba8.chunks_exact(4));
     pixels.filter(|(a, b)| (0..3).any(|i| a[i].abs_diff(b[i]) > 64)).count()
 }
 
-/// All but the last are like ray tracing, that is like the one before the last.
+/// Asserts that all but the last are close to ray tracing, which is the last but one.
 fn agree(drawn: &[RenderedFrame]) {
-    let [others @ .., truth, _] = drawn else { panic!("five ways") };
+    let [others @ .., truth, _] = drawn else { panic!("five images") };
     for other in others {
         let wrong = different(other, truth);
         assert!(wrong < 600, "{wrong} of 57,600 pixels");
@@ -68,10 +69,10 @@ fn agree(drawn: &[RenderedFrame]) {
 #[test]
 fn a_scene_without_lights_renders_without_shadow_maps() {
     let Some(gpu) = gpu() else { return };
-    let drawn = Ways::new(gpu).draw(gpu, &[], &options());
+    let drawn = Renderers::new(gpu).draw(gpu, &[], &options());
     assert!(drawn.iter().all(|drawn| drawn.unshadowed.is_empty()));
     assert!(drawn.iter().all(|other| other.image == drawn[0].image));
-    assert!(drawn[0].image.rgba8.chunks_exact(4).any(|rgba| rgba[0] > 20), "all around there is light");
+    assert!(drawn[0].image.rgba8.chunks_exact(4).any(|rgba| rgba[0] > 20), "there is ambient light");
 }
 
 #[test]
@@ -79,11 +80,11 @@ fn lights_at_the_camera_show_no_shadow() {
     let Some(gpu) = gpu() else { return };
     let at = eye().position_world();
     let point = light(LightKind::Point { position_world: at, range: Some(30.0) }, 2000.0);
-    let mut ways = Ways::new(gpu);
-    for light in [lamp(at, eye().forward_world()), point] {
-        let drawn = ways.draw(gpu, &[light], &options());
+    let mut renderers = Renderers::new(gpu);
+    for light in [spot(at, eye().forward_world()), point] {
+        let drawn = renderers.draw(gpu, &[light], &options());
         agree(&drawn);
-        // No shadow can be seen from where its light is.
+        // From the position of the light no shadow is visible.
         assert!(different(&drawn[0], &drawn[4]) < 600);
         assert!(drawn[0].unshadowed.is_empty());
     }
@@ -95,11 +96,11 @@ fn seventeen_spot_lights_share_the_atlas_and_with_even_tiles_the_last_is_reporte
     let around = |i: u32| {
         let angle = f64::from(i) * std::f64::consts::TAU / 17.0;
         let position = DVec3::new(angle.cos() * 4.0, 4.0, angle.sin() * 4.0);
-        Light { intensity: 300.0, ..lamp(position, -position.normalize()) }
+        Light { intensity: 300.0, ..spot(position, -position.normalize()) }
     };
     let lights: Vec<Light> = (0..17).map(around).collect();
     let mut options = options();
-    let by_importance = Ways::new(gpu).draw(gpu, &lights, &options);
+    let by_importance = Renderers::new(gpu).draw(gpu, &lights, &options);
     agree(&by_importance);
     assert!(by_importance[0].unshadowed.is_empty());
     options.shadows.atlas.tiles = AtlasTiles::Even;
@@ -113,21 +114,21 @@ fn seventeen_spot_lights_share_the_atlas_and_with_even_tiles_the_last_is_reporte
 fn invalid_lights_contribute_nothing() {
     let Some(gpu) = gpu() else { return };
     let good = sun(sun_direction(40.0, 60.0));
-    let mut ways = Ways::new(gpu);
-    let alone = ways.draw(gpu, std::slice::from_ref(&good), &options());
+    let mut renderers = Renderers::new(gpu);
+    let alone = renderers.draw(gpu, std::slice::from_ref(&good), &options());
     let point = |range| LightKind::Point { position_world: DVec3::Y * 3.0, range };
     let broken = [
         sun(DVec3::ZERO),
         sun(DVec3::NAN),
-        lamp(DVec3::Y * 3.0, DVec3::ZERO),
-        lamp(DVec3::NAN, DVec3::NEG_Y),
+        spot(DVec3::Y * 3.0, DVec3::ZERO),
+        spot(DVec3::NAN, DVec3::NEG_Y),
         light(point(Some(f64::NAN)), 500.0),
         light(point(Some(0.0)), 500.0),
         light(point(Some(-1.0)), 500.0),
         light(point(Some(9.0)), f32::NAN),
     ];
     for (index, broken) in broken.into_iter().enumerate() {
-        let together = ways.draw(gpu, &[broken, good.clone()], &options());
+        let together = renderers.draw(gpu, &[broken, good.clone()], &options());
         for (alone, together) in alone.iter().zip(&together) {
             assert!(
                 alone.image == together.image,
@@ -161,7 +162,7 @@ fn invalid_cameras_and_image_sizes_are_errors_that_name_the_field() {
         refused(&ViewOptions { size_px: [0, 0], ..options() }, "width over its height");
         refused(&ViewOptions { size_px: [64, 0], ..options() }, "width over its height");
         refused(&ViewOptions { size_px: [1 << 20, 64], ..options() }, "max_texture_dimension_2d");
-        // It draws on as before.
+        // The next frame renders as before.
         assert!(renderer.draw(gpu, &options()).unwrap().image == good);
     }
 }

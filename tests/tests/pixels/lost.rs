@@ -1,4 +1,4 @@
-//! A device that is lost while a frame is drawn.
+//! Loss of the device during a frame.
 
 use crate::stage::gpu;
 use shadowgraph::core::{Error::DeviceLost, Frame};
@@ -9,7 +9,7 @@ use shadowgraph::{BuildContext, Error, Gpu, Pipeline, RenderView, Renderer, View
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// The forward pipeline, with a pass in the middle of the frame that destroys the device in the last of some frames.
+/// The forward pipeline with a pass in the middle of the frame that destroys the device in the last of `frames`.
 struct Breaks {
     forward: Box<dyn PipelineInstance>,
     device: wgpu::Device,

@@ -1,4 +1,4 @@
-//! What a GPU draws, against computed truth. One program that shares a device, pictures of at most 320x180.
+//! Images that a GPU renders, compared with ground truth. One program that shares a device; images of at most 320x180.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod analytic;

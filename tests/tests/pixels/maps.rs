@@ -1,4 +1,4 @@
-//! Reading shadow maps back.
+//! Reads shadow maps back.
 
 use crate::stage::gpu;
 use shadowgraph::core::{Frame, Graph, PassKind};
@@ -8,7 +8,7 @@ use shadowgraph::shadows::{
 };
 use shadowgraph::{Gpu, SceneCasters};
 
-/// A map and the plan it was drawn by.
+/// A map and the plan by which it was rendered.
 pub(crate) struct Map {
     pub(crate) plan: ShadowPlan,
     pub(crate) size_px: [u32; 2],
@@ -21,7 +21,7 @@ impl Map {
     }
 }
 
-/// Draws the map called `name` and reads it back.
+/// Renders the map `name` and reads it back.
 pub(crate) fn draw_map(
     gpu: &Gpu,
     technique: &Pcf,

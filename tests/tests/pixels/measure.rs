@@ -1,5 +1,5 @@
-//! The instrument that measures shadows, on what a GPU draws: small errors where there are few, and each planted fault
-//! seen by the measure that is for it.
+//! Measurements of shadows that a GPU renders: small errors with good settings, and each error caused on purpose
+//! found by its metric.
 
 use crate::stage::{SIZE_PX, gpu};
 use glam::DVec3;
@@ -12,7 +12,7 @@ use shadowgraph::scene::trials::trial;
 use shadowgraph::shadows::{BiasSettings, PCF, ShadowSettings, SplitScheme};
 use shadowgraph::{Renderer, ViewOptions};
 
-/// Measures a trial under the sun of 30 degrees, from near.
+/// Measures a test scene under the sun at 30 degrees, from nearby.
 fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
     let gpu = gpu()?;
     let cases = built_in_cases().unwrap().cases;
@@ -77,8 +77,8 @@ fn a_large_bias_is_measured_as_peter_panning_and_missing_contacts() {
     );
 }
 
-/// Asks the technique at what a view of the slats shows, with the scene and the camera moved together: the same picture,
-/// over texels that lie elsewhere.
+/// Evaluates the technique at the visible surfaces of the slats with the scene and the camera moved together: the same image
+/// over texels at other positions.
 fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<f32>) {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
@@ -102,7 +102,7 @@ fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<
 #[test]
 fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not() {
     let Some(gpu) = gpu() else { return };
-    // Texels lie fixed in the world. Moving the scene over them is what a camera does whose cascades follow it without
+    // Texels are fixed in the world. Moving the scene over them has the effect of cascades that follow the camera without
     // snapping to whole texels.
     let frames =
         (0..4).map(|frame| asked_with_scene_at(gpu, DVec3::new(0.0017, 0.0, 0.0009) * f64::from(frame)));
@@ -141,7 +141,7 @@ fn cascades_of_different_resolution_are_measured_at_their_seam() {
         seam.unwrap()
     };
     let fine = seam(ShadowSettings::default());
-    // Two metres in fine texels, then 150 in coarse ones.
+    // Two metres in fine texels, then 150 metres in coarse ones.
     let mut two = ShadowSettings::default();
     two.cascades.count = 2;
     two.cascades.split = SplitScheme::Ratios(vec![0.016]);

@@ -1,4 +1,4 @@
-//! Pipelines: the same shadows by each, from files and from scripts, and with nodes of one's own.
+//! Pipelines: each renders the same shadows, from files and from scripts, with built-in and custom nodes.
 
 use crate::stage::gpu;
 use shadowgraph::options::{Aov, ShadowDistance, SunChoice};
@@ -20,20 +20,17 @@ fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, config: RenderConfig, size_px: [u
     renderer.draw(gpu, &options).unwrap().image
 }
 
-/// The share of pixels of which some channel differs by more than 2 of 255.
+/// Returns the fraction of pixels of which some channel differs by more than 2 of 255.
 fn differing(a: &RenderedImage, b: &RenderedImage) -> f64 {
     let pixels = a.rgba8.chunks_exact(4).zip(b.rgba8.chunks_exact(4));
     let differ = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2)).count();
     differ as f64 / (a.rgba8.len() / 4) as f64
 }
 
-/// The shared scenes; `None` where they are not at hand.
+/// Returns the shared scenes; `None` where they are missing.
 fn scenes() -> Option<Vec<PathBuf>> {
     let Some(folder) = shadowgraph_tests::shared("scenes") else {
-        shadowgraph_tests::skip(
-            "scenes",
-            "the collection of real scenes is not at hand (SHADOWGRAPH_SHARED)",
-        );
+        shadowgraph_tests::skip("scenes", "the collection of real scenes is missing (SHADOWGRAPH_SHARED)");
         return None;
     };
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -67,14 +64,14 @@ fn every_built_in_pipeline_renders_the_demo_scene_in_the_same_colours() {
     let scene = demo_scene();
     let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [320, 180]);
     let forward = draw(Pipeline::forward());
-    // All but the one that shows something else.
+    // All but the one that shows cascades.
     for name in BUILT_IN.iter().filter(|name| **name != "debug_cascades") {
         let pipeline: Pipeline = name.parse().unwrap();
         let share = differing(&forward, &draw(pipeline));
         // A G-buffer keeps eight bits of a colour; a screen mask eight of visibility.
         assert!(share < 0.01, "{name}: {share}");
     }
-    assert!(forward == draw(Pipeline::forward_plus()), "clusters leave out only lights that give nothing");
+    assert!(forward == draw(Pipeline::forward_plus()), "clusters cull only lights that contribute nothing");
 }
 
 #[test]
@@ -90,5 +87,5 @@ fn an_unconnected_optional_input_gets_a_placeholder() {
     let plain = Pipeline::load(&file, &nodes, &techniques, &Parameters::default()).unwrap();
     let scene = demo_scene();
     let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [160, 90]);
-    assert!(differing(&draw(plain), &draw(Pipeline::forward())) == 0.0, "nothing lies over the picture");
+    assert!(differing(&draw(plain), &draw(Pipeline::forward())) == 0.0, "nothing is drawn over the image");
 }

@@ -1,4 +1,4 @@
-//! What is done to light and pictures behind the lit pass.
+//! Post-processing after the lit pass.
 
 use crate::stage::gpu;
 use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Subresource, TextureDesc};
@@ -8,7 +8,7 @@ use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
 
-/// `forward` with more nodes; `picture` is where the picture comes from.
+/// Returns `forward` with more nodes; `picture` is the node whose output is the image.
 fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("post.ron");
@@ -45,7 +45,7 @@ fn mean(picture: &RenderedImage) -> f64 {
     values.map(|&value| f64::from(value)).sum::<f64>() / (picture.rgba8.len() / 4 * 3) as f64
 }
 
-/// How far a picture is from one of four times its size, in each direction, made as small: root mean square of 255.
+/// Returns the difference between an image and one of four times its width and height, scaled down: root mean square of 255.
 fn error(picture: &RenderedImage, large: &RenderedImage) -> f64 {
     let [width, height] = picture.size_px;
     let mut sum = 0.0;
@@ -75,7 +75,7 @@ fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
     let (without, with_fxaa, with_taa) = (of(&plain, 1), of(&fxaa, 1), of(&taa, 24));
     println!("root mean square: none {without:.2}, fxaa {with_fxaa:.2}, taa {with_taa:.2}");
     assert!(with_fxaa < 0.95 * without && with_taa < 0.75 * without, "{without}, {with_fxaa}, {with_taa}");
-    // The first frame has nothing before it: it is what was drawn.
+    // The first frame has no history: it is the rendered image.
     assert!(of(&taa, 1) < 1.3 * without);
 }
 
@@ -120,7 +120,7 @@ fn bloom_spreads_light_and_conserves_energy() {
     let plain = draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1);
     assert!(none == plain && some != plain);
     assert!((mean(&some) / mean(&plain) - 1.0).abs() < 0.05, "{} and {}", mean(&some), mean(&plain));
-    // Nothing but what spread: neighbours hardly differ.
+    // Only spread light: neighbours hardly differ.
     let rough = |picture: &RenderedImage| {
         let pairs = picture.rgba8.chunks_exact(4).zip(picture.rgba8.chunks_exact(4).skip(1));
         pairs.map(|(a, b)| u64::from(a[1].abs_diff(b[1]))).sum::<u64>()
@@ -136,11 +136,11 @@ fn corners_are_occluded_and_open_ground_is_not() {
     let pipeline = pipeline("", "\"view\": \"occlusion\"", more, "picture");
     let occlusion = draw(gpu, &pipeline, Aov::Texture("occlusion".into()), [640, 360], 1);
     let at = |x, y| occlusion.pixel(x, y).unwrap()[0];
-    // Tiles in the open and the sky; under the sphere and between steps.
+    // Tiles in the open and the sky; below the sphere and between steps.
     assert!(at(200, 330) > 240 && at(250, 20) == 255, "{} and {}", at(200, 330), at(250, 20));
     let darkest = (320..356).map(|x| (264..274).map(|y| at(x, y)).min().unwrap()).min().unwrap();
     assert!(darkest < 170, "{darkest}");
-    // It takes light away, and only that from all around.
+    // It darkens, and only ambient light.
     let (with, without) = (
         draw(gpu, &pipeline, Aov::Color, [160, 90], 1),
         draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1),
@@ -180,10 +180,10 @@ fn fog_is_darker_inside_shadows() {
         renderer.draw(gpu, &options).unwrap().image
     };
     let plain = draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1);
-    assert!(fog("pcf", "\"density\": 0.0") == plain, "no fog is nothing");
+    assert!(fog("pcf", "\"density\": 0.0") == plain, "fog of density zero changes nothing");
     let thin = "\"density\": 0.03, \"falloff\": 0.0, \"height_m\": 100.0, \"steps\": 48";
     let (with, without) = (fog("pcf", thin), fog("none", thin));
-    // Above the walls there is nothing but fog, and the towers' shadows in it.
+    // Above the walls there is only fog, with the towers' shadows in it.
     let sky = |picture: &RenderedImage| {
         picture.rgba8[..160 * 20 * 4].chunks_exact(4).map(|p| p[1]).collect::<Vec<_>>()
     };
@@ -222,7 +222,7 @@ fn each_level_of_the_depth_pyramid_has_the_farthest_depth_below_it() {
         .collect();
     let of = |x: u32, y: u32| (x * 3 + y * 7 + 1) as f32;
     assert_eq!(read[0], (0..3).flat_map(|y| (0..5).map(move |x| of(x, y))).collect::<Vec<_>>());
-    // 2x1: columns 0 and 1; then 2, 3 and the odd one out.
+    // 2x1: columns 0 and 1; then 2, 3 and the remaining column.
     assert_eq!(read[1], [of(0, 0), of(2, 0)]);
     assert_eq!(read[2], [of(0, 0)]);
 }

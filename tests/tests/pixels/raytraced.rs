@@ -1,4 +1,4 @@
-//! The technique `raytraced` on what a GPU draws: the same as the CPU's rays, and as all triangles one by one.
+//! The technique `raytraced` on a GPU: equal to rays of the CPU and to a brute-force test of all triangles.
 
 use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
 use glam::{DVec3, Vec4};
@@ -10,10 +10,10 @@ use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 
-/// A mask and a picture have 8 bits each.
+/// The mask and the image have 8 bits each.
 const ROUNDING: f32 = 1.2 / 255.0;
 
-/// A light's visibility in a view, as the technique has it, the mean of the colours, `None` where there is nothing to be lit.
+/// A light's visibility in a view by the technique: the mean of the colours, `None` where no surface can be lit.
 struct Traced {
     visibility: Vec<Option<f32>>,
     surfaces: Surfaces,
@@ -40,9 +40,9 @@ fn traced(gpu: &Gpu, scene: &Scene, camera: &Camera, light: usize) -> Traced {
 }
 
 impl Traced {
-    /// How many pixels are not as in `truth`, and how many there are.
+    /// Returns the number of pixels that differ from `truth`, and the number of pixels.
     fn unlike(&self, truth: &[f32], reached: &[f32]) -> (usize, usize) {
-        // Outside of a spot light's cone the CPU does not ask.
+        // Outside of a spot light's cone the CPU traces no ray.
         let pairs = self.visibility.iter().zip(truth).zip(reached).filter(|(_, n_dot_l)| **n_dot_l > 0.0);
         let known = pairs.filter_map(|((seen, truth), _)| Some(((*seen)? - truth).abs() < ROUNDING));
         known.fold((0, 0), |(unlike, all), same| (unlike + usize::from(!same), all + 1))
@@ -53,7 +53,7 @@ impl Traced {
         self.unlike(&truth.hard, &truth.n_dot_l)
     }
 
-    /// Asks every triangle.
+    /// Tests every triangle.
     fn unlike_brute_force(&self) -> (usize, usize) {
         let n_dot_l = Truth::trace(&self.rays, &self.surfaces, &self.light, self.eye).n_dot_l;
         let truth = (0..n_dot_l.len()).map(|pixel| {
@@ -71,7 +71,7 @@ impl Traced {
     }
 }
 
-/// 0.01 % of the picture's pixels.
+/// Asserts that at most 0.01 % of the image's pixels differ.
 fn assert_agree(name: &str, (unlike, asked): (usize, usize)) {
     println!("{name}: {unlike} of {asked} pixels differ");
     let most = (SIZE_PX[0] * SIZE_PX[1]) as usize / 10_000;
@@ -149,7 +149,7 @@ fn in_every_real_scene_gpu_rays_match_cpu_rays() {
     let Some(folder) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(
             "raytraced_scenes",
-            "the collection of real scenes is not at hand (SHADOWGRAPH_SHARED)",
+            "the collection of real scenes is missing (SHADOWGRAPH_SHARED)",
         );
     };
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();

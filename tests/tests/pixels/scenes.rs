@@ -1,4 +1,4 @@
-//! Real scenes: that every one is drawn, and that its sunlit surfaces are lit.
+//! Real scenes: each renders.
 
 use crate::stage::gpu;
 use shadowgraph::options::{Aov, ShadowDistance, SunChoice};
@@ -11,7 +11,7 @@ fn every_shared_scene_renders() {
     let Some(folder) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(
             "scenes",
-            "the collection of real scenes is not at hand (SHADOWGRAPH_SHARED)",
+            "the collection of real scenes is missing (SHADOWGRAPH_SHARED)",
         );
     };
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();

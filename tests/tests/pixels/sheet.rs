@@ -1,4 +1,4 @@
-//! Every way to make shadows with every mix of lights and every kind of caster: a sheet of small pictures.
+//! Every technique and pipeline with every mix of lights and every kind of caster: a contact sheet of small images.
 
 use crate::stage::{camera, gpu, hard, light, sun, view};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
@@ -16,12 +16,12 @@ const CELL_PX: [u32; 2] = [320, 160];
 const GAP_PX: u32 = 4;
 const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
 
-/// The first is what the others are compared with. All techniques that there are come, as do the other pipelines, and what goes
-/// on top of techniques.
-fn ways() -> Vec<(String, RenderConfig)> {
-    let mut ways: Vec<(String, RenderConfig)> = vec![("truth".into(), RAYTRACED.into())];
-    ways.extend(Techniques::built_in().kinds().iter().map(|&kind| (kind.name.into(), kind.into())));
-    ways.extend([
+/// Returns the configurations to compare, the reference first: all techniques, the other pipelines, and techniques with
+/// modifiers.
+fn configs() -> Vec<(String, RenderConfig)> {
+    let mut configs: Vec<(String, RenderConfig)> = vec![("truth".into(), RAYTRACED.into())];
+    configs.extend(Techniques::built_in().kinds().iter().map(|&kind| (kind.name.into(), kind.into())));
+    configs.extend([
         ("pcf, minimal".into(), Pipeline::minimal().into()),
         ("pcf, screen_shadows".into(), Pipeline::screen_shadows().into()),
         ("pcf, 4 samples".into(), RenderConfig { samples: 4, ..RenderConfig::default() }),
@@ -32,8 +32,8 @@ fn ways() -> Vec<(String, RenderConfig)> {
         Technique::from(EVSM).with_contact(),
         Technique::from(RAYTRACED).with_contact(),
     ];
-    ways.extend(on_top.map(|technique| (technique.name(), technique.into())));
-    ways
+    configs.extend(on_top.map(|technique| (technique.name(), technique.into())));
+    configs
 }
 
 #[test]
@@ -42,7 +42,7 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     let mut sheet = Sheet::new();
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
-    for (row, (way, config)) in ways().into_iter().enumerate() {
+    for (row, (name, config)) in configs().into_iter().enumerate() {
         let pictures = pictures(gpu, config.clone(), row == 0);
         if row == 0 {
             truth.clone_from(&pictures);
@@ -50,9 +50,9 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
         for (column, (picture, truth)) in pictures.iter().zip(&truth).enumerate() {
             sheet.paste(picture, column, row);
             let (darker, lighter) = differing(picture, truth);
-            // Without shadows there is too much light.
+            // Without shadows the image is too bright.
             let wrong_part = if config.technique() == NONE { darker } else { darker + lighter };
-            let line = format!("{way}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[column]);
+            let line = format!("{name}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[column]);
             println!("{line}");
             let has_shadows = MIXES[column] != "no light";
             let shows_none = config.technique() == NONE && has_shadows && lighter < 0.05;
@@ -67,7 +67,7 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// One for each mix of lights.
+/// Renders an image for each mix of lights.
 fn pictures(gpu: &Gpu, config: RenderConfig, is_truth: bool) -> Vec<RenderedImage> {
     let mut scene = demo_scene();
     add_panels(&mut scene);
@@ -84,7 +84,7 @@ fn pictures(gpu: &Gpu, config: RenderConfig, is_truth: bool) -> Vec<RenderedImag
     MIXES.iter().map(&mut picture).collect()
 }
 
-/// `own` are the demo scene's, the sun first.
+/// Returns the lights of a mix; `own` are the demo scene's, the sun first.
 fn lights(mix: &str, own: &[Light]) -> Vec<Light> {
     let [warm, cool] = [Vec3::new(1.0, 0.8, 0.6), Vec3::new(0.6, 0.8, 1.0)];
     let sun_of = |x: f64, z: f64, color| Light { color, ..sun(DVec3::new(x, -0.8, z).normalize()) };
@@ -108,7 +108,7 @@ fn lights(mix: &str, own: &[Light]) -> Vec<Light> {
     }
 }
 
-/// Panels 1.6 m wide and high, each of four stripes with alpha 1, 0.6, 0.4 and 0: opaque, clipped, dithered and blended.
+/// Adds panels 1.6 m wide and high, each of four stripes with alpha 1, 0.6, 0.4 and 0: opaque, clipped, dithered and blended.
 fn add_panels(scene: &mut Scene) {
     let corners = [[-0.8, 0.0], [0.8, 0.0], [0.8, 1.6], [-0.8, 1.6]];
     let vertex = |[x, y]: [f32; 2]| Vertex {
@@ -148,7 +148,7 @@ fn add_panels(scene: &mut Scene) {
     }
 }
 
-/// The parts of the pixels that are darker and lighter than the truth by more than a sixth of the way to white.
+/// Returns the fractions of the pixels that are darker and lighter than the reference by more than a sixth of white.
 fn differing(picture: &RenderedImage, truth: &RenderedImage) -> (f64, f64) {
     let luma = |rgba: &[u8]| rgba[..3].iter().map(|&byte| i32::from(byte)).sum::<i32>() / 3;
     let pairs = picture.rgba8.chunks_exact(4).zip(truth.rgba8.chunks_exact(4));
@@ -161,7 +161,7 @@ struct Sheet(RgbaImage);
 
 impl Sheet {
     fn new() -> Self {
-        let count = [MIXES.len() as u32, ways().len() as u32];
+        let count = [MIXES.len() as u32, configs().len() as u32];
         let [width, height] = [0, 1].map(|axis| count[axis] * (CELL_PX[axis] + GAP_PX));
         Self(RgbaImage::from_pixel(width, height, Rgba([255; 4])))
     }

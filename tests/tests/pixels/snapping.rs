@@ -1,4 +1,4 @@
-//! What a map holds does not change as the camera moves: it only shifts by whole texels.
+//! The contents of a map do not change as the camera moves: they only shift by whole texels.
 
 use crate::maps::{Map, draw_map};
 use crate::stage::gpu;
@@ -12,7 +12,7 @@ use shadowgraph::shadows::{CascadeSettings, Pcf, ShadowSettings, TileRect};
 const FRAMES: u32 = 16;
 const DEPTH_TOLERANCE: f32 = 1e-5;
 
-/// How a tile moved between two frames: whole texels across, and a change of depth.
+/// Returns the movement of a tile between two frames: whole texels in x and y, and a change of depth.
 fn shift(before: &Map, after: &Map, view: usize) -> (i32, i32, f32) {
     let of = |map: &Map| map.plan.views[view].map_from_world.as_dmat4();
     let difference: DMat4 = of(after) - of(before);
@@ -25,7 +25,8 @@ fn shift(before: &Map, after: &Map, view: usize) -> (i32, i32, f32) {
     (x as i32, y as i32, difference.w_axis.z as f32)
 }
 
-/// Compares the overlap of a tile in two frames: texels, and texels whose coverage or depth differs.
+/// Compares the overlap of a tile in two frames. Returns the texels, those whose coverage or depth differs, and the largest
+/// difference of depth.
 fn compare(before: &Map, after: &Map, rect: TileRect, (dx, dy, dz): (i32, i32, f32)) -> (u32, u32, f32) {
     let (mut texels, mut uncovered, mut worst) = (0, 0, 0.0_f32);
     for y in 0..rect.height as i32 {
@@ -37,7 +38,7 @@ fn compare(before: &Map, after: &Map, rect: TileRect, (dx, dy, dz): (i32, i32, f
             let a = before.at(rect.x + x as u32, rect.y + y as u32);
             let b = after.at(rect.x + to_x as u32, rect.y + to_y as u32);
             texels += 1;
-            // What is clamped to the near plane, or passes the far one, has no depth to compare.
+            // Depth that is clamped to the near plane or beyond the far plane is not compared.
             let moved = a + dz;
             if (a == 0.0) != (b == 0.0) {
                 uncovered += u32::from(moved > DEPTH_TOLERANCE && b.max(a) > dz.abs() + DEPTH_TOLERANCE);

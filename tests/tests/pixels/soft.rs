@@ -1,4 +1,4 @@
-//! `pcss`: edges as soft as the light's size makes them.
+//! `pcss`: penumbrae as wide as the size of the light gives.
 
 use crate::stage::{add_instance, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
 use glam::DVec3;
@@ -8,7 +8,7 @@ use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::shadows::{PCSS, PcssSettings};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
-/// A plate over a floor, its edge over x = 0, under a light.
+/// Returns a plate above a floor, its edge above x = 0, under a light.
 fn plate(height_m: f64, light: Light) -> Scene {
     let plate = box_mesh(DVec3::new(0.0, height_m, -3.0), DVec3::new(6.0, height_m + 0.02, 3.0));
     let mut scene =
@@ -19,21 +19,21 @@ fn plate(height_m: f64, light: Light) -> Scene {
     scene
 }
 
-/// Looks at the floor below the edge.
+/// Returns a view of the floor below the edge.
 fn options() -> ViewOptions {
     let mut options = view(camera(DVec3::new(-0.5, 0.4, 0.0), DVec3::ZERO), 20.0);
-    // Texels of millimetres, of which the widest edges are twenty.
+    // Texels of millimetres: the widest penumbrae are twenty texels wide.
     options.shadows.cascades.map_size_px = 1024;
     options.shadows.atlas.map_size_px = 1024;
     options
 }
 
-/// Many taps, so that noise is small.
+/// Returns settings with many taps, so that noise is small.
 fn fine() -> PcssSettings {
     PcssSettings { filter_taps: 64, blocker_taps: 64, most_texels: 24.0, ..PcssSettings::default() }
 }
 
-/// How wide the edge is on the floor, from a tenth to nine tenths of the light, metres.
+/// Returns the width of the penumbra on the floor, from a tenth to nine tenths of the light, metres.
 fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
     let aov = Aov::Visibility(0);
     let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
@@ -44,7 +44,7 @@ fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
     let mut between: Vec<f32> = between.map(|(position, _)| position.x).collect();
     between.sort_by(f32::total_cmp);
     assert!(between.len() > 100, "{}", between.len());
-    // Noise moves some pixels beyond the ends.
+    // Noise moves some pixels beyond both ends.
     let at = |part: usize| f64::from(between[between.len() * part / 100]);
     at(98) - at(2)
 }
@@ -56,7 +56,7 @@ fn penumbrae_of_a_sun_are_as_wide_as_its_angular_size_gives() {
     options.shadows.techniques.set(&PcssSettings { sun_radius_rad: 0.05, ..fine() }).unwrap();
     for height_m in [0.5, 1.0, 1.5] {
         let width = width_m(gpu, &plate(height_m, sun(DVec3::NEG_Y)), &options);
-        // Of a disc that comes out from behind a straight edge, the middle eight tenths take 0.687 of the way.
+        // The middle eight tenths of the light of a disc behind a straight edge cover 0.687 of the penumbra.
         let right = 2.0 * height_m * 0.05f64.tan() * 0.687;
         assert!((width / right - 1.0).abs() < 0.25, "{height_m} m: {width} instead of {right}");
     }
@@ -67,7 +67,7 @@ fn penumbrae_of_a_spot_light_widen_with_the_distance_behind_the_occluder() {
     let Some(gpu) = gpu() else { return };
     let mut options = options();
     options.shadows.techniques.set(&PcssSettings { lamp_radius_m: 0.1, ..fine() }).unwrap();
-    let lamp = || {
+    let spot = || {
         let kind = LightKind::Spot {
             position_world: DVec3::new(0.0, 4.0, 0.0),
             direction: DVec3::NEG_Y,
@@ -78,7 +78,7 @@ fn penumbrae_of_a_spot_light_widen_with_the_distance_behind_the_occluder() {
         light(kind, 2000.0)
     };
     for height_m in [1.0, 1.8] {
-        let width = width_m(gpu, &plate(height_m, lamp()), &options);
+        let width = width_m(gpu, &plate(height_m, spot()), &options);
         let right = 2.0 * 0.1 * height_m / (4.0 - height_m) * 0.687;
         assert!((width / right - 1.0).abs() < 0.25, "{height_m} m: {width} instead of {right}");
     }

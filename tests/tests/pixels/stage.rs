@@ -1,4 +1,4 @@
-//! The device, simple scenes, and drawing them.
+//! The shared device and simple scenes to render.
 
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use shadowgraph::options::{AdapterChoice, Aov};
@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 pub(crate) const SIZE_PX: [u32; 2] = [320, 180];
 
-/// The device that all tests share, or `None` after recording a skip.
+/// Returns the device that all tests share, or `None` after reporting a skip.
 pub(crate) fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
     match GPU.get_or_init(|| Gpu::open(&AdapterChoice::Auto).map_err(|error| error.to_string())) {
@@ -23,14 +23,14 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
     }
 }
 
-/// With a ray a pixel where shadows are traced: what is compared with hard truth.
+/// Returns the options with one ray per pixel for traced shadows: the reference for hard shadows.
 pub(crate) fn hard(options: &ViewOptions) -> ViewOptions {
     let mut options = options.clone();
     options.shadows.techniques.set(&RaytracedSettings::hard()).unwrap();
     options
 }
 
-/// A box from `min` to `max`, faces outwards.
+/// Returns a box from `min` to `max` with faces outwards.
 pub(crate) fn box_mesh(min: DVec3, max: DVec3) -> Mesh {
     let (mut vertices, mut indices) = (Vec::new(), Vec::new());
     for axis in 0..3 {
@@ -52,7 +52,7 @@ pub(crate) fn box_mesh(min: DVec3, max: DVec3) -> Mesh {
     Mesh::new("box", vertices, indices)
 }
 
-/// A square of half width `half` in the plane y = 0, facing up.
+/// Returns a square of half width `half` in the plane y = 0, facing up.
 pub(crate) fn floor_mesh(half: f64) -> Mesh {
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let vertices = corners.map(|(x, z)| vertex(DVec3::new(x * half, 0.0, z * half), [0.0, 1.0, 0.0]));
@@ -74,7 +74,7 @@ pub(crate) fn material() -> Material {
     Material { base_color: Vec4::new(0.8, 0.8, 0.8, 1.0), alpha: AlphaMode::Opaque, ..Material::default() }
 }
 
-/// A floor at y = 0 and a cube of 1 m that stands on it, moved by `offset`.
+/// Returns a floor at y = 0 and a cube of 1 m on it, moved by `offset`.
 pub(crate) fn cube_on_floor(offset: DVec3) -> Scene {
     let mut scene = Scene {
         meshes: vec![floor_mesh(20.0), box_mesh(CUBE_MIN, CUBE_MAX)],
@@ -95,7 +95,7 @@ pub(crate) fn add_instance(scene: &mut Scene, mesh: usize, material: usize, at: 
     scene.instances.push(Instance { name: String::new(), mesh, material, world_from_local });
 }
 
-/// The way a sun's light travels that stands `elevation_deg` above the horizon.
+/// Returns the direction in which the light of a sun at `elevation_deg` above the horizon travels.
 pub(crate) fn sun_direction(elevation_deg: f64, azimuth_deg: f64) -> DVec3 {
     let (elevation, azimuth) = (elevation_deg.to_radians(), azimuth_deg.to_radians());
     -DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos())
@@ -124,7 +124,7 @@ pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> 
     renderer.draw(gpu, options).unwrap()
 }
 
-/// Where the ray through a pixel's centre starts and goes, in world space.
+/// Returns the origin and the direction of the ray through a pixel's centre, in world space.
 pub(crate) fn pixel_ray(options: &ViewOptions, x: u32, y: u32) -> (DVec3, DVec3) {
     let [width, height] = options.size_px.map(f64::from);
     let Projection::Perspective { fov_y, .. } = options.camera.projection else {
@@ -137,7 +137,7 @@ pub(crate) fn pixel_ray(options: &ViewOptions, x: u32, y: u32) -> (DVec3, DVec3)
     (options.camera.position_world(), direction.normalize())
 }
 
-/// Where a ray enters a box: the distance and the face's normal.
+/// Returns the distance at which a ray enters a box, and the normal of the face.
 pub(crate) fn ray_box(origin: DVec3, direction: DVec3, min: DVec3, max: DVec3) -> Option<(f64, DVec3)> {
     let (to_min, to_max) = ((min - origin) / direction, (max - origin) / direction);
     let (near, far) = (to_min.min(to_max), to_min.max(to_max));

@@ -1,4 +1,4 @@
-//! What techniques have in common, and what they are chosen for.
+//! Properties that techniques share, and the strength of each.
 
 use crate::stage::{
     add_instance, box_mesh, camera, cube_on_floor, gpu, hard, material, sun, sun_direction, view,
@@ -13,7 +13,7 @@ use shadowgraph::shadows::{
 };
 use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
 
-/// The visibility of light 0 in each pixel; `None` where nothing is drawn or the surface faces away.
+/// Returns the visibility of light 0 in each pixel; `None` in the background and where the surface faces away.
 fn greys(
     gpu: &Gpu,
     scene: &Scene,
@@ -30,14 +30,14 @@ fn truth(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<Option<u8>> {
     greys(gpu, scene, &hard(options), RAYTRACED)
 }
 
-/// The part of the pixels in which two pictures differ by more than `by`.
+/// Returns the fraction of the pixels in which two images differ by more than `by`.
 fn differing(a: &[Option<u8>], b: &[Option<u8>], by: u8) -> f64 {
     let pairs: Vec<_> = a.iter().zip(b).filter_map(|(a, b)| a.zip(*b)).collect();
     assert!(pairs.len() > a.len() / 4, "{}", pairs.len());
     pairs.iter().filter(|(a, b)| a.abs_diff(*b) > by).count() as f64 / pairs.len() as f64
 }
 
-/// The courtyard of the demo scene, in small maps.
+/// Returns the courtyard of the demo scene with small maps.
 fn demo() -> (Scene, ViewOptions) {
     let mut options = view(camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4)), 60.0);
     options.shadows.cascades.map_size_px = 1024;
@@ -59,8 +59,8 @@ fn screen_space_shadows_match_per_pixel_shadows_with_every_map_technique() {
     }
 }
 
-/// How many pixels are dark among lit ones or lit among dark ones: none of the eight around them, nor they themselves, are so in
-/// truth.
+/// Counts the pixels that are dark among lit ones or lit among dark ones, where neither they nor their eight neighbours are so in
+/// the reference.
 fn specks(greys: &[Option<u8>], truth: &[Option<u8>], width: usize) -> usize {
     let around = |pixel: usize| {
         [-1, 0, 1].into_iter().flat_map(move |y: isize| {
@@ -83,7 +83,7 @@ fn specks(greys: &[Option<u8>], truth: &[Option<u8>], width: usize) -> usize {
 fn moment_maps_have_no_dark_or_bright_specks_in_any_format() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    // A second storey of shadows: light leaks where they overlap.
+    // Two layers of occluders: light leaks where their shadows overlap.
     let plate = box_mesh(DVec3::new(-2.0, 1.6, -0.2), DVec3::new(2.0, 1.7, 0.2));
     scene.meshes.push(plate);
     add_instance(&mut scene, 2, 0, DVec3::ZERO);
@@ -121,7 +121,7 @@ fn moment_maps_have_no_dark_or_bright_specks_in_any_format() {
 #[test]
 fn contact_shadows_add_shadows_that_maps_are_too_coarse_for() {
     let Some(gpu) = gpu() else { return };
-    // Pebbles of 3 cm, under maps of 10 cm texels.
+    // Pebbles of 3 cm with texels of 10 cm.
     let mut scene = cube_on_floor(DVec3::new(0.0, 0.0, -3.0));
     scene.meshes.push(box_mesh(DVec3::new(-0.03, 0.0, -0.03), DVec3::new(0.03, 0.06, 0.03)));
     for i in 0..25 {
@@ -142,7 +142,7 @@ fn contact_shadows_add_shadows_that_maps_are_too_coarse_for() {
     let with = differing(&greys(gpu, &scene, &options, Technique::from(PCF).with_contact()), &truth, 127);
     println!("wrong without {alone:.4}, with contact shadows {with:.4}");
     assert!(with < 0.7 * alone, "{with} {alone}");
-    // A march of a millimetre finds nothing.
+    // A march of a millimetre finds no occluder.
     let short = ContactSettings { length_m: 0.001, ..ContactSettings::default() };
     options.shadows.techniques.set(&short).unwrap();
     let short = differing(&greys(gpu, &scene, &options, Technique::from(PCF).with_contact()), &truth, 127);
@@ -153,7 +153,7 @@ fn contact_shadows_add_shadows_that_maps_are_too_coarse_for() {
 fn cascades_fitted_to_the_visible_depths_have_finer_texels() {
     let Some(gpu) = gpu() else { return };
     let (scene, mut options) = demo();
-    // All that is seen is about as far away.
+    // All visible surfaces are at about the same distance.
     options.camera = camera(DVec3::new(-4.0, 16.0, 22.0), DVec3::new(-4.0, 0.0, 8.0));
     options.shadows.cascades.map_size_px = 512;
     let truth = truth(gpu, &scene, &options);

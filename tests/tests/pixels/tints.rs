@@ -1,4 +1,4 @@
-//! Coloured shadows: maps of tints and rays through the same glass.
+//! Coloured shadows: tint maps compared with rays through the same glass.
 
 use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
@@ -11,7 +11,7 @@ use shadowgraph::{Gpu, Renderer, SceneCasters, ViewOptions};
 use crate::maps::draw_map;
 use crate::stage::{gpu, hard, view};
 
-/// The scene with one of its lights, 0 the sun or 1 the lamp, as its camera sees it.
+/// Returns the scene with one of its lights, 0 the sun or 1 the spot light, and a view from its camera.
 fn lit_by(light: usize) -> (Scene, ViewOptions) {
     let mut scene = stained_glass();
     scene.lights = vec![scene.lights[light].clone()];
@@ -19,7 +19,7 @@ fn lit_by(light: usize) -> (Scene, ViewOptions) {
     (scene, options)
 }
 
-/// The screen mask of the only light: what of it each pixel's surface sees.
+/// Returns the screen mask of the only light: its visibility at each pixel's surface.
 fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -> Vec<Vec3> {
     let aov = Aov::Texture("shadow mask".into());
     let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
@@ -29,7 +29,7 @@ fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -
     picture.rgba8.chunks_exact(4).map(color).collect()
 }
 
-/// Which pixels show surfaces that face the light: what the others see of it does not matter.
+/// Returns which pixels show surfaces that face the light; the others do not count.
 fn facing(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<bool> {
     let mut renderer =
         Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), Technique::from(NONE))
@@ -38,13 +38,13 @@ fn facing(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<bool> {
     picture.rgba8.chunks_exact(4).map(|rgba| rgba[3] == 255).collect()
 }
 
-/// The part of the pixels in which a colour differs by more than this.
+/// Returns the fraction of the pixels in which a colour differs by more than `by`.
 fn differing(a: &[Vec3], b: &[Vec3], by: f32) -> f64 {
     let pairs = a.iter().zip(b);
     pairs.filter(|(a, b)| (**a - **b).abs().max_element() > by).count() as f64 / a.len() as f64
 }
 
-/// The part of the pixels that see neither all of the light nor none, and not the same of each colour.
+/// Returns the fraction of the pixels whose visibility differs between colours.
 fn coloured(mask: &[Vec3]) -> f64 {
     let is_coloured = |color: &&Vec3| color.max_element() - color.min_element() > 0.04;
     mask.iter().filter(is_coloured).count() as f64 / mask.len() as f64
@@ -78,8 +78,8 @@ fn every_map_technique_tints_light_with_and_without_contact_shadows() {
         mask.retain(|_| *faces.next().unwrap());
     };
     keep(&mut truth);
-    let ways = [PCSS, EVSM, MSM, SDSM].map(|kind| Technique::from(kind).collected());
-    for technique in ways.into_iter().chain([Technique::from(PCF).collected().with_contact()]) {
+    let techniques = [PCSS, EVSM, MSM, SDSM].map(|kind| Technique::from(kind).collected());
+    for technique in techniques.into_iter().chain([Technique::from(PCF).collected().with_contact()]) {
         let mut mask = mask(gpu, &scene, &options, technique);
         keep(&mut mask);
         let part = differing(&mask, &truth, 0.1);
@@ -111,7 +111,7 @@ fn cached_tints_equal_tints_rendered_every_frame() {
         let mut options = options.clone();
         (options.shadows.cascades.cache, options.shadows.atlas.cache) = (cache, cache);
         let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
-        // Both lights, both again, and the sun alone while the camera moves.
+        // Both lights, both again, and only the sun while the camera moves.
         [(2, 0.0), (2, 0.0), (1, 0.3), (1, 0.3)].map(|(count, step)| {
             renderer.set_lights(lights[..count].to_vec()).unwrap();
             options.camera.world_from_view.translation = scene.cameras[0].position_world() + DVec3::X * step;
@@ -120,9 +120,9 @@ fn cached_tints_equal_tints_rendered_every_frame() {
             (drawn.image, passes.filter(|path| path.contains(" tints/")).count())
         })
     };
-    let (kept, anew) = (draw(true), draw(false));
-    for ((kept, _), (anew, passes)) in kept.iter().zip(&anew) {
-        assert!(kept == anew && *passes > 0);
+    let (kept, uncached) = (draw(true), draw(false));
+    for ((kept, _), (uncached, passes)) in kept.iter().zip(&uncached) {
+        assert!(kept == uncached && *passes > 0);
     }
     assert!(kept[0].1 > 0);
     assert_eq!([kept[1].1, kept[3].1], [0, 0]);
@@ -138,7 +138,7 @@ fn tints_in_front_of_the_near_plane_match_the_hardware_clamp() {
         );
     }
     let (scene, mut options) = lit_by(0);
-    // So near that the window is outside of the first cascade.
+    // So short that the window is outside of the first cascade.
     options.shadows.distance_m = 12.0;
     options.shadows.cascades.map_size_px = 1024;
     let upload = || GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();

@@ -1,4 +1,4 @@
-//! Malformed and hostile glTF files: each is drawn or refused in one line, quickly and in little memory.
+//! Malformed and hostile glTF files: each renders or fails with one line, quickly and in little memory.
 
 use shadowgraph_tests::watch::{Limits, Outcome, run};
 use shadowgraph_tests::{program, shared, skip};
@@ -17,7 +17,7 @@ fn every_malformed_file_renders_or_fails_with_one_line() {
     let Some(folder) = shared("bad-gltf") else {
         return skip(
             "bad_gltf",
-            "there is no folder bad-gltf in $SHADOWGRAPH_SHARED or in shared beside the repository",
+            "no directory bad-gltf in $SHADOWGRAPH_SHARED or in shared next to the repository",
         );
     };
     let program = program().unwrap();
@@ -38,7 +38,7 @@ fn every_malformed_file_renders_or_fails_with_one_line() {
     summarise(results.into_inner().unwrap());
 }
 
-/// The glTF or GLB file of each folder, by name.
+/// Returns the glTF or GLB file of each directory, by name.
 fn cases(folder: &Path) -> Vec<PathBuf> {
     let files =
         |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
@@ -49,14 +49,14 @@ fn cases(folder: &Path) -> Vec<PathBuf> {
     cases
 }
 
-/// Runs one case; the error says everything that is wrong with the answer.
+/// Runs one case; the error lists everything that is wrong with the result.
 fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("case.png");
     let mut command = Command::new(program);
     command.arg("render").arg(file).arg("-o").arg(&picture);
     command.args(["--size", &format!("{}x{}", SIZE.0, SIZE.1), "--adapter", adapter()]);
-    // Graphics libraries complain on standard error where a session has no such folder.
+    // Graphics libraries print warnings where a session has no such directory.
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
     }
@@ -82,7 +82,7 @@ fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
 fn image_error(picture: &Path, files: usize, errors: usize) -> Option<String> {
     let size = image::image_dimensions(picture);
     if size.as_ref().ok() != Some(&SIZE) || image::open(picture).is_err() {
-        Some(format!("it succeeded, but its picture is {size:?}"))
+        Some(format!("it succeeded, but its image is {size:?}"))
     } else if files != 1 || errors > 0 {
         Some(format!("it succeeded with {errors} error lines and {files} files"))
     } else {
@@ -93,15 +93,15 @@ fn image_error(picture: &Path, files: usize, errors: usize) -> Option<String> {
 fn error_message_error(file: &Path, files: usize, errors: &[&str]) -> Option<String> {
     let name = file.file_name().unwrap().to_string_lossy();
     if files > 0 {
-        Some(format!("it was refused, but {files} files were left"))
+        Some(format!("it failed, but left {files} files"))
     } else if errors.len() != 1 || !errors[0].contains(&*name) {
-        Some(format!("it was refused with {} error lines, one with the file's name is wanted", errors.len()))
+        Some(format!("it failed with {} error lines, expected one with the file's name", errors.len()))
     } else {
         None
     }
 }
 
-/// The same driver everywhere, where the system has one in software.
+/// Returns the software driver where the system has one, so that results are the same everywhere.
 fn adapter() -> &'static str {
     if cfg!(target_os = "macos") { "auto" } else { "cpu" }
 }
@@ -113,7 +113,7 @@ fn summarise(mut results: Vec<(&PathBuf, Result<Outcome, String>)>) {
     let slowest = good.iter().map(|outcome| outcome.time).max().unwrap_or_default();
     let largest = good.iter().map(|outcome| outcome.peak_bytes).max().unwrap_or_default();
     println!(
-        "{} cases: {drawn} drawn, {} refused; at most {slowest:.1?} and {} MiB",
+        "{} cases: {drawn} rendered, {} refused; at most {slowest:.1?} and {} MiB",
         results.len(),
         good.len() - drawn,
         largest >> 20
@@ -123,5 +123,5 @@ fn summarise(mut results: Vec<(&PathBuf, Result<Outcome, String>)>) {
             println!("{}: {wrong}", file.display());
         }
     }
-    assert_eq!(good.len(), results.len(), "cases that were neither drawn nor refused well");
+    assert_eq!(good.len(), results.len(), "cases that neither rendered nor failed as expected");
 }

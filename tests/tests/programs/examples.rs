@@ -1,4 +1,4 @@
-//! The examples run, and draw what they say.
+//! The examples run and render what they promise.
 
 use serde_json::Value;
 use shadowgraph_tests::watch::{self, Limits, Outcome};
@@ -8,7 +8,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// A software driver draws a frame of the window in seconds.
+/// A software driver takes seconds for a frame of the window.
 const LIMITS: Limits = Limits { time: Duration::from_secs(180), memory_bytes: 4 << 30 };
 
 /// Returns the path of a built example.
@@ -16,10 +16,10 @@ fn example(name: &str) -> PathBuf {
     static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
     let built = BUILT.get_or_init(build);
     let is_named = |path: &&PathBuf| path.file_stem().is_some_and(|stem| stem == name);
-    built.iter().find(is_named).unwrap_or_else(|| panic!("there is no example {name}: {built:?}")).clone()
+    built.iter().find(is_named).unwrap_or_else(|| panic!("no example {name}: {built:?}")).clone()
 }
 
-/// Builds nothing new in a run of all tests: the whole workspace is named so that features are the same.
+/// Builds nothing new in a run of all tests: naming the whole workspace gives the same features.
 fn build() -> Vec<PathBuf> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
@@ -41,7 +41,7 @@ fn run(command: &mut Command) -> Outcome {
     outcome
 }
 
-/// The examples that draw into whatever texture they are given.
+/// The examples that can render into a window.
 const IN_WINDOWS: [&str; 9] = [
     "minimal_graph",
     "post_chain",
@@ -65,47 +65,47 @@ fn every_small_example_runs_and_writes_its_image() {
     }
     let folder = tempfile::tempdir().unwrap();
     let picture = |file: &str| image::open(folder.path().join("out").join(file)).unwrap().into_rgba8();
-    let told = |name: &str, arguments: &[&str]| {
+    let output_of = |name: &str, arguments: &[&str]| {
         let outcome = run(Command::new(example(name)).args(arguments).current_dir(folder.path()));
         assert_eq!(outcome.code, Some(0), "{name}: {}", outcome.stderr);
         outcome.stdout
     };
-    told("minimal_graph", &[]);
+    output_of("minimal_graph", &[]);
     let disc = picture("minimal_graph.png");
     assert!(pixel(&disc, 160, 90)[0] > 200 && pixel(&disc, 5, 5)[0] < 100);
 
-    told("post_chain", &[]);
-    let lamps = picture("post_chain.png");
-    // In a lamp, in its glow, between lamps.
-    let brightness = |x, y| pixel(&lamps, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
+    output_of("post_chain", &[]);
+    let lights = picture("post_chain.png");
+    // In a light, in its bloom, between lights.
+    let brightness = |x, y| pixel(&lights, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
     assert!(brightness(20, 20) > brightness(30, 20) && brightness(30, 20) > brightness(40, 40));
 
-    let plan = told("compute_only", &[]);
+    let plan = output_of("compute_only", &[]);
     assert!(plan.contains("103 passes") && plan.contains(" slots"), "{plan}");
     let alive = picture("compute_only.png").pixels().filter(|pixel| pixel.0[0] == 255).count();
     assert!((100..8_000).contains(&alive), "{alive} cells are alive");
 
-    told("split_screen", &[]);
+    output_of("split_screen", &[]);
     assert_eq!(picture("split_screen.png").dimensions(), (640, 360));
 
     let lights = ["forward", "forward_plus"].map(|pipeline| {
-        assert!(told("many_lights", &[pipeline]).starts_with(&format!("{pipeline}: ")));
+        assert!(output_of("many_lights", &[pipeline]).starts_with(&format!("{pipeline}: ")));
         picture("many_lights.png")
     });
-    assert!(lights[0] == lights[1], "both pipelines draw the same");
+    assert!(lights[0] == lights[1], "both pipelines render the same image");
 
-    told("day_cycle", &["--frames", "12"]);
+    output_of("day_cycle", &["--frames", "12"]);
     let day = [0, 11].map(|number| picture(&format!("day_cycle/{number:02}.png")));
     assert!(pixel(&day[1], 160, 150) != pixel(&day[0], 160, 150), "noon is not morning");
 
     // In the penumbra one frame is black or white, and many are grey.
     let [one, many] = [&["--frames", "1"][..], &[]].map(|arguments| {
-        told("temporal", arguments);
+        output_of("temporal", arguments);
         picture("temporal.png").pixels().filter(|pixel| (40..215).contains(&pixel.0[0])).count()
     });
     assert!(one == 0 && many > 2_000, "{one} and {many} grey pixels");
 
-    let why = told("explain", &[]);
+    let why = output_of("explain", &[]);
     assert!(why.contains("does not run: nothing reads `glow`"), "{why}");
     assert!(folder.path().join("out/explain.html").is_file());
 }
@@ -123,7 +123,7 @@ fn custom_pipeline_gives_equal_plans_and_images_from_a_file_and_from_a_script() 
         assert_eq!(equal.count(), 8, "{}", outcome.stdout);
         image::open(folder.path().join("out/custom_pipeline.png")).unwrap().into_rgba8()
     });
-    assert!(picture == of_script, "both draw the same");
+    assert!(picture == of_script, "both render the same image");
     assert_eq!(picture.dimensions(), (640, 360));
     // The vignette darkens the sky in a corner.
     let brightness = |x, y| pixel(&picture, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
@@ -147,7 +147,7 @@ fn custom_renders_into_the_texture_of_the_application_and_prints_the_plan() {
     }
     let picture = image::open(folder.path().join("out/custom.png")).unwrap().into_rgba8();
     assert_eq!(picture.dimensions(), (320, 180));
-    // The colours in the example's source as sRGB. The application's own in the corners, rings under the lens.
+    // The colours in the example's source as sRGB: the application's in the corners, rings under the lens.
     let (green, orange, blue) = ([0, 124, 63, 255], [255, 188, 0, 255], [0, 137, 255, 255]);
     for (x, y, expected) in [
         (2, 2, green),
@@ -174,7 +174,7 @@ fn every_example_that_renders_also_opens_a_window() {
         command.args(["--auto-servernum", "--server-args=-screen 0 1024x768x24"]);
         let outcome = run(command.arg(example(name)).args(["--window", "--frames", "3"]));
         assert_eq!(outcome.code, Some(0), "{name}: {}", outcome.stderr);
-        // What wgpu refuses is a panic by default.
+        // wgpu panics on validation errors by default.
         assert!(!outcome.stderr.contains("panicked"), "{name}: {}", outcome.stderr);
     }
 }
@@ -215,7 +215,7 @@ fn a_custom_engine_gets_shadows_on_its_boxes() {
     let outcome = run(Command::new(example("custom_engine")).current_dir(folder.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     let picture = image::open(folder.path().join("out/custom_engine.png")).unwrap().into_rgba8();
-    // The ground in the light, in a step's shadow, and the sky.
+    // The lit ground, a step's shadow, and the sky.
     let [lit, dark, sky] = [(560, 300), (270, 245), (20, 20)].map(|(x, y)| pixel(&picture, x, y));
     assert!(lit[0] > 190 && dark[0] < 110 && sky[2] > sky[0] + 40, "{lit:?} {dark:?} {sky:?}");
 }
@@ -228,7 +228,7 @@ fn stained_glass_colours_the_floor_by_maps_and_by_rays() {
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         let file = folder.path().join("out/stained_glass.png");
         let picture = image::open(file).unwrap().into_rgba8();
-        // Behind the panes that are red, green and blue.
+        // Behind the red, green and blue panes.
         for (channel, (x, y)) in [(370, 330), (400, 395), (520, 410)].into_iter().enumerate() {
             let [red, green, blue, _] = pixel(&picture, x, y);
             let others = [red, green, blue].into_iter().enumerate().filter(|(other, _)| *other != channel);

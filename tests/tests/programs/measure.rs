@@ -1,11 +1,11 @@
-//! The program's `measure`: that shadows are within the stored bounds, and what it says if they are not.
+//! The command `measure`: shadows are within the stored bounds, and the errors if they are not.
 
 use shadowgraph::options::AdapterChoice;
 use shadowgraph::{Gpu, measure::report::CaseReport, measure::report::Report};
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Runs `measure`, or records a skip where there is nothing to draw with.
+/// Runs `measure`, or reports a skip where there is no driver.
 fn measure(arguments: &[&str]) -> Option<Output> {
     if let Err(reason) = Gpu::open(&AdapterChoice::Auto) {
         shadowgraph_tests::skip("measure", &reason.to_string());
@@ -23,7 +23,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// One small case, for what does not depend on numbers.
+/// One small case, for tests that do not depend on the results.
 const SMALL: &str = r#"(cases: [(
     scene: Trial("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
     views: [(name: "a <view>", eye: (3, 2, 5), target: (0, 0.5, 0))],
@@ -67,7 +67,7 @@ fn the_output_directory_gets_a_page_with_images_and_a_report() {
     }
     let left: Vec<_> = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 3, "{left:?}");
-    // `none` lights everything: all that is truly dark is wrong.
+    // `none` lights everything: all shadowed pixels are misclassified.
     assert!(report.cases[1].errors.lost_contacts.lost_percent > 99.0);
 }
 

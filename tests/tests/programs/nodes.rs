@@ -12,8 +12,8 @@ fn nodes_lists_pipelines_techniques_and_their_settings() {
     }
 }
 
-/// What `nodes` prints with these arguments.
-fn told(arguments: &[&str]) -> (Option<i32>, String, String) {
+/// Runs `nodes` with these arguments.
+fn nodes(arguments: &[&str]) -> (Option<i32>, String, String) {
     let program = shadowgraph_tests::program().unwrap();
     let output = Command::new(program).arg("nodes").args(arguments).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
@@ -22,30 +22,30 @@ fn told(arguments: &[&str]) -> (Option<i32>, String, String) {
 
 #[test]
 fn nodes_describes_a_node_a_pipeline_a_technique_and_the_shared_settings() {
-    let (code, text, _) = told(&["bloom"]);
+    let (code, text, _) = nodes(&["bloom"]);
     assert!(
         code == Some(0) && text.contains("setting  strength           0.06; a number from 0 to 1"),
         "{text}"
     );
-    let (_, text, _) = told(&["deferred"]);
+    let (_, text, _) = nodes(&["deferred"]);
     assert!(text.starts_with("pipeline deferred, as a file") && text.contains("input    gbuffer"), "{text}");
-    let (_, text, _) = told(&["pcss"]);
+    let (_, text, _) = nodes(&["pcss"]);
     assert!(text.contains("filter_taps") && text.contains("24; 1 to 64"), "{text}");
-    let (_, text, _) = told(&["pcf+contact"]);
+    let (_, text, _) = nodes(&["pcf+contact"]);
     assert!(
         text.contains("technique pcf: ")
             && text.contains("technique +contact: ")
             && text.contains("length_m"),
         "{text}"
     );
-    let (_, text, _) = told(&["settings"]);
+    let (_, text, _) = nodes(&["settings"]);
     assert!(text.contains("distance_m") && text.contains("150.0; 0.001 to 1000000 (metres)"), "{text}");
-    let (code, _, error) = told(&["blom"]);
+    let (code, _, error) = nodes(&["blom"]);
     assert!(
         code == Some(1) && error.lines().count() == 1 && error.ends_with("did you mean `bloom`?\n"),
         "{error}"
     );
-    let (_, schema, _) = told(&["--schema"]);
+    let (_, schema, _) = nodes(&["--schema"]);
     let schema: serde_json::Value = serde_json::from_str(&schema).unwrap();
     assert_eq!(schema["required"], serde_json::json!(["nodes"]));
 }

@@ -1,4 +1,4 @@
-//! `shadowgraph view` in a window on a display of its own.
+//! `shadowgraph view` in a window on a virtual display.
 
 use shadowgraph_tests::{on_path, program, repository, skip};
 use std::io::{BufRead as _, BufReader, Read as _};
@@ -13,9 +13,9 @@ use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
 /// A software driver takes about a second for a frame of a debug build.
-const PATIENCE: Duration = Duration::from_secs(120);
+const TIMEOUT: Duration = Duration::from_secs(120);
 
-/// A display that nobody sees.
+/// A virtual display.
 struct Display {
     server: Child,
     name: String,
@@ -80,7 +80,7 @@ impl View {
             view.window = named.unwrap_or(0);
             named.is_some()
         });
-        // No window manager does it here.
+        // There is no window manager to do it.
         view.until("the first frame", |view| view.title(view.window).contains(", "));
         view.x.set_input_focus(InputFocus::PARENT, view.window, x11rb::CURRENT_TIME).unwrap();
         view.x.flush().unwrap();
@@ -99,7 +99,7 @@ impl View {
             if let Some(status) = self.child.try_wait().unwrap() {
                 panic!("waiting for {what}, the program ended with {status}: {}", self.errors());
             }
-            assert!(started.elapsed() < PATIENCE, "waited too long for {what}");
+            assert!(started.elapsed() < TIMEOUT, "waited too long for {what}");
             std::thread::sleep(Duration::from_millis(100));
         }
     }
@@ -120,7 +120,7 @@ impl View {
         Picture::from_raw(width.into(), height.into(), rgb).unwrap()
     }
 
-    /// Keeps what is on the screen where a person can look at it.
+    /// Saves the screen as an image for a person to look at.
     fn keep(&self, name: &str) -> Picture {
         let folder = repository().join("target/tmp/view");
         std::fs::create_dir_all(&folder).unwrap();
@@ -152,12 +152,12 @@ impl View {
         self.x.flush().unwrap();
     }
 
-    /// Whether a frame comes within the time: the title is asked for the program's sake.
-    fn draws_on(&mut self, before: &Picture) {
-        self.until("another picture", |view| changed(before, &view.picture()) > 0.02);
+    /// Waits for a frame that differs.
+    fn wait_for_change(&mut self, before: &Picture) {
+        self.until("another frame", |view| changed(before, &view.picture()) > 0.02);
     }
 
-    /// Closes the window as its frame's button does, and returns how the program ended.
+    /// Closes the window as the button of its title bar does, and returns how the program ended.
     fn close(self) -> (ExitStatus, String) {
         let atom = |name: &str| self.x.intern_atom(false, name.as_bytes()).unwrap().reply().unwrap().atom;
         let data = [atom("WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
@@ -167,7 +167,7 @@ impl View {
         self.end()
     }
 
-    /// Takes the window away without asking, and returns how the program ended.
+    /// Destroys the window, and returns how the program ended.
     fn kill(self) -> (ExitStatus, String) {
         self.x.kill_client(self.window).unwrap();
         self.x.flush().unwrap();
@@ -181,7 +181,7 @@ impl View {
                 let errors = self.errors();
                 return (status, errors);
             }
-            assert!(started.elapsed() < PATIENCE, "the window is gone and the program goes on");
+            assert!(started.elapsed() < TIMEOUT, "the window is closed, but the program still runs");
             std::thread::sleep(Duration::from_millis(100));
         }
     }
@@ -194,14 +194,14 @@ impl Drop for View {
     }
 }
 
-/// The part of pixels that differ by more than a little.
+/// Returns the fraction of pixels that clearly differ.
 fn changed(a: &Picture, b: &Picture) -> f64 {
     let differs = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| a[c].abs_diff(b[c]) > 12);
     let count = a.pixels().zip(b.pixels()).filter(|&pair| differs(pair)).count();
     count as f64 / f64::from(a.width() * a.height())
 }
 
-/// Whether the scene is drawn, left of the panel.
+/// Returns whether the scene is visible left of the panel.
 fn lit(picture: &Picture) -> bool {
     let bright =
         picture.enumerate_pixels().filter(|(x, _, pixel)| *x < 150 && pixel.0.iter().all(|&c| c > 60));
@@ -219,14 +219,14 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     view.until("the scene", |view| lit(&view.picture()));
     let first = view.keep("1 scene");
 
-    // However long a frame takes on a busy machine.
+    // A frame may take long on a busy machine.
     view.key(u32::from('d'), KEY_PRESS_EVENT);
     view.until("the camera to move", |view| changed(&first, &view.picture()) > 0.2);
     view.key(u32::from('d'), KEY_RELEASE_EVENT);
     view.until("the camera to rest", |view| {
         let before = view.picture();
         std::thread::sleep(Duration::from_secs(1));
-        // But for the times in the panel.
+        // The times in the panel change.
         changed(&before, &view.picture()) < 0.005
     });
     let moved = view.keep("2 moved");
@@ -234,16 +234,16 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     view.tap(u32::from('t'));
     view.until("the next technique", |view| view.title(view.window).contains("pcss"));
     view.tap(F3);
-    view.draws_on(&moved);
+    view.wait_for_change(&moved);
     std::thread::sleep(Duration::from_secs(3));
     let graph = view.keep("3 graph");
 
     view.tap(F2);
-    view.draws_on(&graph);
+    view.wait_for_change(&graph);
     std::thread::sleep(Duration::from_secs(2));
     view.keep("4 settings");
 
-    // As small as can be, out of sight, and back.
+    // The smallest size, hidden, and back.
     view.resize(1, 1);
     std::thread::sleep(Duration::from_secs(2));
     view.resize(640, 360);
@@ -252,7 +252,7 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     std::thread::sleep(Duration::from_secs(2));
     view.x.map_window(view.window).unwrap();
     view.x.flush().unwrap();
-    view.draws_on(&empty);
+    view.wait_for_change(&empty);
     view.keep("5 back");
 
     let (status, errors) = view.close();
@@ -272,12 +272,12 @@ fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
     let before = view.picture();
     let scene = |picture: &Picture| image::imageops::crop_imm(picture, 0, 0, 200, 360).to_image();
     std::fs::write(&file, good.replace("return", "return oops +")).unwrap();
-    // The panel tells of it; the picture beside it stays.
-    view.draws_on(&before);
-    let broken = view.keep("6 mistake");
-    assert!(changed(&scene(&before), &scene(&broken)) < 0.001, "the last good picture stays");
+    // The panel shows the error; the frame next to it stays.
+    view.wait_for_change(&before);
+    let broken = view.keep("6 shader error");
+    assert!(changed(&scene(&before), &scene(&broken)) < 0.001, "the last good frame stays");
     std::fs::write(&file, good.replace("@fragment", "\n@fragment")).unwrap();
-    view.until("the mistake to be gone", |view| changed(&before, &view.picture()) < 0.02);
+    view.until("the error to be gone", |view| changed(&before, &view.picture()) < 0.02);
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
 }
@@ -293,12 +293,12 @@ fn a_saved_settings_file_is_reloaded_and_an_error_in_it_is_shown() {
     std::thread::sleep(Duration::from_secs(1));
     let before = view.picture();
     std::fs::write(&file, "(distance_m: 0.0)").unwrap();
-    view.draws_on(&before);
-    let told = view.keep("7 settings mistake");
+    view.wait_for_change(&before);
+    let shown = view.keep("7 settings error");
     std::fs::write(&file, "(distance_m: 70.0)").unwrap();
-    view.draws_on(&told);
+    view.wait_for_change(&shown);
     view.keep("8 settings again");
-    // No crash either: it ends, by a signal of none, with at most a line.
+    // It ends with an exit code, not a signal, and with at most two lines.
     let (status, errors) = view.kill();
     assert!(status.code().is_some_and(|code| code <= 1), "{status}: {errors}");
     assert!(!errors.contains("panicked") && errors.lines().count() <= 2, "{errors}");
@@ -319,7 +319,7 @@ fn without_a_display_view_fails_with_one_line() {
     assert!(!error.contains(".rs"), "{error}");
 }
 
-/// Whether there is anything to draw with.
+/// Returns whether there is a driver.
 fn drivers() -> bool {
     let choice = shadowgraph::options::AdapterChoice::Cpu;
     shadowgraph::Gpu::open(&choice).is_ok()

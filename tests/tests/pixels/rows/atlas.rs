@@ -1,4 +1,4 @@
-//! Spot lights and their atlas.
+//! Spot lights and the atlas.
 
 use super::{count, cube_under_spot, cube_view, dark_and_between, different, greys, plan, spot, wrong};
 use crate::stage::{SIZE_PX, add_instance, box_mesh, cube_on_floor, gpu, sun, sun_direction, view};
@@ -60,7 +60,7 @@ fn row_04_maps_have_any_allowed_size_and_depth_format() {
 fn row_05_each_light_has_its_own_strength_filter_and_biases() {
     let Some(gpu) = gpu() else { return };
     let scene = cube_under_spot();
-    // Coarse enough that a texel's bias is seen.
+    // Coarse enough that the bias of a texel is visible.
     let coarse = |lights| {
         cube_view(|settings| {
             settings.lights = lights;
@@ -77,7 +77,7 @@ fn row_05_each_light_has_its_own_strength_filter_and_biases() {
     assert_eq!(count(&half, |grey| grey < 126), 0);
     let hard = with(LightShadows { filter: Some(ShadowFilter::Tent2), ..plain.clone() });
     assert!(dark_and_between(&hard).1 * 2 < dark_and_between(&usual).1);
-    // A constant bias of 16 texels, towards the light, takes the foot of the shadow away.
+    // A constant bias of 16 texels towards the light detaches the shadow.
     let moved = with(LightShadows { depth_texels: Some(16.0), ..plain.clone() });
     let gone = different(&moved, &usual, 60);
     assert!(gone > 10, "{gone}");
@@ -88,7 +88,7 @@ fn row_05_each_light_has_its_own_strength_filter_and_biases() {
     options.shadows.bias.min_slope = 0.0;
     let acne = greys(gpu, &scene, 0, &options);
     assert!(count(&acne, |grey| grey < 200) > 2 * count(&usual, |grey| grey < 200));
-    // A near plane of its own.
+    // A separate near plane.
     let near =
         plan(&scene, &cube_view(|s| s.lights = vec![LightShadows { near_m: Some(1.5), ..plain.clone() }]));
     assert_eq!((near.views[0].near_m, plan(&scene, &cube_view(|_| ())).views[0].near_m), (1.5, 0.05));
@@ -118,7 +118,7 @@ fn row_08_nothing_is_read_from_a_neighbouring_tile() {
         scene.add_light(spot(DVec3::new(3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
         scene
     };
-    // Fills the second light's tile to its edges, and is behind the first light.
+    // Fills the second light's tile up to its edges, and is behind the first light.
     let mut crowded = alone.clone();
     crowded.meshes.push(box_mesh(DVec3::new(-0.5, -0.5, -0.5), DVec3::new(0.5, 0.5, 0.5)));
     add_instance(&mut crowded, 2, 0, DVec3::new(3.0, 3.5, 1.0));
@@ -126,7 +126,7 @@ fn row_08_nothing_is_read_from_a_neighbouring_tile() {
         let options = cube_view(|settings| settings.atlas.filter = filter);
         assert_eq!(plan(&crowded, &options).views[1].tile_px[0], 1024, "side by side");
         let (with, without) = (greys(gpu, &crowded, 0, &options), greys(gpu, &alone, 0, &options));
-        // The box itself is seen in one of them.
+        // The box itself is visible in one of them.
         let same = with.iter().zip(&without).filter(|(a, b)| a == b).count();
         assert!(same > with.len() * 9 / 10);
         let second = greys(gpu, &crowded, 1, &options);
@@ -201,7 +201,7 @@ fn row_11_casters_of_one_light_render_only_into_its_tile() {
         scene.add_light(spot(DVec3::new(0.0, 3.5, 30.0), DVec3::new(0.0, 0.0, 28.0), 0.4));
         add_instance(&mut scene, 1, 0, DVec3::new(0.0, 0.0, 28.0));
         if wall {
-            // Right before the first light, and far beyond the edges of its tile.
+            // Directly in front of the first light, and far beyond the edges of its tile.
             scene.meshes.push(box_mesh(DVec3::new(-9.0, -9.0, -9.0), DVec3::new(9.0, -8.9, 9.0)));
             add_instance(&mut scene, 2, 0, DVec3::new(-3.0, 11.9, 1.0));
         }

@@ -22,7 +22,7 @@ const NO_BIAS: BiasSettings = BiasSettings {
     depth_texels: 0.0,
 };
 
-/// How many pixels are too dark.
+/// Counts the pixels that are too dark.
 fn acne(bias: BiasSettings, change: impl FnOnce(&mut shadowgraph::shadows::ShadowSettings)) -> Option<usize> {
     let gpu = gpu()?;
     let mut options = cube_view(|settings| {
@@ -66,7 +66,7 @@ fn row_31_each_cascade_has_its_own_bias() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
     scene.add_light(sun(sun_direction(35.0, 60.0)));
-    // Without any bias in the first cascade, acne is near the camera only, in the lower part of the picture.
+    // Without bias in the first cascade, acne appears only near the camera, in the lower part of the image.
     let dark = |method, scales: Vec<f32>| {
         let options = pillar_view(|settings| {
             settings.bias = BiasSettings { method, slope: 1.5, depth_texels: 1.0, ..NO_BIAS };
@@ -75,7 +75,7 @@ fn row_31_each_cascade_has_its_own_bias() {
             settings.cascades.split = shadowgraph::shadows::SplitScheme::Metres(vec![12.0, 20.0, 30.0]);
         });
         let greys = greys(gpu, &scene, 0, &options);
-        // Between the pillars the floor is farther away the higher up it is seen; 12 m away at row 111.
+        // Between the pillars the floor is farther away the higher its row; 12 m away at row 111.
         let floor = |rows: std::ops::Range<usize>| -> Vec<_> {
             rows.flat_map(|row| greys[row * 320 + 140..row * 320 + 180].to_vec()).collect()
         };

@@ -1,4 +1,4 @@
-//! Quality that follows a budget of time.
+//! Quality that follows a time budget.
 
 use super::{count, greys, pillar_view, pillars, plan};
 use crate::stage::{gpu, sun, sun_direction};
@@ -8,7 +8,7 @@ use shadowgraph::scene::Scene;
 use shadowgraph::shadows::{BudgetConfig, NONE, PCF, QualityController, TilePlan};
 use shadowgraph::{Renderer, ViewOptions};
 
-/// What a made-up GPU takes for the maps of a view, milliseconds: 1 ns for each pixel that is cleared, 5 us for each draw.
+/// Returns the time of a simulated GPU for the maps of a view, milliseconds: 1 ns for each cleared pixel, 5 us for each draw.
 fn time_ms(scene: &Scene, options: &ViewOptions) -> f64 {
     let plan = plan(scene, options);
     let tiles = plan.cascades.iter().chain(&plan.atlas).flat_map(|map| &map.tiles);
@@ -38,9 +38,9 @@ fn row_28_a_controller_keeps_shadows_within_a_time_budget() {
         }
     }
     assert!(times[0] > budget_ms && times[200..].iter().all(|time| *time <= budget_ms), "{times:?}");
-    // No better level would do.
+    // No level of higher quality would fit.
     assert!(controller.level() > 1);
-    // What is left are shadows.
+    // Shadows remain.
     let dark = [&best, &options].map(|options| count(&greys(gpu, &scene, 0, options), |grey| grey < 128));
     assert!(dark[1] * 2 > dark[0] && dark[1] < dark[0] * 2, "{dark:?}");
 }

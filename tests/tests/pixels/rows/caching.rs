@@ -1,4 +1,4 @@
-//! Maps that are kept.
+//! Cached maps.
 
 use super::{Greys, count, pillar_view, pillars, spot};
 use crate::stage::{gpu, light, sun, sun_direction};
@@ -7,15 +7,15 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::{Renderer, ViewOptions};
 
-fn lamps(shift: f64) -> Vec<Light> {
+fn lights(shift: f64) -> Vec<Light> {
     let at = DVec3::new(0.4 + shift, 3.0, -8.0);
     let point = light(LightKind::Point { position_world: at, range: Some(14.0) }, 900.0);
-    let lamp = spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7);
-    vec![sun(sun_direction(35.0, 60.0)), lamp, point]
+    let spot_light = spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7);
+    vec![sun(sun_direction(35.0, 60.0)), spot_light, point]
 }
 
 fn scene() -> Scene {
-    Scene { lights: lamps(0.0), ..pillars(12) }
+    Scene { lights: lights(0.0), ..pillars(12) }
 }
 
 fn view(step: f64, cache: bool) -> ViewOptions {
@@ -30,7 +30,7 @@ fn view(step: f64, cache: bool) -> ViewOptions {
     options
 }
 
-/// The names of the passes that drew shadows.
+/// Returns the names of the passes that render shadows.
 fn tiles(plan: &shadowgraph::core::Plan) -> Vec<String> {
     let live = plan.order().iter().map(|&pass| plan.pass_path(pass).to_string());
     live.filter(|path| path.contains("/cascade ") || path.contains("/light ")).collect()
@@ -47,9 +47,9 @@ fn row_41_cached_maps_give_the_image_of_maps_rendered_every_frame() {
     let Some(gpu) = gpu() else { return };
     for shown in 0..3 {
         let make = || Renderer::new(gpu, scene(), &view(0.0, true).camera, Aov::Visibility(shown)).unwrap();
-        let (mut cached, mut anew) = (make(), make());
+        let (mut cached, mut uncached) = (make(), make());
         let mut redrawn = Vec::new();
-        // Stands still, walks, stands, a lamp moves, stands, the atlas changes its size, stands.
+        // The camera rests, moves, rests, a light moves, rests, the atlas changes its size, rests.
         for (step, shift, size) in [
             (0.0, 0.0, 1024),
             (0.0, 0.0, 1024),
@@ -61,8 +61,8 @@ fn row_41_cached_maps_give_the_image_of_maps_rendered_every_frame() {
             (0.6, 0.2, 2048),
             (0.6, 0.2, 2048),
         ] {
-            let [with, without] = [(&mut cached, true), (&mut anew, false)].map(|(renderer, cache)| {
-                renderer.set_lights(lamps(shift)).unwrap();
+            let [with, without] = [(&mut cached, true), (&mut uncached, false)].map(|(renderer, cache)| {
+                renderer.set_lights(lights(shift)).unwrap();
                 let mut options = view(step, cache);
                 options.shadows.atlas.map_size_px = size;
                 draw(renderer, &options)
@@ -80,9 +80,9 @@ fn row_41_cached_maps_give_the_image_of_maps_rendered_every_frame() {
         }
         let (with, without): (Vec<_>, Vec<_>) = redrawn.into_iter().unzip();
         assert!(without.iter().all(|tiles| *tiles >= 6), "{without:?}");
-        // Nothing is drawn while nothing changes.
+        // Nothing is rendered while nothing changes.
         assert_eq!([with[1], with[4], with[6], with[8]], [0; 4], "{with:?}");
-        // A walk draws cascades again and no lamp; a lamp's move its own tiles.
+        // Moving the camera renders cascades again and no other light; moving a light renders its own tiles.
         assert!(with[0] >= 8 && with[2] <= 4 && with[3] <= 4 && (1..=6).contains(&with[5]), "{with:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Cascades: how many, where, how chosen, how blended.
+//! Cascades: number, splits, selection, blending.
 
 use super::{Greys, count, cube_view, different, greys, pillar_view, pillars, plan, wrong};
 use crate::stage::{cube_on_floor, gpu, light, sun, sun_direction};
@@ -32,7 +32,7 @@ fn row_12_none_one_two_three_and_four_cascades() {
         assert_eq!((planned.lights[0].map, planned.lights[0].view_count), (map, number.max(1)));
         wrong(gpu, &scene, 0, &options)
     });
-    // More cascades are nearer to the truth; none is one tile of the smaller atlas.
+    // More cascades are closer to the reference; zero means one tile of the smaller atlas.
     assert!(wrong[4] * 3 < wrong[1] && wrong[1] < wrong[0], "{wrong:?}");
 }
 
@@ -40,7 +40,7 @@ fn row_12_none_one_two_three_and_four_cascades() {
 fn row_12_points_outside_all_cascade_spheres_are_lit() {
     let Some(gpu) = gpu() else { return };
     let scene = pillars_in_sun();
-    // The slices end at 12 m: what is beyond the last sphere has no shadow, though shadows reach to 60 m.
+    // The slices end at 12 m: surfaces beyond the last sphere have no shadow, though the shadow distance is 60 m.
     let dark = |select| {
         let options = pillar_view(|settings| {
             settings.cascades.select = select;
@@ -60,7 +60,7 @@ fn row_12_points_outside_all_cascade_spheres_are_lit() {
         assert_eq!((nothing, far), (Some(true), 0), "{select:?}");
         assert!(all > 1000);
     }
-    assert_eq!(dark(CascadeSelection::Map).0, None, "the map's own edges say where it ends");
+    assert_eq!(dark(CascadeSelection::Map).0, None, "the edges of the map are its limit");
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn row_13_cascades_are_shown_in_colour() {
         let options = pillar_view(change);
         let mut renderer = Renderer::new(gpu, pillars_in_sun(), &options.camera, Aov::Cascade).unwrap();
         let picture: RenderedImage = renderer.draw(gpu, &options).unwrap().image;
-        // Colours are shaded: what tells them apart is which of the three is strongest, and by how much.
+        // Colours are shaded: they differ in the strongest channel and in the ratios of the others.
         let hue = |rgba: &[u8]| {
             let most = f32::from(*rgba[..3].iter().max().unwrap());
             [0, 1, 2].map(|i| (f32::from(rgba[i]) / most * 8.0).round() as u8)
@@ -79,7 +79,7 @@ fn row_13_cascades_are_shown_in_colour() {
         for rgba in picture.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255) {
             *hues.entry(hue(rgba)).or_default() += 1;
         }
-        // White is where no shadow is; a few pixels of other colours are where shadows fade.
+        // White has no cascade; a few pixels of other colours are where shadows fade.
         hues.remove(&[8, 8, 8]);
         hues.values().filter(|pixels| **pixels > 100).count()
     };
@@ -104,7 +104,7 @@ fn suns(number: u32) -> Vec<Light> {
 fn row_13_the_cascades_of_the_most_important_light_are_shown() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars_in_sun();
-    // Brighter, but from straight above.
+    // Brighter, but vertical.
     scene.add_light(Light { intensity: 50_000.0, ..sun(DVec3::NEG_Y) });
     let camera = pillar_view(|_| ()).camera;
     let mut renderer = Renderer::new(gpu, scene, &camera, Aov::Cascade).unwrap();
@@ -163,8 +163,8 @@ fn row_18_the_last_cascade_fades_at_its_edge() {
     }
 }
 
-/// The sum of differences of the filtered edges above and below the border of two cascades, where it is seen best: with
-/// cascades whose texels are very different.
+/// Returns settings in which the border of two cascades is clearly visible: cascades of very
+/// different texel sizes.
 fn blend_settings(blend: CascadeBlend, select: CascadeSelection) -> impl FnOnce(&mut ShadowSettings) {
     move |settings| {
         settings.cascades.count = 2;
@@ -184,10 +184,10 @@ fn row_22_cascades_blend_hard_softly_or_by_dithering() {
         let hard = draw(CascadeBlend::Hard);
         let soft = draw(CascadeBlend::Soft(0.4));
         let dithered = draw(CascadeBlend::Dither(0.4));
-        // Blending changes pixels where cascades meet, and dithering takes one or the other of the two.
+        // Blending changes pixels where cascades meet, and dithering selects one of the two.
         let (mixed, taken) = (different(&hard, &soft, 4), different(&soft, &dithered, 4));
         assert!(mixed > 50 && taken > 20, "{select:?}: {mixed} {taken}");
-        // In the mean both are alike.
+        // Their means are equal.
         let mean =
             |greys: &Greys| greys.iter().flatten().map(|g| f64::from(*g)).sum::<f64>() / greys.len() as f64;
         assert!(

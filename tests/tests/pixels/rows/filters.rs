@@ -1,4 +1,4 @@
-//! Filters, and where they apply.
+//! Filters, and which of them apply to a light.
 
 use super::{cube_under_spot, cube_view, dark_and_between, greys, pillar_view, pillars, plan};
 use crate::stage::{cube_on_floor, gpu, sun, sun_direction};
@@ -33,7 +33,7 @@ fn row_14_cascades_and_atlas_have_separate_filters() {
         let options = cube_view(|settings| {
             settings.cascades.filter = cascades;
             settings.atlas.filter = atlas;
-            // Texels that are seen.
+            // Texels that are visible.
             settings.cascades.map_size_px = 1024;
             settings.atlas.map_size_px = 512;
         });
@@ -65,14 +65,14 @@ fn row_32_the_filter_gets_narrower_with_distance() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
     scene.add_light(sun(sun_direction(35.0, 60.0)));
-    // One cascade, so that texels are as large everywhere.
+    // One cascade, so that texels have the same size everywhere.
     let between = |far_filter| {
         let options = pillar_view(|settings| {
             settings.cascades.count = 1;
             settings.cascades.far_filter = far_filter;
         });
         let greys = greys(gpu, &scene, 0, &options);
-        // The upper half of the picture is far away.
+        // The upper half of the image is far away.
         let far = greys[..greys.len() / 2].to_vec();
         (dark_and_between(&far).1, dark_and_between(&greys).1)
     };

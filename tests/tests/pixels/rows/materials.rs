@@ -1,4 +1,4 @@
-//! What materials have to do with shadows.
+//! Materials as casters and receivers.
 
 use super::{Greys, count, cube_view, greys, plan};
 use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, sun};
@@ -9,7 +9,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, CasterMode, Material, Scene};
 use shadowgraph::shadows::{RAYTRACED, ShadowFilter};
 
-/// A sheet of a material, 1.5 m over a floor, under a sun straight above. Its alpha is 0.6.
+/// Returns a sheet of a material, 1.5 m above a floor, under a vertical sun. Its alpha is 0.6.
 fn sheet(change: impl FnOnce(&mut Material)) -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.instances.truncate(1);
@@ -37,10 +37,10 @@ fn row_24_casters_are_solid_clipped_dithered_or_none() {
         [CasterMode::Clip, CasterMode::Dither, CasterMode::Off].map(|m| mode(m).unwrap());
     let dark = count(&on, |grey| grey == 0);
     assert!(dark > 1000);
-    // Its alpha is above one half: all of it is left.
+    // Its alpha is above one half: all of it remains.
     assert_eq!(count(&clip, |grey| grey == 0), dark);
     assert_eq!(count(&off, |grey| grey < 255), 0);
-    // 60 % of the texels are filled: a filter of many of them says 0.4, more or less.
+    // 60 % of the texels are filled: a filter over many of them gives about 0.4.
     let under: Vec<u8> =
         dither.iter().zip(&on).filter(|(_, on)| **on == Some(0)).filter_map(|(d, _)| *d).collect();
     let mean = under.iter().map(|grey| f64::from(*grey)).sum::<f64>() / under.len() as f64;
@@ -56,7 +56,7 @@ fn row_24_casters_are_solid_clipped_dithered_or_none() {
 fn row_24_dithered_shadows_are_stable_when_the_camera_moves() {
     let Some(gpu) = gpu() else { return };
     let scene = sheet(|sheet| sheet.casts = Some(CasterMode::Dither));
-    // Few texels that are hard to overlook.
+    // Few, large texels.
     let mut options = cube_view(|settings| {
         settings.cascades.filter = ShadowFilter::Tent2;
         settings.cascades.map_size_px = 256;
@@ -68,7 +68,7 @@ fn row_24_dithered_shadows_are_stable_when_the_camera_moves() {
     let question = Question { light: 0, coarser: false };
     let mut seen = Vec::new();
     for step in 0..6 {
-        // Past several texels.
+        // Over several texels.
         options.camera.world_from_view.translation += DVec3::new(0.07, 0.0, 0.03) * f64::from(step);
         seen.push(probe.ask(gpu, &renderer, &options, &points, question).unwrap().visibility);
     }

@@ -1,4 +1,4 @@
-//! The rows of `docs/shadows.md`, each with its setting on and off: what it is for holds with it, and does not without.
+//! The rows of `docs/shadows.md`, each with its setting on and off: its effect is there with it and missing without.
 
 mod atlas;
 mod bias;
@@ -22,7 +22,7 @@ use shadowgraph::shadows::{
 };
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
-/// The visibility of a light in each pixel, 255 lit; `None` where nothing is drawn or the surface faces away.
+/// The visibility of a light in each pixel, 255 lit; `None` in the background and where the surface faces away.
 type Greys = Vec<Option<u8>>;
 
 fn greys_with(
@@ -42,13 +42,13 @@ fn greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
     greys_with(gpu, scene, light, options, PCF)
 }
 
-/// How many pixels differ by more than one half from rays.
+/// Counts the pixels that differ from rays by more than one half.
 fn wrong(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> usize {
     let truth = greys_with(gpu, scene, light, options, RAYTRACED);
     different(&greys(gpu, scene, light, options), &truth, 127)
 }
 
-/// How many pixels differ by more than `by`.
+/// Counts the pixels that differ by more than `by`.
 fn different(a: &Greys, b: &Greys, by: u8) -> usize {
     a.iter().zip(b).filter(|(a, b)| a.zip(**b).is_some_and(|(a, b)| a.abs_diff(b) > by)).count()
 }
@@ -57,7 +57,7 @@ fn count(greys: &Greys, is: impl Fn(u8) -> bool) -> usize {
     greys.iter().flatten().filter(|grey| is(**grey)).count()
 }
 
-/// Pixels in shadow, and pixels neither in shadow nor lit.
+/// Counts the pixels in shadow, and those in penumbra.
 fn dark_and_between(greys: &Greys) -> (usize, usize) {
     (count(greys, |grey| grey < 3), count(greys, |grey| (3..253).contains(&grey)))
 }
@@ -77,7 +77,7 @@ fn plan(scene: &Scene, options: &ViewOptions) -> ShadowPlan {
     .unwrap()
 }
 
-/// Looks down at the cube on its floor from 5 m away.
+/// Returns a camera that looks down at the cube on its floor from 5 m away.
 fn at_cube() -> Camera {
     camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0))
 }
@@ -100,14 +100,14 @@ fn spot(position_world: DVec3, target: DVec3, half_angle: f64) -> Light {
     crate::stage::light(kind, 4000.0)
 }
 
-/// The cube on its floor under a spot light from the side.
+/// Returns the cube on its floor under a spot light from the side.
 fn cube_under_spot() -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
     scene
 }
 
-/// A row of pillars that leads away from the camera, 2 m apart, on a floor 200 m long.
+/// Returns two rows of pillars that lead away from the camera, 2 m apart, on a floor 200 m long.
 fn pillars(count: usize) -> Scene {
     let mut scene = Scene {
         meshes: vec![floor_mesh(200.0), box_mesh(DVec3::new(-0.3, 0.0, -0.3), DVec3::new(0.3, 2.5, 0.3))],
@@ -123,7 +123,7 @@ fn pillars(count: usize) -> Scene {
     scene
 }
 
-/// Looks along the pillars.
+/// Returns a view along the pillars.
 fn pillar_view(change: impl FnOnce(&mut ShadowSettings)) -> ViewOptions {
     let mut options = view(camera(DVec3::new(0.3, 2.5, 5.0), DVec3::new(0.0, 0.5, -15.0)), 60.0);
     change(&mut options.shadows);

@@ -1,4 +1,4 @@
-//! Casters of an engine's own.
+//! Custom casters.
 
 use crate::maps::{Map, draw_map};
 use crate::stage::{camera, gpu, sun};
@@ -10,7 +10,7 @@ use shadowgraph::shadows::{
 use shadowgraph::wgpu;
 use std::sync::Mutex;
 
-/// Reeds that sway: 100 instances of a strip of quads that has no vertex buffer, moved in the vertex stage.
+/// Reeds that sway: 100 instances of a strip of quads without a vertex buffer, moved in the vertex stage.
 const REEDS: &str = "
 struct View { clip_from_world: mat4x4f }
 @group(0) @binding(0) var<storage, read> view: View;
@@ -26,9 +26,9 @@ fn vs_reed(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance
 }";
 
 struct Reeds {
-    /// By level of detail: 8 segments and 2.
+    /// Pipelines by level of detail: 8 segments and 2.
     pipelines: [wgpu::RenderPipeline; 2],
-    /// Which level of detail each tile was drawn with.
+    /// The level of detail with which each tile was rendered.
     drawn: Mutex<Vec<(TileKind, usize)>>,
 }
 
@@ -81,7 +81,7 @@ impl ShadowCasters for Reeds {
     }
 
     fn bounds(&self) -> Aabb {
-        // As far as they sway.
+        // Including the sway.
         Aabb { min: DVec3::new(-3.0, 0.0, -2.0), max: DVec3::new(3.0, 1.5, 2.0) }
     }
 
@@ -90,7 +90,7 @@ impl ShadowCasters for Reeds {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, _casters: &[u32]) -> u32 {
-        // Where a texel is as wide as a reed, its bend is not seen.
+        // Where a texel is as wide as a reed, its bend is not visible.
         let level = usize::from(view.texel_world > 0.02);
         self.drawn.lock().unwrap().push((view.kind, level));
         pass.set_pipeline(&self.pipelines[level]);
@@ -108,7 +108,7 @@ fn map(reeds: &Reeds) -> Option<Map> {
     Some(draw_map(gpu, &Pcf::new(&gpu.device), reeds, &lights, &camera, &settings, "cascades"))
 }
 
-/// The texels that something is drawn into.
+/// Returns which texels are covered.
 fn covered(map: &Map) -> Vec<bool> {
     map.depth.iter().map(|depth| *depth > 0.0).collect()
 }

@@ -6,8 +6,8 @@ use glam::DVec3;
 use shadowgraph::scene::{LightKind, Scene};
 use shadowgraph::shadows::{SELECT_FACE, TileKind};
 
-/// A lamp in the middle of eight cubes, so that their shadows fall over all faces and edges of its cube.
-fn lamp_among_cubes() -> Scene {
+/// Returns a point light in the middle of eight cubes, so that their shadows fall over all faces and edges of its cube map.
+fn point_light_among_cubes() -> Scene {
     let mut scene = cube_on_floor(DVec3::new(2.0, 0.0, 0.0));
     for i in 1..8 {
         let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
@@ -21,7 +21,7 @@ fn lamp_among_cubes() -> Scene {
 #[test]
 fn row_37_point_lights_cast_shadows_in_all_directions() {
     let Some(gpu) = gpu() else { return };
-    let scene = lamp_among_cubes();
+    let scene = point_light_among_cubes();
     let mut options = cube_view(|_| ());
     let planned = plan(&scene, &options);
     let parts: Vec<_> = planned.atlas.as_ref().unwrap().tiles.iter().map(|tile| tile.kind).collect();
@@ -38,7 +38,7 @@ fn row_37_point_lights_cast_shadows_in_all_directions() {
 #[test]
 fn row_37_faces_meet_without_a_seam() {
     let Some(gpu) = gpu() else { return };
-    // A lamp over a bare floor: the edges of its lower faces run over the floor at 45 degrees.
+    // A point light above an empty floor: the edges of its lower faces cross the floor at 45 degrees.
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.instances.truncate(1);
     let kind = LightKind::Point { position_world: DVec3::new(0.1, 1.5, 0.2), range: Some(30.0) };
@@ -46,7 +46,7 @@ fn row_37_faces_meet_without_a_seam() {
     for filter in shadowgraph::shadows::ShadowFilter::ALL {
         let mut options = view(crate::stage::camera(DVec3::new(3.0, 6.0, 4.0), DVec3::ZERO), 40.0);
         options.shadows.atlas.filter = filter;
-        // Coarse enough that a lost texel would be seen.
+        // Coarse enough that a missing texel would be visible.
         options.shadows.atlas.map_size_px = 512;
         let lit = greys(gpu, &scene, 0, &options);
         assert_eq!(count(&lit, |grey| grey < 255), 0, "{filter:?}");

@@ -1,4 +1,4 @@
-//! Shadows that are collected on the screen.
+//! Screen-space shadows.
 
 use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
 use crate::stage::{SIZE_PX, cube_on_floor, gpu, sun, sun_direction};
@@ -82,7 +82,7 @@ fn row_35_blur_widens_nearby_edges_and_stops_at_other_surfaces() {
     let between = |greys: &Greys| count(greys, |grey| (3..253).contains(&grey));
     let (sharp, blurred) = (draw(0.0, 0.02), draw(0.15, 0.02));
     assert!(between(&blurred) > 3 * between(&sharp), "{} {}", between(&sharp), between(&blurred));
-    // Without the threshold, the dark floor behind the cube's lit edges bleeds over them.
+    // Without the threshold, the dark floor behind the cube's lit edges bleeds into them.
     let careless = draw(0.15, 1.0);
     let lit = sharp.iter().map(|grey| *grey == Some(255)).collect::<Vec<_>>();
     let darkened = |greys: &Greys| {
@@ -106,7 +106,7 @@ fn row_35_blur_widens_nearby_edges_and_stops_at_other_surfaces() {
     assert!(widths[1] * 4 < widths[0], "{widths:?} {}", share(&blurred));
 }
 
-/// Whether a frame is lit by the mask alone, and what there is then in the WGSL of the technique.
+/// Returns whether a frame is lit by the mask alone, and the WGSL of the technique.
 fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let screen_shadows = ScreenShadows::new(&device, Box::new(Pcf::new(&device))).unwrap();
@@ -144,7 +144,7 @@ fn row_36_the_lit_pass_reads_one_texel_of_the_mask_and_no_cascades() {
     let (mask_only, text) = lit_by(false, 2);
     assert!(mask_only && text.contains("shadow_mask"), "{text}");
     assert!(!text.contains("shadow_views") && !text.contains("cascade_map"), "{text}");
-    // Where the mask does not tell everything, all of the other technique is there.
+    // Where the mask is not enough, the WGSL of the other technique is included.
     for (mask_only, text) in [lit_by(true, 2), lit_by(false, 17)] {
         assert!(!mask_only && text.contains("shadow_mask") && text.contains("shadow_views"), "{text}");
     }
@@ -156,7 +156,7 @@ fn row_36_blended_geometry_receives_shadows() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     let glass = shadowgraph::scene::Material { alpha: AlphaMode::Blend, ..crate::stage::material() };
     scene.materials.push(glass);
-    // A blended sheet close above the floor: the cube's shadow falls on it.
+    // A blended sheet just above the floor: the cube's shadow falls on it.
     crate::stage::add_instance(&mut scene, 0, 1, DVec3::new(0.0, 0.02, 0.0));
     scene.add_light(sun(sun_direction(40.0, 130.0)));
     let options = cube_view(|_| ());

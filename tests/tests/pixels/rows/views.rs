@@ -28,7 +28,7 @@ fn row_40_four_samples_smooth_edges_and_change_nothing_else() {
             renderer.draw(gpu, &options).unwrap().image.rgba8
         };
         let (one, four) = (draw(1), draw(4));
-        // Where the four neighbours of a pixel have its colour, it is inside a surface.
+        // A pixel whose four neighbours have its colour is inside a surface.
         let [width, height] = SIZE_PX.map(|px| px as usize);
         let luma = |rgba8: &[u8], x: usize, y: usize| i32::from(rgba8[(y * width + x) * 4 + 1]);
         let (mut inside, mut changed, mut edges, mut smoothed) = (0, 0, 0, 0);
@@ -83,7 +83,7 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
                     alone.rgba8.chunks_exact(4).filter(|rgba| rgba[0] == 0 && rgba[3] == 255).count() > 100
                 );
             }
-            // With the other's shadows it would be another picture.
+            // The views differ.
             assert_ne!(pictures[0].size_px, pictures[1].size_px);
         }
         let (first, second) = (together.draw_views(gpu, std::slice::from_ref(&left)).unwrap(), make());

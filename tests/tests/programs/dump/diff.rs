@@ -1,9 +1,9 @@
-//! What differs between the frames of two techniques.
+//! Differences between the frames of two techniques.
 
 use serde_json::Value;
 use std::process::Command;
 
-/// Every fact of a dump as a line, worked out apart from the program's own comparison.
+/// Lists every fact of a dump, independently of the program's own comparison.
 fn facts(dump: &Value) -> Vec<(&'static str, String, String)> {
     let plan = &dump["plan"];
     let nodes = plan["nodes"].as_array().unwrap();
@@ -28,7 +28,7 @@ fn facts(dump: &Value) -> Vec<(&'static str, String, String)> {
         let shape: Vec<String> = ["desc", "origin", "exported", "texture_usage", "buffer_usage"]
             .iter()
             .map(|field| match (*field, &resource[*field]) {
-                // Which history it is depends on the order of declaration.
+                // The number of a history depends on the order of declaration.
                 ("origin", Value::Object(origin)) => origin.keys().next().unwrap().clone(),
                 (_, value) => value.to_string(),
             })
@@ -69,10 +69,10 @@ fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() 
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap()
     };
-    let told: Value = serde_json::from_str(&diff("json")).unwrap();
-    let told = told["differences"].as_array().unwrap();
+    let differences: Value = serde_json::from_str(&diff("json")).unwrap();
+    let differences = differences["differences"].as_array().unwrap();
     let names = |side: &str, subject: &str| {
-        let own = told.iter().filter(|d| d["subject"] == subject && !d[side].is_null());
+        let own = differences.iter().filter(|d| d["subject"] == subject && !d[side].is_null());
         let mut names: Vec<&str> = own.map(|d| d["name"].as_str().unwrap()).collect();
         names.sort_unstable();
         names
@@ -86,7 +86,7 @@ fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() 
         }
     }
     let decisions = |side: &str| {
-        let own = told.iter().filter(|d| d["subject"] == "decision");
+        let own = differences.iter().filter(|d| d["subject"] == "decision");
         let mut words: Vec<&str> = own.filter_map(|d| d[side].as_str()).collect();
         words.sort_unstable();
         words
@@ -101,12 +101,16 @@ fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() 
     assert!(diff("html").contains(&format!("to {}</h1>", evsm.display())));
     let schema = std::fs::read_to_string(shadowgraph_tests::repository().join("docs/dump/diff.schema.json"));
     let schema: Value = serde_json::from_str(&schema.unwrap()).unwrap();
-    let faults = super::schema::faults(&schema, &schema, &serde_json::json!({ "differences": told }), "");
+    let faults =
+        super::schema::faults(&schema, &schema, &serde_json::json!({ "differences": differences }), "");
     assert_eq!(faults, Vec::<String>::new());
-    let slots = told.iter().find(|d| d["subject"] == "summary" && d["name"] == "slot memory").unwrap();
-    assert!(slots["after"].as_str().unwrap().ends_with("MiB"), "memory is told: {slots}");
+    let slots = differences.iter().find(|d| d["subject"] == "summary" && d["name"] == "slot memory").unwrap();
+    assert!(slots["after"].as_str().unwrap().ends_with("MiB"), "memory is reported: {slots}");
     let sampled = "lighting/forward · shadows/cascade moments/moments";
-    assert!(told.iter().any(|d| d["subject"] == "access" && d["name"] == sampled), "what is read is told");
+    assert!(
+        differences.iter().any(|d| d["subject"] == "access" && d["name"] == sampled),
+        "reads are reported"
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What `shadowgraph dump` prints for the demo scene.
+//! The output of `shadowgraph dump` for the demo scene.
 
 mod diff;
 mod schema;
@@ -52,7 +52,7 @@ fn the_tiles_of_a_shadow_map_are_one_render_pass_with_one_clear() {
     for map in [&cascades[..], &atlas[..]] {
         assert!(steps.iter().any(|step| step == map), "{steps:?}");
     }
-    // The load operation clears: nothing is cleared by a draw.
+    // The load op clears: nothing is cleared by a draw.
     let ops =
         passes.iter().flat_map(|pass| pass["accesses"].as_array().unwrap()).map(|access| &access["ops"]);
     let attachments: Vec<_> = ops.filter(|ops| !ops.is_null()).collect();
@@ -67,7 +67,7 @@ fn json_has_the_plan_its_reasons_and_the_lights() {
     assert_eq!(json["lights"].as_array().unwrap().len(), 4);
     assert!(json["plan"]["passes"].as_array().unwrap().len() > 5);
     assert!(json["reasons"].as_array().unwrap().iter().all(|reason| reason["because"].is_string()));
-    assert_eq!(dump("json"), dump("json"), "the same frame, the same bytes");
+    assert_eq!(dump("json"), dump("json"), "the same frame gives the same bytes");
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! The dump in JSON is what `docs/dump/schema.json` says, and the reader beside it can read it.
+//! The JSON dump matches `docs/dump/schema.json`, and the example reader can read it.
 
 use super::dump;
 use serde_json::Value;
 use std::process::Command;
 
-/// What of a value is not as a schema says. Knows the words of JSON Schema that ours uses, and no others.
+/// Lists where a value violates a schema. Knows only the keywords of JSON Schema that ours uses.
 pub(super) fn faults(root: &Value, schema: &Value, value: &Value, place: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (word, rule) in schema.as_object().unwrap() {
@@ -65,7 +65,7 @@ pub(super) fn faults(root: &Value, schema: &Value, value: &Value, place: &str) -
     found
 }
 
-/// The committed schema holds for what is written, and for nothing of another kind.
+/// The committed schema accepts the program's dumps, and rejects other values.
 #[test]
 fn the_json_dump_matches_its_schema() {
     let text =
@@ -78,7 +78,7 @@ fn the_json_dump_matches_its_schema() {
         let mut dump: Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(faults(&schema, &schema, &dump, ""), Vec::<String>::new(), "{technique}");
         dump["plan"]["passes"][0]["kind"] = "Paint".into();
-        assert_eq!(faults(&schema, &schema, &dump, "").len(), 1, "a kind that there is not");
+        assert_eq!(faults(&schema, &schema, &dump, "").len(), 1, "an unknown kind");
     }
 }
 

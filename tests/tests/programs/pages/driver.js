@@ -1,5 +1,5 @@
-// Appended to a page about a frame: uses it as a reader would, and writes what it found into the page for the test to read.
-// What it expects it works out from the page's data, apart from the page's own script.
+// Appended to the page of a frame: uses the page as a reader would, and writes its findings into the page for the test to read.
+// Computes the expected results from the page's data, independently of the page's own script.
 
 window.addEventListener('load', async () => {
   const data = JSON.parse(document.getElementById('frame').textContent);
@@ -24,7 +24,7 @@ window.addEventListener('load', async () => {
     return names.join('/');
   };
 
-  // The graph opens first, with nodes closed.
+  // The graph opens first, with collapsed nodes.
   const graph = await open('Graph');
   const units = () => all('svg.canvas .unit', graph);
   const box = (element) => element.getBoundingClientRect();
@@ -46,7 +46,7 @@ window.addEventListener('load', async () => {
   facts.boxes = units().length;
   expect(facts.boxes <= outermost.size + Math.max(40, Math.ceil(Math.sqrt(loose)) + 1), `${facts.boxes} boxes at first`);
   expect(facts.boxes > 0, 'no box is drawn');
-  expect(all('svg.canvas .edge', graph).length > 0, 'no arrow is drawn');
+  expect(all('svg.canvas .edge', graph).length > 0, 'no edge is drawn');
   readable('at first');
   click(one('#open-all'));
   await wait(60);
@@ -58,7 +58,7 @@ window.addEventListener('load', async () => {
   const paper = box(one('svg.canvas'));
   const beyond = units().map((unit) => box(unit.querySelector('rect'))).filter((unit) =>
     unit.left < paper.left || unit.top < paper.top || unit.right > paper.right || unit.bottom > paper.bottom);
-  expect(beyond.length === 0, `fitted, ${beyond.length} boxes are out of sight`);
+  expect(beyond.length === 0, `fitted, ${beyond.length} boxes are not visible`);
   click(one('#close-all'));
   await wait(60);
   expect(units().length === facts.boxes, 'closed again, there are other boxes');
@@ -66,10 +66,10 @@ window.addEventListener('load', async () => {
   if (closed) {
     key(closed, 'Enter');
     await wait(60);
-    expect(units().length !== facts.boxes || data.passes.length === facts.boxes, 'a node does not open by Enter');
+    expect(units().length !== facts.boxes || data.passes.length === facts.boxes, 'Enter does not expand a node');
   }
 
-  // Search leads to a pass; the graph shows it with those it is tied to, and no others.
+  // Search leads to a pass; the graph shows only this pass and those connected to it.
   const target = data.passes.findIndex((pass) => pass.place && data.edges.some((edge) => edge.after === data.passes.indexOf(pass)));
   const query = one('#query');
   key(document.body, '/');
@@ -80,23 +80,23 @@ window.addEventListener('load', async () => {
   expect(found, `search does not find ${path(target)}`);
   click(found);
   await wait(60);
-  expect(details().includes(path(target)), 'the details are not of what was found');
+  expect(details().includes(path(target)), 'the details are not those of the search result');
   expect(details().includes(data.passes[target].alive), 'the details do not say why it runs');
   const near = new Set([target, ...data.edges.flatMap((edge) => (edge.after === target ? [edge.before] : edge.before === target ? [edge.after] : []))]);
   const shown = units().map((unit) => unit.dataset.name).sort();
   expect(JSON.stringify(shown) === JSON.stringify([...near].map((pass) => data.passes[pass].name).sort()), `around ${path(target)}: ${shown.length} passes, not ${near.size}`);
-  expect(all('.unit.chosen', graph).length === 1, 'what is chosen is not marked');
-  expect(all('svg.canvas .label', graph).some((label) => / v\d+$/.test(label.textContent)), 'no arrow says resource and version');
+  expect(all('.unit.chosen', graph).length === 1, 'the selection is not marked');
+  expect(all('svg.canvas .label', graph).some((label) => / v\d+$/.test(label.textContent)), 'no edge is labelled with resource and version');
   readable('around a pass');
   key(document.body, 'Escape');
   await wait(60);
   expect(units().length >= facts.boxes, 'Escape does not lead back to the whole frame');
   query.value = 'no such thing';
   query.dispatchEvent(new Event('input', { bubbles: true }));
-  expect(one('#found').textContent.includes('nothing'), 'a search for nothing says nothing');
+  expect(one('#found').textContent.includes('nothing'), 'a search without results shows no message');
   key(query, 'Escape');
 
-  // A culled pass says why.
+  // A culled pass has a reason.
   const culled = data.passes.findIndex((pass) => pass.culled);
   if (culled >= 0) {
     await open('Log');
@@ -110,22 +110,22 @@ window.addEventListener('load', async () => {
   one('[role=tab][aria-selected=true]').focus();
   key(one('[role=tab][aria-selected=true]'), 'ArrowRight');
   await wait(30);
-  expect(panel() !== graph && document.activeElement.getAttribute('aria-selected') === 'true', 'arrow keys do not go from tab to tab');
+  expect(panel() !== graph && document.activeElement.getAttribute('aria-selected') === 'true', 'arrow keys do not move between tabs');
 
   const timeline = await open('Timeline');
   const running = data.passes.filter((pass) => pass.place);
   const marks = running.reduce((sum, pass) => sum + pass.accesses.length, 0);
-  expect(all('.col', timeline).length === running.length, 'timeline: not a column a pass');
+  expect(all('.col', timeline).length === running.length, 'timeline: not a column for each pass');
   expect(all('.row .unit[role=img]', timeline).length === marks, `timeline: not ${marks} marks`);
 
   const memory = await open('Memory');
   const tenants = data.slots.reduce((sum, slot) => sum + slot.tenants.length, 0);
   expect(all('svg .row .unit', memory).length === tenants, `memory: not ${tenants} bars`);
-  expect(/peak .* saved|saved .* peak/.test(one('#memory-facts').textContent), 'memory: no peak, or nothing of what is saved');
+  expect(/peak .* saved|saved .* peak/.test(one('#memory-facts').textContent), 'memory: no peak or no saving');
 
   const passes = await open('Passes');
   const rows = () => all('#pass-table tbody tr', passes);
-  expect(rows().length === data.passes.length, 'passes: not a row a pass');
+  expect(rows().length === data.passes.length, 'passes: not a row for each pass');
   const head = all('th', passes).find((cell) => cell.textContent === 'Pass');
   click(head.querySelector('button'));
   const names = rows().map((row) => row.querySelector('button').textContent);
@@ -141,7 +141,7 @@ window.addEventListener('load', async () => {
   const canvases = all('canvas', pictures);
   const wanted = data.pictures.filter((picture) => !picture.missing).length;
   expect(canvases.length === wanted, `${canvases.length} pictures for ${wanted}`);
-  expect(data.pictures.length > 0 || pictures.textContent.includes('no pictures'), 'no word about pictures that are not there');
+  expect(data.pictures.length > 0 || pictures.textContent.includes('no pictures'), 'no message about missing images');
   for (const canvas of canvases.slice(0, 3)) {
     canvas.scrollIntoView();
     expect(canvas.dataset.drawn === 'yes', `${canvas.getAttribute('aria-label')} is not drawn`);
@@ -156,7 +156,7 @@ window.addEventListener('load', async () => {
   if (canvases.length) {
     click(canvases.at(-1));
     await wait(300);
-    expect(one('dialog[open] canvas'), 'a picture does not open');
+    expect(one('dialog[open] canvas'), 'an image does not open');
     one('dialog[open]')?.close();
   }
 
@@ -170,7 +170,7 @@ window.addEventListener('load', async () => {
     const view = await open(table.title);
     expect(all('tbody tr', view).length === table.rows.length, `${table.title}: not all rows`);
   }
-  // All that can be pressed has a name.
+  // Every control has a name.
   for (const element of all('button, [role=button], [role=tab], [role=img], input, select')) {
     const label = element.getAttribute('aria-label') || element.textContent || element.closest('label')?.textContent;
     if (!label?.trim()) {

@@ -1,4 +1,4 @@
-//! Frames to make pages of.
+//! Frames for pages.
 
 use shadowgraph::core::{Contents, Error, Format, Frame, Plan, Texture, TextureDesc};
 
@@ -6,7 +6,7 @@ use shadowgraph::core::{Contents, Error, Format, Frame, Plan, Texture, TextureDe
 #[allow(dead_code, reason = "a part of it is for benchmarks")]
 mod real;
 
-/// A frame of 65 passes, as a game's.
+/// Returns a frame of 65 passes, as a game has.
 pub(crate) fn real() -> Result<Plan, Error> {
     let mut frame = Frame::new();
     let bytes = [0u8; 4096];
@@ -14,7 +14,7 @@ pub(crate) fn real() -> Result<Plan, Error> {
     Ok(frame.compile()?.into_plan())
 }
 
-/// A frame of 500 passes: half of them in nodes of ten, half without any. Some are not needed.
+/// Returns a frame of 500 passes, half of them in nodes of ten passes, half without a node. Some are culled.
 pub(crate) fn large() -> Result<Plan, Error> {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(256, 256, Format::Rgba16Float);

@@ -1,4 +1,4 @@
-//! Pages about frames, used in headless Chromium by `driver.js`.
+//! HTML pages of frames, tested in headless Chromium by `driver.js`.
 
 mod frames;
 
@@ -26,10 +26,10 @@ const FLAGS: [&str; 14] = [
     "--dump-dom",
 ];
 
-/// A page without its pictures fits into this.
+/// The largest size of a page without images.
 const MOST_BYTES: usize = 1 << 20;
 
-/// Opens a page with the driver at its end, and returns what the driver found out; `None` without a browser.
+/// Opens a page with the driver appended, and returns the driver's results; `None` without a browser.
 fn used(page: &str) -> Option<Value> {
     let Some(browser) = BROWSERS.into_iter().find(|name| on_path(name)) else {
         skip("pages", "no Chromium is installed");
@@ -75,7 +75,7 @@ fn the_page_of_the_demo_frame_shows_every_view_and_its_images() {
     keep(&page, "demo");
     let Some(found) = used(&page) else { return };
     assert_sound(&found);
-    // Maps, depth and colours are not of one color.
+    // Maps, depth and colours have more than one color.
     let colors: Vec<u64> =
         found["facts"]["colors"].as_array().unwrap().iter().filter_map(Value::as_u64).collect();
     assert!(colors.iter().filter(|&&colors| colors > 50).count() >= 4, "{found}");
@@ -103,7 +103,7 @@ fn the_page_of_a_frame_of_500_passes_is_readable() {
     assert!(found["facts"]["boxes"].as_u64() < Some(60), "{found}");
 }
 
-/// Leaves a page where a person can look at it.
+/// Saves a page for a person to look at.
 fn keep(page: &str, name: &str) {
     let folder = shadowgraph_tests::repository().join("target/tmp/pages");
     fs::create_dir_all(&folder).unwrap();
