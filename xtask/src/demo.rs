@@ -15,6 +15,10 @@ const PRODUCTS: [(&[&str], &str, &str); 5] = [
     (&["dump", "--format", "dot"], "out/demo.dot", "the graph for Graphviz"),
 ];
 
+/// Builds the program without its window. Naming the whole workspace gives dependencies the features that they have in the tests,
+/// so that `cargo xtask test` does not build them again.
+const BUILD: [&str; 5] = ["build", "--workspace", "--bin", "shadowgraph", "--no-default-features"];
+
 const NEXT: &str = "\
 Try next:
   cargo run -- render your.glb --sun \"dir=-1,-2,-1 lux=20000 color=1,0.95,0.9\" -o out/yours.png
@@ -39,8 +43,7 @@ pub(crate) fn run() -> ExitCode {
 
 fn draw() -> Result<(), (u8, String)> {
     println!("Building the program ...");
-    let built =
-        child::stream(&mut child::cargo(&["build", "--package", "shadowgraph"])).map_err(|e| (1, e))?;
+    let built = child::stream(&mut child::cargo(&BUILD)).map_err(|error| (1, error))?;
     if !built.success() {
         return Err((1, "the program failed to build".to_owned()));
     }
