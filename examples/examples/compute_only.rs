@@ -1,13 +1,13 @@
-//! A graph without a single draw: Conway's game of life, a hundred generations in one frame. Two buffers take turns, and the graph
-//! finds out that two are enough.
+//! A graph without draws: Conway's game of life, a hundred generations in one frame. The graph finds out that two buffers are enough
+//! and aliases the rest.
 //!
-//! `cargo run -p shadowgraph-examples --example compute_only` writes out/compute_only.png and tells of the memory; with
-//! `-- --window` a hundred generations follow each frame.
+//! `cargo run -p shadowgraph-examples --example compute_only` writes out/compute_only.png and prints the memory; with `-- --window`
+//! each frame draws a hundred generations.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use shadowgraph::Gpu;
 use shadowgraph::core::{BufferDesc, ComputeShader, Contents, Format, Graph, TextureDesc};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
 const SIDE: u32 = 128;
@@ -38,12 +38,12 @@ const LIFE: &str = "
 
 const SHOW: &str = "
     @group(0) @binding(0) var<storage, read> cells: array<u32>;
-    @group(0) @binding(1) var picture: texture_storage_2d<rgba8unorm, write>;
+    @group(0) @binding(1) var image: texture_storage_2d<rgba8unorm, write>;
 
     @compute @workgroup_size(8, 8)
     fn show(@builtin(global_invocation_id) id: vec3u) {
-        let cell = id.xy * 128u / textureDimensions(picture);
-        textureStore(picture, id.xy, vec4f(vec3f(f32(cells[cell.y * 128u + cell.x])), 1.0));
+        let cell = id.xy * 128u / textureDimensions(image);
+        textureStore(image, id.xy, vec4f(vec3f(f32(cells[cell.y * 128u + cell.x])), 1.0));
     }";
 
 struct Life {
@@ -56,14 +56,14 @@ impl Example for Life {
     const NAME: &'static str = "compute_only";
     const SIZE_PX: [u32; 2] = [SIDE; 2];
 
-    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         let (live, show) = (ComputeShader::wgsl("life", LIFE), ComputeShader::wgsl("show", SHOW));
         Ok(Self { graph: Graph::new(), live, show })
     }
 
     fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let mut frame = self.graph.frame();
-        // Any pattern will do: the bits of a multiplied number.
+        // Any pattern works: bits of a multiplied integer.
         let cell = |i: u32| (i + number).wrapping_mul(2_654_435_761) >> 30 & 1;
         let first: Vec<u8> = (0..SIDE * SIDE).flat_map(|i| cell(i).to_le_bytes()).collect();
         let mut now = frame.upload_buffer("first", first);
@@ -81,8 +81,8 @@ impl Example for Life {
             .storage(&now)
             .storage_texture_mut(&mut cells, Contents::Overwrite);
         pass.dispatch([width.div_ceil(8), height.div_ceil(8), 1]);
-        let mut picture = frame.import_texture("picture", target, false);
-        frame.copy_pass("copy").texture(&cells, &mut picture);
+        let mut image = frame.import_texture("image", target, false);
+        frame.copy_pass("copy").texture(&cells, &mut image);
 
         let executed = self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
         if number == 0 {
@@ -93,5 +93,5 @@ impl Example for Life {
 }
 
 fn main() -> ExitCode {
-    main_of::<Life>()
+    run_example::<Life>()
 }

@@ -1,7 +1,7 @@
-//! The graph inside an application that has its own device, queue, encoder and textures already.
+//! The graph in an application with its own device, queue, encoder and textures.
 //!
-//! The application clears its canvas, the graph draws into it, the application copies the canvas out: all in one
-//! encoder and one submit. `cargo run -p shadowgraph-examples --example custom` writes out/custom.png.
+//! The application clears its canvas, the graph draws into it, and the application copies the canvas out: all in one encoder and one
+//! submission. `cargo run -p shadowgraph-examples --example custom` writes out/custom.png.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use shadowgraph::core::{Bind, Contents, Format, Frame, Graph, Texture, TextureDesc, wgpu};
@@ -17,14 +17,14 @@ const SHADER: &str = "
     let ring = u32(distance(at.xy, vec2f(160.0, 90.0)) / 14.0) % 2u;
     return select(vec4f(1.0, 0.5, 0.0, 1.0), vec4f(0.0, 0.25, 1.0, 1.0), ring == 1u);
 }
-@group(0) @binding(0) var picture: texture_2d<f32>;
+@group(0) @binding(0) var image: texture_2d<f32>;
 @fragment fn lens(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    if distance(at.xy, vec2f(160.0, 90.0)) > 70.0 { discard; } // what the application drew stays
-    return textureLoad(picture, vec2u(at.xy), 0);
+    if distance(at.xy, vec2f(160.0, 90.0)) > 70.0 { discard; } // keeps what the application drew
+    return textureLoad(image, vec2u(at.xy), 0);
 }";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // The application's own: nothing here knows of a graph.
+    // The application, independent of the graph.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
@@ -34,22 +34,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let copied = wgpu::BufferDescriptor { label: Some("copied"), size, usage, mapped_at_creation: false };
     let copied = device.create_buffer(&copied);
     let pipelines = Pipelines::new(&device);
-    // Keeps plans, transient textures and bind groups from frame to frame: one for each device.
+    // Keeps plans, transient textures and bind groups from frame to frame: one graph per device.
     let mut graph = Graph::new();
 
-    // Work of the application's before the graph.
+    // Work of the application before the graph.
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     clear(&mut encoder, &canvas);
 
-    // The graph's part: declare, compile, record into the encoder that there is. It submits nothing.
+    // Declare, compile, and record into the existing encoder. The graph submits nothing.
     let mut frame = graph.frame();
-    // `true`: the canvas holds something already, so a pass may preserve it.
+    // `true`: the canvas has defined contents, so a pass may preserve them.
     let mut target = frame.import_texture("canvas", &canvas, true);
     rings_under_a_lens(&mut frame, &pipelines, &mut target);
     let executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
     print!("{}", executed.plan().to_text());
 
-    // Work of the application's after the graph. 320 pixels of 4 bytes are a row that needs no padding.
+    // Work of the application after the graph. Rows of 320 pixels with 4 bytes need no padding.
     let layout = wgpu::TexelCopyBufferLayout { bytes_per_row: Some(SIZE.width * 4), ..Default::default() };
     let into = wgpu::TexelCopyBufferInfo { buffer: &copied, layout };
     encoder.copy_texture_to_buffer(canvas.as_image_copy(), into, SIZE);
@@ -62,13 +62,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Adds two passes to a frame: a node is a function. The second draws over `canvas`.
+/// Adds two passes to a frame: any function can be a node. The second draws over `canvas`.
 fn rings_under_a_lens<'f>(frame: &mut Frame<'f>, pipelines: &'f Pipelines, canvas: &mut Texture) {
-    // A transient: the graph finds a texture for it, and its usage flags follow from the accesses below.
+    // A transient texture: the graph allocates it, with the usage flags that the accesses below need.
     let desc = TextureDesc::d2(SIZE.width, SIZE.height, Format::Rgba16Float);
     let mut rings = frame.create_texture("rings", desc);
     let mut pass = frame.render_pass("rings");
-    // The triangle covers every pixel, so what was there before does not matter.
+    // The triangle covers every pixel, so the earlier contents are not loaded.
     pass.color(&mut rings, Contents::Overwrite);
     pass.body(|ctx| {
         ctx.pass.set_pipeline(&pipelines.rings);
@@ -77,13 +77,13 @@ fn rings_under_a_lens<'f>(frame: &mut Frame<'f>, pipelines: &'f Pipelines, canva
     });
 
     let mut pass = frame.render_pass("lens");
-    // The read orders this pass after the one above, and gives the token that its body needs.
-    let picture = pass.sample(&rings);
-    // Outside the lens the application's colours stay, so the load operation will be a load.
+    // The read orders this pass after the one above, and returns the token that its body needs.
+    let image = pass.sample(&rings);
+    // Outside the lens the application's colours are kept, so the load op is `Load`.
     pass.color(canvas, Contents::Preserve);
     pass.body(move |ctx| {
-        // Made once and found again in later frames, as long as the token stands for the same texture.
-        let group = ctx.bind_group(&pipelines.lens_layout, &[Bind::Texture(picture)])?;
+        // Created once and cached for later frames, as long as the token resolves to the same texture.
+        let group = ctx.bind_group(&pipelines.lens_layout, &[Bind::Texture(image)])?;
         ctx.pass.set_pipeline(&pipelines.lens);
         ctx.pass.set_bind_group(0, &group, &[]);
         ctx.pass.draw(0..3, 0..1);
@@ -94,7 +94,7 @@ fn rings_under_a_lens<'f>(frame: &mut Frame<'f>, pipelines: &'f Pipelines, canva
 struct Pipelines {
     rings: wgpu::RenderPipeline,
     lens: wgpu::RenderPipeline,
-    /// Kept, because bind groups are found again by the layout that they were asked for with.
+    /// Kept because bind groups are cached by layout.
     lens_layout: wgpu::BindGroupLayout,
 }
 

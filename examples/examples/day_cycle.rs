@@ -1,17 +1,17 @@
-//! A day: the sun goes its way, and each of its places is a PNG. Shadows lengthen, and exposure follows the light.
+//! A day: the sun moves, and each of its positions is a PNG. Shadows lengthen, and exposure follows the light.
 //!
-//! `cargo run -p shadowgraph-examples --example day_cycle` writes out/day_cycle/00.png to 23.png; `-- --window` goes
-//! through it again and again.
+//! `cargo run -p shadowgraph-examples --example day_cycle` writes out/day_cycle/00.png to 23.png; `-- --window` repeats
+//! it.
 
 use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
-/// The sun at a part of the day, 0 at its rise and 1 at its set: lower is redder and weaker.
+/// Returns the sun at a time of the day, 0 at sunrise and 1 at sunset; a low sun is redder and weaker.
 fn sun(day: f64) -> Light {
     let angle = (0.05 + 0.9 * day) * std::f64::consts::PI;
     let direction = -DVec3::new(angle.cos(), angle.sin(), 0.35).normalize();
@@ -30,7 +30,7 @@ fn sun(day: f64) -> Light {
 struct Day {
     renderer: Renderer,
     options: ViewOptions,
-    lamps: Vec<Light>,
+    other_lights: Vec<Light>,
 }
 
 impl Example for Day {
@@ -39,23 +39,23 @@ impl Example for Day {
     const FRAMES: u32 = 24;
     const SEQUENCE: bool = true;
 
-    fn new(gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         let scene = demo_scene();
-        let lamps = scene.lights[1..].to_vec();
+        let other_lights = scene.lights[1..].to_vec();
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
         let renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color)?;
-        Ok(Self { renderer, options, lamps })
+        Ok(Self { renderer, options, other_lights })
     }
 
     fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let day = f64::from(number % Self::FRAMES) / f64::from(Self::FRAMES - 1);
-        self.renderer.set_lights(std::iter::once(sun(day)).chain(self.lamps.clone()).collect())?;
+        self.renderer.set_lights(std::iter::once(sun(day)).chain(self.other_lights.clone()).collect())?;
         self.renderer.record(gpu, encoder, target, &self.options)?;
         Ok(())
     }
 }
 
 fn main() -> ExitCode {
-    main_of::<Day>()
+    run_example::<Day>()
 }

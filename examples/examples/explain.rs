@@ -1,4 +1,4 @@
-//! A frame that is not as meant, and how the graph tells why: a pass that is culled, two passes that do not merge, an order.
+//! A frame with errors, and how the graph explains them: a culled pass, two passes that do not merge, an order.
 //!
 //! `cargo run -p shadowgraph-examples --example explain` prints it, and writes out/explain.html. It needs no GPU.
 
@@ -14,21 +14,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = texture(&mut frame, "scene", Format::Rgba16Float);
     let mut glow = texture(&mut frame, "glow", Format::Rgba16Float);
     let mut depth = texture(&mut frame, "depth", Format::Depth32Float);
-    let mut picture = texture(&mut frame, "picture", Format::Rgba8UnormSrgb);
+    let mut image = texture(&mut frame, "image", Format::Rgba8UnormSrgb);
 
     let mut opaque = frame.render_pass("opaque");
     opaque.color(&mut scene, Contents::clear_color([0.0; 4]));
     opaque.depth(&mut depth, Contents::clear_depth(0.0));
     let mut particles = frame.render_pass("particles");
     particles.color(&mut scene, Contents::Preserve);
-    // Somebody meant this one to be seen, and forgot to read what it draws.
+    // Nothing reads what this pass draws, so it is culled.
     let mut blur = frame.render_pass("blur");
     blur.sample(&scene);
     blur.color(&mut glow, Contents::Overwrite);
     let mut tonemap = frame.render_pass("tonemap");
     tonemap.sample(&scene);
-    tonemap.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    tonemap.color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
 
     let plan = frame.compile()?.into_plan();
     for name in ["blur", "particles", "glow"] {

@@ -1,8 +1,8 @@
-//! A thousand lamps. With the pipeline `forward_plus` each pixel asks only those that reach its part of the view, and the picture is the
-//! same to the bit as with `forward`, which asks them all.
+//! A thousand point lights. With the pipeline `forward_plus` each pixel visits only the lights near it, and the image is equal to the bit
+//! to that of `forward`, which visits all.
 //!
-//! `cargo run -p shadowgraph-examples --example many_lights` writes out/many_lights.png and tells how long the lighting took on the
-//! GPU; with `-- forward` it is drawn by that pipeline, and with `-- --window` it is a window.
+//! `cargo run -p shadowgraph-examples --example many_lights` writes out/many_lights.png and prints the GPU time of the
+//! lighting; `-- forward` draws with that pipeline, and `-- --window` opens a window.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use glam::{DVec3, Vec3};
@@ -12,45 +12,44 @@ use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
 use shadowgraph::{Gpu, Pipeline, RenderConfig, Renderer, ViewOptions};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
-const LAMPS: u32 = 1_000;
+const LIGHT_COUNT: u32 = 1_000;
 
-/// A lamp somewhere above the ground, in some colour: spread by the golden angle.
-fn lamp(number: u32) -> Light {
-    let turn = f64::from(number) * 2.399_963;
-    let from_middle = 22.0 * (f64::from(number) / f64::from(LAMPS)).sqrt();
-    let position_world =
-        DVec3::new(turn.cos() * from_middle, 0.5 + f64::from(number % 3), turn.sin() * from_middle);
+/// Returns a light above the ground with its own colour; the lights are distributed by the golden angle.
+fn point_light(number: u32) -> Light {
+    let angle = f64::from(number) * 2.399_963;
+    let radius = 22.0 * (f64::from(number) / f64::from(LIGHT_COUNT)).sqrt();
+    let position_world = DVec3::new(angle.cos() * radius, 0.5 + f64::from(number % 3), angle.sin() * radius);
     let hue = number as f32 * 0.7;
     let color = Vec3::new(hue.sin(), (hue + 2.1).sin(), (hue + 4.2).sin()) * 0.5 + 0.5;
     let kind = LightKind::Point { position_world, range: Some(2.5) };
     Light { name: None, kind, color, intensity: 12.0, casts_shadow: false }
 }
 
-struct Lamps {
+struct ManyLights {
     renderer: Renderer,
     options: ViewOptions,
 }
 
-impl Example for Lamps {
+impl Example for ManyLights {
     const NAME: &'static str = "many_lights";
-    const WORD: &'static str = "a pipeline's name";
+    const ARGUMENT: &'static str = "a pipeline's name";
     const SIZE_PX: [u32; 2] = [320, 180];
 
-    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, argument: Option<&str>) -> Result<Self, Failure> {
         let mut scene = demo_scene();
         // Moonlight.
         scene.lights.truncate(1);
         scene.lights[0].intensity = 0.6;
-        scene.lights.extend((0..LAMPS).map(lamp));
+        scene.lights.extend((0..LIGHT_COUNT).map(point_light));
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
-        let name = word.unwrap_or("forward_plus");
+        let name = argument.unwrap_or("forward_plus");
         let config = RenderConfig::from(Pipeline::built_in(name, &Parameters::default())?);
         let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config)?;
-        // A driver may compile shaders at the first draw.
+        // Drivers may compile shaders at the first draw.
         renderer.draw(gpu, &options)?;
         let drawn = renderer.draw_timed(gpu, &options, Some(&mut Timer::new()))?;
         let lighting = drawn.times.iter().filter(|time| !time.pass.starts_with("shadows/"));
@@ -66,5 +65,5 @@ impl Example for Lamps {
 }
 
 fn main() -> ExitCode {
-    main_of::<Lamps>()
+    run_example::<ManyLights>()
 }

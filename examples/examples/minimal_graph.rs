@@ -1,10 +1,10 @@
-//! The smallest graph: one pass that clears a texture, and another that draws over it.
+//! The smallest graph: one pass that clears a texture, and one that draws over it.
 //!
 //! `cargo run -p shadowgraph-examples --example minimal_graph` writes out/minimal_graph.png, and with `-- --window` it is a window.
 
 use shadowgraph::Gpu;
 use shadowgraph::core::{Contents, FullscreenShader, Graph};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
 const DISC: &str = "
@@ -26,20 +26,20 @@ impl Example for Disc {
     const NAME: &'static str = "minimal_graph";
     const SIZE_PX: [u32; 2] = [320, 180];
 
-    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         Ok(Self { graph: Graph::new(), shader: FullscreenShader::wgsl("disc", DISC) })
     }
 
     fn draw(&mut self, Canvas { gpu, encoder, target, .. }: Canvas<'_>) -> Result<(), Failure> {
         let mut frame = self.graph.frame();
-        let mut picture = frame.import_texture("picture", target, false);
-        frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.05, 0.1, 0.2, 1.0]));
-        frame.fullscreen("disc", &self.shader).draw_over(&mut picture, None);
+        let mut image = frame.import_texture("image", target, false);
+        frame.render_pass("clear").color(&mut image, Contents::clear_color([0.05, 0.1, 0.2, 1.0]));
+        frame.fullscreen("disc", &self.shader).draw_over(&mut image, None);
         self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
         Ok(())
     }
 }
 
 fn main() -> ExitCode {
-    main_of::<Disc>()
+    run_example::<Disc>()
 }

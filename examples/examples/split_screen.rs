@@ -1,4 +1,4 @@
-//! Two cameras in one frame, such as a split screen or two eyes: each has its own shadow maps, and the graph plans both together.
+//! Two cameras in one frame, such as a split screen or two eyes. Each has its own shadow maps, and the graph plans both together.
 //!
 //! `cargo run -p shadowgraph-examples --example split_screen` writes out/split_screen.png; `-- --window` shows it.
 
@@ -7,10 +7,10 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Camera, Projection};
 use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
-use shadowgraph_examples::{Canvas, Example, FORMAT, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, FORMAT, Failure, run_example};
 use std::process::ExitCode;
 
-/// Where two people stand, and where they look.
+/// Eyes and targets of the two cameras.
 const VIEWS: [[DVec3; 2]; 2] = [
     [DVec3::new(-6.0, 2.5, 16.0), DVec3::new(-2.0, 1.5, 0.0)],
     [DVec3::new(9.0, 7.0, 14.0), DVec3::new(0.0, 1.0, 0.0)],
@@ -24,7 +24,7 @@ struct SplitScreen {
 impl Example for SplitScreen {
     const NAME: &'static str = "split_screen";
 
-    fn new(gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
         let views = VIEWS.map(|[eye, target]| {
             let camera = Camera::look_at(eye, target, DVec3::Y, projection);
@@ -60,5 +60,5 @@ impl Example for SplitScreen {
 }
 
 fn main() -> ExitCode {
-    main_of::<SplitScreen>()
+    run_example::<SplitScreen>()
 }

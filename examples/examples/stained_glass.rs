@@ -1,13 +1,13 @@
-//! Coloured shadows: a window of stained glass, drawn with the technique that is named, or `pcf`.
+//! Coloured shadows: a window of stained glass, drawn with the named technique, or `pcf`.
 //!
-//! `cargo run -p shadowgraph-examples --example stained_glass -- raytraced` writes out/stained_glass.png; with `--window` too it is
-//! a window.
+//! `cargo run -p shadowgraph-examples --example stained_glass -- raytraced` writes out/stained_glass.png; add `--window` to
+//! open a window.
 
 use shadowgraph::options::Aov;
 use shadowgraph::scene::trials::stained_glass;
 use shadowgraph::shadows::Techniques;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
 struct StainedGlass {
@@ -17,11 +17,11 @@ struct StainedGlass {
 
 impl Example for StainedGlass {
     const NAME: &'static str = "stained_glass";
-    const WORD: &'static str = "a technique's name";
+    const ARGUMENT: &'static str = "a technique's name";
     const SIZE_PX: [u32; 2] = [960, 540];
 
-    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure> {
-        let technique = Techniques::built_in().find(word.unwrap_or("pcf"))?;
+    fn new(gpu: &Gpu, argument: Option<&str>) -> Result<Self, Failure> {
+        let technique = Techniques::built_in().find(argument.unwrap_or("pcf"))?;
         let scene = stained_glass();
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
@@ -36,5 +36,5 @@ impl Example for StainedGlass {
 }
 
 fn main() -> ExitCode {
-    main_of::<StainedGlass>()
+    run_example::<StainedGlass>()
 }

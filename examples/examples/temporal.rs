@@ -1,17 +1,17 @@
-//! A history: noise that is averaged over frames. The graph keeps what a frame left for the next, and says whether it is there.
+//! A history: noise that is averaged over frames. The graph keeps the contents for the next frame, and reports whether they are valid.
 //!
 //! `cargo run -p shadowgraph-examples --example temporal` writes out/temporal.png after 64 frames; `-- --frames 1` shows the noise
-//! of one, and `-- --window` how it settles.
+//! of one frame, and `-- --window` how it converges.
 
 use shadowgraph::Gpu;
 use shadowgraph::core::{Format, FullscreenShader, Graph, Resize, TextureDesc};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
-/// Points in a disc's penumbra, one a frame: one frame is noise, many are soft.
+/// Samples of a disc's penumbra, one per frame: one frame is noisy, the mean of many is smooth.
 const ACCUMULATE: &str = "
     @group(0) @binding(0) var before: texture_2d<f32>;
-    // The frame's number, and the part of it in the mean.
+    // The number of the frame, and its weight in the mean.
     @group(0) @binding(1) var<uniform> frame: vec2f;
 
     fn noise(p: vec3f) -> f32 {
@@ -23,9 +23,9 @@ const ACCUMULATE: &str = "
         let here = (uv - 0.5) * vec2f(16.0, 9.0) / 9.0;
         let angle = 6.2831853 * noise(vec3f(position.xy, frame.x));
         let jitter = vec2f(cos(angle), sin(angle)) * 0.12 * sqrt(noise(vec3f(position.yx, frame.x + 0.5)));
-        let lit = f32(length(here + jitter) > 0.3);
+        let visibility = f32(length(here + jitter) > 0.3);
         let mean = textureLoad(before, vec2u(position.xy), 0).r;
-        return vec4f(mix(mean, lit, frame.y));
+        return vec4f(mix(mean, visibility, frame.y));
     }";
 
 const SHOW: &str = "
@@ -40,7 +40,7 @@ struct Mean {
     graph: Graph,
     accumulate: FullscreenShader,
     show: FullscreenShader,
-    /// How many frames are in it.
+    /// The number of frames in the mean.
     frames: u32,
 }
 
@@ -49,7 +49,7 @@ impl Example for Mean {
     const SIZE_PX: [u32; 2] = [320, 180];
     const FRAMES: u32 = 64;
 
-    fn new(_gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
+    fn new(_gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         let accumulate = FullscreenShader::wgsl("accumulate", ACCUMULATE);
         let show = FullscreenShader::wgsl("show", SHOW);
         Ok(Self { graph: Graph::new(), accumulate, show, frames: 0 })
@@ -59,18 +59,18 @@ impl Example for Mean {
         let desc = TextureDesc::d2(target.width(), target.height(), Format::R32Float);
         let mut frame = self.graph.frame();
         let mut mean = frame.history("mean", desc, Resize::Reset);
-        // After a resize there is nothing before, and the mean begins anew.
+        // After a resize there are no previous contents, and the mean starts again.
         self.frames = if mean.valid { self.frames + 1 } else { 1 };
         let block = [number as f32, 1.0 / self.frames as f32].map(f32::to_le_bytes).concat();
         let pass = frame.fullscreen("accumulate", &self.accumulate);
         pass.sample(&mean.previous).uniform(&block[..]).draw(&mut mean.current);
-        let mut picture = frame.import_texture("picture", target, false);
-        frame.fullscreen("show", &self.show).sample(&mean.current).draw(&mut picture);
+        let mut image = frame.import_texture("image", target, false);
+        frame.fullscreen("show", &self.show).sample(&mean.current).draw(&mut image);
         self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
         Ok(())
     }
 }
 
 fn main() -> ExitCode {
-    main_of::<Mean>()
+    run_example::<Mean>()
 }

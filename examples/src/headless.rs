@@ -1,4 +1,4 @@
-//! Pictures without a window.
+//! Images without a window.
 
 use crate::{Arguments, Canvas, Example, Failure, target};
 use indicatif::ProgressBar;
@@ -7,13 +7,13 @@ use shadowgraph::output::{Pixels, write_png};
 use shadowgraph::{Gpu, wgpu};
 
 pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Failure> {
-    let mut example = E::new(gpu, arguments.word.as_deref())?;
+    let mut example = E::new(gpu, arguments.argument.as_deref())?;
     let frames = arguments.frames.unwrap_or(E::FRAMES);
-    let picture = target(&gpu.device, E::SIZE_PX);
+    let image = target(&gpu.device, E::SIZE_PX);
     let progress = if frames > 1 { ProgressBar::new(frames.into()) } else { ProgressBar::hidden() };
     for number in 0..frames {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        example.draw(Canvas { gpu, encoder: &mut encoder, target: &picture, number })?;
+        example.draw(Canvas { gpu, encoder: &mut encoder, target: &image, number })?;
         gpu.queue.submit([encoder.finish()]);
         let file = match E::SEQUENCE {
             true => format!("out/{}/{number:02}.png", E::NAME),
@@ -21,7 +21,7 @@ pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Fa
         };
         if E::SEQUENCE || number + 1 == frames {
             let [width, height] = E::SIZE_PX;
-            write_png(file.as_ref(), width, height, Pixels::Rgba, &texels(gpu, &picture)?)?;
+            write_png(file.as_ref(), width, height, Pixels::Rgba, &texels(gpu, &image)?)?;
         }
         progress.inc(1);
     }
@@ -29,12 +29,12 @@ pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Fa
     Ok(())
 }
 
-/// Reads a texture back, by a graph that does nothing else.
-fn texels(gpu: &Gpu, picture: &wgpu::Texture) -> Result<Vec<u8>, Failure> {
+/// Reads a texture back with a separate graph.
+fn texels(gpu: &Gpu, image: &wgpu::Texture) -> Result<Vec<u8>, Failure> {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
-    let picture = frame.import_texture("picture", picture, true);
-    let request = frame.read_back_texture(&picture, Subresource::FULL);
+    let image = frame.import_texture("image", image, true);
+    let request = frame.read_back_texture(&image, Subresource::FULL);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
     gpu.queue.submit([encoder.finish()]);

@@ -1,7 +1,6 @@
-//! What the examples share: a program that draws one picture, or many, without a window, and the same in a window.
+//! What the examples share: a program that draws one or several images without a window, or frames in a window.
 //!
-//! An example draws into a texture that it is given. Without a word that texture is written to `out/NAME.png`; with `--window` it is
-//! shown, frame by frame.
+//! An example draws into a texture. Without arguments that texture is written to `out/NAME.png`; with `--window` each frame is shown.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "examples are programs")]
 
 mod headless;
@@ -12,60 +11,59 @@ use shadowgraph::options::AdapterChoice;
 use shadowgraph::{Gpu, wgpu};
 use std::process::ExitCode;
 
-/// What can go wrong in an example: its message is shown, and the program ends.
+/// The error of an example: its message is printed, and the program ends.
 pub type Failure = Box<dyn std::error::Error>;
 
-/// An example: what it keeps, and how it draws a frame.
+/// An example: the state that it keeps, and how it draws a frame.
 pub trait Example: Sized {
-    /// What it is called, and its picture.
+    /// The name of the example and of its image.
     const NAME: &'static str;
-    /// How large its picture is; a window may have any size.
+    /// The size of its image; a window may have any size.
     const SIZE_PX: [u32; 2] = [640, 360];
-    /// How many frames are drawn without a window, where `--frames` says nothing.
+    /// The number of frames without a window, unless `--frames` sets it.
     const FRAMES: u32 = 1;
-    /// Whether each frame is a picture of its own, and not the last alone.
+    /// Whether each frame is written to a file, and not only the last.
     const SEQUENCE: bool = false;
+    /// What the example's argument is; empty if it has none.
+    const ARGUMENT: &'static str = "";
 
-    /// What the one word of the command line says that is the example's own; empty where there is none.
-    const WORD: &'static str = "";
-
-    /// Makes what it keeps from frame to frame, by its word.
+    /// Creates the state that it keeps from frame to frame.
     ///
     /// # Errors
-    /// Whatever the example cannot do.
-    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure>;
+    /// For what the example cannot do.
+    fn new(gpu: &Gpu, argument: Option<&str>) -> Result<Self, Failure>;
 
-    /// Draws a frame over all of the canvas.
+    /// Draws a frame that covers the canvas.
     ///
     /// # Errors
-    /// Whatever the example cannot do.
+    /// For what the example cannot do.
     fn draw(&mut self, canvas: Canvas<'_>) -> Result<(), Failure>;
 }
 
-/// What an example draws into.
+/// The target of an example.
 pub struct Canvas<'a> {
     /// The device.
     pub gpu: &'a Gpu,
-    /// Into which the frame is recorded; whoever has it submits it.
+    /// The encoder that the frame is recorded into; the caller submits it.
     pub encoder: &'a mut wgpu::CommandEncoder,
-    /// The texture, of [`FORMAT`], which can be drawn into and copied to.
+    /// The texture, of [`FORMAT`], as an attachment or the target of copies.
     pub target: &'a wgpu::Texture,
-    /// The frame's number, from 0.
+    /// The number of the frame, from 0.
     pub number: u32,
 }
 
-/// The format of the textures that examples draw into.
+/// The format of the targets.
 pub const FORMAT: Format = Format::Rgba8UnormSrgb;
 
-/// What the command line says.
+/// The arguments of the command line.
 struct Arguments {
     window: bool,
     frames: Option<u32>,
-    word: Option<String>,
+    argument: Option<String>,
 }
 
-/// Runs an example as the command line says; the main function of its program.
-pub fn main_of<E: Example>() -> ExitCode {
+/// Runs an example with the arguments of the command line; the main function of its program.
+pub fn run_example<E: Example>() -> ExitCode {
     let run = || -> Result<(), Failure> {
         let arguments = arguments::<E>(std::env::args().skip(1))?;
         match arguments.window {
@@ -79,29 +77,33 @@ pub fn main_of<E: Example>() -> ExitCode {
 }
 
 fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Arguments, Failure> {
-    let mut arguments = Arguments { window: false, frames: None, word: None };
-    while let Some(word) = given.next() {
-        match word.as_str() {
+    let mut arguments = Arguments { window: false, frames: None, argument: None };
+    while let Some(argument) = given.next() {
+        match argument.as_str() {
             "--window" => arguments.window = true,
             "--frames" => match given.next().map(|count| count.parse()) {
                 Some(Ok(frames @ 1..)) => arguments.frames = Some(frames),
-                _ => return Err("--frames: give a number, from 1 up".into()),
+                _ => return Err("--frames: expected an integer above 0".into()),
             },
-            _ if E::WORD.is_empty() || arguments.word.is_some() || word.starts_with('-') => {
-                let own = if E::WORD.is_empty() { String::new() } else { format!(", and {}", E::WORD) };
-                return Err(format!("`{word}`: {} takes --window, --frames N{own}", E::NAME).into());
+            _ if E::ARGUMENT.is_empty() || arguments.argument.is_some() || argument.starts_with('-') => {
+                let expected =
+                    if E::ARGUMENT.is_empty() { String::new() } else { format!(", and {}", E::ARGUMENT) };
+                return Err(format!(
+                    "unexpected argument `{argument}`; expected --window, --frames N{expected}"
+                )
+                .into());
             }
-            _ => arguments.word = Some(word),
+            _ => arguments.argument = Some(argument),
         }
     }
     Ok(arguments)
 }
 
-/// The texture that an example draws into.
+/// Creates the texture that an example draws into.
 fn target(device: &wgpu::Device, [width, height]: [u32; 2]) -> wgpu::Texture {
     use wgpu::TextureUsages as Usage;
     device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("picture"),
+        label: Some("image"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,

@@ -1,4 +1,4 @@
-//! The same frames in a window: each is drawn into a texture, and a graph draws that into the texture that the surface gives.
+//! The same frames in a window: each is drawn into a texture, and a graph draws that into the surface texture.
 
 use crate::{Arguments, Canvas, Example, Failure, target};
 use shadowgraph::core::{FullscreenShader, Graph};
@@ -11,11 +11,11 @@ use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::window::{Window, WindowAttributes, WindowId};
 
 const SHOW: &str = "
-    @group(0) @binding(0) var picture: texture_2d<f32>;
+    @group(0) @binding(0) var image: texture_2d<f32>;
 
     @fragment
     fn show(@builtin(position) position: vec4f) -> @location(0) vec4f {
-        return textureLoad(picture, vec2u(position.xy), 0);
+        return textureLoad(image, vec2u(position.xy), 0);
     }";
 
 pub(crate) fn run<E: Example>(arguments: &Arguments) -> Result<(), Failure> {
@@ -30,14 +30,14 @@ pub(crate) fn run<E: Example>(arguments: &Arguments) -> Result<(), Failure> {
 struct App<'a, E> {
     instance: wgpu::Instance,
     arguments: &'a Arguments,
-    /// There is no window before the event loop runs.
+    /// `None` until the event loop runs.
     screen: Option<Screen<E>>,
     failure: Option<Failure>,
 }
 
 impl<E: Example> ApplicationHandler for App<'_, E> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        match Screen::new(event_loop, &self.instance, self.arguments.word.as_deref()) {
+        match Screen::new(event_loop, &self.instance, self.arguments.argument.as_deref()) {
             Ok(screen) => self.screen = Some(screen),
             Err(failure) => self.fail(event_loop, failure),
         }
@@ -73,7 +73,7 @@ struct Screen<E> {
     gpu: Gpu,
     graph: Graph,
     show: FullscreenShader,
-    picture: wgpu::Texture,
+    image: wgpu::Texture,
     drawn: u32,
 }
 
@@ -81,7 +81,7 @@ impl<E: Example> Screen<E> {
     fn new(
         event_loop: &ActiveEventLoop,
         instance: &wgpu::Instance,
-        word: Option<&str>,
+        argument: Option<&str>,
     ) -> Result<Self, Failure> {
         let size = Size::Physical(E::SIZE_PX.into());
         let attributes = WindowAttributes::default().with_title(E::NAME).with_inner_size(size);
@@ -89,23 +89,23 @@ impl<E: Example> Screen<E> {
         let surface = instance.create_surface(window.clone())?;
         let wanted = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
         let adapter = pollster::block_on(instance.request_adapter(&wanted))?;
-        // Any device will do; this one has the features that shadows are quickest with.
+        // Any device works; this one has the features with which shadows are fastest.
         let gpu = Gpu::from_adapter(&adapter)?;
         let PhysicalSize { width, height } = window.inner_size();
         let config = surface.get_default_config(&adapter, width, height);
         let mut config = config.ok_or("this adapter cannot draw into this window")?;
-        // Light is written, which the format is to encode.
+        // Shaders write linear colours, so the format has to encode them.
         let srgb = surface.get_capabilities(&adapter).formats.into_iter().find(|format| format.is_srgb());
         config.format = srgb.ok_or("this window has no sRGB format")?;
         config.present_mode = wgpu::PresentMode::Fifo;
         let mut screen = Self {
-            example: E::new(&gpu, word)?,
+            example: E::new(&gpu, argument)?,
             window,
             surface,
             config,
             graph: Graph::new(),
             show: FullscreenShader::wgsl("show", SHOW),
-            picture: target(&gpu.device, E::SIZE_PX),
+            image: target(&gpu.device, E::SIZE_PX),
             gpu,
             drawn: 0,
         };
@@ -114,10 +114,10 @@ impl<E: Example> Screen<E> {
     }
 
     fn resize(&mut self, size: PhysicalSize<u32>) {
-        // A minimised window has no size, and a surface must have one.
+        // A minimised window has size 0, which a surface must not have.
         (self.config.width, self.config.height) = (size.width.max(1), size.height.max(1));
         self.surface.configure(&self.gpu.device, &self.config);
-        self.picture = target(&self.gpu.device, [self.config.width, self.config.height]);
+        self.image = target(&self.gpu.device, [self.config.width, self.config.height]);
         self.window.request_redraw();
     }
 
@@ -130,16 +130,16 @@ impl<E: Example> Screen<E> {
                 return Ok(());
             }
             Lost | Validation => return Err("the surface is lost".into()),
-            // Hidden or late: the next frame may do better.
+            // The window is hidden, or the frame timed out: try again in the next frame.
             _ => return Ok(()),
         };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let (gpu, target, number) = (&self.gpu, &self.picture, self.drawn);
+        let (gpu, target, number) = (&self.gpu, &self.image, self.drawn);
         self.example.draw(Canvas { gpu, encoder: &mut encoder, target, number })?;
         let mut frame = self.graph.frame();
-        let picture = frame.import_texture("picture", &self.picture, true);
+        let image = frame.import_texture("image", &self.image, true);
         let mut surface = frame.import_texture("surface", &surface_texture.texture, false);
-        frame.fullscreen("show", &self.show).sample(&picture).draw(&mut surface);
+        frame.fullscreen("show", &self.show).sample(&image).draw(&mut surface);
         self.graph.compile(frame)?.execute(&mut self.graph, &self.gpu.device, &mut encoder)?;
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(surface_texture);

@@ -1,5 +1,5 @@
-//! Exponential shadow maps, after Annen et al. (2008): light falls off exponentially with the way behind what blocks it, so edges
-//! are smooth however few texels are read.
+//! Exponential shadow maps, after Annen et al. (2008): visibility falls off exponentially with the distance behind the occluder, so edges
+//! are smooth even with few texels.
 
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
@@ -11,18 +11,18 @@ use shadowgraph::shadows::{
     SurfaceBuffers, TechniqueKind, TechniqueSettings, gpu_struct,
 };
 
-/// What the registry knows: a name, a line about it, how one is made, and its settings.
+/// The technique for the registry: a name, a description, a constructor, and the settings.
 pub const ESM: TechniqueKind =
     TechniqueKind::new("esm", "exponential shadow maps: smooth edges from four texels", |context| {
         Ok(Box::new(Esm { maps: ShadowMaps::new(context.device) }))
     })
     .with_settings::<EsmSettings>();
 
-/// What users write in a settings file: `(techniques: {"esm": (falloff_m: 0.1)})`.
+/// The settings in a file: `(techniques: {"esm": (falloff_m: 0.1)})`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EsmSettings {
-    /// How far behind a blocker light has fallen to a third, metres, 0.001 to 10.
+    /// The distance behind an occluder at which visibility has fallen to 1/e, metres, 0.001 to 10.
     pub falloff_m: f32,
 }
 
@@ -51,7 +51,7 @@ struct Falloff {
     per_metre: f32,
 }
 
-/// Plans, draws and keeps maps; what is ours is how they are read.
+/// Shadow maps of the library with our own filter.
 struct Esm {
     maps: ShadowMaps,
 }

@@ -11,7 +11,7 @@ struct Falloff {
 
 @group(1) @binding(8) var<uniform> falloff: Falloff;
 
-// Metres from where the tile's depth begins; depth is reversed, 1 at the light.
+// Distance from the near end of the tile's depth range, metres; depth is reversed, 1 at the light.
 fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
     if shadow_view.light.w == 0.0 {
         return (1.0 - depth) * shadow_view.depth_range_m;
@@ -20,19 +20,19 @@ fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
     return shadow_view.near_m * far / (shadow_view.near_m + depth * shadow_view.depth_range_m);
 }
 
-// How much of the light gets to a point: 0 to 1.
+// Visibility of a point: 0 to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let point = metres(shadow_view, lookup.plane.depth);
-    let at = lookup.uv * map_size(light.map) - 0.5;
-    let part = fract(at);
-    var lit = 0.0;
+    let texel = lookup.uv * map_size(light.map) - 0.5;
+    let fraction = fract(texel);
+    var visibility = 0.0;
     for (var i = 0u; i < 4u; i++) {
         let corner = vec2u(i & 1u, i >> 1u);
-        let stored = stored_depth(light.map, vec2i(floor(at)) + vec2i(corner));
+        let stored = stored_depth(light.map, vec2i(floor(texel)) + vec2i(corner));
         let behind = max(point - metres(shadow_view, stored), 0.0);
-        let weight = select(1.0 - part, part, corner == vec2u(1u));
-        lit += weight.x * weight.y * exp(-behind * falloff.per_metre);
+        let weight = select(1.0 - fraction, fraction, corner == vec2u(1u));
+        visibility += weight.x * weight.y * exp(-behind * falloff.per_metre);
     }
-    return lit;
+    return visibility;
 }

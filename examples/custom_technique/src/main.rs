@@ -1,4 +1,4 @@
-//! The `shadowgraph` program with one technique more.
+//! The `shadowgraph` program with an additional technique.
 //!
 //! `cargo run -p custom_technique -- render --technique esm` draws the demo scene with it.
 

@@ -1,4 +1,4 @@
-//! The engine: its scene, its pipelines, and what shadow passes ask it for.
+//! The engine: its scene, its pipelines, and its shadow casters.
 
 use crate::pipelines::{layout, pipeline};
 use glam::Vec4;
@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 const WGSL: &str = include_str!("engine.wgsl");
 
-/// The engine's scene: boxes, by their middles and half sides.
+/// Returns the engine's scene: boxes by centre and half extents.
 fn tower() -> Vec<[Vec4; 2]> {
     let ground = [Vec4::new(0.0, -0.5, 0.0, 0.0), Vec4::new(12.0, 0.5, 12.0, 0.0)];
     let step = |i: u32| {
@@ -48,7 +48,7 @@ impl Engine {
             mapped_at_creation: false,
         });
         queue.write_buffer(&buffer, 0, bytemuck::cast_slice(&boxes));
-        // The engine's shader imports the technique's function, whatever the technique.
+        // The engine's shader imports the function of any technique.
         let source = ModuleSource::new("custom_engine.wgsl", WGSL);
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
@@ -70,7 +70,7 @@ impl Engine {
     }
 }
 
-/// What shadow passes ask the engine for.
+/// The interface to shadow passes.
 impl ShadowCasters for Engine {
     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
         casters.extend((0..self.boxes.len() as u32).filter(|&i| volume.intersects(&self.bounds_of(i))));
@@ -81,12 +81,12 @@ impl ShadowCasters for Engine {
     }
 
     fn bounds_of(&self, caster: u32) -> Aabb {
-        let [middle, half] = self.boxes[caster as usize].map(|at| at.truncate().as_dvec3());
-        Aabb { min: middle - half, max: middle + half }
+        let [center, half] = self.boxes[caster as usize].map(|at| at.truncate().as_dvec3());
+        Aabb { min: center - half, max: center + half }
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
-        // A sun is all that this engine has: one format, one kind of view.
+        // This engine has only a sun, so there is one format and one kind of view.
         debug_assert_eq!(
             view.target,
             CasterTarget { pass: CasterPass::Depth, format: Format::Depth32Float, perspective: false }

@@ -1,9 +1,9 @@
-// The engine's own shader. Of Shadowgraph it knows what a receiver is, and the technique's function.
+// The engine's shader. It imports the receiver and the technique's function from Shadowgraph.
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::technique::shadow_visibility
 
 struct Box {
-    middle: vec4f,
+    center: vec4f,
     half: vec4f,
 }
 
@@ -13,11 +13,11 @@ struct EngineView {
     to_light: vec4f,
 }
 
-// Of the lit pass.
+// Bindings of the lit pass.
 @group(0) @binding(0) var<uniform> engine_view: EngineView;
 @group(0) @binding(1) var<storage, read> boxes: array<Box>;
 
-// Of shadow passes: the view begins with its matrix.
+// Bindings of shadow passes: the view begins with its matrix.
 @group(0) @binding(0) var<storage, read> caster_from_world: mat4x4f;
 @group(1) @binding(0) var<storage, read> caster_boxes: array<Box>;
 
@@ -39,13 +39,13 @@ fn corner(box: Box, index: u32) -> Corner {
     offset[axis] = side;
     offset[(axis + 1u) % 3u] = at.x;
     offset[(axis + 2u) % 3u] = at.y;
-    return Corner(box.middle.xyz + offset * box.half.xyz, normal);
+    return Corner(box.center.xyz + offset * box.half.xyz, normal);
 }
 
 @vertex
 fn vs_caster(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
     let clip = caster_from_world * vec4f(corner(caster_boxes[instance], vertex).position, 1.0);
-    // What lies before the near plane casts its shadow all the same.
+    // Geometry in front of the near plane casts shadows too.
     return vec4f(clip.xy, min(clip.z, clip.w), clip.w);
 }
 

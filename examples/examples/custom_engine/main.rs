@@ -1,6 +1,6 @@
-//! Shadows in an engine of one's own: its scene is a list of boxes, its lit shader is its own, and the graph and the shadow
-//! technique are Shadowgraph's. Another technique of maps is another value in one line; those that read the surfaces of the
-//! picture want a [`SurfaceBuffers`](shadowgraph::shadows::SurfaceBuffers) too.
+//! Shadows in a custom engine: it has its own scene, a list of boxes, and its own lit shader, and uses the graph and a shadow technique of
+//! Shadowgraph. Another technique with shadow maps is a change of one line; techniques that read positions and normals need
+//! [`SurfaceBuffers`](shadowgraph::shadows::SurfaceBuffers) too.
 //!
 //! `cargo run -p shadowgraph-examples --example custom_engine` writes out/custom_engine.png; `-- --window` shows it.
 
@@ -15,7 +15,7 @@ use shadowgraph::scene::{Camera, Light, LightKind, Projection};
 use shadowgraph::shadows::{
     PCF, ShadowInputs, ShadowSettings, ShadowTechnique, Technique, TechniqueContext, add_shadows,
 };
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 
 #[repr(C)]
@@ -35,7 +35,7 @@ struct Tower {
 impl Example for Tower {
     const NAME: &'static str = "custom_engine";
 
-    fn new(gpu: &Gpu, _word: Option<&str>) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         // The line that chooses the technique.
         let technique = Technique::from(PCF).make(&TechniqueContext::new(&gpu.device))?;
         let engine = Engine::new(&gpu.device, &gpu.queue, technique.as_ref())?;
@@ -99,5 +99,5 @@ impl Example for Tower {
 }
 
 fn main() -> ExitCode {
-    main_of::<Tower>()
+    run_example::<Tower>()
 }

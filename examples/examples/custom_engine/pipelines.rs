@@ -1,4 +1,4 @@
-//! wgpu's objects, as any engine makes them.
+//! wgpu objects as in any engine.
 
 use shadowgraph::core::{Format, wgpu};
 
@@ -13,7 +13,7 @@ pub(crate) fn layout(device: &wgpu::Device, types: &[wgpu::BufferBindingType]) -
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
 }
 
-/// Draws boxes, with colours or with depth alone.
+/// Creates a pipeline that draws boxes, with colours or with depth only.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,

@@ -1,7 +1,7 @@
-//! A pipeline of one's own, as a file and as a script, with a node of one's own in it: both give the same plan and pictures.
+//! A custom pipeline with a custom node, as a file and as a script. Both give the same plans and images.
 //!
-//! `cargo run -p shadowgraph-examples --example custom_pipeline` writes out/custom_pipeline.png as the file draws it, and
-//! `-- script` as the script does; with `--window` too it is a window.
+//! `cargo run -p shadowgraph-examples --example custom_pipeline` writes out/custom_pipeline.png with the file,
+//! `-- script` with the script; add `--window` to open a window.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 mod script;
@@ -13,23 +13,23 @@ use shadowgraph::pipelines::{Parameters, Pipeline};
 use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::EVSM;
 use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
-use shadowgraph_examples::{Canvas, Example, Failure, main_of};
+use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use std::process::ExitCode;
 use vignette::Vignette;
 
 struct Mine {
-    /// The one that is seen comes last.
+    /// The one whose image is kept comes last.
     renderers: [Renderer; 2],
     options: ViewOptions,
 }
 
 impl Example for Mine {
     const NAME: &'static str = "custom_pipeline";
-    const WORD: &'static str = "`file` or `script`";
-    // Pixels look at another place in each frame, so edges are smooth after some.
+    const ARGUMENT: &'static str = "`file` or `script`";
+    // The camera is jittered, so edges are smooth after some frames.
     const FRAMES: u32 = 8;
 
-    fn new(gpu: &Gpu, word: Option<&str>) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, argument: Option<&str>) -> Result<Self, Failure> {
         let Registry { mut nodes, techniques } = Registry::built_in();
         nodes.register::<Vignette>()?;
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/custom_pipeline/pipeline.ron");
@@ -43,10 +43,12 @@ impl Example for Mine {
             Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Color, config)
         };
         let mut renderers = [renderer(script)?, renderer(file.into())?];
-        match word {
+        match argument {
             None | Some("file") => {}
             Some("script") => renderers.reverse(),
-            Some(other) => return Err(format!("`{other}`: it is `file` or `script`").into()),
+            Some(other) => {
+                return Err(format!("unknown argument `{other}`; expected one of: file, script").into());
+            }
         }
         Ok(Self { renderers, options })
     }
@@ -61,5 +63,5 @@ impl Example for Mine {
 }
 
 fn main() -> ExitCode {
-    main_of::<Mine>()
+    run_example::<Mine>()
 }

@@ -8,7 +8,7 @@ use shadowgraph::nodes::GeometryNode;
 use shadowgraph::pipelines::{PipelineInstance, PipelineOutput};
 use shadowgraph::{BuildContext, Error, RenderView};
 
-/// What the pipeline keeps from frame to frame; each frame is one call per step.
+/// The state that the pipeline keeps from frame to frame. A frame is one call per node.
 pub(crate) struct Script {
     jitters: Jitters,
     geometry: GeometryNode,
@@ -58,11 +58,11 @@ impl PipelineInstance for Script {
         })?;
         frame
             .node("sky", |frame| self.sky.add_to(frame, &buffers, &depth, &mut lit, &SkySettings::default()));
-        let steady = frame
+        let accumulated = frame
             .node("temporal", |frame| self.temporal.add_to(frame, [&lit, &depth], camera, &buffers, 0.1));
         let bloomed = frame.node("bloom", |frame| {
             let mut target = light(frame);
-            self.bloom.add_to(frame, &steady, &mut target, 0.06, 6);
+            self.bloom.add_to(frame, &accumulated, &mut target, 0.06, 6);
             target
         });
         let darker = frame.node("vignette", |frame| {

@@ -1,10 +1,10 @@
-//! A node of one's own, for files and for scripts.
+//! A custom node, for files and for scripts.
 
 use shadowgraph::core::{Format, Frame, FullscreenShader, Texture};
 use shadowgraph::nodes::{Node, Port, Ports, Setting, SettingType, Settings};
 use shadowgraph::{BuildContext, Error, RenderView};
 
-/// Darkens the corners of the picture.
+/// Darkens the corners of the image.
 pub(crate) struct Vignette {
     shader: FullscreenShader,
     strength: f32,
@@ -12,11 +12,11 @@ pub(crate) struct Vignette {
 
 impl Node for Vignette {
     const NAME: &'static str = "vignette";
-    const ABOUT: &'static str = "darkens the corners of the picture";
-    const INPUTS: &'static [Port] = &[Port::texture("light", "what is lit")];
+    const ABOUT: &'static str = "darkens the corners of the image";
+    const INPUTS: &'static [Port] = &[Port::texture("light", "the lit scene")];
     const OUTPUTS: &'static [Port] = &[Port::texture("light", "the same, darker in the corners")];
     const SETTINGS: &'static [Setting] =
-        &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "how dark corners are")];
+        &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "how dark the corners are")];
 
     fn new(_context: &BuildContext<'_>, settings: &Settings) -> Result<Self, Error> {
         Ok(Self::with_strength(settings.number("strength")?))

@@ -3,6 +3,6 @@
 
 @fragment
 fn vignette(@builtin(position) position: vec4f, @location(0) uv: vec2f) -> @location(0) vec4f {
-    let from_middle = length(uv * 2.0 - 1.0);
-    return textureLoad(light, vec2u(position.xy), 0) * (1.0 - strength * smoothstep(0.5, 1.4, from_middle));
+    let from_center = length(uv * 2.0 - 1.0);
+    return textureLoad(light, vec2u(position.xy), 0) * (1.0 - strength * smoothstep(0.5, 1.4, from_center));
 }
