@@ -14,10 +14,10 @@ pub fn repository() -> PathBuf {
 /// It is a subdirectory of the one that the variable `SHADOWGRAPH_SHARED` names, by default of `shared` next to
 /// the repository.
 #[must_use]
-pub fn shared(folder: &str) -> Option<PathBuf> {
+pub fn shared(dir: &str) -> Option<PathBuf> {
     let base = match std::env::var_os("SHADOWGRAPH_SHARED") {
         Some(base) => PathBuf::from(base),
         None => repository().parent()?.join("shared"),
     };
-    Some(base.join(folder)).filter(|path| path.is_dir())
+    Some(base.join(dir)).filter(|path| path.is_dir())
 }

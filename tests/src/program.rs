@@ -53,5 +53,5 @@ fn build() -> Result<PathBuf, ProgramError> {
 /// Returns whether a program of that name can be started.
 pub fn on_path(program: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+    std::env::split_paths(&path).any(|dir| dir.join(program).is_file())
 }

@@ -149,13 +149,13 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
     let Registry { nodes, techniques } = Registry::built_in();
     let kinds = techniques.kinds().iter().map(|kind| kind.name);
     let names: Vec<&str> = kinds.filter(|name| *name != "raytraced").collect();
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     let scene = demo_scene();
     let mut random = Random::new(from_env("SHADOWGRAPH_SOAK_SEED", 0));
     let mut drawn = 0;
     let watched = watch(FRAME_LIMIT);
     while drawn < frames {
-        let file = folder.path().join("soak.ron");
+        let file = dir.path().join("soak.ron");
         let text = pipeline(&mut random);
         std::fs::write(&file, &text).unwrap();
         let pipeline = Pipeline::load(&file, &nodes, &techniques, &Parameters::default())

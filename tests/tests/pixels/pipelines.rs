@@ -29,11 +29,11 @@ fn differing(a: &RenderedImage, b: &RenderedImage) -> f64 {
 
 /// Returns the shared scenes; `None` where they are missing.
 fn scenes() -> Option<Vec<PathBuf>> {
-    let Some(folder) = shadowgraph_tests::shared("scenes") else {
+    let Some(dir) = shadowgraph_tests::shared("scenes") else {
         shadowgraph_tests::skip("scenes", "the collection of real scenes is missing (SHADOWGRAPH_SHARED)");
         return None;
     };
-    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path());
     let is_scene = |file: &PathBuf| file.extension().is_some_and(|extension| extension == "glb");
     let mut files: Vec<_> = files.filter(is_scene).collect();
     files.sort();
@@ -77,8 +77,8 @@ fn every_built_in_pipeline_renders_the_demo_scene_in_the_same_colours() {
 #[test]
 fn an_unconnected_optional_input_gets_a_placeholder() {
     let Some(gpu) = gpu() else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("plain.ron");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("plain.ron");
     let fed = "inputs: {\"picture\": \"picture\", \"colors\": \"debug\"}";
     let text = Pipeline::built_in_text("debug_cascades").unwrap();
     assert!(text.contains(fed));

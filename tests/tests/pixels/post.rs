@@ -10,8 +10,8 @@ use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer
 
 /// Returns `forward` with more nodes; `picture` is the node whose output is the image.
 fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("post.ron");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("post.ron");
     let text = format!(
         "(nodes: [
             (name: \"view\", kind: \"view\", settings: {{{view}}}),
@@ -82,10 +82,10 @@ fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
 #[test]
 fn render_writes_the_last_of_the_requested_frames() {
     let Some(_gpu) = gpu() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     let picture = |frames: &str, taa: &str| {
         let (file, pipeline) =
-            (folder.path().join("p.png"), concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron"));
+            (dir.path().join("p.png"), concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron"));
         let mut command = std::process::Command::new(shadowgraph_tests::program().unwrap());
         command.args([
             "render",

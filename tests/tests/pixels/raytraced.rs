@@ -146,13 +146,13 @@ fn leaf_scene() -> Scene {
 #[test]
 fn in_every_real_scene_gpu_rays_match_cpu_rays() {
     let Some(gpu) = gpu() else { return };
-    let Some(folder) = shadowgraph_tests::shared("scenes") else {
+    let Some(dir) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(
             "raytraced_scenes",
             "the collection of real scenes is missing (SHADOWGRAPH_SHARED)",
         );
     };
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<_> = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "glb"));
     files.sort();
     for file in files {

@@ -8,13 +8,13 @@ use std::collections::HashSet;
 #[test]
 fn every_shared_scene_renders() {
     let Some(gpu) = gpu() else { return };
-    let Some(folder) = shadowgraph_tests::shared("scenes") else {
+    let Some(dir) = shadowgraph_tests::shared("scenes") else {
         return shadowgraph_tests::skip(
             "scenes",
             "the collection of real scenes is missing (SHADOWGRAPH_SHARED)",
         );
     };
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<_> = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "glb"));
     files.sort();
     assert_eq!(files.len(), 21);

@@ -14,15 +14,15 @@ const SIZE: (u32, u32) = (64, 36);
 
 #[test]
 fn every_malformed_file_renders_or_fails_with_one_line() {
-    let Some(folder) = shared("bad-gltf") else {
+    let Some(dir) = shared("bad-gltf") else {
         return skip(
             "bad_gltf",
             "no directory bad-gltf in $SHADOWGRAPH_SHARED or in shared next to the repository",
         );
     };
     let program = program().unwrap();
-    let cases = cases(&folder);
-    assert!(!cases.is_empty(), "{} has no case", folder.display());
+    let cases = cases(&dir);
+    assert!(!cases.is_empty(), "{} has no case", dir.display());
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
@@ -39,20 +39,19 @@ fn every_malformed_file_renders_or_fails_with_one_line() {
 }
 
 /// Returns the glTF or GLB file of each directory, by name.
-fn cases(folder: &Path) -> Vec<PathBuf> {
-    let files =
-        |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+fn cases(dir: &Path) -> Vec<PathBuf> {
+    let files = |dir: &Path| std::fs::read_dir(dir).into_iter().flatten().map(|entry| entry.unwrap().path());
     let is_scene = |path: &PathBuf| path.extension().is_some_and(|end| end == "gltf" || end == "glb");
     let mut cases: Vec<PathBuf> =
-        files(folder).flat_map(|case| files(&case).filter(is_scene).collect::<Vec<_>>()).collect();
+        files(dir).flat_map(|case| files(&case).filter(is_scene).collect::<Vec<_>>()).collect();
     cases.sort();
     cases
 }
 
 /// Runs one case; the error lists everything that is wrong with the result.
 fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
-    let folder = tempfile::tempdir().unwrap();
-    let picture = folder.path().join("case.png");
+    let dir = tempfile::tempdir().unwrap();
+    let picture = dir.path().join("case.png");
     let mut command = Command::new(program);
     command.arg("render").arg(file).arg("-o").arg(&picture);
     command.args(["--size", &format!("{}x{}", SIZE.0, SIZE.1), "--adapter", adapter()]);
@@ -62,7 +61,7 @@ fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
     }
     let outcome = run(&mut command, LIMITS).unwrap();
     let errors: Vec<&str> = outcome.stderr.lines().filter(|line| line.starts_with("error:")).collect();
-    let left = std::fs::read_dir(folder.path()).unwrap().count();
+    let left = std::fs::read_dir(dir.path()).unwrap().count();
     let mut wrong: Vec<String> = outcome.stopped.iter().map(|limit| (*limit).to_owned()).collect();
     if outcome.stderr.contains("panicked") || outcome.stderr.contains("overflowed its stack") {
         wrong.push("it panicked".to_owned());

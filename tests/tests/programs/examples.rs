@@ -63,10 +63,10 @@ fn every_small_example_runs_and_writes_its_image() {
     if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
         return skip("examples", "no graphics driver is installed");
     }
-    let folder = tempfile::tempdir().unwrap();
-    let picture = |file: &str| image::open(folder.path().join("out").join(file)).unwrap().into_rgba8();
+    let dir = tempfile::tempdir().unwrap();
+    let picture = |file: &str| image::open(dir.path().join("out").join(file)).unwrap().into_rgba8();
     let output_of = |name: &str, arguments: &[&str]| {
-        let outcome = run(Command::new(example(name)).args(arguments).current_dir(folder.path()));
+        let outcome = run(Command::new(example(name)).args(arguments).current_dir(dir.path()));
         assert_eq!(outcome.code, Some(0), "{name}: {}", outcome.stderr);
         outcome.stdout
     };
@@ -107,7 +107,7 @@ fn every_small_example_runs_and_writes_its_image() {
 
     let why = output_of("explain", &[]);
     assert!(why.contains("does not run: nothing reads `glow`"), "{why}");
-    assert!(folder.path().join("out/explain.html").is_file());
+    assert!(dir.path().join("out/explain.html").is_file());
 }
 
 #[test]
@@ -115,13 +115,13 @@ fn custom_pipeline_gives_equal_plans_and_images_from_a_file_and_from_a_script() 
     if shadowgraph::Gpu::open(&shadowgraph::options::AdapterChoice::Cpu).is_err() {
         return skip("pipelines", "no graphics driver is installed");
     }
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     let [picture, of_script] = ["file", "script"].map(|seen| {
-        let outcome = run(Command::new(example("custom_pipeline")).arg(seen).current_dir(folder.path()));
+        let outcome = run(Command::new(example("custom_pipeline")).arg(seen).current_dir(dir.path()));
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         let equal = outcome.stdout.lines().filter(|line| line.ends_with("the plans are equal: true"));
         assert_eq!(equal.count(), 8, "{}", outcome.stdout);
-        image::open(folder.path().join("out/custom_pipeline.png")).unwrap().into_rgba8()
+        image::open(dir.path().join("out/custom_pipeline.png")).unwrap().into_rgba8()
     });
     assert!(picture == of_script, "both render the same image");
     assert_eq!(picture.dimensions(), (640, 360));
@@ -137,15 +137,15 @@ fn custom_pipeline_gives_equal_plans_and_images_from_a_file_and_from_a_script() 
 
 #[test]
 fn custom_renders_into_the_texture_of_the_application_and_prints_the_plan() {
-    let folder = tempfile::tempdir().unwrap();
-    let outcome = run(Command::new(example("custom")).current_dir(folder.path()));
+    let dir = tempfile::tempdir().unwrap();
+    let outcome = run(Command::new(example("custom")).current_dir(dir.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     for line in
         ["plan: 2 passes", "load: the pass keeps what was there when the frame began", "320x180 Rgba16Float"]
     {
         assert!(outcome.stdout.contains(line), "`{line}` is missing in:\n{}", outcome.stdout);
     }
-    let picture = image::open(folder.path().join("out/custom.png")).unwrap().into_rgba8();
+    let picture = image::open(dir.path().join("out/custom.png")).unwrap().into_rgba8();
     assert_eq!(picture.dimensions(), (320, 180));
     // The colours in the example's source as sRGB: the application's in the corners, rings under the lens.
     let (green, orange, blue) = ([0, 124, 63, 255], [255, 188, 0, 255], [0, 137, 255, 255]);
@@ -194,9 +194,8 @@ fn a_window_without_a_display_ends_with_one_line() {
 #[test]
 fn examples_stay_short() {
     let lines = |file: &str| std::fs::read_to_string(repository().join(file)).unwrap().lines().count();
-    let folder = repository().join("examples/examples");
-    let inside =
-        ["", "custom_engine", "custom_pipeline"].map(|inside| std::fs::read_dir(folder.join(inside)));
+    let dir = repository().join("examples/examples");
+    let inside = ["", "custom_engine", "custom_pipeline"].map(|inside| std::fs::read_dir(dir.join(inside)));
     let files = inside.into_iter().flat_map(Result::unwrap).map(|entry| entry.unwrap().path());
     let sources: Vec<_> = files.filter(|path| path.extension().is_some_and(|is| is == "rs")).collect();
     assert!(sources.len() >= 15, "{sources:?}");
@@ -211,10 +210,10 @@ fn examples_stay_short() {
 
 #[test]
 fn a_custom_engine_gets_shadows_on_its_boxes() {
-    let folder = tempfile::tempdir().unwrap();
-    let outcome = run(Command::new(example("custom_engine")).current_dir(folder.path()));
+    let dir = tempfile::tempdir().unwrap();
+    let outcome = run(Command::new(example("custom_engine")).current_dir(dir.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
-    let picture = image::open(folder.path().join("out/custom_engine.png")).unwrap().into_rgba8();
+    let picture = image::open(dir.path().join("out/custom_engine.png")).unwrap().into_rgba8();
     // The lit ground, a step's shadow, and the sky.
     let [lit, dark, sky] = [(560, 300), (270, 245), (20, 20)].map(|(x, y)| pixel(&picture, x, y));
     assert!(lit[0] > 190 && dark[0] < 110 && sky[2] > sky[0] + 40, "{lit:?} {dark:?} {sky:?}");
@@ -222,11 +221,11 @@ fn a_custom_engine_gets_shadows_on_its_boxes() {
 
 #[test]
 fn stained_glass_colours_the_floor_by_maps_and_by_rays() {
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     for technique in ["pcf", "raytraced"] {
-        let outcome = run(Command::new(example("stained_glass")).arg(technique).current_dir(folder.path()));
+        let outcome = run(Command::new(example("stained_glass")).arg(technique).current_dir(dir.path()));
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
-        let file = folder.path().join("out/stained_glass.png");
+        let file = dir.path().join("out/stained_glass.png");
         let picture = image::open(file).unwrap().into_rgba8();
         // Behind the red, green and blue panes.
         for (channel, (x, y)) in [(370, 330), (400, 395), (520, 410)].into_iter().enumerate() {
@@ -240,15 +239,15 @@ fn stained_glass_colours_the_floor_by_maps_and_by_rays() {
 
 #[test]
 fn a_third_party_technique_is_rendered_measured_and_dumped() {
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     let program = |arguments: &[&str]| {
-        run(Command::new(example("custom_technique")).args(arguments).current_dir(folder.path()))
+        run(Command::new(example("custom_technique")).args(arguments).current_dir(dir.path()))
     };
     let nodes = program(&["nodes"]);
     assert!(nodes.stdout.contains("\"esm\": (falloff_m: 0.05)"), "{}", nodes.stdout);
     let dump = program(&["dump", "--technique", "esm"]);
     assert!(dump.stdout.contains("esm/cascades"), "{}", dump.stdout);
-    std::fs::write(folder.path().join("mine.ron"), "(techniques: {\"esm\": (falloff_m: 0.0)})").unwrap();
+    std::fs::write(dir.path().join("mine.ron"), "(techniques: {\"esm\": (falloff_m: 0.0)})").unwrap();
     let refused = program(&["render", "--settings", "mine.ron"]);
     let expected = "technique `esm`: shadow setting `falloff_m` is 0; allowed: 0.001 to 10 (metres)";
     assert!(refused.code == Some(1) && refused.stderr.contains(expected), "{}", refused.stderr);
@@ -258,7 +257,7 @@ fn a_third_party_technique_is_rendered_measured_and_dumped() {
         scene: Trial("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
         views: [(name: "near", eye: (3, 2, 5), target: (0, 0.5, 0))],
     )])"#;
-    std::fs::write(folder.path().join("case.ron"), case).unwrap();
+    std::fs::write(dir.path().join("case.ron"), case).unwrap();
     let arguments =
         ["measure", "--techniques", "pcf,esm", "--quick", "--size", "160x90", "--cases", "case.ron"];
     let measured = program(&arguments);

@@ -29,8 +29,8 @@ const SMALL: &str = r#"(cases: [(
     views: [(name: "a <view>", eye: (3, 2, 5), target: (0, 0.5, 0))],
 )])"#;
 
-fn small_case(folder: &Path) -> String {
-    let file = folder.join("cases.ron");
+fn small_case(dir: &Path) -> String {
+    let file = dir.join("cases.ron");
     std::fs::write(&file, SMALL).unwrap();
     file.to_str().unwrap().to_owned()
 }
@@ -46,8 +46,8 @@ fn the_quick_set_is_within_the_stored_bounds() {
 
 #[test]
 fn the_output_directory_gets_a_page_with_images_and_a_report() {
-    let folder = tempfile::tempdir().unwrap();
-    let (cases, out) = (small_case(folder.path()), folder.path().join("new/out"));
+    let dir = tempfile::tempdir().unwrap();
+    let (cases, out) = (small_case(dir.path()), dir.path().join("new/out"));
     let arguments = ["--quick", "--size", "160x90", "--techniques", "pcf,none", "--cases", &cases, "-o"];
     let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -73,8 +73,8 @@ fn the_output_directory_gets_a_page_with_images_and_a_report() {
 
 #[test]
 fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_of_pcf() {
-    let folder = tempfile::tempdir().unwrap();
-    let (cases, out) = (folder.path().join("cases.ron"), folder.path().join("out"));
+    let dir = tempfile::tempdir().unwrap();
+    let (cases, out) = (dir.path().join("cases.ron"), dir.path().join("out"));
     let columns = r#"(cases: [(
         scene: Trial("columns"), sun_elevations_deg: [30], sun_heading_deg: 20,
         views: [(name: "near", eye: (0.6, 1.7, 5), target: (-0.2, 1.2, -20))],
@@ -93,14 +93,14 @@ fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_o
 
 #[test]
 fn variants_of_settings_are_measured_next_to_the_base_settings() {
-    let folder = tempfile::tempdir().unwrap();
-    let (cases, variants) = (small_case(folder.path()), folder.path().join("variants.ron"));
+    let dir = tempfile::tempdir().unwrap();
+    let (cases, variants) = (small_case(dir.path()), dir.path().join("variants.ron"));
     let text_of_variants = r#"(variants: [
         (name: "same", settings: ()),
         (name: "coarse", settings: (cascades: (count: 1, map_size_px: 256))),
     ])"#;
     std::fs::write(&variants, text_of_variants).unwrap();
-    let (variants, out) = (variants.to_str().unwrap(), folder.path().join("out"));
+    let (variants, out) = (variants.to_str().unwrap(), dir.path().join("out"));
     let arguments = ["--size", "160x90", "--cases", &cases, "--variants", variants, "-o"];
     let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -119,8 +119,8 @@ fn variants_of_settings_are_measured_next_to_the_base_settings() {
 
 #[test]
 fn a_result_beyond_its_bound_is_named_and_the_exit_code_is_1() {
-    let folder = tempfile::tempdir().unwrap();
-    let (cases, bounds) = (small_case(folder.path()), folder.path().join("bounds.ron"));
+    let dir = tempfile::tempdir().unwrap();
+    let (cases, bounds) = (small_case(dir.path()), dir.path().join("bounds.ron"));
     let lines =
         r#"(technique: "pcf", metric: "texture_mib", worst: 1), (technique: "pcf", metric: "seam", mean: 1)"#;
     std::fs::write(&bounds, format!("(bounds: [{lines}])")).unwrap();
@@ -135,9 +135,9 @@ fn a_result_beyond_its_bound_is_named_and_the_exit_code_is_1() {
 
 #[test]
 fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {
-        let file = folder.path().join(name);
+        let file = dir.path().join(name);
         std::fs::write(&file, text).unwrap();
         file.to_str().unwrap().to_owned()
     };

@@ -122,10 +122,10 @@ impl View {
 
     /// Saves the screen as an image for a person to look at.
     fn keep(&self, name: &str) -> Picture {
-        let folder = repository().join("target/tmp/view");
-        std::fs::create_dir_all(&folder).unwrap();
+        let dir = repository().join("target/tmp/view");
+        std::fs::create_dir_all(&dir).unwrap();
         let picture = self.picture();
-        picture.save(folder.join(format!("{name}.png"))).unwrap();
+        picture.save(dir.join(format!("{name}.png"))).unwrap();
         picture
     }
 
@@ -262,11 +262,11 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
 #[test]
 fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
     let Some(display) = Display::open() else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("tonemap.wgsl");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("tonemap.wgsl");
     let good = std::fs::read_to_string(repository().join("shaders/wgsl/tonemap.wgsl")).unwrap();
     std::fs::write(&file, &good).unwrap();
-    let mut view = View::start(&display, &["--shaders", folder.path().to_str().unwrap()]);
+    let mut view = View::start(&display, &["--shaders", dir.path().to_str().unwrap()]);
     view.until("the scene", |view| lit(&view.picture()));
     std::thread::sleep(Duration::from_secs(2));
     let before = view.picture();
@@ -285,8 +285,8 @@ fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
 #[test]
 fn a_saved_settings_file_is_reloaded_and_an_error_in_it_is_shown() {
     let Some(display) = Display::open() else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("settings.ron");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("settings.ron");
     std::fs::write(&file, "(distance_m: 60.0)").unwrap();
     let mut view = View::start(&display, &["--settings", file.to_str().unwrap(), "--technique", "none"]);
     view.until("the scene", |view| lit(&view.picture()));

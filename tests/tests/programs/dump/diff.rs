@@ -49,9 +49,9 @@ fn facts(dump: &Value) -> Vec<(&'static str, String, String)> {
 
 #[test]
 fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() {
-    let folder = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().unwrap();
     let file = |technique: &str| {
-        let file = folder.path().join(format!("{technique}.json"));
+        let file = dir.path().join(format!("{technique}.json"));
         let program = shadowgraph_tests::program().unwrap();
         let args = ["dump", "--technique", technique, "--format", "json", "-o"];
         assert!(Command::new(program).args(args).arg(&file).status().unwrap().success());
@@ -115,8 +115,8 @@ fn the_difference_between_two_techniques_is_the_set_difference_of_their_dumps() 
 
 #[test]
 fn a_file_that_is_not_a_dump_is_an_error_of_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("bad.json");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("bad.json");
     std::fs::write(&file, "{}").unwrap();
     let diff = |files: [&std::path::Path; 2]| {
         let program = shadowgraph_tests::program().unwrap();
@@ -126,7 +126,7 @@ fn a_file_that_is_not_a_dump_is_an_error_of_one_line() {
     let (code, error) = diff([&file, &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
     assert!(error.contains("bad.json: SG0702: not a dump: it has no `schema`"), "{error}");
-    let (code, error) = diff([&folder.path().join("none.json"), &file]);
+    let (code, error) = diff([&dir.path().join("none.json"), &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
     assert!(error.contains("none.json: cannot be read"), "{error}");
 }

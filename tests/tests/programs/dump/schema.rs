@@ -87,8 +87,8 @@ fn the_example_reader_in_python_reads_a_dump() {
     if !shadowgraph_tests::on_path("python3") {
         return shadowgraph_tests::skip("python", "python3 is not installed");
     }
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("dump.json");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("dump.json");
     std::fs::write(&file, dump("json")).unwrap();
     let reader = shadowgraph_tests::repository().join("docs/dump/read_dump.py");
     let output = Command::new("python3").arg(reader).arg(&file).output().unwrap();

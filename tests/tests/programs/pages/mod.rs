@@ -35,11 +35,11 @@ fn used(page: &str) -> Option<Value> {
         skip("pages", "no Chromium is installed");
         return None;
     };
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("page.html");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("page.html");
     let driver = format!("<script>\n{}</script>\n</body>", include_str!("driver.js"));
     fs::write(&file, page.replacen("</body>", &driver, 1)).unwrap();
-    let data = format!("--user-data-dir={}", folder.path().join("browser").display());
+    let data = format!("--user-data-dir={}", dir.path().join("browser").display());
     let output = Command::new(browser)
         .args(FLAGS)
         .arg(data)
@@ -63,8 +63,8 @@ fn assert_sound(found: &Value) {
 
 #[test]
 fn the_page_of_the_demo_frame_shows_every_view_and_its_images() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("demo.html");
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("demo.html");
     let output = Command::new(program().unwrap())
         .args(["dump", "--size", "320x180", "--format", "html", "-o"])
         .arg(&file)
@@ -105,7 +105,7 @@ fn the_page_of_a_frame_of_500_passes_is_readable() {
 
 /// Saves a page for a person to look at.
 fn keep(page: &str, name: &str) {
-    let folder = shadowgraph_tests::repository().join("target/tmp/pages");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(Path::new(&folder).join(format!("{name}.html")), page).unwrap();
+    let dir = shadowgraph_tests::repository().join("target/tmp/pages");
+    fs::create_dir_all(&dir).unwrap();
+    fs::write(Path::new(&dir).join(format!("{name}.html")), page).unwrap();
 }
