@@ -17,20 +17,11 @@ enum Work {
     Tests(&'static [&'static str]),
 }
 
-/// Lints and documentation only read the dependencies' metadata, and producing that takes half as long unoptimized.
-const UNOPTIMIZED: &str = r#"--config=profile.dev.package."*".opt-level=0"#;
-
 const STEPS: [(&str, Work); 6] = [
     ("machine", Work::Machine),
     ("format", Work::Check(&["fmt", "--all", "--check"], &[])),
-    (
-        "lints",
-        Work::Check(&["clippy", UNOPTIMIZED, "--workspace", "--all-targets", "--", "-D", "warnings"], &[]),
-    ),
-    (
-        "documentation",
-        Work::Check(&["doc", UNOPTIMIZED, "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")]),
-    ),
+    ("lints", Work::Check(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])),
+    ("documentation", Work::Check(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")])),
     ("tests", Work::Tests(&["test", "--workspace", "--no-fail-fast"])),
     (
         "core without a GPU library",
