@@ -43,7 +43,7 @@ impl<'f> Compiled<'f> {
 #[cfg(any(feature = "gpu", test))]
 pub(crate) fn resolve(plan: &Plan, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
     if token.frame != frame {
-        return Err(Error::ForeignHandle { place: format!("pass `{}`", plan.pass_path(pass)) });
+        return Err(Error::ForeignHandle { location: format!("pass `{}`", plan.pass_path(pass)) });
     }
     if token.pass != pass {
         return Err(Error::Undeclared {

@@ -111,11 +111,11 @@ impl Subresource {
                     || self.rect.is_some()
                     || self.aspect != Aspect::All
                 {
-                    return Some("a buffer has neither mips, layers, aspects nor rectangles: use `bytes`");
+                    return Some("a buffer has no mips, layers, aspects or rectangles; use `bytes`");
                 }
                 let (start, end) = self.bytes.unwrap_or((0, desc.bytes));
                 (start >= end || end > desc.bytes)
-                    .then_some("the bytes are empty or end past the buffer: narrow to bytes that it has")
+                    .then_some("the byte range is empty or ends past the buffer")
             }
             ResourceDesc::Texture(desc) => self.texture_problem(desc),
         }
@@ -125,13 +125,13 @@ impl Subresource {
         let outside =
             |range: Option<(u32, u32)>, count| range.is_some_and(|(start, end)| start >= end || end > count);
         if self.bytes.is_some() {
-            return Some("a texture has no byte ranges: use mips, layers or a rectangle");
+            return Some("a texture has no byte ranges; use mips, layers or a rectangle");
         }
         if outside(self.mips, desc.mip_levels) {
-            return Some("the mips are empty or past the last one: narrow to mips that it has");
+            return Some("the mip range is empty or ends past the last mip");
         }
         if outside(self.layers, self.layer_count(desc)) {
-            return Some("the layers are empty or past the last one: narrow to layers that it has");
+            return Some("the layer range is empty or ends past the last layer");
         }
         let missing = match self.aspect {
             Aspect::All => false,
@@ -139,19 +139,19 @@ impl Subresource {
             Aspect::Stencil => !desc.format.has_stencil_aspect(),
         };
         if missing {
-            return Some("its format lacks that aspect: name one that it has, or all");
+            return Some("its format does not have that aspect");
         }
         let rect = self.rect?;
         let (first, end) = self.mips.unwrap_or((0, desc.mip_levels));
         if end - first != 1 {
-            return Some("a rectangle belongs to one mip: narrow to that mip too");
+            return Some("a rectangle needs one mip; narrow to that mip too");
         }
         let size = mip_size(desc, first);
         let inside = |start: u32, length: u32, side: u32| {
             length > 0 && start.checked_add(length).is_some_and(|end| end <= side)
         };
         let fits = inside(rect.x, rect.width, size.width) && inside(rect.y, rect.height, size.height);
-        (!fits).then_some("the rectangle is empty or reaches past the edge: keep it inside the mip")
+        (!fits).then_some("the rectangle is empty or extends past the mip")
     }
 
     /// The part as a box, or `None` where it is all of the resource. The part must fit the resource.

@@ -70,7 +70,7 @@ fn a_stale_read_names_the_version_and_who_wrote_it() {
     assert!(versions.contains("version 1: `reflections` samples it"), "{versions}");
     assert!(versions.contains("version 2: `fog` draws into it"), "{versions}");
     let order = plan.explain_order("reflections", "fog").unwrap();
-    assert!(order.contains("`fog` writes over `lit`, which `reflections` reads"), "{order}");
+    assert!(order.contains("`fog` overwrites `lit`, which `reflections` reads"), "{order}");
 }
 
 #[test]

@@ -140,9 +140,11 @@ fn custom_renders_into_the_texture_of_the_application_and_prints_the_plan() {
     let dir = tempfile::tempdir().unwrap();
     let outcome = run(Command::new(example("custom")).current_dir(dir.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
-    for line in
-        ["plan: 2 passes", "load: the pass keeps what was there when the frame began", "320x180 Rgba16Float"]
-    {
+    for line in [
+        "plan: 2 passes",
+        "load: the pass preserves the contents from before the frame",
+        "320x180 Rgba16Float",
+    ] {
         assert!(outcome.stdout.contains(line), "`{line}` is missing in:\n{}", outcome.stdout);
     }
     let picture = image::open(dir.path().join("out/custom.png")).unwrap().into_rgba8();

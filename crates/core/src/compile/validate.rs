@@ -1,4 +1,4 @@
-//! What is wrong with a frame, found before anything else is done with it.
+//! Checks of a frame that do not need a device, before anything else.
 
 mod access;
 mod contents;
@@ -13,9 +13,9 @@ use crate::error::Error;
 use crate::handle::ResourceId;
 use wgpu_types::TextureDimension;
 
-/// Far more than devices allow, and few enough that sums of them stay in range.
-const MOST_TEXELS: u128 = 1 << 40;
-const MOST_BYTES: u64 = 1 << 44;
+/// Far more than devices allow, and few enough that sums stay in range.
+const MAX_TEXELS: u128 = 1 << 40;
+const MAX_BYTES: u64 = 1 << 44;
 
 /// Checks everything that does not depend on a device.
 pub(super) fn validate(decl: &Declaration) -> Result<(), Error> {
@@ -41,8 +41,8 @@ fn shape_problem(origin: Origin, desc: &ResourceDesc) -> Option<String> {
     match desc {
         ResourceDesc::Buffer(BufferDesc { bytes }) => {
             let odd = origin == Origin::Transient && bytes % 4 != 0;
-            if *bytes > MOST_BYTES {
-                return Some(format!("it has {bytes} bytes, which no memory holds; make it smaller"));
+            if *bytes > MAX_BYTES {
+                return Some(format!("it has {bytes} bytes, more than any device has; make it smaller"));
             }
             (*bytes == 0 || odd).then(|| format!("it has {bytes} bytes; give it a multiple of 4, at least 4"))
         }
@@ -53,17 +53,17 @@ fn shape_problem(origin: Origin, desc: &ResourceDesc) -> Option<String> {
 fn texture_problem(desc: &TextureDesc) -> Option<String> {
     let size = desc.size;
     if [size.width, size.height, size.depth_or_array_layers].contains(&0) {
-        return Some("it has no size in at least one direction; every side must be 1 or more".into());
+        return Some("a side is 0; every side must be at least 1".into());
     }
-    if desc.texels() > MOST_TEXELS {
-        return Some("it has more texels than any memory holds; make it smaller".into());
+    if desc.texels() > MAX_TEXELS {
+        return Some("it has more texels than any device can store; make it smaller".into());
     }
-    let most = size.max_mips(desc.dimension);
-    if desc.mip_levels == 0 || desc.mip_levels > most {
-        return Some(format!("it has {} mip levels; its size allows 1 to {most}", desc.mip_levels));
+    let max = size.max_mips(desc.dimension);
+    if desc.mip_levels == 0 || desc.mip_levels > max {
+        return Some(format!("it has {} mip levels; expected 1 to {max}", desc.mip_levels));
     }
     if ![1, 2, 4, 8, 16].contains(&desc.samples) {
-        return Some(format!("it has {} samples; use 1, or 4 for multisampling", desc.samples));
+        return Some(format!("it has {} samples; expected 1, or 4 for multisampling", desc.samples));
     }
     let flat = desc.dimension == TextureDimension::D2 && desc.mip_levels == 1;
     let single = size.depth_or_array_layers == 1;

@@ -1,4 +1,4 @@
-//! What differs between two frames, by their dumps.
+//! Differences between two frames, by their dumps.
 
 mod facts;
 mod html;
@@ -11,50 +11,50 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-/// What a difference is about.
+/// The kind of thing that a difference is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Subject {
-    /// A count of the whole frame, or its memory.
+    /// A count or the memory of the whole frame.
     Summary,
-    /// A group of passes.
+    /// A node: a group of passes.
     Node,
     /// A pass: its kind.
     Pass,
     /// A texture or buffer: its shape, where it comes from and its usages.
     Resource,
-    /// What a pass does with a resource, and at which version.
+    /// An access: how a pass uses a resource, and which version.
     Access,
-    /// Why something is as it is.
+    /// A decision, with its reason.
     Decision,
 }
 
-/// One thing that is not the same in both frames.
+/// One difference between the frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Difference {
-    /// What kind of thing.
+    /// The kind of thing that differs.
     pub subject: Subject,
-    /// Which: a path; of an access the pass, the resource and the part; of a decision those and what was decided. With ` · `
-    /// between them.
+    /// A path; for an access the pass and the resource; for a decision also the subresource and the name of the decision, separated
+    /// by ` · `.
     pub name: String,
-    /// How it was in the first frame; `None` if it was not there.
+    /// State in the first frame; `None` if it is missing there.
     pub before: Option<String>,
-    /// How it is in the second frame; `None` if it is not there.
+    /// State in the second frame; `None` if it is missing there.
     pub after: Option<String>,
-    /// Whether nothing but the numbers of steps, slots and versions differs, as it does for all that follows a pass that came.
+    /// Whether only the numbers of steps, slots and versions differ, as they do for everything after an added pass.
     pub only_numbers: bool,
 }
 
-/// What differs between two frames. Things are known by their names; where several have one name, those that are alike in both
-/// frames are no difference, and the others are compared in their order.
+/// Differences between two frames. Things are identified by name; if several have the same name, those that are equal in both
+/// frames are left out and the others are compared in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Diff {
-    /// By subject, then by name.
+    /// Differences by subject, then by name.
     pub differences: Vec<Difference>,
 }
 
 impl Dump {
-    /// Says what differs between this frame and another.
+    /// Compares this frame with another.
     ///
     /// ```
     /// use shadowgraph_core::{Dump, Frame};
@@ -65,11 +65,11 @@ impl Dump {
     pub fn diff(&self, after: &Self) -> Diff {
         let (before, after) = (&self.facts, &after.facts);
         let keys: BTreeSet<_> = before.keys().chain(after.keys()).collect();
-        let of = |facts: &Facts, key| facts.get(key).cloned().unwrap_or_default();
+        let facts_of = |facts: &Facts, key| facts.get(key).cloned().unwrap_or_default();
         let mut differences = Vec::new();
         for key in keys {
-            let (mut was, mut is) = (of(before, key), of(after, key));
-            // What is in both, in whichever order, is no difference.
+            let (mut was, mut is) = (facts_of(before, key), facts_of(after, key));
+            // Facts that are in both, in any order, do not differ.
             was.retain(|fact| is.iter().position(|other| other == fact).map(|at| is.remove(at)).is_none());
             let mut is = is.into_iter();
             let mut add = |before: Option<String>, after: Option<String>| {
@@ -100,13 +100,13 @@ impl Diff {
         self.differences.is_empty()
     }
 
-    /// Returns those about one subject.
+    /// Returns the differences about one subject.
     pub fn about(&self, subject: Subject) -> impl Iterator<Item = &Difference> {
         self.differences.iter().filter(move |difference| difference.subject == subject)
     }
 
-    /// Returns the differences as text: `-` for what went, `+` for what came, `~` for what changed. Of those in which only
-    /// numbers differ it tells how many there are.
+    /// Returns the differences as text: `-` for removed, `+` for added, `~` for changed. Differences only in numbers are
+    /// counted.
     pub fn to_text(&self) -> String {
         if self.is_empty() {
             return "the frames do not differ\n".into();
@@ -125,15 +125,15 @@ impl Diff {
                     (None, None) => Ok(()),
                 };
             }
-            if let Some(words) = self.numbers_words(subject) {
-                let _ = writeln!(out, "  {words}");
+            if let Some(count) = self.describe_number_changes(subject) {
+                let _ = writeln!(out, "  {count}");
             }
         }
         out
     }
 
-    /// How many differences about a subject are in numbers only; `None` for none.
-    fn numbers_words(&self, subject: Subject) -> Option<String> {
+    /// Counts the differences about a subject that are only in numbers; `None` for none.
+    fn describe_number_changes(&self, subject: Subject) -> Option<String> {
         match self.about(subject).filter(|difference| difference.only_numbers).count() {
             0 => None,
             1 => Some("1 differs only in the number of a step, slot or version".into()),
@@ -142,7 +142,7 @@ impl Diff {
     }
 }
 
-/// The text without the numbers behind `step`, `slot` and `version`.
+/// Removes the numbers after `step`, `slot` and `version`.
 fn without_numbers(text: &str) -> String {
     let numbered = |word: &str| ["step", "slot", "version"].contains(&word);
     let mut words: Vec<&str> = text.split(' ').collect();
@@ -155,7 +155,7 @@ fn without_numbers(text: &str) -> String {
 }
 
 impl Plan {
-    /// Says what differs between this frame and another.
+    /// Compares this frame with another.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -173,9 +173,9 @@ impl Plan {
     /// ```
     ///
     /// # Errors
-    /// None that a plan can cause.
+    /// A plan causes none.
     pub fn diff(&self, after: &Self) -> Result<Diff, Error> {
-        Ok(Dump::of(self)?.diff(&Dump::of(after)?))
+        Ok(Dump::from_plan(self)?.diff(&Dump::from_plan(after)?))
     }
 }
 

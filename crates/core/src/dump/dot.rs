@@ -1,6 +1,6 @@
 //! The plan as a Graphviz graph: a cluster for each node, a box for each pass, an edge for each dependency.
 
-use super::places::Places;
+use super::positions::Positions;
 use crate::handle::{NodeId, PassId};
 use crate::plan::{DependencyKind, Plan};
 use std::fmt::Write as _;
@@ -13,12 +13,12 @@ const HEAD: &str = "digraph frame {\n  rankdir=LR;\n  fontname=\"sans-serif\";\n
 const GROUPS: [&str; 4] = ["#ffe2b8", "#d5ecc2", "#f6cfd8", "#d9d2f0"];
 
 impl Plan {
-    /// Returns the plan in Graphviz's DOT language. Passes of one render pass have a colour of their own and a thick
-    /// line from one to the next. Culled passes are faint; tooltips say why passes are where they are.
+    /// Returns the plan in Graphviz's DOT language. Passes of one render pass share a colour and are connected by thick
+    /// lines. Culled passes are faint; tooltips explain the decisions about a pass.
     pub fn to_dot(&self) -> String {
-        let places = Places::of(self);
+        let positions = Positions::new(self);
         let mut out = String::from(HEAD);
-        self.dot_members(&mut out, &places, None, 1);
+        self.dot_members(&mut out, &positions, None, 1);
         for dependency in self.dependencies() {
             let style = match dependency.kind {
                 DependencyKind::ReadAfterWrite => "",
@@ -47,37 +47,37 @@ impl Plan {
     }
 
     /// Writes the passes and nodes directly inside `parent`.
-    fn dot_members(&self, out: &mut String, places: &Places, parent: Option<NodeId>, depth: usize) {
+    fn dot_members(&self, out: &mut String, positions: &Positions, parent: Option<NodeId>, depth: usize) {
         let indent = "  ".repeat(depth);
         for (id, _) in self.passes().filter(|(_, p)| p.node == parent) {
-            let _ = writeln!(out, "{indent}p{} [{}];", id.index(), self.dot_pass(places, id));
+            let _ = writeln!(out, "{indent}p{} [{}];", id.index(), self.dot_pass(positions, id));
         }
         for (index, node) in self.nodes().enumerate().filter(|(_, n)| n.parent == parent) {
             let _ = writeln!(out, "{indent}subgraph cluster_{index} {{");
             let _ = writeln!(out, "{indent}  label=\"{}\"; color=\"#8aa0b8\";", escape(node.name));
-            self.dot_members(out, places, Some(NodeId(index as u32)), depth + 1);
+            self.dot_members(out, positions, Some(NodeId(index as u32)), depth + 1);
             let _ = writeln!(out, "{indent}}}");
         }
     }
 
-    fn dot_pass(&self, places: &Places, id: PassId) -> String {
+    fn dot_pass(&self, positions: &Positions, id: PassId) -> String {
         let pass = self.pass(id);
         let (label, kind) = (escape(pass.name), pass.kind.as_str());
-        let Some(place) = places.get(id) else {
+        let Some(position) = positions.get(id) else {
             let why = pass.culled.map(|reason| escape(&self.describe_cull(reason))).unwrap_or_default();
             return format!(
                 "label=\"{label}\\nculled\", style=\"rounded,dashed\", color=gray, fontcolor=gray, tooltip=\"{why}\""
             );
         };
-        let step = place.step;
-        let why = escape(&self.explain_merge(place.order));
-        let (merged, colour) = if place.passes > 1 {
-            let count = format!(", {} of {}", place.within + 1, place.passes);
+        let step = position.step;
+        let why = escape(&self.explain_merge(position.order));
+        let (merged, colour) = if position.passes > 1 {
+            let count = format!(", {} of {}", position.within + 1, position.passes);
             (count, format!(", fillcolor=\"{}\"", GROUPS[step % GROUPS.len()]))
         } else {
             (String::new(), String::new())
         };
-        let tooltip = if place.within > 0 { "merged" } else { "not merged" };
+        let tooltip = if position.within > 0 { "merged" } else { "not merged" };
         format!("label=\"{label}\\n{kind}, step {step}{merged}\", tooltip=\"{tooltip}: {why}\"{colour}")
     }
 }

@@ -1,4 +1,4 @@
-//! One thing asked for, in sentences: a pass, a resource, an order.
+//! Explanations of a pass, a resource or an order, in sentences.
 
 mod name;
 mod order;
@@ -7,7 +7,7 @@ mod resource;
 
 use std::fmt::Write as _;
 
-/// Sentences below a heading, one a line.
+/// Sentences below a heading, one for each line.
 struct Page(String);
 
 impl Page {

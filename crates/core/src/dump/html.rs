@@ -1,4 +1,4 @@
-//! The plan as one HTML page that needs nothing beside it.
+//! The plan as one self-contained HTML page.
 
 mod data;
 mod snapshot;
@@ -12,7 +12,7 @@ use serde::Serialize;
 
 const PAGE: &str = include_str!("html/page/page.html");
 const STYLE: &str = include_str!("html/page/page.css");
-/// In order: each file uses what is before it.
+/// The scripts in order: each file uses the ones before it.
 const SCRIPT: &[&str] = &[
     include_str!("html/page/frame.js"),
     include_str!("html/page/dom.js"),
@@ -21,16 +21,16 @@ const SCRIPT: &[&str] = &[
     include_str!("html/page/timeline.js"),
     include_str!("html/page/memory.js"),
     include_str!("html/page/passes.js"),
-    include_str!("html/page/pictures.js"),
+    include_str!("html/page/textures.js"),
     include_str!("html/page/log.js"),
     include_str!("html/page/details.js"),
     include_str!("html/page/main.js"),
 ];
 
 impl Plan {
-    /// Returns the plan as one HTML page, which opens anywhere: no network, no files beside it. It shows the graph, closed by
-    /// node until asked; when each resource is in use; which resources take turns in memory; every pass; and every decision
-    /// with its reason. [`HtmlPage`] adds times and pictures.
+    /// Returns the plan as one self-contained HTML page. It shows the graph, grouped by node; when each resource is in use;
+    /// which resources share memory; every pass; and every decision with its reason. [`HtmlPage`] adds times and the contents of
+    /// textures.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -47,7 +47,7 @@ impl Plan {
     }
 }
 
-/// What a page about a frame holds beside its plan.
+/// An HTML page about a frame: its plan, and optionally times, notes, tables, plots and captured textures.
 ///
 /// ```
 /// use shadowgraph_core::{Frame, HtmlPage, PageTable};
@@ -62,35 +62,35 @@ pub struct HtmlPage<'p> {
     plan: &'p Plan,
     title: String,
     times: &'p [PassTime],
-    /// Sentences to be read first, such as on what the frame was drawn.
+    /// Notes that are shown first, such as the adapter that the frame was drawn on.
     pub notes: Vec<String>,
-    /// Tables, each with a view of its own.
+    /// Tables, a tab each.
     pub tables: Vec<PageTable>,
     /// Plots of named outlines.
     pub drawings: Vec<Drawing>,
-    /// What textures held.
+    /// Captured contents of textures.
     pub snapshots: Vec<TextureSnapshot>,
 }
 
-/// A table with a view of its own.
+/// A table, shown in its own tab.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct PageTable {
-    /// What the view is called.
+    /// Title of the tab.
     pub title: String,
-    /// The heads of the columns.
+    /// Column headers.
     pub columns: Vec<String>,
-    /// The cells, as many in each row as there are columns.
+    /// Rows of cells, one cell for each column.
     pub rows: Vec<Vec<String>>,
 }
 
 impl<'p> HtmlPage<'p> {
-    /// Begins a page about a frame.
+    /// Creates a page about a frame.
     pub fn new(plan: &'p Plan) -> Self {
         let (notes, tables, drawings, snapshots) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Self { plan, title: "Frame".into(), times: &[], notes, tables, drawings, snapshots }
     }
 
-    /// Names the page.
+    /// Sets the title of the page.
     #[must_use]
     pub fn with_title(self, title: &str) -> Self {
         Self { title: title.into(), ..self }
@@ -102,35 +102,35 @@ impl<'p> HtmlPage<'p> {
         Self { times, ..self }
     }
 
-    /// Returns the page. Same frame, same bytes.
+    /// Returns the page. The same frame gives the same bytes.
     pub fn to_html(&self) -> String {
-        // A page holds no value that JSON cannot.
-        let frame = serde_json::to_string(&FrameData::of(self)).unwrap_or_default();
-        // Nothing in it may end the element that it stands in.
+        // All values of a page can be written as JSON.
+        let frame = serde_json::to_string(&FrameData::new(self)).unwrap_or_default();
+        // The data must not end the element that contains it.
         let frame = frame.replace('<', "\\u003c");
         let title = escape(&self.title);
-        let parts = [
+        let values = [
             ("{{title}}", &*title),
             ("{{style}}", STYLE),
             ("{{frame}}", &frame),
             ("{{script}}", &SCRIPT.concat()),
         ];
-        fill(PAGE, &parts)
+        fill(PAGE, &values)
     }
 }
 
-/// The text as it stands in HTML, in an element or in quotes.
+/// Escapes text for HTML, in an element or in quotes.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Puts each part in the place of its name, once, whatever the other parts hold.
-fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+/// Replaces each placeholder by its text, once; texts are not searched for placeholders.
+fn fill(template: &str, values: &[(&str, &str)]) -> String {
     let mut out =
-        String::with_capacity(template.len() + parts.iter().map(|(_, text)| text.len()).sum::<usize>());
+        String::with_capacity(template.len() + values.iter().map(|(_, text)| text.len()).sum::<usize>());
     let mut rest = template;
     let next = |rest: &str| {
-        parts
+        values
             .iter()
             .filter_map(|(name, text)| Some((rest.find(name)?, *name, *text)))
             .min_by_key(|(at, ..)| *at)

@@ -1,4 +1,4 @@
-//! The plan as JSON, with its reasons in words beside the data.
+//! The plan as JSON, with its reasons as sentences next to the data.
 
 mod reasons;
 
@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use reasons::Reason;
 use serde::Serialize;
 
-/// Counts up when a field changes its meaning or goes; added fields do not count.
+/// Schema version. It increases when a field changes its meaning or is removed, not when one is added.
 pub(super) const SCHEMA: u32 = 3;
 
 #[derive(Serialize)]
@@ -29,13 +29,13 @@ struct Summary {
 }
 
 impl Plan {
-    /// Returns the plan as indented JSON. Same plan, same bytes; `schema` counts incompatible changes.
+    /// Returns the plan as indented JSON. The same plan gives the same bytes; `schema` increases with incompatible changes.
     ///
-    /// Beside the plan's own data, `reasons` has each decision as a sentence: `decision` is one of `culled`,
-    /// `order_reasons`, `merged`, `load`, `clear drawn`, `store` and `slot`, `action` what was decided and `because` why.
+    /// Next to the plan's own data, `reasons` has each decision as a sentence: `decision` is one of `culled`,
+    /// `order_reasons`, `merged`, `load`, `clear drawn`, `store` and `slot`, `action` is the decision and `because` the reason.
     ///
     /// # Errors
-    /// None that a plan can cause; serde_json's, should it have one.
+    /// Those of serde_json; a plan causes none.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string_pretty(&self.document())
     }

@@ -1,13 +1,13 @@
-//! The plan as a Mermaid flowchart, which many sites draw in documents.
+//! The plan as a Mermaid flowchart, which many sites render in documents.
 
-use super::places::Places;
+use super::positions::Positions;
 use crate::handle::NodeId;
 use crate::plan::{DependencyKind, Plan};
 use std::fmt::Write as _;
 
 impl Plan {
     /// Returns the plan as a Mermaid flowchart: a subgraph for each node, a box for each pass, an arrow for each resource
-    /// that is handed on. Orders without a resource handed on are dotted; culled passes are dashed.
+    /// that a pass reads from an earlier one. Other dependencies are dotted; culled passes are dashed.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -19,9 +19,9 @@ impl Plan {
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     pub fn to_mermaid(&self) -> String {
-        let places = Places::of(self);
+        let positions = Positions::new(self);
         let mut out = String::from("flowchart LR\n  classDef culled stroke-dasharray: 4 3, opacity: 0.6\n");
-        self.mermaid_members(&mut out, &places, None, 1);
+        self.mermaid_members(&mut out, &positions, None, 1);
         for dependency in self.dependencies() {
             let name = match dependency.resource {
                 Some(id) => escape(self.resource(id).name),
@@ -35,24 +35,24 @@ impl Plan {
     }
 
     /// Writes the passes and nodes directly inside `parent`.
-    fn mermaid_members(&self, out: &mut String, places: &Places, parent: Option<NodeId>, depth: usize) {
+    fn mermaid_members(&self, out: &mut String, positions: &Positions, parent: Option<NodeId>, depth: usize) {
         let indent = "  ".repeat(depth);
         for (id, pass) in self.passes().filter(|(_, p)| p.node == parent) {
             let (name, index) = (escape(pass.name), id.index());
-            let _ = match places.get(id) {
-                Some(place) => writeln!(out, "{indent}p{index}[\"{name}<br/>step {}\"]", place.step),
+            let _ = match positions.get(id) {
+                Some(position) => writeln!(out, "{indent}p{index}[\"{name}<br/>step {}\"]", position.step),
                 None => writeln!(out, "{indent}p{index}[\"{name}<br/>culled\"]:::culled"),
             };
         }
         for (index, node) in self.nodes().enumerate().filter(|(_, n)| n.parent == parent) {
             let _ = writeln!(out, "{indent}subgraph n{index} [\"{}\"]", escape(node.name));
-            self.mermaid_members(out, places, Some(NodeId(index as u32)), depth + 1);
+            self.mermaid_members(out, positions, Some(NodeId(index as u32)), depth + 1);
             let _ = writeln!(out, "{indent}end");
         }
     }
 }
 
-/// What would end a quoted text, or be read as markup, as Mermaid's entities.
+/// Replaces characters that would end a quoted string or be parsed as markup by Mermaid's entities.
 fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for char in text.chars() {

@@ -1,15 +1,15 @@
 //! The plan in one line.
 
-use super::words::bytes;
+use super::describe::bytes;
 use crate::plan::Plan;
 
 impl Plan {
-    /// How many passes, steps, resources and slots there are, and what they take.
+    /// Counts passes, steps, resources and slots, and sums their memory.
     pub(super) fn summary(&self) -> String {
         let assigned = self.slots().map(|slot| slot.resources.len()).sum::<usize>();
         let outside = match self.resources().len() - assigned {
             0 => String::new(),
-            others => format!(", {others} outside"),
+            others => format!(", {others} external"),
         };
         format!(
             "{} in {}, {} culled; {} in {} of {}{outside}; sharing saves {}",

@@ -3,18 +3,18 @@
 mod passes;
 mod resources;
 
-use super::words::clip;
+use super::describe::clip;
 use crate::declaration::{Options, OrderPolicy};
 use crate::plan::Plan;
 use std::fmt::Write as _;
 
-/// No line is longer; what would make one so is cut with an ellipsis.
+/// Maximum length of a line; longer text is cut with an ellipsis.
 const COLUMNS: usize = 110;
 
 impl Plan {
     /// Returns the plan as text: passes by node and in order, with their accesses, loads and stores; culled passes;
-    /// and resources by the physical texture or buffer that they take turns in. Every decision is there with its
-    /// reason. Same plan, same text.
+    /// and resources by the slot, a physical texture or buffer, that they share. Every decision has its reason. The
+    /// same plan gives the same text.
     pub fn to_text(&self) -> String {
         let mut out = String::new();
         self.write_summary(&mut out);
@@ -46,12 +46,12 @@ impl Plan {
     }
 }
 
-/// What is not as usual.
+/// Names the options that differ from the default.
 fn options(options: Options) -> Vec<&'static str> {
     let Options { order, merge, transient_attachments } = options;
     let order = match order {
         OrderPolicy::Automatic => None,
-        OrderPolicy::Memory => Some("the order saves memory and does not help merging"),
+        OrderPolicy::Memory => Some("the order is chosen by memory only, not for merging"),
         OrderPolicy::Declared => Some("the order of declaration is fixed"),
     };
     let merge = (!merge).then_some("merging is off");

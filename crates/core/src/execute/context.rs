@@ -99,7 +99,7 @@ impl<'a> Resources<'a> {
     pub(super) fn uniforms(&self, uniform: &Uniform) -> Result<&'a wgpu::Buffer, Error> {
         let same_frame = uniform.frame == self.recording.frame;
         self.recording.uniforms.filter(|_| same_frame).ok_or_else(|| Error::ForeignHandle {
-            place: format!("pass `{}`", self.recording.plan.pass_path(self.pass)),
+            location: format!("pass `{}`", self.recording.plan.pass_path(self.pass)),
         })
     }
 

@@ -72,7 +72,7 @@ impl Frame<'_> {
     }
 
     /// Runs `build` only if `condition` holds. What it does not declare costs nothing; a node after it that can do
-    /// without takes the `Option`, or a stand-in by [`or_placeholder`](Self::or_placeholder).
+    /// without takes the `Option`, or a placeholder by [`or_placeholder`](Self::or_placeholder).
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -114,7 +114,7 @@ impl Frame<'_> {
     pub fn published<T: Any + Send>(&self) -> Result<&T, Error> {
         let value = self.published.get(&TypeId::of::<T>()).and_then(|value| value.downcast_ref());
         value.ok_or_else(|| {
-            let place = match self.node {
+            let location = match self.node {
                 Some(id) => {
                     let mut path = String::new();
                     self.decl.write_node_path(id, &mut path);
@@ -122,7 +122,7 @@ impl Frame<'_> {
                 }
                 None => "the frame".into(),
             };
-            Error::NotPublished { place, value: type_name::<T>() }
+            Error::NotPublished { location, value: type_name::<T>() }
         })
     }
 }

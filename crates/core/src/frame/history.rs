@@ -56,7 +56,7 @@ impl Frame<'_> {
             HistoryUse { previous: previous.resource, current: current.resource, resize, view: self.view };
         if self.work.histories.iter().any(|other| is_same(&self.decl, &own, other)) {
             let resource = self.decl.resource_name(own.current).into();
-            let problem = "its view has a history of that name already: give it another".into();
+            let problem = "duplicate history name in its view".into();
             self.errors.push(Error::InvalidResource { resource, problem });
         }
         self.work.histories.push(own);

@@ -161,8 +161,8 @@ impl<'f> Frame<'f> {
             return self.invalid_token(pass, version);
         }
         if self.is_stale(version) {
-            let place = format!("pass `{}`", self.decl.pass_path(pass));
-            let error = self.stale_read(place, version);
+            let location = format!("pass `{}`", self.decl.pass_path(pass));
+            let error = self.stale_read(location, version);
             self.errors.push(error);
         }
         self.add_access(pass, version, access, WriteMode::ReadOnly, subresource)
@@ -217,8 +217,8 @@ impl<'f> Frame<'f> {
 
     /// What an access with a handle of another frame returns. It resolves nowhere.
     fn invalid_token(&mut self, pass: PassId, version: Version) -> Token {
-        let place = format!("pass `{}`", self.decl.pass_path(pass));
-        self.errors.push(Error::ForeignHandle { place });
+        let location = format!("pass `{}`", self.decl.pass_path(pass));
+        self.errors.push(Error::ForeignHandle { location });
         Token { frame: version.frame, pass, resource: version.resource, access: u32::MAX }
     }
 
@@ -284,9 +284,9 @@ impl<'f> Frame<'f> {
         version.version != self.decl.resource(version.resource).version
     }
 
-    fn stale_read(&self, place: String, version: Version) -> Error {
+    fn stale_read(&self, location: String, version: Version) -> Error {
         Error::StaleRead {
-            place,
+            location,
             resource: self.decl.resource_path(version.resource),
             version: version.version,
             writer: self.writer_after(version),

@@ -126,16 +126,16 @@ impl<'f> Frame<'f> {
         if let Some(texture) = texture {
             return texture.clone();
         }
-        let mut stand_in =
-            self.create_texture(format_args!("stand-in {format:?}"), TextureDesc::d2(1, 1, format));
-        let mut pass = self.render_pass(format_args!("stand-in {format:?}"));
+        let mut placeholder =
+            self.create_texture(format_args!("placeholder {format:?}"), TextureDesc::d2(1, 1, format));
+        let mut pass = self.render_pass(format_args!("placeholder {format:?}"));
         match value {
-            ClearValue::Color(_) => pass.color(&mut stand_in, Contents::Clear(value)),
+            ClearValue::Color(_) => pass.color(&mut placeholder, Contents::Clear(value)),
             ClearValue::Depth(_) | ClearValue::DepthStencil(..) => {
-                pass.depth(&mut stand_in, Contents::Clear(value))
+                pass.depth(&mut placeholder, Contents::Clear(value))
             }
         };
-        stand_in
+        placeholder
     }
 
     /// Returns the newest version of the texture declared last under `name`, if there is one.
@@ -199,7 +199,7 @@ impl<'f> Frame<'f> {
 
     pub(crate) fn export(&mut self, version: Version, texture: TextureUsages, buffer: BufferUsages) {
         if version.frame != self.id {
-            self.errors.push(Error::ForeignHandle { place: "an export".into() });
+            self.errors.push(Error::ForeignHandle { location: "an export".into() });
             return;
         }
         if self.is_stale(version) {

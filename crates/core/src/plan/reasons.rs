@@ -1,4 +1,4 @@
-//! Why the compiler decided as it did. The words for these are in `dump::words`.
+//! Why the compiler decided as it did. The words for these are in `dump::describe`.
 
 use crate::declaration::PassKind;
 use crate::handle::{PassId, ResourceId};

@@ -71,9 +71,9 @@ fn history() {
     check("history", &format!("{}\n{why}", plan.to_text()));
 }
 
-/// A node without its optional input reads a stand-in of one texel, cleared once.
+/// A node without its optional input reads a placeholder of one texel, cleared once.
 #[test]
-fn stand_in() {
+fn placeholder() {
     let mut frame = Frame::new();
     let scene = draw(&mut frame, "scene");
     let occlusion = frame.when(false, |frame| hdr(frame, "occlusion"));
@@ -84,7 +84,7 @@ fn stand_in() {
     pass.sample(&occlusion);
     pass.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
-    check("stand_in", &plan(frame).to_text());
+    check("placeholder", &plan(frame).to_text());
 }
 
 /// Bytes from the CPU arrive by copy passes, which like any pass run only where something reads what they write.

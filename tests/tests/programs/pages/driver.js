@@ -80,8 +80,8 @@ window.addEventListener('load', async () => {
   expect(found, `search does not find ${path(target)}`);
   click(found);
   await wait(60);
-  expect(details().includes(path(target)), 'the details are not those of the search result');
-  expect(details().includes(data.passes[target].alive), 'the details do not say why it runs');
+  expect(details().includes(path(target)), 'the details are not of what was found');
+  expect(details().includes(data.passes[target].live), 'the details do not say why it runs');
   const near = new Set([target, ...data.edges.flatMap((edge) => (edge.after === target ? [edge.before] : edge.before === target ? [edge.after] : []))]);
   const shown = units().map((unit) => unit.dataset.name).sort();
   expect(JSON.stringify(shown) === JSON.stringify([...near].map((pass) => data.passes[pass].name).sort()), `around ${path(target)}: ${shown.length} passes, not ${near.size}`);
@@ -119,9 +119,9 @@ window.addEventListener('load', async () => {
   expect(all('.row .unit[role=img]', timeline).length === marks, `timeline: not ${marks} marks`);
 
   const memory = await open('Memory');
-  const tenants = data.slots.reduce((sum, slot) => sum + slot.tenants.length, 0);
-  expect(all('svg .row .unit', memory).length === tenants, `memory: not ${tenants} bars`);
-  expect(/peak .* saved|saved .* peak/.test(one('#memory-facts').textContent), 'memory: no peak or no saving');
+  const used = data.slots.reduce((sum, slot) => sum + slot.resources.length, 0);
+  expect(all('svg .row .unit', memory).length === used, `memory: not ${used} bars`);
+  expect(/peak .* saved|saved .* peak/.test(one('#memory-facts').textContent), 'memory: no peak, or nothing of what is saved');
 
   const passes = await open('Passes');
   const rows = () => all('#pass-table tbody tr', passes);
@@ -135,19 +135,19 @@ window.addEventListener('load', async () => {
   filter.dispatchEvent(new Event('input', { bubbles: true }));
   expect(rows().length >= 1 && rows().length <= data.passes.length && rows().every((row) => row.textContent.includes(data.passes[target].name) || data.passes.length < 3), 'passes do not filter');
 
-  const pictures = await open('Pictures');
-  const drawn = () => all('canvas', pictures).every((canvas) => canvas.dataset.drawn === 'yes');
+  const textures = await open('Textures');
+  const drawn = () => all('canvas', textures).every((canvas) => canvas.dataset.drawn === 'yes');
   for (let tries = 0; tries < 200 && !drawn(); tries += 1) await wait(20);
-  const canvases = all('canvas', pictures);
-  const wanted = data.pictures.filter((picture) => !picture.missing).length;
-  expect(canvases.length === wanted, `${canvases.length} pictures for ${wanted}`);
-  expect(data.pictures.length > 0 || pictures.textContent.includes('no pictures'), 'no message about missing images');
+  const canvases = all('canvas', textures);
+  const wanted = data.snapshots.filter((snapshot) => !snapshot.missing).length;
+  expect(canvases.length === wanted, `${canvases.length} textures for ${wanted}`);
+  expect(data.snapshots.length > 0 || textures.textContent.includes('No textures'), 'the page does not say that no textures were captured');
   for (const canvas of canvases.slice(0, 3)) {
     canvas.scrollIntoView();
     expect(canvas.dataset.drawn === 'yes', `${canvas.getAttribute('aria-label')} is not drawn`);
     const place = box(canvas);
     canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: place.left + place.width / 2, clientY: place.top + place.height / 2, bubbles: true }));
-    expect(/^texel \d+, \d+: [-\d.]/.test(pictures.querySelector('.value').textContent), `no value under the pointer: ${pictures.querySelector('.value').textContent}`);
+    expect(/^texel \d+, \d+: [-\d.]/.test(textures.querySelector('.value').textContent), `no value under the pointer: ${textures.querySelector('.value').textContent}`);
   }
   facts.colors = canvases.map((canvas) => {
     const { data: bytes } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -156,7 +156,7 @@ window.addEventListener('load', async () => {
   if (canvases.length) {
     click(canvases.at(-1));
     await wait(300);
-    expect(one('dialog[open] canvas'), 'an image does not open');
+    expect(one('dialog[open] canvas'), 'a texture does not open');
     one('dialog[open]')?.close();
   }
 

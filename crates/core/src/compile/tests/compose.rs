@@ -64,11 +64,11 @@ fn what_a_condition_leaves_out_costs_nothing() {
 fn a_stand_in_is_one_texel_cleared_once_and_only_where_it_is_read() {
     let white = ClearValue::Color([1.0; 4]);
     let mut frame = Frame::new();
-    let stand_in = frame.or_placeholder(None, Format::R8Unorm, white);
-    look(&mut frame, "look", &stand_in);
+    let placeholder = frame.or_placeholder(None, Format::R8Unorm, white);
+    look(&mut frame, "look", &placeholder);
     let read = plan(frame);
-    assert_eq!(order(&read), ["stand-in R8Unorm", "look"]);
-    assert_eq!(read.resource(stand_in.id()).desc.bytes(), 1);
+    assert_eq!(order(&read), ["placeholder R8Unorm", "look"]);
+    assert_eq!(read.resource(placeholder.id()).desc.bytes(), 1);
 
     let mut frame = Frame::new();
     frame.or_placeholder(None, Format::Depth32Float, ClearValue::Depth(0.0));
@@ -98,8 +98,8 @@ fn nodes_look_up_what_others_published() {
 fn what_nothing_published_is_an_error_that_names_the_node_and_the_type() {
     let mut frame = Frame::new();
     let error = frame.node("post", |frame| frame.published::<Scene>().map(drop).unwrap_err());
-    let Error::NotPublished { place, value } = &error else { panic!("{error}") };
-    assert!(place.contains("`post`") && value.ends_with("Scene"), "{error}");
+    let Error::NotPublished { location, value } = &error else { panic!("{error}") };
+    assert!(location.contains("`post`") && value.ends_with("Scene"), "{error}");
 }
 
 #[test]

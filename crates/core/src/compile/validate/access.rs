@@ -1,4 +1,4 @@
-//! One access: its format, its clear value, and the usages of an import.
+//! Checks of an access: format, clear value, and usages of an import.
 
 use crate::access::{Access, ClearValue};
 use crate::declaration::{AccessDecl, Declaration, Origin, WriteMode};
@@ -34,16 +34,16 @@ pub(super) fn check(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Re
 fn format_problem(access: Access, desc: &TextureDesc) -> Option<&'static str> {
     let depth = desc.format.is_depth_stencil_format();
     match access {
-        Access::Color(_) | Access::Resolve(_) if depth => Some("is a depth format: use `depth`"),
+        Access::Color(_) | Access::Resolve(_) if depth => Some("is a depth format; use `depth`"),
         Access::Color(_) | Access::Resolve(_) if desc.format.is_compressed() => {
-            Some("is compressed and cannot be drawn into: draw into a plain one")
+            Some("is compressed and cannot be rendered to; use an uncompressed format")
         }
-        Access::Depth | Access::DepthRead if !depth => Some("is not a depth format: use `color`"),
+        Access::Depth | Access::DepthRead if !depth => Some("is not a depth format; use `color`"),
         Access::StorageRead | Access::StorageWrite if depth => {
-            Some("is a depth format, which cannot be a storage texture: sample it, or use `R32Float`")
+            Some("is a depth format, which cannot be a storage texture; sample it, or use `R32Float`")
         }
         Access::StorageRead | Access::StorageWrite if desc.samples > 1 => {
-            Some("is multisampled here, and a storage texture cannot be: resolve it first")
+            Some("is multisampled here, which a storage texture cannot be; resolve it first")
         }
         _ => None,
     }
@@ -53,20 +53,20 @@ fn clear_problem(access: Access, value: ClearValue) -> Option<&'static str> {
     let depth_outside = |depth: f32| !(0.0..=1.0).contains(&depth);
     match (access, value) {
         (Access::Color(_), ClearValue::Color(_)) => None,
-        (Access::Color(_), _) => Some("a depth, but it is a colour attachment: use `Contents::clear_color`"),
+        (Access::Color(_), _) => Some("a depth, but it is a colour attachment; use `Contents::clear_color`"),
         (Access::Depth, ClearValue::Color(_)) => {
-            Some("a colour, but it is a depth attachment: use `Contents::clear_depth`")
+            Some("a colour, but it is a depth attachment; use `Contents::clear_depth`")
         }
         (Access::Depth, ClearValue::Depth(depth) | ClearValue::DepthStencil(depth, _))
             if depth_outside(depth) =>
         {
-            Some("a depth outside 0 to 1: give one inside")
+            Some("a depth outside 0 to 1")
         }
         (Access::Depth, ClearValue::DepthStencil(_, stencil)) if stencil > 255 => {
-            Some("a stencil outside 0 to 255: give one inside")
+            Some("a stencil outside 0 to 255")
         }
         (Access::Depth, _) => None,
-        _ => Some("a clear value, but only attachments can be cleared: use `Contents::Overwrite`"),
+        _ => Some("a clear value, but only attachments can be cleared; use `Contents::Overwrite`"),
     }
 }
 

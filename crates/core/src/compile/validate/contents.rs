@@ -1,11 +1,11 @@
-//! Every read finds contents that something has defined.
+//! Checks that every read finds defined contents.
 
 use crate::compile::coverage::Coverage;
 use crate::declaration::{AccessDecl, Declaration, Origin, WriteMode};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 
-/// How much of each resource is defined so far.
+/// The defined part of each resource so far.
 pub(super) struct Contents(Vec<Coverage>);
 
 impl Contents {
@@ -13,7 +13,7 @@ impl Contents {
         Self(decl.resources.iter().map(|r| Coverage::all_if(r.origin.defined())).collect())
     }
 
-    /// Checks a pass, then notes what it writes.
+    /// Checks a pass, then adds what it writes.
     pub(super) fn pass(&mut self, decl: &Declaration, pass: PassId) -> Result<(), Error> {
         for access in decl.accesses(pass).iter().filter(|access| access.contents.needs()) {
             if !self.0[access.resource.index()].contains(decl.region(access)) {
@@ -30,10 +30,10 @@ impl Contents {
         Ok(())
     }
 
-    /// What is exported or left to the next frame must have been written, and not again after the export.
+    /// Checks that exports and histories are fully written, and exports not written again later.
     pub(super) fn exports(&self, decl: &Declaration) -> Result<(), Error> {
         for (index, resource) in decl.resources.iter().enumerate() {
-            let place = match (resource.exported, resource.origin) {
+            let location = match (resource.exported, resource.origin) {
                 (Some(_), _) => "the export",
                 (None, Origin::Current { .. }) => "the next frame",
                 _ => continue,
@@ -41,7 +41,7 @@ impl Contents {
             let name = || decl.names.get(resource.name).to_owned();
             if !self.0[index].contains(None) {
                 return Err(Error::UndefinedRead {
-                    place: place.into(),
+                    location: location.into(),
                     resource: name(),
                     subresource: "all".into(),
                 });
@@ -51,7 +51,7 @@ impl Contents {
             {
                 let writer = decl.writer(ResourceId(index as u32), version + 1);
                 return Err(Error::StaleRead {
-                    place: place.into(),
+                    location: location.into(),
                     resource: name(),
                     version,
                     writer: writer.map(|pass| decl.pass_path(pass)).unwrap_or_default(),
@@ -69,6 +69,6 @@ fn undefined(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Error {
     if access.contents == WriteMode::Preserve {
         Error::UndefinedPreserve { pass, resource, subresource }
     } else {
-        Error::UndefinedRead { place: format!("pass `{pass}`"), resource, subresource }
+        Error::UndefinedRead { location: format!("pass `{pass}`"), resource, subresource }
     }
 }

@@ -1,4 +1,4 @@
-//! One pass: accesses that exclude each other, attachments that do not go together, copies that do not fit.
+//! Checks of a pass: conflicting accesses, attachments that do not match, copies between incompatible resources.
 
 use crate::access::Access;
 use crate::declaration::{AccessDecl, CopyOp, Declaration, PassKind};
@@ -8,7 +8,7 @@ use crate::handle::PassId;
 use crate::subresource::{Aspect, Region, Subresource};
 use wgpu_types::{Extent3d, TextureDimension};
 
-/// Checks a pass; `seen` holds, for each resource, the pass that touched it last.
+/// Checks a pass; `seen` holds for each resource the last pass that accessed it.
 pub(super) fn check(decl: &Declaration, id: PassId, seen: &mut [u32]) -> Result<(), Error> {
     let check = Check { decl, id };
     for (index, access) in decl.accesses(id).iter().enumerate() {
@@ -50,9 +50,9 @@ impl<'d> Check<'d> {
         self.decl.region(access).copied().unwrap_or(Region::ALL)
     }
 
-    /// What is written may be touched in no other way. Within one pass wgpu tells mips and layers apart, but no
-    /// tiles and no bytes, and slices of a volume only as attachments; between copies and commands of a raw encoder
-    /// it orders everything itself.
+    /// A pass may not use in another way what it writes. Within one pass wgpu tracks mips and layers, but not tiles or
+    /// bytes, and slices of a volume only as attachments; between copies and commands of a raw encoder it orders
+    /// everything itself.
     fn conflicts(&self, index: usize) -> Result<(), Error> {
         let accesses = self.decl.accesses(self.id);
         let access = &accesses[index];
@@ -79,20 +79,16 @@ impl<'d> Check<'d> {
             Some(other) => Err(Error::Conflict {
                 pass: self.path(),
                 resource: self.name(access),
-                first: self.touch(other),
-                second: self.touch(access),
+                first: self.describe(other),
+                second: self.describe(access),
             }),
         }
     }
 
-    /// The access in words, with its part: `color (mip 1)`.
-    fn touch(&self, access: &AccessDecl) -> String {
-        let (word, subresource) = (access.access.as_str(), self.decl.subresource(access));
-        if subresource == Subresource::FULL {
-            word.into()
-        } else {
-            format!("{word} ({})", subresource.to_string())
-        }
+    /// Describes the access and its subresource: `color (mip 1)`.
+    fn describe(&self, access: &AccessDecl) -> String {
+        let (name, subresource) = (access.access.as_str(), self.decl.subresource(access));
+        if subresource == Subresource::FULL { name.into() } else { format!("{name} ({subresource})") }
     }
 
     fn attachments(&self) -> Result<(), Error> {
@@ -116,8 +112,8 @@ impl<'d> Check<'d> {
                 Some((other, own, samples)) if (own, samples) != (size, desc.samples) => {
                     return Err(Error::AttachmentMismatch {
                         pass: self.path(),
-                        first: format!("`{}` is {}", self.name(other), words(own, samples)),
-                        second: format!("`{}` is {}", self.name(access), words(size, desc.samples)),
+                        first: format!("`{}` is {}", self.name(other), format_size(own, samples)),
+                        second: format!("`{}` is {}", self.name(access), format_size(size, desc.samples)),
                     });
                 }
                 Some(_) => {}
@@ -126,7 +122,7 @@ impl<'d> Check<'d> {
         if first.is_none() { Err(Error::NoAttachment { pass: self.path() }) } else { Ok(()) }
     }
 
-    /// The size of the mip that is attached.
+    /// Returns the size of the attached mip.
     fn attachment_size(&self, access: &AccessDecl, desc: &TextureDesc) -> Result<Extent3d, Error> {
         let subresource = self.decl.subresource(access);
         let (mip, mip_end) = subresource.mips.unwrap_or((0, desc.mip_levels));
@@ -148,16 +144,16 @@ impl<'d> Check<'d> {
     ) -> Result<(), Error> {
         let source = self.decl.accesses(self.id).iter().find(|a| a.access == Access::Color(color));
         let problem = match source.and_then(|source| Some((source, self.texture(source)?))) {
-            None => "no colour attachment is declared before it: declare `color` first".into(),
+            None => "no colour attachment is declared before it; declare `color` first".into(),
             Some((source, from)) if from.samples == 1 => {
                 format!(
-                    "`{}` has one sample, so there is nothing to resolve: give it 4, or leave the resolve out",
+                    "`{}` has one sample, so there is nothing to resolve; give it 4 samples, or remove the resolve",
                     self.name(source)
                 )
             }
-            Some(_) if desc.samples != 1 => "it is multisampled itself: give it one sample".into(),
+            Some(_) if desc.samples != 1 => "it is multisampled; give it one sample".into(),
             Some(_) if self.decl.subresource(access).rect.is_some() => {
-                "a resolve writes all of a mip: take the rectangle away".into()
+                "a resolve writes a whole mip; remove the rectangle".into()
             }
             Some((source, from)) => {
                 let from_size = self.attachment_size(source, &from)?;
@@ -165,11 +161,11 @@ impl<'d> Check<'d> {
                     return Ok(());
                 }
                 format!(
-                    "it is {} {:?} and `{}` is {} {:?}: give them the same size and format",
-                    words(size, 1),
+                    "it is {} {:?} and `{}` is {} {:?}; give them the same size and format",
+                    format_size(size, 1),
                     desc.format,
                     self.name(source),
-                    words(from_size, 1),
+                    format_size(from_size, 1),
                     from.format
                 )
             }
@@ -195,25 +191,25 @@ impl<'d> Check<'d> {
     fn copy(&self, source: &AccessDecl, target: &AccessDecl) -> Result<(), Error> {
         let end = |access: &AccessDecl| End::new(self.decl, access);
         let (from, to) = (end(source), end(target));
-        let same_place = source.resource == target.resource
+        let same_subresource = source.resource == target.resource
             && self.region(source).subresources().overlaps(&self.region(target).subresources());
-        let problem = match (same_place, fits(&from, &to)) {
+        let problem = match (same_subresource, fits(&from, &to)) {
             (false, true) => return Ok(()),
-            (true, _) => "they are in one place: copy to another mip, layer or texture".into(),
-            (false, false) => misfit(&from, &to),
+            (true, _) => "source and target overlap; copy to another mip, layer or texture".into(),
+            (false, false) => copy_problem(&from, &to),
         };
-        let words = |access: &AccessDecl, end: &End| {
+        let describe = |access: &AccessDecl, end: &End| {
             let subresource = if end.subresource == Subresource::FULL {
                 String::new()
             } else {
-                format!("{} of ", end.subresource.to_string())
+                format!("{} of ", end.subresource)
             };
-            format!("{subresource}`{}` ({})", self.name(access), end.words())
+            format!("{subresource}`{}` ({})", self.name(access), end.describe())
         };
         Err(Error::CopyMismatch {
             pass: self.path(),
-            from: words(source, &from),
-            to: words(target, &to),
+            from: describe(source, &from),
+            to: describe(target, &to),
             problem,
         })
     }
@@ -230,10 +226,10 @@ impl End {
         Self { subresource: decl.subresource(access), desc: decl.resource(access.resource).desc }
     }
 
-    fn words(&self) -> String {
+    fn describe(&self) -> String {
         match self.desc {
             ResourceDesc::Texture(desc) => match copy_extent(&self.subresource, &desc) {
-                Some(size) => format!("{} {:?}", words(size, desc.samples), desc.format),
+                Some(size) => format!("{} {:?}", format_size(size, desc.samples), desc.format),
                 None => "several mips".into(),
             },
             ResourceDesc::Buffer(desc) => {
@@ -244,7 +240,7 @@ impl End {
     }
 }
 
-/// The size of what a part selects of one mip; `None` if it selects several.
+/// Returns the size of what a subresource selects of one mip; `None` if it selects several.
 pub(crate) fn copy_extent(subresource: &Subresource, desc: &TextureDesc) -> Option<Extent3d> {
     let (mip, end) = subresource.mips.unwrap_or((0, desc.mip_levels));
     let mut size = desc.size.mip_level_size(mip, desc.dimension);
@@ -260,8 +256,8 @@ pub(crate) fn copy_extent(subresource: &Subresource, desc: &TextureDesc) -> Opti
     (end - mip == 1).then_some(size)
 }
 
-/// Whether this part of a texture can be copied: of depth, stencil and several samples, mips and layers only go as a
-/// whole.
+/// Returns whether this part of a texture can be copied: depth, stencil and multisampled textures are copied only as whole
+/// mips and layers.
 fn copies_in_part(subresource: &Subresource, desc: &TextureDesc) -> bool {
     let whole =
         copy_extent(&Subresource { rect: None, ..*subresource }, desc) == copy_extent(subresource, desc);
@@ -274,7 +270,7 @@ fn fits(from: &End, to: &End) -> bool {
         (ResourceDesc::Texture(a), ResourceDesc::Texture(b)) => {
             let (size, other) = (copy_extent(&from.subresource, &a), copy_extent(&to.subresource, &b));
             let whole = copies_in_part(&from.subresource, &a) && copies_in_part(&to.subresource, &b);
-            // Bytes are copied, so what they stand for need not be the same.
+            // Bytes are copied, so sRGB encoding may differ.
             let shape = |desc: &TextureDesc| (desc.format.remove_srgb_suffix(), desc.samples);
             size.is_some() && size == other && shape(&a) == shape(&b) && whole
         }
@@ -291,38 +287,38 @@ fn fits(from: &End, to: &End) -> bool {
     }
 }
 
-/// Why two ends of a copy do not fit, and what would.
-fn misfit(from: &End, to: &End) -> String {
+/// Describes why two ends of a copy do not match, and a fix.
+fn copy_problem(from: &End, to: &End) -> String {
     match (from.desc, to.desc) {
         (ResourceDesc::Texture(a), ResourceDesc::Texture(b))
             if !(copies_in_part(&from.subresource, &a) && copies_in_part(&to.subresource, &b)) =>
         {
-            "depth, stencil and several samples are copied only as whole mips with all aspects: draw the part instead"
+            "depth, stencil and multisampled textures are copied only as whole mips with all aspects; draw the region instead"
                 .into()
         }
         (ResourceDesc::Texture(_), ResourceDesc::Texture(_)) => {
-            "size, samples and format (but for sRGB) must agree: narrow both to parts of one size with `texture_region`"
+            "size, samples and format (except sRGB) must match; narrow both to the same size with `texture_region`"
                 .into()
         }
         (ResourceDesc::Texture(desc), _) => match padded_bytes(&from.subresource, desc) {
             Some(bytes) => {
-                format!("with rows padded to 256 bytes it needs {bytes} bytes: give the buffer as many")
+                format!("with rows padded to 256 bytes it needs {bytes} bytes; make the buffer that large")
             }
             None => {
-                "only one layer of a plain format with one sample can be: draw or resolve it into such a \
-                     texture first"
+                "only one layer of an uncompressed format with one sample can be copied to a buffer; draw or resolve it into \
+                 such a texture first"
                     .into()
             }
         },
         (ResourceDesc::Buffer(_), _) => {
-            "both ranges must have as many bytes and begin and end at multiples of 4: narrow them with \
+            "both ranges must have the same size and begin and end at multiples of 4; narrow them with \
              `buffer_range`"
                 .into()
         }
     }
 }
 
-/// The bytes of one mip with rows padded as copies need them; `None` where a copy to a buffer is impossible.
+/// Returns the bytes of one mip with rows padded for a copy; `None` if a copy to a buffer is impossible.
 fn padded_bytes(subresource: &Subresource, desc: TextureDesc) -> Option<u64> {
     let texel = u64::from(desc.format.block_copy_size(None)?);
     let size = copy_extent(subresource, &desc)?;
@@ -331,14 +327,14 @@ fn padded_bytes(subresource: &Subresource, desc: TextureDesc) -> Option<u64> {
         .then(|| row * u64::from(size.height))
 }
 
-fn words(size: Extent3d, samples: u32) -> String {
+fn format_size(size: Extent3d, samples: u32) -> String {
     let Extent3d { width, height, depth_or_array_layers } = size;
-    let mut words = format!("{width}x{height}");
+    let mut out = format!("{width}x{height}");
     if depth_or_array_layers > 1 {
-        words += &format!("x{depth_or_array_layers}");
+        out += &format!("x{depth_or_array_layers}");
     }
     if samples > 1 {
-        words += &format!(" with {samples} samples");
+        out += &format!(" with {samples} samples");
     }
-    words
+    out
 }

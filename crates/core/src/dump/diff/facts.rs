@@ -1,9 +1,9 @@
-//! A dump as names and what is so of them.
+//! Facts of a dump, by name.
 
 use super::Subject;
 use crate::access::Access;
+use crate::dump::describe::bytes;
 use crate::dump::json::SCHEMA;
-use crate::dump::words::bytes;
 use crate::error::Error;
 use crate::plan::Plan;
 use crate::subresource::Subresource;
@@ -11,10 +11,10 @@ use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// By subject and name: how it is; several where several have the name.
+/// Facts by subject and name; several if several things have the name.
 pub(super) type Facts = BTreeMap<(Subject, String), Vec<String>>;
 
-/// A frame as its dump tells of it, to be compared with another.
+/// A frame read from its dump, to be compared with another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dump {
     pub(super) facts: Facts,
@@ -24,32 +24,33 @@ impl Dump {
     /// Reads a dump, as [`Plan::to_json`] writes it.
     ///
     /// # Errors
-    /// [`Error::Dump`] where the text is no dump, or one of another schema.
+    /// [`Error::Dump`] if the text is not a dump, or has another schema version.
     pub fn from_json(json: &str) -> Result<Self, Error> {
-        let dump =
-            serde_json::from_str(json).map_err(|error| no_dump(&format!("it is not JSON: {error}")))?;
-        Self::of_value(&dump)
+        let dump = serde_json::from_str(json).map_err(|error| invalid_dump(&format!("not JSON: {error}")))?;
+        Self::from_value(&dump)
     }
 
-    pub(super) fn of(plan: &Plan) -> Result<Self, Error> {
-        let dump = serde_json::to_value(plan.document()).map_err(|error| no_dump(&error.to_string()))?;
-        Self::of_value(&dump)
+    pub(super) fn from_plan(plan: &Plan) -> Result<Self, Error> {
+        let dump = serde_json::to_value(plan.document()).map_err(|error| invalid_dump(&error.to_string()))?;
+        Self::from_value(&dump)
     }
 
-    fn of_value(dump: &Value) -> Result<Self, Error> {
+    fn from_value(dump: &Value) -> Result<Self, Error> {
         match dump.get("schema").and_then(Value::as_u64) {
             Some(schema) if schema == u64::from(SCHEMA) => {}
             Some(schema) => {
-                return Err(no_dump(&format!("it has schema {schema}, and {SCHEMA} is read: write it anew")));
+                return Err(invalid_dump(&format!(
+                    "schema version {schema}, expected {SCHEMA}; write the dump again"
+                )));
             }
-            None => return Err(no_dump("it has no `schema`")),
+            None => return Err(invalid_dump("missing field `schema`")),
         }
         let facts = Reader { dump, facts: Facts::new() }.read();
-        Ok(Self { facts: facts.ok_or_else(|| no_dump("a part of it is missing"))? })
+        Ok(Self { facts: facts.ok_or_else(|| invalid_dump("a field is missing"))? })
     }
 }
 
-fn no_dump(problem: &str) -> Error {
+fn invalid_dump(problem: &str) -> Error {
     Error::Dump { problem: problem.into() }
 }
 
@@ -59,7 +60,7 @@ struct Reader<'d> {
 }
 
 impl Reader<'_> {
-    /// `None` where a field is missing.
+    /// Reads all facts; `None` if a field is missing.
     fn read(mut self) -> Option<Facts> {
         self.summary()?;
         let plan = self.dump.get("plan")?;
@@ -78,13 +79,13 @@ impl Reader<'_> {
         };
         let resources = plan.get("resources")?.as_array()?;
         for resource in resources {
-            self.add(Subject::Resource, path(resource)?, resource_words(resource)?);
+            self.add(Subject::Resource, path(resource)?, describe_resource(resource)?);
         }
         for pass in plan.get("passes")?.as_array()? {
             let own = path(pass)?;
             for access in pass.get("accesses")?.as_array()? {
                 let resource = resources.get(access.get("resource")?.as_u64()? as usize)?;
-                self.add(Subject::Access, format!("{own} · {}", path(resource)?), access_words(access)?);
+                self.add(Subject::Access, format!("{own} · {}", path(resource)?), describe_access(access)?);
             }
             let kept = if pass.get("keep")?.as_bool()? { ", kept" } else { "" };
             self.add(Subject::Pass, own, format!("{}{kept}", text(pass, "kind")?.to_lowercase()));
@@ -105,8 +106,8 @@ impl Reader<'_> {
         let summary = self.dump.get("summary")?.as_object()?;
         for (name, value) in summary {
             let value = value.as_u64()?;
-            let words = if name.ends_with("bytes") { bytes(value) } else { value.to_string() };
-            self.add(Subject::Summary, name.replace("_bytes", " memory"), words);
+            let value = if name.ends_with("bytes") { bytes(value) } else { value.to_string() };
+            self.add(Subject::Summary, name.replace("_bytes", " memory"), value);
         }
         Some(())
     }
@@ -123,15 +124,15 @@ fn text<'v>(value: &'v Value, key: &str) -> Option<&'v str> {
 fn node_path(nodes: &[Value], node: usize) -> Option<String> {
     let own = nodes.get(node)?;
     let name = text(own, "name")?;
-    // Nodes come after those around them.
+    // Nodes come after their parents.
     match own.get("parent").and_then(Value::as_u64).map(|parent| parent as usize) {
         Some(parent) if parent < node => Some(format!("{}/{name}", node_path(nodes, parent)?)),
         _ => Some(name.to_owned()),
     }
 }
 
-/// Shape, origin and usages in a line.
-fn resource_words(resource: &Value) -> Option<String> {
+/// Describes shape, origin and usages in a line.
+fn describe_resource(resource: &Value) -> Option<String> {
     let desc = resource.get("desc")?;
     let shape = match (desc.get("Texture"), desc.get("Buffer")) {
         (Some(texture), _) => {
@@ -161,20 +162,20 @@ fn resource_words(resource: &Value) -> Option<String> {
     Some(format!("{shape}, {origin}{exported}, {usages}"))
 }
 
-/// What is done with which part, what becomes of the earlier contents, and the version that is found or made.
-fn access_words(access: &Value) -> Option<String> {
+/// Describes the access, its subresource, what happens to the earlier contents, and the version that is read or written.
+fn describe_access(access: &Value) -> Option<String> {
     let label = Access::deserialize(access.get("access")?).ok()?.label();
     let subresource = Subresource::deserialize(access.get("part")?).ok()?;
     let subresource = if subresource == Subresource::FULL {
         String::new()
     } else {
-        format!(" of {}", subresource.to_string())
+        format!(" of {}", subresource)
     };
     let version = access.get("version")?.as_u64()?;
     let contents = match access.get("contents")? {
         Value::Null => return Some(format!("{label}{subresource}, version {version}")),
-        Value::String(contents) if contents == "Cover" => "covers",
-        Value::String(_) => "keeps",
+        Value::String(contents) if contents == "Cover" => "overwrites",
+        Value::String(_) => "preserves",
         _ => "clears",
     };
     Some(format!("{label}{subresource}, {contents}, makes version {}", version + 1))

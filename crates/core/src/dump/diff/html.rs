@@ -1,4 +1,4 @@
-//! Differences as a page of their own.
+//! Differences as an HTML page.
 
 use super::{Diff, Difference, Subject};
 use crate::dump::html::escape;
@@ -7,8 +7,7 @@ use std::fmt::Write as _;
 const STYLE: &str = include_str!("page.css");
 
 impl Diff {
-    /// Returns the differences as one HTML page, which needs nothing beside it; `before` and `after` are what the frames are
-    /// called.
+    /// Returns the differences as one self-contained HTML page; `before` and `after` are the names of the frames.
     pub fn to_html(&self, before: &str, after: &str) -> String {
         let (before, after) = (escape(before), escape(after));
         let mut out = format!(
@@ -30,8 +29,8 @@ impl Diff {
             let (shifted, other): (Vec<&Difference>, Vec<&Difference>) =
                 self.about(subject).partition(|difference| difference.only_numbers);
             table(&mut out, &other, [&before, &after]);
-            if let Some(words) = self.numbers_words(subject) {
-                let _ = writeln!(out, "<details><summary>{words}</summary>");
+            if let Some(count) = self.describe_number_changes(subject) {
+                let _ = writeln!(out, "<details><summary>{count}</summary>");
                 table(&mut out, &shifted, [&before, &after]);
                 out.push_str("</details>\n");
             }
@@ -46,7 +45,7 @@ fn table(out: &mut String, differences: &[&Difference], [before, after]: [&str; 
     if differences.is_empty() {
         return;
     }
-    out.push_str("<table>\n<thead><tr><th scope=\"col\">which</th><th scope=\"col\">");
+    out.push_str("<table>\n<thead><tr><th scope=\"col\">name</th><th scope=\"col\">");
     let _ = writeln!(out, "{before}</th><th scope=\"col\">{after}</th></tr></thead>\n<tbody>");
     differences.iter().for_each(|difference| row(out, difference));
     out.push_str("</tbody>\n</table>\n");
@@ -55,12 +54,12 @@ fn table(out: &mut String, differences: &[&Difference], [before, after]: [&str; 
 fn row(out: &mut String, Difference { name, before, after, .. }: &Difference) {
     let class = match (before, after) {
         (Some(_), Some(_)) => "changed",
-        (Some(_), None) => "went",
-        _ => "came",
+        (Some(_), None) => "removed",
+        _ => "added",
     };
     let cell = |side: &Option<String>, tag: &str| match side {
-        None => "<td class=\"none\">not there</td>".to_owned(),
-        Some(fact) if fact.is_empty() => format!("<td><{tag}>there</{tag}></td>"),
+        None => "<td class=\"none\">missing</td>".to_owned(),
+        Some(fact) if fact.is_empty() => format!("<td><{tag}>present</{tag}></td>"),
         Some(fact) => format!("<td><{tag}>{}</{tag}></td>", escape(fact)),
     };
     let (was, is) = (cell(before, "del"), cell(after, "ins"));

@@ -25,7 +25,7 @@ fn plan(blur: bool) -> Plan {
 }
 
 #[test]
-fn what_came_went_and_changed_is_told_by_name() {
+fn added_removed_and_changed_things_are_listed_by_name() {
     let diff = plan(false).diff(&plan(true)).unwrap();
     let names = |subject| diff.about(subject).map(|d| &*d.name).collect::<Vec<_>>();
     assert_eq!(names(Subject::Node), ["post"]);
@@ -41,7 +41,7 @@ fn what_came_went_and_changed_is_told_by_name() {
 }
 
 #[test]
-fn the_way_back_tells_the_same_the_other_way_round() {
+fn the_reverse_diff_swaps_before_and_after() {
     let (there, back) = (plan(false).diff(&plan(true)).unwrap(), plan(true).diff(&plan(false)).unwrap());
     let turned = |diff: Diff| {
         let turn = |d: Difference| Difference { before: d.after, after: d.before, ..d };
@@ -57,7 +57,7 @@ fn a_frame_does_not_differ_from_itself() {
 }
 
 #[test]
-fn of_things_of_one_name_only_those_that_are_not_in_both_frames_differ() {
+fn things_of_the_same_name_differ_only_if_they_are_not_in_both_frames() {
     let two = |second: u32| {
         let mut frame = Frame::new();
         for width in [64, second] {
@@ -74,7 +74,7 @@ fn of_things_of_one_name_only_those_that_are_not_in_both_frames_differ() {
 }
 
 #[test]
-fn a_page_shows_names_as_they_are() {
+fn names_are_escaped_in_the_page() {
     let named = |name: &str| {
         let mut frame = Frame::new();
         frame.compute_pass(name).keep();
@@ -85,16 +85,19 @@ fn a_page_shows_names_as_they_are() {
 }
 
 #[test]
-fn what_a_pass_touches_is_compared() {
+fn accesses_of_a_pass_are_compared() {
     let diff = plan(false).diff(&plan(true)).unwrap();
     let access = |name: &str| diff.about(Subject::Access).find(|d| d.name == name).unwrap();
     assert_eq!(access("tonemap · scene").before.as_deref(), Some("sampled, version 1"));
     assert_eq!(access("tonemap · post/blurred").after.as_deref(), Some("sampled, version 1"));
-    assert_eq!(access("post/blur · post/blurred").after.as_deref(), Some("color 0, covers, makes version 1"));
+    assert_eq!(
+        access("post/blur · post/blurred").after.as_deref(),
+        Some("color 0, overwrites, makes version 1")
+    );
 }
 
 #[test]
-fn what_only_moved_on_by_a_number_is_counted_and_not_listed() {
+fn differences_only_in_numbers_are_counted_and_not_listed() {
     let diff = plan(false).diff(&plan(true)).unwrap();
     let moved = diff.differences.iter().find(|d| d.name == "tonemap · placed").unwrap();
     assert!(moved.only_numbers && moved.before != moved.after, "{moved:?}");
@@ -106,12 +109,12 @@ fn what_only_moved_on_by_a_number_is_counted_and_not_listed() {
 }
 
 #[test]
-fn what_is_no_dump_is_refused_with_the_way_out() {
+fn a_text_that_is_not_a_dump_is_an_error_with_a_hint() {
     for (bad, why) in [
-        ("", "it is not JSON"),
-        ("{}", "no `schema`"),
-        (r#"{"schema": 1}"#, "schema 1, and 3 is read: write it anew"),
-        (r#"{"schema": 3, "plan": {}}"#, "a part of it is missing"),
+        ("", "not JSON"),
+        ("{}", "missing field `schema`"),
+        (r#"{"schema": 1}"#, "schema version 1, expected 3; write the dump again"),
+        (r#"{"schema": 3, "plan": {}}"#, "a field is missing"),
     ] {
         let error = Dump::from_json(bad).unwrap_err().to_string();
         assert!(error.contains(why) && error.lines().count() == 1, "{error}");

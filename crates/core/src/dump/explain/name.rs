@@ -1,14 +1,14 @@
-//! Passes and resources by the names that people type.
+//! Lookup of passes and resources by name.
 
-use crate::dump::words::{list, quoted};
+use crate::dump::describe::{list, quoted};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
 use crate::suggest::closest_name;
 
 impl Plan {
-    /// Says why every pass and every resource of a name is as it is. Both are known by their path, such as `post/blur`, or
-    /// by the last part of it.
+    /// Explains the decisions about every pass and resource of a name. The name is a path, such as `post/blur`, or the last
+    /// part of one.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -23,21 +23,21 @@ impl Plan {
     /// ```
     ///
     /// # Errors
-    /// [`Error::UnknownName`], with names that are like it.
+    /// [`Error::UnknownName`], with a similar name if there is one.
     pub fn explain(&self, name: &str) -> Result<String, Error> {
         let passes = self.passes_named(name).into_iter().map(|id| self.explain_pass(id));
         let resources = self.resources_named(name).into_iter().map(|id| self.explain_resource(id));
         let pages: Vec<String> = passes.chain(resources).collect();
-        if pages.is_empty() { Err(self.no_such_name(name)) } else { Ok(pages.join("\n")) }
+        if pages.is_empty() { Err(self.unknown_name(name)) } else { Ok(pages.join("\n")) }
     }
 
-    /// Says why a pass runs before another, for every pair of passes of these names.
+    /// Explains why a pass runs before another, for every pair of passes of these names.
     ///
     /// # Errors
     /// As [`explain`](Self::explain).
     pub fn explain_order(&self, before: &str, after: &str) -> Result<String, Error> {
         let named = |name: &str| match self.passes_named(name) {
-            passes if passes.is_empty() => Err(self.no_such_name(name)),
+            passes if passes.is_empty() => Err(self.unknown_name(name)),
             passes => Ok(passes),
         };
         let (first, second) = (named(before)?, named(after)?);
@@ -47,7 +47,7 @@ impl Plan {
         Ok(pages.join("\n"))
     }
 
-    /// Those of this path; where there are none, those of this name.
+    /// Returns the passes of this path, or else those of this name.
     fn passes_named(&self, name: &str) -> Vec<PassId> {
         let ids = || self.passes().map(|(id, _)| id);
         let of_path: Vec<PassId> = ids().filter(|&id| self.pass_path(id) == name).collect();
@@ -64,11 +64,11 @@ impl Plan {
         }
     }
 
-    fn no_such_name(&self, name: &str) -> Error {
-        let refused = |hint: String| Error::UnknownName { name: name.into(), hint };
-        // Asked for as a pass.
+    fn unknown_name(&self, name: &str) -> Error {
+        let unknown = |hint: String| Error::UnknownName { name: name.into(), hint };
+        // The caller looked for a pass.
         if !self.resources_named(name).is_empty() {
-            return refused(" that is a pass: it is a resource, and an order is one of passes".into());
+            return unknown(" that is a pass: it is a resource, and only passes have an order".into());
         }
         let paths = |id| self.pass_path(id);
         let inside =
@@ -76,7 +76,7 @@ impl Plan {
         let members: Vec<String> =
             self.passes().map(|(id, _)| paths(id)).filter(inside).map(|path| quoted(&path)).collect();
         if !members.is_empty() {
-            return refused(format!(": it is a node, of {}", list(&members, 200)));
+            return unknown(format!(": it is a node with the passes {}", list(&members, 200)));
         }
         let paths = self.passes().flat_map(|(id, pass)| [self.pass_path(id), pass.name.to_owned()]);
         let names =
@@ -84,8 +84,8 @@ impl Plan {
         let nearest = closest_name(name, names);
         let hint = match nearest {
             Some(nearest) => format!("; did you mean `{nearest}`?"),
-            None => "; `dump` lists them".into(),
+            None => "; `dump` lists all names".into(),
         };
-        refused(hint)
+        unknown(hint)
     }
 }

@@ -1,13 +1,13 @@
-//! Why one pass runs before another.
+//! Explanation of the order of two passes.
 
 use super::Page;
-use crate::dump::places::Places;
+use crate::dump::positions::Positions;
 use crate::handle::PassId;
 use crate::plan::{Dependency, OrderReason, Plan};
 
 impl Plan {
-    /// Says why `before` runs before `after`: the shortest chain of dependencies from one to the other, a line each,
-    /// or that nothing orders them. See [`why_before`](Self::why_before) for the chain itself.
+    /// Explains why `before` runs before `after`: the shortest chain of dependencies from one to the other, one on each
+    /// line, or that nothing orders them. See [`why_before`](Self::why_before) for the chain itself.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -34,26 +34,29 @@ impl Plan {
             }
         }
         if before == after {
-            return Page::new(&format!("`{first}` is one pass")).0;
+            return Page::new(&format!("`{first}` and `{second}` are the same pass")).0;
         }
         if let Some(chain) = self.why_before(before, after) {
-            return self.chain(&format!("`{first}` runs before `{second}`"), &chain);
+            return self.explain_chain(&format!("`{first}` runs before `{second}`"), &chain);
         }
         if let Some(chain) = self.why_before(after, before) {
-            return self.chain(&format!("`{first}` runs after `{second}`"), &chain);
+            return self.explain_chain(&format!("`{first}` runs after `{second}`"), &chain);
         }
-        let places = Places::of(self);
-        let at = |pass| places.get(pass).map(|place| place.order);
+        let positions = Positions::new(self);
+        let at = |pass| positions.get(pass).map(|position| position.order);
         let (early, late) = if at(before) < at(after) { (before, after) } else { (after, before) };
         let mut page = Page::new(&format!("nothing orders `{first}` and `{second}`"));
-        page.line(1, &format!("`{}` runs first: {}", self.pass_path(early), self.nearest_order(early, late)));
+        page.line(
+            1,
+            &format!("`{}` runs first: {}", self.pass_path(early), self.explain_choice(early, late)),
+        );
         page.0
     }
 
-    /// Why `early` was taken while `late` was not, though nothing orders them.
-    fn nearest_order(&self, early: PassId, late: PassId) -> String {
-        let places = Places::of(self);
-        let at = |pass| places.get(pass).map(|place| place.order);
+    /// Explains why `early` was scheduled before `late`, although nothing orders them.
+    fn explain_choice(&self, early: PassId, late: PassId) -> String {
+        let positions = Positions::new(self);
+        let at = |pass| positions.get(pass).map(|position| position.order);
         let reason = self.order_reason(early);
         let chosen = !matches!(
             reason,
@@ -68,7 +71,7 @@ impl Plan {
         }
     }
 
-    fn chain(&self, heading: &str, chain: &[Dependency]) -> String {
+    fn explain_chain(&self, heading: &str, chain: &[Dependency]) -> String {
         let mut page = Page::new(heading);
         for dependency in chain {
             page.line(1, &self.explain_dependency(dependency));

@@ -1,14 +1,14 @@
-//! Why a pass is as it is.
+//! Explanation of the decisions about a pass.
 
 use super::Page;
-use crate::dump::places::{Place, Places};
-use crate::dump::words::verb;
+use crate::dump::describe::verb;
+use crate::dump::positions::{Position, Positions};
 use crate::handle::PassId;
 use crate::plan::{AccessPlan, DependencyKind, Plan};
 
 impl Plan {
-    /// Says in a few lines why the pass runs or not, why at this place and in this render pass, and for each access
-    /// where the contents come from and what becomes of them.
+    /// Explains in a few lines why the pass runs or not, why at this position and in this render pass, and for each access
+    /// where the contents come from and what happens to them.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -24,9 +24,9 @@ impl Plan {
     pub fn explain_pass(&self, id: PassId) -> String {
         let pass = self.pass(id);
         let mut page = Page::new(&format!("{} pass `{}`", pass.kind.as_str(), self.pass_path(id)));
-        match (pass.culled, Places::of(self).get(id)) {
+        match (pass.culled, Positions::new(self).get(id)) {
             (Some(reason), _) => page.line(1, &format!("does not run: {}", self.describe_cull(reason))),
-            (None, Some(place)) => self.write_position(&mut page, id, place),
+            (None, Some(position)) => self.write_position(&mut page, id, position),
             (None, None) => {}
         }
         for access in self.accesses(id) {
@@ -35,18 +35,18 @@ impl Plan {
         page.0
     }
 
-    fn write_position(&self, page: &mut Page, id: PassId, place: Place) {
+    fn write_position(&self, page: &mut Page, id: PassId, position: Position) {
         page.line(1, &format!("runs: {}", self.explain_live(id)));
         let last = self.steps().len().saturating_sub(1);
-        let reason = self.describe_order(self.order_reasons[place.order]);
-        page.line(1, &format!("step {} (0 to {last}): {reason}", place.step));
-        let what = if place.within > 0 { "merged with the pass before it" } else { "not merged" };
-        page.line(1, &format!("{what}: {}", self.explain_merge(place.order)));
-        if place.passes > 1 {
-            let number = place.within + 1;
-            page.line(1, &format!("pass {number} of {} in this render pass", place.passes));
+        let reason = self.describe_order(self.order_reasons[position.order]);
+        page.line(1, &format!("step {} (0 to {last}): {reason}", position.step));
+        let what = if position.within > 0 { "merged with the previous pass" } else { "not merged" };
+        page.line(1, &format!("{what}: {}", self.explain_merge(position.order)));
+        if position.passes > 1 {
+            let number = position.within + 1;
+            page.line(1, &format!("pass {number} of {} in this render pass", position.passes));
         }
-        // Who wrote what is read stands with the accesses.
+        // The notes of accesses name the writers.
         for dependency in self.waits_for(id) {
             if dependency.kind != DependencyKind::ReadAfterWrite {
                 page.line(1, &format!("waits: {}", self.explain_dependency(dependency)));

@@ -1,16 +1,16 @@
-//! Why a resource is as it is.
+//! Explanation of the decisions about a resource.
 
 use super::Page;
 use crate::declaration::Origin;
 use crate::desc::ResourceDesc;
-use crate::dump::words::{bytes, list, quoted, shape, steps, verb};
+use crate::dump::describe::{bytes, list, quoted, shape, steps, verb};
 use crate::handle::{PassId, ResourceId};
 use crate::plan::{AccessPlan, Plan};
 use wgpu_types::{BufferUsages, TextureUsages};
 
 impl Plan {
-    /// Says in a few lines where the resource comes from, who writes and who reads each version of it, what each of
-    /// its usages is for, and why it lives where it does.
+    /// Explains in a few lines where the resource comes from, which passes write and read each version, what each
+    /// usage is for, and why the resource is in its slot.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -27,7 +27,7 @@ impl Plan {
         let resource = self.resource(id);
         let size = bytes(resource.desc.bytes());
         let mut page = Page::new(&format!("`{}`: {}, {size}", self.resource_path(id), shape(&resource.desc)));
-        page.line(1, self.origin_words(id));
+        page.line(1, self.describe_origin(id));
         self.write_versions(&mut page, id);
         for usage in self.usages(id) {
             page.line(1, &usage);
@@ -36,7 +36,7 @@ impl Plan {
         page.0
     }
 
-    pub(in crate::dump) fn origin_words(&self, id: ResourceId) -> &'static str {
+    pub(in crate::dump) fn describe_origin(&self, id: ResourceId) -> &'static str {
         let resource = self.resource(id);
         match resource.origin {
             Origin::Transient if resource.exported => {
@@ -44,17 +44,17 @@ impl Plan {
             }
             Origin::Transient => "lives within the frame",
             Origin::Imported { defined: true } => {
-                "belongs to the caller, and holds something when the frame begins"
+                "belongs to the caller and is defined when the frame begins"
             }
             Origin::Imported { defined: false } => {
-                "belongs to the caller, and holds nothing when the frame begins"
+                "belongs to the caller and is undefined when the frame begins"
             }
-            Origin::Previous { .. } => "is what the frame before left",
+            Origin::Previous { .. } => "holds the contents from the previous frame",
             Origin::Current { .. } => "is kept for the next frame",
         }
     }
 
-    /// Writers and readers, in order of declaration. What makes version 1 is the first write.
+    /// Lists writers and readers in order of declaration. The first write makes version 1.
     fn write_versions(&self, page: &mut Page, id: ResourceId) {
         for (pass, _) in self.passes() {
             for access in self.accesses(pass).filter(|access| access.resource == id) {
@@ -77,35 +77,37 @@ impl Plan {
         }
     }
 
-    /// What each usage flag is for.
+    /// Explains each usage flag.
     pub(in crate::dump) fn usages(&self, id: ResourceId) -> Vec<String> {
         let resource = self.resource(id);
         if let Origin::Imported { .. } = resource.origin {
-            return vec!["usages: those that the caller created it with".into()];
+            return vec!["usages: as the caller created it".into()];
         }
-        let outside = if resource.exported { "it is exported" } else { "the graph needs it" };
-        let line =
-            |name: &str, user: Option<String>| format!("{name}: {}", user.unwrap_or_else(|| outside.into()));
+        let otherwise = if resource.exported { "it is exported" } else { "the graph needs it" };
+        let line = |name: &str, user: Option<String>| {
+            format!("{name}: {}", user.unwrap_or_else(|| otherwise.into()))
+        };
         match resource.desc {
             ResourceDesc::Texture(_) => {
                 let flags = resource.texture_usage.iter_names();
                 let user = |flag| match flag {
                     TextureUsages::TRANSIENT_ATTACHMENT => Some("it never leaves its render pass".into()),
-                    _ => self.user(id, |access| access.access.texture_usage().contains(flag)),
+                    _ => self.describe_user(id, |access| access.access.texture_usage().contains(flag)),
                 };
                 flags.map(|(name, flag)| line(name, user(flag))).collect()
             }
             ResourceDesc::Buffer(_) => {
                 let flags = resource.buffer_usage.iter_names();
-                let user =
-                    |flag: BufferUsages| self.user(id, |access| access.access.buffer_usage().contains(flag));
+                let user = |flag: BufferUsages| {
+                    self.describe_user(id, |access| access.access.buffer_usage().contains(flag))
+                };
                 flags.map(|(name, flag)| line(name, user(flag))).collect()
             }
         }
     }
 
-    /// The first pass that runs and has such an access, and what it does.
-    fn user(&self, id: ResourceId, uses: impl Fn(&AccessPlan) -> bool) -> Option<String> {
+    /// Describes the first pass that runs and has such an access.
+    fn describe_user(&self, id: ResourceId, uses: impl Fn(&AccessPlan) -> bool) -> Option<String> {
         let mut accesses = self.order().iter().flat_map(|&pass| self.accesses(pass).map(move |a| (pass, a)));
         let (pass, access): (PassId, AccessPlan) = accesses.find(|(_, a)| a.resource == id && uses(a))?;
         let (verb, role) = verb(access.access);

@@ -1,10 +1,10 @@
-//! What the page's script draws: indices, and each sentence once.
+//! The data of the page's script: indices, and each sentence once.
 
 use super::snapshot::{Drawing, SnapshotData};
 use super::{HtmlPage, PageTable};
 use crate::desc::ResourceDesc;
-use crate::dump::places::Places;
-use crate::dump::words::{shape, verb};
+use crate::dump::describe::{shape, verb};
+use crate::dump::positions::Positions;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::{AccessPlan, DependencyKind, NodePlan, Plan};
 use crate::subresource::Subresource;
@@ -12,7 +12,7 @@ use crate::times::PassTime;
 use serde::Serialize;
 use wgpu_types::TextureUsages;
 
-/// Columns of the notes at accesses.
+/// Width of the notes of accesses, in columns.
 const NOTE: usize = 70;
 
 #[derive(Serialize)]
@@ -26,7 +26,7 @@ pub(super) struct FrameData<'p> {
     edges: Vec<EdgeData>,
     tables: &'p [PageTable],
     drawings: &'p [Drawing],
-    pictures: Vec<SnapshotData<'p>>,
+    snapshots: Vec<SnapshotData<'p>>,
 }
 
 #[derive(Serialize)]
@@ -35,10 +35,10 @@ struct PassData<'p> {
     node: Option<u32>,
     kind: &'static str,
     keep: bool,
-    /// Why it does not run.
+    /// Why the pass does not run.
     culled: Option<String>,
-    /// Why it runs.
-    alive: Option<String>,
+    /// Why the pass runs.
+    live: Option<String>,
     place: Option<PlaceData>,
     waits: Vec<String>,
     accesses: Vec<AccessData>,
@@ -49,8 +49,9 @@ struct PassData<'p> {
 struct PlaceData {
     order: usize,
     step: usize,
-    /// Among the passes of the step, and how many those are.
+    /// Index among the passes of the step.
     within: usize,
+    /// Number of passes of the step.
     of: usize,
     why: String,
     merged: String,
@@ -59,14 +60,14 @@ struct PlaceData {
 #[derive(Serialize)]
 struct AccessData {
     resource: u32,
-    /// The words before the resource's name and those after it.
+    /// The verb before the resource's name, and the role after it.
     does: &'static str,
     r#as: String,
     #[serde(rename = "part", skip_serializing_if = "Option::is_none")]
     subresource: Option<String>,
     version: u32,
     writes: bool,
-    /// What was there matters.
+    /// Whether the earlier contents are needed.
     keeps: bool,
     covers: bool,
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -90,8 +91,8 @@ struct ResourceData<'p> {
     usages: Vec<String>,
     steps: Option<(u32, u32)>,
     slot: Option<u32>,
-    /// Why it lives where it does.
-    home: String,
+    /// Why the resource is in its slot, or in none.
+    why: String,
 }
 
 #[derive(Serialize)]
@@ -113,10 +114,10 @@ struct EdgeData {
 }
 
 impl<'p> FrameData<'p> {
-    pub(super) fn of(page: &'p HtmlPage<'p>) -> Self {
+    pub(super) fn new(page: &'p HtmlPage<'p>) -> Self {
         let plan = page.plan;
-        let places = Places::of(plan);
-        let time = |id| page.times.get(places.get(id)?.order);
+        let positions = Positions::new(plan);
+        let time = |id| page.times.get(positions.get(id)?.order);
         let slot = |slot: crate::SlotPlan<'p>| SlotData {
             shape: shape(&slot.desc),
             bytes: slot.desc.bytes(),
@@ -134,22 +135,27 @@ impl<'p> FrameData<'p> {
             summary: plan.summary(),
             notes: &page.notes,
             nodes: plan.nodes().collect(),
-            passes: plan.passes().map(|(id, _)| plan.pass_data(&places, id, time(id))).collect(),
+            passes: plan.passes().map(|(id, _)| plan.pass_data(&positions, id, time(id))).collect(),
             resources: plan.resources().map(|(id, _)| plan.resource_data(id)).collect(),
             slots: plan.slots().map(slot).collect(),
             edges: plan.dependencies().iter().map(edge).collect(),
             tables: &page.tables,
             drawings: &page.drawings,
-            pictures: page.snapshots.iter().map(|snapshot| SnapshotData::new(plan, snapshot)).collect(),
+            snapshots: page.snapshots.iter().map(|snapshot| SnapshotData::new(plan, snapshot)).collect(),
         }
     }
 }
 
 impl Plan {
-    fn pass_data<'p>(&'p self, places: &Places, id: PassId, time: Option<&'p PassTime>) -> PassData<'p> {
+    fn pass_data<'p>(
+        &'p self,
+        positions: &Positions,
+        id: PassId,
+        time: Option<&'p PassTime>,
+    ) -> PassData<'p> {
         let pass = self.pass(id);
-        let place = places.get(id);
-        // Who wrote what is read stands with the accesses.
+        let position = positions.get(id);
+        // The notes of accesses name the writers.
         let waits = self.waits_for(id).iter().filter(|d| d.kind != DependencyKind::ReadAfterWrite);
         PassData {
             name: pass.name,
@@ -157,14 +163,14 @@ impl Plan {
             kind: pass.kind.as_str(),
             keep: pass.keep,
             culled: pass.culled.map(|reason| self.describe_cull(reason)),
-            alive: place.map(|_| self.explain_live(id)),
-            place: place.map(|place| PlaceData {
-                order: place.order,
-                step: place.step,
-                within: place.within,
-                of: place.passes,
-                why: self.describe_order(self.order_reasons[place.order]),
-                merged: self.explain_merge(place.order),
+            live: position.map(|_| self.explain_live(id)),
+            place: position.map(|position| PlaceData {
+                order: position.order,
+                step: position.step,
+                within: position.within,
+                of: position.passes,
+                why: self.describe_order(self.order_reasons[position.order]),
+                merged: self.explain_merge(position.order),
             }),
             waits: waits.map(|dependency| self.explain_dependency(dependency)).collect(),
             accesses: self.accesses(id).map(|access| self.access_data(id, &access)).collect(),
@@ -200,11 +206,11 @@ impl Plan {
             buffer: matches!(resource.desc, ResourceDesc::Buffer(_)),
             shape: shape(&resource.desc),
             bytes: resource.desc.bytes(),
-            origin: self.origin_words(id),
+            origin: self.describe_origin(id),
             usages: self.usages(id),
             steps: resource.steps,
             slot: resource.slot.map(|slot| slot.0),
-            home: self.explain_slot(id),
+            why: self.explain_slot(id),
         }
     }
 }

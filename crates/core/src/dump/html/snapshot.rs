@@ -1,4 +1,4 @@
-//! Pictures and drawings of a page.
+//! Captured textures and plots of a page.
 
 use crate::desc::ResourceDesc;
 use crate::handle::{PassId, ResourceId};
@@ -12,87 +12,88 @@ use serde::Serialize;
 use std::io::Write as _;
 use wgpu_types::TextureSampleType;
 
-/// What a part of a texture held at one moment of the frame.
+/// The contents of a subresource of a texture after one pass of the frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSnapshot {
-    /// The texture.
+    /// The captured texture.
     pub resource: ResourceId,
-    /// Its version.
+    /// Version of the texture.
     pub version: u32,
-    /// The first version that is in the picture: `version`, or an earlier one where passes drew beside each other.
+    /// First version in the snapshot: `version`, or an earlier one if passes drew into adjacent rectangles.
     pub since: u32,
-    /// The pass that made the version; `None` for the end of the frame.
+    /// Pass that wrote the version; `None` at the end of the frame.
     pub pass: Option<PassId>,
-    /// The part that is shown: one layer of one mip.
+    /// Captured subresource: one layer of one mip.
     pub subresource: Subresource,
-    /// Width and height of the part, texels.
+    /// Width and height of the subresource in texels.
     pub full_px: [u32; 2],
-    /// The texels, or why there are none.
+    /// Texels, or the reason why there are none.
     pub texels: Result<Texels, String>,
-    /// Parts with names.
+    /// Named rectangles.
     pub tiles: Vec<SnapshotTile>,
 }
 
-/// Texels of a picture, every so many of the texture's: rows from the top.
+/// Texels of a snapshot, possibly subsampled, in rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels {
-    /// Width and height, each at least 1.
+    /// Width and height, at least 1 each.
     pub size_px: [u32; 2],
-    /// 1 to 4: red, green, blue, alpha.
+    /// Number of channels, 1 to 4: red, green, blue, alpha.
     pub channels: u32,
-    /// Greys that are stretched over the range that is used, 0 left black.
+    /// Whether the texels are depth: shown as greys over the range in use, with 0 black.
     pub is_depth: bool,
-    /// The values, `width * height * channels` of them.
+    /// `width * height * channels` values.
     pub values: TexelValues,
 }
 
 /// Values of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TexelValues {
-    /// As they are to be shown, 0 to 255.
+    /// Displayable values, 0 to 255.
     Bytes(Vec<u8>),
-    /// Of any range.
+    /// Values of any range.
     Floats(Vec<f32>),
 }
 
-/// A part of a picture with a name.
+/// A named rectangle of a snapshot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SnapshotTile {
-    /// Where it lies, texels of the texture.
+    /// Rectangle in texels of the texture.
     pub rect: Rect,
-    /// What it is called.
+    /// Name of the rectangle.
     pub name: String,
 }
 
-/// Named outlines on a plane, such as volumes from above.
+/// A plot of named outlines on a plane, such as frusta seen from above.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Drawing {
-    /// What it shows.
+    /// Title of the plot.
     pub title: String,
-    /// What there is to know of it.
+    /// Caption below the plot.
     pub caption: String,
-    /// The outlines.
+    /// Outlines in the plot.
     pub outlines: Vec<Outline>,
 }
 
-/// A polygon with a name.
+/// A named polygon.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outline {
-    /// What it is.
+    /// Name of the polygon.
     pub name: String,
-    /// Its corners in turn, x to the right and y down; at least one.
+    /// Corners in order, x to the right and y down; at least one.
     pub points: Vec<[f32; 2]>,
 }
 
-/// What the script reads: see `pictures.js`.
+/// The data of a snapshot for `textures.js`.
 #[derive(Serialize)]
 pub(super) struct SnapshotData<'p> {
     resource: ResourceId,
     version: u32,
     pass: Option<PassId>,
+    #[serde(rename = "part")]
     subresource: String,
     full: [u32; 2],
-    /// Where the part begins in its layer.
+    /// Offset of the subresource in its layer.
     origin: [u32; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     missing: Option<&'p str>,
@@ -101,9 +102,9 @@ pub(super) struct SnapshotData<'p> {
     channels: u32,
     depth: bool,
     floats: bool,
-    /// Whole numbers.
+    /// Whether the format has integer channels.
     integers: bool,
-    /// The versions from this one on are shown together, as their passes draw beside each other.
+    /// First version in the snapshot.
     since: u32,
     /// Compressed by zlib, in base64.
     data: String,
@@ -132,12 +133,13 @@ impl<'p> SnapshotData<'p> {
             ),
             ResourceDesc::Buffer(_) => (false, false),
         };
-        let words = if several || rect.is_some() { snapshot.subresource.to_string() } else { String::new() };
+        let subresource =
+            if several || rect.is_some() { snapshot.subresource.to_string() } else { String::new() };
         Self {
             resource: snapshot.resource,
             version: snapshot.version,
             pass: snapshot.pass,
-            subresource: words,
+            subresource,
             full: snapshot.full_px,
             origin: rect.map_or([0, 0], |rect| [rect.x, rect.y]),
             missing: texels.err().map(String::as_str),
@@ -148,23 +150,23 @@ impl<'p> SnapshotData<'p> {
             floats: texels.is_ok_and(|texels| matches!(texels.values, TexelValues::Floats(_))),
             integers,
             since: snapshot.since,
-            data: texels.map(Texels::packed).unwrap_or_default(),
+            data: texels.map(Texels::to_base64).unwrap_or_default(),
             tiles: snapshot.tiles.iter().map(|tile| TileData { rect: tile.rect, name: &tile.name }).collect(),
         }
     }
 }
 
 impl Texels {
-    fn packed(&self) -> String {
-        let mut packer = ZlibEncoder::new(Vec::new(), Compression::default());
+    fn to_base64(&self) -> String {
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
         // Writing into memory does not fail.
         let _written = match &self.values {
-            TexelValues::Bytes(bytes) => packer.write_all(bytes),
+            TexelValues::Bytes(bytes) => encoder.write_all(bytes),
             TexelValues::Floats(floats) => {
                 let bytes: Vec<u8> = floats.iter().flat_map(|value| value.to_le_bytes()).collect();
-                packer.write_all(&bytes)
+                encoder.write_all(&bytes)
             }
         };
-        BASE64_STANDARD.encode(packer.finish().unwrap_or_default())
+        BASE64_STANDARD.encode(encoder.finish().unwrap_or_default())
     }
 }

@@ -1,7 +1,7 @@
-//! Each decision as a sentence.
+//! A sentence for each decision.
 
 use crate::declaration::Origin;
-use crate::dump::places::{Place, Places};
+use crate::dump::positions::{Position, Positions};
 use crate::handle::{PassId, ResourceId};
 use crate::plan::{AccessPlan, Plan};
 use serde::Serialize;
@@ -14,25 +14,25 @@ pub(super) struct Reason {
     resource: Option<String>,
     #[serde(rename = "part", skip_serializing_if = "Option::is_none")]
     subresource: Option<String>,
-    /// Which decision.
+    /// Name of the decision.
     decision: &'static str,
-    /// What was decided.
+    /// The decision itself.
     action: String,
     because: String,
 }
 
 impl Plan {
-    /// Those of passes in order of declaration, then those of resources.
+    /// Returns the reasons of passes in order of declaration, then those of resources.
     pub(super) fn reasons(&self) -> Vec<Reason> {
-        let places = Places::of(self);
+        let positions = Positions::new(self);
         let mut reasons = Vec::new();
         for (id, pass) in self.passes() {
             if let Some(culled) = pass.culled {
                 let because = self.describe_cull(culled);
                 reasons.push(self.of_pass(id, "culled", "does not run".into(), because));
             }
-            if let Some(place) = places.get(id) {
-                self.push_place(&mut reasons, id, place);
+            if let Some(position) = positions.get(id) {
+                self.push_order(&mut reasons, id, position);
             }
             for access in self.accesses(id) {
                 self.push_ops(&mut reasons, id, &access);
@@ -53,11 +53,11 @@ impl Plan {
         }
     }
 
-    fn push_place(&self, reasons: &mut Vec<Reason>, id: PassId, place: Place) {
-        let because = self.describe_order(self.order_reasons[place.order]);
-        reasons.push(self.of_pass(id, "placed", format!("step {}", place.step), because));
-        let action = if place.within > 0 { "same render pass" } else { "not merged" };
-        reasons.push(self.of_pass(id, "merged", action.into(), self.explain_merge(place.order)));
+    fn push_order(&self, reasons: &mut Vec<Reason>, id: PassId, position: Position) {
+        let because = self.describe_order(self.order_reasons[position.order]);
+        reasons.push(self.of_pass(id, "placed", format!("step {}", position.step), because));
+        let action = if position.within > 0 { "same render pass" } else { "not merged" };
+        reasons.push(self.of_pass(id, "merged", action.into(), self.explain_merge(position.order)));
     }
 
     fn push_ops(&self, reasons: &mut Vec<Reason>, pass: PassId, access: &AccessPlan) {
@@ -72,7 +72,7 @@ impl Plan {
             because,
         };
         reasons.push(of_access("load", self.explain_load(access, ops)));
-        reasons.extend(self.explain_drawn_clear(access, ops).map(|words| of_access("clear drawn", words)));
+        reasons.extend(self.explain_drawn_clear(access, ops).map(|clear| of_access("clear drawn", clear)));
         let (action, because) = self.explain_store(pass, access, ops);
         reasons.push(of_access("store", (action.to_owned(), because)));
     }

@@ -1,23 +1,23 @@
-//! The passes that run, by node and in order.
+//! Passes that run, by node and in order.
 
 use crate::declaration::PassKind;
-use crate::dump::places::{Place, Places};
-use crate::dump::words::clip;
+use crate::dump::describe::clip;
+use crate::dump::positions::{Position, Positions};
 use crate::handle::{NodeId, PassId};
 use crate::plan::{AccessPlan, LoadAction, MergeReason, Plan, StoreAction};
 use std::fmt::Write as _;
 
-/// Columns of a resource's name with its version and part.
+/// Width of a resource's name with its version and subresource, in columns.
 const NAME: usize = 40;
-/// Columns of the names in the note after it.
+/// Width of the names in the note after it, in columns.
 const NOTE: usize = 36;
 
 impl Plan {
     pub(super) fn write_passes(&self, out: &mut String) {
-        let places = Places::of(self);
+        let positions = Positions::new(self);
         let shared = self.steps().any(|step| step.passes.len() > 1);
         out.push_str("\npasses by step");
-        out.push_str(if shared { "; `+` goes on with the render pass above\n" } else { "\n" });
+        out.push_str(if shared { "; `+` continues the render pass above\n" } else { "\n" });
         let mut node: Option<Option<NodeId>> = if self.nodes().len() == 0 { Some(None) } else { None };
         for &id in self.order() {
             let pass = self.pass(id);
@@ -26,31 +26,31 @@ impl Plan {
                 node = Some(pass.node);
                 let _ = writeln!(out, "  {}", pass.node.map_or("(no node)".into(), |n| self.node_path(n)));
             }
-            let Some(place) = places.get(id) else { continue };
-            self.write_pass(out, id, place);
+            let Some(position) = positions.get(id) else { continue };
+            self.write_pass(out, id, position);
         }
     }
 
-    fn write_pass(&self, out: &mut String, id: PassId, place: Place) {
+    fn write_pass(&self, out: &mut String, id: PassId, position: Position) {
         let pass = self.pass(id);
-        let joins = place.within > 0;
+        let joins = position.within > 0;
         let _ = writeln!(
             out,
             "  {:>4} {} {:<32} {:<8} {}",
-            place.step,
+            position.step,
             if joins { '+' } else { ' ' },
             clip(pass.name, 32),
             pass.kind.as_str(),
-            self.describe_order(self.order_reasons[place.order]),
+            self.describe_order(self.order_reasons[position.order]),
         );
-        let merge = self.merge_reasons[place.order];
+        let merge = self.merge_reasons[position.order];
         let plain = matches!(merge, MergeReason::First | MergeReason::Kind(_) | MergeReason::Off);
         if pass.kind == PassKind::Render && !plain {
             let what = if joins { "same render pass" } else { "own render pass" };
-            let _ = writeln!(out, "         {what}: {}", self.explain_merge(place.order));
+            let _ = writeln!(out, "         {what}: {}", self.explain_merge(position.order));
         }
         if pass.keep {
-            let _ = writeln!(out, "         kept, whether or not anything needs what it writes");
+            let _ = writeln!(out, "         kept even if nothing needs what it writes");
         }
         for access in self.accesses(id) {
             self.write_access(out, id, &access);
@@ -62,7 +62,7 @@ impl Plan {
         let (arrow, version) = if writes { ("->", access.version + 1) } else { ("<-", access.version) };
         let mut tail = format!(" v{version}");
         if access.subresource != crate::Subresource::FULL {
-            let _ = write!(tail, ", {}", access.subresource.to_string());
+            let _ = write!(tail, ", {}", access.subresource);
         }
         let name = self.resource(access.resource).name;
         let name = clip(name, NAME.saturating_sub(tail.chars().count()).max(12)) + &tail;
@@ -75,7 +75,7 @@ impl Plan {
         self.write_ops(out, pass, access);
     }
 
-    /// What goes on within a render pass needs no line: the `+` says so.
+    /// Attachments that continue within a render pass have no line: the `+` says so.
     fn write_ops(&self, out: &mut String, pass: PassId, access: &AccessPlan) {
         let Some(ops) = &access.ops else { return };
         if ops.load != LoadAction::Continue {

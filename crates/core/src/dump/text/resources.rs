@@ -1,8 +1,8 @@
-//! Resources by where they live: slots, the caller, histories, nowhere.
+//! Resources by slot; then imports, histories and unused resources.
 
 use crate::declaration::Origin;
 use crate::desc::ResourceDesc;
-use crate::dump::words::{bytes, clip, shape, steps, usage};
+use crate::dump::describe::{bytes, clip, shape, steps, usage};
 use crate::handle::ResourceId;
 use crate::plan::{Plan, ResourcePlan, SlotReason};
 use std::fmt::Write as _;
@@ -12,10 +12,10 @@ impl Plan {
         if self.resources().len() == 0 {
             return;
         }
-        out.push_str("\nresources by slot, which those in it take turns in\n");
+        out.push_str("\nresources by slot\n");
         for (index, slot) in self.slots().enumerate() {
             let why = slot.resources.first().map(|&first| self.explain_slot(first)).unwrap_or_default();
-            write_home(out, &format!("slot {index}"), &slot.desc, &bytes(slot.desc.bytes()), &why);
+            write_heading(out, &format!("slot {index}"), &slot.desc, &bytes(slot.desc.bytes()), &why);
             for &resource in slot.resources {
                 self.write_slot_resource(out, resource);
             }
@@ -23,7 +23,7 @@ impl Plan {
         let is = |kind: fn(Origin) -> bool| self.resources().filter(move |(_, r)| kind(r.origin));
         for (id, resource) in is(|origin| matches!(origin, Origin::Imported { .. })) {
             let size = bytes(resource.desc.bytes());
-            write_home(out, "import", &resource.desc, &size, "it belongs to the caller");
+            write_heading(out, "import", &resource.desc, &size, "it belongs to the caller");
             self.write_slot_resource(out, id);
         }
         for (id, resource) in is(|origin| matches!(origin, Origin::Previous { .. } | Origin::Current { .. }))
@@ -31,7 +31,7 @@ impl Plan {
             if let Origin::Previous { history } = resource.origin {
                 let size = format!("2 x {}", bytes(resource.desc.bytes()));
                 let why = "the graph keeps two and swaps them each frame";
-                write_home(out, &format!("history {history}"), &resource.desc, &size, why);
+                write_heading(out, &format!("history {history}"), &resource.desc, &size, why);
             }
             self.write_slot_resource(out, id);
         }
@@ -79,7 +79,7 @@ impl Plan {
     }
 }
 
-/// What follows the name of a place: its shape and size, and why it is there.
-fn write_home(out: &mut String, place: &str, desc: &ResourceDesc, size: &str, why: &str) {
-    let _ = writeln!(out, "  {place:<9} {:<46} {why}", format!("{}, {size}", shape(desc)));
+/// Writes the heading of a slot, import or history: shape, size and reason.
+fn write_heading(out: &mut String, name: &str, desc: &ResourceDesc, size: &str, why: &str) {
+    let _ = writeln!(out, "  {name:<9} {:<46} {why}", format!("{}, {size}", shape(desc)));
 }

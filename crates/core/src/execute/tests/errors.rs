@@ -42,7 +42,7 @@ fn a_token_or_block_of_another_frame_fails_the_frame() {
             false => ctx.texture(token).map(|_| ()),
         });
         let error = gpu.try_run(&mut graph, frame).err().unwrap();
-        assert!(matches!(&error, Error::ForeignHandle { place } if place == "pass `pass`"), "{error}");
+        assert!(matches!(&error, Error::ForeignHandle { location } if location == "pass `pass`"), "{error}");
     }
 }
 

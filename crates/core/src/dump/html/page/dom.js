@@ -1,4 +1,4 @@
-// Making elements.
+// Helpers that create elements.
 
 function fill(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes ?? {})) {
@@ -12,7 +12,7 @@ function fill(element, attributes, children) {
 const h = (tag, attributes, ...children) => fill(document.createElement(tag), attributes, children);
 const s = (tag, attributes, ...children) => fill(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 
-// Does `act` on a click, and on Enter or Space of what has the focus.
+// Calls `act` on a click, and on Enter or Space if the element has the focus.
 function press(act) {
   return {
     onclick: act,
@@ -25,23 +25,23 @@ function press(act) {
 }
 
 const tip = document.getElementById('tip');
-// Shows `words` beside the pointer, and to those who have none as the element's name.
-function hint(words) {
+// Shows `text` next to the pointer and sets it as the label of the element.
+function hint(text) {
   const move = (event) => {
-    tip.textContent = words;
+    tip.textContent = text;
     tip.hidden = false;
     const [x, y] = [event.clientX + 14, event.clientY + 14];
     tip.style.left = `${Math.min(x, innerWidth - tip.offsetWidth - 8)}px`;
     tip.style.top = `${Math.min(y, innerHeight - tip.offsetHeight - 8)}px`;
   };
-  return { 'aria-label': words, onpointermove: move, onpointerleave: () => { tip.hidden = true; } };
+  return { 'aria-label': text, onpointermove: move, onpointerleave: () => { tip.hidden = true; } };
 }
 
 const passLink = (pass) => h('button', { class: 'link', onclick: () => choose({ pass }) }, passPath(pass));
 const resourceLink = (resource) => h('button', { class: 'link', onclick: () => choose({ resource }) }, resourceName(resource));
 const counted = (number, one, many) => `${number} ${number === 1 ? one : many}`;
 const clip = (text, length) => (text.length > length ? `${text.slice(0, length - 1)}…` : text);
-// The end of a path tells most.
+// Keeps the end of a path, which is the most specific.
 const clipFront = (text, length) => (text.length > length ? `…${text.slice(1 - length)}` : text);
 // A colour for a name, the same in every frame (FNV-1a, Fowler, Noll and Vo).
 function hueOf(name) {

@@ -1,4 +1,4 @@
-// The frame, and what the views ask of it. Passes, resources and nodes are known by their indices.
+// The frame, and functions for the views. Passes, resources and nodes are identified by their indices.
 
 const frame = JSON.parse(document.getElementById('frame').textContent);
 const { passes, resources, nodes, slots, edges } = frame;
@@ -6,7 +6,7 @@ const { passes, resources, nodes, slots, edges } = frame;
 const nodePath = (node) => (node == null ? '' : nodePath(nodes[node].parent) + nodes[node].name + '/');
 const passPath = (pass) => nodePath(passes[pass].node) + passes[pass].name;
 const resourcePath = (resource) => nodePath(resources[resource].node) + resources[resource].name;
-// As short as tells it apart from the others.
+// The shortest name that is unique.
 const sameName = new Map();
 for (const { name } of resources) sameName.set(name, (sameName.get(name) ?? 0) + 1);
 const resourceName = (resource) => (sameName.get(resources[resource].name) > 1 ? resourcePath(resource) : resources[resource].name);
@@ -20,14 +20,14 @@ const stepCount = order.length ? passes[order.at(-1)].place.step + 1 : 0;
 const steps = Array.from({ length: stepCount }, () => []);
 for (const pass of order) steps[passes[pass].place.step].push(pass);
 
-// The version of a resource that a pass makes or finds, in few characters.
+// The version of a resource that a pass writes or reads.
 const versionOf = (access) => `v${access.version + (access.writes ? 1 : 0)}`;
 
-// By resource: who touches it, in order of declaration.
+// Accesses of each resource, in order of declaration.
 const users = resources.map(() => []);
 passes.forEach((pass, index) => pass.accesses.forEach((access) => users[access.resource].push({ pass: index, access })));
 
-// What a pass that does not run would have read and given: an edge for each, told by versions.
+// Edges of culled passes, derived from versions.
 function culledEdges() {
   const found = [];
   for (const [resource, uses] of users.entries()) {
@@ -51,7 +51,7 @@ for (const link of links) {
   after[link.before].push(link);
 }
 
-// Where a pass stands among all; a culled one behind what it would have read.
+// Position of each pass among all; a culled pass follows the passes that it would have read from.
 const rank = [];
 passes.forEach((pass, index) => {
   rank[index] = pass.place?.order ?? before[index].reduce((last, link) => Math.max(last, rank[link.before]), -1) + 0.5;
@@ -63,9 +63,9 @@ function linkLabel(link) {
   return `${resourceName(link.resource)} v${used ? used.version : '?'}`;
 }
 
-// Culled passes have no dependencies: these are what they would have had.
-const linkWords = ({ why, before, after, resource }) => why
-  ?? `“${passPath(after)}” would read “${resourceName(resource)}” from “${passPath(before)}”, were neither culled`;
+// Culled passes have no dependencies; these are the ones that they would have had.
+const describeLink = ({ why, before, after, resource }) => why
+  ?? `“${passPath(after)}” would read “${resourceName(resource)}” from “${passPath(before)}” if neither were culled`;
 
 function bytes(count) {
   if (count < 1024) return `${count} B`;

@@ -1,6 +1,6 @@
-// The graph: nodes closed until asked, and around what is chosen its neighbours.
+// The graph: nodes are closed until opened; a selected pass is shown with its neighbours.
 
-// Groups are nodes, and runs of passes without a node where those are many.
+// Groups are nodes, and runs of passes without a node if there are many.
 const groups = nodes.map((node) => ({ name: node.name, parent: node.parent, node: true }));
 const FEW = 40;
 const MERGED = 4;
@@ -18,7 +18,7 @@ const groupsAround = (pass) => (looseGroup.has(pass) ? [looseGroup.get(pass)] : 
 const members = groups.map(() => []);
 passes.forEach((_, pass) => groupsAround(pass).forEach((group) => members[group].push(pass)));
 
-// Leaves out arrows between boxes that are tied by other arrows too.
+// Leaves out arrows between boxes that are also connected through other boxes.
 function withoutImplied(arrows, count) {
   const next = Array.from({ length: count }, () => []);
   for (const arrow of arrows) next[arrow.from].push(arrow.to);
@@ -40,12 +40,12 @@ const graphView = {
   build(panel) {
     this.note = h('span', { class: 'hint', 'aria-live': 'polite' });
     this.beyond = h('span', { class: 'hint', hidden: true }, 'Drag to see the rest, or Fit.');
-    this.reachBox = h('select', { 'aria-label': 'How far from what is chosen', onchange: (event) => {
+    this.reachBox = h('select', { 'aria-label': 'Distance from the selection', onchange: (event) => {
       this.reach = Number(event.target.value);
       this.draw();
-    } }, [1, 2, 3, 99].map((reach) => h('option', { value: reach }, reach > 9 ? 'all that it is tied to' : `${reach} away`)));
+    } }, [1, 2, 3, 99].map((reach) => h('option', { value: reach }, reach > 9 ? 'all connected' : `distance ${reach}`)));
     this.back = h('button', { id: 'whole', onclick: () => this.showWhole() }, 'Whole frame (Esc)');
-    this.svg = s('svg', { class: 'canvas', role: 'group', 'aria-label': 'Passes and what they hand on', tabindex: '0' });
+    this.svg = s('svg', { class: 'canvas', role: 'group', 'aria-label': 'Passes and their dependencies', tabindex: '0' });
     this.outline = h('nav', { class: 'outline', 'aria-label': 'Nodes and passes' });
     panel.append(
       h('div', { class: 'bar' },
@@ -119,7 +119,7 @@ const graphView = {
     return { of, links: links.filter((link) => of.has(link.before) && of.has(link.after)) };
   },
 
-  // The step that a neighbour is shown as a part of, where many of its merged passes would stand there.
+  // The step that replaces a neighbour if many of its merged passes would be shown.
   mergedStep(pass, shown) {
     const { place } = passes[pass];
     if (!place || pass === chosen.pass || this.openSteps.has(place.step)) return undefined;
@@ -131,7 +131,7 @@ const graphView = {
     const { of, links: drawn } = this.shown();
     const units = new Map();
     const unitOf = new Map();
-    // In order of declaration, in which nothing needs what comes later, and nodes are together.
+    // In order of declaration: nothing needs a later pass, and the passes of a node are adjacent.
     for (const pass of [...of].sort((a, b) => a - b)) {
       const closed = whole ? groupsAround(pass).find((group) => !this.open.has(group)) : undefined;
       const step = whole ? undefined : this.mergedStep(pass, of);
@@ -162,7 +162,7 @@ const graphView = {
     this.reachBox.hidden = whole || chosen?.pass == null;
     const missing = every.length - kept.filter((arrow) => arrow.points).length;
     this.note.textContent = whole
-      ? `${counted(units.size, 'box', 'boxes')} for ${counted(passes.length, 'pass', 'passes')}. Choose a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out, as others imply them or they are long: choose a pass to see all of its.` : ''}`
+      ? `${counted(units.size, 'box', 'boxes')} for ${counted(passes.length, 'pass', 'passes')}. Click a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out because others imply them or because they are long: select a pass to see all of its arrows.` : ''}`
       : `${of.size} of ${counted(passes.length, 'pass', 'passes')}, around ${chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resourceName(chosen.resource)}”`}.`;
     this.outline.querySelectorAll('details').forEach((details) => { details.open = this.open.has(Number(details.dataset.group)); });
     this.fit();
@@ -170,7 +170,7 @@ const graphView = {
 
   paint(units, arrows, whole) {
     const labels = arrows.length <= 40 || !whole;
-    // Around a pass, what its neighbours hand each other stands back.
+    // Around a pass, arrows between its neighbours are faint.
     const own = whole || chosen.pass == null ? null : units.find((unit) => unit.pass === chosen.pass).place;
     const near = (arrow) => own == null || arrow.from === own || arrow.to === own;
     const lines = arrows.filter((arrow) => arrow.points).sort((a, b) => near(a) - near(b)).map((arrow) => this.arrow(arrow, labels && near(arrow), near(arrow)));
@@ -186,14 +186,14 @@ const graphView = {
 
   arrow(arrow, labels, near) {
     const names = [...new Set(arrow.links.map(linkLabel))];
-    const words = arrow.links.slice(0, 12).map(linkWords).join('\n') + (arrow.links.length > 12 ? `\nand ${arrow.links.length - 12} more` : '');
+    const hintText = arrow.links.slice(0, 12).map(describeLink).join('\n') + (arrow.links.length > 12 ? `\nand ${arrow.links.length - 12} more` : '');
     const kinds = arrow.links.map((link) => link.kind);
     const style = !near || kinds.every((kind) => kind === 'faint') ? ' faint' : kinds.includes('ReadAfterWrite') ? '' : ' order';
     const line = s('path', {
       class: `edge${style}`, d: pathOf(arrow.points), 'marker-end': arrow.forward ? 'url(#ahead)' : null,
       'marker-start': arrow.backward ? 'url(#behind)' : null,
     });
-    const wide = s('path', { d: pathOf(arrow.points), fill: 'none', stroke: 'transparent', 'stroke-width': 12, ...hint(words) });
+    const wide = s('path', { d: pathOf(arrow.points), fill: 'none', stroke: 'transparent', 'stroke-width': 12, ...hint(hintText) });
     const middle = arrow.points.length > 2 ? arrow.points[Math.floor(arrow.points.length / 2)]
       : { x: (arrow.points[0].x + arrow.points[1].x) / 2, y: (arrow.points[0].y + arrow.points[1].y) / 2 };
     const text = names.length > 2 ? `${clip(names[0], 14)} and ${names.length - 1} more` : names.map((name) => clip(name, names.length > 1 ? 14 : 26)).join(', ');
@@ -211,7 +211,7 @@ const graphView = {
     const second = isPass
       ? (pass.place ? `${pass.kind}, step ${pass.place.step}${pass.place.of > 1 ? `, ${pass.place.within + 1} of ${pass.place.of} merged` : ''}` : 'culled')
       : `▸ ${counted(unit.passes.length, 'pass', 'passes')}${run ? ` merged in step ${unit.step}` : ''}${culled ? `, ${culled} culled` : ''}`;
-    const words = isPass ? `${passPath(unit.pass)}: ${pass.place ? `${second}\n${pass.alive}` : `does not run: ${pass.culled}`}` : `${name}: ${second.slice(2)}. Opens.`;
+    const hintText = isPass ? `${passPath(unit.pass)}: ${pass.place ? `${second}\n${pass.live}` : `does not run: ${pass.culled}`}` : `${name}: ${second.slice(2)}. Click to open.`;
     const act = isPass ? () => choose({ pass: unit.pass }) : () => {
       if (run) this.openSteps.add(unit.step); else this.open.add(unit.group);
       this.draw();
@@ -220,7 +220,7 @@ const graphView = {
     const outer = isPass && pass.node != null && this.whole ? clip(nodePath(pass.node), 28) : '';
     return s('g', {
       class: `unit${culled === unit.passes.length ? ' culled' : ''}${chosenHere ? ' chosen' : ''}`, tabindex: '0', role: 'button', 'data-name': name,
-      transform: `translate(${unit.x} ${unit.y})`, ...press(act), ...hint(words),
+      transform: `translate(${unit.x} ${unit.y})`, ...press(act), ...hint(hintText),
     },
     s('rect', { width: BOX.width, height: BOX.height, rx: 6, style: `fill:${node == null ? 'var(--wash)' : hue(node)};stroke:${hueLine(node)}` }),
     s('text', { x: 10, y: 17, style: isPass ? '' : 'font-weight:600' }, clip(name, 28)),
@@ -238,7 +238,7 @@ const graphView = {
     const { width, height } = this.svg.getBoundingClientRect();
     if (!width) return;
     const whole = Math.min(1.15, (width - 40) / this.size.width, (height - 50) / this.size.height);
-    // Not so small that names cannot be read, unless all is asked for.
+    // Not so small that names cannot be read, unless the whole graph is requested.
     const scale = whole < 0.6 && !all ? 0.8 : whole;
     this.beyond.hidden = scale <= whole;
     this.view = { x: Math.max(20, (width - this.size.width * scale) / 2), y: Math.max(24, (height - this.size.height * scale) / 2), scale };
@@ -247,7 +247,7 @@ const graphView = {
     this.place();
   },
 
-  // Brings what is chosen into sight where not all is.
+  // Scrolls to the selection if the graph does not fit.
   centre(width, height) {
     const transform = this.content.querySelector('.chosen')?.transform.baseVal[0].matrix;
     if (!transform || (this.size.width * this.view.scale < width && this.size.height * this.view.scale < height)) return;

@@ -1,8 +1,8 @@
-// Boxes in layers from left to right, each to the right of all that it needs (after Sugiyama, Tagawa and Toda, 1981).
+// Boxes in layers from left to right, each to the right of the boxes that it depends on (after Sugiyama, Tagawa and Toda, 1981).
 
 const BOX = { width: 196, height: 40, right: 92, down: 16 };
 
-// `units` are in order of their first pass; `arrows` are {from, to} of their places, from lower to higher. Sets x and y of
+// `units` are in order of their first pass; `arrows` are {from, to} pairs of unit indices, from lower to higher. Sets x and y of
 // each unit and `points` of each arrow; an arrow over more than `far` layers gets none.
 function layOut(units, arrows, far) {
   for (const unit of units) unit.layer = 0;
@@ -35,8 +35,8 @@ function layOut(units, arrows, far) {
   for (let sweep = 0; sweep < 8; sweep += 1) {
     const side = sweep % 2 ? 'right' : 'left';
     for (const layer of sweep % 2 ? [...layers].reverse() : layers) {
-      for (const vertex of layer) vertex.wish = vertex[side].length ? mean(vertex[side], 'place') : vertex.place;
-      layer.sort((a, b) => a.wish - b.wish || a.place - b.place);
+      for (const vertex of layer) vertex.target = vertex[side].length ? mean(vertex[side], 'place') : vertex.place;
+      layer.sort((a, b) => a.target - b.target || a.place - b.place);
       number(layer);
     }
   }
@@ -66,14 +66,14 @@ function layOut(units, arrows, far) {
 
 // Moves the vertices of a layer towards their neighbours, without any overlap.
 function straighten(layer, mean) {
-  const wish = layer.map((vertex) => {
+  const targets = layer.map((vertex) => {
     const near = [...vertex.left, ...vertex.right];
     return near.length ? mean(near.map((other) => ({ at: other.y + other.height / 2 })), 'at') - vertex.height / 2 : vertex.y;
   });
-  // Groups that would overlap share the mean of what they wish (pool adjacent violators).
+  // Groups that would overlap share the mean of their targets (pool adjacent violators).
   const groups = [];
   layer.forEach((vertex, index) => {
-    let group = { first: index, count: 1, size: vertex.height + BOX.down, at: wish[index] };
+    let group = { first: index, count: 1, size: vertex.height + BOX.down, at: targets[index] };
     while (groups.length && groups.at(-1).at + groups.at(-1).size > group.at) {
       const above = groups.pop();
       const at = (above.at * above.count + (group.at - above.size) * group.count) / (above.count + group.count);
@@ -92,7 +92,7 @@ function straighten(layer, mean) {
 
 const pathOf = (points) => points.slice(1).reduce((path, to, index) => {
   const from = points[index];
-  // Past a box on the way the line runs straight.
+  // The line is straight where it passes a box.
   const start = from.bend ? { x: from.x + BOX.width / 2, y: from.y } : from;
   const end = to.bend ? { x: to.x - BOX.width / 2, y: to.y } : to;
   const middle = (start.x + end.x) / 2;

@@ -1,34 +1,34 @@
-// Every decision as a sentence.
+// The log of all decisions, a sentence each.
 
 function decisions() {
   const all = [];
-  const say = (kind, subject, words) => all.push({ kind, subject, words });
+  const add = (kind, subject, text) => all.push({ kind, subject, text });
   for (const pass of passes.map((_, index) => index).sort((a, b) => rank[a] - rank[b])) {
-    const { place, culled, alive, accesses } = passes[pass];
+    const { place, culled, live, accesses } = passes[pass];
     const subject = { pass };
-    if (!place) say('culled', subject, `does not run: ${culled}`);
+    if (!place) add('culled', subject, `does not run: ${culled}`);
     else {
-      say('kept', subject, `runs: ${alive}`);
-      say('placed', subject, `step ${place.step}: ${place.why}`);
-      say('merged', subject, `${place.within ? 'merged with the pass before it' : 'not merged'}: ${place.merged}`);
+      add('kept', subject, `runs: ${live}`);
+      add('placed', subject, `step ${place.step}: ${place.why}`);
+      add('merged', subject, `${place.within ? 'merged with the previous pass' : 'not merged'}: ${place.merged}`);
     }
     for (const access of accesses) {
       const name = `${access.part ? `${access.part} of ` : ''}“${resourceName(access.resource)}”`;
-      if (access.load) say('load', subject, `${name}, ${access.load[0]}: ${access.load[1]}`);
-      if (access.clear) say('clear', subject, `${name}, ${access.clear[0]}: ${access.clear[1]}`);
-      if (access.store) say('store', subject, `${name}, ${access.store[0]}: ${access.store[1]}`);
+      if (access.load) add('load', subject, `${name}, ${access.load[0]}: ${access.load[1]}`);
+      if (access.clear) add('clear', subject, `${name}, ${access.clear[0]}: ${access.clear[1]}`);
+      if (access.store) add('store', subject, `${name}, ${access.store[0]}: ${access.store[1]}`);
     }
   }
   resources.forEach((resource, index) => {
-    say('slot', { resource: index }, `${resource.slot == null ? 'no slot' : `slot ${resource.slot}`}: ${resource.home}`);
-    for (const usage of resource.usages) say('usage', { resource: index }, usage);
+    add('slot', { resource: index }, `${resource.slot == null ? 'no slot' : `slot ${resource.slot}`}: ${resource.why}`);
+    for (const usage of resource.usages) add('usage', { resource: index }, usage);
   });
   return all;
 }
 
 const logView = {
   name: 'Log',
-  words: '',
+  query: '',
   kind: '',
 
   build(panel) {
@@ -40,7 +40,7 @@ const logView = {
       h('div', { class: 'bar' },
         h('select', { 'aria-label': 'Kind of decision', onchange: (event) => this.filter({ kind: event.target.value }) },
           h('option', { value: '' }, 'every decision'), kinds.map((kind) => h('option', { value: kind }, kind))),
-        h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter decisions', oninput: (event) => this.filter({ words: event.target.value.toLowerCase() }) }),
+        h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter decisions', oninput: (event) => this.filter({ query: event.target.value.toLowerCase() }) }),
         this.count),
       h('div', { class: 'scroll' }, this.list));
     this.draw();
@@ -54,9 +54,9 @@ const logView = {
   draw() {
     const name = ({ pass, resource }) => (pass != null ? passPath(pass) : resourceName(resource));
     const shown = this.all.filter((decision) => (!this.kind || decision.kind === this.kind)
-      && `${name(decision.subject)} ${decision.words}`.toLowerCase().includes(this.words));
+      && `${name(decision.subject)} ${decision.text}`.toLowerCase().includes(this.query));
     this.list.replaceChildren(...shown.map((decision) => h('li', {}, h('span', { class: 'tag' }, decision.kind),
-      decision.subject.pass != null ? passLink(decision.subject.pass) : resourceLink(decision.subject.resource), ` ${decision.words}`)));
+      decision.subject.pass != null ? passLink(decision.subject.pass) : resourceLink(decision.subject.resource), ` ${decision.text}`)));
     this.count.textContent = `${shown.length} of ${this.all.length} decisions`;
   },
 

@@ -1,9 +1,9 @@
-// Tabs, search, and what is chosen.
+// Tabs, search and the selection.
 
 // {pass}, {resource} or null.
 let chosen = null;
 
-const VIEWS = [graphView, timelineView, memoryView, passesView, picturesView, logView, ...frame.tables.map(tableView)];
+const VIEWS = [graphView, timelineView, memoryView, passesView, texturesView, logView, ...frame.tables.map(tableView)];
 const tabs = [];
 const panels = [];
 
@@ -30,7 +30,7 @@ function choose(what) {
   remember(shownView().name);
 }
 
-// The address holds what is shown, so that a link leads there.
+// Stores the view and the selection in the address, so that they can be linked to.
 function remember(name) {
   const what = chosen?.pass != null ? `/pass/${chosen.pass}` : chosen?.resource != null ? `/resource/${chosen.resource}` : '';
   history.replaceState(null, '', `#${name.toLowerCase().replaceAll(' ', '-')}${what}`);
@@ -59,8 +59,8 @@ function tableView(table) {
   };
 }
 
-function find(words) {
-  const wanted = words.trim().toLowerCase();
+function find(text) {
+  const wanted = text.trim().toLowerCase();
   const list = document.getElementById('found');
   if (!wanted) return list.replaceChildren();
   const matches = (name) => name.toLowerCase().includes(wanted);
@@ -75,7 +75,7 @@ function find(words) {
     document.getElementById('details').focus();
   };
   return list.replaceChildren(...(found.length ? found.slice(0, 40).map((item) => h('li', {}, h('button', { onclick: () => take(item) },
-    h('span', { class: 'tag' }, item.kind), item.name))) : [h('li', {}, h('span', { class: 'tag' }, 'nothing of that name'))]));
+    h('span', { class: 'tag' }, item.kind), item.name))) : [h('li', {}, h('span', { class: 'tag' }, 'nothing found'))]));
 }
 
 function start() {

@@ -1,4 +1,4 @@
-// Physical textures and buffers as lanes, and how many bytes are in use at each step.
+// Physical textures and buffers as lanes, and the bytes in use at each step.
 
 const LANE = { width: 24, height: 26, names: 300, chart: 120 };
 
@@ -8,10 +8,10 @@ const memoryView = {
   build(panel) {
     const wide = Math.max(2, Math.min(LANE.width * 2, Math.floor(1400 / Math.max(1, stepCount))));
     const width = LANE.names + stepCount * wide + 160;
-    const live = steps.map((_, step) => slots.reduce((sum, slot) => sum + (slot.tenants.some((tenant) => within(tenant, step)) ? slot.bytes : 0), 0));
+    const live = steps.map((_, step) => slots.reduce((sum, slot) => sum + (slot.resources.some((resource) => within(resource, step)) ? slot.bytes : 0), 0));
     const transient = slots.filter((slot) => slot.transient);
     const total = slots.reduce((sum, slot) => sum + slot.bytes, 0);
-    const saved = slots.reduce((sum, slot) => sum + slot.bytes * Math.max(0, slot.tenants.length - 1), 0);
+    const saved = slots.reduce((sum, slot) => sum + slot.bytes * Math.max(0, slot.resources.length - 1), 0);
     const peak = Math.max(0, ...live);
     const facts = [
       `${slots.length} slots of ${bytes(total)}`, `${bytes(saved)} saved by sharing`,
@@ -23,9 +23,9 @@ const memoryView = {
     panel.append(
       h('div', { class: 'bar' }, h('span', { id: 'memory-facts' }, facts.join('; '))),
       h('div', { class: 'scroll' },
-        s('svg', { width, height, role: 'group', 'aria-label': 'Slots and who is in them' }, this.chart(live, peak, x), slots.map((slot, index) => this.lane(slot, index, x, width)),
+        s('svg', { width, height, role: 'group', 'aria-label': 'Slots and the resources in them' }, this.chart(live, peak, x), slots.map((slot, index) => this.lane(slot, index, x, width)),
           s('text', { class: 'small', x: LANE.names, y: LANE.chart + 18 }, stepCount ? `steps 0 to ${stepCount - 1}` : 'no steps')),
-        this.outside()));
+        this.unslotted()));
   },
 
   chart(live, peak, x) {
@@ -42,27 +42,27 @@ const memoryView = {
     ];
   },
 
-  lane(slot, index, x, width) {
-    const y = LANE.chart + 30 + index * LANE.height;
-    const tenants = slot.tenants.map((tenant) => {
-      const resource = resources[tenant];
+  lane(slot, number, x, width) {
+    const y = LANE.chart + 30 + number * LANE.height;
+    const bars = slot.resources.map((index) => {
+      const resource = resources[index];
       const [start, end] = resource.steps;
       const wide = x(end + 1) - x(start);
       const name = clip(resource.name, Math.max(1, Math.floor((wide - 6) / 6.5)));
-      return s('g', { class: 'unit', tabindex: '0', role: 'button', ...press(() => choose({ resource: tenant })), ...hint(`${resourceName(tenant)}: steps ${start} to ${end}\n${resource.home}`) },
-        s('rect', { x: x(start) + 0.5, y: y + 3, width: wide - 1, height: LANE.height - 6, rx: 3, style: `fill:${laneColor(tenant)};stroke:${laneLine(tenant)}` }),
+      return s('g', { class: 'unit', tabindex: '0', role: 'button', ...press(() => choose({ resource: index })), ...hint(`${resourceName(index)}: steps ${start} to ${end}\n${resource.why}`) },
+        s('rect', { x: x(start) + 0.5, y: y + 3, width: wide - 1, height: LANE.height - 6, rx: 3, style: `fill:${laneColor(index)};stroke:${laneLine(index)}` }),
         name.length > 2 ? s('text', { class: 'small', x: x(start) + 5, y: y + 17 }, name) : '');
     });
     return s('g', { class: 'row' }, s('rect', { class: 'band', x: 0, y, width, height: LANE.height }),
-      s('text', { x: LANE.names - 8, y: y + 17, 'text-anchor': 'end' }, clip(`${index}: ${slot.shape}, ${bytes(slot.bytes)}`, 46)), tenants);
+      s('text', { x: LANE.names - 8, y: y + 17, 'text-anchor': 'end' }, clip(`${number}: ${slot.shape}, ${bytes(slot.bytes)}`, 46)), bars);
   },
 
-  // What does not live in slots.
-  outside() {
+  // Resources that are not in slots.
+  unslotted() {
     const others = resources.map((_, index) => index).filter((index) => resources[index].slot == null);
     if (!others.length) return '';
     return h('div', {}, h('h3', {}, 'Not in slots'), h('table', {}, h('tbody', {}, others.map((index) => h('tr', {},
-      h('td', {}, resourceLink(index)), h('td', {}, resources[index].shape), h('td', { class: 'number' }, bytes(resources[index].bytes)), h('td', {}, resources[index].home))))));
+      h('td', {}, resourceLink(index)), h('td', {}, resources[index].shape), h('td', { class: 'number' }, bytes(resources[index].bytes)), h('td', {}, resources[index].why))))));
   },
 
   chosen() {},

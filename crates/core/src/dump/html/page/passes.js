@@ -1,4 +1,4 @@
-// All passes in a table that sorts and filters.
+// A table of all passes that can be sorted and filtered.
 
 const COLUMNS = [
   { name: 'Step', value: (pass) => passes[pass].place?.order ?? Infinity, cell: (pass) => passes[pass].place?.step ?? '–', number: true },
@@ -15,7 +15,7 @@ const COLUMNS = [
   { name: 'Attachments, loads and stores', value: (pass) => attachments(pass).length, cell: (pass) => attachments(pass).map((line) => h('div', {}, line)) },
 ];
 
-// What merged passes took together stands once, at the first of them.
+// The GPU time of merged passes is shown once, at the first of them.
 function gpuCell(pass) {
   const { time, place } = passes[pass];
   if (!(time?.shared_by > 1)) return milliseconds(time?.gpu_ms);
@@ -33,7 +33,7 @@ function attachments(pass) {
   });
 }
 
-// The time of passes together.
+// The total time of some passes.
 function timeSum(of) {
   const sum = (time) => of.reduce((all, pass) => (time(passes[pass]) == null ? all : (all ?? 0) + time(passes[pass])), null);
   const [cpu, gpu] = [sum(({ time }) => time?.cpu_ms), sum(({ time }) => (time?.gpu_ms == null ? null : time.gpu_ms / Math.max(1, time.shared_by)))];
@@ -44,18 +44,18 @@ const passesView = {
   name: 'Passes',
   by: COLUMNS[0],
   down: false,
-  words: '',
+  query: '',
 
   build(panel) {
     this.body = h('tbody');
     this.count = h('span', { class: 'hint', 'aria-live': 'polite' });
-    // Columns that no pass has anything in say nothing.
+    // Empty columns are left out.
     this.columns = COLUMNS.filter((column) => !['CPU ms', 'GPU ms', 'Draws', 'Triangles'].includes(column.name) || passes.some((_, pass) => column.value(pass) >= 0));
     this.heads = this.columns.map((column) => h('th', { scope: 'col' }, h('button', { onclick: () => this.sort(column) }, column.name)));
     panel.append(
       h('div', { class: 'bar' },
         h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter passes', oninput: (event) => {
-          this.words = event.target.value.toLowerCase();
+          this.query = event.target.value.toLowerCase();
           this.draw();
         } }), this.count),
       h('div', { class: 'scroll' }, h('table', { id: 'pass-table' }, h('thead', {}, h('tr', {}, this.heads)), this.body)));
@@ -70,7 +70,7 @@ const passesView = {
 
   draw() {
     const text = (pass) => `${passPath(pass)} ${passes[pass].kind} ${passes[pass].accesses.map((access) => resourceName(access.resource)).join(' ')}`.toLowerCase();
-    const shown = passes.map((_, pass) => pass).filter((pass) => text(pass).includes(this.words));
+    const shown = passes.map((_, pass) => pass).filter((pass) => text(pass).includes(this.query));
     const sign = this.down ? -1 : 1;
     const compare = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
     shown.sort((a, b) => sign * compare(this.by.value(a), this.by.value(b)) || rank[a] - rank[b]);

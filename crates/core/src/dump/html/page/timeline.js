@@ -1,7 +1,7 @@
-// Passes across, resources down: when each is in use, and by whom.
+// Passes across, resources down: when each resource is in use, and by which pass.
 
 const CELL = { width: 20, height: 20, heads: 150 };
-// Of the names of resources, in pixels.
+// Widths of resource names, in pixels.
 const NAMES = { letter: 7.4, most: 310 };
 
 const timelineView = {
@@ -15,7 +15,7 @@ const timelineView = {
     this.names = Math.min(NAMES.most, 24 + NAMES.letter * longest);
     const width = this.names + order.length * CELL.width + 140;
     const height = CELL.heads + used.length * CELL.height + 10;
-    // Names stay in sight while the rest is scrolled.
+    // Names stay visible while the rest is scrolled.
     const paper = (wide, high) => s('rect', { width: wide, height: high, fill: 'var(--card)' });
     const heads = s('g', {}, paper(width, CELL.heads), order.map((pass, place) => this.head(pass, place)));
     const names = s('g', {}, paper(this.names - 4, height), used.map((resource, row) => this.label(resource, row)));
@@ -31,8 +31,8 @@ const timelineView = {
     };
     panel.append(
       h('div', { class: 'bar' },
-        h('span', {}, swatch('var(--write)', '■ writes'), ' ', swatch('var(--read)', '● reads'), ' ', swatch('var(--both)', '◆ keeps and writes')),
-        h('span', { class: 'hint' }, 'A bar runs from first to last use. Shades change from step to step: passes of one step share a pass of the encoder.')),
+        h('span', {}, swatch('var(--write)', '■ writes'), ' ', swatch('var(--read)', '● reads'), ' ', swatch('var(--both)', '◆ preserves and writes')),
+        h('span', { class: 'hint' }, 'A bar runs from first to last use. The background alternates between steps: passes of one step share a render pass.')),
       h('div', { class: 'scroll flush', onscroll: stay }, this.svg));
   },
 
@@ -66,14 +66,14 @@ const timelineView = {
     const centre = (place) => this.names + place * CELL.width + CELL.width / 2;
     const mark = (use) => {
       const { writes, keeps } = use.access;
-      const words = `${passPath(use.pass)} ${use.access.does} ${resourceName(resource)}${use.access.as}, ${versionOf(use.access)}`
+      const hintText = `${passPath(use.pass)} ${use.access.does} ${resourceName(resource)}${use.access.as}, ${versionOf(use.access)}`
         + `${use.access.part ? `, ${use.access.part}` : ''}${use.access.note ? `\n${use.access.note}` : ''}`
         + [use.access.load, use.access.clear, use.access.store].filter(Boolean).map(([action, why]) => `\n${action}: ${why}`).join('');
       const [x, middle] = [centre(use.at), y + CELL.height / 2];
       const shape = writes && keeps ? s('path', { d: `M${x - 6} ${middle}L${x} ${middle - 6}L${x + 6} ${middle}L${x} ${middle + 6}z`, fill: 'var(--both)' })
         : writes ? s('rect', { x: x - 5, y: middle - 5, width: 10, height: 10, fill: 'var(--write)' })
           : s('circle', { cx: x, cy: middle, r: 4.5, fill: 'var(--read)' });
-      return s('g', { class: 'unit', role: 'img', onclick: () => choose({ pass: use.pass }), ...hint(words) }, shape);
+      return s('g', { class: 'unit', role: 'img', onclick: () => choose({ pass: use.pass }), ...hint(hintText) }, shape);
     };
     return s('g', { class: 'row' },
       s('rect', { class: 'band', x: 0, y, width, height: CELL.height }),
