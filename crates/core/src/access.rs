@@ -1,9 +1,9 @@
-//! How a pass touches a resource, and what becomes of the contents.
+//! Accesses to resources, and what they do with the contents.
 
 use serde::{Deserialize, Serialize};
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// One way of touching a texture or buffer. Usage flags follow from it.
+/// A way to access a texture or buffer. Usage flags are derived from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Access {
@@ -15,11 +15,11 @@ pub enum Access {
     Depth,
     /// Depth(-stencil) attachment, tested only.
     DepthRead,
-    /// Texture sampled or loaded by a shader.
+    /// Texture that a shader samples or loads.
     Sampled,
     /// Storage texture or buffer, read.
     StorageRead,
-    /// Storage texture or buffer, written (and read, where the contents are preserved).
+    /// Storage texture or buffer, written (and read, if the contents are preserved).
     StorageWrite,
     /// Uniform buffer.
     Uniform,
@@ -36,7 +36,7 @@ pub enum Access {
 }
 
 impl Access {
-    /// Tells whether the access may change the contents.
+    /// Returns whether the access may change the contents.
     pub fn writes(self) -> bool {
         matches!(
             self,
@@ -44,7 +44,7 @@ impl Access {
         )
     }
 
-    /// Tells whether the access is an attachment of a render pass, resolve targets among them.
+    /// Returns whether the access is an attachment of a render pass or a resolve target.
     pub fn is_attachment(self) -> bool {
         matches!(self, Self::Color(_) | Self::Resolve(_) | Self::Depth | Self::DepthRead)
     }
@@ -110,21 +110,21 @@ impl std::fmt::Display for Access {
 pub enum ClearValue {
     /// Red, green, blue, alpha, in the format's own range.
     Color([f64; 4]),
-    /// Depth, 0 to 1. With reversed depth the far plane is 0. Stencil, where there is one, becomes 0.
+    /// Depth, 0 to 1. With reversed depth the far plane is 0. Stencil, if there is one, is cleared to 0.
     Depth(f32),
     /// Depth, 0 to 1, and stencil.
     DepthStencil(f32, u32),
 }
 
-/// What a write does with the contents that were there before.
+/// What a write does with the earlier contents.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Contents {
-    /// The attachment is cleared first, then drawn over. Attachments only.
+    /// The attachment is cleared before the pass draws. Attachments only.
     Clear(ClearValue),
-    /// Every texel or byte is written: what was there does not matter. The graph takes your word for it.
+    /// Every texel or byte is written, so the earlier contents are not needed. The graph does not check this.
     #[serde(rename = "Cover")]
     Overwrite,
-    /// What was there stays where this pass does not write; it must have been defined by an earlier write.
+    /// The earlier contents are kept where this pass does not write; an earlier write must have defined them.
     Preserve,
 }
 
@@ -144,7 +144,7 @@ impl Contents {
         Self::Clear(ClearValue::DepthStencil(depth, stencil))
     }
 
-    /// Tells whether the write needs the earlier contents.
+    /// Returns whether the write needs the earlier contents.
     pub fn preserves(self) -> bool {
         self == Self::Preserve
     }

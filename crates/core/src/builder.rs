@@ -1,4 +1,4 @@
-//! Declaring one pass. Which accesses there are depends on the kind of pass.
+//! Declaration of a pass. The kind of pass decides which accesses it can declare.
 
 use crate::access::{Access, Contents};
 use crate::declaration::CopyOp;
@@ -22,9 +22,9 @@ pub enum Encoding {}
 pub struct Pass<'p, 'f, K> {
     pub(crate) frame: &'p mut Frame<'f>,
     pub(crate) id: PassId,
-    /// What the next access is narrowed to.
+    /// Subresource of the next access.
     subresource: Option<Subresource>,
-    /// Colour attachments declared so far.
+    /// Number of colour attachments declared so far.
     colors: u32,
     kind: PhantomData<K>,
 }
@@ -44,7 +44,7 @@ impl<'p, 'f, K> Pass<'p, 'f, K> {
         self.frame.pass_mut(self.id).keep = true;
     }
 
-    /// Runs this pass after `other`, for effects outside the graph that the two share. It does not keep `other`.
+    /// Runs this pass after `other`, for shared effects that the graph cannot see. It does not keep `other`.
     ///
     /// ```
     /// let mut frame = shadowgraph_core::Frame::new();
@@ -61,7 +61,7 @@ impl<'p, 'f, K> Pass<'p, 'f, K> {
         self.frame.declare_after(self.id, other);
     }
 
-    /// Narrows the next access to a part of its resource.
+    /// Narrows the next access to a subresource.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, Subresource, TextureDesc};
@@ -104,7 +104,7 @@ impl<'p, 'f, K> Pass<'p, 'f, K> {
     }
 }
 
-/// What shaders can read and write, in every pass with a body.
+/// Passes with a body, whose shaders read and write resources.
 pub trait ShaderPass {}
 impl ShaderPass for Rendering {}
 impl ShaderPass for Compute {}
@@ -155,7 +155,7 @@ impl Pass<'_, '_, Rendering> {
         self.write_texture(texture, Access::Color(index), contents)
     }
 
-    /// Resolves the colour attachment declared last, which is multisampled, into `texture` at the end of the pass.
+    /// Resolves the last declared colour attachment, which must be multisampled, into `texture` at the end of the pass.
     pub fn resolve(&mut self, texture: &mut Texture) -> TextureToken {
         let index = self.colors.saturating_sub(1);
         self.write_texture(texture, Access::Resolve(index), Contents::Overwrite)
@@ -203,21 +203,21 @@ impl Pass<'_, '_, Encoding> {
         self.write_buffer(buffer, Access::CopyTarget, contents)
     }
 
-    /// Draws into a texture through a render pass of your own, begun on the raw encoder.
+    /// Draws into a texture in your own render pass, begun on the raw encoder.
     pub fn attachment(&mut self, texture: &mut Texture, contents: Contents) -> TextureToken {
         self.write_texture(texture, Access::Color(0), contents)
     }
 }
 
 impl Pass<'_, '_, Copying> {
-    /// Copies the bytes of a texture to another, or mip 0 of each if they have several; the formats may differ in being sRGB. For
-    /// parts of the same size see [`texture_region`](Self::texture_region).
+    /// Copies the bytes of a texture to another, or only mip 0 if they have several; one of the formats may be sRGB. For
+    /// regions of the same size see [`texture_region`](Self::texture_region).
     pub fn texture(&mut self, source: &Texture, target: &mut Texture) -> &mut Self {
-        let (from, to) = (self.first_mip(source), self.first_mip(target));
+        let (from, to) = (self.mip_0(source), self.mip_0(target));
         self.texture_region(source, from, target, to)
     }
 
-    /// Copies a part of a texture, of one mip, to a part of another that has the same size and format.
+    /// Copies a region of one mip of a texture to a region of another texture, of the same size and format.
     pub fn texture_region(
         &mut self,
         source: &Texture,
@@ -230,12 +230,12 @@ impl Pass<'_, '_, Copying> {
         self.op(CopyOp::TextureToTexture { source: source.id(), target: target.id() })
     }
 
-    /// Copies the whole of a buffer to another of the same size.
+    /// Copies a whole buffer to another of the same size.
     pub fn buffer(&mut self, source: &Buffer, target: &mut Buffer) -> &mut Self {
         self.buffer_range(source, Subresource::FULL, target, Subresource::FULL)
     }
 
-    /// Copies a range of a buffer to a range of another that has as many bytes. Ranges begin and end at multiples
+    /// Copies a range of a buffer to a range of another buffer, of the same size. Ranges begin and end at multiples
     /// of 4.
     pub fn buffer_range(
         &mut self,
@@ -249,16 +249,16 @@ impl Pass<'_, '_, Copying> {
         self.op(CopyOp::BufferToBuffer { source: source.id(), target: target.id() })
     }
 
-    /// Copies mip 0 of a single-layer texture to a buffer, each row padded to a multiple of 256 bytes. To bring a
-    /// picture to the CPU there is `Frame::read_back_texture`.
+    /// Copies mip 0 of a single-layer texture to a buffer, each row padded to a multiple of 256 bytes. To read a
+    /// texture on the CPU, use `Frame::read_back_texture`.
     pub fn texture_to_buffer(&mut self, source: &Texture, target: &mut Buffer) -> &mut Self {
-        let from = self.first_mip(source);
+        let from = self.mip_0(source);
         self.subresource(from).read_texture(source, Access::CopySource);
         self.write_buffer(target, Access::CopyTarget, Contents::Overwrite);
         self.op(CopyOp::TextureToBuffer { source: source.id(), target: target.id() })
     }
 
-    fn first_mip(&self, texture: &Texture) -> Subresource {
+    fn mip_0(&self, texture: &Texture) -> Subresource {
         match self.frame.texture_desc(texture) {
             Some(desc) if desc.mip_levels > 1 => Subresource::FULL.mip(0),
             _ => Subresource::FULL,

@@ -1,4 +1,4 @@
-//! A frame after compiling, and which tokens resolve in which pass.
+//! A compiled frame, and the resolution of tokens.
 
 use crate::frame::Frame;
 use crate::plan::Plan;
@@ -9,7 +9,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// A compiled frame: the plan, and the bodies that wait to be recorded.
+/// A compiled frame: the plan, and the pass bodies to record.
 pub struct Compiled<'f> {
     pub(crate) plan: Arc<Plan>,
     #[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "bodies and uploads are for the executor"))]
@@ -21,7 +21,7 @@ impl<'f> Compiled<'f> {
         Self { plan, frame }
     }
 
-    /// Returns what will be done, and why.
+    /// Returns the plan.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -31,7 +31,7 @@ impl<'f> Compiled<'f> {
         self.plan.clone()
     }
 
-    /// Returns the plan alone and drops the bodies.
+    /// Returns the plan and drops the bodies.
     pub fn into_plan(self) -> Plan {
         let plan = self.plan.clone();
         drop(self);
@@ -39,7 +39,7 @@ impl<'f> Compiled<'f> {
     }
 }
 
-/// Finds the resource behind a token used in `pass`: only a token of that very pass resolves.
+/// Returns the resource of a token used in `pass`: only tokens of that pass resolve.
 #[cfg(any(feature = "gpu", test))]
 pub(crate) fn resolve(plan: &Plan, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
     if token.frame != frame {

@@ -1,7 +1,7 @@
-//! What a frame declares, as plain data in flat arrays: the only input of the compiler.
+//! The declaration of a frame, as plain data in flat arrays: the only input of the compiler.
 //!
-//! Two frames whose declarations are equal have the same plan. That is how plans are found again, so everything that
-//! the compiler reads must be in here, and nothing else.
+//! Two frames with equal declarations have the same plan, so plans are reused by comparing declarations. Therefore
+//! everything that the compiler reads must be in here, and nothing else.
 
 use crate::access::{Access, ClearValue, Contents};
 use crate::desc::ResourceDesc;
@@ -12,14 +12,14 @@ use serde::Serialize;
 use std::ops::Range;
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// What a pass is made of.
+/// The kind of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum PassKind {
     /// Draws into attachments.
     Render,
     /// Dispatches compute work.
     Compute,
-    /// Copies and uploads, done by the graph itself.
+    /// Copies and uploads, recorded by the graph.
     Copy,
     /// Records into the raw encoder.
     Encoder,
@@ -43,94 +43,94 @@ impl std::fmt::Display for PassKind {
     }
 }
 
-/// One transfer of a copy pass. `source` and `target` are the parts that the pass declares on them.
+/// One copy of a copy pass. The pass declares the subresources of `source` and `target`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum CopyOp {
-    /// One texture to another.
+    /// Texture to texture.
     TextureToTexture {
-        /// Copied from.
+        /// Source of the copy.
         source: ResourceId,
-        /// Copied to.
+        /// Target of the copy.
         target: ResourceId,
     },
-    /// One buffer to another.
+    /// Buffer to buffer.
     BufferToBuffer {
-        /// Copied from.
+        /// Source of the copy.
         source: ResourceId,
-        /// Copied to.
+        /// Target of the copy.
         target: ResourceId,
     },
-    /// A texture to a buffer, rows padded to 256 bytes.
+    /// Texture to buffer, rows padded to 256 bytes.
     TextureToBuffer {
-        /// Copied from.
+        /// Source of the copy.
         source: ResourceId,
-        /// Copied to.
+        /// Target of the copy.
         target: ResourceId,
     },
-    /// Bytes from the CPU to a buffer.
+    /// CPU memory to buffer.
     Upload {
-        /// Written to.
+        /// Target of the upload.
         target: ResourceId,
-        /// Which of the frame's uploads.
+        /// Index of the upload in the frame.
         upload: u32,
     },
 }
 
-/// Where a resource comes from.
+/// The origin of a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Origin {
     /// Lives within the frame, in a slot of the pool.
     Transient,
     /// Belongs to the caller.
     Imported {
-        /// Whether it holds something when the frame begins.
+        /// Whether it has contents when the frame begins.
         defined: bool,
     },
-    /// What this history held at the end of the frame before. It is only read.
+    /// Contents of a history from the previous frame, read only.
     Previous {
-        /// Which of the frame's histories.
+        /// Index of the history in the frame.
         history: u32,
     },
-    /// What this history will hold for the next frame.
+    /// Contents of a history for the next frame.
     Current {
-        /// Which of the frame's histories.
+        /// Index of the history in the frame.
         history: u32,
     },
 }
 
 impl Origin {
-    /// Whether there are contents when the frame begins.
+    /// Returns whether the resource has contents when the frame begins.
     pub(crate) fn defined(self) -> bool {
         matches!(self, Self::Imported { defined: true } | Self::Previous { .. })
     }
 
-    /// Whether contents are needed after the frame.
+    /// Returns whether the contents are needed after the frame.
     pub(crate) fn outlives(self) -> bool {
         matches!(self, Self::Imported { .. } | Self::Current { .. })
     }
 }
 
-/// In which order passes run.
+/// How passes are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum OrderPolicy {
-    /// Continue the open render pass if possible, else free the most memory, else keep the order of declaration.
+    /// First continue the open render pass, then free the most memory, then keep the order of declaration.
     #[default]
     Automatic,
-    /// Free the most memory, else keep the order of declaration.
+    /// First free the most memory, then keep the order of declaration.
     Memory,
-    /// The order of declaration, fixed.
+    /// Keep the order of declaration.
     Declared,
 }
 
 /// What the compiler may do with a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Options {
-    /// In which order passes run.
+    /// How passes are ordered.
     pub order: OrderPolicy,
-    /// Whether neighbouring render passes with the same attachments become one.
+    /// Whether adjacent render passes with the same attachments are merged.
     pub merge: bool,
-    /// Whether attachments that never leave a render pass get memory of their own kind
-    /// (`TextureUsages::TRANSIENT_ATTACHMENT`), which costs nothing on GPUs that draw in tiles.
+    /// Whether attachments that are used only within one render pass are transient
+    /// (`TextureUsages::TRANSIENT_ATTACHMENT`), which takes no memory on tile-based GPUs.
     pub transient_attachments: bool,
 }
 
@@ -154,7 +154,7 @@ pub(crate) struct PassDecl {
     pub(crate) keep: bool,
     pub(crate) accesses: (u32, u32),
     pub(crate) copies: (u32, u32),
-    /// The resource that it attaches first.
+    /// Resource of the first attachment.
     pub(crate) attachment: Option<ResourceId>,
 }
 
@@ -163,9 +163,9 @@ pub(crate) struct AccessDecl {
     pub(crate) resource: ResourceId,
     pub(crate) access: Access,
     pub(crate) contents: WriteMode,
-    /// The version read, or written over.
+    /// Version that is read or overwritten.
     pub(crate) version: u32,
-    /// Which of the frame's parts; [`ALL_OF_RESOURCE`] for all of the resource.
+    /// Index of the subresource in the frame; [`ALL_OF_RESOURCE`] for the full resource.
     pub(crate) subresource: u32,
 }
 
@@ -174,18 +174,18 @@ pub(crate) const ALL_OF_RESOURCE: u32 = u32::MAX;
 /// What an access does with the contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WriteMode {
-    /// Nothing: it reads.
+    /// Only reads them.
     ReadOnly,
     /// Clears them to one of the frame's clear values.
     Clear(u32),
-    /// Covers them.
+    /// Overwrites all of them.
     Overwrite,
-    /// Writes among them.
+    /// Preserves what it does not write.
     Preserve,
 }
 
 impl WriteMode {
-    /// Whether the earlier contents are needed.
+    /// Returns whether the earlier contents are needed.
     pub(crate) fn needs(self) -> bool {
         matches!(self, Self::ReadOnly | Self::Preserve)
     }
@@ -207,13 +207,13 @@ pub(crate) struct ResourceDecl {
     pub(crate) node: Option<NodeId>,
     pub(crate) desc: ResourceDesc,
     pub(crate) origin: Origin,
-    /// How many writes have been declared.
+    /// Number of declared writes.
     pub(crate) version: u32,
-    /// The version that is taken out of the frame.
+    /// Exported version.
     pub(crate) exported: Option<u32>,
-    /// Whether any access is to a part of it.
+    /// Whether any access is to a subresource.
     pub(crate) has_partial_accesses: bool,
-    /// Usages asked for from outside (exports), or allowed by the caller's object (imports).
+    /// Usages that an export needs, or that an imported object has.
     pub(crate) texture_usage: TextureUsages,
     pub(crate) buffer_usage: BufferUsages,
 }
@@ -229,7 +229,7 @@ pub(crate) struct Declaration {
     pub(crate) subresources: Vec<SubresourceDecl>,
     pub(crate) clears: Vec<ClearValue>,
     pub(crate) copies: Vec<CopyOp>,
-    /// Orders asked for by name: the first before the second.
+    /// Explicit orders: the first pass runs before the second.
     pub(crate) after: Vec<(PassId, PassId)>,
     pub(crate) names: Names,
 }
@@ -276,13 +276,13 @@ impl Declaration {
         (0..self.passes.len() as u32).map(PassId)
     }
 
-    /// The box that the access touches; `None` for all of the resource.
+    /// Returns the region of the access; `None` for the full resource.
     #[inline]
     pub(crate) fn region(&self, access: &AccessDecl) -> Option<&Region> {
         self.subresources.get(access.subresource as usize).map(|subresource| &subresource.region)
     }
 
-    /// Whether two accesses to one resource have any of it in common.
+    /// Returns whether two accesses to one resource overlap.
     #[inline]
     pub(crate) fn overlap(&self, a: &AccessDecl, b: &AccessDecl) -> bool {
         match (self.region(a), self.region(b)) {
@@ -291,7 +291,7 @@ impl Declaration {
         }
     }
 
-    /// Whether the first of two accesses to one resource touches all that the second does.
+    /// Returns whether the first of two accesses to one resource covers the second.
     #[inline]
     pub(crate) fn covers(&self, a: &AccessDecl, b: &AccessDecl) -> bool {
         match (self.region(a), self.region(b)) {
@@ -316,7 +316,7 @@ impl Declaration {
         }
     }
 
-    /// Who made this version of a resource. Version 0 is what was there at first.
+    /// Returns the pass that wrote a version of a resource. Version 0 has no writer.
     pub(crate) fn writer(&self, resource: ResourceId, version: u32) -> Option<PassId> {
         let made = version.checked_sub(1)?;
         self.pass_ids().find(|&pass| {
@@ -329,7 +329,7 @@ impl Declaration {
         self.names.get(self.resource(id).name)
     }
 
-    /// The pass's name with its nodes before it: `post/blur`.
+    /// Returns the pass's path, such as `post/blur`.
     pub(crate) fn pass_path(&self, id: PassId) -> String {
         let mut path = String::new();
         self.write_pass_path(id, &mut path);
@@ -346,7 +346,7 @@ impl Declaration {
         path.push_str(self.names.get(pass.name));
     }
 
-    /// The resource's name with the nodes that it was declared in before it.
+    /// Returns the resource's path, such as `post/half`.
     pub(crate) fn resource_path(&self, id: ResourceId) -> String {
         let mut path = String::new();
         if let Some(node) = self.resource(id).node {
@@ -365,11 +365,11 @@ impl Declaration {
         path.push_str(self.names.get(node.name));
     }
 
-    /// Compares two frames. What is short, or often differs, comes first.
+    /// Compares two frames. Fields that are short or often differ are compared first.
     pub(crate) fn similarity(&self, other: &Self) -> FrameSimilarity {
         let Self { options, resources, passes, accesses, nodes, subresources, clears, copies, after, names } =
             self;
-        let alike = resources.len() == other.resources.len()
+        let same_structure = resources.len() == other.resources.len()
             && passes.len() == other.passes.len()
             && accesses.len() == other.accesses.len()
             && *options == other.options
@@ -381,13 +381,13 @@ impl Declaration {
             && *after == other.after
             && *passes == other.passes
             && *accesses == other.accesses;
-        if !alike {
+        if !same_structure {
             return FrameSimilarity::Other;
         }
         let pairs = || resources.iter().zip(&other.resources);
         if pairs().all(|(a, b)| a == b) {
             FrameSimilarity::Same
-        } else if pairs().all(|(a, b)| a.same_but_for_size(b)) {
+        } else if pairs().all(|(a, b)| a.same_except_size(b)) {
             FrameSimilarity::OtherSizes
         } else {
             FrameSimilarity::Other
@@ -395,17 +395,17 @@ impl Declaration {
     }
 }
 
-/// How two frames compare.
+/// The result of comparing two frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FrameSimilarity {
     Same,
-    /// The same but for the sizes of textures and buffers.
+    /// The same except for sizes of textures and buffers.
     OtherSizes,
     Other,
 }
 
 impl ResourceDecl {
-    fn same_but_for_size(&self, other: &Self) -> bool {
+    fn same_except_size(&self, other: &Self) -> bool {
         let desc = match (self.desc, other.desc) {
             (ResourceDesc::Texture(own), ResourceDesc::Texture(other)) => {
                 ResourceDesc::Texture(crate::TextureDesc { size: other.size, ..own })

@@ -1,4 +1,4 @@
-//! What a texture or buffer is, before anything is known of its use.
+//! Descriptions of textures and buffers.
 
 use serde::Serialize;
 use wgpu_types::{Extent3d, TextureDimension};
@@ -8,7 +8,7 @@ pub type Format = wgpu_types::TextureFormat;
 /// A size in texels: width, height, and depth or layers.
 pub type Extent = Extent3d;
 
-/// The shape of a texture. Usage flags are absent on purpose: the graph derives them.
+/// The description of a texture. It has no usage flags, which the graph derives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct TextureDesc {
     /// Size in texels; `depth_or_array_layers` counts layers of a 2D texture.
@@ -19,7 +19,7 @@ pub struct TextureDesc {
     pub mip_levels: u32,
     /// Samples per texel: 1, or 4 for multisampling.
     pub samples: u32,
-    /// 1D, 2D or 3D.
+    /// Dimension: 1D, 2D or 3D.
     pub dimension: TextureDimension,
 }
 
@@ -41,7 +41,7 @@ impl TextureDesc {
         }
     }
 
-    /// Sets how many samples each texel has.
+    /// Returns the description with this many samples per texel.
     #[must_use]
     pub fn samples(mut self, samples: u32) -> Self {
         self.samples = samples;
@@ -55,7 +55,7 @@ impl TextureDesc {
     }
 
     /// Returns the memory of the texture in bytes, all mips, layers and samples, without the driver's padding;
-    /// `u64::MAX` for what no memory holds.
+    /// `u64::MAX` if it exceeds any memory.
     pub fn bytes(&self) -> u64 {
         if self.texels() > 1 << 48 {
             return u64::MAX;
@@ -73,7 +73,7 @@ impl TextureDesc {
             * u64::from(self.samples)
     }
 
-    /// Texels of the largest mip, each sample counted.
+    /// Returns the samples of the largest mip.
     pub(crate) fn texels(&self) -> u128 {
         let Extent { width, height, depth_or_array_layers } = self.size;
         [height, depth_or_array_layers, self.samples]
@@ -82,7 +82,7 @@ impl TextureDesc {
     }
 }
 
-/// The shape of a buffer.
+/// The description of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct BufferDesc {
     /// Size in bytes, at least 4 and a multiple of 4.
@@ -90,13 +90,13 @@ pub struct BufferDesc {
 }
 
 impl BufferDesc {
-    /// Describes a buffer of `bytes` bytes, rounded up to a multiple of 4 as copies need it.
+    /// Describes a buffer of `bytes` bytes, rounded up to a multiple of 4 for copies.
     pub fn new(bytes: u64) -> Self {
         Self { bytes: bytes.checked_next_multiple_of(4).unwrap_or(u64::MAX - 3).max(4) }
     }
 }
 
-/// The shape of a resource.
+/// The description of a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum ResourceDesc {
     /// A texture.

@@ -1,16 +1,16 @@
-//! What a device says where there is not enough memory, or where it is gone.
+//! Detection of out-of-memory errors and lost devices.
 
 use crate::error::Error;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-/// Colour attachments that a render pass has at most, on any device; `internal.wgsl` has the same number.
+/// Maximum number of colour attachments of a render pass on any device; `internal.wgsl` has the same number.
 pub(crate) const MAX_COLOR_ATTACHMENTS: usize = 8;
 
-/// Returns whether a device is lost: destroyed, removed, or given up by its driver. wgpu says so to the callback of
-/// `Device::set_device_lost_callback` alone, and as late as in `Device::poll`; this asks, for about as much as the creation of a
-/// small buffer costs. Nothing brings a lost device back: open another, and make anew what was made on it, the
-/// [`Graph`](crate::Graph) too.
+/// Returns whether a device is lost: destroyed, removed, or reset by its driver. wgpu reports it only to the callback of
+/// `Device::set_device_lost_callback`, and as late as in `Device::poll`; this function checks now, at about the cost of creating a
+/// small buffer. A lost device cannot be restored: create another one, and recreate everything on it, including the
+/// [`Graph`](crate::Graph).
 ///
 /// ```
 /// use shadowgraph_core::{device_is_lost, wgpu};
@@ -20,7 +20,7 @@ pub(crate) const MAX_COLOR_ATTACHMENTS: usize = 8;
 /// assert!(device_is_lost(&device));
 /// ```
 pub fn device_is_lost(device: &wgpu::Device) -> bool {
-    // A lost device gives out a buffer without a word, but no call takes it.
+    // A lost device returns a buffer without an error, but every use of it fails.
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("is the device lost?"),
@@ -32,7 +32,7 @@ pub fn device_is_lost(device: &wgpu::Device) -> bool {
     now(scope.pop()).is_some()
 }
 
-/// Makes a texture or buffer of `bytes` bytes, and an error of what stands against it. `name` is for the error.
+/// Creates a texture or buffer of `bytes` bytes, or returns why it cannot. `name` is for the error.
 pub(crate) fn make<T>(
     device: &wgpu::Device,
     name: &str,
@@ -47,8 +47,8 @@ pub(crate) fn make<T>(
     if device_is_lost(device) { Err(Error::DeviceLost) } else { Ok(made) }
 }
 
-/// The result of a future that is ready at once. In browsers error scopes are not, and there what wgpu says goes to the
-/// console instead.
+/// Returns the result of a future that is ready immediately. In browsers error scopes are not; there wgpu's errors go to
+/// the console instead.
 pub(crate) fn now<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
     match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(result) => result,

@@ -1,4 +1,4 @@
-//! What outlives a frame.
+//! The graph: everything that outlives a frame.
 
 mod plans;
 
@@ -14,8 +14,8 @@ use crate::history::{PriorHistory, Resize};
 use plans::Plans;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What outlives a frame: plans, the memory that frames are declared in, and for one device the physical textures
-/// and buffers, their views and bind groups, and histories.
+/// Everything that outlives a frame: plans, the memory of declarations, and for one device the physical textures and
+/// buffers, their views and bind groups, and histories.
 ///
 /// ```
 /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
@@ -47,9 +47,9 @@ impl Graph {
         Self::default()
     }
 
-    /// Starts a frame in the memory of frames before it.
+    /// Creates a frame that reuses the memory of earlier frames.
     pub fn frame<'f>(&self) -> Frame<'f> {
-        Frame::with(PriorState {
+        Frame::with_prior_state(PriorState {
             spare: Some(self.spare.clone()),
             #[cfg(feature = "gpu")]
             histories: Some(self.device.histories.prior()),
@@ -58,33 +58,33 @@ impl Graph {
         })
     }
 
-    /// Compiles a frame, or finds the plan of an equal one among the last few. Equal means equal in all that was
-    /// declared: names, shapes, accesses, parts, clear values. Where only sizes differ, the order of the passes is
-    /// chosen anew but their dependencies are not looked for again.
+    /// Compiles a frame, or reuses the plan of an equal one among the last few. Frames are equal if all declarations
+    /// are: names, descriptions, accesses, subresources, clear values. If only sizes differ, passes are scheduled again but
+    /// their dependencies are reused.
     ///
     /// # Errors
-    /// The first mistake made while declaring, in order of declaration.
+    /// The first error of the declaration, in order of declaration.
     pub fn compile<'f>(&mut self, mut frame: Frame<'f>) -> Result<Compiled<'f>, Error> {
         frame.check()?;
         let plan = self.plans.plan(&mut frame.decl)?;
         Ok(Compiled::new(plan, frame))
     }
 
-    /// Sets how long and how much the graph keeps beyond what a frame needs.
+    /// Sets for how long and how much memory the graph keeps beyond the needs of a frame.
     #[cfg(feature = "gpu")]
     pub fn set_limits(&mut self, limits: crate::pool::PoolLimits) {
         self.device.limits = limits;
     }
 
-    /// Switches a debug mode on or off; off at first. While it is on, a transient texture or buffer is filled with a
-    /// loud value before the first pass that touches it, and so is an attachment of which a pass covers all or of
-    /// which nothing needs the rest. A read of what no pass has written, such as after a false [`Contents::Overwrite`],
-    /// then shows at once, while a frame that is right draws the same as without.
+    /// Enables or disables a debug mode, which is off by default. It fills transient textures and buffers with a
+    /// conspicuous value before the first pass that uses them, and also attachments that a pass overwrites or whose rest
+    /// is not needed. A read of contents that no pass has written, such as after a wrong [`Contents::Overwrite`], then shows
+    /// at once; a correct frame draws the same as without the mode.
     ///
-    /// The values: not a number for floats, the largest for unsigned and -1 for signed integers, magenta (0.93, 0.07,
+    /// The values: NaN for floats, the largest value for unsigned and -1 for signed integers, magenta (0.93, 0.07,
     /// 0.93, 0.53) for other colours, 0.53 for depth, 0xcd for stencil, and 0x7fcdcdcd in each word of a buffer.
-    /// Imports and histories are left alone. It costs a pass or copy for every resource and needs more usages, so
-    /// textures and buffers are made anew when it changes.
+    /// Imports and histories are not filled. The mode costs a pass or copy for every resource and needs more usages, so
+    /// textures and buffers are recreated when it changes.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
@@ -114,13 +114,13 @@ impl Graph {
         self.device.bytes()
     }
 
-    /// Returns how plans were come by since the graph was created.
+    /// Returns how plans were obtained since the graph was created.
     pub fn plan_counts(&self) -> PlanCounts {
         self.plans.counts
     }
 }
 
-/// What a frame knows of the graph that gave it out.
+/// What a frame knows about its graph.
 #[derive(Clone, Default)]
 pub(crate) struct PriorState {
     spare: Option<Spare>,
@@ -130,11 +130,11 @@ pub(crate) struct PriorState {
 impl PriorState {
     pub(crate) fn take_storage(&mut self) -> Storage {
         let spare = self.spare.as_ref();
-        let taken = spare.and_then(|spare| spare.lock().unwrap_or_else(PoisonError::into_inner).pop());
-        taken.unwrap_or_default()
+        let storage = spare.and_then(|spare| spare.lock().unwrap_or_else(PoisonError::into_inner).pop());
+        storage.unwrap_or_default()
     }
 
-    /// Gives the memory of a frame back to its graph.
+    /// Returns the memory of a frame to its graph.
     pub(crate) fn give_back(&self, storage: Storage) {
         if let Some(spare) = &self.spare {
             spare.lock().unwrap_or_else(PoisonError::into_inner).push(storage);
@@ -152,6 +152,6 @@ impl PriorState {
         self.histories
             .iter()
             .flat_map(|all| all.iter())
-            .any(|known| known.matches(decl, view, current) && known.fits(&desc, resize))
+            .any(|prior| prior.matches(decl, view, current) && prior.fits(&desc, resize))
     }
 }

@@ -1,4 +1,4 @@
-//! Names for things: handles outside a pass, tokens inside one, ids in the plan.
+//! Identifiers: handles outside a pass, tokens inside one, ids in the plan.
 
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ macro_rules! id {
         pub struct $name(pub(crate) u32);
 
         impl $name {
-            /// Returns the position in the plan's list of this kind.
+            /// Returns the index in the plan's list of this kind.
             pub fn index(self) -> usize {
                 self.0 as usize
             }
@@ -30,7 +30,7 @@ id!(
     NodeId
 );
 id!(
-    /// A physical texture or buffer that resources take turns in: indexes [`Plan::slots`](crate::Plan::slots).
+    /// A physical texture or buffer that resources share: indexes [`Plan::slots`](crate::Plan::slots).
     SlotId
 );
 
@@ -44,7 +44,7 @@ pub(crate) struct Version {
 
 /// A texture of a frame, at one version of its contents.
 ///
-/// Clone it to keep the name; a clone left behind by a write is stale, and using it is an error.
+/// A clone from before a write is stale, and using it afterwards is an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Texture(pub(crate) Version);
 
@@ -66,29 +66,29 @@ impl Buffer {
     }
 }
 
-/// The right to touch one resource in one pass.
+/// Identifies an access of a pass to a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Token {
     pub(crate) frame: u64,
     pub(crate) pass: PassId,
     pub(crate) resource: ResourceId,
-    /// Which of the frame's accesses: it tells the part.
+    /// Index of the access in the frame; it determines the subresource.
     pub(crate) access: u32,
 }
 
-/// The right to touch a texture inside the body of the pass that declared the access.
+/// A declared access to a texture, for the body of the pass that declared it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextureToken(pub(crate) Token);
 
-/// The right to touch a buffer inside the body of the pass that declared the access.
+/// A declared access to a buffer, for the body of the pass that declared it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BufferToken(pub(crate) Token);
 
-/// The right to take a texture out of an executed frame.
+/// An exported texture, to get it from the executed frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextureExport(pub(crate) Version);
 
-/// The right to take a buffer out of an executed frame.
+/// An exported buffer, to get it from the executed frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BufferExport(pub(crate) Version);
 

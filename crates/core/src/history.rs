@@ -15,7 +15,7 @@ pub enum Resize {
     Resample,
 }
 
-/// A history that a frame uses.
+/// A history of a frame.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "the executor reads the rest"))]
 pub(crate) struct HistoryUse {
@@ -28,11 +28,11 @@ pub(crate) struct HistoryUse {
 /// A history of a graph that holds contents.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PriorHistory {
-    /// The path of the view; empty for none.
+    /// Path of the view; empty without a view.
     pub(crate) view: String,
     pub(crate) name: String,
     pub(crate) desc: TextureDesc,
-    /// Whether its contents can be drawn into a texture of another size.
+    /// Whether its contents can be resampled to another size.
     pub(crate) can_resample: bool,
 }
 

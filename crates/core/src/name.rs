@@ -1,8 +1,8 @@
-//! Names without an allocation each: they go into one string of the frame.
+//! Names, stored in one string of the frame instead of an allocation each.
 
 use std::fmt::{Arguments, Write as _};
 
-/// What can be a name: strings, and `format_args!("tile {index}")`, which allocates nothing.
+/// Values that can be used as a name: strings, and `format_args!("tile {index}")`, which allocates nothing.
 pub trait Name {
     /// Appends the name to `text`.
     fn write_to(&self, text: &mut String);
@@ -24,7 +24,7 @@ impl Name for Arguments<'_> {
     fn write_to(&self, text: &mut String) {
         match self.as_str() {
             Some(name) => text.push_str(name),
-            // Only a `Display` of the caller's that fails can fail; the name is then cut short.
+            // Only a failing `Display` of the caller can fail; the name is then cut short.
             None => drop(text.write_fmt(*self)),
         }
     }
@@ -36,14 +36,14 @@ impl<N: Name + ?Sized> Name for &N {
     }
 }
 
-/// A name: where it stands in the frame's string.
+/// A name, as a range of the frame's string.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Text {
     start: u32,
     end: u32,
 }
 
-/// All names of a frame, one after the other.
+/// All names of a frame, concatenated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Names(String);
 

@@ -1,6 +1,6 @@
-//! The plan: what will be done and why, as plain data.
+//! The plan: the decisions of the compiler and their reasons, as plain data.
 //!
-//! It keeps the declaration it was made from and, beside it, one flat array for each decision. The types with a
+//! It keeps the declaration that it was compiled from, and a flat array for each kind of decision. The types with a
 //! lifetime are views into these arrays.
 
 mod graph;
@@ -17,31 +17,31 @@ use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// What a frame's declarations come to. The dumps print it; the executor follows it.
+/// The compiled form of a frame. Dumps print it; the executor follows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     pub(crate) decl: Declaration,
-    /// By pass.
+    /// Why each pass is culled, by pass.
     pub(crate) culled: Vec<Option<CullReason>>,
     /// The passes that run, in order.
     pub(crate) order: Vec<PassId>,
-    /// By place in the order.
+    /// Why passes are at their positions, by position in the order.
     pub(crate) order_reasons: Vec<OrderReason>,
-    /// By place in the order.
+    /// Why passes are merged or not, by position in the order.
     pub(crate) merge_reasons: Vec<MergeReason>,
-    /// Runs of the order.
+    /// Ranges of the order that share a pass of the encoder.
     pub(crate) steps: Vec<(u32, u32)>,
-    /// By access.
+    /// Load and store operations, by access.
     pub(crate) ops: Vec<Option<AttachmentOps>>,
-    /// By resource.
+    /// Lifetimes, usages and slots, by resource.
     pub(crate) placements: Vec<Placement>,
     pub(crate) slots: Vec<Slot>,
-    /// Runs of it belong to slots.
+    /// Resources in slots; each slot has a range of it.
     pub(crate) slot_resources: Vec<ResourceId>,
     pub(crate) dependencies: Vec<Dependency>,
 }
 
-/// What becomes of a resource.
+/// The lifetime, usages and slot of a resource.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
     pub(crate) texture_usage: TextureUsages,
@@ -71,135 +71,133 @@ pub struct NodePlan<'p> {
 /// One declared pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct PassPlan<'p> {
-    /// The name it was declared under.
+    /// Name of the declaration.
     pub name: &'p str,
-    /// The node it belongs to.
+    /// Node of the pass.
     pub node: Option<NodeId>,
-    /// What it is made of.
+    /// Kind of the pass.
     pub kind: PassKind,
-    /// Whether it stays even if nothing needs what it writes.
+    /// Whether it is kept even if nothing needs what it writes.
     pub keep: bool,
-    /// Why it does not run; `None` if it runs.
+    /// Why the pass does not run; `None` if it runs.
     pub culled: Option<CullReason>,
-    /// The transfers of a copy pass.
+    /// Copies of a copy pass.
     pub copies: &'p [CopyOp],
 }
 
 /// One access of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AccessPlan {
-    /// What is touched.
+    /// Accessed resource.
     pub resource: ResourceId,
-    /// Which part of it.
+    /// Accessed subresource.
     #[serde(rename = "part")]
     pub subresource: Subresource,
-    /// How.
+    /// Kind of access.
     pub access: Access,
-    /// For writes: what becomes of the earlier contents.
+    /// For writes: what happens to the earlier contents.
     pub contents: Option<Contents>,
-    /// The version read or written over; a write makes `version + 1`.
+    /// Version that is read or overwritten; a write makes `version + 1`.
     pub version: u32,
-    /// For attachments, in passes that run: what happens at the pass's begin and end. `None` also for depth that is
-    /// only tested.
+    /// Load and store operations of attachments in passes that run; `None` for read-only depth.
     pub ops: Option<AttachmentOps>,
     #[serde(skip)]
     pub(crate) region: Region,
 }
 
-/// What happens to an attachment at the begin and the end of a pass.
+/// The load and store operations of an attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AttachmentOps {
-    /// At the begin.
+    /// Load operation.
     pub load: LoadAction,
-    /// Why so.
+    /// Reason of the load operation.
     pub load_reason: LoadReason,
-    /// Whether the graph draws the declared clear into the part, since a load operation would clear all of the
-    /// attachment.
+    /// Whether the graph draws the declared clear, because a load operation would clear the whole attachment.
     pub clear_drawn: bool,
-    /// At the end.
+    /// Store operation.
     pub store: StoreAction,
-    /// Why so.
+    /// Reason of the store operation.
     pub store_reason: StoreReason,
 }
 
-/// What an attachment holds when the pass begins.
+/// The contents of an attachment when the pass begins.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum LoadAction {
-    /// This value.
+    /// Cleared to this value.
     Clear(ClearValue),
-    /// What it held before.
+    /// Loaded from memory.
     Load,
-    /// What the passes before it drew in the same render pass.
+    /// Continued from earlier passes of the same render pass.
     Continue,
 }
 
-/// What becomes of an attachment when the pass ends.
+/// What happens to an attachment when the pass ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum StoreAction {
-    /// It is written to memory.
+    /// Written to memory.
     Store,
-    /// It may be forgotten.
+    /// Discarded.
     Discard,
-    /// The next pass draws on in the same render pass.
+    /// Continued by the next pass of the same render pass.
     Continue,
 }
 
 /// One declared resource.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ResourcePlan<'p> {
-    /// The name it was declared under.
+    /// Name of the declaration.
     pub name: &'p str,
-    /// The node that declared it.
+    /// Node that declared it.
     pub node: Option<NodeId>,
-    /// Its shape.
+    /// Description of the resource.
     pub desc: ResourceDesc,
-    /// Where it comes from.
+    /// Origin of the resource.
     pub origin: Origin,
-    /// Whether it is taken out of the frame.
+    /// Whether it is exported.
     pub exported: bool,
-    /// For textures: the usages that passes which run need.
+    /// Texture usages that passes which run need.
     pub texture_usage: TextureUsages,
-    /// For buffers: the usages that passes which run need.
+    /// Buffer usages that passes which run need.
     pub buffer_usage: BufferUsages,
-    /// First and last step that touches it; `None` if nothing that runs does.
+    /// First and last step that uses it; `None` if no pass that runs does.
     pub steps: Option<(u32, u32)>,
-    /// The slot it lives in; `None` for what is not transient and for what nothing touches.
+    /// Slot of the resource; `None` if it is not transient or not used.
     pub slot: Option<SlotId>,
-    /// Why it lives there.
+    /// Reason for the slot, or for none.
     pub slot_reason: SlotReason,
 }
 
 /// A physical texture or buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SlotPlan<'p> {
-    /// Its shape. Of a buffer, the size class: at least as large as every tenant.
+    /// Description of the slot. A buffer has the size of its class, at least that of every resource in it.
     pub desc: ResourceDesc,
-    /// For textures: the usages of all tenants together.
+    /// Texture usages of all resources in the slot.
     pub texture_usage: TextureUsages,
-    /// For buffers: the usages of all tenants together.
+    /// Buffer usages of all resources in the slot.
     pub buffer_usage: BufferUsages,
-    /// The resources that take turns in it, first one first.
+    /// Resources that share the slot, in order of use.
     #[serde(rename = "tenants")]
     pub resources: &'p [ResourceId],
 }
 
-/// One step of the recording: the passes in it share one pass of the encoder.
+/// One step of the recording: its passes share one pass of the encoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Step<'p> {
-    /// In order; at least one.
+    /// Passes in order, at least one.
     pub passes: &'p [PassId],
 }
 
-/// One pass must come before another.
+/// A dependency: one pass must run before another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Dependency {
     /// The earlier pass.
     pub before: PassId,
     /// The later pass.
     pub after: PassId,
-    /// For the sake of this resource; `None` where the order was asked for by name.
+    /// Resource that causes the dependency; `None` for an explicit order.
     pub resource: Option<ResourceId>,
-    /// Which hazard it is.
+    /// Kind of hazard.
     pub kind: DependencyKind,
 }
 
@@ -212,7 +210,7 @@ pub enum DependencyKind {
     WriteAfterRead,
     /// The later one overwrites what the earlier one wrote.
     WriteAfterWrite,
-    /// The frame says so: [`Pass::after`](crate::Pass::after).
+    /// The order was declared by [`Pass::after`](crate::Pass::after).
     Explicit,
 }
 
@@ -247,7 +245,7 @@ impl Plan {
             .map(|node| NodePlan { name: self.decl.names.get(node.name), parent: node.parent })
     }
 
-    /// Returns the physical textures and buffers that transient resources take turns in.
+    /// Returns the physical textures and buffers that transient resources share.
     pub fn slots(&self) -> impl ExactSizeIterator<Item = SlotPlan<'_>> {
         self.slots.iter().map(|slot| SlotPlan {
             desc: slot.desc,
@@ -257,7 +255,7 @@ impl Plan {
         })
     }
 
-    /// Returns what is recorded, in order.
+    /// Returns the steps, in order.
     pub fn steps(&self) -> impl DoubleEndedIterator<Item = Step<'_>> + ExactSizeIterator {
         self.steps.iter().map(|&(start, end)| Step { passes: &self.order[start as usize..end as usize] })
     }
@@ -267,12 +265,12 @@ impl Plan {
         &self.order
     }
 
-    /// Returns which pass must come before which, and for the sake of what, among the passes that run.
+    /// Returns the dependencies between passes that run.
     pub fn dependencies(&self) -> &[Dependency] {
         &self.dependencies
     }
 
-    /// Returns what the compiler was allowed to do.
+    /// Returns the options of the frame.
     pub fn options(&self) -> Options {
         self.decl.options
     }
@@ -280,7 +278,7 @@ impl Plan {
     /// Returns the pass.
     ///
     /// # Panics
-    /// With an id that is not of this plan, as an index past the end of a list would.
+    /// If the id is out of range for this plan.
     pub fn pass(&self, id: PassId) -> PassPlan<'_> {
         let pass = self.decl.pass(id);
         PassPlan {
@@ -293,10 +291,10 @@ impl Plan {
         }
     }
 
-    /// Returns everything that the pass touches, in order of declaration.
+    /// Returns the accesses of the pass, in order of declaration.
     ///
     /// # Panics
-    /// With an id that is not of this plan, as an index past the end of a list would.
+    /// If the id is out of range for this plan.
     pub fn accesses(
         &self,
         id: PassId,
@@ -320,7 +318,7 @@ impl Plan {
     /// Returns the resource.
     ///
     /// # Panics
-    /// With an id that is not of this plan, as an index past the end of a list would.
+    /// If the id is out of range for this plan.
     pub fn resource(&self, id: ResourceId) -> ResourcePlan<'_> {
         let resource = self.decl.resource(id);
         let placement = &self.placements[id.index()];
@@ -338,57 +336,57 @@ impl Plan {
         }
     }
 
-    /// Returns why the pass stands where it does in the order; `None` if it is culled.
+    /// Returns why the pass is at its position in the order; `None` if it is culled.
     pub fn order_reason(&self, id: PassId) -> Option<OrderReason> {
-        self.place(id).map(|place| self.order_reasons[place])
+        self.position(id).map(|position| self.order_reasons[position])
     }
 
     /// Returns why the pass was merged into the render pass before it, or why not; `None` if it is culled.
     pub fn merge_reason(&self, id: PassId) -> Option<MergeReason> {
-        self.place(id).map(|place| self.merge_reasons[place])
+        self.position(id).map(|position| self.merge_reasons[position])
     }
 
-    fn place(&self, id: PassId) -> Option<usize> {
+    fn position(&self, id: PassId) -> Option<usize> {
         self.order.iter().position(|&pass| pass == id)
     }
 
-    /// Returns the pass declared last under `name`, without its nodes.
+    /// Returns the last pass declared as `name`, without its nodes.
     pub fn find_pass(&self, name: &str) -> Option<PassId> {
         self.passes().rev().find(|(_, pass)| pass.name == name).map(|(id, _)| id)
     }
 
-    /// Returns the resource declared last under `name`.
+    /// Returns the last resource declared as `name`.
     pub fn find_resource(&self, name: &str) -> Option<ResourceId> {
         self.resources().rev().find(|(_, resource)| resource.name == name).map(|(id, _)| id)
     }
 
-    /// Returns the pass's name with its nodes before it, such as `post/blur`.
+    /// Returns the pass's path: its name after those of its nodes, such as `post/blur`.
     pub fn pass_path(&self, id: PassId) -> String {
         self.decl.pass_path(id)
     }
 
-    /// Returns the resource's name with the nodes that it was declared in before it, such as `post/half`.
+    /// Returns the resource's path: its name after those of the nodes that declared it, such as `post/half`.
     pub fn resource_path(&self, id: ResourceId) -> String {
         self.decl.resource_path(id)
     }
 
-    /// Returns the node's name with the nodes around it before it.
+    /// Returns the node's path: its name after those of the nodes around it.
     pub fn node_path(&self, id: NodeId) -> String {
         let mut path = String::new();
         self.decl.write_node_path(id, &mut path);
         path
     }
 
-    /// Returns the bytes of all slots together.
+    /// Returns the total bytes of all slots.
     pub fn slot_bytes(&self) -> u64 {
         self.slots.iter().map(|slot| slot.desc.bytes()).sum()
     }
 
-    /// Returns the bytes that sharing slots saves, against one slot for each resource.
+    /// Returns the bytes saved by sharing slots, compared to one slot for each resource.
     pub fn saved_bytes(&self) -> u64 {
-        let alone = |slot: &Slot| {
+        let saved = |slot: &Slot| {
             slot.desc.bytes() * u64::from((slot.resources.1 - slot.resources.0).saturating_sub(1))
         };
-        self.slots.iter().map(alone).sum()
+        self.slots.iter().map(saved).sum()
     }
 }

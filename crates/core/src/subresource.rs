@@ -1,4 +1,4 @@
-//! Parts of a texture or buffer, and the arithmetic of sets of them.
+//! Subresources of textures and buffers, and arithmetic of regions.
 
 #[cfg(test)]
 mod tests;
@@ -23,16 +23,16 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Makes a rectangle from its corner and its size, in texels.
+    /// Creates a rectangle from its corner and its size, in texels.
     pub const fn new(x: u32, y: u32, width: u32, height: u32) -> Self {
         Self { x, y, width, height }
     }
 }
 
-/// Which aspect of a depth-stencil texture is meant.
+/// An aspect of a depth-stencil texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Aspect {
-    /// All that the format has.
+    /// All aspects of the format.
     #[default]
     All,
     /// Depth only.
@@ -41,10 +41,10 @@ pub enum Aspect {
     Stencil,
 }
 
-/// A part of a texture or buffer: mips, layers, an aspect, a rectangle of one mip, or a range of bytes.
+/// A subresource of a texture or buffer: mips, layers, an aspect, a rectangle of one mip, or a range of bytes.
 ///
-/// Parts narrow an access, by [`Pass::subresource`](crate::Pass::subresource). Accesses to parts that do not overlap neither order
-/// each other nor define each other's contents.
+/// [`Pass::subresource`](crate::Pass::subresource) narrows an access to one. Accesses to subresources that do not overlap
+/// neither order each other nor define each other's contents.
 ///
 /// ```
 /// use shadowgraph_core::{Subresource, Rect};
@@ -64,7 +64,7 @@ pub struct Subresource {
 }
 
 impl Subresource {
-    /// All of it.
+    /// The full resource.
     pub const FULL: Self = Self { mips: None, layers: None, aspect: Aspect::All, rect: None, bytes: None };
 
     /// Narrows to one mip level.
@@ -102,7 +102,7 @@ impl Subresource {
         Self { bytes: Some((bytes.start, bytes.end)), ..self }
     }
 
-    /// Says what is wrong with the part for a resource of this shape; `None` if nothing is.
+    /// Returns what is wrong with the subresource for a resource; `None` if nothing is.
     pub(crate) fn problem(&self, desc: &ResourceDesc) -> Option<&'static str> {
         match desc {
             ResourceDesc::Buffer(desc) => {
@@ -154,7 +154,7 @@ impl Subresource {
         (!fits).then_some("the rectangle is empty or extends past the mip")
     }
 
-    /// The part as a box, or `None` where it is all of the resource. The part must fit the resource.
+    /// Returns the subresource as a region, or `None` for the full resource. It must be valid for the resource.
     pub(crate) fn region(&self, desc: &ResourceDesc) -> Option<Region> {
         let mut region = Region::ALL;
         match desc {
@@ -177,7 +177,7 @@ impl Subresource {
         (region != Region::ALL).then_some(region)
     }
 
-    /// Layers, or slices of the largest of the mips: of a 3D texture they get fewer from mip to mip.
+    /// Returns the number of layers, or the slices of the largest of the mips of a 3D texture.
     fn layer_count(&self, desc: &TextureDesc) -> u32 {
         let (mip, _) = self.mips.unwrap_or((0, desc.mip_levels));
         match desc.dimension {
@@ -226,7 +226,7 @@ impl fmt::Display for Subresource {
     }
 }
 
-/// The size of a mip. Parts are looked at before shapes are, so the texture may have more mips than there can be.
+/// Returns the size of a mip. Subresources are checked before descriptions, so the texture may have too many mips.
 fn mip_size(desc: &TextureDesc, mip: u32) -> Extent {
     desc.size.mip_level_size(mip.min(31), desc.dimension)
 }
@@ -260,7 +260,7 @@ impl Region {
         self.end[axis as usize] = if end >= length { END } else { end };
     }
 
-    /// The box widened to whole texels of its mips, layers and aspects: what an attachment of it loads and stores.
+    /// Widens the region to whole mips, layers and aspects, which an attachment loads and stores.
     pub(crate) fn without_rect(mut self) -> Self {
         for axis in [Axis::X, Axis::Y] {
             self.start[axis as usize] = 0;
@@ -269,14 +269,14 @@ impl Region {
         self
     }
 
-    /// The box widened to all layers: all that wgpu knows of the slices of a volume.
+    /// Widens the region to all layers, since wgpu does not track the slices of a volume.
     pub(crate) fn all_layers(mut self) -> Self {
         self.start[Axis::Layer as usize] = 0;
         self.end[Axis::Layer as usize] = END;
         self
     }
 
-    /// The box widened to both aspects: what wgpu tracks hazards by within one pass.
+    /// Widens the region to both aspects, which wgpu tracks together within one pass.
     pub(crate) fn subresources(self) -> Self {
         let mut region = self.without_rect();
         region.start[Axis::Aspect as usize] = 0;
@@ -346,7 +346,7 @@ impl RegionSet {
         self.boxes = kept;
     }
 
-    /// Keeps only what lies inside `region`.
+    /// Keeps only what is inside `region`.
     pub(crate) fn clip(&mut self, region: &Region) {
         self.boxes.retain_mut(|own| {
             for axis in 0..AXES {
@@ -357,7 +357,7 @@ impl RegionSet {
         });
     }
 
-    /// Tells whether the set holds all of `region`.
+    /// Returns whether the set contains all of `region`.
     pub(crate) fn contains(&self, region: &Region) -> bool {
         if self.boxes.iter().any(|own| own.contains(region)) {
             return true;

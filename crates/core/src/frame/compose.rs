@@ -1,4 +1,4 @@
-//! Putting a frame together from nodes.
+//! Composition of a frame from nodes.
 
 use super::Frame;
 use crate::declaration::NodeDecl;
@@ -8,8 +8,8 @@ use crate::name::Name;
 use std::any::{Any, TypeId, type_name};
 
 impl Frame<'_> {
-    /// Runs `build` with every pass it adds grouped under the node `name`. Nodes nest; one that adds no pass leaves
-    /// no trace.
+    /// Runs `build` and groups every pass that it adds under the node `name`. Nodes nest; a node without passes is
+    /// removed.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
@@ -34,15 +34,15 @@ impl Frame<'_> {
         self.node = Some(id);
         let result = build(self);
         self.node = parent;
-        let bare = declared(self) == before && self.decl.nodes.len() == id.index() + 1;
-        if bare && self.view != Some(id) {
+        let is_empty = declared(self) == before && self.decl.nodes.len() == id.index() + 1;
+        if is_empty && self.view != Some(id) {
             self.decl.nodes.pop();
         }
         result
     }
 
-    /// Runs `build` as a node for one view, such as an eye or half of a split screen: the same declarations may be
-    /// made for each, and each has histories of its own, found again by the name of the view.
+    /// Runs `build` as a node for one view, such as an eye or half of a split screen. Each view can repeat the same
+    /// declarations and has its own histories, identified by the name of the view.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -71,8 +71,8 @@ impl Frame<'_> {
         result
     }
 
-    /// Runs `build` only if `condition` holds. What it does not declare costs nothing; a node after it that can do
-    /// without takes the `Option`, or a placeholder by [`or_placeholder`](Self::or_placeholder).
+    /// Runs `build` only if `condition` is true. Later nodes with an optional input take the `Option`, or a placeholder
+    /// from [`or_placeholder`](Self::or_placeholder).
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -89,8 +89,8 @@ impl Frame<'_> {
         condition.then(|| build(self))
     }
 
-    /// Publishes what a node made, such as a struct of handles, for nodes that do not get it as an argument. Its
-    /// type is its name; a second value of a type replaces the first.
+    /// Publishes a value of a node, such as a struct of handles, for nodes that do not get it as an argument. It is
+    /// looked up by type; a second value of a type replaces the first.
     ///
     /// ```
     /// use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
@@ -107,10 +107,10 @@ impl Frame<'_> {
         self.published.insert(TypeId::of::<T>(), Box::new(value));
     }
 
-    /// Returns what was published last as a `T`.
+    /// Returns the last published value of type `T`.
     ///
     /// # Errors
-    /// [`Error::NotPublished`] if nothing was.
+    /// [`Error::NotPublished`] if there is none.
     pub fn published<T: Any + Send>(&self) -> Result<&T, Error> {
         let value = self.published.get(&TypeId::of::<T>()).and_then(|value| value.downcast_ref());
         value.ok_or_else(|| {

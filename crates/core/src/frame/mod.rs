@@ -1,4 +1,4 @@
-//! A frame being declared.
+//! Declaration of a frame.
 
 mod compose;
 mod history;
@@ -27,18 +27,18 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A frame: the passes and resources declared so far.
 ///
-/// [`Graph::frame`](crate::Graph::frame) gives one out that reuses the memory of frames before it; `Frame::new` is
-/// for a frame on its own. `'f` is the lifetime of what pass bodies and uploads borrow.
+/// [`Graph::frame`](crate::Graph::frame) creates one that reuses the memory of earlier frames; `Frame::new` creates a
+/// frame without a graph. `'f` is the lifetime of what pass bodies and uploads borrow.
 pub struct Frame<'f> {
     id: u64,
     pub(crate) decl: Declaration,
     pub(crate) work: Work<'f>,
     errors: Vec<Error>,
     node: Option<NodeId>,
-    /// The innermost view around what is being declared.
+    /// Innermost view around the current declarations.
     view: Option<NodeId>,
     published: HashMap<TypeId, Box<dyn Any + Send>>,
-    known: PriorState,
+    prior: PriorState,
 }
 
 impl Default for Frame<'_> {
@@ -50,13 +50,13 @@ impl Default for Frame<'_> {
 impl<'f> Frame<'f> {
     /// Starts an empty frame.
     pub fn new() -> Self {
-        Self::with(PriorState::default())
+        Self::with_prior_state(PriorState::default())
     }
 
-    pub(crate) fn with(mut known: PriorState) -> Self {
-        // Tells handles of different frames apart; it never reaches a plan.
+    pub(crate) fn with_prior_state(mut prior: PriorState) -> Self {
+        // Distinguishes handles of different frames; plans do not contain it.
         static FRAMES: AtomicU64 = AtomicU64::new(0);
-        let Storage { decl, work, errors } = known.take_storage();
+        let Storage { decl, work, errors } = prior.take_storage();
         Self {
             id: FRAMES.fetch_add(1, Ordering::Relaxed),
             decl,
@@ -65,7 +65,7 @@ impl<'f> Frame<'f> {
             node: None,
             view: None,
             published: HashMap::new(),
-            known,
+            prior,
         }
     }
 
@@ -74,7 +74,7 @@ impl<'f> Frame<'f> {
         self.decl.options = options;
     }
 
-    /// Fixes the order of declaration as the order of execution.
+    /// Executes passes in the order of declaration.
     pub fn fix_order(&mut self) {
         self.decl.options.order = crate::declaration::OrderPolicy::Declared;
     }
@@ -97,29 +97,29 @@ impl<'f> Frame<'f> {
         Pass::new(self, id)
     }
 
-    /// Declares a pass that records into the raw encoder: the escape hatch for what the graph does not know.
+    /// Declares a pass that records into the raw encoder: the escape hatch for everything that the graph does not support.
     pub fn encoder_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Encoding> {
         let id = self.add_pass(name, PassKind::Encoder);
         Pass::new(self, id)
     }
 
-    /// Compiles the declarations into a plan. [`Graph::compile`](crate::Graph::compile) does the same and finds the
-    /// plan of an equal frame again.
+    /// Compiles the declarations into a plan. [`Graph::compile`](crate::Graph::compile) does the same and reuses the
+    /// plan of an equal frame.
     ///
     /// # Errors
-    /// The first mistake made while declaring, in order of declaration.
+    /// The first error of the declaration, in order of declaration.
     pub fn compile(mut self) -> Result<Compiled<'f>, Error> {
         self.check()?;
         let plan = compile::compile(std::mem::take(&mut self.decl))?;
         Ok(Compiled::new(Arc::new(plan), self))
     }
 
-    /// The first mistake made while declaring.
+    /// Returns the first error of the declaration.
     pub(crate) fn check(&mut self) -> Result<(), Error> {
         if self.errors.is_empty() { Ok(()) } else { Err(self.errors.swap_remove(0)) }
     }
 
-    /// Notes a mistake made while declaring.
+    /// Adds an error of the declaration.
     #[cfg(feature = "gpu")]
     pub(crate) fn report_error(&mut self, error: Error) {
         self.errors.push(error);
@@ -148,7 +148,7 @@ impl<'f> Frame<'f> {
         id
     }
 
-    /// Declares a read of the part that is taken out of `subresource`.
+    /// Declares a read of `subresource`, which is reset.
     pub(crate) fn declare_read(
         &mut self,
         pass: PassId,
@@ -168,7 +168,7 @@ impl<'f> Frame<'f> {
         self.add_access(pass, version, access, WriteMode::ReadOnly, subresource)
     }
 
-    /// Declares a write to the part that is taken out of `subresource`.
+    /// Declares a write to `subresource`, which is reset.
     pub(crate) fn declare_write(
         &mut self,
         pass: PassId,
@@ -190,21 +190,21 @@ impl<'f> Frame<'f> {
             };
             self.errors.push(error);
         }
-        let change = self.change(contents);
-        let token = self.add_access(pass, *version, access, change, subresource);
+        let mode = self.write_mode(contents);
+        let token = self.add_access(pass, *version, access, mode, subresource);
         let resource = &mut self.decl.resources[version.resource.index()];
         resource.version += 1;
         version.version = resource.version;
         token
     }
 
-    fn change(&mut self, contents: Contents) -> WriteMode {
+    fn write_mode(&mut self, contents: Contents) -> WriteMode {
         match contents {
             Contents::Overwrite => WriteMode::Overwrite,
             Contents::Preserve => WriteMode::Preserve,
             Contents::Clear(value) => {
                 let clears = &mut self.decl.clears;
-                // Frames clear to few values, most of them the one before.
+                // Frames clear to few values, most often to a recent one.
                 let known = clears.iter().rev().take(4).position(|&v| v == value);
                 let index = known.map_or(clears.len(), |back| clears.len() - 1 - back);
                 if known.is_none() {
@@ -215,7 +215,7 @@ impl<'f> Frame<'f> {
         }
     }
 
-    /// What an access with a handle of another frame returns. It resolves nowhere.
+    /// Returns a token for a handle of another frame. No pass resolves it.
     fn invalid_token(&mut self, pass: PassId, version: Version) -> Token {
         let location = format!("pass `{}`", self.decl.pass_path(pass));
         self.errors.push(Error::ForeignHandle { location });
@@ -226,7 +226,7 @@ impl<'f> Frame<'f> {
         &mut self.decl.passes[pass.index()]
     }
 
-    /// Orders two passes by name; see [`Pass::after`].
+    /// Declares an explicit order of two passes; see [`Pass::after`].
     pub(crate) fn declare_after(&mut self, pass: PassId, other: PassId) {
         if other < pass {
             self.decl.after.push((other, pass));
@@ -261,7 +261,7 @@ impl<'f> Frame<'f> {
         Token { frame: self.id, pass, resource, access: end - 1 }
     }
 
-    /// Notes a part, unless it is all of the resource.
+    /// Adds a subresource, unless it is the full resource.
     fn add_part(&mut self, pass: PassId, version: Version, subresource: Subresource) -> u32 {
         let resource = &mut self.decl.resources[version.resource.index()];
         if let Some(problem) = subresource.problem(&resource.desc) {
@@ -294,7 +294,7 @@ impl<'f> Frame<'f> {
         }
     }
 
-    /// Who made the version after this one.
+    /// Returns the path of the pass that wrote the next version.
     fn writer_after(&self, version: Version) -> String {
         let writer = self.decl.writer(version.resource, version.version + 1);
         writer.map(|pass| self.decl.pass_path(pass)).unwrap_or_default()

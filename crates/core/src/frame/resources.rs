@@ -1,4 +1,4 @@
-//! Resources of a frame: created, uploaded, imported, exported, found again.
+//! Resources of a frame: creation, upload, import, export, lookup.
 
 use super::Frame;
 use crate::access::{Access, ClearValue, Contents};
@@ -10,7 +10,7 @@ use crate::name::Name;
 use std::borrow::Cow;
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// Uniform blocks start at multiples of this: the strictest `min_uniform_buffer_offset_alignment` there is.
+/// Alignment of uniform blocks: the strictest `min_uniform_buffer_offset_alignment`.
 const UNIFORM_ALIGNMENT: usize = 256;
 
 impl<'f> Frame<'f> {
@@ -41,13 +41,13 @@ impl<'f> Frame<'f> {
         let mut buffer = self.create_buffer(&name, BufferDesc::new(bytes.len() as u64));
         let upload = self.work.uploads.len() as u32;
         self.work.uploads.push(bytes);
-        let pass = self.add_pass(UploadOf(&name), PassKind::Copy);
+        let pass = self.add_pass(UploadName(&name), PassKind::Copy);
         self.declare_write(pass, &mut buffer.0, Access::CopyTarget, Contents::Overwrite, &mut None);
         self.add_copy(pass, CopyOp::Upload { target: buffer.id(), upload });
         buffer
     }
 
-    /// Puts a uniform block (or a small read-only storage block) into the frame's one uniform buffer, for
+    /// Adds a uniform block (or a small read-only storage block) to the frame's uniform buffer, for
     /// `Bind::Uniform`. All blocks of a frame are uploaded by one copy.
     ///
     /// ```
@@ -63,10 +63,10 @@ impl<'f> Frame<'f> {
         Uniform { frame: self.id, start: start as u32, size: bytes.len() as u32 }
     }
 
-    /// Declares a texture that belongs to the caller, created with `usage`; `defined` tells whether it holds
-    /// something when the frame begins. Writing an import is an effect outside the frame, so such passes stay.
+    /// Declares a texture that belongs to the caller, created with `usage`; `defined` says whether it has
+    /// contents when the frame begins. Passes that write an import are not culled.
     ///
-    /// This is the declaration alone; with a device use `Frame::import_texture`.
+    /// This is only the declaration; with a device use `Frame::import_texture`.
     pub fn declare_import_texture(
         &mut self,
         name: impl Name,
@@ -93,22 +93,22 @@ impl<'f> Frame<'f> {
         Buffer(version)
     }
 
-    /// Keeps the texture's present contents to the end of the frame, to be taken out of the executed frame. A later
+    /// Keeps the texture's current contents until the end of the frame, where the executed frame returns them. A later
     /// write to it is an error.
     pub fn export_texture(&mut self, texture: &Texture) -> TextureExport {
         self.export(texture.0, TextureUsages::COPY_SRC, BufferUsages::empty());
         TextureExport(texture.0)
     }
 
-    /// Keeps the buffer's present contents to the end of the frame, to be taken out of the executed frame. A later
+    /// Keeps the buffer's current contents until the end of the frame, where the executed frame returns them. A later
     /// write to it is an error.
     pub fn export_buffer(&mut self, buffer: &Buffer) -> BufferExport {
         self.export(buffer.0, TextureUsages::empty(), BufferUsages::COPY_SRC);
         BufferExport(buffer.0)
     }
 
-    /// Returns `texture`, or where there is none a texture of one texel cleared to `value`, so that a node with an
-    /// optional input can always bind one. Nothing is cleared where nothing reads it.
+    /// Returns `texture`, or if it is `None` a placeholder: a texture of one texel cleared to `value`, so that a node with
+    /// an optional input can always bind one. The clear is culled if nothing reads it.
     ///
     /// ```
     /// use shadowgraph_core::{ClearValue, Format, Frame};
@@ -138,7 +138,7 @@ impl<'f> Frame<'f> {
         placeholder
     }
 
-    /// Returns the newest version of the texture declared last under `name`, if there is one.
+    /// Returns the newest version of the last texture declared as `name`, if there is one.
     pub fn find_texture(&self, name: &str) -> Option<Texture> {
         let index = self.decl.resources.iter().rposition(|r| {
             matches!(r.desc, ResourceDesc::Texture(_)) && self.decl.names.get(r.name) == name
@@ -209,7 +209,7 @@ impl<'f> Frame<'f> {
         }
         let resource = &mut self.decl.resources[version.resource.index()];
         resource.exported = Some(version.version);
-        // Of an import the usages are what its owner gave it.
+        // The owner of an import decides its usages.
         if resource.origin == Origin::Transient {
             resource.texture_usage |= texture;
             resource.buffer_usage |= buffer;
@@ -218,9 +218,9 @@ impl<'f> Frame<'f> {
 }
 
 /// The name of the pass that uploads a buffer.
-struct UploadOf<N>(N);
+struct UploadName<N>(N);
 
-impl<N: Name> Name for UploadOf<N> {
+impl<N: Name> Name for UploadName<N> {
     fn write_to(&self, text: &mut String) {
         text.push_str("upload ");
         self.0.write_to(text);

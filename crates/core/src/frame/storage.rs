@@ -1,11 +1,11 @@
-//! What a frame fills, kept from frame to frame so that declaring allocates nothing.
+//! Memory of a frame, reused from frame to frame so that declarations do not allocate.
 
 use super::Frame;
 use crate::declaration::Declaration;
 use crate::error::Error;
 use std::borrow::Cow;
 
-/// The memory of a frame that is done.
+/// The memory of a finished frame.
 #[derive(Default)]
 pub(crate) struct Storage {
     pub(crate) decl: Declaration,
@@ -13,16 +13,16 @@ pub(crate) struct Storage {
     pub(crate) errors: Vec<Error>,
 }
 
-/// What the executor needs beside the plan: bodies and bytes, which borrow, and the caller's objects.
+/// What the executor needs besides the plan: bodies and bytes, which borrow, and the caller's objects.
 #[derive(Default)]
 pub(crate) struct Work<'f> {
     pub(crate) uploads: Vec<Cow<'f, [u8]>>,
     /// All uniform blocks, each at a multiple of 256 bytes.
     pub(crate) uniforms: Vec<u8>,
-    /// By pass.
+    /// Body of each pass.
     #[cfg(feature = "gpu")]
     pub(crate) bodies: Vec<crate::execute::Body<'f>>,
-    /// By resource.
+    /// Imported object of each resource.
     #[cfg(feature = "gpu")]
     pub(crate) imports: Vec<Option<crate::pool::PhysicalResource>>,
     pub(crate) histories: Vec<crate::history::HistoryUse>,
@@ -33,7 +33,7 @@ pub(crate) struct Work<'f> {
 }
 
 impl Work<'_> {
-    /// Empties everything and gives it another lifetime.
+    /// Clears everything and changes the lifetime.
     pub(crate) fn recycle<'g>(self) -> Work<'g> {
         let Self { uploads, mut uniforms, .. } = self;
         uniforms.clear();
@@ -54,17 +54,17 @@ impl Work<'_> {
 }
 
 impl Drop for Frame<'_> {
-    /// The memory goes back to the graph.
+    /// Returns the memory to the graph.
     fn drop(&mut self) {
         let (mut decl, mut errors) = (std::mem::take(&mut self.decl), std::mem::take(&mut self.errors));
         decl.clear();
         errors.clear();
         let work = std::mem::take(&mut self.work).recycle();
-        self.known.give_back(Storage { decl, work, errors });
+        self.prior.give_back(Storage { decl, work, errors });
     }
 }
 
-/// Empties a vector and gives its memory to another of the same layout: collecting in place keeps the allocation,
+/// Clears a vector and reuses its memory for a vector of the same layout: collecting in place keeps the allocation,
 /// and a type that differs only in lifetimes has the same layout.
 fn cleared<A, B>(mut vector: Vec<A>) -> Vec<B> {
     vector.clear();
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn memory_outlives_the_lifetime_it_was_filled_with() {
+    fn recycled_memory_is_reused_for_another_lifetime() {
         let bytes = [1u8, 2, 3];
         let mut work = Work::default();
         work.uploads.extend((0..40).map(|_| Cow::Borrowed(&bytes[..])));

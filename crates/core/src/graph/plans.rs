@@ -1,4 +1,4 @@
-//! Plans found again.
+//! Reuse of plans.
 
 use crate::compile;
 use crate::declaration::{Declaration, FrameSimilarity};
@@ -6,18 +6,18 @@ use crate::error::Error;
 use crate::plan::Plan;
 use std::sync::Arc;
 
-/// How many plans are kept: enough for a few kinds of frames that alternate, and one more than there are plans whose
-/// objects are kept, so that the memory of the oldest is free for the next frame.
-const KEPT: usize = 5;
+/// Number of plans kept: enough for a few kinds of frames that alternate, and one more than the plans whose objects are
+/// kept, so that the memory of the oldest is free for the next frame.
+const MAX_PLANS: usize = 5;
 
-/// How plans were come by.
+/// Counts how plans were obtained.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PlanCounts {
-    /// Compiled in full.
+    /// Plans compiled in full.
     pub compiled: u64,
-    /// Compiled from the analysis of a plan that differed in sizes only.
+    /// Plans compiled from the analysis of a plan that differed only in sizes.
     pub resized: u64,
-    /// Taken from an equal frame.
+    /// Plans reused from an equal frame.
     pub reused: u64,
 }
 
@@ -29,9 +29,9 @@ pub(crate) struct Plans {
 }
 
 impl Plans {
-    /// Returns the plan of a declaration, and leaves memory for another in its place.
+    /// Returns the plan of a declaration, and replaces the declaration by memory for another.
     pub(crate) fn plan(&mut self, decl: &mut Declaration) -> Result<Arc<Plan>, Error> {
-        let mut alike = None;
+        let mut similar = None;
         for (index, plan) in self.kept.iter().enumerate() {
             match plan.decl.similarity(decl) {
                 FrameSimilarity::Same => {
@@ -39,11 +39,11 @@ impl Plans {
                     self.counts.reused += 1;
                     return Ok(self.kept[0].clone());
                 }
-                FrameSimilarity::OtherSizes => alike = alike.or(Some(plan)),
+                FrameSimilarity::OtherSizes => similar = similar.or(Some(plan)),
                 FrameSimilarity::Other => {}
             }
         }
-        let plan = match alike {
+        let plan = match similar {
             Some(plan) => {
                 self.counts.resized += 1;
                 compile::resize(std::mem::take(decl), plan)?
@@ -53,7 +53,7 @@ impl Plans {
                 compile::compile(std::mem::take(decl))?
             }
         };
-        let oldest = if self.kept.len() >= KEPT { self.kept.pop() } else { None };
+        let oldest = if self.kept.len() >= MAX_PLANS { self.kept.pop() } else { None };
         if let Some(oldest) = oldest.and_then(Arc::into_inner) {
             *decl = oldest.decl;
         }

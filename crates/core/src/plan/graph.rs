@@ -55,7 +55,7 @@ impl Plan {
         Some(chain)
     }
 
-    /// Returns the longest chain of passes that must follow one another, where `cost` gives the weight of a pass,
+    /// Returns the longest chain of passes that depend on each other, where `cost` is the weight of a pass,
     /// such as its measured milliseconds.
     pub fn critical_path(&self, cost: impl Fn(PassId) -> f64) -> Vec<PassId> {
         // Longest path to each pass, along the order, which is a topological one.

@@ -1,4 +1,4 @@
-//! Why the compiler decided as it did. The words for these are in `dump::describe`.
+//! Reasons of the compiler's decisions. `dump::describe` formats them.
 
 use crate::declaration::PassKind;
 use crate::handle::{PassId, ResourceId};
@@ -17,24 +17,24 @@ pub enum CullReason {
     Overwritten(ResourceId, PassId),
 }
 
-/// Why a pass stands where it does in the order.
+/// Why a pass is at its position in the order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum OrderReason {
     /// The frame fixes the order of declaration.
     Fixed,
-    /// It was the only pass whose dependencies were done.
+    /// It was the only pass whose dependencies had run.
     OnlyReady,
-    /// Of the passes that were ready, it goes on with the open render pass.
+    /// Of the ready passes, it continues the open render pass.
     ContinuesRenderPass,
-    /// Of the passes that were ready, it leaves the least memory in use: this many bytes less than before it (more,
-    /// where the number is negative).
+    /// Of the ready passes, it leaves the least memory in use: this many bytes less than before it (more if the number
+    /// is negative).
     FreesMemory(i64),
-    /// Of the passes that were ready and no better in memory, it was declared first.
+    /// Of the ready passes that are best for memory, it was declared first.
     DeclaredFirst,
-    /// Choosing by memory would have needed more of it than the order of declaration, so that was taken.
+    /// The order of declaration, because choosing by memory would need more of it.
     DeclarationNeedsLess,
-    /// Choosing by memory from the last pass to the first needs less of it than from the first to the last, so that
-    /// was taken.
+    /// The order chosen by memory from the last pass to the first, because it needs less memory than from the first to
+    /// the last.
     BackwardsNeedsLess,
 }
 
@@ -43,7 +43,7 @@ pub enum OrderReason {
 pub enum MergeReason {
     /// It is the first pass of the frame.
     First,
-    /// It goes on with the same attachments, and no hazard forbids it.
+    /// It has the same attachments, and no hazard forbids merging.
     Merged,
     /// Merging is switched off.
     Off,
@@ -51,13 +51,13 @@ pub enum MergeReason {
     Kind(PassKind),
     /// The pass before it is not a render pass.
     KindBefore(PassKind),
-    /// Their attachments are not the same.
+    /// Their attachments differ.
     Attachments,
-    /// It reads this resource, which this pass of the same render pass would have drawn or written.
+    /// It reads this resource, which this earlier pass of the render pass writes.
     Reads(ResourceId, PassId),
-    /// It writes this resource, which this pass of the same render pass would have touched.
+    /// It writes this resource, which this earlier pass of the render pass uses.
     Writes(ResourceId, PassId),
-    /// It clears all of this attachment, which a load operation does for free.
+    /// It clears this whole attachment, which a load operation does for free.
     Clears(ResourceId),
     /// This attachment is resolved at the end of the pass before it.
     Resolves(ResourceId),
@@ -68,20 +68,20 @@ pub enum MergeReason {
 pub enum LoadReason {
     /// The pass declares the clear.
     Declared,
-    /// The pass covers every texel, and a clear is the cheapest load there is.
+    /// The pass overwrites every texel, and a clear is the cheapest load operation.
     #[serde(rename = "Covered")]
     Overwritten,
-    /// The pass draws into a part, and nothing needs what the rest held.
+    /// The pass draws into a part, and nothing needs the rest.
     RestUnneeded,
     /// The pass preserves what this pass wrote.
     Preserves(PassId),
-    /// The pass preserves what was there when the frame began.
+    /// The pass preserves the contents from before the frame.
     PreservesImport,
-    /// The pass draws into a part, and this pass needs what the rest holds.
+    /// The pass draws into a part, and this pass needs the rest.
     RestNeededBy(PassId),
     /// The pass draws into a part, and the rest is needed after the frame.
     RestOutlives,
-    /// The render pass goes on from the pass before it.
+    /// It continues the render pass of the previous pass.
     Merged,
 }
 
@@ -98,25 +98,25 @@ pub enum StoreReason {
     History,
     /// This pass overwrites it before anything reads it.
     OverwrittenBy(PassId),
-    /// Nothing reads it any more.
+    /// Nothing reads it afterwards.
     LastUse,
-    /// The next pass draws on in the same render pass.
+    /// The next pass continues the render pass.
     Merged,
 }
 
-/// Why a resource lives where it does.
+/// Why a resource is in its slot, or in none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SlotReason {
-    /// Nothing that runs touches it.
+    /// No pass that runs uses it.
     Unused,
     /// It belongs to the caller.
     Imported,
-    /// It is one half of a history.
+    /// It belongs to a history.
     History,
-    /// It is the first of its shape.
+    /// It is the first of its class.
     FirstOfClass,
-    /// Every slot of its shape is in use at the time, such as by this resource.
+    /// Every slot of its class is in use, for example by this resource.
     AllBusy(ResourceId),
-    /// It takes over the slot that this resource is done with.
+    /// It reuses the slot of this resource.
     After(ResourceId),
 }

@@ -166,11 +166,8 @@ fn describe_resource(resource: &Value) -> Option<String> {
 fn describe_access(access: &Value) -> Option<String> {
     let label = Access::deserialize(access.get("access")?).ok()?.label();
     let subresource = Subresource::deserialize(access.get("part")?).ok()?;
-    let subresource = if subresource == Subresource::FULL {
-        String::new()
-    } else {
-        format!(" of {}", subresource)
-    };
+    let subresource =
+        if subresource == Subresource::FULL { String::new() } else { format!(" of {}", subresource) };
     let version = access.get("version")?.as_u64()?;
     let contents = match access.get("contents")? {
         Value::Null => return Some(format!("{label}{subresource}, version {version}")),
