@@ -38,9 +38,9 @@ impl Node for Overlay {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let (picture, colors) = (ports.texture("picture")?, ports.texture_or_placeholder("colors", frame)?);
+        let (image, colors) = (ports.texture("picture")?, ports.texture_or_placeholder("colors", frame)?);
         let mut target = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
-        self.pass.add_to(frame, [&picture, &colors], &mut target, self.strength);
+        self.pass.add_to(frame, [&image, &colors], &mut target, self.strength);
         ports.set("picture", target);
         Ok(())
     }

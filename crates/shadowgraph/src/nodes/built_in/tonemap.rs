@@ -33,9 +33,9 @@ impl Node for Tonemap {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let mut picture = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
-        self.pass.add_to(frame, &ports.texture("light")?, &mut picture);
-        ports.set("picture", picture);
+        let mut image = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
+        self.pass.add_to(frame, &ports.texture("light")?, &mut image);
+        ports.set("picture", image);
         Ok(())
     }
 }
