@@ -113,7 +113,7 @@ fn integer_textures_are_refused_and_single_channel_textures_are_grey() {
         renderer.draw(gpu, &options).map(|drawn| drawn.image)
     };
     let error = draw("normals", Pipeline::deferred()).unwrap_err().to_string();
-    assert!(error.starts_with("--aov normals: Rg32Uint holds whole numbers"), "{error}");
+    assert!(error.starts_with("texture `normals` (Rg32Uint): integer textures cannot be displayed"), "{error}");
     let everything = shadowgraph_tests::repository().join("docs/everything.ron");
     let Registry { nodes, techniques } = Registry::built_in();
     let parameters = Parameters(vec![("ssao".into(), true.into())]);
@@ -127,7 +127,7 @@ fn the_visibility_of_a_missing_light_is_an_error() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = cube();
     let error = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(3)).err().unwrap().to_string();
-    assert_eq!(error, "--aov visibility:3: the scene has one light, 0");
+    assert_eq!(error, "unknown light 3; the scene has one light, 0");
 }
 
 #[test]
