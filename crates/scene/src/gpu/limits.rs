@@ -31,7 +31,7 @@ pub(super) fn addressable(vertices: u64, indices: u64) -> Result<(), Error> {
 pub(super) fn image(limits: &wgpu::Limits, index: usize, image: &Image) -> Result<(), Error> {
     let max = u64::from(limits.max_texture_dimension_2d);
     for (side, pixels) in [("width", image.width), ("height", image.height)] {
-        let what = || format!("image {index} \"{}\": its {side} in pixels", image.name);
+        let what = || format!("image {index} \"{}\" {side}", image.name);
         check(u64::from(pixels), "max_texture_dimension_2d", max, what)?;
     }
     let bytes = u64::from(image.width) * u64::from(image.height) * 4;
@@ -83,7 +83,7 @@ mod tests {
         image(&limits, 3, &bark(4, 4, 64)).unwrap();
         assert_eq!(
             image(&limits, 3, &bark(4, 5, 80)).unwrap_err().to_string(),
-            "image 3 \"bark\": its height in pixels: 5 exceeds the adapter's max_texture_dimension_2d of 4"
+            "image 3 \"bark\" height: 5 exceeds the adapter's max_texture_dimension_2d of 4"
         );
     }
 
