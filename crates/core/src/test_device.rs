@@ -6,21 +6,21 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-/// wgpu's device that copies buffers and draws nothing, with default limits.
+/// Returns wgpu's noop device, which copies buffers and draws nothing, with default limits.
 pub(crate) fn noop() -> (wgpu::Device, wgpu::Queue) {
     let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
     let options = wgpu::BackendOptions { noop, ..Default::default() };
     open(wgpu::Backends::NOOP, options, wgpu::Features::empty()).unwrap()
 }
 
-/// A device that draws, or `None` after recording a skip.
+/// Returns a device that draws, or `None` after recording a skip.
 pub(crate) fn drawing() -> Option<(wgpu::Device, wgpu::Queue)> {
     open(wgpu::Backends::PRIMARY, wgpu::BackendOptions::default(), wgpu::Features::empty())
         .inspect_err(|reason| skip("core_device", reason))
         .ok()
 }
 
-/// A device that draws and has these features, or `None` after recording a skip.
+/// Returns a device that draws and has these features, or `None` after recording a skip.
 pub(crate) fn drawing_with(features: wgpu::Features) -> Option<(wgpu::Device, wgpu::Queue)> {
     open(wgpu::Backends::PRIMARY, wgpu::BackendOptions::default(), features)
         .inspect_err(|reason| skip("core_device_features", reason))
@@ -43,7 +43,7 @@ fn open(
     block_on(adapter.request_device(&desc)).map_err(|error| error.to_string())
 }
 
-/// Runs a future on this thread, which sleeps until another one wakes it.
+/// Runs a future on this thread, which sleeps until the future is woken.
 pub(crate) fn block_on<F: Future>(future: F) -> F::Output {
     struct Unpark(std::thread::Thread);
     impl Wake for Unpark {
@@ -61,7 +61,7 @@ pub(crate) fn block_on<F: Future>(future: F) -> F::Output {
     }
 }
 
-/// Runs `work` and fails the test with whatever wgpu objects to.
+/// Runs `work` and fails the test on a validation error of wgpu.
 pub(crate) fn valid<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> T {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let result = work();
@@ -70,7 +70,7 @@ pub(crate) fn valid<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// As `CONTRIBUTING.md` has it.
+/// Records a skip as described in `CONTRIBUTING.md`.
 fn skip(id: &str, reason: &str) {
     let line = format!("SKIP {id}: {}\n", reason.replace('\n', " "));
     print!("{line}");

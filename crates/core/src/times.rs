@@ -1,4 +1,4 @@
-//! How long passes took, as plain data.
+//! Times of passes, as plain data.
 
 mod trace;
 
@@ -10,30 +10,30 @@ use std::collections::VecDeque;
 /// The time of one pass.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PassTime {
-    /// The pass, with its nodes before its name.
+    /// The path of the pass: its nodes, then its name.
     pub pass: String,
-    /// The node it belongs to; empty for none.
+    /// The path of its node; empty for none.
     pub node: String,
-    /// When its body began on the CPU, milliseconds after the first pass was recorded; 0 for a pass without one.
+    /// Start of its body on the CPU, in milliseconds after recording began; 0 for a pass without a body.
     pub cpu_begin_ms: f64,
-    /// Milliseconds that the pass's body took on the CPU; 0 for a pass without one.
+    /// Duration of its body on the CPU in milliseconds; 0 for a pass without a body.
     pub cpu_ms: f64,
-    /// When it began on the GPU, milliseconds after the first pass there; `None` where the device cannot tell.
+    /// Start on the GPU, in milliseconds after the first pass; `None` if the device cannot measure it.
     pub gpu_begin_ms: Option<f64>,
-    /// Milliseconds on the GPU; `None` where the device cannot tell, see `Timer`.
+    /// Duration on the GPU in milliseconds; `None` if the device cannot measure it, see `Timer`.
     pub gpu_ms: Option<f64>,
-    /// How many passes `gpu_ms` is the time of: 1, or more where passes were merged and the device cannot tell them
-    /// apart. Each of them then shows the same time.
+    /// Number of passes that `gpu_ms` measures: 1, or more where passes were merged and the device cannot measure them
+    /// separately. Each of them then has the same time.
     pub shared_by: u32,
-    /// Draw calls, where the body told of them by `Resources::report_draws`; `None` where it did not.
+    /// Draw calls that the body reported by `Resources::report_draws`; `None` if it reported none.
     pub draws: Option<u32>,
-    /// Triangles that were drawn, before what is outside the view was cut off; `None` where the device cannot tell.
+    /// Triangles drawn, before clipping; `None` if the device cannot count them.
     pub triangles: Option<u64>,
 }
 
 impl PassTime {
-    /// Returns the GPU time with what passes share dealt out evenly among them, so that the sum over a frame counts each
-    /// time once; `None` where the device cannot tell.
+    /// Returns the GPU time, divided evenly among passes that share it, so that the sum over a frame counts each time once;
+    /// `None` if the device cannot measure it.
     ///
     /// ```
     /// use shadowgraph_core::PassTime;
@@ -46,13 +46,13 @@ impl PassTime {
 }
 
 impl TimeSummary {
-    /// Returns the median of the GPU time, dealt out as by [`PassTime::gpu_share_ms`].
+    /// Returns the median of the GPU time, divided as by [`PassTime::gpu_share_ms`].
     pub fn gpu_share_ms(&self) -> Option<f64> {
         Some(self.gpu_ms?.median / f64::from(self.shared_by.max(1)))
     }
 }
 
-/// The times of the last frames, pass by pass.
+/// The times of each pass in the last frames.
 ///
 /// ```
 /// use shadowgraph_core::{PassTime, TimeHistory};
@@ -68,41 +68,41 @@ impl TimeSummary {
 #[derive(Clone, Debug)]
 pub struct TimeHistory {
     frames: usize,
-    /// The oldest first; of frames of the same passes.
+    /// Times of frames with the same passes, the oldest first.
     times: VecDeque<Vec<PassTime>>,
 }
 
-/// What a pass took in the last frames.
+/// Statistics of a pass over the last frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeSummary {
-    /// The pass, with its nodes before its name.
+    /// The path of the pass: its nodes, then its name.
     pub pass: String,
-    /// The node it belongs to; empty for none.
+    /// The path of its node; empty for none.
     pub node: String,
-    /// Milliseconds on the CPU.
+    /// Duration on the CPU in milliseconds.
     pub cpu_ms: TimeStats,
-    /// Milliseconds on the GPU; `None` where the device cannot tell.
+    /// Duration on the GPU in milliseconds; `None` if the device cannot measure it.
     pub gpu_ms: Option<TimeStats>,
-    /// As [`PassTime::shared_by`], in the last frame.
+    /// [`PassTime::shared_by`] of the last frame.
     pub shared_by: u32,
 }
 
-/// How times spread.
+/// Statistics of times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TimeStats {
-    /// Half of the frames took less.
+    /// The median.
     pub median: f64,
-    /// One frame in twenty took longer: the 95th percentile.
+    /// The 95th percentile.
     pub high: f64,
 }
 
 impl TimeHistory {
-    /// Keeps so many frames, at least 1.
+    /// Creates a history that keeps this many frames, at least 1.
     pub fn new(frames: usize) -> Self {
         Self { frames: frames.max(1), times: VecDeque::new() }
     }
 
-    /// Adds a frame, as `Timer::read` gives it. A frame of other passes than the last begins anew.
+    /// Adds a frame, as returned by `Timer::read`. A frame with different passes than the last one clears the history.
     pub fn add(&mut self, times: &[PassTime]) {
         let same = |before: &Vec<PassTime>| {
             before.len() == times.len() && before.iter().zip(times).all(|(a, b)| a.pass == b.pass)
@@ -116,21 +116,21 @@ impl TimeHistory {
         }
     }
 
-    /// Returns how many frames it holds.
+    /// Returns the number of frames that it holds.
     pub fn frames(&self) -> usize {
         self.times.len()
     }
 
-    /// Returns the passes in order of recording.
+    /// Returns the statistics of the passes in order of recording.
     pub fn summary(&self) -> Vec<TimeSummary> {
         let Some(last) = self.times.back() else { return Vec::new() };
-        let of = |place: usize| self.times.iter().filter_map(move |frame| frame.get(place));
-        let summary = |(place, time): (usize, &PassTime)| TimeSummary {
+        let times = |index: usize| self.times.iter().filter_map(move |frame| frame.get(index));
+        let summary = |(index, time): (usize, &PassTime)| TimeSummary {
             pass: time.pass.clone(),
             node: time.node.clone(),
-            cpu_ms: TimeStats::of(of(place).map(|time| time.cpu_ms).collect())
+            cpu_ms: TimeStats::from_times(times(index).map(|time| time.cpu_ms).collect())
                 .unwrap_or(TimeStats { median: time.cpu_ms, high: time.cpu_ms }),
-            gpu_ms: TimeStats::of(of(place).filter_map(|time| time.gpu_ms).collect()),
+            gpu_ms: TimeStats::from_times(times(index).filter_map(|time| time.gpu_ms).collect()),
             shared_by: time.shared_by,
         };
         last.iter().enumerate().map(summary).collect()
@@ -138,10 +138,10 @@ impl TimeHistory {
 }
 
 impl TimeStats {
-    /// By the nearest rank; `None` of no times.
-    fn of(mut times: Vec<f64>) -> Option<Self> {
+    /// Computes percentiles by the nearest rank; `None` without times.
+    fn from_times(mut times: Vec<f64>) -> Option<Self> {
         times.sort_by(f64::total_cmp);
-        let rank = |part: f64| ((times.len() as f64 * part).ceil() as usize).saturating_sub(1);
+        let rank = |fraction: f64| ((times.len() as f64 * fraction).ceil() as usize).saturating_sub(1);
         Some(Self { median: *times.get(rank(0.5))?, high: *times.get(rank(0.95))? })
     }
 }
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_of_other_passes_begin_anew() {
+    fn a_frame_with_other_passes_clears_the_history() {
         let mut history = TimeHistory::new(8);
         history.add(&frame("draw", 5.0));
         history.add(&frame("blur", 1.0));

@@ -1,4 +1,4 @@
-//! How long each pass took.
+//! Measuring the time of each pass.
 
 use crate::declaration::PassKind;
 use crate::error::Error;
@@ -13,13 +13,13 @@ use std::time::Instant;
 ///
 /// Pass it to [`Compiled::execute_timed`](crate::Compiled::execute_timed), submit, then [`read`](Self::read).
 ///
-/// GPU times want a device with `TIMESTAMP_QUERY` (for copies and encoder passes also
-/// `TIMESTAMP_QUERY_INSIDE_ENCODERS`), a frame of at most 2,048 passes, and that its encoder was submitted.
+/// GPU times require a device with `TIMESTAMP_QUERY` (for copy and encoder passes also
+/// `TIMESTAMP_QUERY_INSIDE_ENCODERS`), a frame of at most 2,048 passes, and a submitted encoder.
 ///
-/// Passes that were merged into one render pass are told apart where the device can write timestamps inside passes;
-/// elsewhere they share one time, and [`PassTime::shared_by`] says how many. A GPU that draws in tiles, or a driver in
-/// software, runs a render pass as a whole whatever the timestamps inside it say: ask for
-/// `TIMESTAMP_QUERY_INSIDE_PASSES` on discrete GPUs only.
+/// Passes that were merged into one render pass are measured separately if the device supports timestamps inside passes;
+/// otherwise they share one time, and [`PassTime::shared_by`] is their number. Tile-based GPUs and software drivers run a
+/// render pass as a whole, so timestamps inside it mean nothing there: request `TIMESTAMP_QUERY_INSIDE_PASSES` on discrete
+/// GPUs only.
 ///
 /// ```
 /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, Timer};
@@ -42,36 +42,36 @@ use std::time::Instant;
 pub struct Timer {
     plan: Option<Arc<Plan>>,
     passes: Vec<PassId>,
-    /// By pass: its place in `passes`, and how many passes share its render pass.
-    places: Vec<(u32, u32)>,
+    /// By pass: its index in `passes`, and how many passes share its render pass.
+    positions: Vec<(u32, u32)>,
     begun: Option<Instant>,
-    /// By place: nanoseconds from there, and for how long.
+    /// By position: when the body began, in nanoseconds since `begun`, and how long it took.
     cpu: Vec<(AtomicU64, AtomicU64)>,
-    /// By place: draw calls that bodies told of.
+    /// By position: draw calls that bodies reported.
     draws: Vec<AtomicU32>,
-    gpu: Option<Queries>,
-    triangles: Option<Triangles>,
+    gpu: Option<TimestampQueries>,
+    triangles: Option<TriangleQueries>,
 }
 
-struct Queries {
+struct TimestampQueries {
     set: wgpu::QuerySet,
-    numbers: Resolved,
-    /// Copies and raw encoding can be measured.
+    results: QueryResults,
+    /// Copy and encoder passes can be measured.
     inside_encoders: bool,
-    /// Passes that were merged can be told apart.
+    /// Merged passes can be measured separately.
     inside_passes: bool,
 }
 
-/// What is read back when the frame is done: one number for each query.
-struct Resolved {
+/// The results of a query set: one number for each query, read back when the frame has completed.
+struct QueryResults {
     resolved: wgpu::Buffer,
     readable: wgpu::Buffer,
 }
 
-/// Triangles by pass.
-struct Triangles {
+/// Counts of triangles by pass.
+struct TriangleQueries {
     set: wgpu::QuerySet,
-    numbers: Resolved,
+    results: QueryResults,
 }
 
 impl Timer {
@@ -83,94 +83,94 @@ impl Timer {
     pub(super) fn begin(&mut self, device: &wgpu::Device, plan: &Arc<Plan>) {
         self.plan = Some(plan.clone());
         self.passes = plan.order().to_vec();
-        self.places = vec![(0, 1); plan.pass_count()];
-        let mut place = 0;
+        self.positions = vec![(0, 1); plan.pass_count()];
+        let mut position = 0;
         for step in plan.steps() {
             for &pass in step.passes {
-                self.places[pass.index()] = (place, step.passes.len() as u32);
-                place += 1;
+                self.positions[pass.index()] = (position, step.passes.len() as u32);
+                position += 1;
             }
         }
         self.begun = Some(Instant::now());
         self.cpu = self.passes.iter().map(|_| Default::default()).collect();
         self.draws = self.passes.iter().map(|_| AtomicU32::new(0)).collect();
-        let count = place * 2;
-        let able = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
-        self.gpu =
-            (able && count > 0 && count <= wgpu::QUERY_SET_MAX_QUERIES).then(|| Queries::new(device, count));
-        let able = device.features().contains(wgpu::Features::PIPELINE_STATISTICS_QUERY);
-        self.triangles = (able && place > 0 && place <= wgpu::QUERY_SET_MAX_QUERIES)
-            .then(|| Triangles::new(device, place));
+        let count = position * 2;
+        let supported = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        self.gpu = (supported && count > 0 && count <= wgpu::QUERY_SET_MAX_QUERIES)
+            .then(|| TimestampQueries::new(device, count));
+        let supported = device.features().contains(wgpu::Features::PIPELINE_STATISTICS_QUERY);
+        self.triangles = (supported && position > 0 && position <= wgpu::QUERY_SET_MAX_QUERIES)
+            .then(|| TriangleQueries::new(device, position));
     }
 
     pub(super) fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(gpu) = &self.gpu {
             let count = self.passes.len() as u32 * 2;
-            gpu.numbers.resolve(encoder, &gpu.set, count);
+            gpu.results.resolve(encoder, &gpu.set, count);
         }
         if let Some(triangles) = &self.triangles {
-            triangles.numbers.resolve(encoder, &triangles.set, self.passes.len() as u32);
+            triangles.results.resolve(encoder, &triangles.set, self.passes.len() as u32);
         }
     }
 
     pub(super) fn draws(&self, pass: PassId, draws: u32) {
-        let (place, _) = self.places[pass.index()];
-        self.draws[place as usize].fetch_add(draws, Ordering::Relaxed);
+        let (position, _) = self.positions[pass.index()];
+        self.draws[position as usize].fetch_add(draws, Ordering::Relaxed);
     }
 
-    /// The query set that counts a render pass's triangles, and the query.
+    /// Returns the query set that counts a render pass's triangles, and the index of the query.
     pub(super) fn triangle_query(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
-        Some((&self.triangles.as_ref()?.set, self.places[pass.index()].0))
+        Some((&self.triangles.as_ref()?.set, self.positions[pass.index()].0))
     }
 
     pub(super) fn cpu(&self, pass: PassId, begin: Instant) {
-        let (place, _) = self.places[pass.index()];
-        let (begins, takes) = &self.cpu[place as usize];
-        takes.store(begin.elapsed().as_nanos() as u64, Ordering::Relaxed);
+        let (position, _) = self.positions[pass.index()];
+        let (begin_ns, duration_ns) = &self.cpu[position as usize];
+        duration_ns.store(begin.elapsed().as_nanos() as u64, Ordering::Relaxed);
         let since = self.begun.map(|begun| begin.duration_since(begun)).unwrap_or_default();
-        begins.store(since.as_nanos() as u64, Ordering::Relaxed);
+        begin_ns.store(since.as_nanos() as u64, Ordering::Relaxed);
     }
 
-    /// The query set, and the queries around the render or compute pass that passes from `first` to `last` share;
-    /// `None` where each of them has its own inside.
+    /// Returns the query set and the two queries around the render or compute pass that passes from `first` to `last` share;
+    /// `None` if each pass has separate queries inside.
     pub(super) fn step_queries(&self, first: PassId, last: PassId) -> Option<(&wgpu::QuerySet, u32, u32)> {
         let gpu = self.gpu.as_ref().filter(|gpu| first == last || !gpu.inside_passes)?;
-        let place = |pass: PassId| self.places[pass.index()].0;
-        Some((&gpu.set, place(first) * 2, place(last) * 2 + 1))
+        let position = |pass: PassId| self.positions[pass.index()].0;
+        Some((&gpu.set, position(first) * 2, position(last) * 2 + 1))
     }
 
-    /// The query set, and the first of the two queries of a pass that shares a render pass with others.
+    /// Returns the query set and the first of the two queries of a pass that shares a render pass with others.
     pub(super) fn inside_queries(&self, pass: PassId, several: bool) -> Option<(&wgpu::QuerySet, u32)> {
         let gpu = self.gpu.as_ref().filter(|gpu| several && gpu.inside_passes)?;
-        Some((&gpu.set, self.places[pass.index()].0 * 2))
+        Some((&gpu.set, self.positions[pass.index()].0 * 2))
     }
 
     pub(super) fn encoder_queries(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
         let gpu = self.gpu.as_ref().filter(|gpu| gpu.inside_encoders)?;
-        Some((&gpu.set, self.places[pass.index()].0 * 2))
+        Some((&gpu.set, self.positions[pass.index()].0 * 2))
     }
 
-    /// The queries that hold a pass's time, and how many passes it is the time of.
-    fn measured(&self, place: usize, plan: &Plan) -> (usize, usize, u32) {
-        let own = (place * 2, place * 2 + 1, 1);
-        let (_, together) = self.places[self.passes[place].index()];
+    /// Returns the two queries of the pass at a position, and how many passes they measure.
+    fn queries_at(&self, position: usize, plan: &Plan) -> (usize, usize, u32) {
+        let separate = (position * 2, position * 2 + 1, 1);
+        let (_, together) = self.positions[self.passes[position].index()];
         if together == 1 || self.gpu.as_ref().is_none_or(|gpu| gpu.inside_passes) {
-            return own;
+            return separate;
         }
-        let within = |&&(start, end): &&(u32, u32)| (start as usize..end as usize).contains(&place);
+        let within = |&&(start, end): &&(u32, u32)| (start as usize..end as usize).contains(&position);
         let step = plan.steps.iter().find(within);
-        step.map_or(own, |&(start, end)| (start as usize * 2, end as usize * 2 - 1, together))
+        step.map_or(separate, |&(start, end)| (start as usize * 2, end as usize * 2 - 1, together))
     }
 
-    /// Waits for the submitted frame and returns the times, in order of recording. Of a timer that no frame was
-    /// recorded with there are none.
+    /// Waits for the submitted frame and returns the times, in order of recording. They are empty if no frame was recorded
+    /// with this timer.
     ///
     /// # Errors
     /// When the device is lost or the times cannot be mapped.
     pub fn read(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<PassTime>, Error> {
         let Some(plan) = &self.plan else { return Ok(Vec::new()) };
-        let ticks = self.gpu.as_ref().map(|gpu| gpu.numbers.read(device)).transpose()?;
-        let triangles = self.triangles.as_ref().map(|own| own.numbers.read(device)).transpose()?;
+        let ticks = self.gpu.as_ref().map(|gpu| gpu.results.read(device)).transpose()?;
+        let triangles = self.triangles.as_ref().map(|queries| queries.results.read(device)).transpose()?;
         let period = f64::from(queue.get_timestamp_period());
         let gpu_ms = |begin: usize, end: usize| {
             let ticks = ticks.as_ref()?;
@@ -180,10 +180,10 @@ impl Timer {
         let first = ticks.iter().flatten().copied().filter(|&tick| tick != 0).min();
         let gpu_ms_since_first =
             |query: usize| Some(ticks.as_ref()?.get(query)?.checked_sub(first?)? as f64 * period * 1e-6);
-        let times = self.passes.iter().zip(&self.cpu).enumerate().map(|(place, (&pass, cpu))| {
-            let (begin, end, shared_by) = self.measured(place, plan);
+        let times = self.passes.iter().zip(&self.cpu).enumerate().map(|(position, (&pass, cpu))| {
+            let (begin, end, shared_by) = self.queries_at(position, plan);
             let renders = plan.pass(pass).kind == PassKind::Render;
-            let draws = self.draws[place].load(Ordering::Relaxed);
+            let draws = self.draws[position].load(Ordering::Relaxed);
             PassTime {
                 pass: plan.pass_path(pass),
                 node: plan.pass(pass).node.map(|node| plan.node_path(node)).unwrap_or_default(),
@@ -193,14 +193,14 @@ impl Timer {
                 gpu_ms: gpu_ms(begin, end),
                 shared_by,
                 draws: (draws > 0).then_some(draws),
-                triangles: triangles.as_ref().filter(|_| renders).and_then(|all| all.get(place).copied()),
+                triangles: triangles.as_ref().filter(|_| renders).and_then(|all| all.get(position).copied()),
             }
         });
         Ok(times.collect())
     }
 }
 
-impl Queries {
+impl TimestampQueries {
     fn new(device: &wgpu::Device, count: u32) -> Self {
         Self {
             set: device.create_query_set(&wgpu::QuerySetDescriptor {
@@ -208,14 +208,14 @@ impl Queries {
                 ty: wgpu::QueryType::Timestamp,
                 count,
             }),
-            numbers: Resolved::new(device, count),
+            results: QueryResults::new(device, count),
             inside_encoders: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS),
             inside_passes: device.features().contains(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES),
         }
     }
 }
 
-impl Triangles {
+impl TriangleQueries {
     fn new(device: &wgpu::Device, count: u32) -> Self {
         Self {
             set: device.create_query_set(&wgpu::QuerySetDescriptor {
@@ -223,12 +223,12 @@ impl Triangles {
                 ty: wgpu::QueryType::PipelineStatistics(wgpu::PipelineStatisticsTypes::CLIPPER_INVOCATIONS),
                 count,
             }),
-            numbers: Resolved::new(device, count),
+            results: QueryResults::new(device, count),
         }
     }
 }
 
-impl Resolved {
+impl QueryResults {
     fn new(device: &wgpu::Device, count: u32) -> Self {
         let buffer = |label, usage| {
             let size = u64::from(count) * 8;
@@ -254,12 +254,12 @@ impl Resolved {
     fn read(&self, device: &wgpu::Device) -> Result<Vec<u64>, Error> {
         let failed = |error: &dyn std::fmt::Display| Error::Body {
             pass: "timer".into(),
-            message: format!("the times cannot be read: {error}"),
+            message: format!("the query results cannot be read: {error}"),
         };
         self.readable.slice(..).map_async(wgpu::MapMode::Read, |_| ());
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
         let view = self.readable.get_mapped_range(..).map_err(|error| failed(&error))?;
-        let word = |bytes: &[u8]| u64::from_le_bytes([0, 1, 2, 3, 4, 5, 6, 7].map(|i| bytes[i]));
-        Ok(view.chunks_exact(8).map(word).collect())
+        let number = |bytes: &[u8]| u64::from_le_bytes([0, 1, 2, 3, 4, 5, 6, 7].map(|i| bytes[i]));
+        Ok(view.chunks_exact(8).map(number).collect())
     }
 }

@@ -1,10 +1,10 @@
-// The shaders of the graph's own draws. A line `//: name` begins a section; `mod.rs` puts sections together and writes
-// the scalar of a format (f32, u32 or i32) for SCALAR. A line that ends with `each` is repeated for every attachment
-// that is cleared, with its number for INDEX.
+// The shaders of the graph's internal draws. A line `//: name` begins a section; `mod.rs` joins sections and replaces
+// SCALAR by the scalar type of a format (f32, u32 or i32). A line that ends with `each` is repeated for every cleared
+// attachment, with INDEX replaced by its index.
 
 //: fullscreen
-// A triangle over the whole viewport. Its depth is 0, so what is stored is exactly the near end of the viewport's
-// depth range.
+// A triangle that covers the viewport. Its depth is 0, so the stored depth is exactly the minimum of the viewport's depth
+// range.
 @vertex
 fn fullscreen(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f {
     let corner = vec2f(vec2u(vertex & 2u, (vertex << 1u) & 2u));
@@ -12,7 +12,7 @@ fn fullscreen(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f {
 }
 
 //: uv
-// The same triangle, for shaders of others: with where on the viewport a fragment is, (0, 0) at its upper left corner.
+// The same triangle for fullscreen shaders of users, with the position in the viewport, (0, 0) at its upper left corner.
 struct Corner {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
@@ -25,7 +25,7 @@ fn fullscreen(@builtin(vertex_index) vertex: u32) -> Corner {
 }
 
 //: clear
-// The bits of the values, so that one buffer serves every kind of format.
+// The bits of the values, so that one buffer works for all formats.
 @group(0) @binding(0) var<uniform> values: array<vec4u, 8>;
 
 struct Cleared {
@@ -40,14 +40,14 @@ fn clear() -> Cleared {
 }
 
 //: no-color
-// For attachments that are all left alone while depth or stencil is cleared.
+// Clears only depth or stencil.
 @fragment
 fn no_color() {}
 
 //: resample
 @group(0) @binding(0) var<uniform> target_size: vec2u;
 
-// The source's texel under the centre of a target's, in whole numbers: a centre between two texels takes the later.
+// The source texel at the centre of a target texel, in integers: a centre between two texels selects the later one.
 fn source_texel(position: vec4f, source_size: vec2u) -> vec2u {
     return (2u * vec2u(position.xy) + 1u) * source_size / (2u * target_size);
 }

@@ -1,5 +1,5 @@
-//! The graph's own few draws, for what wgpu has no command for: clearing a part of an attachment, and carrying the
-//! contents of a texture over to one of another size.
+//! Draws of the graph itself, for what wgpu has no command for: clearing a region of an attachment, and resampling the
+//! contents of a texture into one of another size.
 
 mod region_clear;
 mod resample;
@@ -11,32 +11,32 @@ pub(crate) use region_clear::{RegionClear, RegionClears, Targets};
 use resample::ResampleError;
 pub(crate) use resample::{Resampler, can_resample};
 
-const TEXT: &str = include_str!("internal.wgsl");
+const SOURCE: &str = include_str!("internal.wgsl");
 
-/// Returns the part of the shader text that begins with the line `//: name`.
+/// Returns the section of the shader source that begins with the line `//: name`.
 fn section(name: &str) -> &'static str {
-    TEXT.split("//: ").find_map(|section| section.strip_prefix(name)).unwrap_or_default()
+    SOURCE.split("//: ").find_map(|section| section.strip_prefix(name)).unwrap_or_default()
 }
 
-/// Returns what WGSL calls the components of such a format.
-fn scalar(class: wgpu::TextureSampleType) -> &'static str {
-    match class {
+/// Returns the scalar type of a format's components in WGSL.
+fn scalar(sample_type: wgpu::TextureSampleType) -> &'static str {
+    match sample_type {
         wgpu::TextureSampleType::Uint => "u32",
         wgpu::TextureSampleType::Sint => "i32",
         wgpu::TextureSampleType::Float { .. } | wgpu::TextureSampleType::Depth => "f32",
     }
 }
 
-/// Compiles a fragment stage together with the vertex stage that all draws share.
+/// Compiles a fragment stage with the shared vertex stage.
 fn module(device: &wgpu::Device, label: &str, fragment: &str) -> wgpu::ShaderModule {
-    let text = [section("fullscreen"), fragment].concat();
+    let source = [section("fullscreen"), fragment].concat();
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(text.into()),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
     })
 }
 
-/// Compiles the vertex stage of fullscreen passes, which gives `uv`.
+/// Compiles the vertex stage of fullscreen passes, which outputs `uv`.
 pub(crate) fn fullscreen(device: &wgpu::Device) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("fullscreen"),
@@ -49,7 +49,7 @@ pub(crate) fn vertex(module: &wgpu::ShaderModule) -> wgpu::VertexState<'_> {
     wgpu::VertexState { module, entry_point: None, compilation_options: Default::default(), buffers: &[] }
 }
 
-/// Creates a uniform buffer that holds `words` from the start: without a queue, nothing can be written later.
+/// Creates a uniform buffer with these contents. They are written through mapping, since no queue is available.
 fn uniform(device: &wgpu::Device, label: &str, words: &[u32]) -> wgpu::Buffer {
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -58,7 +58,7 @@ fn uniform(device: &wgpu::Device, label: &str, words: &[u32]) -> wgpu::Buffer {
         usage: wgpu::BufferUsages::UNIFORM,
         mapped_at_creation: true,
     });
-    // It fails only with a lost device, of which wgpu tells the caller.
+    // Mapping fails only on a lost device, which wgpu reports to the caller.
     if let Ok(mut mapped) = buffer.get_mapped_range_mut(..) {
         mapped.copy_from_slice(&bytes);
     }

@@ -1,5 +1,5 @@
-//! Clearing a rectangle inside an open render pass. `LoadOp::Clear` heeds no scissor, so it would take the rest of
-//! the attachment along.
+//! Clearing a rectangle inside an open render pass. `LoadOp::Clear` ignores the scissor, so it would clear the rest of the
+//! attachment too.
 
 use super::{module, scalar, section, uniform, vertex};
 use crate::desc::Format;
@@ -7,21 +7,21 @@ use crate::device::MAX_COLOR_ATTACHMENTS;
 use crate::subresource::Rect;
 use std::collections::HashMap;
 
-/// What the open pass draws into. Whether depth or stencil is read-only there does not matter, unless it is cleared.
+/// The attachments of the open pass. Depth and stencil may be read-only unless they are cleared.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Targets {
-    /// Formats in the order of the attachments; `None` is a hole.
+    /// Formats in the order of the attachments; `None` for an empty index.
     pub(crate) colors: Vec<Option<Format>>,
     pub(crate) depth_stencil: Option<Format>,
     pub(crate) samples: u32,
 }
 
-/// What is cleared, to what, and where. `None` and attachments beyond the end of `colors` are left alone; a value for
-/// what the pass does not have (a hole, a missing aspect) is ignored.
+/// Clear values and the rectangle to clear. Attachments with `None`, or beyond the end of `colors`, are unchanged; a value
+/// for an attachment or aspect that the pass does not have is ignored.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RegionClear<'v> {
-    /// Converted to the attachment's format as `wgpu::Color` is, but where a value lies between two of the format's
-    /// the driver may take the other one than for `LoadOp::Clear`.
+    /// Converted to the attachment's format like `wgpu::Color`, but a value between two representable ones may be rounded
+    /// differently than by `LoadOp::Clear`.
     pub(crate) colors: &'v [Option<[f64; 4]>],
     /// From 0 to 1.
     pub(crate) depth: Option<f32>,
@@ -30,7 +30,7 @@ pub(crate) struct RegionClear<'v> {
     pub(crate) rect: Rect,
 }
 
-/// What a pipeline writes.
+/// The attachments and aspects that a pipeline clears.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct ClearMask {
     colors: [bool; MAX_COLOR_ATTACHMENTS],
@@ -57,7 +57,7 @@ impl ClearMask {
     }
 }
 
-/// The bits of the values as the shader has them, 0 for what is left alone.
+/// The bits of the clear values as the shader reads them, 0 for unchanged attachments.
 type Bits = [[u32; 4]; MAX_COLOR_ATTACHMENTS];
 
 struct Values {
@@ -65,8 +65,8 @@ struct Values {
     used: u64,
 }
 
-/// The draws that clear rectangles, for one device. There is a pipeline for each kind of pass and what is cleared in
-/// it, and a small buffer for each set of colours.
+/// Clears rectangles on one device, with a pipeline for each combination of targets and cleared attachments, and a small
+/// buffer for each set of colours.
 #[derive(Default)]
 pub(crate) struct RegionClears {
     frame: u64,
@@ -84,8 +84,8 @@ impl RegionClears {
 
     /// Records a clear into an open pass whose attachments are `targets`.
     ///
-    /// The pass keeps this draw's pipeline, viewport and scissor: set your own before drawing on. The stencil
-    /// reference is 0 and bind group 0 is unset afterwards.
+    /// The pass keeps this draw's pipeline, viewport and scissor: set others before the next draw. Afterwards the stencil
+    /// reference is 0 and bind group 0 is unset.
     pub(crate) fn record(
         &mut self,
         device: &wgpu::Device,
@@ -105,9 +105,9 @@ impl RegionClears {
         let values = self.values.entry(bits);
         let values = values.or_insert_with(|| Values { group: group(device, layout, &bits), used: 0 });
         values.used = self.frame;
-        pass.set_pipeline(pipeline.or_insert_with(|| pipeline_of(device, layout, targets, cleared)));
+        pass.set_pipeline(pipeline.or_insert_with(|| create_pipeline(device, layout, targets, cleared)));
         pass.set_bind_group(0, &values.group, &[]);
-        // A range of one depth: no interpolation or rounding comes between the value and what is stored.
+        // A depth range of a single value stores exactly that value, without interpolation or rounding.
         let depth = clear.depth.filter(|_| cleared.depth).unwrap_or_default();
         pass.set_viewport(x as f32, y as f32, width as f32, height as f32, depth, depth);
         pass.set_scissor_rect(x, y, width, height);
@@ -123,7 +123,7 @@ impl RegionClears {
     }
 }
 
-/// Returns each cleared attachment's value in the number format that its shader output has.
+/// Returns the clear value of each attachment in the number format of its shader output.
 fn bits(targets: &Targets, clear: &RegionClear<'_>) -> [Option<[u32; 4]>; MAX_COLOR_ATTACHMENTS] {
     let mut all = [None; MAX_COLOR_ATTACHMENTS];
     for ((bits, format), color) in all.iter_mut().zip(&targets.colors).zip(clear.colors) {
@@ -162,13 +162,13 @@ fn group(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, bits: &Bits) -> 
     })
 }
 
-fn pipeline_of(
+fn create_pipeline(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     targets: &Targets,
     cleared: ClearMask,
 ) -> wgpu::RenderPipeline {
-    let module = module(device, "region clear", &fragment_text(targets, cleared));
+    let module = module(device, "region clear", &fragment_source(targets, cleared));
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("region clear"),
         bind_group_layouts: &[Some(layout)],
@@ -193,25 +193,25 @@ fn pipeline_of(
     })
 }
 
-/// Returns a fragment stage with outputs for the cleared attachments only, each of its format's scalar.
-fn fragment_text(targets: &Targets, cleared: ClearMask) -> String {
+/// Returns a fragment stage with outputs for the cleared attachments only, each with the scalar type of its format.
+fn fragment_source(targets: &Targets, cleared: ClearMask) -> String {
     if !cleared.colors.contains(&true) {
         return section("no-color").to_owned();
     }
-    let mut text = String::new();
+    let mut source = String::new();
     for line in section("clear").lines() {
         if !line.ends_with("// each") {
-            text.extend([line, "\n"]);
+            source.extend([line, "\n"]);
             continue;
         }
         for (index, format) in targets.colors.iter().enumerate() {
-            let class = format.and_then(|format| format.sample_type(None, None));
-            let (Some(class), Some(true)) = (class, cleared.colors.get(index)) else { continue };
-            let line = line.replace("INDEX", &index.to_string()).replace("SCALAR", scalar(class));
-            text.extend([&line, "\n"]);
+            let sample_type = format.and_then(|format| format.sample_type(None, None));
+            let (Some(sample_type), Some(true)) = (sample_type, cleared.colors.get(index)) else { continue };
+            let line = line.replace("INDEX", &index.to_string()).replace("SCALAR", scalar(sample_type));
+            source.extend([&line, "\n"]);
         }
     }
-    text
+    source
 }
 
 fn color_states(targets: &Targets, cleared: ClearMask) -> Vec<Option<wgpu::ColorTargetState>> {

@@ -1,14 +1,14 @@
-//! Drawing a texture into one of another size, so that a history survives a resize.
+//! Resampling a texture into one of another size, so that a history keeps its contents after a resize.
 
 use super::{module, scalar, section, uniform, vertex};
 use crate::desc::{Format, TextureDesc};
 use std::collections::HashMap;
 use wgpu::{TextureDimension, TextureSampleType, TextureUsages};
 
-/// Why contents cannot be carried over to another size.
+/// Why a texture cannot be resampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ResampleError {
-    /// No shader can write the format whole: it has a stencil aspect, is compressed or is not renderable.
+    /// No shader can write all of the format: it has a stencil aspect, is compressed or is not renderable.
     Format,
     /// More than one sample per texel.
     Samples,
@@ -20,20 +20,21 @@ pub(crate) enum ResampleError {
     Different,
 }
 
-/// Says whether textures of this shape can be resampled, provided that they are created with `TEXTURE_BINDING` and
+/// Checks that textures of this shape can be resampled, if they are created with `TEXTURE_BINDING` and
 /// `RENDER_ATTACHMENT`.
 ///
 /// # Errors
-/// Why not. What only this adapter can render to is refused, as a device does not tell.
+/// The reason why not. Formats that only the adapter supports count as not renderable, since the device does not report
+/// them.
 pub(crate) fn can_resample(desc: &TextureDesc, features: wgpu::Features) -> Result<(), ResampleError> {
-    class(desc.format, desc.samples, desc.dimension, features)?;
+    sample_type(desc.format, desc.samples, desc.dimension, features)?;
     let needed = TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT;
     let allowed = desc.format.guaranteed_format_features(features).allowed_usages;
     if allowed.contains(needed) { Ok(()) } else { Err(ResampleError::Format) }
 }
 
-/// How a shader reads such a texture.
-fn class(
+/// Returns how a shader samples such a texture.
+fn sample_type(
     format: Format,
     samples: u32,
     dimension: TextureDimension,
@@ -42,12 +43,12 @@ fn class(
     match (format.sample_type(None, Some(features)), samples, dimension) {
         (_, _, TextureDimension::D1 | TextureDimension::D3) => Err(ResampleError::Dimension),
         (_, 2.., _) => Err(ResampleError::Samples),
-        (Some(class), ..) if !format.has_stencil_aspect() => Ok(class),
+        (Some(sample_type), ..) if !format.has_stencil_aspect() => Ok(sample_type),
         _ => Err(ResampleError::Format),
     }
 }
 
-/// The draws that resample, for one device: one pipeline per format.
+/// Resamples textures on one device, with one pipeline per format.
 #[derive(Default)]
 pub(crate) struct Resampler {
     draws: HashMap<Format, Draw>,
@@ -56,12 +57,12 @@ pub(crate) struct Resampler {
 impl Resampler {
     /// Records passes that fill all mips and layers of `target` with the contents of `source`, scaled.
     ///
-    /// Filterable formats are filtered bilinearly, which skips texels when it shrinks to less than half; integers,
-    /// unfilterable floats and depth take the texel under the centre. A mip comes from the same mip of the source, or
-    /// from its last.
+    /// Filterable formats are filtered bilinearly, which skips texels when shrinking to less than half; integers,
+    /// unfilterable floats and depth use the nearest texel. A mip is resampled from the same mip of the source, or from
+    /// its last one.
     ///
     /// # Errors
-    /// Why it cannot be done; nothing is recorded then.
+    /// The reason why it is not possible; nothing is recorded then.
     pub(crate) fn record(
         &mut self,
         device: &wgpu::Device,
@@ -70,9 +71,9 @@ impl Resampler {
         target: &wgpu::Texture,
     ) -> Result<(), ResampleError> {
         let format = target.format();
-        let class = class(format, target.sample_count(), target.dimension(), device.features())?;
+        let sample_type = sample_type(format, target.sample_count(), target.dimension(), device.features())?;
         check_pair(source, target)?;
-        let draw = self.draws.entry(format).or_insert_with(|| Draw::new(device, format, class));
+        let draw = self.draws.entry(format).or_insert_with(|| Draw::new(device, format, sample_type));
         for mip in 0..target.mip_level_count() {
             let size = target.size().mip_level_size(mip, target.dimension());
             let size = uniform(device, "resample", &[size.width, size.height]);
@@ -115,13 +116,13 @@ pub(super) fn view(texture: &wgpu::Texture, mip: u32, layer: u32) -> wgpu::Textu
 
 struct Draw {
     pipeline: wgpu::RenderPipeline,
-    /// Only where the format is filtered.
+    /// For filterable formats only.
     sampler: Option<wgpu::Sampler>,
 }
 
 impl Draw {
-    fn new(device: &wgpu::Device, format: Format, class: TextureSampleType) -> Self {
-        let filtered = class == TextureSampleType::Float { filterable: true };
+    fn new(device: &wgpu::Device, format: Format, sample_type: TextureSampleType) -> Self {
+        let filtered = sample_type == TextureSampleType::Float { filterable: true };
         let sampler = filtered.then(|| {
             device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("resample"),
@@ -130,7 +131,7 @@ impl Draw {
                 ..Default::default()
             })
         });
-        Self { pipeline: pipeline(device, format, class), sampler }
+        Self { pipeline: pipeline(device, format, sample_type), sampler }
     }
 
     fn group(
@@ -155,7 +156,7 @@ impl Draw {
     }
 }
 
-/// Opens a pass over one mip and layer, whose contents go.
+/// Opens a pass on one mip and layer, whose contents are discarded.
 pub(super) fn open_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
@@ -183,19 +184,20 @@ pub(super) fn open_pass<'e>(
     })
 }
 
-fn pipeline(device: &wgpu::Device, format: Format, class: TextureSampleType) -> wgpu::RenderPipeline {
-    let depth = class == TextureSampleType::Depth;
-    let last = match class {
+fn pipeline(device: &wgpu::Device, format: Format, sample_type: TextureSampleType) -> wgpu::RenderPipeline {
+    let depth = sample_type == TextureSampleType::Depth;
+    let last_section = match sample_type {
         TextureSampleType::Depth => "depth",
         TextureSampleType::Float { filterable: true } => "filtered",
         _ => "nearest",
     };
-    let text = [section("resample"), &section(last).replace("SCALAR", scalar(class))].concat();
-    let module = module(device, "resample", &text);
+    let fragment =
+        [section("resample"), &section(last_section).replace("SCALAR", scalar(sample_type))].concat();
+    let module = module(device, "resample", &fragment);
     let color = [Some(format.into())];
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("resample"),
-        // The bindings follow from the text; no group is shared between pipelines.
+        // The layout is derived from the shader; no group is shared between pipelines.
         layout: None,
         vertex: vertex(&module),
         primitive: Default::default(),

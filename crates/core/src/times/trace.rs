@@ -1,4 +1,4 @@
-//! Times as a trace that browsers show.
+//! Times in Chrome's trace format.
 
 use super::PassTime;
 use serde::Serialize;
@@ -37,7 +37,7 @@ struct Arguments<'t> {
     draws: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     triangles: Option<u64>,
-    /// Those that a GPU time is of, where they are several.
+    /// The passes that share a GPU time, if there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     passes: Vec<&'t str>,
 }
@@ -45,8 +45,8 @@ struct Arguments<'t> {
 const CPU: u32 = 1;
 const GPU: u32 = 2;
 
-/// Returns the times of a frame in Chrome's trace format, which chrome://tracing and Perfetto open: a row for the CPU and one
-/// for the GPU. Where passes share one GPU time they are one event, with the names of them all.
+/// Returns the times of a frame in Chrome's trace format, which chrome://tracing and Perfetto open: one row for the CPU and
+/// one for the GPU. Passes that share a GPU time are one event with all of their names.
 ///
 /// ```
 /// use shadowgraph_core::{PassTime, trace_json};
@@ -56,7 +56,7 @@ const GPU: u32 = 2;
 /// ```
 ///
 /// # Errors
-/// None that times can cause; serde_json's, should it have one.
+/// Errors of serde_json; times cause none.
 pub fn trace_json(times: &[PassTime]) -> Result<String, serde_json::Error> {
     let row = |tid, name| Event {
         name: "thread_name",
@@ -72,7 +72,7 @@ pub fn trace_json(times: &[PassTime]) -> Result<String, serde_json::Error> {
     let mut shared: Option<f64> = None;
     for time in times {
         let args = |passes| Arguments { name: None, draws: time.draws, triangles: time.triangles, passes };
-        let of = |tid, begin_ms: f64, ms: f64, passes| Event {
+        let event = |tid, begin_ms: f64, ms: f64, passes| Event {
             name: &time.pass,
             cat: &time.node,
             ph: "X",
@@ -82,16 +82,16 @@ pub fn trace_json(times: &[PassTime]) -> Result<String, serde_json::Error> {
             dur: Some(ms * 1e3),
             args: Some(args(passes)),
         };
-        events.push(of(CPU, time.cpu_begin_ms, time.cpu_ms, Vec::new()));
+        events.push(event(CPU, time.cpu_begin_ms, time.cpu_ms, Vec::new()));
         let (Some(begin_ms), Some(ms)) = (time.gpu_begin_ms, time.gpu_ms) else { continue };
-        // Passes that share a time have the same.
+        // Passes that share a time have the same start.
         if time.shared_by > 1 && shared == Some(begin_ms) {
             continue;
         }
         shared = Some(begin_ms);
         let together = |other: &&PassTime| time.shared_by > 1 && other.gpu_begin_ms == Some(begin_ms);
         let passes = times.iter().filter(together).map(|other| &*other.pass).collect();
-        events.push(of(GPU, begin_ms, ms, passes));
+        events.push(event(GPU, begin_ms, ms, passes));
     }
     serde_json::to_string(&Trace { events, unit: "ms" })
 }
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn passes_have_an_event_on_each_row_and_merged_ones_share_that_of_the_gpu() {
+    fn passes_have_an_event_on_each_row_and_merged_ones_share_their_gpu_event() {
         let time = |pass: &str, shared_by| PassTime {
             pass: pass.into(),
             gpu_begin_ms: Some(if shared_by > 1 { 1.0 } else { 3.0 }),

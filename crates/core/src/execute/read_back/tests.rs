@@ -106,7 +106,7 @@ fn ranges_that_a_buffer_does_not_have_are_refused() {
         assert!(matches!(&error, Error::ReadBack { resource, .. } if resource == "numbers"), "{error:?}");
         error.to_string()
     };
-    assert!(refused(&source, 4..12).contains("it has 8 bytes, and 4..12 are asked for"));
+    assert!(refused(&source, 4..12).contains("it has 8 bytes, but 4..12 are requested"));
     assert!(refused(&source, 4..4).contains("at least one"));
     assert!(refused(&source, u64::MAX - 1..u64::MAX).contains("it has 8 bytes"));
     let odd = device.create_buffer(&wgpu::BufferDescriptor {
@@ -297,9 +297,9 @@ fn textures_that_cannot_be_copied_are_refused() {
     let sampled = wgpu::TextureDescriptor { usage: TextureUsages::TEXTURE_BINDING, ..plain.clone() };
     assert!(refusal(&device, &sampled, &WHOLE).contains("created without COPY_SRC"));
     let mip = refusal(&device, &plain, &TexturePart { mip: 1, ..WHOLE });
-    assert!(mip.contains("it has 1 mip levels, and level 1 is asked for"), "{mip}");
+    assert!(mip.contains("it has 1 mip levels, but level 1 is requested"), "{mip}");
     let layers = refusal(&device, &plain, &TexturePart { layers: 1..3, ..WHOLE });
-    assert!(layers.contains("it has 2 layers, and 1..3 are asked for"), "{layers}");
+    assert!(layers.contains("it has 2 layers, but 1..3 are requested"), "{layers}");
     let stencil = TexturePart { aspect: TextureAspect::StencilOnly, ..WHOLE };
     assert!(refusal(&device, &plain, &stencil).contains("Rgba8Unorm has no aspect StencilOnly"));
 }

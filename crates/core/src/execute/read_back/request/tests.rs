@@ -1,4 +1,4 @@
-//! Read-backs asked for in a frame: textures on a device that draws, the rest on wgpu's noop device.
+//! Read-backs requested in a frame: textures on a device that draws, the rest on wgpu's noop device.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::test_device::{block_on, drawing, noop, valid};
@@ -265,20 +265,20 @@ fn what_one_copy_cannot_take_is_refused_in_words() {
     let color = TextureDesc::d2(8, 8, Format::Rgba8Unorm);
     let depth = |format| TextureDesc::d2(8, 8, format);
     let rect = Subresource::FULL.rect(Rect::new(1, 1, 2, 2));
-    refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 of its mip levels are asked for");
+    refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 mip levels are requested");
     refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last one");
     refused(color, Subresource::FULL.bytes(0..4), "no byte ranges");
     refused(color, Subresource::FULL.aspect(Aspect::Depth), "lacks that aspect");
     refused(TextureDesc { samples: 4, ..color }, Subresource::FULL, "resolve it");
     refused(depth(Format::Depth32Float), rect, "copied whole");
     refused(depth(Format::Depth24Plus), Subresource::FULL, "use Depth32Float");
-    refused(depth(Format::Depth24PlusStencil8), Subresource::FULL, "the depth or for the stencil alone");
+    refused(depth(Format::Depth24PlusStencil8), Subresource::FULL, "only the depth or only the stencil");
     refused(depth(Format::Bc1RgbaUnorm), rect, "whole blocks");
     let error = refusal(|frame| {
         let numbers = frame.upload_buffer("numbers", vec![0; 8]);
         frame.read_back_buffer(&numbers, Subresource::FULL.bytes(4..12));
     });
-    assert!(error.to_string().contains("asked for: bytes 4..12"), "{error}");
+    assert!(error.to_string().contains("requested: bytes 4..12"), "{error}");
 }
 
 #[test]
