@@ -5,10 +5,10 @@
 
 use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
+use shadowgraph_samples::demo::demo_scene;
 use std::process::ExitCode;
 
 /// Returns the sun at a time of the day, 0 at sunrise and 1 at sunset; a low sun is redder and weaker.

@@ -9,10 +9,10 @@ use glam::{DVec3, Vec3};
 use shadowgraph::core::{PassTime, Timer};
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::Parameters;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Light, LightKind};
 use shadowgraph::{Gpu, Pipeline, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
+use shadowgraph_samples::demo::demo_scene;
 use std::process::ExitCode;
 
 const LIGHT_COUNT: u32 = 1_000;

@@ -4,10 +4,10 @@
 
 use glam::DVec3;
 use shadowgraph::options::Aov;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{Camera, Projection};
 use shadowgraph::{Gpu, Renderer, ViewOptions, wgpu};
 use shadowgraph_examples::{Canvas, Example, FORMAT, Failure, run_example};
+use shadowgraph_samples::demo::demo_scene;
 use std::process::ExitCode;
 
 /// Eyes and targets of the two cameras.

@@ -4,10 +4,10 @@
 //! open a window.
 
 use shadowgraph::options::Aov;
-use shadowgraph::scene::trials::stained_glass;
 use shadowgraph::shadows::Techniques;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
+use shadowgraph_samples::trials::stained_glass;
 use std::process::ExitCode;
 
 struct StainedGlass {

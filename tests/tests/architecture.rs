@@ -14,22 +14,32 @@ const SHADOWS: &str = "shadowgraph-shadows";
 const LIGHTING: &str = "shadowgraph-lighting";
 const FACADE: &str = "shadowgraph";
 
-/// Which members a member may depend on, in tests and build scripts too.
-const ARROWS: [(&str, &[&str]); 10] = [
+const SAMPLES: &str = "shadowgraph-samples";
+const QUALITY: &str = "shadowgraph-quality";
+const CLI: &str = "shadowgraph-cli";
+
+/// The members that a member may depend on, dependencies of its tests and build scripts included.
+const ARROWS: [(&str, &[&str]); 13] = [
     (CORE, &[]),
     (SHADERS, &[]),
     (SCENE, &[CORE, SHADERS]),
+    (SAMPLES, &[SCENE]),
     (SHADOWS, &[CORE, SHADERS, SCENE]),
     (LIGHTING, &[CORE, SHADERS, SCENE, SHADOWS]),
     (FACADE, &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING]),
-    ("shadowgraph-examples", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE]),
-    ("shadowgraph-tests", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE]),
-    ("custom_technique", &[FACADE]),
+    (QUALITY, &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
+    (CLI, &[FACADE, SAMPLES, QUALITY]),
+    ("shadowgraph-examples", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
+    ("shadowgraph-tests", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES, QUALITY]),
+    ("custom_technique", &[FACADE, CLI]),
     ("xtask", &[]),
 ];
 
+/// What tests and examples of a member may use besides: it depends on nothing that depends on the member.
+const DEV_ARROWS: [(&str, &str); 1] = [(FACADE, SAMPLES)];
+
 /// Members that are published, and so may not depend on the others.
-const PUBLISHED: [&str; 6] = [CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE];
+const PUBLISHED: [&str; 9] = [CORE, SHADERS, SCENE, SAMPLES, SHADOWS, LIGHTING, FACADE, QUALITY, CLI];
 
 fn packages() -> BTreeMap<String, Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -42,8 +52,35 @@ fn packages() -> BTreeMap<String, Value> {
 }
 
 fn dependencies(package: &Value) -> Vec<String> {
+    let of_development = |dependency: &&Value| {
+        let names = (package["name"].as_str().unwrap(), dependency["name"].as_str().unwrap());
+        dependency["kind"] == "dev" && DEV_ARROWS.contains(&names)
+    };
     let list = package["dependencies"].as_array().unwrap().iter();
+    let list = list.filter(|dependency| !of_development(dependency));
     list.map(|dependency| dependency["name"].as_str().unwrap().to_owned()).collect()
+}
+
+/// The crates that a member needs with its default features, without those of its tests.
+fn crates_below(member: &str) -> Vec<String> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let arguments =
+        ["tree", "--offline", "-e", "normal", "--prefix", "none", "--format", "{p}", "-p", member];
+    let output = Command::new(cargo).args(arguments).current_dir(repository()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.lines().filter_map(|line| line.split(' ').next()).map(str::to_owned).collect()
+}
+
+#[test]
+fn libraries_pull_no_command_line_and_no_window() {
+    let program = ["clap", "indicatif", "tempfile", "egui", "winit"];
+    for (member, refused) in [(FACADE, program.as_slice()), (QUALITY, &["clap", "egui", "winit"])] {
+        let below = crates_below(member);
+        assert!(below.contains(&"wgpu".to_owned()), "{below:?}");
+        let found: Vec<_> = below.iter().filter(|name| refused.contains(&name.as_str())).collect();
+        assert!(found.is_empty(), "{member} pulls {found:?}");
+    }
 }
 
 #[test]
@@ -64,7 +101,7 @@ fn members_depend_only_on_the_rooms_to_their_left() {
 }
 
 #[test]
-fn only_the_six_crates_are_published() {
+fn only_the_crates_for_others_are_published() {
     for (name, package) in packages() {
         let never = package["publish"].as_array().is_some_and(Vec::is_empty);
         assert_eq!(!never, PUBLISHED.contains(&name.as_str()), "{name}");

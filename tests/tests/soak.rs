@@ -5,9 +5,9 @@
 
 use shadowgraph::options::{AdapterChoice, Aov};
 use shadowgraph::pipelines::Parameters;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::Technique;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_tests::skip;
 use std::io::Write;
 use std::sync::atomic::{AtomicU32, Ordering};

@@ -28,7 +28,7 @@ fn soak(frames: u32) -> Result<bool, String> {
     let runtime = RuntimeDir::new();
     let files = FILES.saturating_mul(frames);
     let tests: [(&[&str], &str, u32); 2] = [
-        (&["--lib", "damaged_files"], "SHADOWGRAPH_FUZZ", files),
+        (&["--test", "damaged_files"], "SHADOWGRAPH_FUZZ", files),
         (&["--test", "soak"], "SHADOWGRAPH_SOAK", frames),
     ];
     for (test, variable, count) in tests {

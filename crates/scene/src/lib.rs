@@ -11,7 +11,6 @@
 mod bounds;
 mod camera;
 mod cull;
-pub mod demo;
 mod error;
 #[cfg(feature = "gltf")]
 pub mod gltf;
@@ -22,8 +21,6 @@ mod material;
 mod mesh;
 mod origin;
 mod scene;
-mod solids;
-pub mod trials;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, CameraError, Projection};

@@ -4,8 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 use crate::bounds::Aabb;
-use crate::solids::shape;
 
+mod cuboid;
 mod normals;
 mod tangents;
 #[cfg(test)]
@@ -81,7 +81,7 @@ impl Mesh {
     /// ```
     #[must_use]
     pub fn cuboid(min: DVec3, max: DVec3) -> Self {
-        shape::cuboid(min.min(max), min.max(max)).finish("box")
+        cuboid::cuboid(min.min(max), min.max(max))
     }
 }
 

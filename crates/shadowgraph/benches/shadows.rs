@@ -106,7 +106,7 @@ fn lists(boxes: &[Aabb]) -> Result<(), Failure> {
 fn draws(file: Option<String>) -> Result<(), Failure> {
     let scene = match &file {
         Some(file) => shadowgraph::scene::gltf::load(std::path::Path::new(file))?,
-        None => shadowgraph::scene::demo::demo_scene(),
+        None => shadowgraph_samples::demo::demo_scene(),
     };
     println!("draws of shadow maps, {}", file.as_deref().unwrap_or("the demo scene"));
     let cameras =

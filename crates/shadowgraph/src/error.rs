@@ -50,9 +50,6 @@ pub enum Error {
         /// The target's format.
         format: shadowgraph_core::Format,
     },
-    /// The renderer that is benchmarked draws another output than colours.
-    #[error("only the output `color` can be benchmarked: the hand-written encoder draws nothing else")]
-    BenchAov,
     /// A light that the scene does not have.
     #[error("unknown light {light}; {lights}")]
     UnknownLight {
@@ -116,17 +113,6 @@ pub enum Error {
         /// Its input.
         port: String,
     },
-    /// Cases to measure cannot be read.
-    #[error("{place}: {reason}")]
-    Cases {
-        /// The file.
-        place: String,
-        /// What is wrong, where, and what is allowed.
-        reason: String,
-    },
-    /// Images that are compared do not match.
-    #[error(transparent)]
-    Metrics(#[from] crate::measure::metrics::MetricsError),
     /// wgpu reported a validation error or an internal error.
     #[error("wgpu error: {0}")]
     Gpu(String),

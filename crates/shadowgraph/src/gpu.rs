@@ -52,8 +52,7 @@ impl Gpu {
     ///
     /// # Errors
     /// As [`open`](Self::open), for the adapters that can.
-    #[cfg(feature = "view")]
-    pub(crate) fn for_surface(
+    pub fn for_surface(
         instance: &wgpu::Instance,
         surface: &wgpu::Surface<'_>,
         choice: &AdapterChoice,
@@ -104,9 +103,12 @@ impl Gpu {
 }
 
 impl Gpu {
-    /// Runs `work` and returns wgpu's errors, which would end the program by default. On a lost device every error is
+    /// Runs `work` in error scopes and returns wgpu's errors, which would end the program by default.
+    ///
+    /// # Errors
+    /// Those of `work`, and [`Error::Gpu`] with wgpu's message. On a lost device every error is
     /// [`DeviceLost`](shadowgraph_core::Error::DeviceLost).
-    pub(crate) fn checked<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    pub fn checked<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
         let scopes = [Internal, OutOfMemory, Validation].map(|filter| self.device.push_error_scope(filter));
         let done = work();
@@ -115,8 +117,8 @@ impl Gpu {
             scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
         match (errors.first(), done) {
             (None, Ok(done)) => Ok(done),
-            _ if device_is_lost(&self.device) => Err(shadowgraph_core::Error::DeviceLost.into()),
-            (Some(error), _) => Err(Error::Gpu(one_line(&error.to_string()))),
+            _ if device_is_lost(&self.device) => Err(Error::from(shadowgraph_core::Error::DeviceLost).into()),
+            (Some(error), _) => Err(Error::Gpu(one_line(&error.to_string())).into()),
             (None, Err(error)) => Err(error),
         }
     }

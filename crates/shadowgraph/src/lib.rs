@@ -24,9 +24,10 @@
 //! use shadowgraph::glam::DVec3;
 //! use shadowgraph::options::{AdapterChoice, Aov};
 //! use shadowgraph::output::{Pixels, write_png};
-//! use shadowgraph::scene::{Camera, Projection, demo::demo_scene};
+//! use shadowgraph::scene::{Camera, Projection};
 //! use shadowgraph::shadows::ShadowSettings;
 //! use shadowgraph::{Gpu, Renderer, ViewOptions};
+//! use shadowgraph_samples::demo::demo_scene;
 //!
 //! # fn example() -> Result<(), Box<dyn std::error::Error>> {
 //! let gpu = Gpu::open(&AdapterChoice::Auto)?;
@@ -41,26 +42,23 @@
 //! # }
 //! ```
 
-pub mod bench;
 mod build_context;
 mod casters;
 mod debug_blit;
 mod error;
 mod gpu;
-mod inspect;
-pub mod measure;
+pub mod inspect;
 pub mod nodes;
 mod occluders;
 pub mod options;
 pub mod output;
 pub mod pipelines;
-pub mod program;
 mod registry;
 mod render_config;
 mod render_view;
 mod rendered;
 mod renderer;
-mod ron_file;
+pub mod ron_file;
 mod surfaces;
 mod techniques;
 mod view_options;
@@ -70,7 +68,6 @@ pub use casters::SceneCasters;
 pub use debug_blit::DebugBlit;
 pub use error::Error;
 pub use gpu::Gpu;
-pub use inspect::InspectedFrame;
 pub use occluders::ray_scene;
 pub use pipelines::Pipeline;
 pub use registry::Registry;
@@ -78,6 +75,8 @@ pub use render_config::RenderConfig;
 pub use render_view::RenderView;
 pub use rendered::{RenderedFrame, RenderedImage};
 pub use renderer::Renderer;
+pub use renderer::aov::ViewOutput;
+pub use surfaces::SurfaceDrawer;
 pub use view_options::ViewOptions;
 
 pub use glam;

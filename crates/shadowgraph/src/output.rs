@@ -1,7 +1,9 @@
 //! Files that are written completely or not at all.
 
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// An error while a file is written. The message is one line; no partial file is left.
 #[derive(Debug, thiserror::Error)]
@@ -123,13 +125,11 @@ fn write_atomically(
     let directory =
         target.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(Path::new("."));
     std::fs::create_dir_all(directory).map_err(error)?;
-    // The temporary file is removed when it is dropped after an error.
-    let mut temporary = temporary_file(directory).map_err(error)?;
-    let mut out = BufWriter::new(temporary.as_file_mut());
+    let temporary = TemporaryFile::create(directory).map_err(error)?;
+    let mut out = BufWriter::new(&temporary.file);
     write(&mut out).and_then(|()| out.flush()).map_err(error)?;
     drop(out);
-    temporary.persist(&target).map_err(|persist| error(persist.error))?;
-    Ok(())
+    temporary.rename(&target).map_err(error)
 }
 
 fn write_into_device(file: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -138,13 +138,37 @@ fn write_into_device(file: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::R
     out.flush()
 }
 
-fn temporary_file(directory: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".shadowgraph-").suffix(".part");
-    // Permissions like those of any other new file, by the user's mask.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(directory)
+/// A new file with a unique name, removed when dropped.
+struct TemporaryFile {
+    file: File,
+    path: PathBuf,
+}
+
+impl TemporaryFile {
+    fn create(directory: &Path) -> io::Result<Self> {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let number = NEXT.fetch_add(1, Ordering::Relaxed);
+            let path = directory.join(format!(".shadowgraph-{}-{number}.part", std::process::id()));
+            match File::create_new(&path) {
+                // Left behind by a killed process with the same id.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                created => return created.map(|file| Self { file, path }),
+            }
+        }
+    }
+
+    /// Replaces `target` by the file in one step.
+    fn rename(self, target: &Path) -> io::Result<()> {
+        std::fs::rename(&self.path, target)
+    }
+}
+
+impl Drop for TemporaryFile {
+    fn drop(&mut self) {
+        // Absent after a rename.
+        let _absent = std::fs::remove_file(&self.path);
+    }
 }
 
 #[cfg(test)]

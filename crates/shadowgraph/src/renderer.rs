@@ -1,10 +1,8 @@
 //! Drawing a scene: the state that is kept from frame to frame.
 
-mod aov;
+pub(crate) mod aov;
 mod draw;
 mod record;
-
-pub(crate) use draw::nothing_read;
 
 use aov::lit_output;
 
@@ -32,8 +30,8 @@ use crate::view_options::ViewOptions;
 
 /// Draws one scene with one configuration.
 pub struct Renderer {
-    pub(crate) casters: SceneCasters,
-    pub(crate) technique: Box<dyn ShadowTechnique>,
+    casters: SceneCasters,
+    technique: Box<dyn ShadowTechnique>,
     config: RenderConfig,
     instance: Box<dyn PipelineInstance>,
     debug_blit: DebugBlit,
@@ -41,7 +39,7 @@ pub struct Renderer {
     scene: Scene,
     aov: Aov,
     /// The camera that shadows are fitted to, if it is not that of the view.
-    pub(crate) shadow_camera: Option<Camera>,
+    shadow_camera: Option<Camera>,
     /// Behind a mutex because a frame borrows the renderer while the graph compiles and executes it.
     graph: Mutex<Graph>,
 }
@@ -84,7 +82,7 @@ impl Renderer {
     ///
     /// ```
     /// use shadowgraph::options::Aov;
-    /// use shadowgraph::scene::demo::demo_scene;
+    /// use shadowgraph_samples::demo::demo_scene;
     /// use shadowgraph::{Gpu, Renderer, ViewOptions};
     /// # let open = Gpu::noop;
     /// let (mut gpu, scene) = (open()?, demo_scene());
@@ -187,8 +185,18 @@ impl Renderer {
         self.config.samples
     }
 
+    /// Returns the shadow technique.
+    pub fn technique(&self) -> &dyn ShadowTechnique {
+        self.technique.as_ref()
+    }
+
+    /// Returns the camera that shadows are fitted to, if it is not that of the view.
+    pub fn shadow_camera(&self) -> Option<&Camera> {
+        self.shadow_camera.as_ref()
+    }
+
     /// Returns the AOV of the images.
-    pub(crate) fn aov(&self) -> &Aov {
+    pub fn aov(&self) -> &Aov {
         &self.aov
     }
 
@@ -205,12 +213,9 @@ impl Renderer {
         Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
     }
 
-    /// Culls and sorts the geometry of a view. `target` is the target of a colour image.
-    pub(crate) fn view<'v>(
-        &'v self,
-        options: &'v ViewOptions,
-        target: Option<&'v wgpu::Texture>,
-    ) -> RenderView<'v> {
+    /// Culls and sorts the geometry of a view, for [`add`](Self::add) and for other passes over it. `target` is the target of a colour
+    /// image.
+    pub fn view<'v>(&'v self, options: &'v ViewOptions, target: Option<&'v wgpu::Texture>) -> RenderView<'v> {
         let gpu_scene = &self.casters.scene;
         let mut visible = Vec::new();
         gpu_scene.cull(&options.camera.frustum(options.aspect()).into(), &mut visible);
@@ -231,7 +236,10 @@ impl Renderer {
     }
 
     /// Checks the camera, and moves the origin of GPU space to it.
-    pub(crate) fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// [`Error::Camera`], and those of creating the technique again where it keeps positions.
+    pub fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         options.camera.check(options.aspect())?;
         let origin_world = origin_near(options.camera.position_world());
         if origin_world == self.casters.scene.origin_world() {
@@ -243,8 +251,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Returns the graph; the guard must not outlive one call.
-    pub(crate) fn graph(&self) -> MutexGuard<'_, Graph> {
+    /// Locks the graph, which keeps plans, pooled resources and histories from frame to frame. Drawing waits while the guard is held.
+    pub fn graph(&self) -> MutexGuard<'_, Graph> {
         self.graph.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -12,9 +12,11 @@ use shadowgraph_core::did_you_mean;
 
 /// An error in a file, with its location: `file:line:column`, or the file alone.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct ParseError {
-    pub(crate) location: String,
-    pub(crate) problem: String,
+pub struct ParseError {
+    /// `file:line:column`, or the file alone.
+    pub location: String,
+    /// What is wrong, and what is allowed.
+    pub problem: String,
 }
 
 impl fmt::Display for ParseError {
@@ -23,17 +25,13 @@ impl fmt::Display for ParseError {
     }
 }
 
-impl From<ParseError> for crate::Error {
-    fn from(ParseError { location, problem }: ParseError) -> Self {
-        Self::Cases { place: location, reason: problem }
-    }
-}
+impl std::error::Error for ParseError {}
 
 /// Parses the text of a file; `Some` need not be written.
 ///
 /// # Errors
 /// What is wrong, and its location.
-pub(crate) fn parse_file<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<T, ParseError> {
+pub fn parse_file<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<T, ParseError> {
     parse_text(text)
         .map_err(|(offset, problem)| ParseError { location: location(file, text, offset), problem })
 }
@@ -42,7 +40,7 @@ pub(crate) fn parse_file<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> R
 ///
 /// # Errors
 /// The offset of the error in bytes, and what is wrong.
-pub(crate) fn parse_text<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, (usize, String)> {
+pub fn parse_text<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, (usize, String)> {
     options().from_str(text).map_err(|error| match text.trim() {
         "" => (0, "the file is empty".to_owned()),
         _ => describe(text, &error),
@@ -90,7 +88,7 @@ fn options() -> Options {
 }
 
 /// Returns `file:line:column`, from 1.
-pub(crate) fn location(file: &str, text: &str, offset: usize) -> String {
+pub fn location(file: &str, text: &str, offset: usize) -> String {
     let before = text.get(..offset).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
@@ -99,7 +97,7 @@ pub(crate) fn location(file: &str, text: &str, offset: usize) -> String {
 
 /// Returns an error about the value at a path of fields and indices, such as `cases.0.views`. If the text does not have the value,
 /// the location is that of the closest value around it, or the file.
-pub(crate) fn field_error(file: &str, text: &str, path: &str, problem: impl fmt::Display) -> ParseError {
+pub fn field_error(file: &str, text: &str, path: &str, problem: impl fmt::Display) -> ParseError {
     let location = match values(text, path).last() {
         Some(value) => location(file, text, offset_of(text, value)),
         None => file.to_owned(),
@@ -108,13 +106,7 @@ pub(crate) fn field_error(file: &str, text: &str, path: &str, problem: impl fmt:
 }
 
 /// Returns an error inside the value at a path, which was parsed separately with this error; `owner` begins the message.
-pub(crate) fn nested_error(
-    file: &str,
-    text: &str,
-    path: &str,
-    owner: &str,
-    error: &SpannedError,
-) -> ParseError {
+pub fn nested_error(file: &str, text: &str, path: &str, owner: &str, error: &SpannedError) -> ParseError {
     let Some(value) = values(text, path).pop() else {
         let problem = one_line(&format!("{owner}: {}", problem(&error.code)));
         return ParseError { location: file.to_owned(), problem };
@@ -137,19 +129,19 @@ fn values<'t>(text: &'t str, path: &str) -> Vec<&'t RawValue> {
 }
 
 /// Returns the text of the value at a path of fields and indices; `None` if there is none.
-pub(crate) fn value<'t>(text: &'t str, path: &str) -> Option<&'t str> {
+pub fn value<'t>(text: &'t str, path: &str) -> Option<&'t str> {
     let found = values(text, path);
     (found.len() == path.split('.').count()).then(|| found.last().map(|value| value.get_ron().trim()))?
 }
 
 /// Returns the offset in bytes of a raw value, including blanks before it. Raw values are slices of the text that they were parsed
 /// from.
-pub(crate) fn start_of(text: &str, raw: &RawValue) -> usize {
+pub fn start_of(text: &str, raw: &RawValue) -> usize {
     (raw.get_ron().as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
 }
 
 /// Returns the offset in bytes of a raw value, after the blanks before it.
-pub(crate) fn offset_of(text: &str, raw: &RawValue) -> usize {
+pub fn offset_of(text: &str, raw: &RawValue) -> usize {
     let inner = raw.get_ron();
     start_of(text, raw) + inner.len() - inner.trim_start().len()
 }
@@ -253,7 +245,7 @@ fn problem(error: &ron::Error) -> String {
 }
 
 /// Escapes control characters, so that a message stays in one line.
-pub(crate) fn one_line(text: &str) -> String {
+pub fn one_line(text: &str) -> String {
     let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
     text.chars().map(escaped).collect()
 }

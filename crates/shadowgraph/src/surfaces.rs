@@ -8,20 +8,27 @@ use shadowgraph_shadows::{NoShadows, ShadowOutputs, SurfaceBuffers};
 use crate::error::Error;
 
 /// The pass that draws positions and geometric normals.
-pub(crate) struct SurfaceDrawer {
+pub struct SurfaceDrawer {
     prepass: Prepass,
     forward: Forward,
 }
 
 impl SurfaceDrawer {
-    pub(crate) fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
+    /// Creates the pipelines.
+    ///
+    /// # Errors
+    /// None with the WGSL of this version.
+    pub fn new(device: &wgpu::Device, layouts: &MaterialLayouts) -> Result<Self, Error> {
         let target = LitTarget { format: Format::Rgba32Float, output: LitOutput::Surface, samples: 1 };
         let forward = Forward::new(device, layouts, &NoShadows, target)?;
         Ok(Self { prepass: Prepass::new(device, layouts, 1)?, forward })
     }
 
     /// Adds the pass after a prepass that drew `depth`.
-    pub(crate) fn add_to<'f>(
+    ///
+    /// # Errors
+    /// [`Error::Lighting`] if a pipeline variant cannot be created.
+    pub fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
@@ -34,7 +41,10 @@ impl SurfaceDrawer {
 
     /// Adds a separate prepass and the pass for a technique that reads surfaces, if the view's prepass has several samples or there
     /// is none.
-    pub(crate) fn screen_with_prepass<'f>(
+    ///
+    /// # Errors
+    /// [`Error::Lighting`] if a pipeline variant cannot be created.
+    pub fn screen_with_prepass<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,

@@ -28,7 +28,8 @@ impl ViewOptions {
         self
     }
 
-    pub(crate) fn aspect(&self) -> f64 {
+    /// Returns the width of the image divided by its height.
+    pub fn aspect(&self) -> f64 {
         f64::from(self.size_px[0]) / f64::from(self.size_px[1])
     }
 

@@ -11,7 +11,7 @@ use shadowgraph::Registry;
 fn main() -> ExitCode {
     let mut registry = Registry::built_in();
     match registry.techniques.register(esm::ESM) {
-        Ok(()) => shadowgraph::program::run(&registry),
+        Ok(()) => shadowgraph_cli::run(&registry),
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE

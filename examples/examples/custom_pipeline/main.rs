@@ -10,10 +10,10 @@ mod vignette;
 use script::Script;
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::{Parameters, Pipeline};
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::EVSM;
 use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
+use shadowgraph_samples::demo::demo_scene;
 use std::process::ExitCode;
 use vignette::Vignette;
 

@@ -5,8 +5,8 @@ use glam::DVec3;
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::Scene;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::{Error, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 use std::collections::HashSet;
 
 fn cube() -> (Scene, ViewOptions) {
@@ -113,7 +113,10 @@ fn integer_textures_are_refused_and_single_channel_textures_are_grey() {
         renderer.draw(gpu, &options).map(|drawn| drawn.image)
     };
     let error = draw("normals", Pipeline::deferred()).unwrap_err().to_string();
-    assert!(error.starts_with("texture `normals` (Rg32Uint): integer textures cannot be displayed"), "{error}");
+    assert!(
+        error.starts_with("texture `normals` (Rg32Uint): integer textures cannot be displayed"),
+        "{error}"
+    );
     let everything = shadowgraph_tests::repository().join("docs/everything.ron");
     let Registry { nodes, techniques } = Registry::built_in();
     let parameters = Parameters(vec![("ssao".into(), true.into())]);

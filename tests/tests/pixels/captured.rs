@@ -1,10 +1,11 @@
 //! Capturing textures changes neither the image of a frame nor its plan.
 
 use shadowgraph::core::TexelValues;
+use shadowgraph::inspect::InspectedFrame;
 use shadowgraph::options::Aov;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::{ShadowSettings, Techniques};
-use shadowgraph::{InspectedFrame, Renderer, ViewOptions};
+use shadowgraph::{Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 
 use crate::stage::gpu;
 

@@ -4,8 +4,8 @@ use crate::stage::gpu;
 use shadowgraph::core::{Error::DeviceLost, Frame};
 use shadowgraph::options::{AdapterChoice, Aov};
 use shadowgraph::pipelines::{PipelineInstance, PipelineOutput};
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::{BuildContext, Error, Gpu, Pipeline, RenderView, Renderer, ViewOptions, wgpu};
+use shadowgraph_samples::demo::demo_scene;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 

@@ -3,14 +3,14 @@
 
 use crate::stage::{SIZE_PX, gpu};
 use glam::DVec3;
-use shadowgraph::measure::report::Motion;
-use shadowgraph::measure::{
-    Instrument, Points, Probe, Question, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
-};
 use shadowgraph::options::Aov;
-use shadowgraph::scene::trials::trial;
 use shadowgraph::shadows::{BiasSettings, PCF, ShadowSettings, SplitScheme};
 use shadowgraph::{Renderer, ViewOptions};
+use shadowgraph_quality::report::Motion;
+use shadowgraph_quality::{
+    Instrument, Points, Probe, Question, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
+};
+use shadowgraph_samples::trials::trial;
 
 /// Measures a test scene under the sun at 30 degrees, from nearby.
 fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {

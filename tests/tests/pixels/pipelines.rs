@@ -4,8 +4,8 @@ use crate::stage::gpu;
 use shadowgraph::options::{Aov, ShadowDistance, SunChoice};
 use shadowgraph::pipelines::{BUILT_IN, Parameters};
 use shadowgraph::scene::Scene;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 use std::path::PathBuf;
 
 fn options(scene: &Scene, size_px: [u32; 2]) -> ViewOptions {

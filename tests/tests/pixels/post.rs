@@ -5,8 +5,8 @@ use shadowgraph::core::{Format, Frame, FullscreenShader, Graph, Subresource, Tex
 use shadowgraph::lighting::post::DepthPyramid;
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::Parameters;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 
 /// Returns `forward` with more nodes; `picture` is the node whose output is the image.
 fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {

@@ -2,13 +2,13 @@
 
 use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
 use glam::{DVec3, Vec4};
-use shadowgraph::measure::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases};
 use shadowgraph::options::{Aov, SunChoice};
-use shadowgraph::scene::trials::trial;
 use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene, TextureRef};
 use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
+use shadowgraph_quality::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases};
+use shadowgraph_samples::trials::trial;
 
 /// The mask and the image have 8 bits each.
 const ROUNDING: f32 = 1.2 / 255.0;

@@ -5,12 +5,12 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 use image::{Rgba, RgbaImage};
 use shadowgraph::Pipeline;
 use shadowgraph::options::Aov;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::{
     AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
 };
 use shadowgraph::shadows::{EVSM, NONE, PCF, PCSS, RAYTRACED, Technique, Techniques};
 use shadowgraph::{Gpu, RenderConfig, RenderedImage, Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 
 const CELL_PX: [u32; 2] = [320, 160];
 const GAP_PX: u32 = 4;

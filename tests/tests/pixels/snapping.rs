@@ -4,10 +4,10 @@ use crate::maps::{Map, draw_map};
 use crate::stage::gpu;
 use glam::{DMat4, DVec3};
 use shadowgraph::SceneCasters;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::scene::gpu::GpuScene;
 use shadowgraph::scene::{Camera, origin_near};
 use shadowgraph::shadows::{CascadeSettings, Pcf, ShadowSettings, TileRect};
+use shadowgraph_samples::demo::demo_scene;
 
 const FRAMES: u32 = 16;
 const DEPTH_TOLERANCE: f32 = 1e-5;

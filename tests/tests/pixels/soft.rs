@@ -2,11 +2,11 @@
 
 use crate::stage::{add_instance, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
 use glam::DVec3;
-use shadowgraph::measure::Instrument;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::shadows::{PCSS, PcssSettings};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph_quality::Instrument;
 
 /// Returns a plate above a floor, its edge above x = 0, under a light.
 fn plate(height_m: f64, light: Light) -> Scene {

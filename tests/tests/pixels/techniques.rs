@@ -6,12 +6,12 @@ use crate::stage::{
 use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::Scene;
-use shadowgraph::scene::demo::demo_scene;
 use shadowgraph::shadows::{
     ContactSettings, EVSM, EvsmMoments, EvsmPrecision, EvsmSettings, MSM, PCF, PCSS, RAYTRACED,
     RaytracedSettings, SDSM, Technique, TechniqueKind,
 };
 use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
+use shadowgraph_samples::demo::demo_scene;
 
 /// Returns the visibility of light 0 in each pixel; `None` in the background and where the surface faces away.
 fn greys(

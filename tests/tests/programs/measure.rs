@@ -1,7 +1,8 @@
 //! The command `measure`: shadows are within the stored bounds, and the errors if they are not.
 
+use shadowgraph::Gpu;
 use shadowgraph::options::AdapterChoice;
-use shadowgraph::{Gpu, measure::report::CaseReport, measure::report::Report};
+use shadowgraph_quality::report::{CaseReport, Report};
 use std::path::Path;
 use std::process::{Command, Output};
 

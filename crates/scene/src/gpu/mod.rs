@@ -6,12 +6,15 @@
 //! caller.
 //!
 //! ```
-//! use shadowgraph_scene::{demo::demo_scene, gpu::GpuScene, origin_near};
+//! use glam::{DAffine3, DVec3};
+//! use shadowgraph_scene::gpu::GpuScene;
+//! use shadowgraph_scene::{Material, Mesh, Scene, origin_near};
 //!
 //! // A device that does nothing; a real one comes from an adapter.
 //! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
-//! let scene = demo_scene();
-//! let eye_world = scene.cameras[0].position_world();
+//! let mut scene = Scene::default();
+//! scene.add(Mesh::cuboid(DVec3::ZERO, DVec3::ONE), Material::default(), DAffine3::IDENTITY);
+//! let eye_world = DVec3::new(3.0, 2.0, 4.0);
 //! let gpu = GpuScene::new(&device, &queue, &scene, origin_near(eye_world))?;
 //! let all: Vec<u32> = (0..scene.instances.len() as u32).collect();
 //! let draws = gpu.draw_list(&all, eye_world);
@@ -36,6 +39,3 @@ pub use key::{AlphaKey, MaterialKey};
 pub use materials::MaterialLayouts;
 pub use scene::GpuScene;
 pub use upload::vertex_layout;
-
-#[cfg(test)]
-mod tests;

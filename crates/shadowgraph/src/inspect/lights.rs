@@ -14,7 +14,7 @@ impl RenderedFrame {
 }
 
 /// Returns the HTML page of a plan, with times and the scene's lights.
-pub(crate) fn page<'p>(
+pub fn page<'p>(
     plan: &'p Plan,
     times: &'p [PassTime],
     lights: &[Light],
@@ -36,7 +36,7 @@ fn table(lights: &[Light], unshadowed: &[Unshadowed]) -> PageTable {
 }
 
 /// Returns the kind of a light.
-pub(crate) fn kind(light: &Light) -> &'static str {
+pub fn kind(light: &Light) -> &'static str {
     match light.kind {
         LightKind::Directional { .. } => "directional",
         LightKind::Spot { .. } => "spot",
@@ -45,12 +45,12 @@ pub(crate) fn kind(light: &Light) -> &'static str {
 }
 
 /// Returns the unit of a light's intensity.
-pub(crate) fn unit(light: &Light) -> &'static str {
+pub fn unit(light: &Light) -> &'static str {
     if matches!(light.kind, LightKind::Directional { .. }) { "lx" } else { "cd" }
 }
 
 /// Describes whether a light casts shadows, or why it does not.
-pub(crate) fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String {
+pub fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String {
     let missing = unshadowed.iter().find(|unshadowed| unshadowed.light as usize == index);
     match missing {
         _ if !light.casts_shadow => "no shadows requested".into(),

@@ -1,7 +1,7 @@
 //! The contents of a frame: what its passes wrote, and how long they took.
 
 mod above;
-pub(crate) mod lights;
+pub mod lights;
 
 use shadowgraph_core::{Buffer, FrameCapture, HtmlPage, PendingCapture, TextureSnapshot, Timer};
 use shadowgraph_scene::Light;

@@ -28,7 +28,7 @@ pub use aov::Aov;
 pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
 pub use error::OptionError;
-pub use settings::SettingsFile;
+pub use settings::{SettingsFile, setting_error};
 pub use size::Size;
 pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
 

@@ -35,7 +35,7 @@ impl SettingsFile {
     }
 
     /// Returns the error of settings that were read from this file.
-    pub(crate) fn error(file: &Path, error: &shadowgraph_shadows::Error) -> OptionError {
+    pub fn error(file: &Path, error: &shadowgraph_shadows::Error) -> OptionError {
         let text = std::fs::read_to_string(file).unwrap_or_default();
         OptionError::new(OPTION, setting_error(&file.display().to_string(), &text, "", error).to_string())
     }
@@ -43,7 +43,7 @@ impl SettingsFile {
 
 /// Adds the location of the field to an error of checked settings; `parents` is the path of the settings in the file, with a dot
 /// after each part.
-pub(crate) fn setting_error(
+pub fn setting_error(
     file: &str,
     text: &str,
     parents: &str,

@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
-use shadowgraph_scene::demo::demo_scene;
+use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_shadows::{ShadowSettings, TechniqueContext, Techniques};
 
 use super::{BUILT_IN, Pipeline};

@@ -13,11 +13,10 @@ use crate::render_view::RenderView;
 
 impl Renderer {
     /// Adds the passes of a view, and those that display the AOV.
-    pub(crate) fn add<'f>(
-        &'f self,
-        frame: &mut Frame<'f>,
-        view: &'f RenderView<'f>,
-    ) -> Result<ViewOutput, Error> {
+    ///
+    /// # Errors
+    /// For settings out of range, and for an output that the pipeline does not have.
+    pub fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f RenderView<'f>) -> Result<ViewOutput, Error> {
         let output = self.instance.add(frame, view)?;
         let image = self.aov_image(frame, view, &output)?;
         let ShadowOutputs { debug_buffers: records, unshadowed, .. } = output.shadows;
@@ -64,13 +63,13 @@ impl Renderer {
 }
 
 /// The outputs of a view.
-pub(crate) struct ViewOutput {
+pub struct ViewOutput {
     /// Four bytes per pixel, as large as the view.
-    pub(crate) image: Texture,
+    pub image: Texture,
     /// The GPU data of shadow maps, if there are any.
-    pub(crate) records: Option<[Buffer; 2]>,
+    pub records: Option<[Buffer; 2]>,
     /// The lights that should cast shadows and do not, with the reason.
-    pub(crate) unshadowed: Vec<Unshadowed>,
+    pub unshadowed: Vec<Unshadowed>,
 }
 
 /// Refuses integer textures.

@@ -108,6 +108,6 @@ impl Renderer {
 }
 
 /// Returns the error for a read-back that the frame did not execute.
-pub(crate) fn nothing_read() -> Error {
+fn nothing_read() -> Error {
     Error::Gpu("nothing was read back".into())
 }

@@ -3,7 +3,7 @@
 use super::*;
 use shadowgraph_core::StoreReason;
 use shadowgraph_core::{Executed, Format};
-use shadowgraph_scene::demo::demo_scene;
+use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_shadows::ShadowSettings;
 use wgpu::TextureUsages;
 

@@ -4,10 +4,10 @@ use super::{Greys, count, cube_view, greys, plan};
 use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, sun};
 use glam::{DVec3, Vec4};
 use shadowgraph::Renderer;
-use shadowgraph::measure::{Instrument, Points, Probe, Question};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, CasterMode, Material, Scene};
 use shadowgraph::shadows::{RAYTRACED, ShadowFilter};
+use shadowgraph_quality::{Instrument, Points, Probe, Question};
 
 /// Returns a sheet of a material, 1.5 m above a floor, under a vertical sun. Its alpha is 0.6.
 fn sheet(change: impl FnOnce(&mut Material)) -> Scene {

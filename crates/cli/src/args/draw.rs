@@ -1,0 +1,251 @@
+//! What all drawing commands ask for, and what it comes to.
+
+use crate::failure::Failure;
+use clap::Args;
+use shadowgraph::Registry;
+use shadowgraph::core::did_you_mean;
+use shadowgraph::options::{OptionError, Options, SettingsFile, ShadowDistance};
+use shadowgraph::pipelines::{BUILT_IN, Parameters, Pipeline};
+use shadowgraph::scene::Scene;
+use shadowgraph::shadows::{ShadowSettings, Technique, Techniques};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// The options that all drawing commands share.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct DrawArgs {
+    /// A glTF or GLB file; without it the built-in demo scene
+    pub(crate) scene: Option<PathBuf>,
+    /// The pipeline: a built-in one by name (`nodes` lists them), or a .ron file
+    #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
+    pipeline: String,
+    /// A parameter of the pipeline; can be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The shadow technique, one of those that `nodes` lists, such as pcf, or pcf+contact
+    #[arg(long, value_name = "NAME")]
+    technique: Option<String>,
+    /// Samples a pixel while colours are drawn: 1 or 4
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    samples: u32,
+    /// Shadow settings in RON
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
+    /// Size of the picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", allow_hyphen_values = true)]
+    size: String,
+    /// A camera of the file by index or name, or "eye=X,Y,Z target=X,Y,Z fov_deg=F near=N far=F"
+    /// (fov_deg is vertical). Default: the file's first, else one that frames the scene
+    #[arg(long, value_name = "CAMERA")]
+    camera: Option<String>,
+    /// "dir=X,Y,Z lux=L color=R,G,B" replaces the file's directional lights (dir = the way the light
+    /// travels); none removes them
+    #[arg(long, value_name = "SUN")]
+    sun: Option<String>,
+    /// How far shadows reach, metres. Default: what --settings says, else auto, as far as the scene is seen
+    #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
+    shadow_distance: Option<String>,
+    /// What the picture shows: color, visibility:N (light N), cascade, depth, normal, atlas, or a
+    /// texture of the graph by name
+    #[arg(long, value_name = "NAME", default_value = "color")]
+    aov: String,
+    /// Which GPU; cpu insists on a software driver. Default: auto; for bench no GPU, only the CPU's share
+    #[arg(long, value_name = "auto|NAME|cpu")]
+    adapter: Option<String>,
+    /// Print a table of CPU and GPU time per pass
+    #[arg(long)]
+    timings: bool,
+}
+
+impl DrawArgs {
+    /// Returns whether a GPU is asked for.
+    pub(crate) fn names_adapter(&self) -> bool {
+        self.adapter.is_some()
+    }
+
+    /// Returns the file of settings, if there is one.
+    #[cfg(feature = "view")]
+    pub(crate) fn settings_file(&self) -> Option<&Path> {
+        self.settings.as_deref()
+    }
+
+    /// Checks that the scene has the lights that the settings name.
+    ///
+    /// # Errors
+    /// One line with the file, the place and the light.
+    pub(crate) fn check_lights(&self, settings: &ShadowSettings, scene: &Scene) -> Result<(), OptionError> {
+        let wrong = settings.check_lights(&scene.lights).err();
+        match (wrong, &self.settings) {
+            (Some(error), Some(file)) => Err(SettingsFile::error(file, &error)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns whether times are asked for.
+    pub(crate) fn times(&self) -> bool {
+        self.timings
+    }
+
+    /// Parses and checks every option.
+    ///
+    /// # Errors
+    /// One line with the option and what is wrong with its value.
+    pub(crate) fn options(&self, registry: &Registry) -> Result<Options, Failure> {
+        let techniques = &registry.techniques;
+        let file = settings_file(self.settings.as_deref(), techniques)?;
+        let named = self.technique.as_deref().map(|name| technique("technique", name, techniques));
+        let shadow_distance = match &self.shadow_distance {
+            None if file.has_distance => ShadowDistance::Metres(file.settings.distance_m.into()),
+            given => or_default(given.as_deref())?,
+        };
+        Ok(Options {
+            pipeline: self.pipeline(registry)?,
+            technique: named.transpose()?,
+            samples: self.samples,
+            settings: file.settings,
+            size: self.size.parse()?,
+            camera: or_default(self.camera.as_deref())?,
+            sun: or_default(self.sun.as_deref())?,
+            shadow_distance,
+            aov: self.aov.parse()?,
+            adapter: or_default(self.adapter.as_deref())?,
+            timings: self.timings,
+        })
+    }
+
+    /// Reads and checks the pipeline.
+    ///
+    /// # Errors
+    /// One line with the place and what is wrong there.
+    pub(crate) fn pipeline(&self, registry: &Registry) -> Result<Pipeline, OptionError> {
+        let parameters = self.set.iter().map(|text| parameter(text)).collect::<Result<_, _>>()?;
+        let parameters = Parameters(parameters);
+        let file = Path::new(&self.pipeline);
+        let is_file = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        let pipeline = if is_file {
+            Pipeline::load(file, &registry.nodes, &registry.techniques, &parameters)
+        } else if BUILT_IN.contains(&self.pipeline.as_str()) {
+            Pipeline::built_in(&self.pipeline, &parameters)
+        } else {
+            let hint = did_you_mean(&self.pipeline, BUILT_IN.iter().copied());
+            let reason = format!("unknown pipeline `{}` (files end in .ron){hint}", self.pipeline);
+            return Err(OptionError::new("pipeline", reason));
+        };
+        pipeline.map_err(|error| OptionError::new("pipeline", error.to_string()))
+    }
+
+    /// Returns the pipeline's file, if it is one.
+    #[cfg(feature = "view")]
+    pub(crate) fn pipeline_file(&self) -> Option<&Path> {
+        let file = Path::new(&self.pipeline);
+        file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron")).then_some(file)
+    }
+}
+
+/// `name=value`, the value as a pipeline file has it; a text needs no quotes.
+fn parameter(text: &str) -> Result<(String, serde_json::Value), OptionError> {
+    let Some((name, value)) = text.split_once('=') else {
+        return Err(OptionError::new("set", format!("invalid value `{text}`; expected NAME=VALUE")));
+    };
+    let value = ron::from_str(value).ok().filter(|value: &serde_json::Value| !value.is_null());
+    let text = || serde_json::Value::String(text[name.len() + 1..].to_owned());
+    Ok((name.to_owned(), value.unwrap_or_else(text)))
+}
+
+/// Reads `--settings`, if there are any.
+///
+/// # Errors
+/// One line with the file and what is wrong in it.
+pub(crate) fn settings_file(
+    file: Option<&Path>,
+    techniques: &Techniques,
+) -> Result<SettingsFile, OptionError> {
+    file.map_or_else(|| Ok(SettingsFile::default()), |file| SettingsFile::load(file, techniques))
+}
+
+/// Finds a technique that an option names.
+///
+/// # Errors
+/// One line with the option and the names there are.
+pub(crate) fn technique(
+    option: &'static str,
+    name: &str,
+    techniques: &Techniques,
+) -> Result<Technique, OptionError> {
+    techniques.find(name).map_err(|error| OptionError::new(option, error.to_string()))
+}
+
+fn or_default<T: FromStr<Err = OptionError> + Default>(text: Option<&str>) -> Result<T, OptionError> {
+    text.map_or_else(|| Ok(T::default()), str::parse)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+    use crate::args::{Cli, Command};
+    use clap::Parser;
+    use shadowgraph::options::{AdapterChoice, Aov};
+
+    fn options(line: &str) -> Result<Options, String> {
+        let words =
+            ["shadowgraph", "render"].into_iter().chain(line.split(';').filter(|word| !word.is_empty()));
+        let cli = Cli::try_parse_from(words).map_err(|error| error.to_string())?;
+        let Some(Command::Render(args)) = cli.command else { panic!("{cli:?}") };
+        args.draw.options(&Registry::built_in()).map_err(|failure| failure.message)
+    }
+
+    #[test]
+    fn no_option_at_all_means_the_defaults() {
+        assert_eq!(options("").unwrap(), Options::default());
+    }
+
+    #[test]
+    fn every_option_of_the_design_is_taken() {
+        let line = "scene.glb;--pipeline;forward;--technique;pcf;--size;320x180;--camera;1;--sun;none;\
+            --shadow-distance;80;--aov;visibility:1;--adapter;cpu;--timings;-o;a/b.png";
+        let options = options(line).unwrap();
+        assert_eq!(options.size.to_string(), "320x180");
+        assert_eq!(options.aov, Aov::Visibility(1));
+        assert_eq!(options.adapter, AdapterChoice::Cpu);
+        assert_eq!(options.shadow_distance, ShadowDistance::Metres(80.0));
+        assert!(options.timings);
+    }
+
+    #[test]
+    fn a_wrong_value_is_one_line_with_the_option() {
+        for (line, start) in [
+            ("--technique;soft", "--technique: unknown technique `soft`; expected one of: pcf, pcss, "),
+            ("--pipeline;my.ron", "--pipeline: my.ron: cannot be read: "),
+            (
+                "--pipeline;mine",
+                "--pipeline: unknown pipeline `mine` (files end in .ron); did you mean `minimal`?",
+            ),
+            ("--size;0x4", "--size: width 0"),
+            ("--sun;dir=0,0,0", "--sun: dir must not be zero"),
+            ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
+        ] {
+            let error = options(line).unwrap_err();
+            assert!(error.starts_with(start) && error.lines().count() == 1, "{error}");
+        }
+    }
+
+    #[test]
+    fn the_distance_of_the_settings_holds_unless_the_option_says_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("settings.ron");
+        std::fs::write(&file, "(distance_m: 60.0)").unwrap();
+        let line = format!("--settings;{}", file.display());
+        assert_eq!(options(&line).unwrap().shadow_distance, ShadowDistance::Metres(60.0));
+        assert_eq!(
+            options(&format!("{line};--shadow-distance;auto")).unwrap().shadow_distance,
+            ShadowDistance::Auto
+        );
+    }
+
+    #[test]
+    fn a_value_that_starts_with_a_minus_sign_reaches_its_option() {
+        let error = options("--shadow-distance;-3").unwrap_err();
+        assert!(error.starts_with("--shadow-distance: invalid value `-3`"), "{error}");
+    }
+}

@@ -1,0 +1,200 @@
+//! `shadowgraph bench`: what a frame costs. Tables are at most 110 columns wide.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use super::args::BenchArgs;
+use super::commands::{self, Input};
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::report;
+use shadowgraph::core::TimeSummary;
+use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph_quality::bench::{Comparison, FrameTime, Spread, compare, pass_times};
+
+/// Frames on a real GPU, of which each is waited for.
+const GPU_FRAMES: u32 = 20;
+
+/// Measures and prints, a table at a time.
+pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure> {
+    let input = commands::input(&args.draw, registry)?;
+    let view = commands::view_options(&input);
+    if cfg!(debug_assertions) {
+        console::warning(
+            "this program was built without full optimisation: measure with `cargo run --release`",
+        );
+    }
+    let noop = Gpu::noop()?;
+    let gpu = match args.draw.names_adapter() {
+        true => Some(Gpu::open(&input.options.adapter).map_err(Failure::no_device)?),
+        false => None,
+    };
+    console::print(&heading(args, &input))?;
+    let measuring = Progress::if_slow("measuring");
+    let comparison = match input.options.render_config() == RenderConfig::default() {
+        true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
+        false => {
+            "Only the pipeline forward with pcf and one sample is compared with passes encoded by hand.\n"
+                .into()
+        }
+    };
+    let passes = passes(gpu.as_ref().unwrap_or(&noop), &input, &view, args.frames.min(GPU_FRAMES))?;
+    drop(measuring);
+    console::print(&format!("{comparison}\n{passes}"))
+}
+
+fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
+    let (scene, aov) = (input.scene.clone(), input.options.aov.clone());
+    Ok(Renderer::with_config(gpu, scene, &input.camera, aov, input.options.render_config())?)
+}
+
+fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
+    let times = pass_times(gpu, &mut renderer(gpu, input)?, view, frames)?;
+    let device = &gpu.adapter.name;
+    Ok(format!("time of each pass, medians of {frames} frames on {device}\n{}", pass_table(&times)))
+}
+
+fn heading(args: &BenchArgs, input: &Input) -> String {
+    let scene = args.draw.scene.as_ref().map_or("the demo scene".into(), |file| file.display().to_string());
+    let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
+    let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
+    format!(
+        "{scene}, {size}, pipeline {pipeline}, technique {}{samples}\n",
+        input.options.render_config().technique().name()
+    )
+}
+
+/// One side's time of a step, or of several.
+type StepOf = fn(&FrameTime) -> Duration;
+
+/// The comparison as a table.
+fn table(comparison: &Comparison) -> String {
+    let steps: [(&str, Option<StepOf>, Option<StepOf>); 6] = [
+        ("plan the shadows", None, Some(|time| time.plan)),
+        ("declare, which plans the shadows too", Some(|time| time.declare), None),
+        ("compile", Some(|time| time.compile), None),
+        ("record", Some(|time| time.record), Some(|time| time.record)),
+        ("finish", Some(|time| time.finish), Some(|time| time.finish)),
+        ("submit", Some(|time| time.submit), Some(|time| time.submit)),
+    ];
+    let counts = comparison.counts;
+    let mut out = format!(
+        "CPU time of a frame of {} render passes, {} uploads and {} draws; wgpu's noop device, no driver\n",
+        counts.passes, counts.uploads, counts.draws
+    );
+    let _ = writeln!(
+        out,
+        "{:<40}{:^28}{:^28}",
+        format!("{} frames each", comparison.graph.len()),
+        "graph",
+        "by hand"
+    );
+    let _ = writeln!(out, "  {:<38}{}{}", "microseconds", columns("median", "p95"), columns("median", "p95"));
+    for (name, graph, by_hand) in steps {
+        row(&mut out, name, &comparison.graph, graph);
+        out.push_str(&times(&comparison.by_hand, by_hand));
+        out.push('\n');
+    }
+    row(&mut out, "whole frame", &comparison.graph, Some(FrameTime::total));
+    out.push_str(&times(&comparison.by_hand, Some(FrameTime::total)));
+    let _ = writeln!(out, "\n  graph / by hand, frame by frame: {}", ratio(comparison.ratio()));
+    let _ =
+        writeln!(out, "  without planning the shadows:    {}", ratio(comparison.ratio_without_planning()));
+    out.push_str("  In neither: culling and sorting what the camera sees.\n");
+    out
+}
+
+fn row(out: &mut String, name: &str, frames: &[FrameTime], step: Option<StepOf>) {
+    let _ = write!(out, "  {name:<38}{}", times(frames, step));
+}
+
+fn times(frames: &[FrameTime], step: Option<StepOf>) -> String {
+    let Some(step) = step else { return columns("-", "") };
+    let spread = Spread::of(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
+    columns(&format!("{:.1}", spread.median), &format!("{:.1}", spread.p95))
+}
+
+fn columns(median: &str, p95: &str) -> String {
+    format!("{median:>14}{p95:>14}")
+}
+
+fn ratio(spread: Spread) -> String {
+    let Spread { p5, p25, median, p75, p95 } = spread;
+    format!("median {median:.2}, half of them {p25:.2} to {p75:.2}, nine in ten {p5:.2} to {p95:.2}")
+}
+
+/// The passes as a table. Their names hold the nodes they belong to.
+fn pass_table(passes: &[TimeSummary]) -> String {
+    let mut out = format!("  {:<66}{:>14}{:>14}\n", "pass", "CPU us", "GPU ms");
+    let mut row = |name: &str, cpu_ms: f64, gpu_ms: Option<f64>, note: &str| {
+        let gpu = gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}"));
+        let _ = writeln!(out, "  {name:<66}{:>14.1}{gpu:>14}{note}", cpu_ms * 1e3);
+    };
+    for pass in passes {
+        let gpu_ms = pass.gpu_ms.map(|gpu_ms| gpu_ms.median);
+        row(&pass.pass, pass.cpu_ms.median, gpu_ms, &report::sharing(gpu_ms.is_some(), pass.shared_by));
+    }
+    let gpu_ms = passes.iter().filter_map(TimeSummary::gpu_share_ms).reduce(|a, b| a + b);
+    row("all", passes.iter().map(|pass| pass.cpu_ms.median).sum(), gpu_ms, "");
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+    use shadowgraph::core::TimeStats;
+    use shadowgraph_quality::bench::Counts;
+
+    fn comparison(micros: u64) -> Comparison {
+        let step = Duration::from_micros(micros);
+        let none = Duration::ZERO;
+        let by_hand =
+            FrameTime { plan: step, declare: none, compile: none, record: step, finish: step, submit: step };
+        let graph = FrameTime { plan: none, declare: 3 * step, compile: step, ..by_hand };
+        let counts = Counts { passes: 5, uploads: 4, draws: 1_000_000 };
+        Comparison { counts, graph: vec![graph; 3], by_hand: vec![by_hand; 3] }
+    }
+
+    #[test]
+    fn the_table_is_at_most_110_columns_wide_and_its_columns_are_aligned() {
+        let text = table(&comparison(1_000_000));
+        assert!(text.lines().all(|line| line.chars().count() <= 110), "{text}");
+        let rows: Vec<_> = text.lines().filter(|line| line.contains("1000000.0")).collect();
+        assert_eq!(rows.len(), 5, "{text}");
+        assert!(rows.iter().all(|row| row.trim_end().len() == rows[2].len() || row.contains("-")), "{text}");
+    }
+
+    #[test]
+    fn passes_are_told_in_order_with_their_sum() {
+        let spread = |ms: f64| TimeStats { median: ms, high: ms };
+        let pass = |pass: &str, gpu_ms: Option<f64>, shared_by| TimeSummary {
+            pass: pass.into(),
+            node: String::new(),
+            cpu_ms: spread(0.5),
+            gpu_ms: gpu_ms.map(spread),
+            shared_by,
+        };
+        let text = pass_table(&[
+            pass("shadows/atlas/clear", Some(1.5), 2),
+            pass("shadows/atlas/lamp", Some(1.5), 2),
+            pass("picture/tonemap", None, 1),
+        ]);
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(rows[1], ["shadows/atlas/clear", "500.0", "1.500", "all", "2", "merged"]);
+        assert_eq!(rows[2], ["shadows/atlas/lamp", "500.0", "1.500", "all", "2", "merged"]);
+        assert_eq!(rows[3], ["picture/tonemap", "500.0", "-"]);
+        assert_eq!(rows[4], ["all", "1500.0", "1.500"]);
+        assert!(text.lines().all(|line| line.len() <= 110), "{text}");
+    }
+
+    #[test]
+    fn the_ratio_is_told_with_and_without_planning() {
+        let text = table(&comparison(100));
+        // 7 steps to 4; without planning 6 to 3.
+        assert!(text.contains("frame by frame: median 1.75"), "{text}");
+        assert!(text.contains("shadows:    median 2.00"), "{text}");
+        assert!(text.lines().any(|line| line.contains("whole frame") && line.contains("700.0")), "{text}");
+    }
+}

@@ -1,0 +1,123 @@
+//! `shadowgraph render`, and what all drawing commands start from. One call per step.
+
+use std::path::Path;
+
+use super::args::{DrawArgs, RenderArgs};
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::report;
+use shadowgraph::core::Timer;
+use shadowgraph::options::{Aov, Options};
+use shadowgraph::output::{Pixels, write_png};
+use shadowgraph::scene::gltf::Progress as LoadProgress;
+use shadowgraph::scene::{Camera, Scene};
+use shadowgraph::{Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
+
+/// What every drawing command starts from.
+pub(crate) struct Input {
+    pub(crate) options: Options,
+    pub(crate) scene: Scene,
+    pub(crate) camera: Camera,
+}
+
+/// `shadowgraph render`
+pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
+    check_output(&args.output)?;
+    let input = input(&args.draw, registry)?;
+    let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+    let drawn = draw(&gpu, input, args.frames)?;
+    let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.image);
+    let [width, height] = drawn.size_px;
+    write_png(&args.output, width, height, pixels, &bytes)?;
+    let (file, adapter) = (args.output.display(), &gpu.adapter.name);
+    console::print(&format!("wrote {file}: {width}x{height}, drawn by {adapter}\n"))?;
+    if drawn.timings {
+        console::print(&report::times(&drawn.view.times, &gpu.adapter))?;
+    }
+    Ok(())
+}
+
+pub(super) struct DrawnView {
+    pub(super) view: RenderedFrame,
+    size_px: [u32; 2],
+    aov: Aov,
+    timings: bool,
+}
+
+/// Draws so many frames, and gives the last.
+pub(super) fn draw(gpu: &Gpu, input: Input, frames: u32) -> Result<DrawnView, Failure> {
+    let drawing = Progress::if_slow("drawing");
+    let Options { aov, timings, .. } = input.options.clone();
+    let (view, config) = (view_options(&input), input.options.render_config());
+    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov.clone(), config)?;
+    let mut timer = timings.then(Timer::new);
+    if timings {
+        // A software driver compiles shaders at the first draw.
+        renderer.draw(gpu, &view)?;
+    }
+    for number in 1..frames {
+        renderer.draw(gpu, &view)?;
+        drawing.set(&format!("frame {number} of {frames}"), number as f32 / frames as f32);
+    }
+    let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
+    report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
+    Ok(DrawnView { view: drawn, size_px: view.size_px, aov, timings })
+}
+
+/// Finds out before anything is drawn that a picture cannot be written.
+fn check_output(file: &Path) -> Result<(), Failure> {
+    let other = file.extension().filter(|extension| !extension.eq_ignore_ascii_case("png"));
+    let reason = match other {
+        _ if file.is_dir() => "is a folder; give the name of a PNG file in it".into(),
+        Some(extension) => format!("pictures are PNG files, not {}", extension.to_string_lossy()),
+        None => return Ok(()),
+    };
+    Err(Failure { code: Failure::INPUT, message: format!("-o {}: {reason}", file.display()) })
+}
+
+/// Parses the options, loads the scene and applies the options to it.
+pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failure> {
+    let options = args.options(registry)?;
+    // A texture that is asked for may be of a node that nothing else leads to.
+    if !matches!(options.aov, Aov::Texture(_)) {
+        options.pipeline.warnings().iter().for_each(|note| console::warning(&note.to_string()));
+    }
+    let mut scene = load(args.scene.as_deref())?;
+    scene.notes.iter().for_each(|note| console::warning(note));
+    if let Some(note) = options.sun.apply(&mut scene) {
+        console::warning(&note);
+    }
+    args.check_lights(&options.settings, &scene)?;
+    let camera = options.camera.resolve(&scene, options.size.aspect())?;
+    Ok(Input { options, scene, camera })
+}
+
+/// Loads a scene, the built-in one without a file.
+pub(crate) fn load(file: Option<&Path>) -> Result<Scene, Failure> {
+    match file {
+        Some(file) => {
+            let loading = Progress::now(&format!("loading {}", file.display()));
+            let told = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
+            Ok(shadowgraph::scene::gltf::load_with_progress(file, told)?)
+        }
+        None => Ok(shadowgraph_samples::demo::demo_scene()),
+    }
+}
+
+/// What the options say of the view.
+pub(crate) fn view_options(input: &Input) -> ViewOptions {
+    let Options { size, settings, shadow_distance, .. } = &input.options;
+    let size_px = [size.width_px, size.height_px];
+    ViewOptions { camera: input.camera.clone(), size_px, shadows: settings.clone() }
+        .with_shadow_distance(*shadow_distance, &input.scene)
+}
+
+/// What of a picture goes into the file.
+fn file_pixels(aov: &Aov, picture: RenderedImage) -> (Pixels, Vec<u8>) {
+    let pixels = picture.rgba8.chunks_exact(4);
+    match aov {
+        Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),
+        _ => (Pixels::Rgb, pixels.flat_map(|p| [p[0], p[1], p[2]]).collect()),
+    }
+}

@@ -1,0 +1,161 @@
+//! `shadowgraph dump` and `shadowgraph explain`.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{DrawArgs, DumpArgs, ExplainArgs, Format};
+use super::commands::{Input, draw, input, view_options};
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::report::{self, Planned};
+use shadowgraph::core::{Dump, HtmlPage, trace_json};
+use shadowgraph::inspect::lights;
+use shadowgraph::output::write_text;
+use shadowgraph::{Gpu, Pipeline, Registry, RenderedFrame, Renderer};
+
+/// What pages are called, with the scene's file behind it.
+const TITLE: &str = "Shadowgraph frame";
+
+/// `shadowgraph dump`
+pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> {
+    let text = match (&args.diff, args.format()?) {
+        (Some(files), format) => diff(files, format)?,
+        (None, Format::Html) => page(&args.draw, input(&args.draw, registry)?)?,
+        (None, format) => plan_text(args, format, input(&args.draw, registry)?)?,
+    };
+    match &args.output {
+        Some(file) => {
+            write_text(file, &text)?;
+            console::print(&format!("wrote {}\n", file.display()))
+        }
+        None => console::print(&text),
+    }
+}
+
+fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String, Failure> {
+    input.options.timings |= format == Format::Trace;
+    let lights = input.scene.lights.clone();
+    let (gpu, drawn) = planned(&args.draw, input)?;
+    Ok(match format {
+        Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
+        Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
+        Format::Json => report::json(&lights, &drawn)?,
+        Format::Dot => drawn.plan.to_dot(),
+        Format::Mermaid => drawn.plan.to_mermaid(),
+        Format::Html => drawn.plan.to_html(),
+        Format::Trace => trace_json(&drawn.times)?,
+    })
+}
+
+/// The page about a frame, with pictures where there is something to draw with.
+fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
+    let view = view_options(&input);
+    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
+    let (scene_lights, mut notes) = (input.scene.lights.clone(), input.scene.notes.clone());
+    let [width, height] = view.size_px;
+    notes.insert(
+        0,
+        format!(
+            "{width} x {height} pixels, technique {}, pipeline {}.",
+            config.technique().name(),
+            config.pipeline.name()
+        ),
+    );
+    let mut finish = |mut page: HtmlPage<'_>| {
+        let file = args.scene.as_deref().and_then(Path::file_name);
+        let title = file.map_or(TITLE.into(), |file| format!("{TITLE}: {}", file.to_string_lossy()));
+        page.notes.append(&mut notes);
+        page.with_title(&title).to_html()
+    };
+    let gpu = match Gpu::open(&input.options.adapter) {
+        Ok(gpu) => gpu,
+        Err(error) if args.names_adapter() || args.times() => return Err(Failure::no_device(error)),
+        Err(error) => {
+            let missing = format!("there are no pictures and no times: {error}");
+            console::warning(&missing);
+            let (_, Planned { plan, unshadowed, .. }) = planned(args, input)?;
+            let mut page = lights::page(&plan, &[], &scene_lights, &unshadowed);
+            page.notes.push(missing);
+            return Ok(finish(page));
+        }
+    };
+    let _drawing = Progress::if_slow("drawing");
+    let mut renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
+    let inspected = renderer.inspect(&gpu, &view)?;
+    let mut page = inspected.page(&scene_lights, &view);
+    page.notes.push(format!("Drawn by {}.", gpu.adapter.name));
+    page.notes.extend(report::unshadowed(&inspected.frame.unshadowed));
+    Ok(finish(page))
+}
+
+/// What differs between the frames of two files.
+fn diff(files: &[PathBuf], format: Format) -> Result<String, Failure> {
+    let [before, after] = files else { return Err(usage("--diff: takes two files")) };
+    let diff = read(before)?.diff(&read(after)?);
+    match format {
+        Format::Text => Ok(diff.to_text()),
+        Format::Json => Ok(serde_json::to_string_pretty(&diff)? + "\n"),
+        Format::Html => Ok(diff.to_html(&before.to_string_lossy(), &after.to_string_lossy())),
+        Format::Dot | Format::Mermaid | Format::Trace => Err(usage("--diff: is shown as text, json or html")),
+    }
+}
+
+fn read(file: &Path) -> Result<Dump, Failure> {
+    let failed = |problem: String| Failure {
+        code: Failure::INPUT,
+        message: format!("--diff {}: {problem}", file.display()),
+    };
+    let text = std::fs::read_to_string(file).map_err(|error| failed(format!("cannot be read: {error}")))?;
+    Dump::from_json(&text).map_err(|error| failed(format!("{error}; `dump -o frame.json` writes one")))
+}
+
+fn usage(message: &str) -> Failure {
+    Failure { code: Failure::USAGE, message: message.into() }
+}
+
+/// `shadowgraph explain`
+pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Failure> {
+    let input = input(&args.draw, registry)?;
+    let pipeline = input.options.render_config().pipeline;
+    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input)?;
+    let told = match &args.before {
+        Some(after) => plan.explain_order(&args.name, after),
+        None => plan.explain(&args.name),
+    };
+    console::print(&told.map_err(|error| match pipeline.is_disabled(&args.name) {
+        true => Failure { code: Failure::INPUT, message: disabled(&args.name, &pipeline) },
+        false => error.into(),
+    })?)?;
+    let asked = [Some(&args.name), args.before.as_ref()];
+    let is = |pass: &str, name: &str| pass == name || pass.rsplit('/').next() == Some(name);
+    times.retain(|time| asked.iter().flatten().any(|name| is(&time.pass, name)));
+    if times.is_empty() {
+        Ok(())
+    } else {
+        console::print(&format!("\n{}", report::times(&times, &gpu.adapter)))
+    }
+}
+
+fn disabled(node: &str, pipeline: &Pipeline) -> String {
+    let name = pipeline.name();
+    format!("the node `{node}` of {name} is disabled, as its `when` does not hold: see --set")
+}
+
+/// A plan needs no GPU, but times do, and an adapter that is named is to be there.
+fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
+    if input.options.timings {
+        let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+        let RenderedFrame { plan, times, unshadowed, .. } = draw(&gpu, input, 1)?.view;
+        return Ok((gpu, Planned { plan, times, unshadowed }));
+    }
+    let gpu = if args.names_adapter() {
+        Gpu::open(&input.options.adapter).map_err(Failure::no_device)?
+    } else {
+        Gpu::noop()?
+    };
+    let view = view_options(&input);
+    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
+    let renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
+    let (plan, unshadowed) = renderer.plan(&view)?;
+    Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
+}

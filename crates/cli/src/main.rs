@@ -1,0 +1,9 @@
+//! The `shadowgraph` program: `shadowgraph --help` tells all.
+
+use std::process::ExitCode;
+
+use shadowgraph::Registry;
+
+fn main() -> ExitCode {
+    shadowgraph_cli::run(&Registry::built_in())
+}

@@ -1,0 +1,343 @@
+//! `shadowgraph measure`: how far shadows are from ray-traced truth.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{MeasureArgs, settings_file, technique};
+use super::commands;
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use shadowgraph::Gpu;
+use shadowgraph::options::{AdapterChoice, CameraChoice, OptionError, Size, SunChoice};
+use shadowgraph::output::{Pixels, write_png, write_text};
+use shadowgraph::scene::Camera;
+use shadowgraph::shadows::{Technique, Techniques};
+use shadowgraph_quality::report::{Bound, Bounds, CaseReport, PictureFiles, Report, page, table};
+use shadowgraph_quality::{
+    Case, CasePictures, CaseSet, Measured, Subject, Task, Variant, VariantSet, automatic_views,
+    built_in_cases, measure,
+};
+
+/// The folder of the pictures, in the output's folder.
+const PICTURES: &str = "pictures";
+
+/// What the command line says.
+struct Plan {
+    task: Task,
+    adapter: AdapterChoice,
+    work: Work,
+    bounds: Option<(PathBuf, Bounds)>,
+}
+
+/// What is measured.
+enum Work {
+    Cases { cases: Vec<Case>, folder: PathBuf },
+    Scene { subject: Box<Subject>, views_named: bool },
+}
+
+/// Measures, prints the table, writes the files, and checks the bounds.
+pub(crate) fn measure_command(args: &MeasureArgs, registry: &shadowgraph::Registry) -> Result<(), Failure> {
+    let techniques = &registry.techniques;
+    let plan = plan(args, techniques)?;
+    let gpu = Gpu::open(&plan.adapter).map_err(Failure::no_device)?;
+    let output = args.output.as_deref().map(Output::new).transpose()?;
+    let progress = Progress::if_slow("measuring");
+    let mut report = Report {
+        version: Report::VERSION,
+        adapter: gpu.adapter.name.clone(),
+        size_px: plan.task.size_px,
+        settings: plan.task.settings.clone(),
+        variants: plan.task.variants.clone(),
+        cases: Vec::new(),
+    };
+    plan.work.each(args.quick, &mut |part, subject| {
+        progress.set(&subject.name, part);
+        measure(&gpu, subject, &plan.task, &mut |measured: Measured| {
+            let Measured { report: mut case, pictures } = measured;
+            if let (Some(output), Some(pictures)) = (&output, pictures) {
+                case.pictures = Some(output.pictures(report.cases.len(), &case, &pictures)?);
+            }
+            report.cases.push(case);
+            Ok(())
+        })
+    })?;
+    drop(progress);
+    console::print(&table(&report))?;
+    if let Some(output) = output {
+        let page = output.finish(&report)?;
+        console::print(&format!("\nwrote {}\n", page.display()))?;
+    }
+    check(&report, plan.bounds.as_ref())
+}
+
+fn plan(args: &MeasureArgs, known: &Techniques) -> Result<Plan, Failure> {
+    let size: Size = match &args.size {
+        Some(size) => size.parse()?,
+        None if args.quick => "640x360".parse()?,
+        None => Size::default(),
+    };
+    let (soft_rays, flicker_frames) = match (args.quick, args.full) {
+        (true, _) => (16, 4),
+        (_, true) => (64, 64),
+        _ => (32, 16),
+    };
+    let techniques = chosen(&args.techniques, known)?;
+    let task = Task {
+        techniques,
+        size_px: [size.width_px, size.height_px],
+        settings: settings_file(args.settings.as_deref(), known)?.settings,
+        variants: variants(args.variants.as_deref(), known)?,
+        distance: args.shadow_distance.as_deref().map(str::parse).transpose()?,
+        soft_rays,
+        flicker_frames,
+        flicker_everywhere: args.full,
+        pictures: args.output.is_some(),
+    };
+    let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
+    let names: Vec<_> = task.techniques.iter().map(Technique::name).collect();
+    let bounds = bounds(args.check.as_deref(), &names, &task.variants)?;
+    Ok(Plan { task, adapter, work: work(args, size)?, bounds })
+}
+
+/// What `--techniques` names; `all` is every technique, and every kind of collection of the default one.
+fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, OptionError> {
+    let mut chosen = Vec::new();
+    for name in names {
+        if name == "all" {
+            chosen.extend(known.kinds().iter().map(|&kind| Technique::from(kind)));
+            chosen.extend([Technique::default().collected(), Technique::default().with_contact()]);
+        } else {
+            chosen.push(technique("techniques", name, known)?);
+        }
+    }
+    Ok(chosen)
+}
+
+fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
+    if let Some(file) = &args.cases {
+        let set = CaseSet::parse(&read("--cases", file)?, file)?;
+        let folder = file.parent().unwrap_or(Path::new("")).to_owned();
+        return Ok(Work::Cases { cases: set.cases, folder });
+    }
+    let Some(file) = &args.scene else {
+        return Ok(Work::Cases { cases: built_in_cases()?.cases, folder: PathBuf::new() });
+    };
+    let mut scene = commands::load(Some(file))?;
+    scene.notes.iter().for_each(|note| console::warning(note));
+    let sun: SunChoice = args.sun.as_deref().map_or(Ok(SunChoice::default()), str::parse)?;
+    if let Some(note) = sun.apply(&mut scene) {
+        console::warning(&note);
+    }
+    let view = |choice: &String| -> Result<(String, Camera), OptionError> {
+        let camera = choice.parse::<CameraChoice>()?.resolve(&scene, size.aspect())?;
+        Ok((camera.name.clone().unwrap_or_else(|| choice.clone()), camera))
+    };
+    let mut views = args.camera.iter().map(view).collect::<Result<Vec<_>, _>>()?;
+    if views.is_empty() {
+        views = automatic_views(&scene, args.views as usize)?;
+    }
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    let subject = Subject::new(name, scene, views)?;
+    if subject.lights.is_empty() {
+        let message = format!("{}: no light of the scene casts shadows; see --sun", file.display());
+        return Err(Failure { code: Failure::INPUT, message });
+    }
+    Ok(Work::Scene { subject: Box::new(subject), views_named: !args.camera.is_empty() })
+}
+
+impl Work {
+    /// Does something for each scene, with the part of all that is done before it. Quick work looks at one light of
+    /// each, and at one view unless the user named them.
+    fn each(
+        self,
+        quick: bool,
+        work: &mut dyn FnMut(f32, &Subject) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let mut one = |part: f32, mut subject: Subject, light: usize, views_named: bool| {
+            if quick {
+                let last = subject.lights.len().saturating_sub(1);
+                subject.lights = subject.lights.split_off(light.min(last));
+                subject.lights.truncate(1);
+                if !views_named {
+                    subject.views.truncate(1);
+                }
+            }
+            work(part, &subject)
+        };
+        match self {
+            // The first light is the sun of `--sun`.
+            Self::Scene { subject, views_named } => one(0.0, *subject, 0, views_named),
+            Self::Cases { cases, folder } => {
+                let count = cases.len() as f32;
+                let mut numbered = cases.iter().enumerate();
+                numbered.try_for_each(|(index, case)| {
+                    // The second of a case's suns, which is neither low nor high in the built-in ones.
+                    let light = usize::from(!case.sun_elevations_deg.is_empty());
+                    one(index as f32 / count, Subject::of_case(case, &folder)?, light, false)
+                })
+            }
+        }
+    }
+}
+
+fn variants(file: Option<&Path>, techniques: &Techniques) -> Result<Vec<Variant>, Failure> {
+    let Some(file) = file else { return Ok(Vec::new()) };
+    Ok(VariantSet::parse(&read("--variants", file)?, file, techniques)?.variants)
+}
+
+fn bounds(
+    file: Option<&Path>,
+    techniques: &[String],
+    variants: &[Variant],
+) -> Result<Option<(PathBuf, Bounds)>, Failure> {
+    let Some(file) = file else { return Ok(None) };
+    let bounds = Bounds::parse(&read("--check", file)?, file)?;
+    let is_measured = |bound: &Bound| {
+        let (technique, variant) = match bound.technique.split_once(": ") {
+            Some((technique, variant)) => (technique, Some(variant)),
+            None => (bound.technique.as_str(), None),
+        };
+        techniques.iter().any(|name| name == technique)
+            && variant.is_none_or(|variant| variants.iter().any(|known| known.name == variant))
+    };
+    match bounds.bounds.iter().find(|bound| !is_measured(bound)) {
+        None => Ok(Some((file.to_owned(), bounds))),
+        Some(Bound { technique, .. }) => {
+            let mut measured = format!("--techniques: {}", techniques.join(", "));
+            if !variants.is_empty() {
+                let names: Vec<&str> = variants.iter().map(|variant| variant.name.as_str()).collect();
+                measured = format!("{measured}; --variants: {}", names.join(", "));
+            }
+            let message = format!("{}: `{technique}` is not among {measured}", file.display());
+            Err(Failure { code: Failure::INPUT, message })
+        }
+    }
+}
+
+fn read(option: &str, file: &Path) -> Result<String, Failure> {
+    let failed = |error| Failure {
+        code: Failure::INPUT,
+        message: format!("{option}: {}: cannot be read: {error}", file.display()),
+    };
+    std::fs::read_to_string(file).map_err(failed)
+}
+
+fn check(report: &Report, bounds: Option<&(PathBuf, Bounds)>) -> Result<(), Failure> {
+    let Some((file, bounds)) = bounds else { return Ok(()) };
+    let broken = bounds.broken_by(report);
+    if broken.is_empty() {
+        let count = bounds.bounds.len();
+        return console::print(&format!("\nwithin all {count} bounds of {}\n", file.display()));
+    }
+    let message = format!("worse than {} allows: {}", file.display(), broken.join("; "));
+    Err(Failure { code: Failure::INPUT, message })
+}
+
+/// The folder that is written. Pictures wait in a folder beside it until all is measured.
+struct Output {
+    folder: PathBuf,
+    waiting: tempfile::TempDir,
+}
+
+impl Output {
+    fn new(folder: &Path) -> Result<Self, Failure> {
+        let failed = |reason: String| Failure {
+            code: Failure::INPUT,
+            message: format!("-o {}: {reason}", folder.display()),
+        };
+        if folder.exists() && !folder.is_dir() {
+            return Err(failed("is a file; give the name of a folder".into()));
+        }
+        let pictures = folder.join(PICTURES);
+        if pictures.exists() && !pictures.is_dir() {
+            return Err(failed(format!("{PICTURES} in it is a file, not a folder")));
+        }
+        let prepared = std::fs::create_dir_all(folder)
+            .and_then(|()| tempfile::Builder::new().prefix(".shadowgraph-").tempdir_in(folder));
+        let waiting = prepared.map_err(|error| failed(format!("cannot be written: {error}")))?;
+        Ok(Self { folder: folder.to_owned(), waiting })
+    }
+
+    /// Writes the pictures of a case, and returns where they will be.
+    fn pictures(
+        &self,
+        index: usize,
+        case: &CaseReport,
+        pictures: &CasePictures,
+    ) -> Result<PictureFiles, Failure> {
+        let name =
+            [&case.scene, &case.light, &case.view, &case.technique].map(|name| file_name(name)).join("-");
+        let [width, height] = pictures.compared.size_px;
+        let write = |kind: &str, pixels: Pixels, bytes: &[u8]| {
+            let file = format!("{index:03}-{name}-{kind}.png");
+            write_png(&self.waiting.path().join(&file), width, height, pixels, bytes)?;
+            Ok::<_, Failure>(format!("{PICTURES}/{file}"))
+        };
+        let grey =
+            |values: &[f32]| values.iter().map(|value| (value * 255.0).round() as u8).collect::<Vec<_>>();
+        Ok(PictureFiles {
+            picture: write("picture", Pixels::Rgba, &pictures.color.rgba8)?,
+            truth: write("truth", Pixels::Grey, &grey(&pictures.compared.truth))?,
+            visibility: write("visibility", Pixels::Grey, &grey(&pictures.compared.visibility))?,
+            difference: write("difference", Pixels::Rgba, &pictures.compared.errors_rgba8())?,
+        })
+    }
+
+    /// Puts everything in its place, and returns the page.
+    fn finish(self, report: &Report) -> Result<PathBuf, Failure> {
+        let failed = |error: std::io::Error| Failure {
+            code: Failure::INPUT,
+            message: format!("-o {}: cannot be written: {error}", self.folder.display()),
+        };
+        let pictures = self.folder.join(PICTURES);
+        std::fs::create_dir_all(&pictures).map_err(failed)?;
+        for entry in std::fs::read_dir(self.waiting.path()).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            std::fs::rename(entry.path(), pictures.join(entry.file_name())).map_err(failed)?;
+        }
+        let json = serde_json::to_string_pretty(report)?;
+        write_text(&self.folder.join("report.json"), &json)?;
+        let file = self.folder.join("report.html");
+        write_text(&file, &page(report))?;
+        Ok(file)
+    }
+}
+
+/// What of a name can be part of a file's name anywhere.
+fn file_name(name: &str) -> String {
+    let kept = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    kept.take(40).collect::<String>().trim_matches('_').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use shadowgraph::scene::{Light, LightKind, Scene};
+
+    #[test]
+    fn quick_work_on_a_scene_looks_at_its_sun_whatever_other_lights_it_has() {
+        let sun = shadowgraph::options::default_sun();
+        let point = LightKind::Point { position_world: glam::DVec3::Y, range: None };
+        let mut scene = Scene::default();
+        scene.add_light(Light { kind: point, ..sun.clone() });
+        let views = vec![("front".to_owned(), scene.framing_camera(1.0))];
+        scene.add_light(sun);
+        let subject = Box::new(Subject::new("scene", scene, views).unwrap());
+        let mut seen = Vec::new();
+        let work = Work::Scene { subject, views_named: true };
+        let each = work.each(true, &mut |_, subject| {
+            seen.extend(subject.lights.iter().map(|light| light.name.clone()));
+            Ok(())
+        });
+        assert!(each.is_ok());
+        assert_eq!(seen, ["sun 0"]);
+    }
+
+    #[test]
+    fn names_of_scenes_become_names_of_files() {
+        assert_eq!(file_name("sun 30°"), "sun_30");
+        assert_eq!(file_name("../a/b"), "a_b");
+        assert_eq!(file_name(&"x".repeat(90)).len(), 40);
+    }
+}

@@ -1,0 +1,158 @@
+//! What the program tells of a scene, a plan and its times. Tables are at most 110 columns wide.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use super::failure::Failure;
+use serde_json::{Value, json};
+use shadowgraph::core::{PassTime, Plan};
+use shadowgraph::inspect::lights::{kind, shadows, unit};
+use shadowgraph::scene::Light;
+use shadowgraph::shadows::Unshadowed;
+use shadowgraph::wgpu::AdapterInfo;
+
+/// A frame that is told of.
+pub(crate) struct Planned {
+    pub(crate) plan: Arc<Plan>,
+    /// Empty unless they were asked for.
+    pub(crate) times: Vec<PassTime>,
+    pub(crate) unshadowed: Vec<Unshadowed>,
+}
+
+/// The plan as text, with the scene's lights.
+pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
+    let mut out = planned.plan.to_text();
+    out.push_str("\nlights\n");
+    if lights.is_empty() {
+        out.push_str("  none\n");
+    }
+    for (index, light) in lights.iter().enumerate() {
+        let name: String = light.name.as_deref().unwrap_or("-").chars().take(28).collect();
+        let strength = format!("{:.1} {}", light.intensity, unit(light));
+        let shadows = shadows(light, index, &planned.unshadowed);
+        let _ = writeln!(out, "  {index:>3}  {:<12} {name:<28} {strength:>14}  {shadows}", kind(light));
+    }
+    out
+}
+
+/// The plan as JSON, with the scene's lights.
+pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failure> {
+    let mut document: Value = serde_json::from_str(&planned.plan.to_json()?)?;
+    let lights = lights.iter().enumerate().map(|(index, light)| {
+        json!({
+            "index": index,
+            "kind": kind(light),
+            "name": light.name,
+            "intensity": light.intensity,
+            "unit": unit(light),
+            "shadows": shadows(light, index, &planned.unshadowed),
+        })
+    });
+    document["lights"] = lights.collect();
+    if !planned.times.is_empty() {
+        document["times"] = serde_json::to_value(&planned.times)?;
+    }
+    let mut text = serde_json::to_string_pretty(&document)?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Which lights have no shadows and why, a sentence for each reason.
+pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for light in unshadowed {
+        let (reason, index) = (light.reason.text(), light.light.to_string());
+        match reasons.iter_mut().find(|(other, _)| *other == reason) {
+            Some((_, lights)) => lights.push(index),
+            None => reasons.push((reason, vec![index])),
+        }
+    }
+    let sentence = |(reason, lights): (&str, Vec<String>)| match &lights[..] {
+        [light] => format!("light {light} has no shadows: {reason}"),
+        lights => format!("lights {} have no shadows: {reason}", lights.join(", ")),
+    };
+    reasons.into_iter().map(sentence).collect()
+}
+
+/// A table of times per pass, by node.
+pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
+    let mut out = format!(
+        "times on {}\n  {:<40} {:>10} {:>10} {:>7} {:>11}\n",
+        adapter.name, "pass", "CPU ms", "GPU ms", "draws", "triangles"
+    );
+    let mut nodes: Vec<&str> = Vec::new();
+    for time in times {
+        if !nodes.contains(&time.node.as_str()) {
+            nodes.push(&time.node);
+        }
+    }
+    for node in nodes {
+        let of_node = || times.iter().filter(|time| time.node == node);
+        let _ = writeln!(out, "  {}", if node.is_empty() { "(no node)" } else { node });
+        for time in of_node() {
+            let name = time.pass.rsplit('/').next().unwrap_or_default();
+            let count = |number: Option<u64>| number.map_or("-".into(), |number| number.to_string());
+            let (draws, triangles) = (count(time.draws.map(u64::from)), count(time.triangles));
+            let shared = sharing(time.gpu_ms.is_some(), time.shared_by);
+            let times = columns(time.cpu_ms, time.gpu_ms);
+            let _ = writeln!(out, "    {name:<38} {times} {draws:>7} {triangles:>11}{shared}");
+        }
+    }
+    let cpu_ms = times.iter().map(|time| time.cpu_ms).sum();
+    let gpu_ms = times.iter().filter_map(PassTime::gpu_share_ms).reduce(|a, b| a + b);
+    let _ = writeln!(out, "  {:<40} {}", "sum", columns(cpu_ms, gpu_ms));
+    out
+}
+
+/// What is to be known of a pass's GPU time: passes that were merged may have one time together.
+pub(crate) fn sharing(measured: bool, shared_by: u32) -> String {
+    if measured && shared_by > 1 { format!("  all {shared_by} merged") } else { String::new() }
+}
+
+fn columns(cpu_ms: f64, gpu_ms: Option<f64>) -> String {
+    format!("{cpu_ms:>10.3} {:>10}", gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}")))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn times_are_grouped_by_node_and_summed() {
+        let time = |pass: &str, node: &str, gpu_ms| PassTime {
+            pass: pass.into(),
+            node: node.into(),
+            cpu_ms: 1.0,
+            gpu_ms,
+            shared_by: 1,
+            ..PassTime::default()
+        };
+        let list = [time("a/x", "a", Some(2.0)), time("y", "", None), time("a/z", "a", Some(0.5))];
+        let table = columns(3.0, Some(2.5));
+        let adapter = shadowgraph::Gpu::noop().unwrap().adapter;
+        let text = times(&list, &adapter);
+        assert!(text.contains(&table), "{text}");
+        let (a, z, none) = (text.find("  a\n"), text.find("    z"), text.find("(no node)"));
+        assert!(a < z && z < none, "{text}");
+    }
+
+    #[test]
+    fn a_time_that_merged_passes_share_is_said_to_be_so_and_counts_once() {
+        let time = |pass: &str, gpu_ms, shared_by| PassTime {
+            pass: format!("map/{pass}"),
+            node: "map".into(),
+            cpu_ms: 1.0,
+            gpu_ms,
+            shared_by,
+            ..PassTime::default()
+        };
+        let merged = ["clear", "first", "second"].map(|pass| time(pass, Some(6.0), 3));
+        let list = [merged.as_slice(), &[time("alone", Some(0.5), 1), time("unknown", None, 3)]].concat();
+        let text = times(&list, &shadowgraph::Gpu::noop().unwrap().adapter);
+        assert_eq!(text.matches("6.000       -           -  all 3 merged").count(), 3, "{text}");
+        assert_eq!(text.matches("merged").count(), 3, "{text}");
+        assert!(text.ends_with(&format!("{}\n", columns(5.0, Some(6.5)))), "{text}");
+        assert!(text.lines().all(|line| line.len() <= 110), "{text}");
+    }
+}

@@ -1,0 +1,140 @@
+//! The event loop's side of the window.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use winit::application::ApplicationHandler;
+use winit::event::WindowEvent;
+use winit::event_loop::ActiveEventLoop;
+use winit::window::WindowId;
+
+use super::panel::Wish;
+use super::screen::Screen;
+use super::stage::Stage;
+use crate::failure::Failure;
+use shadowgraph::options::AdapterChoice;
+use shadowgraph::output::write_text;
+use shadowgraph::wgpu;
+
+/// Where dumps and settings are saved.
+const FOLDER: &str = "out";
+
+pub(super) struct App {
+    instance: wgpu::Instance,
+    adapter: AdapterChoice,
+    /// How large the window is at first.
+    size_px: [u32; 2],
+    stage: Stage,
+    /// There is no window before the event loop runs.
+    screen: Option<Screen>,
+    drawn: Instant,
+    failure: Option<Failure>,
+}
+
+impl App {
+    pub(super) fn new(
+        instance: wgpu::Instance,
+        adapter: AdapterChoice,
+        size_px: [u32; 2],
+        stage: Stage,
+    ) -> Self {
+        Self { instance, adapter, size_px, stage, screen: None, drawn: Instant::now(), failure: None }
+    }
+
+    /// How the program ends once the window is gone.
+    pub(super) fn end(self) -> Result<(), Failure> {
+        self.failure.map_or(Ok(()), Err)
+    }
+
+    fn fail(&mut self, event_loop: &ActiveEventLoop, error: shadowgraph::Error) {
+        self.failure = Some(match error {
+            shadowgraph::Error::NoAdapter { .. } | shadowgraph::Error::NoDevice { .. } => {
+                Failure::no_device(error)
+            }
+            error => error.into(),
+        });
+        event_loop.exit();
+    }
+
+    fn draw(&mut self) -> Result<(), shadowgraph::Error> {
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        let size = screen.window.inner_size();
+        // A minimised window shows nothing.
+        if size.width == 0 || size.height == 0 || screen.window.is_minimized() == Some(true) {
+            return Ok(());
+        }
+        let seconds = self.drawn.elapsed().as_secs_f64();
+        self.drawn = Instant::now();
+        self.stage.reload();
+        let context = screen.input.egui_ctx();
+        if !context.egui_wants_keyboard_input() {
+            let steer = context.input(super::panel::steer);
+            self.stage.fly.go(steer, seconds);
+        }
+        let wish = screen.draw(&mut self.stage)?;
+        screen.name(&self.stage);
+        screen.window.request_redraw();
+        match wish {
+            Some(Wish::SaveDump { size_px }) => {
+                let page = self.stage.page(&screen.gpu, size_px)?;
+                self.save("frame.html", &page);
+            }
+            Some(Wish::SaveSettings) => {
+                match ron::ser::to_string_pretty(&self.stage.settings, Default::default()) {
+                    Ok(text) => self.save("settings.ron", &text),
+                    Err(error) => self.stage.refused = Some(error.to_string()),
+                }
+            }
+            Some(Wish::Open(file)) => self.stage.open(file.as_deref()),
+            None => {}
+        }
+        Ok(())
+    }
+
+    fn save(&mut self, name: &str, text: &str) {
+        let file: PathBuf = Path::new(FOLDER).join(name);
+        match write_text(&file, text) {
+            Ok(()) => self.stage.note = format!("wrote {}", file.display()),
+            Err(error) => self.stage.refused = Some(error.to_string()),
+        }
+    }
+}
+
+impl ApplicationHandler for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.screen.is_some() {
+            return;
+        }
+        match Screen::new(event_loop, &self.instance, &self.adapter, self.size_px) {
+            Ok(screen) => {
+                screen.window.request_redraw();
+                self.screen = Some(screen);
+            }
+            Err(error) => self.fail(event_loop, error),
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(screen) = &mut self.screen else { return };
+        let response = screen.input.on_window_event(&screen.window, &event);
+        if response.repaint {
+            screen.window.request_redraw();
+        }
+        match event {
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
+            WindowEvent::Resized(size) => {
+                if let Err(error) = screen.resize(size) {
+                    self.fail(event_loop, error);
+                }
+            }
+            WindowEvent::DroppedFile(file) => self.stage.open(Some(&file)),
+            WindowEvent::Focused(_) | WindowEvent::Occluded(false) => screen.window.request_redraw(),
+            WindowEvent::RedrawRequested => {
+                if let Err(error) = self.draw() {
+                    self.fail(event_loop, error);
+                }
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! `shadowgraph view`: the scene in a window, with a panel beside it.
+
+mod app;
+mod fly;
+mod panel;
+mod reload;
+mod screen;
+mod stage;
+
+use std::path::Path;
+
+use app::App;
+use stage::Stage;
+use winit::event_loop::EventLoop;
+
+use super::args::ViewArgs;
+use super::commands::{input, view_options};
+use super::failure::Failure;
+use shadowgraph::{Registry, wgpu};
+
+/// `shadowgraph view`
+pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> {
+    if let Some(folder) = &args.shaders {
+        check_folder(folder)?;
+        shadowgraph::shaders::set_folder(Some(folder.clone()));
+    }
+    let input = input(&args.draw, registry)?;
+    let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
+    let display = Box::new(event_loop.owned_display_handle());
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
+    let adapter = input.options.adapter.clone();
+    let view = view_options(&input);
+    let size_px = view.size_px;
+    let stage = Stage::new(input, view, registry.clone(), args)?;
+    let mut app = App::new(instance, adapter, size_px, stage);
+    event_loop.run_app(&mut app)?;
+    app.end()
+}
+
+fn check_folder(folder: &Path) -> Result<(), Failure> {
+    let reason = match folder {
+        folder if !folder.is_dir() => "is not a folder",
+        folder if !shadowgraph::shaders::builtin_files().any(|file| folder.join(file).is_file()) => {
+            "holds no file of the name of a built-in shader, such as forward.wgsl"
+        }
+        _ => return Ok(()),
+    };
+    Err(Failure { code: Failure::INPUT, message: format!("--shaders {}: {reason}", folder.display()) })
+}
+
+fn no_display(error: &dyn std::fmt::Display) -> Failure {
+    let words = error.to_string().replace('\n', " ");
+    // Without the place in the window library's code.
+    let behind = words.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    let reason = behind.map_or(&*words, |(_, reason)| reason);
+    Failure {
+        code: Failure::NO_ADAPTER,
+        message: format!("there is no display to open a window on: {reason}"),
+    }
+}

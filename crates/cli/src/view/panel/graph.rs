@@ -1,0 +1,82 @@
+//! The passes of the frame with their times, and why each is as it is.
+
+use egui::{CollapsingHeader, Grid, Ui};
+
+use super::super::stage::Stage;
+use shadowgraph::core::{NodeId, PassId, Plan, TimeSummary};
+
+#[derive(Default)]
+pub(super) struct GraphPanel {
+    /// The path of the pass that is explained.
+    chosen: Option<String>,
+}
+
+impl GraphPanel {
+    pub(super) fn show(&mut self, ui: &mut Ui, stage: &Stage) {
+        let Some(plan) = &stage.plan else { return };
+        ui.label(format!(
+            "{} passes in {} steps, {} culled; {:.1} MiB",
+            plan.order().len(),
+            plan.steps().len(),
+            plan.culled_count(),
+            plan.slot_bytes() as f64 / 1_048_576.0
+        ));
+        let times = stage.times.summary();
+        // Times are in order of recording; the first frame of another plan has none yet.
+        let times = |place: usize| times.get(place).filter(|_| times.len() == plan.order().len());
+        let mut nodes: Vec<Option<NodeId>> = Vec::new();
+        for &pass in plan.order() {
+            let node = plan.pass(pass).node;
+            if !nodes.contains(&node) {
+                nodes.push(node);
+            }
+        }
+        for node in nodes {
+            let name = node.map_or("(no node)".into(), |node| plan.node_path(node));
+            CollapsingHeader::new(&name).default_open(true).show(ui, |ui| {
+                Grid::new(&name).num_columns(3).striped(true).show(ui, |ui| {
+                    for (place, &pass) in plan.order().iter().enumerate() {
+                        if plan.pass(pass).node == node {
+                            self.row(ui, plan, pass, times(place));
+                        }
+                    }
+                });
+            });
+        }
+        self.culled(ui, plan);
+        if let Some(why) = self.chosen.as_ref().and_then(|path| plan.explain(path).ok()) {
+            ui.separator();
+            ui.label(why);
+        }
+    }
+
+    fn row(&mut self, ui: &mut Ui, plan: &Plan, pass: PassId, time: Option<&TimeSummary>) {
+        let chosen = self.chosen.as_ref().is_some_and(|path| *path == plan.pass_path(pass));
+        if ui.selectable_label(chosen, plan.pass(pass).name).clicked() {
+            self.chosen = Some(plan.pass_path(pass));
+        }
+        let Some(time) = time else { return ui.end_row() };
+        ui.monospace(format!("{:.3} ms CPU", time.cpu_ms.median));
+        if let Some(gpu_ms) = time.gpu_ms {
+            let shared =
+                if time.shared_by > 1 { format!(", all {} merged", time.shared_by) } else { String::new() };
+            let text = format!("{:.2} ms GPU{shared}", gpu_ms.median);
+            ui.monospace(text)
+                .on_hover_text(format!("one frame in twenty takes more than {:.2} ms", gpu_ms.high));
+        }
+        ui.end_row();
+    }
+
+    fn culled(&mut self, ui: &mut Ui, plan: &Plan) {
+        if plan.culled_count() == 0 {
+            return;
+        }
+        CollapsingHeader::new("culled").show(ui, |ui| {
+            for (id, pass) in plan.passes() {
+                if let Some(reason) = pass.culled {
+                    ui.weak(format!("{}: {}", plan.pass_path(id), plan.describe_cull(reason)));
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,153 @@
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use super::*;
+use shadowgraph::RenderedImage;
+use shadowgraph::options::{AdapterChoice, ShadowDistance};
+use shadowgraph_core::{Frame, PassKind, Plan, Subresource};
+use shadowgraph_samples::demo::demo_scene;
+use shadowgraph_scene::{Camera, Scene};
+use shadowgraph_shadows::ShadowSettings;
+use std::io::Write as _;
+
+fn options(scene: &Scene, camera: &Camera) -> ViewOptions {
+    let mut shadows = ShadowSettings::default();
+    shadows.cascades.map_size_px = 1024;
+    shadows.atlas.map_size_px = 1024;
+    ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows }
+        .with_shadow_distance(ShadowDistance::Auto, scene)
+}
+
+fn demo(gpu: &Gpu) -> (Renderer, ViewOptions) {
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let options = options(&scene, &camera);
+    (Renderer::new(gpu, scene, &camera, Aov::Color).unwrap(), options)
+}
+
+/// The steps that draw: of each, the passes that share its render pass.
+fn render_passes(plan: &Plan) -> Vec<Vec<&str>> {
+    let steps = plan.steps().filter(|step| plan.pass(step.passes[0]).kind == PassKind::Render);
+    steps.map(|step| step.passes.iter().map(|&id| plan.pass(id).name).collect()).collect()
+}
+
+fn uploads(plan: &Plan) -> usize {
+    plan.order().iter().filter(|&&id| plan.pass(id).kind == PassKind::Copy).count()
+}
+
+#[test]
+fn by_hand_there_are_as_many_passes_and_uploads_as_in_the_plan() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let (plan, _) = renderer.plan(&options).unwrap();
+    let counts = compare(&gpu, &mut renderer, &options, 1).unwrap().counts;
+    let passes = render_passes(&plan);
+    // The tiles of a map are passes of their own, merged into one render pass.
+    let cascades = ["clear", "cascade 0", "cascade 1", "cascade 2", "cascade 3"];
+    let atlas = ["clear", "light 1", "light 2", "light 3"];
+    let maps = [&cascades[..], &atlas[..]];
+    assert!(maps.iter().all(|map| passes.iter().any(|pass| pass == map)), "{passes:?}");
+    let alone: Vec<_> = passes.iter().filter(|pass| pass.len() == 1).flatten().collect();
+    assert_eq!(alone, [&"depth prepass", &"forward", &"tonemap"]);
+    assert_eq!((counts.passes, passes.len()), (5, 5));
+    assert_eq!(counts.uploads, uploads(&plan));
+    assert!(counts.draws > 100, "{counts:?}");
+}
+
+#[test]
+fn a_scene_without_shadows_has_two_passes_less_on_both_sides() {
+    let gpu = Gpu::noop().unwrap();
+    let mut scene = demo_scene();
+    scene.lights.iter_mut().for_each(|light| light.casts_shadow = false);
+    let camera = scene.cameras[0].clone();
+    let options = options(&scene, &camera);
+    let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();
+    let (plan, _) = renderer.plan(&options).unwrap();
+    let counts = compare(&gpu, &mut renderer, &options, 1).unwrap().counts;
+    assert_eq!((counts.passes, render_passes(&plan).len()), (3, 3));
+}
+
+#[test]
+fn every_pair_is_measured_and_every_step_takes_time() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let comparison = compare(&gpu, &mut renderer, &options, 12).unwrap();
+    assert_eq!((comparison.graph.len(), comparison.by_hand.len()), (12, 12));
+    for time in &comparison.graph {
+        assert!(time.plan.is_zero() && !time.declare.is_zero() && !time.compile.is_zero(), "{time:?}");
+    }
+    for time in &comparison.by_hand {
+        assert!(!time.plan.is_zero() && time.declare.is_zero() && !time.record.is_zero(), "{time:?}");
+    }
+    let (whole, graph_work) = (comparison.ratio(), comparison.ratio_without_planning());
+    assert!(whole.median > 0.1 && graph_work.median.is_finite(), "{whole:?} {graph_work:?}");
+}
+
+#[test]
+fn only_colours_are_measured() {
+    let gpu = Gpu::noop().unwrap();
+    let (renderer, options) = demo(&gpu);
+    let camera = options.camera.clone();
+    let mut renderer = Renderer::new(&gpu, renderer.scene().clone(), &camera, Aov::Normal).unwrap();
+    assert!(matches!(compare(&gpu, &mut renderer, &options, 1), Err(Error::BenchAov)));
+}
+
+#[test]
+fn pass_times_are_those_of_every_pass_in_order() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let times = pass_times(&gpu, &mut renderer, &options, 3).unwrap();
+    let (plan, _) = renderer.plan(&options).unwrap();
+    let paths: Vec<_> = plan.order().iter().map(|&id| plan.pass_path(id)).collect();
+    assert_eq!(times.iter().map(|time| &time.pass).collect::<Vec<_>>(), paths.iter().collect::<Vec<_>>());
+    // The clears of the maps have no body: there is nothing of theirs to record.
+    let bare = |time: &TimeSummary| time.pass.ends_with("/clear");
+    assert_eq!(times.iter().filter(|time| bare(time)).count(), 2, "{times:?}");
+    assert!(times.iter().all(|time| (time.cpu_ms.median > 0.0) != bare(time)), "{times:?}");
+}
+
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> RenderedImage {
+    let size_px = [texture.width(), texture.height()];
+    let mut frame = Frame::new();
+    let texture = frame.import_texture("target", texture, true);
+    let request = frame.read_back_texture(&texture, Subresource::FULL);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut executed =
+        frame.compile().unwrap().execute(&mut Graph::new(), &gpu.device, &mut encoder).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    RenderedImage { size_px, rgba8: executed.read_back(request).unwrap().wait(&gpu.device).unwrap() }
+}
+
+/// The draws of both sides are the same: what is drawn is the same, to the bit.
+#[test]
+fn by_hand_the_picture_is_that_of_the_graph() {
+    let gpu = match Gpu::open(&AdapterChoice::Cpu) {
+        Ok(gpu) => gpu,
+        Err(error) => return skip("bench_pictures", &error.to_string()),
+    };
+    let (mut renderer, options) = demo(&gpu);
+    let target = target(&gpu.device, options.size_px).unwrap();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    renderer.record(&gpu, &mut encoder, &target, &options).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    let of_graph = read(&gpu, &target);
+    let other = super::target(&gpu.device, options.size_px).unwrap();
+    let view = renderer.view(&options, Some(&other));
+    ByHand::new(&gpu, &renderer, &view, &other).unwrap().frame(&gpu).unwrap();
+    let by_hand = read(&gpu, &other);
+    assert_eq!(of_graph, by_hand);
+    let mut colors: Vec<_> = of_graph.rgba8.chunks_exact(4).collect();
+    colors.sort_unstable();
+    colors.dedup();
+    assert!(colors.len() > 100, "a picture of {} colours", colors.len());
+}
+
+/// As `CONTRIBUTING.md` has it.
+#[allow(clippy::print_stdout, reason = "the line is for whoever runs the test")]
+fn skip(id: &str, reason: &str) {
+    let line = format!("SKIP {id}: {reason}\n");
+    print!("{line}");
+    if let Some(log) = std::env::var_os("SHADOWGRAPH_SKIP_LOG") {
+        let mut log = std::fs::OpenOptions::new().append(true).create(true).open(log).unwrap();
+        log.write_all(line.as_bytes()).unwrap();
+    }
+}

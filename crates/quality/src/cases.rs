@@ -1,0 +1,208 @@
+//! What is measured: scenes, suns and views, as data.
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use shadowgraph_samples::trials;
+use shadowgraph_scene::{Camera, Light, Projection};
+
+use shadowgraph::ron_file;
+
+use crate::Error;
+
+/// Many cases: each scene under each of its suns from each of its views.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseSet {
+    /// The scenes.
+    pub cases: Vec<Case>,
+}
+
+/// A scene with its suns and views.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Where the scene comes from.
+    pub scene: SceneSource,
+    /// Heights of the sun over the horizon, degrees, each above 0 and up to 90. Empty: the lights of the file.
+    #[serde(default)]
+    pub sun_elevations_deg: Vec<f64>,
+    /// Which way the sun's light goes over the ground, from east (+X) towards north (-Z), degrees.
+    #[serde(default)]
+    pub sun_heading_deg: f64,
+    /// From where it is looked at. Empty: the cameras of the file, else one that frames the scene.
+    #[serde(default)]
+    pub views: Vec<CaseView>,
+}
+
+/// Where a scene comes from.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SceneSource {
+    /// One of [`trials::TRIALS`].
+    Trial(String),
+    /// A glTF or GLB file; a relative path starts at the folder of the file of cases.
+    File(PathBuf),
+}
+
+/// A camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseView {
+    /// What it is called in tables.
+    pub name: String,
+    /// Where it is, metres.
+    pub eye: [f64; 3],
+    /// What it looks at, metres.
+    pub target: [f64; 3],
+    /// The whole vertical angle, degrees, above 0 and below 180.
+    #[serde(default = "default_fov_deg")]
+    pub fov_deg: f64,
+}
+
+fn default_fov_deg() -> f64 {
+    50.0
+}
+
+impl CaseView {
+    /// Returns the camera, with its near plane at 10 cm and no far plane.
+    #[must_use]
+    pub fn camera(&self) -> Camera {
+        let projection = Projection::Perspective { fov_y: self.fov_deg.to_radians(), near: 0.1, far: None };
+        let (eye, target) = (DVec3::from(self.eye), DVec3::from(self.target));
+        Camera { name: Some(self.name.clone()), ..Camera::look_at(eye, target, DVec3::Y, projection) }
+    }
+}
+
+impl Case {
+    /// Returns the sun at one of its heights.
+    #[must_use]
+    pub fn sun(&self, elevation_deg: f64) -> Light {
+        trials::sun(elevation_deg, self.sun_heading_deg)
+    }
+
+    /// Returns the scene's name in tables.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match &self.scene {
+            SceneSource::Trial(name) => name.clone(),
+            SceneSource::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        }
+    }
+}
+
+/// Returns the cases that come with Shadowgraph: eight trials, four suns, a near and a far view each.
+///
+/// # Errors
+/// None in practice: a test reads them.
+pub fn built_in_cases() -> Result<CaseSet, Error> {
+    CaseSet::parse(include_str!("cases.ron"), Path::new("the built-in cases"))
+}
+
+impl CaseSet {
+    /// Reads cases from RON; `place` is what errors name.
+    ///
+    /// # Errors
+    /// [`Error::Cases`] with line and column, or the value that is out of range and its range.
+    pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
+        let file = place.display().to_string();
+        let set: Self = ron_file::parse_file(&file, text)?;
+        if set.cases.is_empty() {
+            return Err(
+                ron_file::field_error(&file, text, "cases", "there is no case; give at least one").into()
+            );
+        }
+        for (index, case) in set.cases.iter().enumerate() {
+            let wrong = |problem| ron_file::field_error(&file, text, &format!("cases.{index}"), problem);
+            case.check().map_err(wrong)?;
+        }
+        Ok(set)
+    }
+}
+
+/// The largest coordinate of a view, metres.
+const FARTHEST_M: f64 = 1e9;
+
+impl Case {
+    fn check(&self) -> Result<(), String> {
+        let name = self.name();
+        if let SceneSource::Trial(trial) = &self.scene
+            && !trials::TRIALS.contains(&trial.as_str())
+        {
+            return Err(format!("there is no trial `{trial}`; there is: {}", trials::TRIALS.join(", ")));
+        }
+        let fits = |elevation: &f64| *elevation > 0.0 && *elevation <= 90.0;
+        if let Some(wrong) = self.sun_elevations_deg.iter().find(|elevation| !fits(elevation)) {
+            return Err(format!("{name}: sun_elevations_deg is {wrong}; give heights above 0 and up to 90"));
+        }
+        if matches!(self.scene, SceneSource::Trial(_))
+            && (self.sun_elevations_deg.is_empty() || self.views.is_empty())
+        {
+            return Err(format!(
+                "{name}: a trial has neither lights nor cameras; give sun_elevations_deg and views"
+            ));
+        }
+        for view in &self.views {
+            let numbers = || view.eye.iter().chain(&view.target);
+            if let Some(wrong) = numbers().find(|value| !(-FARTHEST_M..=FARTHEST_M).contains(*value)) {
+                return Err(format!(
+                    "{name}, view {}: eye and target have {wrong}; give coordinates from -1e9 to 1e9 m",
+                    view.name
+                ));
+            }
+            if view.eye == view.target {
+                return Err(format!(
+                    "{name}, view {}: eye and target must be two different points",
+                    view.name
+                ));
+            }
+            if !(view.fov_deg > 0.0 && view.fov_deg < 180.0) {
+                let fov = view.fov_deg;
+                return Err(format!(
+                    "{name}, view {}: fov_deg is {fov}; give one above 0 and below 180",
+                    view.name
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    fn problem(text: &str) -> String {
+        CaseSet::parse(text, Path::new("my.ron")).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn the_built_in_cases_hold_every_trial_under_four_suns() {
+        let set = built_in_cases().unwrap();
+        let names: Vec<_> = set.cases.iter().map(Case::name).collect();
+        assert_eq!(names, trials::TRIALS);
+        assert!(set.cases.iter().all(|case| case.sun_elevations_deg.len() == 4 && case.views.len() == 2));
+    }
+
+    #[test]
+    fn a_wrong_case_is_refused_in_one_line_that_says_what_and_where() {
+        let text = r#"(cases: [(scene: Trial("castle"))])"#;
+        assert!(problem(text).contains("my.ron:1:10: there is no trial `castle`; there is: cube, slats"));
+        let text = r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [95], views: [])])"#;
+        assert!(problem(text).contains("cube: sun_elevations_deg is 95; give heights above 0 and up to 90"));
+        let text = r#"(cases: [(scene: Trial("cube"), suns: [])])"#;
+        assert!(
+            problem(text).contains("my.ron:1:33: ") && problem(text).contains("suns"),
+            "{}",
+            problem(text)
+        );
+        assert!(problem("(cases: [])").contains("my.ron:1:9: there is no case"));
+        let view = r#"(name: "a", eye: (NaN, 1, 2), target: (0, 1, 2))"#;
+        let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
+        assert!(problem(&text).contains("cube, view a: eye and target have NaN; give coordinates"));
+        let view = r#"(name: "a", eye: (0, 1, 2), target: (0, 1, 2))"#;
+        let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
+        assert!(problem(&text).contains("cube, view a: eye and target"));
+    }
+}

@@ -1,0 +1,58 @@
+//! Counting what is drawn into shadow maps.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use shadowgraph_scene::{Aabb, CullVolume};
+use shadowgraph_shadows::{CasterView, ShadowCasters};
+
+use shadowgraph::SceneCasters;
+
+/// A scene's casters that count their draws.
+pub(super) struct CountingCasters<'a> {
+    casters: &'a SceneCasters,
+    draws: AtomicU64,
+    triangles: AtomicU64,
+}
+
+impl<'a> CountingCasters<'a> {
+    pub(super) fn new(casters: &'a SceneCasters) -> Self {
+        Self { casters, draws: AtomicU64::new(0), triangles: AtomicU64::new(0) }
+    }
+
+    /// The draws and the triangles so far.
+    pub(super) fn counted(&self) -> (u64, u64) {
+        (self.draws.load(Ordering::Relaxed), self.triangles.load(Ordering::Relaxed))
+    }
+}
+
+impl ShadowCasters for CountingCasters<'_> {
+    fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
+        self.casters.cull(volume, casters);
+    }
+
+    fn bounds(&self) -> Aabb {
+        self.casters.bounds()
+    }
+
+    fn bounds_of(&self, caster: u32) -> Aabb {
+        self.casters.bounds_of(caster)
+    }
+
+    fn version(&self, caster: u32) -> Option<u64> {
+        self.casters.version(caster)
+    }
+
+    fn tints(&self, caster: u32) -> bool {
+        self.casters.tints(caster)
+    }
+
+    fn receivers(&self) -> Aabb {
+        self.casters.receivers()
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
+        self.draws.fetch_add(casters.len() as u64, Ordering::Relaxed);
+        self.triangles.fetch_add(self.casters.triangle_count(casters), Ordering::Relaxed);
+        self.casters.draw(pass, view, casters)
+    }
+}

@@ -1,0 +1,74 @@
+//! Truth between the centres of pixels.
+
+use glam::{DMat4, DVec2, DVec3, Vec3};
+use shadowgraph_shadows::rays::{RayScene, ReceiverPoint, trace_hard};
+
+use super::Surfaces;
+use super::truth::{RayLight, mean};
+use shadowgraph::ViewOptions;
+
+/// How far around a pixel's centre truth is looked for, pixels.
+pub const FINE_REACH_PX: f64 = 1.0;
+
+/// So many points are looked at in each row and column around a pixel.
+pub const FINE_POINTS: u32 = 7;
+
+/// Traces points between the centres of pixels: shadows can be narrower than pixels are apart.
+pub(super) struct Fine<'a> {
+    rays: &'a RayScene,
+    light: &'a RayLight,
+    surfaces: &'a Surfaces,
+    origin_world: DVec3,
+    world_from_clip: DMat4,
+    eye: Vec3,
+}
+
+impl<'a> Fine<'a> {
+    pub(super) fn new(
+        rays: &'a RayScene,
+        light: &'a RayLight,
+        surfaces: &'a Surfaces,
+        options: &ViewOptions,
+        origin_world: DVec3,
+    ) -> Self {
+        let camera = &options.camera;
+        let clip_from_world = camera.clip_from_view(options.aspect()) * camera.view_from_world();
+        let eye = (camera.position_world() - origin_world).as_vec3();
+        Self { rays, light, surfaces, origin_world, world_from_clip: clip_from_world.inverse(), eye }
+    }
+
+    /// Whether truth changes within [`FINE_REACH_PX`] of a pixel's centre, on the plane of its surface.
+    pub(super) fn changes_around(&self, pixel: usize) -> bool {
+        let steps = || (0..FINE_POINTS).map(|step| f64::from(step) / f64::from(FINE_POINTS - 1) * 2.0 - 1.0);
+        let offsets = steps().flat_map(|y| steps().map(move |x| DVec2::new(x, y) * FINE_REACH_PX));
+        let mut truths = offsets.filter_map(|offset| self.truth(pixel, offset));
+        truths.next().is_some_and(|first| truths.any(|truth| truth != first))
+    }
+
+    /// Truth beside a pixel's centre; `None` where its plane is not seen.
+    fn truth(&self, pixel: usize, offset_px: DVec2) -> Option<f32> {
+        let position = self.beside(pixel, offset_px)?.as_vec3();
+        let geometric_normal = self.surfaces.normals[pixel];
+        let receiver =
+            ReceiverPoint { position, geometric_normal, view_distance_m: position.distance(self.eye) };
+        Some(mean(trace_hard(self.rays, &self.light.shape, &receiver, false).visibility))
+    }
+
+    /// The point of a pixel's tangent plane that is seen beside its centre, relative to the frame's origin.
+    fn beside(&self, pixel: usize, offset_px: DVec2) -> Option<DVec3> {
+        let [width, height] = self.surfaces.size_px;
+        let (x, y) = (pixel as u32 % width, pixel as u32 / width);
+        let size = DVec2::new(f64::from(width), f64::from(height));
+        let at = (DVec2::new(f64::from(x), f64::from(y)) + 0.5 + offset_px) / size;
+        let seen = |depth| {
+            let ndc = DVec3::new(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, depth);
+            self.world_from_clip.project_point3(ndc) - self.origin_world
+        };
+        // Two points of the ray through the picture.
+        let (from, way) = (seen(1.0), seen(0.5) - seen(1.0));
+        let (position, normal) =
+            (self.surfaces.positions[pixel].as_dvec3(), self.surfaces.normals[pixel].as_dvec3());
+        let along = (position - from).dot(normal) / way.dot(normal);
+        (along.is_finite() && along > 0.0).then(|| from + way * along)
+    }
+}

@@ -1,0 +1,81 @@
+//! How much a technique's shadows change while the camera moves.
+
+use super::metrics::{RECEIVER_N_DOT_L, flicker};
+use super::motion::{FAR_OUT_M, camera_at, moved};
+use super::report::{Flicker, Motion};
+use shadowgraph_shadows::Technique;
+
+use super::{Ground, Instrument, Points, Probe, Question};
+use shadowgraph::options::Aov;
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+use crate::Error;
+
+/// The size of the picture whose surfaces are the points that are asked at, pixels.
+pub const FLICKER_SIZE_PX: [u32; 2] = [320, 180];
+
+/// Measures a technique's flicker in a view of a renderer's scene, for a light: all motions, at the place of the scene
+/// and ten kilometres away, each over `frames` frames.
+///
+/// # Errors
+/// Settings out of range, or a failure of the GPU.
+pub fn measure_flicker(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    technique: Technique,
+    options: &ViewOptions,
+    light: usize,
+    frames: u32,
+) -> Result<Vec<Flicker>, Error> {
+    let mut found = of_scene(gpu, renderer, options, light, frames, false)?;
+    let mut far = options.clone();
+    far.camera.world_from_view.translation += FAR_OUT_M;
+    let scene = moved(renderer.scene(), FAR_OUT_M);
+    let aov = Aov::Visibility(light as u32);
+    let mut renderer = Renderer::with_config(gpu, scene, &far.camera, aov, technique)?;
+    found.extend(of_scene(gpu, &mut renderer, &far, light, frames, true)?);
+    Ok(found)
+}
+
+fn of_scene(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    options: &ViewOptions,
+    light: usize,
+    frames: u32,
+    far_out: bool,
+) -> Result<Vec<Flicker>, Error> {
+    let options = ViewOptions { size_px: FLICKER_SIZE_PX, ..options.clone() };
+    let ground = Instrument::new(gpu, renderer, light)?.ground(renderer, &options, 0)?;
+    let (probe, points) = (Probe::new(gpu, renderer)?, Points::new(gpu, &ground.surfaces));
+    let Some(distance_m) = median_depth_m(&ground) else { return Ok(Vec::new()) };
+    let truth = of_receivers(&ground, &ground.truth.hard);
+    let question = Question { light: light as u32, coarser: false };
+    let change = |motion| {
+        let seen = (0..frames).map(|frame| {
+            let camera = camera_at(&options.camera, motion, frame, options.size_px[1], distance_m);
+            let view = ViewOptions { camera, ..options.clone() };
+            let answers = probe.ask(gpu, renderer, &view, &points, question)?;
+            Ok(of_receivers(&ground, &answers.visibility))
+        });
+        let seen = seen.collect::<Result<Vec<_>, Error>>()?;
+        // Neither the scene nor the light moves: the truth at a point of the world stays.
+        Ok(Flicker { motion, far_out, change: flicker(&seen, &vec![truth.clone(); seen.len()])? })
+    };
+    [Motion::Translate, Motion::Rotate, Motion::Zoom].into_iter().map(change).collect()
+}
+
+fn is_receiver(ground: &Ground, pixel: usize) -> bool {
+    ground.surfaces.is_drawn(pixel) && ground.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L
+}
+
+fn of_receivers(ground: &Ground, values: &[f32]) -> Vec<f32> {
+    let receivers = values.iter().enumerate().filter(|(pixel, _)| is_receiver(ground, *pixel));
+    receivers.map(|(_, value)| *value).collect()
+}
+
+/// Of all receivers; `None` if there are none.
+fn median_depth_m(ground: &Ground) -> Option<f64> {
+    let depths = of_receivers(ground, &ground.surfaces.view_depths_m);
+    super::metrics::percentile(&depths, 50.0).map(f64::from)
+}

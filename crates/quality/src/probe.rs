@@ -1,0 +1,283 @@
+//! Asking a technique at stored points, whatever the camera sees.
+
+use std::borrow::Cow;
+
+use shadowgraph_core::{
+    Bind, Contents, Format, Frame, Graph, PassTime, Plan, ResourceDesc, Subresource, TextureDesc, Timer,
+};
+use shadowgraph_lighting::{Geometry, ViewUniforms};
+use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
+
+use super::Surfaces;
+use super::counting::CountingCasters;
+use super::instrument::pixel_m_at_1m;
+use super::report::Cost;
+use shadowgraph::RenderView;
+use shadowgraph::SurfaceDrawer;
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+use crate::Error;
+
+/// `RECEIVER_COARSER` of `receiver.wgsl`.
+const COARSER: u32 = 8;
+
+/// The side of a workgroup of `probe.wgsl`, points.
+const WORKGROUP: u32 = 8;
+
+/// The node around all that the technique adds.
+const TECHNIQUE: &str = "technique";
+
+/// Asks a renderer's technique by a compute pass, through the point function of the technique contract.
+pub struct Probe {
+    view_layout: wgpu::BindGroupLayout,
+    shadow_layout: wgpu::BindGroupLayout,
+    points_layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+    /// Where the technique reads them.
+    surfaces: Option<SurfaceDrawer>,
+}
+
+/// Points in the world to ask at, on the GPU.
+pub struct Points {
+    texture: wgpu::Texture,
+    size: [u32; 2],
+}
+
+/// What is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// Of which light, by its place in the scene's list.
+    pub light: u32,
+    /// Whether the next coarser of the maps that cover a point is to answer, where there is one.
+    pub coarser: bool,
+}
+
+/// What a technique says at points, and what that cost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answers {
+    /// The light that arrives at each point, 0 to 1; 0 where the picture had no surface.
+    pub visibility: Vec<f32>,
+    /// What the technique's passes cost.
+    pub cost: Cost,
+}
+
+impl Points {
+    /// Uploads the surfaces of a picture. A renderer is to be asked before it moves to another origin.
+    #[must_use]
+    pub fn new(gpu: &Gpu, surfaces: &Surfaces) -> Self {
+        let [width, height] = surfaces.size_px;
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("points"),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: Format::Rgba32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 16), rows_per_image: None };
+        gpu.queue.write_texture(texture.as_image_copy(), surfaces.texels(), layout, size);
+        Self { texture, size: surfaces.size_px }
+    }
+}
+
+impl Probe {
+    /// Makes the pipeline for a renderer's technique.
+    ///
+    /// # Errors
+    /// If the technique's WGSL does not compose, or a failure of the GPU.
+    pub fn new(gpu: &Gpu, renderer: &Renderer) -> Result<Self, Error> {
+        gpu.checked(|| Self::unchecked(&gpu.device, renderer))
+    }
+
+    fn unchecked(device: &wgpu::Device, renderer: &Renderer) -> Result<Self, Error> {
+        let module = shadowgraph_shaders::compose("probe.wgsl", &renderer.technique().modules(0))?;
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("probe.wgsl"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
+        let view_layout = layout(device, &[STORAGE, STORAGE]);
+        let points_layout = layout(device, &[UNIFORM, POINTS, ANSWERS]);
+        let shadow_layout = shadow_layout(device, renderer.technique());
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("probe"),
+            bind_group_layouts: &[Some(&view_layout), Some(&shadow_layout), Some(&points_layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("probe"),
+            layout: Some(&pipeline_layout),
+            module: &shader,
+            entry_point: Some("cs_probe"),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        let layouts = renderer.casters().scene.layouts();
+        let reads = renderer.technique().reads_surface_buffers();
+        let surfaces = reads.then(|| SurfaceDrawer::new(device, layouts)).transpose()?;
+        Ok(Self { view_layout, shadow_layout, points_layout, pipeline, surfaces })
+    }
+
+    /// Draws the shadows of a view, and asks at all points.
+    ///
+    /// # Errors
+    /// Settings out of range, or a failure of the GPU.
+    pub fn ask(
+        &self,
+        gpu: &Gpu,
+        renderer: &Renderer,
+        options: &ViewOptions,
+        points: &Points,
+        question: Question,
+    ) -> Result<Answers, Error> {
+        // Points may be beside the view, and are asked for in coarser cascades than they would be read from.
+        let mut options = options.clone();
+        options.shadows.cull = CullSettings::NONE;
+        let view = renderer.view(&options, None);
+        let casters = CountingCasters::new(renderer.casters());
+        let (mut graph, mut timer) = (renderer.graph(), Timer::new());
+        let (bytes, plan) = gpu.checked(|| {
+            let asked = Asked { renderer, view: &view, casters: &casters, points, question };
+            self.record(gpu, &asked, &mut graph, &mut timer)
+        })?;
+        let visibility = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+        let times = timer.read(&gpu.device, &gpu.queue)?;
+        let of_technique = times.iter().filter(|time| is_technique(&time.pass));
+        let gpu_ms = of_technique.filter_map(PassTime::gpu_share_ms);
+        let (draws, triangles) = casters.counted();
+        let texture_bytes = texture_bytes(&plan);
+        let cost = Cost { gpu_ms: gpu_ms.reduce(|a, b| a + b), texture_bytes, draws, triangles };
+        Ok(Answers { visibility, cost })
+    }
+
+    fn record<'f>(
+        &'f self,
+        gpu: &Gpu,
+        asked: &Asked<'f>,
+        graph: &mut Graph,
+        timer: &mut Timer,
+    ) -> Result<(Vec<u8>, std::sync::Arc<Plan>), Error> {
+        let Asked { renderer, view, casters, points, question } = *asked;
+        let options = view.options;
+        let scene = &renderer.casters().scene;
+        let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
+        let mut frame = graph.frame();
+        let records =
+            ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
+        let buffers = records.upload(&mut frame);
+        let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
+        let screen =
+            self.surfaces.as_ref().map(|drawer| drawer.screen_with_prepass(&mut frame, &buffers, geometry));
+        let screen = screen.transpose()?;
+        let inputs = ShadowInputs {
+            view: 0,
+            camera: &options.camera,
+            aspect: options.aspect(),
+            lights,
+            casters,
+            origin_world,
+            settings: &options.shadows,
+        };
+        let add = |frame: &mut Frame<'f>| add_shadows(renderer.technique(), frame, &inputs, screen.as_ref());
+        let shadows = frame.node(TECHNIQUE, add)?;
+
+        let block = Question::block(question, pixel_m_at_1m(&options.camera, options.size_px[1]));
+        let block = frame.uniform(&block);
+        let stored = frame.import_texture("points", &points.texture, true);
+        let [width, height] = points.size;
+        let mut answers = frame.create_texture("answers", TextureDesc::d2(width, height, Format::R32Float));
+        let mut pass = frame.compute_pass("probe");
+        let shadows = shadows.read_in(&mut pass);
+        let (eye, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let stored = pass.sample(&stored);
+        let target = pass.storage_texture_mut(&mut answers, Contents::Overwrite);
+        pass.body(move |ctx| {
+            let eye = ctx.bind_group(&self.view_layout, &[Bind::Buffer(eye), Bind::Buffer(lights)])?;
+            let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
+            let own = [Bind::Uniform(block), Bind::Texture(stored), Bind::Texture(target)];
+            let own = ctx.bind_group(&self.points_layout, &own)?;
+            ctx.pass.set_pipeline(&self.pipeline);
+            for (index, group) in (0..).zip([&eye, &shadows, &own]) {
+                ctx.pass.set_bind_group(index, group, &[]);
+            }
+            ctx.pass.dispatch_workgroups(width.div_ceil(WORKGROUP), height.div_ceil(WORKGROUP), 1);
+            Ok(())
+        });
+        let request = frame.read_back_texture(&answers, Subresource::FULL);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let compiled = graph.compile(frame)?;
+        let mut executed = compiled.execute_timed(graph, &gpu.device, &mut encoder, timer)?;
+        gpu.queue.submit([encoder.finish()]);
+        let texels = executed.read_back(request).ok_or(Error::NothingRead)?;
+        Ok((texels.wait(&gpu.device)?, executed.shared_plan()))
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Asked<'f> {
+    renderer: &'f Renderer,
+    view: &'f RenderView<'f>,
+    casters: &'f CountingCasters<'f>,
+    points: &'f Points,
+    question: Question,
+}
+
+impl Question {
+    /// `Question` of `probe.wgsl`.
+    fn block(self, pixel_world: f32) -> [u8; 16] {
+        let flags = if self.coarser { COARSER } else { 0 };
+        bytemuck::cast([self.light, flags, pixel_world.to_bits(), 0])
+    }
+}
+
+fn is_technique(path: &str) -> bool {
+    path.strip_prefix(TECHNIQUE).is_some_and(|rest| rest.starts_with('/'))
+}
+
+/// The textures that the technique's passes write, each once.
+fn texture_bytes(plan: &Plan) -> u64 {
+    let passes = plan.order().iter().filter(|&&pass| is_technique(&plan.pass_path(pass)));
+    let written = passes.flat_map(|&pass| plan.accesses(pass)).filter(|access| access.contents.is_some());
+    let mut textures: Vec<_> = written.map(|access| access.resource).collect();
+    textures.sort_unstable();
+    textures.dedup();
+    let bytes = textures.into_iter().map(|texture| match plan.resource(texture).desc {
+        ResourceDesc::Texture(desc) => desc.bytes(),
+        ResourceDesc::Buffer(_) => 0,
+    });
+    bytes.sum()
+}
+
+const STORAGE: wgpu::BindingType = buffer(wgpu::BufferBindingType::Storage { read_only: true });
+const UNIFORM: wgpu::BindingType = buffer(wgpu::BufferBindingType::Uniform);
+
+const POINTS: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+const ANSWERS: wgpu::BindingType = wgpu::BindingType::StorageTexture {
+    access: wgpu::StorageTextureAccess::WriteOnly,
+    format: Format::R32Float,
+    view_dimension: wgpu::TextureViewDimension::D2,
+};
+
+const fn buffer(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
+}
+
+fn layout(device: &wgpu::Device, types: &[wgpu::BindingType]) -> wgpu::BindGroupLayout {
+    let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    };
+    let entries: Vec<_> = (0..).zip(types).map(entry).collect();
+    let label = Some("probe");
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
+}

@@ -1,0 +1,60 @@
+//! Reports that tests are made of.
+
+use super::data::{CaseReport, Cost, Flicker, Motion, PictureFiles, Report};
+use crate::ViewErrors;
+use crate::metrics::{Detachment, EdgeError, LostContacts, MeanError, Misclassified, N_DOT_L_BINS, Summary};
+use shadowgraph_shadows::ShadowSettings;
+
+/// A report of a case for each technique and percentage of wrong pixels, with all other values there too.
+pub(super) fn report(cases: &[(&str, f64)]) -> Report {
+    Report {
+        version: Report::VERSION,
+        adapter: "llvmpipe".into(),
+        size_px: [640, 360],
+        settings: ShadowSettings::default(),
+        variants: Vec::new(),
+        cases: cases.iter().enumerate().map(|(index, &(name, wrong))| case(index, name, wrong)).collect(),
+    }
+}
+
+fn case(index: usize, technique: &str, wrong_percent: f64) -> CaseReport {
+    let some = Summary { count: 10, mean: 0.5, p99: 0.75 };
+    let flicker = |motion, far_out| Flicker { motion, far_out, change: some };
+    CaseReport {
+        scene: "tower".into(),
+        light: "sun 15".into(),
+        view: format!("view {index}"),
+        technique: technique.into(),
+        errors: errors(wrong_percent, some),
+        edges: Some(EdgeError {
+            penumbra: 9,
+            rmse: 0.25,
+            crossings: 3,
+            unmeasured: 0,
+            width_ratio: Some(1.5),
+        }),
+        seam: Some(some),
+        flicker: vec![flicker(Motion::Translate, true), flicker(Motion::Zoom, false)],
+        cost: Some(Cost { gpu_ms: Some(1.25), texture_bytes: 64 << 20, draws: 20, triangles: 123_456 }),
+        pictures: Some(PictureFiles {
+            picture: format!("pictures/{index}/picture.png"),
+            truth: format!("pictures/{index}/truth.png"),
+            visibility: format!("pictures/{index}/visibility.png"),
+            difference: format!("pictures/{index}/difference.png"),
+        }),
+    }
+}
+
+fn errors(wrong_percent: f64, some: Summary) -> ViewErrors {
+    let mut misclassified = Misclassified::default();
+    misclassified.outside.wrong_percent = wrong_percent;
+    for (bin, above) in misclassified.outside.acne_by_n_dot_l.iter_mut().zip(N_DOT_L_BINS) {
+        bin.n_dot_l_above = above;
+    }
+    ViewErrors {
+        misclassified,
+        mean_error: MeanError::default(),
+        lost_contacts: LostContacts { contacts: 40, lost: 10, lost_percent: 25.0 },
+        detachment: Detachment { cm: some, texels: some, lost: 0 },
+    }
+}

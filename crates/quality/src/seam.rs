@@ -1,0 +1,57 @@
+//! How much cascades differ where one ends and the next begins, and what they cost.
+
+use super::instrument::texels;
+use super::metrics::{RECEIVER_N_DOT_L, Summary, seam};
+use super::report::Cost;
+use super::texels::NO_VIEW;
+use super::{Ground, Points, Probe, Question};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+
+use crate::Error;
+
+/// So near to a pixel of the next cascade a pixel is at the border, pixels.
+const BORDER_PX: usize = 2;
+
+/// Asks a technique twice at the surfaces of a view, once with the next coarser cascade, and compares the answers along
+/// the borders of cascades. Returns `None` where there is no such border, and what one frame cost.
+///
+/// # Errors
+/// Settings out of range, or a failure of the GPU.
+pub fn measure_seam(
+    gpu: &Gpu,
+    renderer: &Renderer,
+    probe: &Probe,
+    options: &ViewOptions,
+    ground: &Ground,
+    light: usize,
+) -> Result<(Option<Summary>, Cost), Error> {
+    let points = Points::new(gpu, &ground.surfaces);
+    let ask = |coarser| {
+        let question = Question { light: light as u32, coarser };
+        probe.ask(gpu, renderer, options, &points, question)
+    };
+    // The first compiles shaders on some drivers; the times are those of the second.
+    let (own, coarser) = (ask(false)?, ask(true)?);
+    // Those of the ground are of other settings, if variants are compared.
+    let origin_world = renderer.casters().scene.origin_world();
+    let views = texels(renderer, options, &ground.surfaces, light, origin_world)?.views;
+    let is_border = |pixel: &usize| is_border(ground, &views, *pixel);
+    let border: Vec<usize> = (0..own.visibility.len()).filter(is_border).collect();
+    let at = |values: &[f32]| border.iter().map(|&pixel| values[pixel]).collect::<Vec<_>>();
+    let difference = seam(&at(&own.visibility), &at(&coarser.visibility))?;
+    Ok(((difference.count > 0).then_some(difference), coarser.cost))
+}
+
+/// Whether a receiver lies near to one that a coarser cascade shades.
+fn is_border(ground: &Ground, views: &[u32], pixel: usize) -> bool {
+    let [width, height] = ground.surfaces.size_px.map(|side| side as usize);
+    let own = views[pixel];
+    let counts = ground.surfaces.is_drawn(pixel) && ground.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L;
+    if !counts || own == NO_VIEW {
+        return false;
+    }
+    let around = |at: usize, end: usize| at.saturating_sub(BORDER_PX)..(at + BORDER_PX + 1).min(end);
+    let (x, y) = (pixel % width, pixel / width);
+    around(y, height)
+        .any(|y| around(x, width).map(|x| views[y * width + x]).any(|other| other != NO_VIEW && other > own))
+}

@@ -1,0 +1,113 @@
+//! A scene with the lights and views that are measured.
+
+use std::path::Path;
+
+use shadowgraph_samples::trials;
+use shadowgraph_scene::{Camera, Light, LightKind, Scene, gltf};
+
+use super::views::automatic_views;
+use super::{Case, SceneSource};
+use crate::Error;
+
+/// The most lights of a file that are measured.
+pub const MAX_LIGHTS: usize = 4;
+
+/// So many views are chosen for a scene that names none.
+pub const DEFAULT_VIEWS: usize = 4;
+
+/// A scene to measure.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// Its name in tables.
+    pub name: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The lights that are measured, one after the other.
+    pub lights: Vec<SubjectLight>,
+    /// From where it is looked at, by name.
+    pub views: Vec<(String, Camera)>,
+}
+
+/// A light that is measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubjectLight {
+    /// Its name in tables.
+    pub name: String,
+    /// All lights of the scene while this one is measured.
+    pub all: Vec<Light>,
+    /// Its place among them.
+    pub index: usize,
+}
+
+impl Subject {
+    /// Takes a scene with its own lights: of those that cast shadows the first [`MAX_LIGHTS`]. Without views, some are
+    /// chosen.
+    ///
+    /// # Errors
+    /// If the scene's triangles cannot be traced, which views are chosen by.
+    pub fn new(name: impl Into<String>, scene: Scene, views: Vec<(String, Camera)>) -> Result<Self, Error> {
+        let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts_shadow);
+        let light = |(index, light): (usize, &Light)| SubjectLight {
+            name: format!("{} {index}", kind(light)),
+            all: scene.lights.clone(),
+            index,
+        };
+        let lights = casting.take(MAX_LIGHTS).map(light).collect();
+        Self { name: name.into(), scene, lights, views }.with_some_views(DEFAULT_VIEWS)
+    }
+
+    /// Chooses `count` views where there are none.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    fn with_some_views(mut self, count: usize) -> Result<Self, Error> {
+        if self.views.is_empty() {
+            self.views = automatic_views(&self.scene, count)?;
+        }
+        Ok(self)
+    }
+
+    /// Loads the scene of a case. Relative paths start at `folder`. Without suns in the case, and a light in the file,
+    /// there is a default sun.
+    ///
+    /// # Errors
+    /// If the file does not load.
+    pub fn of_case(case: &Case, folder: &Path) -> Result<Self, Error> {
+        let mut scene = match &case.scene {
+            SceneSource::Trial(name) => trials::trial(name).unwrap_or_default(),
+            SceneSource::File(file) => gltf::load(&folder.join(file))?,
+        };
+        if scene.lights.is_empty() && case.sun_elevations_deg.is_empty() {
+            scene.add_light(shadowgraph::options::default_sun());
+        }
+        let mut views: Vec<_> = case.views.iter().map(|view| (view.name.clone(), view.camera())).collect();
+        if views.is_empty() {
+            let named = |(index, camera): (usize, &Camera)| {
+                (camera.name.clone().unwrap_or_else(|| format!("camera {index}")), camera.clone())
+            };
+            views = scene.cameras.iter().enumerate().map(named).collect();
+        }
+        let mut subject = Self::new(case.name(), scene, views)?;
+        if !case.sun_elevations_deg.is_empty() {
+            subject.lights =
+                case.sun_elevations_deg.iter().map(|&elevation| subject.sun(case, elevation)).collect();
+        }
+        Ok(subject)
+    }
+
+    /// The sun of a case in the place of the scene's own.
+    fn sun(&self, case: &Case, elevation_deg: f64) -> SubjectLight {
+        let is_directional = |light: &&Light| matches!(light.kind, LightKind::Directional { .. });
+        let others = self.scene.lights.iter().filter(|light| !is_directional(light)).cloned();
+        let all = std::iter::once(case.sun(elevation_deg)).chain(others).collect();
+        SubjectLight { name: format!("sun {elevation_deg}°"), all, index: 0 }
+    }
+}
+
+fn kind(light: &Light) -> &'static str {
+    match light.kind {
+        LightKind::Directional { .. } => "sun",
+        LightKind::Spot { .. } => "spot",
+        LightKind::Point { .. } => "point",
+    }
+}

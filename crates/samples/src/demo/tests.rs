@@ -1,0 +1,111 @@
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use glam::Vec3;
+
+use super::*;
+use shadowgraph_scene::AlphaMode;
+
+#[test]
+fn every_vertex_has_unit_normal_and_square_tangent() {
+    for mesh in demo_scene().meshes {
+        for vertex in &mesh.vertices {
+            let normal = Vec3::from(vertex.normal);
+            let [x, y, z, side] = vertex.tangent;
+            let tangent = Vec3::new(x, y, z);
+            assert!((normal.length() - 1.0).abs() < 1e-4, "{}: normal {normal}", mesh.name);
+            assert!((tangent.length() - 1.0).abs() < 1e-4, "{}: tangent {tangent}", mesh.name);
+            assert!(normal.dot(tangent).abs() < 1e-3, "{}: {normal} {tangent}", mesh.name);
+            assert!(side.abs() == 1.0, "{}: side {side}", mesh.name);
+        }
+    }
+}
+
+#[test]
+fn every_index_is_in_range_and_every_triangle_faces_its_normals() {
+    for mesh in demo_scene().meshes {
+        assert!(!mesh.indices.is_empty() && mesh.indices.len().is_multiple_of(3), "{}", mesh.name);
+        for corners in mesh.indices.chunks_exact(3) {
+            let [a, b, c] = [0, 1, 2].map(|k| mesh.vertices[corners[k] as usize]);
+            let [pa, pb, pc] = [a, b, c].map(|vertex| Vec3::from(vertex.position));
+            let facing = (pb - pa).cross(pc - pa);
+            let normals: Vec3 = [a, b, c].iter().map(|vertex| Vec3::from(vertex.normal)).sum();
+            assert!(facing.dot(normals) > 0.0, "{}: {corners:?}", mesh.name);
+        }
+    }
+}
+
+#[test]
+fn every_reference_is_in_range() {
+    let scene = demo_scene();
+    for instance in &scene.instances {
+        assert!(instance.mesh < scene.meshes.len() && instance.material < scene.materials.len());
+        assert!(!instance.name.is_empty());
+    }
+    for material in &scene.materials {
+        assert!(!material.name.is_empty());
+        let textures = [material.base_color_texture, material.normal_texture];
+        assert!(textures.iter().flatten().all(|texture| texture.image < scene.images.len()));
+    }
+    for image in &scene.images {
+        assert_eq!(image.rgba8.len(), (image.width * image.height * 4) as usize, "{}", image.name);
+    }
+}
+
+#[test]
+fn everything_that_is_made_is_used() {
+    let scene = demo_scene();
+    for (index, mesh) in scene.meshes.iter().enumerate() {
+        assert!(scene.instances.iter().any(|instance| instance.mesh == index), "{}", mesh.name);
+    }
+    for (index, material) in scene.materials.iter().enumerate() {
+        assert!(scene.instances.iter().any(|instance| instance.material == index), "{}", material.name);
+    }
+}
+
+#[test]
+fn scene_has_one_sun_then_three_spots_and_all_cast_shadows() {
+    let lights = demo_scene().lights;
+    let orders: Vec<u8> = lights.iter().map(|light| light.kind.order()).collect();
+    assert_eq!(orders, [0, 1, 1, 1]);
+    for light in lights {
+        let (LightKind::Directional { direction }
+        | LightKind::Spot { direction, .. }
+        | LightKind::Point { position_world: direction, .. }) = light.kind;
+        assert!((direction.length() - 1.0).abs() < 1e-12);
+        assert!(light.casts_shadow && light.name.is_some());
+    }
+}
+
+#[test]
+fn scene_is_small_to_draw_and_wide_to_see() {
+    let scene = demo_scene();
+    assert!((10_000..60_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
+    let bounds = scene.bounds();
+    assert!(bounds.half_extent().x > 200.0 && bounds.half_extent().y > 15.0);
+    assert!(bounds.min.y > -2.0 && bounds.max.y < 60.0);
+}
+
+#[test]
+fn ball_touches_the_court() {
+    let scene = demo_scene();
+    let index = |name: &str| scene.instances.iter().position(|instance| instance.name == name).unwrap();
+    let ball = scene.instance_bounds(index("ball"));
+    let court = scene.instance_bounds(index("court"));
+    assert!((ball.min.y - court.max.y).abs() < 1e-6);
+}
+
+#[test]
+fn fence_picture_has_holes_and_iron() {
+    let scene = demo_scene();
+    let fence = scene.materials.iter().find(|material| material.name == "wrought iron").unwrap();
+    assert_eq!(fence.alpha, AlphaMode::Mask { cutoff: 0.5 });
+    let image = &scene.images[fence.base_color_texture.unwrap().image];
+    let iron = image.rgba8.chunks_exact(4).filter(|texel| texel[3] >= 128).count();
+    let share = iron as f64 / f64::from(image.width * image.height);
+    assert!((0.15..0.6).contains(&share), "{share}");
+}
+
+#[test]
+fn scene_is_the_same_every_time() {
+    assert_eq!(demo_scene(), demo_scene());
+}
