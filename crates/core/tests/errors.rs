@@ -14,8 +14,8 @@ mod page;
 use shadowgraph_core::{Error, Format, TextureDesc};
 use std::collections::BTreeSet;
 
-/// A mistake: what came of it, and what its message has to say.
-struct Mistake {
+/// A failure: what came of it, and what its message has to say.
+struct Failure {
     code: &'static str,
     error: Error,
     words: &'static [&'static str],
@@ -32,8 +32,8 @@ fn codes() -> Vec<&'static str> {
     source.lines().filter_map(arm).collect()
 }
 
-fn check(mistakes: Vec<Mistake>) -> BTreeSet<&'static str> {
-    for Mistake { code, error, words } in &mistakes {
+fn check(failures: Vec<Failure>) -> BTreeSet<&'static str> {
+    for Failure { code, error, words } in &failures {
         let message = error.to_string();
         assert_eq!(error.code(), *code, "{message}");
         assert!(message.starts_with(&format!("{code}: ")), "{message}");
@@ -44,7 +44,7 @@ fn check(mistakes: Vec<Mistake>) -> BTreeSet<&'static str> {
         let one_line = !message.contains('\n') && !message.contains("  ");
         assert!(one_line || *code == "SG0604", "{message}");
     }
-    mistakes.iter().map(|report_error| report_error.code).collect()
+    failures.iter().map(|failure| failure.code).collect()
 }
 
 #[test]
@@ -61,9 +61,9 @@ fn codes_are_unique_and_each_begins_one_message() {
 
 #[test]
 fn every_error_can_be_had_and_names_who_what_and_the_way_out() {
-    let found_by_compile = check(declared::mistakes());
+    let found_by_compile = check(declared::failures());
     #[cfg(feature = "gpu")]
-    let found_by_devices = check(executed::mistakes());
+    let found_by_devices = check(executed::failures());
     #[cfg(not(feature = "gpu"))]
     let found_by_devices = BTreeSet::new();
     let had: BTreeSet<_> = found_by_compile.union(&found_by_devices).copied().collect();

@@ -101,10 +101,10 @@ fn a_name_that_nothing_has_is_an_error_with_the_nearest() {
     let error = culled().explain("Blur Occlusion").unwrap_err().to_string();
     assert!(error.ends_with("did you mean `blur occlusion`?"), "{error}");
     let error = culled().explain("?").unwrap_err().to_string();
-    assert!(error.ends_with("`dump` lists them"), "{error}");
+    assert!(error.ends_with("`dump` lists all names"), "{error}");
     assert!(culled().explain_order("light", "ligth").is_err());
     let error = culled().explain_order("lit", "light").unwrap_err().to_string();
-    assert!(error.contains("it is a resource, and an order is one of passes"), "{error}");
+    assert!(error.contains("it is a resource, and only passes have an order"), "{error}");
 }
 
 #[test]
@@ -115,5 +115,5 @@ fn the_name_of_a_node_leads_to_its_passes() {
         frame.render_pass("blur").color(&mut target, Contents::clear_color([0.0; 4]));
     });
     let error = frame.compile().unwrap().into_plan().explain("post").unwrap_err().to_string();
-    assert!(error.ends_with("`post`: it is a node, of `post/blur`"), "{error}");
+    assert!(error.ends_with("`post`: it is a node with the passes `post/blur`"), "{error}");
 }

@@ -1,4 +1,4 @@
-//! Which resources take turns in one physical texture or buffer: interval colouring over the final order.
+//! Aliasing: which resources share a physical texture or buffer, by interval colouring over the final order.
 
 use super::csr::Csr;
 use super::lifetime::Use;
@@ -9,14 +9,14 @@ use crate::plan::{Placement, Slot, SlotReason};
 use rustc_hash::FxHashMap;
 use wgpu_types::{BufferUsages, TextureDimension, TextureUsages};
 
-/// Where each resource lives, and the slots with their resources.
+/// Slots, their resources, and the placement of each resource.
 pub(super) struct Aliasing {
     pub(super) placements: Vec<Placement>,
     pub(super) slots: Vec<Slot>,
     pub(super) resources: Vec<ResourceId>,
 }
 
-/// What may share a slot: the same shape, and the same kind of memory.
+/// Resources of the same class can share a slot: same description, same kind of memory.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Class {
     desc: ResourceDesc,
@@ -25,26 +25,26 @@ struct Class {
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Kind {
-    /// Never leaves a render pass.
+    /// Used only within one render pass.
     Transient,
     Common,
-    /// Storage usage can switch off the compression of attachments, so storage textures keep to themselves.
+    /// Storage usage can disable the compression of attachments, so storage textures do not share with others.
     Storage,
 }
 
-/// Gives each transient resource a slot of its class that is free for its whole lifetime.
+/// Assigns each transient resource a slot of its class that is free for its whole lifetime.
 ///
-/// Taking resources by first use, and any slot that is free, needs as many slots of a class as resources of it live
-/// at once, which is the least there can be.
+/// Resources are assigned in order of first use, to any free slot. This needs as many slots of a class as its resources
+/// live at once, which is the minimum.
 pub(super) fn alias(decl: &Declaration, uses: &[Use], steps: usize) -> Aliasing {
     let mut colouring = Colouring::new(decl, uses);
     let begins = by_step(uses, steps, |(first, _)| first);
     let ends = by_step(uses, steps, |(_, last)| last);
     for step in 0..steps {
-        for &resource in begins.of(step) {
+        for &resource in begins.row(step) {
             colouring.begin(resource);
         }
-        for &resource in ends.of(step) {
+        for &resource in ends.row(step) {
             colouring.end(resource);
         }
     }
@@ -56,11 +56,11 @@ struct Colouring<'d> {
     uses: &'d [Use],
     placements: Vec<Placement>,
     slots: Vec<Slot>,
-    /// By slot.
+    /// State of each slot.
     states: Vec<State>,
     keys: FxHashMap<Class, u32>,
-    /// By key of a class.
-    classes: Vec<Stock>,
+    /// Slots of each class, by its key.
+    classes: Vec<FreeSlots>,
     /// Slots with the resources assigned to them, in order of first use.
     assigned: Vec<(usize, ResourceId)>,
 }
@@ -71,14 +71,14 @@ struct State {
     class: u32,
     /// The resource in the slot, or the last one that was.
     resource: ResourceId,
-    /// The slot that is free after this one is taken.
+    /// The next slot in the list of free ones.
     next_free: u32,
 }
 
-/// The slots of a class.
-struct Stock {
+/// The free slots of a class, as a list through `State`, and the last one that was assigned.
+struct FreeSlots {
     free: u32,
-    taken_last: u32,
+    last_assigned: u32,
 }
 
 impl<'d> Colouring<'d> {
@@ -108,9 +108,9 @@ impl<'d> Colouring<'d> {
         let next = self.classes.len() as u32;
         let key = *self.keys.entry(class).or_insert(next);
         if key == next {
-            self.classes.push(Stock { free: NONE, taken_last: NONE });
+            self.classes.push(FreeSlots { free: NONE, last_assigned: NONE });
         }
-        let (slot, reason) = self.take(key, resource, class.desc);
+        let (slot, reason) = self.assign(key, resource, class.desc);
         self.states[slot].resource = resource;
         self.assigned.push((slot, resource));
         let placement = &mut self.placements[resource.index()];
@@ -122,17 +122,17 @@ impl<'d> Colouring<'d> {
         self.slots[slot].buffer_usage |= placement.buffer_usage;
     }
 
-    /// Takes the slot of a class that became free last, or a new one.
-    fn take(&mut self, class: u32, resource: ResourceId, desc: ResourceDesc) -> (usize, SlotReason) {
-        let stock = &mut self.classes[class as usize];
-        let busy = std::mem::replace(&mut stock.taken_last, stock.free);
-        if stock.free != NONE {
-            let slot = stock.free as usize;
-            stock.free = self.states[slot].next_free;
+    /// Assigns the slot of a class that became free last, or a new one.
+    fn assign(&mut self, class: u32, resource: ResourceId, desc: ResourceDesc) -> (usize, SlotReason) {
+        let slots = &mut self.classes[class as usize];
+        let busy = std::mem::replace(&mut slots.last_assigned, slots.free);
+        if slots.free != NONE {
+            let slot = slots.free as usize;
+            slots.free = self.states[slot].next_free;
             return (slot, SlotReason::After(self.states[slot].resource));
         }
         let slot = self.slots.len();
-        stock.taken_last = slot as u32;
+        slots.last_assigned = slot as u32;
         let (texture_usage, buffer_usage) = (TextureUsages::empty(), BufferUsages::empty());
         self.slots.push(Slot { desc, texture_usage, buffer_usage, resources: (0, 0) });
         self.states.push(State { class, resource, next_free: NONE });
@@ -163,7 +163,7 @@ fn class(decl: &Declaration, uses: &[Use], resource: ResourceId) -> Class {
     let (own, declared) = (&uses[resource.index()], decl.resource(resource));
     match declared.desc {
         ResourceDesc::Buffer(desc) => {
-            // What is exported is handed out, so it has the size that was asked for.
+            // An export is returned to the caller, so it has the requested size.
             let bytes = if declared.exported.is_some() { desc.bytes } else { size_class(desc.bytes) };
             Class { desc: ResourceDesc::Buffer(BufferDesc { bytes }), kind: Kind::Common }
         }
@@ -171,12 +171,12 @@ fn class(decl: &Declaration, uses: &[Use], resource: ResourceId) -> Class {
             let flat = desc.dimension == TextureDimension::D2
                 && desc.mip_levels == 1
                 && desc.size.depth_or_array_layers == 1;
-            let within_a_pass = own.only_drawn && own.steps.is_some_and(|(first, last)| first == last);
+            let within_one_pass = own.only_drawn && own.steps.is_some_and(|(first, last)| first == last);
             let kind = if own.texture_usage.contains(TextureUsages::STORAGE_BINDING) {
                 Kind::Storage
             } else if decl.options.transient_attachments
                 && flat
-                && within_a_pass
+                && within_one_pass
                 && own.texture_usage == TextureUsages::RENDER_ATTACHMENT
             {
                 Kind::Transient
@@ -195,7 +195,7 @@ fn size_class(bytes: u64) -> u64 {
     bytes.next_multiple_of(quarter)
 }
 
-/// Resources by the step that something happens to them at.
+/// Sorts resources by a step of their lifetime.
 fn by_step(uses: &[Use], steps: usize, step: impl Fn((u32, u32)) -> u32) -> Csr<ResourceId> {
     Csr::new(steps, || {
         let resources = (0..).map(ResourceId).zip(uses);

@@ -1,19 +1,20 @@
-//! The same frame with its contents kept, so that pictures can be taken of them.
+//! A variant of a plan that keeps all contents, for captures.
 
 use super::{alias, lifetime, ops};
 use crate::desc::ResourceDesc;
 use crate::plan::{MergeReason, Plan, StoreAction};
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// Plans the same passes in the same order, but each in a render pass of its own, with all that it draws stored, and
-/// each resource in memory of its own that can be copied from. What passes see is what they would have seen.
+/// Plans the same passes in the same order, but without merging, with every attachment stored, and each resource in its
+/// own memory that can be copied from. Passes read the same contents as in the original plan.
 pub(crate) fn capturing(plan: &Plan) -> Plan {
     let decl = plan.decl.clone();
-    let steps: Vec<(u32, u32)> = (0..plan.order.len() as u32).map(|place| (place, place + 1)).collect();
+    let steps: Vec<(u32, u32)> =
+        (0..plan.order.len() as u32).map(|position| (position, position + 1)).collect();
     let mut uses = lifetime::uses(&decl, &plan.order, &steps);
     let last = steps.len().saturating_sub(1) as u32;
     for (own, resource) in uses.iter_mut().zip(&decl.resources) {
-        // Nobody takes over from it.
+        // No resource reuses its slot.
         own.steps = own.steps.map(|(first, _)| (first, last));
         own.only_drawn = false;
         match resource.desc {

@@ -1,8 +1,8 @@
-//! How much of a resource something is true of.
+//! The part of a resource that has a property, such as being defined.
 
 use crate::subresource::{Region, RegionSet};
 
-/// None of a resource, all of it, or some parts.
+/// None of a resource, all of it, or some regions.
 #[derive(Clone, Debug, Default)]
 pub(super) enum Coverage {
     #[default]
@@ -24,7 +24,7 @@ impl Coverage {
         }
     }
 
-    /// Adds a box, or all where there is none.
+    /// Adds a region, or all for `None`.
     pub(super) fn add(&mut self, region: Option<&Region>) {
         let Some(region) = region else {
             *self = Self::All;
@@ -37,7 +37,7 @@ impl Coverage {
         }
     }
 
-    /// Takes out a box, or all where there is none.
+    /// Removes a region, or all for `None`.
     pub(super) fn subtract(&mut self, region: Option<&Region>) {
         let Some(region) = region else {
             *self = Self::None;
@@ -67,8 +67,8 @@ impl Coverage {
         }
     }
 
-    /// What lies inside `region`.
-    pub(super) fn within(&self, region: &Region) -> RegionSet {
+    /// Returns what is inside `region`.
+    pub(super) fn intersection(&self, region: &Region) -> RegionSet {
         match self {
             Self::None => RegionSet::default(),
             Self::All => RegionSet::from_region(*region),

@@ -1,17 +1,17 @@
-//! Many short lists in one array.
+//! Compressed sparse rows: many short lists in one array.
 
-/// For each key a list, all in one array.
+/// A list for each key, all in one array.
 pub(super) struct Csr<T> {
-    /// Where the list of each key begins; one more for the end.
+    /// Start of each row, and the end of the last.
     starts: Vec<u32>,
     items: Vec<T>,
 }
 
 impl<T: Copy> Csr<T> {
-    /// Sorts items into the lists of their keys, which are below `keys`, and keeps their order. Goes through the
-    /// items twice.
+    /// Sorts items into the rows of their keys, which are below `keys`, and keeps their order. Iterates twice over the
+    /// items.
     pub(super) fn new<I: Iterator<Item = (usize, T)>>(keys: usize, items: impl Fn() -> I) -> Self {
-        // Moved on by one, so that each start is moved to the list's end, which is the next start, by filling it.
+        // Shifted by one, so that filling a row moves its start to its end, which is the start of the next row.
         let mut starts = vec![0; keys + 2];
         for (key, _) in items() {
             starts[key + 2] += 1;
@@ -31,35 +31,35 @@ impl<T: Copy> Csr<T> {
         Self { starts, items: sorted }
     }
 
-    /// No lists yet, and room for these.
+    /// Creates an empty value with capacity for these numbers of keys and items.
     pub(super) fn with_capacity(keys: usize, items: usize) -> Self {
         let mut starts = Vec::with_capacity(keys + 1);
         starts.push(0);
         Self { starts, items: Vec::with_capacity(items) }
     }
 
-    /// Ends the list that is being filled, and leaves those up to `key`, which comes next, empty.
+    /// Ends the current row and starts that of `key`; the rows between are empty.
     pub(super) fn skip_to(&mut self, key: usize) {
         self.starts.resize(key + 1, self.items.len() as u32);
     }
 
-    /// Adds to the list that is being filled.
+    /// Adds an item to the current row.
     pub(super) fn push(&mut self, item: T) {
         self.items.push(item);
     }
 
-    /// Where the items of a key begin and end among all items.
+    /// Returns the range of the items of a key among all items.
     pub(super) fn range(&self, key: usize) -> (u32, u32) {
         (self.starts[key], self.starts[key + 1])
     }
 
-    /// All items, list after list.
+    /// Returns all items, row after row.
     pub(super) fn into_items(self) -> Vec<T> {
         self.items
     }
 
-    /// The items of a key, in the order in which they came.
-    pub(super) fn of(&self, key: usize) -> &[T] {
+    /// Returns the items of a key, in the order in which they were added.
+    pub(super) fn row(&self, key: usize) -> &[T] {
         let (start, end) = self.range(key);
         &self.items[start as usize..end as usize]
     }
@@ -70,27 +70,27 @@ mod tests {
     use super::Csr;
 
     #[test]
-    fn items_keep_their_order_within_a_key() {
+    fn items_of_a_key_keep_their_order() {
         let items = [(2, 'a'), (0, 'b'), (2, 'c'), (3, 'd'), (0, 'e')];
-        let lists = Csr::new(5, || items.into_iter());
-        let found: Vec<String> = (0..5).map(|key| lists.of(key).iter().collect()).collect();
+        let rows = Csr::new(5, || items.into_iter());
+        let found: Vec<String> = (0..5).map(|key| rows.row(key).iter().collect()).collect();
         assert_eq!(found, ["be", "", "ac", "d", ""]);
     }
 
     #[test]
-    fn lists_are_filled_one_after_the_other() {
-        let mut lists = Csr::with_capacity(4, 3);
+    fn rows_are_filled_in_order() {
+        let mut rows = Csr::with_capacity(4, 3);
         for (key, items) in [(1, "ab"), (3, "c")] {
-            lists.skip_to(key);
-            items.chars().for_each(|item| lists.push(item));
+            rows.skip_to(key);
+            items.chars().for_each(|item| rows.push(item));
         }
-        lists.skip_to(5);
-        let found: Vec<String> = (0..5).map(|key| lists.of(key).iter().collect()).collect();
+        rows.skip_to(5);
+        let found: Vec<String> = (0..5).map(|key| rows.row(key).iter().collect()).collect();
         assert_eq!(found, ["", "ab", "", "c", ""]);
     }
 
     #[test]
-    fn there_can_be_no_keys() {
+    fn zero_keys_are_allowed() {
         assert!(Csr::<u32>::new(0, std::iter::empty).items.is_empty());
     }
 }

@@ -1,4 +1,4 @@
-//! Which passes run: those whose writes reach a root.
+//! Culling: a pass runs only if its writes reach a root.
 
 use super::coverage::Coverage;
 use super::csr::Csr;
@@ -8,8 +8,8 @@ use crate::plan::CullReason;
 
 /// Returns, for each pass, why it does not run, or `None` if it does.
 ///
-/// Walks backwards and keeps, for each resource, how much of its contents at this point is needed. Roots are what
-/// outlives the frame, and passes that are kept.
+/// Walks backwards and tracks for each resource which of its contents are needed. Roots are resources that outlive the
+/// frame, and kept passes.
 pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
     let roots = decl.resources.iter().map(|r| r.exported.is_some() || r.origin.outlives());
     let mut needed: Vec<Coverage> = roots.map(Coverage::all_if).collect();
@@ -17,9 +17,9 @@ pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
     let mut culled = 0;
     for pass in decl.pass_ids().rev() {
         let accesses = decl.accesses(pass);
-        let wanted =
+        let is_needed =
             |a: &&AccessDecl| a.contents.writes() && needed[a.resource.index()].overlaps(decl.region(a));
-        if !decl.pass(pass).keep && !accesses.iter().any(|a| wanted(&a)) {
+        if !decl.pass(pass).keep && !accesses.iter().any(|a| is_needed(&a)) {
             live[pass.index()] = false;
             culled += 1;
             continue;
@@ -42,7 +42,7 @@ pub(super) fn cull(decl: &Declaration) -> Vec<Option<CullReason>> {
     reasons
 }
 
-/// Follows what the pass writes first until all of it is overwritten or some of it is read.
+/// Follows the first write of a pass until all of it is overwritten or some of it is read.
 fn reason(decl: &Declaration, pass: PassId, live: &[bool], users: &Csr<PassId>) -> CullReason {
     let Some(write) = decl.accesses(pass).iter().find(|a| a.contents.writes()) else {
         return CullReason::WritesNothing;
@@ -50,14 +50,14 @@ fn reason(decl: &Declaration, pass: PassId, live: &[bool], users: &Csr<PassId>) 
     let resource = write.resource;
     let mut left = Coverage::default();
     left.add(decl.region(write));
-    let users = users.of(resource.index());
+    let users = users.row(resource.index());
     let later = users.partition_point(|user| *user <= pass);
     for &next in &users[later..] {
-        let touches = || decl.accesses(next).iter().filter(|a| a.resource == resource);
-        if touches().any(|a| a.contents.needs() && left.overlaps(decl.region(a))) {
+        let accesses = || decl.accesses(next).iter().filter(|a| a.resource == resource);
+        if accesses().any(|a| a.contents.needs() && left.overlaps(decl.region(a))) {
             return CullReason::OnlyCulledReaders(resource, next);
         }
-        touches().for_each(|a| left.subtract(decl.region(a)));
+        accesses().for_each(|a| left.subtract(decl.region(a)));
         if left.is_empty() && live[next.index()] {
             return CullReason::Overwritten(resource, next);
         }

@@ -1,4 +1,4 @@
-//! Which passes must come before which.
+//! Dependencies between passes, from hazards and explicit orders.
 
 use crate::declaration::{AccessDecl, Declaration};
 use crate::handle::PassId;
@@ -25,8 +25,8 @@ pub(super) fn hazards(decl: &Declaration, culled: &[Option<CullReason>]) -> Vec<
 
 const NONE: u32 = u32::MAX;
 
-/// What has been touched so far. Of each resource, the writes that nothing has covered since, and the reads that
-/// nothing has overwritten since, as lists through `touches`.
+/// Accesses so far. For each resource, the writes and the reads that nothing has overwritten since, as lists through
+/// `touches`.
 struct Finder {
     heads: Vec<Heads>,
     touches: Vec<Touch>,
@@ -37,13 +37,13 @@ struct Finder {
 struct Heads {
     writes: u32,
     reads: u32,
-    /// The last pass that touched the resource.
+    /// The last pass that used the resource.
     last: u32,
 }
 
 struct Touch {
     pass: PassId,
-    /// Which of the frame's accesses.
+    /// Index of the access in the frame.
     access: u32,
     next: u32,
 }
@@ -61,13 +61,13 @@ impl Finder {
         let first = self.found.len();
         for index in decl.access_range(pass) {
             let again = self.heads[decl.accesses[index].resource.index()].last == pass.0;
-            let unseen = if again { first } else { self.found.len() };
-            self.access(decl, pass, index, unseen);
+            let first = if again { first } else { self.found.len() };
+            self.access(decl, pass, index, first);
         }
     }
 
-    /// Adds the hazards of one access; those from `unseen` on may already be there.
-    fn access(&mut self, decl: &Declaration, pass: PassId, index: usize, unseen: usize) {
+    /// Adds the hazards of one access; those from `first` on may already be found.
+    fn access(&mut self, decl: &Declaration, pass: PassId, index: usize, first: usize) {
         let access = &decl.accesses[index];
         let Heads { writes, reads, .. } = self.heads[access.resource.index()];
         let written = access.contents.writes();
@@ -76,9 +76,9 @@ impl Finder {
         } else {
             DependencyKind::WriteAfterWrite
         };
-        let writes = self.walk(decl, writes, (pass, access), kind, unseen);
+        let writes = self.walk(decl, writes, (pass, access), kind, first);
         let reads = match written {
-            true => self.walk(decl, reads, (pass, access), DependencyKind::WriteAfterRead, unseen),
+            true => self.walk(decl, reads, (pass, access), DependencyKind::WriteAfterRead, first),
             false => reads,
         };
         let own = self.touches.len() as u32;
@@ -88,15 +88,15 @@ impl Finder {
         self.heads[access.resource.index()] = Heads { writes, reads, last: pass.0 };
     }
 
-    /// Adds a hazard for each touch of a list that overlaps an access, and returns the list without those that the
-    /// access, if it writes, hides from later passes.
+    /// Adds a hazard for each listed access that overlaps `access`, and returns the list without those that `access`
+    /// overwrites completely.
     fn walk(
         &mut self,
         decl: &Declaration,
         head: u32,
         (after, access): (PassId, &AccessDecl),
         kind: DependencyKind,
-        unseen: usize,
+        first: usize,
     ) -> u32 {
         let (mut kept, mut before_kept, mut at) = (head, NONE, head);
         while at != NONE {
@@ -104,7 +104,7 @@ impl Finder {
             let touch = &decl.accesses[touch as usize];
             if pass != after && decl.overlap(touch, access) {
                 let dependency = Dependency { before: pass, after, resource: Some(access.resource), kind };
-                if !self.found[unseen..].contains(&dependency) {
+                if !self.found[first..].contains(&dependency) {
                     self.found.push(dependency);
                 }
             }

@@ -1,4 +1,4 @@
-//! How long each resource lives, and what it must be usable for.
+//! Lifetimes and usages of resources.
 
 use crate::access::Access;
 use crate::declaration::{Declaration, PassKind};
@@ -7,19 +7,19 @@ use crate::handle::PassId;
 use crate::subresource::Region;
 use wgpu_types::{BufferUsages, TextureUsages};
 
-/// How a frame uses a resource.
+/// The use of a resource in a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Use {
-    /// First and last step that touches it. What is exported lives to the last step.
+    /// First and last step that uses it. An export lives until the last step.
     pub(super) steps: Option<(u32, u32)>,
     pub(super) texture_usage: TextureUsages,
     pub(super) buffer_usage: BufferUsages,
-    /// It is drawn into by render passes and nothing else, both aspects of it where it has two: an aspect left alone
-    /// would be read-only, which transient attachments cannot be.
+    /// Whether render passes draw into it and nothing else uses it. They must draw both aspects if it has two: an unused
+    /// aspect would be read-only, which transient attachments cannot be.
     pub(super) only_drawn: bool,
 }
 
-/// Returns how each resource is used by the passes that run, and from outside.
+/// Returns the use of each resource by passes that run and by exports.
 pub(super) fn uses(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) -> Vec<Use> {
     let mut uses: Vec<Use> = decl
         .resources

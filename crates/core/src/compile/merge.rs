@@ -1,4 +1,4 @@
-//! Which passes share one render pass of the encoder.
+//! Merging: which passes share one render pass of the encoder.
 
 use crate::access::Access;
 use crate::declaration::{AccessDecl, Declaration, PassKind, WriteMode};
@@ -6,31 +6,31 @@ use crate::handle::{PassId, ResourceId};
 use crate::plan::MergeReason;
 use crate::subresource::Region;
 
-/// Returns the runs of the order that are recorded as one, and for each place in the order why it joins the run
-/// before it or not.
+/// Returns the ranges of the order that are recorded as one pass, and for each position why it is merged with the
+/// previous pass or not.
 pub(super) fn merge(decl: &Declaration, order: &[PassId]) -> (Vec<(u32, u32)>, Vec<MergeReason>) {
     let mut group = Group::new(decl);
     let mut steps: Vec<(u32, u32)> = Vec::with_capacity(order.len());
     let mut reasons = Vec::with_capacity(order.len());
-    for (place, &pass) in order.iter().enumerate() {
-        let reason = group.judge(decl, pass);
+    for (position, &pass) in order.iter().enumerate() {
+        let reason = group.can_merge(decl, pass);
         group.add(decl, pass, reason == MergeReason::Merged);
-        let end = place as u32 + 1;
+        let end = position as u32 + 1;
         match steps.last_mut() {
             Some(step) if reason == MergeReason::Merged => step.1 = end,
-            _ => steps.push((place as u32, end)),
+            _ => steps.push((position as u32, end)),
         }
         reasons.push(reason);
     }
     (steps, reasons)
 }
 
-/// The render pass that is open while an order is gone through.
+/// The open render pass while passes are added in order.
 pub(super) struct Group {
     passes: Option<(PassId, PassId)>,
-    /// Counts groups; marks of another group do not count.
+    /// Number of the group; marks of other groups are ignored.
     epoch: u32,
-    /// By resource.
+    /// Last use of each resource in the group.
     marks: Vec<Mark>,
 }
 
@@ -47,14 +47,14 @@ impl Group {
         Self { passes: None, epoch: 0, marks: vec![none; decl.resources.len()] }
     }
 
-    /// The resource of the open pass's first attachment: a pass that goes on must have it too.
+    /// Returns the first attachment of the open pass: a pass that continues it must have it too.
     pub(super) fn attachment(&self, decl: &Declaration) -> Option<ResourceId> {
         let (first, _) = self.passes?;
         decl.pass(first).attachment
     }
 
-    /// Says whether the pass can go on with the open render pass, or why not.
-    pub(super) fn judge(&self, decl: &Declaration, pass: PassId) -> MergeReason {
+    /// Returns whether the pass can continue the open render pass, or why not.
+    pub(super) fn can_merge(&self, decl: &Declaration, pass: PassId) -> MergeReason {
         let Some((first, last)) = self.passes else { return MergeReason::First };
         if !decl.options.merge {
             return MergeReason::Off;

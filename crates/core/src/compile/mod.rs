@@ -35,14 +35,14 @@ pub(crate) fn compile(decl: Declaration) -> Result<Plan, Error> {
     Ok(schedule(decl, culled, dependencies))
 }
 
-/// Compiles declarations that differ from those of a plan in sizes only: the same passes run, for the same reasons.
+/// Compiles declarations that differ from those of a plan only in sizes: the same passes run, for the same reasons.
 pub(crate) fn resize(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
     let _span = debug_span!("resize", passes = decl.passes.len()).entered();
     debug_span!("validate").in_scope(|| validate::validate(&decl))?;
     Ok(schedule(decl, plan.culled.clone(), plan.dependencies.clone()))
 }
 
-/// Decides what depends on sizes.
+/// Makes the decisions that depend on sizes.
 ///
 /// Merging comes before lifetimes and slots: passes that share a render pass cannot share an attachment's slot.
 fn schedule(decl: Declaration, culled: Vec<Option<CullReason>>, dependencies: Vec<Dependency>) -> Plan {

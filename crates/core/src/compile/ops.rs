@@ -1,4 +1,4 @@
-//! Load and store operations, from what passes declare of contents.
+//! Load and store operations, from the declared contents.
 
 mod partial;
 mod whole;
@@ -8,7 +8,7 @@ use crate::declaration::{AccessDecl, Declaration, Origin, WriteMode};
 use crate::handle::{PassId, ResourceId};
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
 
-/// Returns, for each access of the frame, what happens to an attachment that is written; `None` for all else.
+/// Returns the operations of each access that writes an attachment; `None` for other accesses.
 ///
 /// Passes that share a render pass share its operations: the first of them loads, the last one stores.
 pub(super) fn ops(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) -> Vec<Option<AttachmentOps>> {
@@ -20,12 +20,12 @@ pub(super) fn ops(decl: &Declaration, order: &[PassId], steps: &[(u32, u32)]) ->
     ops
 }
 
-/// Whether the access loads and stores an attachment.
-fn drawn(access: &AccessDecl) -> bool {
+/// Returns whether the access loads and stores an attachment.
+fn is_written_attachment(access: &AccessDecl) -> bool {
     matches!(access.access, Access::Color(_) | Access::Depth)
 }
 
-/// The value that a clear of no interest clears to.
+/// Returns the value of a clear whose result is not used.
 fn zero(access: Access) -> ClearValue {
     if access == Access::Depth { ClearValue::Depth(0.0) } else { ClearValue::Color([0.0; 4]) }
 }
@@ -37,8 +37,8 @@ fn declared_clear(decl: &Declaration, access: &AccessDecl) -> Option<ClearValue>
     }
 }
 
-/// What keeps contents alive that no later pass of the frame touches.
-fn after_the_frame(decl: &Declaration, resource: ResourceId) -> Option<StoreReason> {
+/// Returns why contents are needed after the frame; `None` if they are not.
+fn need_after_frame(decl: &Declaration, resource: ResourceId) -> Option<StoreReason> {
     let resource = decl.resource(resource);
     match resource.origin {
         _ if resource.exported.is_some() => Some(StoreReason::Exported),
@@ -48,8 +48,8 @@ fn after_the_frame(decl: &Declaration, resource: ResourceId) -> Option<StoreReas
     }
 }
 
-/// The operations of a pass within its render pass: only the first loads, only the last stores.
-fn within(
+/// Returns the operations of a pass within its render pass: only the first loads, only the last stores.
+fn in_render_pass(
     (first, load): (bool, (LoadAction, LoadReason)),
     (last, store): (bool, (StoreAction, StoreReason)),
     clear_drawn: bool,

@@ -1,4 +1,4 @@
-//! In which order passes run.
+//! The order of passes, by list scheduling.
 
 mod heap;
 mod memory;
@@ -13,18 +13,18 @@ use heap::Ready;
 use memory::Memory;
 use traffic::Traffic;
 
-/// Of the passes that could go on with the open render pass, at most so many are compared.
-const COMPARED: usize = 16;
+/// Maximum number of passes compared to continue the open render pass.
+const MAX_CANDIDATES: usize = 16;
 
-/// Less than this part of the peak is not worth the search for another order.
-const CLOSE: i64 = 16;
+/// Other orders are not tried if they could save at most the peak divided by this.
+const MIN_SAVING_DIVISOR: i64 = 16;
 
-/// Returns the passes that run, in order, and why each stands where it does.
+/// Returns the passes that run, in order, and why each is at its position.
 ///
-/// List scheduling: of the passes whose dependencies are done, the one that goes on with the open render pass, then
-/// the one that frees most memory, then the one declared first. Choosing step by step can end worse than it began:
-/// where the order of declaration, or choosing from the last pass to the first, needs less memory and no more render
-/// passes, that is taken. They are not tried where no order at all could save more than a part in [`CLOSE`].
+/// List scheduling: of the ready passes, prefer the one that continues the open render pass, then the one that frees
+/// most memory, then the one declared first. This greedy choice can be worse than the order of declaration, or than
+/// choosing from the last pass to the first: if one of these needs less memory and no more render passes, it is used.
+/// They are not tried if no order could save more than the peak divided by [`MIN_SAVING_DIVISOR`].
 pub(super) fn order(
     decl: &Declaration,
     culled: &[Option<CullReason>],
@@ -36,15 +36,15 @@ pub(super) fn order(
         return (declared, reasons);
     }
     let traffic = Traffic::new(decl, &declared);
-    let scheduler = |time| Scheduler::new(decl, &declared, dependencies, &traffic, time);
-    let (order, reasons) = scheduler(Time::Forwards).run();
+    let scheduler = |direction| Scheduler::new(decl, &declared, dependencies, &traffic, direction);
+    let (order, reasons) = scheduler(Direction::Forwards).run();
     let (peak, pass) = memory::peak(&traffic, &order);
-    let least = |pass| memory::forced(&traffic, decl.passes.len(), dependencies, pass);
-    let forced = reasons.iter().all(|reason| *reason == OrderReason::OnlyReady);
-    if forced || pass.is_none_or(|pass| peak - least(pass) <= peak / CLOSE) {
+    let least = |pass| memory::min_in_use(&traffic, decl.passes.len(), dependencies, pass);
+    let only_order = reasons.iter().all(|reason| *reason == OrderReason::OnlyReady);
+    if only_order || pass.is_none_or(|pass| peak - least(pass) <= peak / MIN_SAVING_DIVISOR) {
         return (order, reasons);
     }
-    let backwards = scheduler(Time::Backwards).run().0;
+    let backwards = scheduler(Direction::Backwards).run().0;
     let backwards = backwards.into_iter().rev().collect();
     let steps = |order: &[PassId]| merge::merge(decl, order).0.len();
     let mut most_steps = None;
@@ -62,9 +62,9 @@ pub(super) fn order(
     (order, reasons)
 }
 
-/// Which way passes are chosen.
+/// The direction in which passes are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Time {
+enum Direction {
     /// The first pass first.
     Forwards,
     /// The last pass first.
@@ -74,14 +74,14 @@ enum Time {
 struct Scheduler<'d> {
     decl: &'d Declaration,
     count: usize,
-    /// By pass.
+    /// Passes that depend on each pass.
     successors: Csr<PassId>,
-    /// By pass: dependencies that are not done.
+    /// Number of unscheduled dependencies of each pass.
     waiting: Vec<u32>,
     ready: Ready,
     memory: Memory<'d>,
     group: Group,
-    time: Time,
+    direction: Direction,
 }
 
 impl<'d> Scheduler<'d> {
@@ -90,12 +90,12 @@ impl<'d> Scheduler<'d> {
         live: &[PassId],
         dependencies: &[Dependency],
         traffic: &'d Traffic,
-        time: Time,
+        direction: Direction,
     ) -> Self {
         let passes = decl.passes.len();
-        let ends = |dependency: &Dependency| match time {
-            Time::Forwards => (dependency.before, dependency.after),
-            Time::Backwards => (dependency.after, dependency.before),
+        let ends = |dependency: &Dependency| match direction {
+            Direction::Forwards => (dependency.before, dependency.after),
+            Direction::Backwards => (dependency.after, dependency.before),
         };
         let pairs = || dependencies.iter().map(ends);
         let successors = Csr::new(passes, || pairs().map(|(before, after)| (before.index(), after)));
@@ -103,13 +103,13 @@ impl<'d> Scheduler<'d> {
         for (_, after) in pairs() {
             waiting[after.index()] += 1;
         }
-        let memory = Memory::new(traffic, passes, time);
-        let mut ready = Ready::new(passes, decl.resources.len(), time);
+        let memory = Memory::new(traffic, passes, direction);
+        let mut ready = Ready::new(passes, decl.resources.len(), direction);
         for &pass in live.iter().filter(|pass| waiting[pass.index()] == 0) {
             ready.push(decl, pass, memory.score(pass));
         }
         let group = Group::new(decl);
-        Self { decl, count: live.len(), successors, waiting, ready, memory, group, time }
+        Self { decl, count: live.len(), successors, waiting, ready, memory, group, direction }
     }
 
     fn run(mut self) -> (Vec<PassId>, Vec<OrderReason>) {
@@ -118,14 +118,14 @@ impl<'d> Scheduler<'d> {
         while let Some((pass, reason)) = self.choose() {
             order.push(pass);
             reasons.push(reason);
-            self.ready.take(pass);
-            if self.time == Time::Forwards {
-                let joins = self.group.judge(self.decl, pass) == MergeReason::Merged;
+            self.ready.remove(pass);
+            if self.direction == Direction::Forwards {
+                let joins = self.group.can_merge(self.decl, pass) == MergeReason::Merged;
                 self.group.add(self.decl, pass, joins);
             }
             let Self { memory, ready, .. } = &mut self;
             memory.run(pass, |other, score| ready.rescore(other, score));
-            for &successor in self.successors.of(pass.index()) {
+            for &successor in self.successors.row(pass.index()) {
                 self.waiting[successor.index()] -= 1;
                 if self.waiting[successor.index()] == 0 {
                     self.ready.push(self.decl, successor, self.memory.score(successor));
@@ -147,20 +147,20 @@ impl<'d> Scheduler<'d> {
         Some((pass, reason))
     }
 
-    /// The best ready pass that goes on with the open render pass.
+    /// Returns the best ready pass that continues the open render pass.
     fn continuing(&mut self) -> Option<PassId> {
         if self.decl.options.order != OrderPolicy::Automatic || !self.decl.options.merge {
             return None;
         }
         let attachment = self.group.attachment(self.decl)?;
-        let candidates = self.ready.drawing_into(attachment).take(COMPARED);
-        let goes_on = |pass: &PassId| self.group.judge(self.decl, *pass) == MergeReason::Merged;
+        let candidates = self.ready.drawing_into(attachment).take(MAX_CANDIDATES);
+        let continues = |pass: &PassId| self.group.can_merge(self.decl, *pass) == MergeReason::Merged;
         let rank = |pass: &PassId| (std::cmp::Reverse(self.memory.score(*pass)), *pass);
-        candidates.filter(goes_on).min_by_key(rank)
+        candidates.filter(continues).min_by_key(rank)
     }
 }
 
-/// Whether a pass can be one of several in a render pass.
-fn draws(decl: &Declaration, pass: PassId) -> bool {
+/// Returns whether a pass is a render pass.
+fn is_render_pass(decl: &Declaration, pass: PassId) -> bool {
     decl.pass(pass).kind == PassKind::Render
 }

@@ -41,7 +41,7 @@ impl Compiled<'_> {
     /// });
     /// frame.export_texture(&color);
     /// let failed = graph.compile(frame)?.execute_checked(&mut graph, &device, &queue).err().ok_or("it draws")?;
-    /// assert!(failed.to_string().starts_with("SG0606: wgpu refuses what `draws without a pipeline` records: "));
+    /// assert!(failed.to_string().starts_with("SG0606: wgpu validation error in `draws without a pipeline`: "));
     /// std::fs::write(std::env::temp_dir().join("failed_frame.html"), failed.plan.to_html())?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

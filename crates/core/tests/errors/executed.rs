@@ -1,26 +1,26 @@
 //! Mistakes that need a device to be found.
 
-use super::{Mistake, square};
+use super::{Failure, square};
 use shadowgraph_core::{
     Contents, Error, Format, Frame, FullscreenShader, Graph, Subresource, TextureDesc, wgpu,
 };
 
 /// Declares, compiles and executes on a device that draws nothing.
-fn report_error(
+fn failure(
     code: &'static str,
     words: &'static [&'static str],
     declare: impl FnOnce(&mut Frame<'_>),
-) -> Mistake {
+) -> Failure {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
-    mistake_on(&device, code, words, declare)
+    failure_on(&device, code, words, declare)
 }
 
-fn mistake_on(
+fn failure_on(
     device: &wgpu::Device,
     code: &'static str,
     words: &'static [&'static str],
     declare: impl FnOnce(&mut Frame<'_>),
-) -> Mistake {
+) -> Failure {
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut graph = Graph::new();
     let mut frame = graph.frame();
@@ -30,17 +30,17 @@ fn mistake_on(
         Ok(compiled) => compiled.execute(&mut graph, device, &mut encoder).err(),
         Err(error) => Some(error),
     };
-    Mistake { code, error: error.expect("a mistake"), words }
+    Failure { code, error: error.expect("a failure"), words }
 }
 
 /// A quarter of a TiB: within the default limits, and beyond any device. `None` where no driver can say so.
-fn out_of_memory() -> Option<Mistake> {
+fn out_of_memory() -> Option<Failure> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&Default::default())).ok()?;
     let (device, _queue) = pollster::block_on(adapter.request_device(&Default::default())).ok()?;
     let desc = TextureDesc::d2(8192, 8192, Format::Rgba32Float).layers(256);
-    let words = &["no memory left", "`voxels` (274877906944 bytes)", "make it smaller"];
-    Some(mistake_on(&device, "SG0607", words, |frame| {
+    let words = &["out of device memory", "`voxels` (274877906944 bytes)", "make it smaller"];
+    Some(failure_on(&device, "SG0607", words, |frame| {
         let mut voxels = frame.create_texture("voxels", desc);
         let mut pass = frame.compute_pass("voxelize");
         pass.storage_texture_mut(&mut voxels, Contents::Overwrite);
@@ -48,10 +48,10 @@ fn out_of_memory() -> Option<Mistake> {
     }))
 }
 
-fn lost() -> Mistake {
+fn lost() -> Failure {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     device.destroy();
-    mistake_on(&device, "SG0608", &["device is lost", "open another"], |frame| {
+    failure_on(&device, "SG0608", &["device is lost", "create another one"], |frame| {
         let mut picture = frame.create_texture("picture", square());
         frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.0; 4]));
         frame.export_texture(&picture);
@@ -59,7 +59,7 @@ fn lost() -> Mistake {
 }
 
 /// A pass in a node draws without a pipeline, which only wgpu knows is wrong.
-fn refused() -> Mistake {
+fn refused() -> Failure {
     let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let mut graph = Graph::new();
     let mut frame = graph.frame();
@@ -76,19 +76,19 @@ fn refused() -> Mistake {
         });
         frame.export_texture(&other);
     });
-    let compiled = graph.compile(frame).expect("the frame has no mistake");
+    let compiled = graph.compile(frame).expect("the frame has no failure");
     let failed = compiled.execute_checked(&mut graph, &device, &queue).err().expect("wgpu objects");
     assert!(failed.plan.find_pass("blur").is_some(), "the plan comes with the error");
-    Mistake { code: "SG0606", error: failed.error, words: &["what `post/blur` records", "pipeline"] }
+    Failure { code: "SG0606", error: failed.error, words: &["in `post/blur`", "pipeline"] }
 }
 
-pub(crate) fn mistakes() -> Vec<Mistake> {
-    let mut mistakes = vec![
+pub(crate) fn failures() -> Vec<Failure> {
+    let mut failures = vec![
         refused(),
         lost(),
-        report_error(
+        failure(
             "SG0104",
-            &["pass `b` touches `a` without", "belongs to `first`", "declare the access on `b`"],
+            &["pass `b` uses `a` without", "belongs to `first`", "declare the access on `b`"],
             |frame| {
                 let mut a = frame.create_texture("a", square());
                 let token = frame.render_pass("first").color(&mut a, Contents::clear_color([0.0; 4]));
@@ -98,31 +98,27 @@ pub(crate) fn mistakes() -> Vec<Mistake> {
                 pass.body(move |ctx| ctx.view(token).map(drop));
             },
         ),
-        report_error("SG0404", &["`window` was declared as an import", "use `import_texture`"], |frame| {
+        failure("SG0404", &["`window` was declared as an import", "use `import_texture`"], |frame| {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
             let mut window = frame.declare_import_texture("window", square(), usage, false);
             frame.render_pass("draw").color(&mut window, Contents::Overwrite);
         }),
-        report_error(
-            "SG0601",
-            &["`wide` needs 100000", "max_texture_dimension_2d", "make it smaller"],
-            |frame| {
-                let mut wide = frame.create_texture("wide", TextureDesc::d2(100_000, 4, Format::Rgba8Unorm));
-                frame.render_pass("draw").color(&mut wide, Contents::Overwrite);
-                frame.export_texture(&wide);
-            },
-        ),
-        report_error("SG0602", &["pass `draw`: no paint"], |frame| {
+        failure("SG0601", &["`wide` needs 100000", "max_texture_dimension_2d", "make it smaller"], |frame| {
+            let mut wide = frame.create_texture("wide", TextureDesc::d2(100_000, 4, Format::Rgba8Unorm));
+            frame.render_pass("draw").color(&mut wide, Contents::Overwrite);
+            frame.export_texture(&wide);
+        }),
+        failure("SG0602", &["pass `draw`: no paint"], |frame| {
             let mut pass = frame.encoder_pass("draw");
             pass.keep();
             pass.body(|_| Err(Error::body("no paint")));
         }),
-        report_error("SG0603", &["`samples` cannot be read back", "resolve"], |frame| {
+        failure("SG0603", &["`samples` cannot be read back", "resolve"], |frame| {
             let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..square() });
             frame.render_pass("draw").color(&mut samples, Contents::Overwrite);
             frame.read_back_texture(&samples, Subresource::FULL);
         }),
-        report_error(
+        failure(
             "SG0605",
             &["`picture` has the format Rgba8UnormSrgb", "STORAGE_BINDING", "such as Rgba8Unorm"],
             |frame| {
@@ -132,13 +128,13 @@ pub(crate) fn mistakes() -> Vec<Mistake> {
                 frame.export_texture(&picture);
             },
         ),
-        report_error("SG0604", &["shader `red`", "mend the one or the other"], |frame| {
+        failure("SG0604", &["shader `red`", "does not match its pass"], |frame| {
             let red = FullscreenShader::wgsl("red", "@fragment fn red() -> @location(0) vec4f { return 1; }");
             let mut picture = frame.create_texture("picture", square());
             frame.fullscreen("red", &red).draw(&mut picture);
             frame.export_texture(&picture);
         }),
     ];
-    mistakes.extend(out_of_memory());
-    mistakes
+    failures.extend(out_of_memory());
+    failures
 }

@@ -125,7 +125,7 @@ fn a_file_that_is_not_a_dump_is_an_error_of_one_line() {
     };
     let (code, error) = diff([&file, &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
-    assert!(error.contains("bad.json: SG0702: not a dump: it has no `schema`"), "{error}");
+    assert!(error.contains("bad.json: SG0702: not a valid dump: missing field `schema`"), "{error}");
     let (code, error) = diff([&dir.path().join("none.json"), &file]);
     assert_eq!((code, error.lines().count()), (Some(1), 1), "{error}");
     assert!(error.contains("none.json: cannot be read"), "{error}");

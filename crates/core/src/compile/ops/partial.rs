@@ -1,7 +1,7 @@
-//! Operations of resources that are touched in parts. An attachment loads and stores whole mips and layers, so what
-//! other parts of them hold must be known.
+//! Operations of resources that are accessed in part. An attachment loads and stores whole mips and layers, so the contents
+//! of their other parts matter.
 
-use super::{after_the_frame, declared_clear, drawn, within, zero};
+use super::{declared_clear, in_render_pass, is_written_attachment, need_after_frame, zero};
 use crate::compile::coverage::Coverage;
 use crate::declaration::{AccessDecl, Declaration, WriteMode};
 use crate::desc::ResourceDesc;
@@ -38,25 +38,25 @@ pub(super) fn ops(
         }
     }
     for (index, touches) in touches.iter().enumerate().filter(|(_, touches)| !touches.is_empty()) {
-        Walk { decl, resource: ResourceId(index as u32), touches }.ops(ops);
+        ResourceOps { decl, resource: ResourceId(index as u32), touches }.ops(ops);
     }
 }
 
-/// Who needs contents that are there.
+/// What needs some contents.
 enum Need {
     Pass(PassId),
     After(StoreReason),
     None(StoreReason),
 }
 
-/// All touches of one resource.
-struct Walk<'d> {
+/// All accesses to one resource.
+struct ResourceOps<'d> {
     decl: &'d Declaration,
     resource: ResourceId,
     touches: &'d [Touch<'d>],
 }
 
-impl Walk<'_> {
+impl ResourceOps<'_> {
     fn ops(&self, ops: &mut [Option<AttachmentOps>]) {
         let mut defined = Coverage::all_if(self.decl.resource(self.resource).origin.defined());
         let mut start = 0;
@@ -67,14 +67,14 @@ impl Walk<'_> {
             for touch in self.touches[start..end].iter().filter(|touch| touch.access.contents.writes()) {
                 defined.add(self.decl.region(touch.access));
             }
-            for at in (start..end).filter(|&at| drawn(self.touches[at].access)) {
+            for at in (start..end).filter(|&at| is_written_attachment(self.touches[at].access)) {
                 ops[self.touches[at].index] = Some(self.attachment((start, end), at, &before, &defined));
             }
             start = end;
         }
     }
 
-    /// The operations of one of the accesses `start..end` that share a step.
+    /// Returns the operations of one of the accesses `start..end` of a step.
     fn attachment(
         &self,
         (start, end): (usize, usize),
@@ -84,23 +84,26 @@ impl Walk<'_> {
     ) -> AttachmentOps {
         let touch = &self.touches[at];
         let whole = touch.region.without_rect();
-        let of_attachment =
-            |at: &usize| drawn(self.touches[*at].access) && self.touches[*at].region.without_rect() == whole;
+        let of_attachment = |at: &usize| {
+            is_written_attachment(self.touches[*at].access)
+                && self.touches[*at].region.without_rect() == whole
+        };
         let first = (start..end).find(of_attachment).unwrap_or(at);
         let last = (start..end).rev().find(of_attachment).unwrap_or(at);
         let load = self.load(start, first, before);
         let clear_drawn = declared_clear(self.decl, touch.access).is_some_and(|value| {
-            let drawn_over = self.touches[first..at].iter().any(|other| other.region.overlaps(&touch.region));
-            load.0 != LoadAction::Clear(value) || drawn_over
+            let overwritten =
+                self.touches[first..at].iter().any(|other| other.region.overlaps(&touch.region));
+            load.0 != LoadAction::Clear(value) || overwritten
         });
-        // wgpu knows no slices of a volume: one that is discarded counts as all of its mip.
+        // wgpu does not track the slices of a volume: discarding one discards the whole mip.
         let kept_together = if self.is_volume() { whole.all_layers() } else { whole };
-        let store = match self.need(after.within(&kept_together), end) {
+        let store = match self.need(after.intersection(&kept_together), end) {
             Need::Pass(pass) => (StoreAction::Store, StoreReason::NeededBy(pass)),
             Need::After(reason) => (StoreAction::Store, reason),
             Need::None(reason) => (StoreAction::Discard, reason),
         };
-        within((at == first, load), (at == last, store), clear_drawn)
+        in_render_pass((at == first, load), (at == last, store), clear_drawn)
     }
 
     fn is_volume(&self) -> bool {
@@ -110,8 +113,8 @@ impl Walk<'_> {
         }
     }
 
-    /// What the attachment of the touch at `first` holds when its render pass begins. Its step begins at `start`: an
-    /// encoder pass may read beside what it draws, in whatever order.
+    /// Returns the load operation of the access at `first`. Its step begins at `start`: an encoder pass may also read the
+    /// attachment outside of what it draws, in any order.
     fn load(&self, start: usize, first: usize, before: &Coverage) -> (LoadAction, LoadReason) {
         let touch = &self.touches[first];
         let whole = touch.region.without_rect();
@@ -120,7 +123,7 @@ impl Walk<'_> {
         if let (Some(value), true) = (clear, touch.region == whole) {
             return (LoadAction::Clear(value), LoadReason::Declared);
         }
-        match self.need(before.within(&whole), start) {
+        match self.need(before.intersection(&whole), start) {
             Need::Pass(pass) if pass == touch.pass && touch.access.contents == WriteMode::Preserve => {
                 let writes = |other: &&Touch<'_>| {
                     other.access.contents.writes() && other.region.overlaps(&touch.region)
@@ -141,7 +144,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Who needs any of `contents`, which are there before the touch at `from`.
+    /// Returns what needs any of `contents`, which exist before the access at `from`.
     fn need(&self, mut contents: RegionSet, from: usize) -> Need {
         let mut overwriter = None;
         for touch in &self.touches[from..] {
@@ -157,7 +160,7 @@ impl Walk<'_> {
             contents.subtract(&touch.region);
             overwriter = Some(touch.pass);
         }
-        let left = if contents.is_empty() { None } else { after_the_frame(self.decl, self.resource) };
+        let left = if contents.is_empty() { None } else { need_after_frame(self.decl, self.resource) };
         match (left, overwriter) {
             (Some(reason), _) => Need::After(reason),
             (None, Some(pass)) if contents.is_empty() => Need::None(StoreReason::OverwrittenBy(pass)),

@@ -1,11 +1,11 @@
-//! Operations of resources that every access touches as a whole: one look at the next access decides.
+//! Operations of resources whose accesses are all to the full resource: the next access decides.
 
-use super::{after_the_frame, declared_clear, drawn, within, zero};
+use super::{declared_clear, in_render_pass, is_written_attachment, need_after_frame, zero};
 use crate::declaration::{AccessDecl, Declaration, WriteMode};
 use crate::handle::PassId;
 use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction, StoreReason};
 
-/// Walks backwards and remembers the next access to each resource.
+/// Walks backwards and tracks the next access to each resource.
 pub(super) fn ops(
     decl: &Declaration,
     order: &[PassId],
@@ -15,13 +15,14 @@ pub(super) fn ops(
     let writers = writers(decl, order);
     let mut next: Vec<Option<(PassId, bool)>> = vec![None; decl.resources.len()];
     for &(start, end) in steps.iter().rev() {
-        for place in (start..end).rev() {
-            let pass = order[place as usize];
+        for position in (start..end).rev() {
+            let pass = order[position as usize];
             for (access, index) in decl.accesses(pass).iter().zip(decl.access_range(pass)) {
-                if drawn(access) && !decl.resource(access.resource).has_partial_accesses {
+                if is_written_attachment(access) && !decl.resource(access.resource).has_partial_accesses {
                     let store = store(decl, access, next[access.resource.index()]);
                     let load = load(decl, access, writers[index]);
-                    ops[index] = Some(within((place == start, load), (place + 1 == end, store), false));
+                    ops[index] =
+                        Some(in_render_pass((position == start, load), (position + 1 == end, store), false));
                 }
             }
             for access in decl.accesses(pass) {
@@ -31,7 +32,7 @@ pub(super) fn ops(
     }
 }
 
-/// For each access, the pass that wrote the resource before it.
+/// Returns for each access the pass that wrote the resource before it.
 fn writers(decl: &Declaration, order: &[PassId]) -> Vec<Option<PassId>> {
     let mut last: Vec<Option<PassId>> = vec![None; decl.resources.len()];
     let mut writers = vec![None; decl.accesses.len()];
@@ -66,7 +67,7 @@ fn store(
     match next {
         Some((pass, true)) => (StoreAction::Store, StoreReason::NeededBy(pass)),
         Some((pass, false)) => (StoreAction::Discard, StoreReason::OverwrittenBy(pass)),
-        None => match after_the_frame(decl, access.resource) {
+        None => match need_after_frame(decl, access.resource) {
             Some(reason) => (StoreAction::Store, reason),
             None => (StoreAction::Discard, StoreReason::LastUse),
         },

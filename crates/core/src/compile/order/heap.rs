@@ -1,6 +1,6 @@
-//! The passes that are ready, the best one first.
+//! The ready passes, the best one first.
 
-use super::{Time, draws};
+use super::{Direction, is_render_pass};
 use crate::declaration::Declaration;
 use crate::handle::{PassId, ResourceId};
 use std::collections::BinaryHeap;
@@ -8,20 +8,20 @@ use std::collections::BinaryHeap;
 const NONE: u32 = u32::MAX;
 
 /// Ready passes by score, then by declaration, the first declared first (backwards the last). A pass whose score
-/// changes is entered again; what is out of date is passed over.
+/// changes is pushed again; outdated entries are skipped.
 pub(super) struct Ready {
     heap: BinaryHeap<(i64, Rank)>,
-    time: Time,
-    /// By pass: its present score while it is ready.
+    direction: Direction,
+    /// Current score of each ready pass.
     scores: Vec<Option<i64>>,
     count: usize,
-    /// By resource: the ready render passes whose first attachment it is, as a list through `links`.
+    /// Ready render passes with each resource as first attachment, as lists through `links`.
     drawing: Vec<Ends>,
-    /// By pass.
+    /// Neighbours of each pass in its list.
     links: Vec<Link>,
 }
 
-/// A pass by its place: the greatest goes first.
+/// The rank of a pass among equal scores: the greatest goes first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Rank(u32);
 
@@ -40,10 +40,10 @@ struct Link {
 }
 
 impl Ready {
-    pub(super) fn new(passes: usize, resources: usize, time: Time) -> Self {
+    pub(super) fn new(passes: usize, resources: usize, direction: Direction) -> Self {
         Self {
             heap: BinaryHeap::with_capacity(16),
-            time,
+            direction,
             scores: vec![None; passes],
             count: 0,
             drawing: vec![Ends { first: NONE, last: NONE }; resources],
@@ -51,15 +51,15 @@ impl Ready {
         }
     }
 
-    /// Counts down forwards and up backwards. It is its own inverse.
-    fn rank(&self, place: u32) -> u32 {
-        match self.time {
-            Time::Forwards => u32::MAX - place,
-            Time::Backwards => place,
+    /// Returns the rank of a pass index: descending forwards, ascending backwards. It is its own inverse.
+    fn rank(&self, index: u32) -> u32 {
+        match self.direction {
+            Direction::Forwards => u32::MAX - index,
+            Direction::Backwards => index,
         }
     }
 
-    fn enter(&mut self, pass: PassId, score: i64) {
+    fn push_entry(&mut self, pass: PassId, score: i64) {
         let rank = Rank(self.rank(pass.0));
         self.heap.push((score, rank));
     }
@@ -70,10 +70,10 @@ impl Ready {
 
     pub(super) fn push(&mut self, decl: &Declaration, pass: PassId, score: i64) {
         self.scores[pass.index()] = Some(score);
-        self.enter(pass, score);
+        self.push_entry(pass, score);
         self.count += 1;
         let attachment = decl.pass(pass).attachment;
-        if let (true, Some(resource)) = (draws(decl, pass), attachment) {
+        if let (true, Some(resource)) = (is_render_pass(decl, pass), attachment) {
             let ends = &mut self.drawing[resource.index()];
             let previous = std::mem::replace(&mut ends.last, pass.0);
             match previous {
@@ -89,12 +89,12 @@ impl Ready {
             && *own != score
         {
             *own = score;
-            self.enter(pass, score);
+            self.push_entry(pass, score);
         }
     }
 
-    /// Takes a pass out, since it runs.
-    pub(super) fn take(&mut self, pass: PassId) {
+    /// Removes a pass that was scheduled.
+    pub(super) fn remove(&mut self, pass: PassId) {
         let index = pass.index();
         if self.scores[index].take().is_none() {
             return;
@@ -115,8 +115,7 @@ impl Ready {
         }
     }
 
-    /// Takes the best pass off the heap, with its score, and whether it is better than every other by more than its
-    /// place.
+    /// Pops the best pass with its score, and whether its score is better than that of every other.
     pub(super) fn pop(&mut self) -> Option<(PassId, i64, bool)> {
         self.drop_outdated();
         let (score, rank) = self.heap.pop()?;
@@ -133,7 +132,7 @@ impl Ready {
         }
     }
 
-    /// The ready render passes whose first attachment is `resource`, the first to become ready first.
+    /// Returns the ready render passes whose first attachment is `resource`, in the order in which they became ready.
     pub(super) fn drawing_into(&self, resource: ResourceId) -> impl Iterator<Item = PassId> {
         let listed = |at: u32| (at != NONE).then_some(at);
         let first = listed(self.drawing[resource.index()].first);

@@ -1,18 +1,18 @@
-//! Which passes touch which of the resources that take memory.
+//! Which passes use which of the resources that take memory.
 
 use crate::compile::csr::Csr;
 use crate::declaration::{Declaration, Origin};
 use crate::handle::PassId;
 
-/// The transient resources that passes touch, as far as these run.
+/// The transient resources used by passes that run.
 pub(super) struct Traffic {
-    /// By resource: 0 for what takes no slot.
+    /// Size of each resource; 0 if it takes no slot.
     pub(super) bytes: Vec<i64>,
-    /// By resource.
+    /// Whether each resource is exported.
     pub(super) exported: Vec<bool>,
-    /// By pass: the resources with bytes that it touches, each once.
+    /// Resources that each pass uses, without those of size 0, each once.
     touched: Csr<u32>,
-    /// By resource with bytes: the passes that touch it, each once, in order of declaration.
+    /// Passes that use each resource, each once, in order of declaration.
     users: Csr<PassId>,
 }
 
@@ -32,18 +32,18 @@ impl Traffic {
             }
         }
         touched.skip_to(decl.passes.len());
-        let of_pass = |&pass: &PassId| touched.of(pass.index()).iter().map(move |&r| (r as usize, pass));
+        let of_pass = |&pass: &PassId| touched.row(pass.index()).iter().map(move |&r| (r as usize, pass));
         let users = Csr::new(bytes.len(), || live.iter().flat_map(of_pass));
         let exported = decl.resources.iter().map(|resource| resource.exported.is_some()).collect();
         Self { bytes, exported, touched, users }
     }
 
     pub(super) fn touched(&self, pass: PassId) -> impl Iterator<Item = usize> {
-        self.touched.of(pass.index()).iter().map(|&resource| resource as usize)
+        self.touched.row(pass.index()).iter().map(|&resource| resource as usize)
     }
 
     pub(super) fn users(&self, resource: usize) -> &[PassId] {
-        self.users.of(resource)
+        self.users.row(resource)
     }
 }
 

@@ -31,7 +31,7 @@ fn two_writers_of_one_version_are_refused() {
     frame.render_pass("second").color(&mut twin, BLACK);
     let text = message(frame);
     assert!(
-        text.contains("`second` writes version 0 of `a`, which `first` has already written over"),
+        text.contains("`second` writes version 0 of `a`, which `first` has already overwritten"),
         "{text}"
     );
     assert!(text.contains("same handle by `&mut`"), "{text}");
@@ -43,7 +43,7 @@ fn a_read_of_undefined_contents_is_refused() {
     let a = color(&mut frame, "a");
     filter(&mut frame, "blur", &a);
     let text = message(frame);
-    assert!(text.contains("`blur` reads all of `a`, whose contents are undefined"), "{text}");
+    assert!(text.contains("`blur` reads all of `a`, which is not fully defined"), "{text}");
     assert!(text.contains("write all of it in earlier passes"), "{text}");
 }
 
@@ -91,7 +91,7 @@ fn a_token_of_another_pass_does_not_resolve() {
     let plan = plan(frame);
     assert!(resolve(&plan, id, token.0.pass, token.0).is_ok());
     let text = resolve(&plan, id, second, token.0).unwrap_err().to_string();
-    assert!(text.contains("`second` touches `a` without having declared it"), "{text}");
+    assert!(text.contains("`second` uses `a` without declaring the access"), "{text}");
     assert!(text.contains("belongs to `first`"), "{text}");
     assert!(text.contains("declare the access on `second`"), "{text}");
     assert!(matches!(resolve(&plan, id + 1, token.0.pass, token.0), Err(Error::ForeignHandle { .. })));
@@ -115,7 +115,7 @@ fn reading_and_writing_one_texture_in_one_pass_is_refused() {
     pass.sample(&a);
     pass.color(&mut a, Contents::Preserve);
     let text = message(frame);
-    assert!(text.contains("`feedback` touches `a` as sampled and as color"), "{text}");
+    assert!(text.contains("`feedback` uses `a` as sampled and as color"), "{text}");
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn formats_and_clear_values_must_suit_the_attachment() {
     let mut frame = Frame::new();
     let mut depth = frame.create_texture("depth", TextureDesc::d2(8, 8, Format::Depth32Float));
     frame.render_pass("draw").color(&mut depth, BLACK);
-    assert!(message(frame).contains("is a depth format: use `depth`"));
+    assert!(message(frame).contains("is a depth format; use `depth`"));
 
     let mut frame = Frame::new();
     let mut depth = frame.create_texture("depth", TextureDesc::d2(8, 8, Format::Depth32Float));
@@ -179,7 +179,7 @@ fn a_texture_without_extent_is_refused() {
     let mut frame = Frame::new();
     frame.create_texture("nothing", TextureDesc::d2(0, 8, Format::Rgba8Unorm));
     let text = message(frame);
-    assert!(text.contains("`nothing`") && text.contains("no size"), "{text}");
+    assert!(text.contains("`nothing`") && text.contains("a side is 0"), "{text}");
 }
 
 #[test]

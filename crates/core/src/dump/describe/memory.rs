@@ -139,7 +139,7 @@ impl Plan {
             SlotReason::Unused => "nothing that runs touches it".into(),
             SlotReason::Imported => "it belongs to the caller".into(),
             SlotReason::History => "it is one half of a history".into(),
-            SlotReason::After(other) => format!("reuses the slot of `{}`", self.resource(other).name),
+            SlotReason::After(other) => format!("reuses slot of `{}`", self.resource(other).name),
             SlotReason::FirstOfClass | SlotReason::AllBusy(_) => self.describe_slot(reason),
         }
     }

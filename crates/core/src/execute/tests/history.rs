@@ -293,7 +293,7 @@ fn two_histories_of_one_name_in_one_view_are_an_error() {
         });
     }
     let error = frame.compile().err().unwrap();
-    assert!(error.to_string().contains("`count` cannot be: its view has a history of that name"), "{error}");
+    assert!(error.to_string().contains("`count` is invalid: duplicate history name in its view"), "{error}");
 }
 
 /// Clears a history in the first frame; in the next, draws what it was with the fragment stage `read` into numbers.
