@@ -17,7 +17,7 @@ impl Shadows {
     /// The setting that names the technique.
     pub(crate) const TECHNIQUE: &'static str = "technique";
     /// The setting that computes shadows in a screen-space mask.
-    pub(crate) const COLLECTED: &'static str = "collected";
+    pub(crate) const SCREEN_SPACE: &'static str = "collected";
 }
 
 impl Node for Shadows {
@@ -35,7 +35,7 @@ impl Node for Shadows {
             "a technique by name; empty for that of the render configuration",
         ),
         Setting::new(
-            Self::COLLECTED,
+            Self::SCREEN_SPACE,
             SettingType::Toggle(false),
             "whether shadows are computed in a screen-space mask before lighting",
         ),

@@ -3,29 +3,14 @@
 use shadowgraph_core::did_you_mean;
 
 use super::document::{Connection, Document};
+use super::enabled::{ConnectedInput, EnabledNode, OutputRef};
 use super::order::InPlaceNodes;
-use super::resolve::EnabledNode;
 use super::source::{Location, Spanned};
 use crate::error::PipelineError;
 use crate::nodes::port::{Port, PortKind, Presence};
 
 /// The outputs of a pipeline.
 const OUTPUTS: &[&str] = &["picture", "light", "depth"];
-
-/// An output of an enabled node.
-#[derive(Clone, Copy)]
-pub(super) struct OutputRef {
-    pub(super) node: usize,
-    /// The index among the node's outputs.
-    pub(super) port: usize,
-}
-
-/// An input, the index of its value, and the node that produces it.
-pub(super) struct ConnectedInput {
-    pub(super) port: Port,
-    pub(super) value: Option<usize>,
-    pub(super) producer: Option<usize>,
-}
 
 /// The enabled nodes of a document, to look outputs up in.
 pub(super) struct Connections<'c, 'd> {

@@ -2,6 +2,7 @@
 
 mod connect;
 mod document;
+mod enabled;
 mod instance;
 mod jitter;
 mod order;
@@ -96,7 +97,7 @@ impl PipelineFile {
         let shadows = resolved.nodes.iter().find(is_shadows);
         let technique = shadows.map(|node| technique(document, node, techniques)).transpose()?.flatten();
         let screen_shadows =
-            shadows.is_some_and(|node| node.settings.toggle(Shadows::COLLECTED).unwrap_or_default());
+            shadows.is_some_and(|node| node.settings.toggle(Shadows::SCREEN_SPACE).unwrap_or_default());
         Ok(Self {
             name: name.to_owned(),
             document: document.clone(),

@@ -6,8 +6,7 @@ use std::collections::BinaryHeap;
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use super::connect::ConnectedInput;
-use super::resolve::EnabledNode;
+use super::enabled::{ConnectedInput, EnabledNode};
 use super::source::Spanned;
 use crate::error::PipelineError;
 

@@ -2,8 +2,9 @@
 
 use shadowgraph_core::did_you_mean;
 
-use super::connect::{ConnectedInput, Connections, OutputRef};
+use super::connect::Connections;
 use super::document::{Document, NodeEntry};
+use super::enabled::{ConnectedInput, EnabledNode, OutputRef};
 use super::order::{in_place_nodes, order};
 use super::parameters::{ParameterValues, referenced_parameter};
 use crate::error::PipelineError;
@@ -31,14 +32,6 @@ pub(super) struct ResolvedPipeline {
     pub(super) light: Option<usize>,
     pub(super) depth: Option<usize>,
     pub(super) value_count: usize,
-}
-
-/// An enabled node of the document.
-pub(super) struct EnabledNode<'d> {
-    pub(super) entry: &'d NodeEntry,
-    pub(super) kind: NodeKind,
-    /// The index of the value of its first output.
-    pub(super) first_value: usize,
 }
 
 impl Document {
