@@ -61,7 +61,7 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
 pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
     for light in unshadowed {
-        let (reason, index) = (light.reason.text(), light.light.to_string());
+        let (reason, index) = (light.reason.describe(), light.light.to_string());
         match reasons.iter_mut().find(|(other, _)| *other == reason) {
             Some((_, lights)) => lights.push(index),
             None => reasons.push((reason, vec![index])),

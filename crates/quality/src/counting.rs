@@ -34,8 +34,8 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.bounds()
     }
 
-    fn bounds_of(&self, caster: u32) -> Aabb {
-        self.casters.bounds_of(caster)
+    fn caster_bounds(&self, caster: u32) -> Aabb {
+        self.casters.caster_bounds(caster)
     }
 
     fn version(&self, caster: u32) -> Option<u64> {

@@ -85,7 +85,7 @@ impl ShadowCasters for SceneCasters {
         self.scene.all_bounds()
     }
 
-    fn bounds_of(&self, caster: u32) -> Aabb {
+    fn caster_bounds(&self, caster: u32) -> Aabb {
         self.scene.bounds().get(caster as usize).copied().unwrap_or(Aabb::EMPTY)
     }
 

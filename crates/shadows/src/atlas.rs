@@ -1,12 +1,12 @@
-//! Where tiles lie in a map.
+//! Layouts of tiles in a map.
 
 use glam::{DMat4, DVec2, DVec3, Vec2};
 use shadowgraph_core::Rect;
 
-/// The most tiles that the atlas holds.
+/// Largest number of tiles in an atlas of even tiles.
 pub const MAX_ATLAS_TILES: usize = 16;
 
-/// The pixels of a tile. The first pixel of a map is its top left one.
+/// The rectangle of a tile, pixels from the top left of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TileRect {
     /// First column.
@@ -22,7 +22,7 @@ pub struct TileRect {
 /// A map's size and its tiles: squares of one size that do not overlap.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TileLayout {
-    /// Width and height of the map, pixels. Rows of tiles that nobody needs are left off.
+    /// Width and height of the map, pixels. Unused rows of tiles are omitted.
     pub size_px: [u32; 2],
     /// Width and height of a tile, pixels.
     pub tile_px: u32,
@@ -30,8 +30,8 @@ pub struct TileLayout {
     pub tiles: Vec<TileRect>,
 }
 
-/// Lays out `count` tiles of one size, 1 to 64: as many per row as a square of them needs, so 1, 2, 3 or 4 for up to 1, 4,
-/// 9 and 16. One has all of the map, two lie side by side, three and four are in a square.
+/// Lays out `count` tiles of one size, 1 to 64, in the smallest square grid: 1, 2, 3 or 4 per row for up to 1, 4,
+/// 9 and 16 tiles. A single tile has the whole map, two are next to each other, three and four form a square.
 ///
 /// ```
 /// use shadowgraph_shadows::even_tiles;
@@ -43,7 +43,7 @@ pub fn even_tiles(count: usize, map_size_px: u32) -> TileLayout {
     grid(count, per_row, map_size_px)
 }
 
-/// Returns the width of the smallest tile that the atlas can have, pixels.
+/// Returns the width of the smallest even tile of an atlas, pixels.
 #[must_use]
 pub fn smallest_atlas_tile_px(map_size_px: u32) -> u32 {
     map_size_px / 4
@@ -58,7 +58,7 @@ fn grid(count: usize, per_row: u32, map_size_px: u32) -> TileLayout {
         width: tile_px,
         height: tile_px,
     };
-    // Whole maps in width, so that a third of a map leaves its last columns free.
+    // The full width of the map: with three tiles per row the last columns stay free.
     let rows = count.div_ceil(per_row).max(1);
     let height = if rows == per_row { map_size_px } else { rows * tile_px };
     TileLayout { size_px: [map_size_px, height], tile_px, tiles: (0..count).map(tile).collect() }
@@ -71,15 +71,16 @@ impl From<TileRect> for Rect {
 }
 
 impl TileRect {
-    /// Tells whether the two have a pixel in common.
+    /// Returns whether two tiles overlap.
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
-        let apart = |a: u32, a_len: u32, b: u32, b_len: u32| a + a_len <= b || b + b_len <= a;
-        !apart(self.x, self.width, other.x, other.width) && !apart(self.y, self.height, other.y, other.height)
+        let disjoint = |a: u32, a_len: u32, b: u32, b_len: u32| a + a_len <= b || b + b_len <= a;
+        !disjoint(self.x, self.width, other.x, other.width)
+            && !disjoint(self.y, self.height, other.y, other.height)
     }
 
     /// Returns the matrix from the tile's clip space to the map: x and y from 0 to 1 over the whole map, y
-    /// downwards; depth stays.
+    /// downwards; depth is unchanged.
     #[must_use]
     pub fn map_from_clip(&self, map_size_px: [u32; 2]) -> DMat4 {
         let map = DVec2::new(f64::from(map_size_px[0]), f64::from(map_size_px[1]));
@@ -89,14 +90,14 @@ impl TileRect {
         DMat4::from_translation(center.extend(0.0)) * DMat4::from_scale(DVec3::new(scale.x, -scale.y, 1.0))
     }
 
-    /// Returns the corners, in parts of the map, of the tile without a border of some pixels: around points in there a
-    /// filter that reaches as far stays inside the tile.
+    /// Returns the corners of the tile without its border, in texture coordinates of the map: around points inside, a
+    /// filter with the border's radius stays inside the tile.
     #[must_use]
     pub fn inner_uv(&self, map_size_px: [u32; 2], border_px: u32) -> (Vec2, Vec2) {
         let map = Vec2::new(map_size_px[0] as f32, map_size_px[1] as f32);
-        let at = |x: u32, y: u32| Vec2::new(x as f32, y as f32) / map;
-        let min = at(self.x + border_px, self.y + border_px);
-        let max = at(self.x + self.width - border_px, self.y + self.height - border_px);
+        let uv = |x: u32, y: u32| Vec2::new(x as f32, y as f32) / map;
+        let min = uv(self.x + border_px, self.y + border_px);
+        let max = uv(self.x + self.width - border_px, self.y + self.height - border_px);
         (min, max)
     }
 }

@@ -1,13 +1,13 @@
-//! The axes of a light.
+//! The axes of light space.
 
 use glam::{DMat3, DVec3};
 
-/// Steeper than this, in cosine to the vertical, a light's up axis is taken from north instead of the sky.
+/// Absolute cosine to the vertical above which a light's up axis is computed from the world's -Z instead of +Y.
 const STEEP: f64 = 0.999;
 
-/// Returns the rotation from world to light axes: +Z towards the light, +Y as near to the world's up as can be
-/// (the world's -Z for lights from straight above or below). It depends on nothing but the direction, so it
-/// stands still while the camera moves. `None` for a direction that has no length or is not finite.
+/// Returns the rotation from world to light space: +Z towards the light, +Y as close to the world's up as possible
+/// (the world's -Z for lights from straight above or below). It depends only on the direction, so it
+/// is constant while the camera moves. `None` for a direction that is zero or not finite.
 ///
 /// ```
 /// use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Cascades: how the shadow distance is split, and which sphere holds each slice of the view.
+//! Cascades: the split of the shadow distance, and the bounding sphere of each slice of the view frustum.
 
 use glam::{DMat3, DVec3};
 use shadowgraph_scene::{BoundingSphere, Camera};
@@ -6,33 +6,33 @@ use shadowgraph_scene::{BoundingSphere, Camera};
 use crate::ortho::OrthoFit;
 use crate::settings::{CascadeFitting, CascadeSettings, SplitScheme};
 
-/// The part of the view that one cascade serves, and its place in the world.
+/// The slice of the view frustum of one cascade, and its fitted box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CascadeFit {
-    /// Where the slice begins, metres of view depth.
+    /// Start of the slice, metres of view depth.
     pub near_m: f64,
-    /// Where the slice ends, metres of view depth.
+    /// End of the slice, metres of view depth.
     pub far_m: f64,
-    /// The box that its tile covers.
+    /// The box that the tile covers.
     pub fit: OrthoFit,
 }
 
-/// A slice of the view: a camera, the picture's width over height, and two view depths in metres.
+/// A slice of a view frustum between two view depths.
 #[derive(Clone, Copy, Debug)]
 pub struct Slice<'a> {
-    /// Whose view.
+    /// The camera of the view.
     pub camera: &'a Camera,
-    /// The picture's width over its height.
+    /// The image's width over its height.
     pub aspect: f64,
-    /// Where it begins.
+    /// Start, metres of view depth.
     pub near_m: f64,
-    /// Where it ends, above `near_m`.
+    /// End, metres of view depth, above `near_m`.
     pub far_m: f64,
 }
 
-/// Returns where each of `count` cascades ends, metres of view depth, rising; the last is `far_m`.
+/// Returns the ends of `count` cascades, metres of view depth, ascending; the last is `far_m`.
 ///
-/// `count` is 1 to 8 and `near_m` below `far_m`. Ratios that are missing are taken from an even split.
+/// `count` is 1 to 8 and `near_m` below `far_m`. Missing ratios are replaced by those of a uniform split.
 ///
 /// ```
 /// use shadowgraph_shadows::{SplitScheme, split_distances};
@@ -46,7 +46,7 @@ pub fn split_distances(scheme: &SplitScheme, count: u32, near_m: f64, far_m: f64
     let count = count.max(1);
     let mut begin_m = near_m;
     let end = |i: u32| {
-        // An end of the user's own may be anywhere: every slice has some length.
+        // The user's ends may be anywhere: every slice gets a minimum length.
         let latest = far_m - (far_m - near_m) * 1e-6 * f64::from(count - 1 - i);
         let end_m = if i + 1 == count { far_m } else { split(scheme, i, count, near_m, far_m) };
         begin_m = end_m.max(begin_m + (far_m - near_m) * 1e-7).min(latest);
@@ -55,21 +55,21 @@ pub fn split_distances(scheme: &SplitScheme, count: u32, near_m: f64, far_m: f64
     (0..count).map(end).collect()
 }
 
-/// Where cascade `i` of `count`, which is not the last, ends.
+/// Returns the end of cascade `i` of `count`, which is not the last.
 fn split(scheme: &SplitScheme, i: u32, count: u32, near_m: f64, far_m: f64) -> f64 {
     let part = f64::from(i + 1) / f64::from(count);
     let length = far_m - near_m;
     let uniform = near_m + length * part;
-    let given = |ends: &[f32]| ends.get(i as usize).map(|end| f64::from(*end));
-    let ratio = |ratios: &[f32]| given(ratios).map_or(uniform, |ratio| near_m + ratio * length);
-    // Without a near plane (orthographic cameras) the logarithm needs some first distance.
+    let listed = |ends: &[f32]| ends.get(i as usize).map(|end| f64::from(*end));
+    let ratio = |ratios: &[f32]| listed(ratios).map_or(uniform, |ratio| near_m + ratio * length);
+    // Without a near plane (orthographic cameras) the logarithm needs a first distance above zero.
     let log_near = near_m.max(far_m * 1e-4);
     let logarithmic = log_near * (far_m / log_near).powf(part);
     let to_last = f64::from(count - 1 - i);
     match scheme {
         SplitScheme::Standard => ratio(standard_ratios(count)),
         SplitScheme::Ratios(ratios) => ratio(ratios),
-        SplitScheme::Metres(ends) => given(ends).unwrap_or(uniform),
+        SplitScheme::Metres(ends) => listed(ends).unwrap_or(uniform),
         SplitScheme::Factor(factor) => far_m / f64::from(*factor).powf(to_last),
         SplitScheme::Geometric { first_m } => {
             let first = f64::from(*first_m).min(far_m * 0.5f64.powi(count as i32 - 1));
@@ -89,14 +89,14 @@ fn standard_ratios(count: u32) -> &'static [f32] {
     }
 }
 
-/// Returns the smallest sphere with its centre on the view's axis that holds the slice.
+/// Returns the smallest sphere around the slice with its centre on the view's axis.
 ///
 /// The radius comes from the projection alone, so it is the same wherever the camera is and looks.
 #[must_use]
 pub fn slice_sphere(slice: &Slice<'_>) -> BoundingSphere {
     let Slice { camera, aspect, near_m, far_m } = *slice;
     let corners = camera.slice_corners_view(aspect, near_m, far_m);
-    // The widest corner at each end, squared distance from the axis.
+    // Squared distance from the axis of the widest corner at each end.
     let lateral = |depth_m: f64, other_m: f64| {
         corners
             .iter()
@@ -104,18 +104,18 @@ pub fn slice_sphere(slice: &Slice<'_>) -> BoundingSphere {
             .fold(0.0, |widest: f64, corner| widest.max(corner.truncate().length_squared()))
     };
     let (at_near, at_far) = (lateral(near_m, far_m), lateral(far_m, near_m));
-    // As far from the near corners as from the far ones, unless that is beyond the slice.
+    // Equidistant from the near and the far corners, unless that is outside the slice.
     let middle = 0.5 * (near_m + far_m) + 0.5 * (at_far - at_near) / (far_m - near_m);
     let center = middle.clamp(near_m, far_m);
-    let reach = |lateral: f64, depth: f64| lateral + (depth - center) * (depth - center);
-    let radius_m = reach(at_near, near_m).max(reach(at_far, far_m)).sqrt();
+    let squared = |lateral: f64, depth: f64| lateral + (depth - center) * (depth - center);
+    let radius_m = squared(at_near, near_m).max(squared(at_far, far_m)).sqrt();
     let center_world = camera.world_from_view.transform_point3(DVec3::NEG_Z * center);
     BoundingSphere { center_world, radius_m }
 }
 
-/// Fits one box per cascade: `ends_m` are their far ends in view depth (see [`split_distances`]); the first
-/// begins at the camera's near plane, the others before the end of the last as the settings say. `margin_px` is as for
-/// [`OrthoFit::new`].
+/// Fits a box for each cascade. `ends_m` are their far ends in view depth (see [`split_distances`]); the first
+/// begins at the camera's near plane, the others overlap the previous one as the settings say. `tile` is the width of a
+/// tile in pixels and the margin of [`OrthoFit::new`].
 #[must_use]
 pub fn fit_cascades(
     camera: &Camera,

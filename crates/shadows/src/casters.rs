@@ -1,100 +1,100 @@
-//! What an engine tells about the things that cast shadows.
+//! The casters of an engine's scene.
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
 use crate::plan::TileKind;
 
-/// The things that can cast shadows. Implement it for a scene of your own.
+/// The shadow casters of a scene. Implement it for your own scene.
 ///
-/// Casters are numbered; what a number stands for is the implementer's affair. All coordinates here are
+/// Casters are identified by numbers of the implementer's choice. All coordinates are
 /// absolute, in f64.
 pub trait ShadowCasters: Sync {
-    /// Appends the numbers of all casters that touch the volume, ascending. Casters that only come near may
-    /// be among them; none that touches may be missing. A [`CullTree`](shadowgraph_scene::CullTree) does it fast.
+    /// Appends the numbers of all casters that intersect the volume, in ascending order. The result may contain casters
+    /// near the volume; it must contain all that intersect it. A [`CullTree`](shadowgraph_scene::CullTree) does it fast.
     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>);
 
-    /// Returns the bounds of all casters, [`Aabb::EMPTY`] where there are none.
+    /// Returns the bounds of all casters; [`Aabb::EMPTY`] if there are none.
     fn bounds(&self) -> Aabb;
 
-    /// Returns the bounds of one caster. By default those of all: then no caster is left out for what it covers.
-    fn bounds_of(&self, caster: u32) -> Aabb {
+    /// Returns the bounds of one caster. The default is the bounds of all: then no caster is culled as redundant.
+    fn caster_bounds(&self, caster: u32) -> Aabb {
         let _ = caster;
         self.bounds()
     }
 
-    /// Returns a number that changes whenever what a caster draws does; `None` if it may change at any time. Tiles whose
-    /// casters all have one are cached where the settings say so.
+    /// Returns a version that changes whenever the caster's geometry changes; `None` if it may change at any time. Tiles are
+    /// cached where the settings say so if all their casters have a version.
     fn version(&self, caster: u32) -> Option<u64> {
         let _ = caster;
         None
     }
 
-    /// Tells whether light passes through a caster and takes on its colour. Such ones are drawn in passes of their own: see
+    /// Returns whether the caster is translucent and colours light. Such casters are drawn in separate passes: see
     /// [`CasterPass`].
     fn tints(&self, caster: u32) -> bool {
         let _ = caster;
         false
     }
 
-    /// Returns the bounds of everything that shadows can fall on: cascades end there, if that is before the shadow
-    /// distance. By default the bounds of all casters; with surfaces that receive shadows and cast none, theirs too.
+    /// Returns the bounds of all receivers: cascades end there if that is nearer than the shadow
+    /// distance. The default is the bounds of all casters; add those of surfaces that receive shadows and cast none.
     fn receivers(&self) -> Aabb {
         self.bounds()
     }
 
-    /// Draws the casters into the pass, as `view.target` says. Viewport, scissor and group 0
+    /// Draws the casters into the pass for `view.target`. Viewport, scissor and group 0
     /// ([`caster_view_layout`]) are already set: its matrix `clip_from_world` takes positions relative to the
-    /// frame's origin. Leave all of these as they are.
+    /// frame's origin. Do not change any of these.
     ///
-    /// Pipelines are the implementer's own, so vertices can be moved (skinning, wind), many instances be drawn at once, and
-    /// `view` tells which level of detail is enough. Bounds must hold what is drawn, wherever it is moved.
+    /// Pipelines are the implementer's, so vertices can be animated (skinning, wind), instances can be drawn together, and
+    /// `view` determines a sufficient level of detail. Bounds must contain the geometry as it is drawn.
     ///
-    /// Returns how many draw calls it recorded, for those who measure.
+    /// Returns the number of draw calls that it recorded, for statistics.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32;
 }
 
-/// What a pipeline that draws casters must be made for: depth compared with `GreaterEqual` (it is reversed), one sample, no
-/// depth bias (it is applied where the map is read).
+/// The target of a pipeline that draws casters: depth compare `GreaterEqual` (depth is reversed), one sample, no
+/// depth bias (biases are applied when the map is read).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CasterTarget {
-    /// What is drawn.
+    /// The kind of pass.
     pub pass: CasterPass,
-    /// The format of depth.
+    /// The depth format.
     pub format: wgpu::TextureFormat,
     /// Whether the view is a spot light's pyramid rather than a box. In both, casters between the light and
-    /// the near plane are to be kept with depth 1 (`unclipped_depth`, or its emulation).
+    /// the near plane must be kept with depth 1 (`unclipped_depth`, or its emulation).
     pub perspective: bool,
 }
 
-/// The format of what translucent casters let through.
+/// The format of the transmittance of translucent casters.
 pub const TINT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// What of casters is drawn. Without casters that [tint](ShadowCasters::tints) there is only `Depth`.
+/// The passes that draw casters. Without casters that [tint](ShadowCasters::tints) there is only `Depth`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CasterPass {
     /// The depth of casters that do not tint: written, no colour.
     #[default]
     Depth,
-    /// The depth of all surface of casters that tint, however little they do: written, no colour.
+    /// The depth of all surfaces of casters that tint, at any opacity: written, no colour.
     TintDepth,
-    /// What light passes through casters that tint: the one colour target, of [`TINT_FORMAT`],
-    /// is multiplied by it. Depth is that of `Depth`: tested, not written.
+    /// The transmittance of casters that tint: the colour target, of [`TINT_FORMAT`],
+    /// is multiplied by it. The depth of `Depth` is tested, not written.
     Tint,
 }
 
 /// The tile that casters are drawn into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CasterView {
-    /// What pipelines must be made for.
+    /// The target of pipelines.
     pub target: CasterTarget,
-    /// Whose tile it is, by place in the scene's list of lights.
+    /// Index of the light in the scene.
     pub light: u32,
-    /// Which of its tiles.
+    /// The kind of tile.
     pub kind: TileKind,
     /// Width and height of the tile, pixels.
     pub size_px: [u32; 2],
-    /// The width of a texel in the world, metres; for spot and point lights at 1 m along the tile's axis. Detail that is
-    /// smaller casts no shadow of its own.
+    /// The width of a texel in the world, metres; for spot and point lights at 1 m along the tile's axis. Smaller details
+    /// cast no visible shadow.
     pub texel_world: f32,
 }
 

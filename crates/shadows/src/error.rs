@@ -1,59 +1,57 @@
-//! What can go wrong before a device is involved.
+//! Errors of planning and of techniques.
 
-/// Why shadows could not be planned.
+/// Errors of shadows.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A value of [`ShadowSettings`](crate::ShadowSettings) is not allowed.
+    /// A value of [`ShadowSettings`](crate::ShadowSettings) is out of range.
     #[error("shadow setting `{field}` is {value}; allowed: {allowed}")]
     Setting {
         /// The field's path, such as `cascades.map_size_px`.
         field: &'static str,
-        /// The value it has.
+        /// The value.
         value: String,
-        /// The values it can have.
+        /// The allowed values.
         allowed: &'static str,
     },
-    /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) names a light that the scene does not have.
+    /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) refers to a light that does not exist.
     #[error(
-        "shadow setting `lights.light` is {light}; the scene has no light of that name or number, but {count}, numbered from 0"
+        "unknown light {light} in shadow setting `lights.light`; the scene has {count} lights, numbered from 0"
     )]
     UnknownLight {
-        /// Which entry of `lights` names it, from 0.
+        /// Index of the entry of `lights`.
         entry: usize,
         /// Its number, or its name in quotes.
         light: String,
-        /// How many lights there are.
+        /// Number of lights in the scene.
         count: usize,
     },
-    /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) says two things of one light.
-    #[error("shadow setting `lights` has two entries for light {light}; allowed: one for each light")]
+    /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) has two entries for one light.
+    #[error("duplicate entry for light {light} in shadow setting `lights`; allowed: one for each light")]
     DuplicateLight {
-        /// The second entry of `lights`, from 0.
+        /// Index of the second entry of `lights`.
         entry: usize,
         /// Its number.
         light: usize,
     },
-    /// The camera sees nothing.
+    /// The camera is invalid.
     #[error(transparent)]
     Camera(#[from] shadowgraph_scene::CameraError),
-    /// A technique that reads the picture's surfaces was not given them.
-    #[error(
-        "the technique `{technique}` reads the surfaces of the picture: draw them first and pass them to its `add_to`"
-    )]
+    /// A technique that reads surface buffers got none.
+    #[error("technique `{technique}` reads surface buffers: draw them first and pass them to `add_shadows`")]
     MissingSurfaceBuffers {
         /// The technique's name.
         technique: String,
     },
-    /// A technique is not what it says, or has settings that it cannot have.
+    /// A technique is inconsistent with its declarations, or has invalid settings.
     #[error("technique `{technique}`: {reason}")]
     Technique {
         /// Its name.
         technique: String,
-        /// What is wrong with it.
+        /// What is wrong.
         reason: String,
     },
-    /// The settings of a technique are not of the form that it reads.
+    /// The settings of a technique cannot be parsed.
     #[error(
         "technique `{technique}`: its settings: {} (line {}, column {} of them)",
         reason.code, reason.span.start.line, reason.span.start.col
@@ -61,33 +59,33 @@ pub enum Error {
     MalformedSettings {
         /// Its name.
         technique: String,
-        /// What is wrong, and where in the text of its settings alone.
+        /// What is wrong, and the position in the text of its settings.
         reason: Box<ron::error::SpannedError>,
     },
-    /// A value of a technique's own settings is not allowed.
+    /// A value of a technique's settings is out of range.
     #[error("technique `{technique}`: shadow setting `{field}` is {value}; allowed: {allowed}")]
     TechniqueSetting {
         /// Its name.
         technique: String,
         /// The field's path in its settings.
         field: &'static str,
-        /// The value it has.
+        /// The value.
         value: String,
-        /// The values it can have.
+        /// The allowed values.
         allowed: &'static str,
     },
-    /// There is no technique of this name.
+    /// The name of a technique is unknown.
     #[error("unknown technique `{name}`{hint}")]
     UnknownTechnique {
-        /// What was asked for.
+        /// The unknown name.
         name: String,
-        /// A name that is like it, or all.
+        /// The known names, and a similar one if there is one.
         hint: String,
     },
     /// A shader does not compose.
     #[error(transparent)]
     Shader(#[from] shadowgraph_shaders::Error),
-    /// The triangles cannot be traced.
+    /// The scene's triangles cannot be traced.
     #[error(transparent)]
     Rays(#[from] crate::rays::Error),
 }

@@ -1,15 +1,15 @@
 //! Cascaded and atlas shadow maps as render-graph nodes, and the technique contract.
 //!
 //! [`plan_shadows`] turns a camera, lights and casters ([`ShadowCasters`]) into a [`ShadowPlan`]: the maps and
-//! tiles of a frame, who is drawn into each, and the records ([`ShadowView`], [`ShadowLight`]) that shaders read.
+//! tiles of a frame, the casters of each, and the structs ([`ShadowView`], [`ShadowLight`]) that shaders read.
 //! It is pure maths in f64 and can be used without the nodes.
 //!
-//! - *Cascades*: up to eight tiles for each of the brightest directional lights, each around a slice of the view.
+//! - *Cascades*: up to eight tiles for each of the brightest directional lights, each for a slice of the view frustum.
 //! - *Atlas*: tiles for spot and point lights and further directional lights.
 //!
-//! A [`ShadowTechnique`] makes nodes and WGSL of it; [`Techniques`] knows them by name, those of other crates too.
+//! A [`ShadowTechnique`] adds the passes and the WGSL; [`Techniques`] finds techniques by name, also those of other crates.
 //!
-//! [`QualityController`] lowers the settings while the passes take longer than they may.
+//! [`QualityController`] lowers the settings while the passes exceed a time budget.
 //!
 //! Depth is reversed (1 nearest to the light, 0 farthest, cleared to 0). Directional tiles move through the
 //! world in whole texels, so shadows do not flicker when the camera moves.

@@ -3,37 +3,37 @@
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use shadowgraph_scene::{Aabb, BoundingSphere, ConvexVolume, Plane};
 
-/// A box around a sphere, with its axes along a light's, that moves through the world in whole texels only.
+/// A box around a sphere in light space that moves through the world in whole texels only.
 ///
-/// Width and height are `texel_m * tile_px`; the depth range is twice that, so that the surroundings of what lies
-/// in the sphere are not clamped to the near plane even where they slope up steeply to the light. The centre is a whole
-/// number of texels from the world's origin on each of the light's axes, so while rotation and radius stay as they are,
-/// what a texel covers stays as it is, and a depth changes by a multiple of `1 / (2 * depth_scale * tile_px)`.
+/// Width and height are `texel_m * tile_px`; the depth range is twice that, so that the surroundings of the
+/// sphere are not clamped to the near plane even where they slope steeply towards the light. The centre is a whole
+/// number of texels from the world's origin on each axis, so while rotation and radius are constant,
+/// each texel covers the same area of the world, and a depth changes by a multiple of `1 / (2 * depth_scale * tile_px)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthoFit {
-    /// The rotation from world to the light's axes, +Z towards the light.
+    /// The rotation from world to light space, +Z towards the light.
     pub light_from_world: DMat3,
-    /// The centre on the light's axes, in texels from the world's origin: whole numbers.
+    /// The centre in light space, in texels from the world's origin: integers.
     pub center_texels: DVec3,
     /// The width of a texel in the world, metres.
     pub texel_m: f64,
-    /// The width of the tile, pixels, border and all.
+    /// The width of the tile with its border, pixels.
     pub tile_px: u32,
-    /// How many times as deep as usual the box is: a power of two, so that steps of whole texels stay exact.
+    /// Factor of the depth range: a power of two, so that steps of whole texels stay exact.
     pub depth_scale: f64,
-    /// The sphere that it was made for, or one around what it was made for.
+    /// The sphere, or a sphere around the points, that it was fitted to.
     pub sphere: BoundingSphere,
 }
 
-/// Radii come in this many steps per factor of two: a small change of the camera's angle changes no texel.
+/// Number of steps per factor of two to which radii are rounded: a small change of the camera's angle changes no texel.
 const RADIUS_STEPS: f64 = 32.0;
 
-/// Offsets from the frame's origin are rounded to this part of a texel. With up to 20 bits of whole texels
+/// Number of steps per texel to which offsets from the frame's origin are rounded. With up to 20 bits of whole texels
 /// (2 km of 2 mm texels) they fit an f32, so steps of whole texels reach the GPU exactly.
 const PHASE_STEPS: f64 = 16.0;
 
 impl OrthoFit {
-    /// Fits the cube: the sphere, wherever snapping puts the centre, stays `margin_px` away from the tile's edges.
+    /// Fits the box to a sphere: wherever snapping moves the centre, the sphere stays `margin_px` away from the tile's edges.
     ///
     /// `margin_px` must be below half of `tile_px`.
     #[must_use]
@@ -44,7 +44,7 @@ impl OrthoFit {
         Self { light_from_world, center_texels, texel_m, tile_px, depth_scale: 1.0, sphere }
     }
 
-    /// Fits the box to some points: as wide as they need, so its texels change with them. Otherwise as [`new`](Self::new).
+    /// Fits the box tightly to points: its texels change with them. Otherwise as [`new`](Self::new).
     #[must_use]
     pub fn tight(light_from_world: DMat3, points_world: &[DVec3], tile_px: u32, margin_px: f64) -> Self {
         let bounds = Aabb::from_points(points_world.iter().map(|&point| light_from_world * point));
@@ -56,49 +56,49 @@ impl OrthoFit {
         Self { sphere, ..fit }.deepened(half.z / fit.half_extent_m())
     }
 
-    /// Makes room for depths up to `offset_m` (metres, 0 or more) farther towards the light.
+    /// Extends the depth range by at least `offset_m` (metres, 0 or more) towards the light.
     #[must_use]
     pub fn with_near_offset(self, offset_m: f64) -> Self {
         self.deepened(self.depth_scale + offset_m / (3.0 * self.half_extent_m()))
     }
 
-    /// At least this many times as deep as usual.
+    /// Returns the box with at least this factor of the depth range.
     fn deepened(self, scale: f64) -> Self {
         let depth_scale = scale.max(self.depth_scale).log2().ceil().exp2();
         Self { depth_scale, ..self }
     }
 
-    /// Half the width and height of the box, metres.
+    /// Returns half the width and height of the box, metres.
     #[must_use]
     pub fn half_extent_m(&self) -> f64 {
         self.texel_m * f64::from(self.tile_px) * 0.5
     }
 
-    /// The matrix from world space relative to `origin_world` to the tile: x right and y up from -1 to 1, z 1
+    /// Returns the matrix from world space relative to `origin_world` to the tile: x right and y up from -1 to 1, z 1
     /// on the side of the light and 0 on the far side.
     #[must_use]
     pub fn clip_from_world(&self, origin_world: DVec3) -> DMat4 {
         let half_px = f64::from(self.tile_px) * 0.5;
         let rotation = DMat4::from_mat3(self.light_from_world);
-        // Counted in texels, every step of the camera adds whole numbers.
+        // In texels, every step of the camera adds integers.
         let origin_texels = self.light_from_world * origin_world / self.texel_m;
         let phase = (origin_texels * PHASE_STEPS).round() / PHASE_STEPS;
         let translation = DMat4::from_translation((phase - self.center_texels) / half_px);
-        // x and y as they are; z from -1..3, times the scale, to 0..1.
+        // x and y unchanged; z from -1..3, times the scale, to 0..1.
         let z = DVec4::Z * (0.25 / self.depth_scale);
         let depth = DMat4::from_cols(DVec4::X, DVec4::Y, z, DVec4::new(0.0, 0.0, 0.25, 1.0));
         let scale = DMat4::from_scale(DVec3::splat(1.0 / self.half_extent_m()));
         depth * translation * scale * rotation
     }
 
-    /// The depth range, metres.
+    /// Returns the depth range, metres.
     #[must_use]
     pub fn depth_range_m(&self) -> f64 {
         4.0 * self.half_extent_m() * self.depth_scale
     }
 
-    /// The space whose casters can matter: the box without its side towards the light, since what is nearer
-    /// to the light throws its shadow in all the same.
+    /// Returns the volume whose casters matter: the box without its side towards the light, since casters nearer
+    /// to the light cast shadows into it as well.
     #[must_use]
     pub fn cull_volume(&self) -> ConvexVolume {
         let center = self.center_texels * self.texel_m;
@@ -106,16 +106,16 @@ impl OrthoFit {
         let axes = self.light_from_world.transpose();
         let sides = [(axes.x_axis, center.x), (axes.y_axis, center.y)];
         let mut planes = Vec::with_capacity(5);
-        for (axis, at) in sides {
-            planes.push(Plane { normal: axis, distance: half - at });
-            planes.push(Plane { normal: -axis, distance: half + at });
+        for (axis, middle) in sides {
+            planes.push(Plane { normal: axis, distance: half - middle });
+            planes.push(Plane { normal: -axis, distance: half + middle });
         }
         planes.push(Plane { normal: axes.z_axis, distance: half * self.depth_scale - center.z });
         ConvexVolume { planes }
     }
 }
 
-/// The next of `steps` equal steps per factor of two that is not below `value`. `value` must be above 0.
+/// Rounds `value` (above 0) up to one of `steps` equal steps per factor of two.
 fn round_up(value: f64, steps: f64) -> f64 {
     let step = value.log2().floor().exp2() / steps;
     (value / step).ceil() * step

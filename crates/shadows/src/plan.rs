@@ -1,4 +1,4 @@
-//! The plan of a frame's shadows: which maps there are, their tiles, who is drawn into each, and the records
+//! The plan of a frame's shadows: the maps, their tiles, the casters of each tile, and the structs
 //! that shaders read. Pure: no device.
 
 use glam::DVec3;
@@ -16,42 +16,42 @@ use crate::settings::{DepthFormat, ShadowSettings};
 use crate::techniques::PcfVariant;
 use crate::views::{ShadowLight, ShadowView};
 
-/// What shadows are planned for.
+/// The inputs of a shadow plan.
 #[derive(Clone, Copy)]
 pub struct ShadowInputs<'a> {
-    /// Which of a frame's views it is, if it has several: what is kept from frame to frame is kept for each of them.
+    /// Index of the view, for frames with several views: state that is kept from frame to frame is kept per view.
     pub view: u32,
-    /// Who looks.
+    /// The camera of the view.
     pub camera: &'a Camera,
-    /// The picture's width over its height.
+    /// The image's width over its height.
     pub aspect: f64,
-    /// All lights of the scene; only those with `casts_shadow` are considered.
+    /// All lights of the scene; lights without `casts_shadow` are ignored.
     pub lights: &'a [Light],
-    /// What can cast shadows.
+    /// The casters of the scene.
     pub casters: &'a dyn ShadowCasters,
     /// The point that GPU space is relative to (see [`shadowgraph_scene::origin_near`]).
     pub origin_world: DVec3,
-    /// What the user chose.
+    /// The user's settings.
     pub settings: &'a ShadowSettings,
 }
 
 /// A frame's shadows. Equal inputs give equal plans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowPlan {
-    /// The map of the brightest directional lights' cascades, if there is one.
+    /// The map of the cascades of the brightest directional lights, if there is one.
     pub cascades: Option<MapPlan>,
     /// The map of all other lights, if there is one.
     pub atlas: Option<MapPlan>,
-    /// One for each tile of both maps, the cascades first; and where a light's view is chosen by spheres or depths, a view of
-    /// nothing after its last.
+    /// A view for each tile of both maps, the cascades first. Where a light's view is selected by spheres or depths, an empty
+    /// view follows its last.
     pub views: Vec<ShadowView>,
     /// One for each light of the scene, in its order.
     pub lights: Vec<ShadowLight>,
-    /// The lights that are to cast shadows but have none in this frame, in the scene's order.
+    /// The lights with `casts_shadow` that have no shadows in this frame, in the scene's order.
     pub unshadowed: Vec<Unshadowed>,
-    /// Which tiles of the atlas lights have, for the next frame.
+    /// The tiles of lights in the atlas, for the next frame.
     pub atlas_allocation: AtlasAllocation,
-    /// What the technique needs of shared services.
+    /// The requirements that follow from the settings.
     pub requirements: Requirements,
 }
 
@@ -60,39 +60,39 @@ pub struct ShadowPlan {
 pub struct MapPlan {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
-    /// How finely it stores depth.
+    /// The depth format.
     pub depth: DepthFormat,
-    /// Whether its tiles are kept from frame to frame.
+    /// Whether its tiles are cached from frame to frame.
     pub cache: bool,
-    /// What it holds. Some casters are in reach of at least one tile.
+    /// The tiles. At least one of them has casters.
     pub tiles: Vec<TilePlan>,
 }
 
 /// A tile of a shadow map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TilePlan {
-    /// Whose tile, by place in the scene's list of lights.
+    /// Index of the light in the scene.
     pub light: u32,
     /// Index of its [`ShadowView`] in [`ShadowPlan::views`].
     pub view: u32,
-    /// Which of its light's tiles it is.
+    /// The kind of tile.
     pub kind: TileKind,
     /// Viewport and scissor.
     pub rect: TileRect,
-    /// The casters to draw, as [`ShadowCasters::cull`] gave them, without those that tint. Can be empty: cleared means lit.
+    /// The opaque casters to draw, as returned by [`ShadowCasters::cull`]. Can be empty: a cleared tile is lit.
     pub casters: Vec<u32>,
-    /// Those that tint.
+    /// The casters that tint.
     pub tints: Vec<u32>,
 }
 
 impl TilePlan {
-    /// Returns those that a pass draws.
+    /// Returns the casters that a pass draws.
     #[must_use]
     pub fn casters_of(&self, pass: CasterPass) -> &[u32] {
         if pass == CasterPass::Depth { &self.casters } else { &self.tints }
     }
 
-    /// Describes the tile to those who draw casters into it.
+    /// Describes the tile for [`ShadowCasters::draw`].
     #[must_use]
     pub fn caster_view(
         &self,
@@ -110,14 +110,14 @@ impl TilePlan {
     }
 }
 
-/// What of a light's surroundings a tile shows.
+/// The kind of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TileKind {
-    /// All that it has.
+    /// The only tile of its light.
     Whole,
-    /// A cascade, from 0 for the nearest to the camera.
+    /// A cascade, counted from 0, the nearest to the camera.
     Cascade(u32),
-    /// A side of a point light: 0 +X, 1 -X, 2 +Y, 3 -Y, 4 +Z, 5 -Z.
+    /// A cube face of a point light: 0 +X, 1 -X, 2 +Y, 3 -Y, 4 +Z, 5 -Z.
     Face(u32),
 }
 
@@ -165,29 +165,28 @@ pub enum TileKind {
 ///
 /// # Errors
 ///
-/// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for a view that is
-/// none. Lights that cannot have shadows are no error: see [`ShadowPlan::unshadowed`].
+/// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for an invalid
+/// view. Lights that cannot have shadows are not an error: see [`ShadowPlan::unshadowed`].
 pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
     plan_shadows_after(inputs, None, &Requirements::NONE)
 }
 
-/// Plans the shadows of a frame that follows another one: lights keep the size and the place of their tiles
-/// ([`ShadowPlan::atlas_allocation`]) as far as they can. `requirements` are the technique's, where they are more than those of the settings'
-/// filter.
+/// Plans the shadows of a frame that follows another one: lights keep the size and the position of their tiles
+/// ([`ShadowPlan::atlas_allocation`]) where possible. `requirements` are the technique's, beyond those of the settings' filters.
 ///
 /// # Errors
 ///
 /// As [`plan_shadows`].
 pub fn plan_shadows_after(
     inputs: &ShadowInputs<'_>,
-    before: Option<&AtlasAllocation>,
+    previous: Option<&AtlasAllocation>,
     requirements: &Requirements,
 ) -> Result<ShadowPlan, Error> {
-    Ok(Planner::new(inputs, before, requirements)?.plan())
+    Ok(Planner::new(inputs, previous, requirements)?.plan())
 }
 
 impl ShadowPlan {
-    /// Returns the plan of a frame without shadows: no maps, and every light lights everything.
+    /// Returns the plan of a frame without shadows: no maps, and everything is lit.
     #[must_use]
     pub fn all_lit(light_count: usize, settings: &ShadowSettings) -> Self {
         Self {
@@ -201,15 +200,15 @@ impl ShadowPlan {
         }
     }
 
-    /// Returns the main light: the most important one with cascades, else the first in the atlas. `None` if nothing is
-    /// shadowed.
+    /// Returns the main light: the most important one with cascades, else the first in the atlas. `None` if no light has
+    /// shadows.
     #[must_use]
     pub fn main_light(&self) -> Option<u32> {
         let mut tiles = self.cascades.iter().chain(&self.atlas).flat_map(|map| &map.tiles);
         tiles.next().map(|tile| tile.light)
     }
 
-    /// Returns which variant of `pcf`'s WGSL has what this frame needs and the least beyond.
+    /// Returns the smallest variant of `pcf`'s WGSL that this frame can use.
     #[must_use]
     pub fn variant(&self) -> PcfVariant {
         let mut taps = self.lights.iter().filter(|light| light.view_count > 0).map(|light| light.filter_taps);
@@ -220,19 +219,19 @@ impl ShadowPlan {
         }
     }
 
-    /// Returns the bytes for the buffer of views. Never empty, as a buffer cannot be.
+    /// Returns the bytes of the buffer of views. Never empty, as a buffer cannot be.
     #[must_use]
     pub fn view_bytes(&self) -> Vec<u8> {
         bytes_or_one(&self.views)
     }
 
-    /// Returns the bytes for the buffer of lights. Never empty, as a buffer cannot be.
+    /// Returns the bytes of the buffer of lights. Never empty, as a buffer cannot be.
     #[must_use]
     pub fn light_bytes(&self) -> Vec<u8> {
         bytes_or_one(&self.lights)
     }
 }
 
-fn bytes_or_one<T: bytemuck::Pod>(records: &[T]) -> Vec<u8> {
-    if records.is_empty() { vec![0; size_of::<T>()] } else { bytemuck::cast_slice(records).to_vec() }
+fn bytes_or_one<T: bytemuck::Pod>(elements: &[T]) -> Vec<u8> {
+    if elements.is_empty() { vec![0; size_of::<T>()] } else { bytemuck::cast_slice(elements).to_vec() }
 }

@@ -1,4 +1,4 @@
-//! How a [`ShadowPlan`] is made.
+//! Construction of a [`ShadowPlan`].
 
 mod atlas;
 mod cascades;
@@ -6,7 +6,7 @@ mod culling;
 
 use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
-use culling::Seen;
+use culling::VisibleReceivers;
 
 use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
@@ -19,25 +19,25 @@ use crate::select::{Unshadowed, UnshadowedReason};
 use crate::settings::LightShadows;
 use crate::views::{ShadowLight, TilePlacement};
 
-/// A plan in the making.
+/// A plan under construction.
 pub(crate) struct Planner<'a> {
     inputs: ShadowInputs<'a>,
     range: ShadowRange<'a>,
-    seen: Seen,
-    /// Of each light of the scene.
+    visible: VisibleReceivers,
+    /// The individual settings of each light of the scene.
     own: Vec<Option<&'a LightShadows>>,
-    /// The tiles of the last frame.
-    before: Option<&'a AtlasAllocation>,
-    /// What the technique needs beyond what the settings do.
+    /// The tiles of the previous frame.
+    previous: Option<&'a AtlasAllocation>,
+    /// The technique's requirements.
     requirements: Requirements,
     plan: ShadowPlan,
 }
 
 impl<'a> Planner<'a> {
-    /// Checks the inputs.
+    /// Validates the inputs.
     pub(crate) fn new(
         inputs: &ShadowInputs<'a>,
-        before: Option<&'a AtlasAllocation>,
+        previous: Option<&'a AtlasAllocation>,
         requirements: &Requirements,
     ) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
@@ -47,15 +47,15 @@ impl<'a> Planner<'a> {
         let distance_m = f64::from(settings.distance_m);
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
         let near_m = camera.near();
-        // Not before the near plane, however small the scene.
+        // Never in front of the near plane, however small the scene.
         let fit_m = farthest_m(&inputs.casters.receivers(), camera).max(near_m * 1.01 + 1e-3).min(distance_m);
         let range = ShadowRange { camera, aspect, near_m, distance_m, fit_m };
         let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
-        let seen = Seen::new(inputs, &range);
-        Ok(Self { inputs: *inputs, range, seen, own, before, requirements: *requirements, plan })
+        let visible = VisibleReceivers::new(inputs, &range);
+        Ok(Self { inputs: *inputs, range, visible, own, previous, requirements: *requirements, plan })
     }
 
-    /// Makes the plan.
+    /// Builds the plan.
     pub(crate) fn plan(mut self) -> ShadowPlan {
         let mut candidates = self.candidates();
         candidates.sort_by(Candidate::order);
@@ -70,7 +70,7 @@ impl<'a> Planner<'a> {
         self.plan
     }
 
-    fn skip(&mut self, light: u32, reason: UnshadowedReason) {
+    fn reject(&mut self, light: u32, reason: UnshadowedReason) {
         self.plan.unshadowed.push(Unshadowed { light, reason });
     }
 
@@ -83,16 +83,16 @@ impl<'a> Planner<'a> {
                 continue;
             }
             match candidate(light, source, own, &self.range) {
-                Ok(_) if no_caster => self.skip(light, UnshadowedReason::NoCasterInRange),
-                Ok(_) if self.range.is_empty() => self.skip(light, UnshadowedReason::OutOfView),
+                Ok(_) if no_caster => self.reject(light, UnshadowedReason::NoCasterInRange),
+                Ok(_) if self.range.is_empty() => self.reject(light, UnshadowedReason::OutOfView),
                 Ok(found) => candidates.push(found),
-                Err(reason) => self.skip(light, reason),
+                Err(reason) => self.reject(light, reason),
             }
         }
         candidates
     }
 
-    fn params(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightShadowParams {
+    fn light_params(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightShadowParams {
         LightShadowParams::new(self.inputs.settings, candidate.own, has_cascades)
             .with_requirements(&self.requirements)
     }
@@ -103,7 +103,7 @@ impl<'a> Planner<'a> {
         casters
     }
 
-    /// Tells casters that tint from the others.
+    /// Splits casters into opaque and tinting ones.
     fn opaque_and_tints(&self, casters: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
         let tints = |caster: &u32| self.inputs.casters.tints(*caster);
         if !casters.iter().any(tints) {
@@ -112,22 +112,23 @@ impl<'a> Planner<'a> {
         casters.into_iter().partition(|caster| !tints(caster))
     }
 
-    /// Gives a light its views; returns its record for what else there is to say.
+    /// Assigns a light its views, and returns its struct for further changes.
     fn set_light(
         &mut self,
         light: u32,
         params: &LightShadowParams,
         (map, first_view, view_count): (u32, u32, u32),
     ) -> &mut ShadowLight {
-        let record = &mut self.plan.lights[light as usize];
+        let gpu_light = &mut self.plan.lights[light as usize];
         let distance_m = self.range.distance_m;
-        *record = ShadowLight { map, first_view, view_count, ..ShadowLight::with_params(params, distance_m) };
-        record
+        *gpu_light =
+            ShadowLight { map, first_view, view_count, ..ShadowLight::with_params(params, distance_m) };
+        gpu_light
     }
 }
 
-/// Where a tile is.
-fn place(
+/// Returns the placement of a tile.
+fn placement(
     rect: TileRect,
     map_size_px: [u32; 2],
     params: &LightShadowParams,
@@ -136,8 +137,8 @@ fn place(
     TilePlacement { rect, map_size_px, border_px: params.border_px(), depth_step }
 }
 
-/// How far it is from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per factor
-/// of two: it does not change as the camera turns, and rarely as it moves. Infinite for bounds of nothing.
+/// Returns the distance from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per
+/// factor of two: it does not change as the camera turns, and rarely as it moves. Infinite for empty bounds.
 fn farthest_m(bounds: &Aabb, camera: &Camera) -> f64 {
     if bounds.is_empty() {
         return f64::INFINITY;

@@ -1,4 +1,4 @@
-//! Which lights get shadows.
+//! Selection of the lights that get shadows.
 
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_4;
@@ -10,12 +10,12 @@ use crate::basis::light_from_world;
 use crate::settings::LightShadows;
 use crate::spot::SpotCone;
 
-/// A light that is to cast shadows but has none in this frame.
+/// A light with `casts_shadow` that has no shadows in this frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unshadowed {
-    /// Its place in the scene's list.
+    /// Index of the light in the scene.
     pub light: u32,
-    /// Why it has none.
+    /// The reason.
     pub reason: UnshadowedReason,
 }
 
@@ -23,39 +23,39 @@ pub struct Unshadowed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UnshadowedReason {
-    /// More important lights have all the tiles of the atlas.
+    /// More important lights use all tiles of the atlas.
     AtlasFull,
-    /// Nothing that casts a shadow is in its reach.
+    /// No caster is in its range.
     NoCasterInRange,
-    /// It lights nothing that the camera sees within the shadow distance.
+    /// It lights nothing visible within the shadow distance.
     OutOfView,
-    /// It gives no light.
-    NoLight,
-    /// Its direction has no length, or a number in it is not finite.
-    Unusable,
+    /// Its intensity or colour is zero.
+    NoIntensity,
+    /// Its direction is zero, or a number in it is not finite.
+    InvalidLight,
 }
 
 impl UnshadowedReason {
-    /// Says it in words.
+    /// Describes the reason.
     #[must_use]
-    pub fn text(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
-            Self::AtlasFull => "the shadow atlas is full: more important lights have its tiles",
-            Self::NoCasterInRange => "no shadow caster in reach",
-            Self::OutOfView => "nothing in view within the shadow distance is lit",
-            Self::NoLight => "no light is given",
-            Self::Unusable => "a direction without length, or a number that is not usable",
+            Self::AtlasFull => "the shadow atlas is full: more important lights use its tiles",
+            Self::NoCasterInRange => "no shadow caster in range",
+            Self::OutOfView => "the light does not reach the view within the shadow distance",
+            Self::NoIntensity => "the intensity is zero",
+            Self::InvalidLight => "the direction is zero, or a number is not finite",
         }
     }
 }
 
-/// The part of the view in which there are shadows.
+/// The range of the view in which there are shadows.
 pub(crate) struct ShadowRange<'a> {
     pub(crate) camera: &'a Camera,
     pub(crate) aspect: f64,
     pub(crate) near_m: f64,
     pub(crate) distance_m: f64,
-    /// Where cascades end, metres of view depth: at the distance, or before, where nothing is left to be shadowed.
+    /// End of the cascades, metres of view depth: the shadow distance, or less if there are no receivers beyond.
     pub(crate) fit_m: f64,
 }
 
@@ -64,7 +64,7 @@ impl ShadowRange<'_> {
         self.near_m >= self.distance_m
     }
 
-    /// Whether a sphere may reach into it.
+    /// Returns whether a sphere may intersect it.
     fn touches(&self, sphere: BoundingSphere) -> bool {
         let mut volume: ConvexVolume = self.camera.frustum(self.aspect);
         let forward = self.camera.forward_world();
@@ -75,11 +75,11 @@ impl ShadowRange<'_> {
     }
 }
 
-/// A light that wants tiles, and what kind of tiles.
+/// A light that requests tiles, and their shape.
 pub(crate) struct Candidate<'s> {
     pub(crate) light: u32,
     pub(crate) shape: Shape,
-    /// What the user wants to be different for it.
+    /// Its individual settings.
     pub(crate) own: Option<&'s LightShadows>,
     importance: (f64, f64),
 }
@@ -92,37 +92,37 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
-    /// How many tiles of the atlas it needs.
+    /// Returns the number of atlas tiles that it needs.
     pub(crate) fn tiles(&self) -> usize {
         if matches!(self, Self::Point { .. }) { POINT_FACES.len() } else { 1 }
     }
 }
 
-/// The pyramid of one side of a point light, and the rotation from world to it.
+/// Returns the pyramid of a face of a point light, and the rotation from world to its axes.
 pub(crate) fn point_face(position_world: DVec3, range_m: f64, face: usize) -> (SpotCone, DMat3) {
     let direction = POINT_FACES[face];
-    // An axis has a length.
+    // An axis is never zero.
     let rotation = light_from_world(direction).unwrap_or(DMat3::IDENTITY);
     (SpotCone { position_world, direction, half_angle: FRAC_PI_4, range_m }, rotation)
 }
 
-/// Which way the six tiles of a point light look, in their order: `cube_face` of `tiles.wgsl`.
+/// The directions of the six tiles of a point light, in the order of `cube_face` in `tiles.wgsl`.
 const POINT_FACES: [DVec3; 6] = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
 
 impl Candidate<'_> {
-    /// Most important first; equally important ones in the scene's order.
+    /// Compares by importance: the most important first, equal ones in the scene's order.
     pub(crate) fn order(&self, other: &Self) -> Ordering {
         let (a, b) = (self.importance, other.importance);
         b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)).then(self.light.cmp(&other.light))
     }
 
-    /// How much of the view its light can fill, times what the user weighs it with; infinite for directional lights.
+    /// Returns the fraction of the view that its light can cover, times the user's weight; infinite for directional lights.
     pub(crate) fn coverage(&self) -> f64 {
         self.importance.0
     }
 }
 
-/// Finds whether a light that casts shadows can have some in this view.
+/// Returns the candidate for a light with `casts_shadow`, or the reason why it has no shadows in this view.
 pub(crate) fn candidate<'s>(
     light: u32,
     source: &Light,
@@ -130,16 +130,16 @@ pub(crate) fn candidate<'s>(
     range: &ShadowRange<'_>,
 ) -> Result<Candidate<'s>, UnshadowedReason> {
     if !source.is_usable() {
-        return Err(UnshadowedReason::Unusable);
+        return Err(UnshadowedReason::InvalidLight);
     }
     let brightness = brightness(source);
     if brightness <= 0.0 {
-        return Err(UnshadowedReason::NoLight);
+        return Err(UnshadowedReason::NoIntensity);
     }
     let shape = shape(source)?;
     let weight = own.map_or(1.0, |own| f64::from(own.importance));
     let importance = match shape {
-        // Directional lights are everywhere: before any other light.
+        // Directional lights cover everything: they come before all others.
         Shape::Directional { .. } => (f64::INFINITY, weight * brightness),
         Shape::Spot { cone, .. } => local_importance(cone.bounding_sphere(), weight, brightness, range)?,
         Shape::Point { position_world, range_m } => {
@@ -152,7 +152,7 @@ pub(crate) fn candidate<'s>(
 
 fn shape(source: &Light) -> Result<Shape, UnshadowedReason> {
     let range_m = source.effective_range().unwrap_or(f64::INFINITY);
-    let rotation = |direction| light_from_world(direction).ok_or(UnshadowedReason::Unusable);
+    let rotation = |direction| light_from_world(direction).ok_or(UnshadowedReason::InvalidLight);
     Ok(match source.kind {
         LightKind::Directional { direction } => Shape::Directional { light_from_world: rotation(direction)? },
         LightKind::Spot { position_world, direction, outer_angle: half_angle, .. } => {
@@ -167,7 +167,7 @@ fn shape(source: &Light) -> Result<Shape, UnshadowedReason> {
     })
 }
 
-/// How much of the view its light can fill, then how bright it is from the camera.
+/// Returns the fraction of the view that the light can cover, and its brightness at the camera.
 fn local_importance(
     sphere: BoundingSphere,
     weight: f64,

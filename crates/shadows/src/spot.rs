@@ -3,25 +3,25 @@
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use shadowgraph_scene::{BoundingSphere, ConvexVolume, Plane};
 
-/// A spot light: its tip, axis, half angle and reach.
+/// The cone of a spot light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotCone {
     /// The tip, metres.
     pub position_world: DVec3,
-    /// The way the light travels, unit length.
+    /// The direction in which the light travels, unit length.
     pub direction: DVec3,
     /// Half of the cone's angle, radians, above 0.
     pub half_angle: f64,
-    /// How far the light reaches, metres, above 0.
+    /// Range of the light, metres, above 0.
     pub range_m: f64,
 }
 
-/// The widest half angle, radians (80 degrees), that one tile can cover with texels worth having. What lies
+/// The widest half angle, radians (80 degrees), that one tile covers with a useful resolution. The area
 /// outside, at the rim of a wider cone, is lit.
 pub const MAX_SPOT_HALF_ANGLE: f64 = 1.396;
 
 impl SpotCone {
-    /// Returns a small sphere that holds the lit space.
+    /// Returns a small bounding sphere of the lit volume.
     #[must_use]
     pub fn bounding_sphere(&self) -> BoundingSphere {
         let (sin, cos) = self.half_angle.sin_cos();
@@ -41,13 +41,13 @@ impl SpotCone {
 pub struct SpotFit {
     /// The light.
     pub cone: SpotCone,
-    /// The rotation from world to the light's axes, +Z against the light's direction.
+    /// The rotation from world to light space, +Z against the light's direction.
     pub light_from_world: DMat3,
-    /// The tangent of half the angle that the tile covers, border and all.
+    /// The tangent of half the angle that the tile covers, with its border.
     pub tan_half: f64,
-    /// Where the depth is 1, metres along the axis.
+    /// Distance along the axis with depth 1, metres.
     pub near_m: f64,
-    /// Where the depth is 0, metres along the axis.
+    /// Distance along the axis with depth 0, metres.
     pub far_m: f64,
     /// The width of the tile, pixels.
     pub tile_px: u32,
@@ -55,8 +55,8 @@ pub struct SpotFit {
 
 impl SpotFit {
     /// Fits the pyramid: the cone stays `margin_px` (below half of `tile_px`) inside the tile.
-    /// `light_from_world` is the [rotation](crate::light_from_world) for the cone's direction. A `near_m` beyond
-    /// half of the range is moved there.
+    /// `light_from_world` is the [rotation](crate::light_from_world) for the cone's direction. `near_m` is
+    /// limited to half of the range.
     #[must_use]
     pub fn new(cone: SpotCone, light_from_world: DMat3, near_m: f64, tile_px: u32, margin_px: f64) -> Self {
         let half_px = f64::from(tile_px) * 0.5;
@@ -65,7 +65,7 @@ impl SpotFit {
         Self { cone, light_from_world, tan_half, near_m, far_m: cone.range_m, tile_px }
     }
 
-    /// The matrix from world space relative to `origin_world` to the tile: x right and y up from -w to w, z/w
+    /// Returns the matrix from world space relative to `origin_world` to the tile: x right and y up from -w to w, z/w
     /// 1 at `near_m` and 0 at `far_m`; w is the distance along the axis.
     #[must_use]
     pub fn clip_from_world(&self, origin_world: DVec3) -> DMat4 {
@@ -81,19 +81,19 @@ impl SpotFit {
         projection * DMat4::from_mat3(self.light_from_world) * to_tip
     }
 
-    /// How fast z/w falls with distance: it is this over the distance, plus a constant. Metres.
+    /// Returns the factor c, metres, in z/w = c / distance + constant.
     #[must_use]
     pub fn depth_scale_m(&self) -> f64 {
         self.near_m * self.far_m / (self.far_m - self.near_m)
     }
 
-    /// The width of a texel at 1 m along the axis, metres.
+    /// Returns the width of a texel at 1 m along the axis, metres.
     #[must_use]
     pub fn texel_per_m(&self) -> f64 {
         2.0 * self.tan_half / f64::from(self.tile_px)
     }
 
-    /// The space whose casters can matter: the pyramid from its tip to the end of the light's range.
+    /// Returns the volume whose casters matter: the pyramid from its tip to the end of the light's range.
     #[must_use]
     pub fn cull_volume(&self) -> ConvexVolume {
         let world_from_light = self.light_from_world.transpose();

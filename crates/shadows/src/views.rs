@@ -1,4 +1,4 @@
-//! The view and light records that shaders read: `ShadowView` and `ShadowLight` of `shadowgraph::shadows::types`.
+//! The view and light structs that shaders read: `ShadowView` and `ShadowLight` of `shadowgraph::shadows::types`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
@@ -10,8 +10,8 @@ use crate::ortho::OrthoFit;
 use crate::settings::{BiasMethod, CascadeBlend, CascadeSelection, ShadowSettings};
 use crate::spot::SpotFit;
 
-/// One tile, 256 bytes: the dynamic offset at which it is bound to draw into it, and what is needed to look
-/// something up in it. World space here is relative to the frame's origin.
+/// The view of a tile, 256 bytes, the alignment of the dynamic offset with which it is bound for drawing. Shaders also look
+/// up shadows with it. World space here is relative to the frame's origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ShadowView {
@@ -19,68 +19,68 @@ pub struct ShadowView {
     pub clip_from_world: Mat4,
     /// From world to the map: x/w and y/w 0 to 1 over the whole map, y down; z/w as above.
     pub map_from_world: Mat4,
-    /// Top left of the tile without its border, parts of the map.
+    /// Top left of the tile without its border, texture coordinates of the map.
     pub uv_min: Vec2,
-    /// Bottom right of the tile without its border, parts of the map.
+    /// Bottom right of the tile without its border, texture coordinates of the map.
     pub uv_max: Vec2,
-    /// The way to the light (w 0, unit length), or the light's position (w 1).
+    /// The direction to the light (w 0, unit length), or the light's position (w 1).
     pub light: Vec4,
-    /// Centre of the sphere that the tile was made for.
+    /// Centre of the sphere that the tile was fitted to.
     pub center: Vec3,
     /// Radius of that sphere, metres.
     pub radius: f32,
     /// Width of a texel in the world, metres; for a spot light at 1 m along its axis.
     pub texel_world: f32,
-    /// How much depth changes over the width of a texel towards the light; for a spot light times the distance.
+    /// Change of depth over the width of a texel towards the light; for a spot light times the distance.
     pub depth_per_texel: f32,
-    /// What rows 0 and 1 of `clip_from_world` are to be multiplied by to get the light's unit axes.
+    /// Factor that makes rows 0 and 1 of `clip_from_world` the light's unit axes.
     pub axis_scale: f32,
-    /// Metres between depth 1 and depth 0.
+    /// Distance between depth 1 and depth 0, metres.
     pub depth_range_m: f32,
-    /// Metres from the light to depth 1 along its axis; 0 for a directional light.
+    /// Distance from the light to depth 1 along its axis, metres; 0 for a directional light.
     pub near_m: f32,
-    /// Which cascade it is, from 0; [`NOT_A_CASCADE`] for others.
+    /// Index of the cascade; [`NOT_A_CASCADE`] for other tiles.
     pub cascade: u32,
-    /// View depth where the cascade's own part begins, metres; 0 for others.
+    /// View depth at which the cascade's slice begins, metres; 0 for other tiles.
     pub begin_m: f32,
-    /// View depth where the cascade's own part ends, metres; 0 for others.
+    /// View depth at which the cascade's slice ends, metres; 0 for other tiles.
     pub end_m: f32,
     /// The tile in the map, pixels: left, top, width, height.
     pub tile_px: [u32; 4],
-    /// What biases are multiplied by.
+    /// Factor of the biases.
     pub bias_scale: f32,
-    /// How far apart two depths are that the map can tell apart.
+    /// Smallest difference of depth that the map can represent.
     pub depth_step: f32,
-    /// What is added to a pixel of the map to get its texel in the world, modulo 1024: by it noise stays where it is, while
+    /// Offset from a pixel of the map to its texel in the world, modulo 1024: it keeps noise in place while
     /// the tile moves over the world, or is moved in its map.
     pub noise_px: [u32; 2],
-    /// 1: translucent casters are drawn into it, and its tints are read; 0: there are none.
+    /// 1 if translucent casters are drawn into it and its tints are read, else 0.
     pub is_tinted: u32,
-    /// Zero.
+    /// Reserved, zero.
     pub reserved: [u32; 3],
 }
 
-/// Which views a light has and how they are read, 80 bytes. One for each light of the scene, in its order.
+/// The views of a light and how they are read, 80 bytes. One for each light of the scene, in its order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ShadowLight {
     /// Index of its first [`ShadowView`].
     pub first_view: u32,
-    /// How many views it has; 0: no shadows, everything is lit.
+    /// Number of views; 0 means that everything is lit.
     pub view_count: u32,
-    /// Which map they are in: [`MAP_CASCADES`] or [`MAP_ATLAS`].
+    /// The map that contains them: [`MAP_CASCADES`] or [`MAP_ATLAS`].
     pub map: u32,
-    /// How the view of a point is found: one of `SELECT_*`.
+    /// How the view of a point is selected: one of `SELECT_*`.
     pub select: u32,
-    /// How views go over into each other: one of `BLEND_*`.
+    /// How adjacent views are blended: one of `BLEND_*`.
     pub blend: u32,
     /// [`ShadowFilter::taps`](crate::ShadowFilter::taps).
     pub filter_taps: u32,
-    /// How lookups are moved towards the light: one of `BIAS_*`.
+    /// How lookups are biased towards the light: one of `BIAS_*`.
     pub bias_method: u32,
-    /// 1: the bias along the normal is scaled by the sine of the angle between normal and light.
+    /// 1 if the normal bias is scaled by the sine of the angle between normal and light, else 0.
     pub normal_sine: u32,
-    /// How dark its shadows are, 0 to 1.
+    /// Strength of its shadows, 0 to 1.
     pub strength: f32,
     /// See [`BiasSettings::normal_texels`](crate::BiasSettings::normal_texels).
     pub normal_bias_texels: f32,
@@ -92,21 +92,21 @@ pub struct ShadowLight {
     pub max_slope: f32,
     /// See [`BiasSettings::depth_texels`](crate::BiasSettings::depth_texels).
     pub depth_bias_texels: f32,
-    /// View depth where shadows have faded out, metres.
+    /// View depth at which shadows have faded out, metres.
     pub fade_end_m: f32,
-    /// How fast they fade before that, parts per metre.
+    /// Rate at which they fade before that, per metre.
     pub fade_per_m: f32,
-    /// The outer part of a view that is blended, 0 to 0.5.
+    /// Outer fraction of a view that is blended, 0 to 0.5.
     pub blend_fraction: f32,
-    /// The outer part of the last view over which shadows fade out, 0 to 1.
+    /// Outer fraction of the last view over which shadows fade out, 0 to 1.
     pub edge_fade: f32,
     /// Half the width of the filter's tent at the camera, texels.
     pub filter_half: f32,
-    /// By how much that shrinks up to `fade_end_m`, texels per metre.
+    /// Rate at which it shrinks up to `fade_end_m`, texels per metre.
     pub filter_falloff: f32,
 }
 
-/// [`ShadowView::cascade`] of a tile that is none.
+/// [`ShadowView::cascade`] of a tile that is not a cascade.
 pub const NOT_A_CASCADE: u32 = u32::MAX;
 
 /// [`ShadowLight::map`]: the map of the main light's cascades.
@@ -117,18 +117,18 @@ pub const MAP_ATLAS: u32 = 1;
 
 /// [`ShadowLight::select`]: the first view that covers the point.
 pub const SELECT_MAP: u32 = 0;
-/// [`ShadowLight::select`]: the first view whose sphere holds the point; after the last there is a view of nothing.
+/// [`ShadowLight::select`]: the first view whose sphere contains the point; an empty view follows the last.
 pub const SELECT_SPHERE: u32 = 1;
-/// [`ShadowLight::select`]: the view whose view depths the point is in; after the last there is a view of nothing.
+/// [`ShadowLight::select`]: the view whose slice of view depth contains the point; an empty view follows the last.
 pub const SELECT_DEPTH: u32 = 2;
 /// [`ShadowLight::select`]: the face of a cube: +X, -X, +Y, -Y, +Z, -Z.
 pub const SELECT_FACE: u32 = 3;
 
-/// [`ShadowLight::blend`]: not at all.
+/// [`ShadowLight::blend`]: no blending.
 pub const BLEND_HARD: u32 = 0;
-/// [`ShadowLight::blend`]: two views are mixed.
+/// [`ShadowLight::blend`]: two views are interpolated.
 pub const BLEND_SOFT: u32 = 1;
-/// [`ShadowLight::blend`]: each pixel takes one of two.
+/// [`ShadowLight::blend`]: each pixel uses one of two.
 pub const BLEND_DITHER: u32 = 2;
 
 /// [`ShadowLight::bias_method`]: along the receiver's plane.
@@ -139,13 +139,13 @@ pub const BIAS_SLOPE: u32 = 1;
 pub const BIAS_GRADIENT: u32 = 2;
 
 impl ShadowView {
-    /// The view of nothing: what is looked up in it is lit.
+    /// Returns an empty view: lookups in it are lit.
     #[must_use]
-    pub fn nothing() -> Self {
+    pub fn empty() -> Self {
         Self { cascade: NOT_A_CASCADE, ..Self::zeroed() }
     }
 
-    /// Describes a directional light's tile.
+    /// Creates the view of a directional light's tile.
     #[must_use]
     pub fn directional(fit: &OrthoFit, tile: &TilePlacement, origin_world: DVec3) -> Self {
         let towards_light = fit.light_from_world.transpose().z_axis;
@@ -158,10 +158,10 @@ impl ShadowView {
             noise_px: noise_px(tile, DVec2::new(fit.center_texels.x, -fit.center_texels.y)),
             ..Self::tile(&fit.clip_from_world(origin_world), tile)
         }
-        .around(fit.sphere, origin_world)
+        .with_sphere(fit.sphere, origin_world)
     }
 
-    /// Describes a spot light's tile.
+    /// Creates the view of a spot light's tile.
     #[must_use]
     pub fn spot(fit: &SpotFit, tile: &TilePlacement, origin_world: DVec3) -> Self {
         let sphere = fit.cone.bounding_sphere();
@@ -175,7 +175,7 @@ impl ShadowView {
             noise_px: noise_px(tile, DVec2::ZERO),
             ..Self::tile(&fit.clip_from_world(origin_world), tile)
         }
-        .around(sphere, origin_world)
+        .with_sphere(sphere, origin_world)
     }
 
     fn tile(clip_from_world: &DMat4, tile: &TilePlacement) -> Self {
@@ -194,13 +194,13 @@ impl ShadowView {
         }
     }
 
-    fn around(self, sphere: BoundingSphere, origin_world: DVec3) -> Self {
+    fn with_sphere(self, sphere: BoundingSphere, origin_world: DVec3) -> Self {
         let center = (sphere.center_world - origin_world).as_vec3();
         Self { center, radius: sphere.radius_m as f32, ..self }
     }
 }
 
-/// See [`ShadowView::noise_px`]; `center_texels` is what the tile's centre shows, y down.
+/// Returns [`ShadowView::noise_px`]. `center_texels` is the world's texel at the tile's centre, y down.
 fn noise_px(tile: &TilePlacement, center_texels: DVec2) -> [u32; 2] {
     let TileRect { x, y, width, height, .. } = tile.rect;
     let center_px = DVec2::new(f64::from(x + width / 2), f64::from(y + height / 2));
@@ -208,21 +208,21 @@ fn noise_px(tile: &TilePlacement, center_texels: DVec2) -> [u32; 2] {
     [offset.x as u32, offset.y as u32]
 }
 
-/// Where a view's tile is, and in which map.
+/// The position of a view's tile in its map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TilePlacement {
-    /// The tile, border and all.
+    /// The tile with its border.
     pub rect: TileRect,
     /// Width and height of the map, pixels.
     pub map_size_px: [u32; 2],
-    /// The border, pixels: as wide as the filter reaches.
+    /// The border, pixels: the filter's radius.
     pub border_px: u32,
     /// See [`DepthFormat::step`](crate::DepthFormat::step).
     pub depth_step: f32,
 }
 
 impl ShadowLight {
-    /// Describes how the shadows of a light without views or settings of its own are read: its shadows fade out before
+    /// Creates the struct of a light without views or individual settings. Its shadows fade out before
     /// `distance_m` (above 0) as the settings say.
     #[must_use]
     pub fn new(settings: &ShadowSettings, distance_m: f64) -> Self {
@@ -252,7 +252,7 @@ impl ShadowLight {
         }
     }
 
-    /// Describes a light that has cascades.
+    /// Adds the parameters of a light with cascades.
     pub(crate) fn with_cascades(self, settings: &crate::CascadeSettings) -> Self {
         let shrinks = self.filter_half * (1.0 - settings.far_filter);
         Self {
@@ -273,8 +273,8 @@ impl ShadowLight {
         }
     }
 
-    /// Returns how much of the shadow is left at a view depth: 1 before the fade begins, 0 from its end on.
-    /// The twin of `tiles.wgsl`.
+    /// Returns the remaining strength of the shadow at a view depth: 1 before the fade begins, 0 from its end on.
+    /// The reference implementation of `tiles.wgsl`.
     #[must_use]
     pub fn fade(&self, view_depth_m: f32) -> f32 {
         ((self.fade_end_m - view_depth_m) * self.fade_per_m).clamp(0.0, 1.0)

@@ -73,14 +73,14 @@ impl Engine {
 /// The interface to shadow passes.
 impl ShadowCasters for Engine {
     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
-        casters.extend((0..self.boxes.len() as u32).filter(|&i| volume.intersects(&self.bounds_of(i))));
+        casters.extend((0..self.boxes.len() as u32).filter(|&i| volume.intersects(&self.caster_bounds(i))));
     }
 
     fn bounds(&self) -> Aabb {
-        (0..self.boxes.len() as u32).fold(Aabb::EMPTY, |all, i| all.union(&self.bounds_of(i)))
+        (0..self.boxes.len() as u32).fold(Aabb::EMPTY, |all, i| all.union(&self.caster_bounds(i)))
     }
 
-    fn bounds_of(&self, caster: u32) -> Aabb {
+    fn caster_bounds(&self, caster: u32) -> Aabb {
         let [center, half] = self.boxes[caster as usize].map(|at| at.truncate().as_dvec3());
         Aabb { min: center - half, max: center + half }
     }

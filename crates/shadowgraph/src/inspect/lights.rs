@@ -54,7 +54,7 @@ pub fn shadows(light: &Light, index: usize, unshadowed: &[Unshadowed]) -> String
     let missing = unshadowed.iter().find(|unshadowed| unshadowed.light as usize == index);
     match missing {
         _ if !light.casts_shadow => "no shadows requested".into(),
-        Some(missing) => format!("no shadows: {}", missing.reason.text()),
+        Some(missing) => format!("no shadows: {}", missing.reason.describe()),
         None => "casts shadows".into(),
     }
 }

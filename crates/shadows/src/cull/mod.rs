@@ -1,22 +1,21 @@
-//! Which casters can be left out of a shadow map without a change to any pixel.
+//! Culling of casters without a change to any pixel.
 //!
-//! - [`ReceiverHull`] is the part of the view in which shadows are seen. [`ReceiverHull::swept_towards`] and
-//!   [`ReceiverHull::hull_with`] are the spaces outside which a caster cannot darken anything in it.
-//! - [`RedundantCasters`] tells which casters a cascade does without: those that can darken only what reads a finer
-//!   cascade, or nothing that is seen.
+//! - [`ReceiverHull`] is the part of the view in which shadows are visible. [`ReceiverHull::swept_towards`] and
+//!   [`ReceiverHull::hull_with`] are the volumes outside which a caster cannot darken anything in it.
+//! - [`RedundantCasters`] finds the casters that a cascade does not need: those that can darken only receivers that read a
+//!   finer cascade, or no visible receiver.
 //!
-//! Both err on the side of keeping: a caster that is dropped touches no visible point, while some that could
-//! have been dropped stay.
+//! Both are conservative: a culled caster darkens no visible point, while some casters that could be culled are kept.
 
+mod light_space_view;
 mod receivers;
-mod served;
-mod supports;
-mod view_in_light;
+mod redundant;
+mod supporting_planes;
 mod volumes;
 
+pub use light_space_view::LightSpaceView;
 pub use receivers::ReceiverHull;
-pub use served::{CoveredByFinerCascade, RedundantCasters};
-pub use view_in_light::LightSpaceView;
+pub use redundant::{CoveredByFinerCascade, RedundantCasters};
 
 #[cfg(test)]
-mod testing;
+mod random;

@@ -1,23 +1,23 @@
-//! The part of the view in which shadows are seen.
+//! The part of the view in which shadows are visible.
 
 use glam::{DMat3, DVec3};
 use shadowgraph_scene::{Aabb, Camera, Plane};
 
-use super::supports::Supports;
+use super::supporting_planes::SupportingPlanes;
 
-/// The convex space of all visible receivers: a slice of a view, or a box. It has eight corners; it may be flat, or
-/// have edges without length.
+/// The convex hull of all visible receivers: a slice of a view frustum, or a box. It has eight corners; it may be flat, or
+/// have edges of zero length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReceiverHull {
     corners: [DVec3; 8],
     faces: Vec<Plane>,
 }
 
-/// Corners at the ends of each edge. The far ones come first: they are the longest of their direction.
+/// The corners at the ends of each edge. The far ones come first: they are the longest of their direction.
 const EDGES: [[usize; 2]; 12] =
     [[4, 5], [6, 7], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7], [0, 1], [2, 3], [0, 2], [1, 3]];
 
-/// Corners around each face.
+/// The corners around each face.
 const FACES: [[usize; 4]; 6] =
     [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [4, 5, 7, 6], [0, 1, 3, 2]];
 
@@ -25,13 +25,13 @@ const FACES: [[usize; 4]; 6] =
 const LINE: f64 = 1e-12;
 
 impl ReceiverHull {
-    /// Makes the hull of eight corners in absolute world space, metres: bit 0 of the index chooses x, bit 1 y, bit
+    /// Creates the hull of eight corners in absolute world space, metres: bit 0 of the index chooses x, bit 1 y, bit
     /// 2 the distance, as in [`Camera::slice_corners_view`] and [`Aabb::corners`].
     ///
-    /// From corners that are not finite comes a hull without faces, for which nothing is ever left out.
+    /// With corners that are not finite the hull has no faces, and nothing is culled.
     #[must_use]
     pub fn new(corners: [DVec3; 8]) -> Self {
-        let mut faces = Supports::new(&corners, 0.0);
+        let mut faces = SupportingPlanes::new(&corners, 0.0);
         for face in FACES {
             let [a, b, c, d] = face.map(|corner| corners[corner]);
             // Diagonals are long even where a side has no length.
@@ -45,8 +45,8 @@ impl ReceiverHull {
         Self { corners, faces }
     }
 
-    /// Makes the hull of what a camera sees from `near_m` to `far_m` (view depth, metres): with its near plane
-    /// and the shadow distance, all that shadows can be seen on. `aspect` is the picture's width over its height.
+    /// Creates the hull of a camera's frustum from `near_m` to `far_m` (view depth, metres): from the near plane to
+    /// the shadow distance, it holds all visible receivers. `aspect` is the image's width over its height.
     ///
     /// ```
     /// use glam::DVec3;
@@ -54,20 +54,20 @@ impl ReceiverHull {
     /// use shadowgraph_shadows::ReceiverHull;
     /// let projection = Projection::Perspective { fov_y: 0.8, near: 0.1, far: None };
     /// let camera = Camera::look_at(DVec3::Y, DVec3::NEG_Z, DVec3::Y, projection);
-    /// let view = ReceiverHull::of_view(&camera, 1.5, camera.near(), 100.0);
+    /// let view = ReceiverHull::from_view(&camera, 1.5, camera.near(), 100.0);
     /// let may_matter = view.swept_towards(DVec3::Y, 0.5);
     /// assert!(may_matter.contains_point(DVec3::new(0.0, 1000.0, -50.0)));
     /// assert!(!may_matter.contains_point(DVec3::new(0.0, 1000.0, 50.0)));
     /// ```
     #[must_use]
-    pub fn of_view(camera: &Camera, aspect: f64, near_m: f64, far_m: f64) -> Self {
+    pub fn from_view(camera: &Camera, aspect: f64, near_m: f64, far_m: f64) -> Self {
         let corners = camera.slice_corners_view(aspect, near_m, far_m);
         Self::new(corners.map(|corner| camera.world_from_view.transform_point3(corner)))
     }
 
-    /// Makes the hull of a box: of the bounds of everything that shadows can fall on, say.
+    /// Creates the hull of a box, such as the bounds of all receivers.
     #[must_use]
-    pub fn of_box(bounds: &Aabb) -> Self {
+    pub fn from_box(bounds: &Aabb) -> Self {
         Self::new(bounds.corners())
     }
 
@@ -82,19 +82,19 @@ impl ReceiverHull {
         EDGES.into_iter().map(|edge| edge.map(|corner| self.corners[corner]))
     }
 
-    /// Returns the planes of the faces that have an area; those of a flat hull both ways round.
+    /// Returns the planes of the faces that have an area; for a flat hull, both orientations of its plane.
     #[must_use]
     pub fn faces(&self) -> &[Plane] {
         &self.faces
     }
 
-    /// Returns the smallest box that holds the hull.
+    /// Returns the bounding box of the hull.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         Aabb::from_points(self.corners)
     }
 
-    /// Tells whether all corners are finite.
+    /// Returns whether all corners are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.corners.iter().all(|corner| corner.is_finite())

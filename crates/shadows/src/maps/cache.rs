@@ -1,4 +1,4 @@
-//! Maps that are kept from frame to frame, and what their tiles hold.
+//! Maps that are cached from frame to frame, and the contents of their tiles.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -6,30 +6,30 @@ use crate::atlas::TileRect;
 use crate::casters::ShadowCasters;
 use crate::views::ShadowView;
 
-/// A map that outlives frames.
+/// A cached map.
 pub(super) struct CachedMap {
     pub(super) texture: wgpu::Texture,
     drawn: Mutex<Drawn>,
 }
 
-/// What the passes of recorded frames have drawn.
+/// The contents that the passes of recorded frames have drawn.
 #[derive(Default)]
 struct Drawn {
-    /// All of the map has been cleared once.
+    /// Whether the whole map has been cleared once.
     cleared: bool,
     tiles: Vec<(TileRect, TileKey)>,
 }
 
-/// What a tile holds.
+/// The contents of a tile.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TileKey {
     clip_from_world: glam::Mat4,
-    /// The casters and the versions they were drawn in.
+    /// The casters and the versions that were drawn.
     casters: Vec<(u32, u64)>,
 }
 
 impl TileKey {
-    /// `None` if a caster may change at any time.
+    /// Returns `None` if a caster may change at any time.
     pub(super) fn new(
         view: &ShadowView,
         casters: impl Iterator<Item = u32>,
@@ -64,7 +64,7 @@ impl CachedMap {
         Self { texture, drawn: Mutex::default() }
     }
 
-    /// Whether it has this size and this format.
+    /// Returns whether it has this size and format.
     pub(super) fn fits(&self, size_px: [u32; 2], format: wgpu::TextureFormat) -> bool {
         [self.texture.width(), self.texture.height()] == size_px && self.texture.format() == format
     }
@@ -77,20 +77,20 @@ impl CachedMap {
         self.drawn().cleared
     }
 
-    /// Whether the tile holds this already.
+    /// Returns whether the tile has these contents already.
     pub(super) fn holds(&self, rect: TileRect, key: &TileKey) -> bool {
         self.drawn().tiles.iter().any(|(other, held)| *other == rect && held == key)
     }
 
-    /// Notes that all of the map was cleared.
-    pub(super) fn note_clear(&self) {
+    /// Marks the whole map as cleared.
+    pub(super) fn mark_cleared(&self) {
         *self.drawn() = Drawn { cleared: true, tiles: Vec::new() };
     }
 
-    /// Notes what was drawn into a tile; with `None` that it has to be drawn again.
-    pub(super) fn note(&self, rect: TileRect, key: Option<TileKey>) {
+    /// Stores the contents of a tile; `None` if it must be drawn again.
+    pub(super) fn set_tile(&self, rect: TileRect, key: Option<TileKey>) {
         let mut drawn = self.drawn();
-        // Where the tiles of a frame are all of the map, the graph leaves its clear out.
+        // Where the tiles of a frame cover the whole map, the graph culls its clear.
         drawn.cleared = true;
         drawn.tiles.retain(|(other, _)| !other.overlaps(&rect));
         drawn.tiles.extend(key.map(|key| (rect, key)));

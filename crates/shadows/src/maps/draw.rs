@@ -11,10 +11,10 @@ use crate::casters::{CasterPass, ShadowCasters, TINT_FORMAT};
 use crate::plan::{MapPlan, TileKind, TilePlan};
 use crate::views::ShadowView;
 
-/// The bytes of a view: also the step of its dynamic offset.
+/// Size of a view, bytes: also the step of its dynamic offset.
 const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
 
-/// What the textures of a map are called.
+/// The names of a map's textures.
 #[derive(Clone, Copy)]
 pub(super) struct Names {
     depth: &'static str,
@@ -22,18 +22,18 @@ pub(super) struct Names {
     tint: &'static str,
 }
 
-/// The map of cascades.
+/// The textures of the map of cascades.
 pub(super) const CASCADES: Names =
     Names { depth: "cascades", tint_depth: "cascade tint depths", tint: "cascade tints" };
 
-/// The map of other lights.
+/// The textures of the map of other lights.
 pub(super) const ATLAS: Names =
     Names { depth: "atlas", tint_depth: "atlas tint depths", tint: "atlas tints" };
 
-/// What the tiles of a map are drawn from.
+/// The views and casters that tiles are drawn from.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'v, 'f> {
-    /// Which of the frame's views it is for.
+    /// Index of the frame's view.
     pub(super) view: u32,
     pub(super) views: Views<'v>,
     pub(super) casters: &'f dyn ShadowCasters,
@@ -51,7 +51,7 @@ impl MapTexture<'_> {
         if self.pass == CasterPass::Tint { TINT_FORMAT } else { self.plan.depth.texture_format() }
     }
 
-    /// What it holds where nothing is drawn.
+    /// Returns the contents where nothing is drawn.
     fn empty(&self) -> Contents {
         if self.pass == CasterPass::Tint {
             Contents::clear_color([1.0; 4])
@@ -60,7 +60,7 @@ impl MapTexture<'_> {
         }
     }
 
-    /// Adds the pass that clears all of it.
+    /// Adds the pass that clears the whole texture.
     fn clear<'p, 'f>(&self, frame: &'p mut Frame<'f>, texture: &mut Texture) -> Pass<'p, 'f, Rendering> {
         let mut pass = frame.render_pass("clear");
         match self.pass {
@@ -70,9 +70,9 @@ impl MapTexture<'_> {
         pass
     }
 
-    /// What a tile of it depends on.
+    /// Returns the contents of a tile.
     fn key(&self, tile: &TilePlan, source: Source<'_, '_>) -> Option<TileKey> {
-        // What opaque casters hide is not tinted.
+        // Opaque casters hide tints.
         let hiding = if self.pass == CasterPass::Tint { &tile.casters[..] } else { &[] };
         let casters = tile.casters_of(self.pass).iter().chain(hiding).copied();
         TileKey::new(&source.views.1[tile.view as usize], casters, source.casters)
@@ -82,13 +82,13 @@ impl MapTexture<'_> {
 /// The textures that a pass draws into.
 struct Target<'t> {
     texture: &'t mut Texture,
-    /// What colours are tested against.
+    /// The depth that colours are tested against.
     depth: Option<&'t Texture>,
     contents: Contents,
 }
 
 impl ShadowMaps {
-    /// Adds the passes that draw a map, or imports the texels that mean lit.
+    /// Adds the passes that draw a map, or imports lit placeholders.
     pub(super) fn map<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -102,7 +102,7 @@ impl ShadowMaps {
         let mut texture_or_lit = |name, pass, plan, lit, depth: Option<&Texture>| match plan {
             Some(plan) => self.map_texture(frame, &MapTexture { name, pass, plan }, depth, source),
             None => {
-                self.forget(source.view, name);
+                self.evict(source.view, name);
                 frame.import_texture(format_args!("no {name}"), lit, true)
             }
         };
@@ -112,7 +112,7 @@ impl ShadowMaps {
         DrawnMap { texture, tints, tint_depths, tiles }
     }
 
-    /// Draws one of a map's textures, or those tiles of it that do not hold what they should.
+    /// Draws one of a map's textures, or its outdated tiles if it is cached.
     fn map_texture<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -123,12 +123,12 @@ impl ShadowMaps {
         if map.plan.cache {
             return self.update(frame, map, depth, source);
         }
-        self.forget(source.view, map.name);
+        self.evict(source.view, map.name);
         let [width, height] = map.plan.size_px;
         let mut texture = frame.create_texture(map.name, TextureDesc::d2(width, height, map.format()));
         frame.node(map.name, |frame| {
-            // All of the map, as shaders sample it whole and its tiles need not cover it. Tiles do not overlap, so
-            // nothing orders them among each other, and all become one render pass that begins with this clear.
+            // The whole map, as shaders sample all of it and its tiles need not cover it. Tiles do not overlap, so
+            // they do not depend on each other, and all merge into one render pass that begins with this clear.
             map.clear(frame, &mut texture);
             for tile in map.plan.tiles.iter().filter(|tile| !tile.casters_of(map.pass).is_empty()) {
                 let target = Target { texture: &mut texture, depth, contents: Contents::Preserve };
@@ -138,7 +138,7 @@ impl ShadowMaps {
         texture
     }
 
-    /// Draws those tiles of a texture again that do not hold what they should.
+    /// Draws the outdated tiles of a cached texture.
     fn update<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -153,7 +153,7 @@ impl ShadowMaps {
             if !cleared {
                 let cached = cached.clone();
                 map.clear(frame, &mut texture).body(move |_| {
-                    cached.note_clear();
+                    cached.mark_cleared();
                     Ok(())
                 });
             }
@@ -162,11 +162,11 @@ impl ShadowMaps {
                 if key.as_ref().is_some_and(|key| cached.holds(tile.rect, key)) {
                     continue;
                 }
-                // What a pass has drawn is known when it has been recorded, not when it is declared.
+                // The contents are stored when the pass is recorded, not when it is declared.
                 let cached = cached.clone();
-                let note = move |rect| cached.note(rect, key);
+                let store = move |rect| cached.set_tile(rect, key);
                 let target = Target { texture: &mut texture, depth, contents: map.empty() };
-                self.tile(frame, map, target, tile, source, note);
+                self.tile(frame, map, target, tile, source, store);
             }
         });
         texture
@@ -183,12 +183,12 @@ impl ShadowMaps {
         cached.clone()
     }
 
-    /// Keeps a texture no longer.
-    fn forget(&self, view: u32, name: &'static str) {
+    /// Drops a cached texture.
+    fn evict(&self, view: u32, name: &'static str) {
         self.cached.lock().unwrap_or_else(PoisonError::into_inner).remove(&(view, name));
     }
 
-    /// Adds the pass that draws casters into a tile; `then` is called when it has been recorded.
+    /// Adds the pass that draws casters into a tile; `then` is called when the pass has been recorded.
     fn tile<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -206,7 +206,7 @@ impl ShadowMaps {
         };
         let (buffer, views) = source.views;
         let buffer = pass.storage_buffer(buffer);
-        // The graph keeps viewport and scissor to the tile.
+        // The graph limits viewport and scissor to the tile.
         let part = Subresource::FULL.rect(rect.into());
         match target.depth {
             None => pass.subresource(part).depth(target.texture, target.contents),

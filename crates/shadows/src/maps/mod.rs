@@ -1,4 +1,4 @@
-//! The shadow maps of a frame: planned after those of the last one, drawn, and kept where that is asked for.
+//! The shadow maps of a frame: planned, drawn, and cached where the settings say so.
 
 mod cache;
 mod draw;
@@ -22,21 +22,21 @@ use crate::technique::{ShadowBinding, ShadowOutputs};
 use crate::techniques::PcfVariant;
 use crate::views::ShadowView;
 
-/// What techniques of shadow maps have in common: it plans the maps of each frame, and draws casters into their tiles.
+/// The common part of techniques with shadow maps: it plans the maps of each frame, and draws casters into their tiles.
 ///
-/// A technique adds what it makes of them, and its own way to read them: the modules [`MAPPED`](shadowgraph_shaders::MAPPED)
+/// A technique adds passes that process the maps, and its own way to read them: the modules [`MAPPED`](shadowgraph_shaders::MAPPED)
 /// and, as `shadowgraph::shadows::filter`, its own with the function `filtered`.
 pub struct ShadowMaps {
     /// Group 0 of the passes that draw casters.
     view_layout: wgpu::BindGroupLayout,
-    /// One texel that means lit, where there is no map.
+    /// A lit placeholder of one texel for a missing map.
     lit: wgpu::Texture,
-    /// One texel that is not read, where nothing is tinted.
+    /// A placeholder of one texel, never read, for missing tints.
     untinted: wgpu::Texture,
     device: wgpu::Device,
-    /// The tiles that lights had in the last frame, of each view.
+    /// The atlas allocation of the previous frame, by view.
     atlas_allocations: Mutex<BTreeMap<u32, AtlasAllocation>>,
-    /// The maps that are kept, by view and name.
+    /// The cached maps, by view and name.
     cached: Mutex<BTreeMap<(u32, &'static str), Arc<CachedMap>>>,
 }
 
@@ -46,32 +46,33 @@ pub struct DrawnMaps {
     pub views: Buffer,
     /// The plan's [`ShadowLight`](crate::ShadowLight)s.
     pub lights: Buffer,
-    /// The map of cascades; where there is none, one texel that means lit.
+    /// The map of cascades, or a lit placeholder.
     pub cascades: DrawnMap,
-    /// The map of other lights; likewise.
+    /// The map of other lights, or a lit placeholder.
     pub atlas: DrawnMap,
-    /// What `pcf` needs of its shader for them.
+    /// The variant of `pcf`'s shader for them.
     pub variant: PcfVariant,
     /// See [`ShadowPlan::main_light`]; 0 if there is none.
     pub main_light: u32,
-    /// The lights that are to cast shadows but have none, and why.
+    /// The lights with `casts_shadow` that have no shadows, and why.
     pub unshadowed: Vec<Unshadowed>,
 }
 
 /// A map in a frame.
 pub struct DrawnMap {
-    /// Depth: 1 nearest to the light, 0 farthest, and where nothing is.
+    /// Depth: 1 nearest to the light, 0 farthest, and 0 where nothing is drawn.
     pub texture: Texture,
-    /// What translucent casters let through of the light, linear; without such casters one texel, which is not read.
+    /// Transmittance of translucent casters, linear; without such casters a placeholder that is not read.
     pub tints: Texture,
-    /// Depth of the translucent casters that are nearest to the light; likewise.
+    /// Depth of the translucent casters nearest to the light, or a placeholder.
     pub tint_depths: Texture,
-    /// Its tiles and the indices of their views; none where there is no map.
+    /// The tiles and the indices of their views; empty without a map.
     pub tiles: Vec<(TileRect, u32)>,
 }
 
 impl ShadowMaps {
-    /// The first eight bindings of group 1 of every technique that reads these maps: those of [`DrawnMaps::bindings`].
+    /// The types of the first eight bindings of group 1 of every technique that reads these maps: those of
+    /// [`DrawnMaps::bindings`].
     pub const BINDING_TYPES: [wgpu::BindingType; 8] =
         [STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, FLOAT_MAP, FLOAT_MAP, DEPTH_MAP, DEPTH_MAP];
 
@@ -79,7 +80,7 @@ impl ShadowMaps {
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
             view_layout: caster_view_layout(device),
-            // Zero is the far end of reversed depth, in front of which all is lit.
+            // Zero is the far end of reversed depth: everything is lit.
             lit: texel(device, "no shadows", wgpu::TextureFormat::Depth32Float),
             untinted: texel(device, "no tints", TINT_FORMAT),
             device: device.clone(),
@@ -88,7 +89,7 @@ impl ShadowMaps {
         }
     }
 
-    /// Plans the maps of a view, and adds the passes that draw them. What nothing is drawn into has no pass. `requirements` are the
+    /// Plans the maps of a view, and adds the passes that draw them. Tiles without casters have no pass. `requirements` are the
     /// technique's.
     ///
     /// # Errors
@@ -102,8 +103,8 @@ impl ShadowMaps {
         self.add_fitted(frame, inputs, requirements, |_, _, views, _| views.clone())
     }
 
-    /// Adds the passes as [`add_to`](Self::add_to) does, with views that passes write: `fit` gets the plan and the buffers of its views
-    /// and lights, and returns the buffer of views to draw and read by. Requirements are to say so ([`Requirements::fits_on_gpu`]).
+    /// Adds the passes as [`add_to`](Self::add_to) does, with views that GPU passes write: `fit` receives the plan and the
+    /// buffers of its views and lights, and returns the buffer of views to use. This needs [`Requirements::fits_on_gpu`].
     ///
     /// # Errors
     /// As `add_to`.
@@ -127,7 +128,7 @@ impl ShadowMaps {
         Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, unshadowed: plan.unshadowed })
     }
 
-    /// Plans a frame after the last one of the same view.
+    /// Plans a frame that follows the previous one of the same view.
     fn plan(&self, inputs: &ShadowInputs<'_>, requirements: &Requirements) -> Result<ShadowPlan, Error> {
         let mut atlas_allocations = self.atlas_allocations.lock().unwrap_or_else(PoisonError::into_inner);
         let plan = plan_shadows_after(inputs, atlas_allocations.get(&inputs.view), requirements)?;
@@ -137,8 +138,8 @@ impl ShadowMaps {
 }
 
 impl DrawnMaps {
-    /// Returns the first eight bindings of group 1, as `tiles.wgsl` and `maps.wgsl` have them: views, lights, the two maps of depths,
-    /// their tints, and the depths of those.
+    /// Returns the first eight bindings of group 1, as `tiles.wgsl` and `maps.wgsl` declare them: views, lights, the two depth maps,
+    /// their tints, and the depths of the tints.
     #[must_use]
     pub fn bindings<'f>(&self) -> Vec<ShadowBinding<'f>> {
         vec![
@@ -153,7 +154,7 @@ impl DrawnMaps {
         ]
     }
 
-    /// Returns what a technique of these maps gives to a frame, with its bindings: variant 0, no mask, and the maps to look at.
+    /// Returns the output of a technique with these maps and bindings: variant 0, no mask, and the maps for debugging.
     #[must_use]
     pub fn outputs<'f>(self, bindings: Vec<ShadowBinding<'f>>) -> ShadowOutputs<'f> {
         ShadowOutputs {
@@ -167,7 +168,7 @@ impl DrawnMaps {
     }
 }
 
-/// One texel of zeros, which wgpu fills new textures with.
+/// Creates one texel of zeros, with which wgpu initializes new textures.
 fn texel(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
@@ -181,10 +182,10 @@ fn texel(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgp
     })
 }
 
-/// The buffer of a frame's views, and the views.
+/// The buffer of a frame's views, and the planned views.
 type Views<'v> = (&'v Buffer, &'v [ShadowView]);
 
-/// Mixes four comparisons: lit where the point is at least as near to the light as what a map has.
+/// Creates a sampler that filters four comparisons: lit where the point is at least as near to the light as the map's depth.
 pub(crate) fn comparison_sampler(device: &wgpu::Device) -> wgpu::Sampler {
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("shadow comparison"),

@@ -1,6 +1,6 @@
-//! The atlas.
+//! Planning of the atlas.
 
-use super::{Planner, place};
+use super::{Planner, placement};
 use crate::allocation::{AtlasConfig, TileRequest, allocate_tiles};
 use crate::atlas::{MAX_ATLAS_TILES, TileRect, even_tiles, smallest_atlas_tile_px};
 use crate::cascades::{Slice, slice_sphere};
@@ -14,14 +14,14 @@ use crate::spot::SpotFit;
 use crate::views::{MAP_ATLAS, ShadowView, TilePlacement};
 use crate::views::{SELECT_FACE, SELECT_MAP};
 
-/// A light that casts shadows, and the casters of each of its tiles.
-struct Asking<'s> {
+/// The request of a light that casts shadows, with the casters of each of its tiles.
+struct Request<'s> {
     candidate: Candidate<'s>,
     params: LightShadowParams,
     casters: Vec<Vec<u32>>,
 }
 
-/// The tiles of a light in a map.
+/// The tiles of a light in the map.
 struct Tiles {
     map_size_px: [u32; 2],
     tile_px: u32,
@@ -29,12 +29,12 @@ struct Tiles {
 }
 
 impl<'a> Planner<'a> {
-    /// Gives tiles to lights, the most important (in front) first.
+    /// Assigns tiles to lights. `candidates` begin with the most important one.
     pub(super) fn add_atlas(&mut self, candidates: Vec<Candidate<'a>>) {
-        let asking = self.asking(candidates);
+        let requests = self.requests(candidates);
         let chosen = match self.inputs.settings.atlas.tiles {
-            AtlasTiles::Even => self.even(asking),
-            AtlasTiles::ByImportance { smallest_px } => self.by_importance(asking, smallest_px),
+            AtlasTiles::Even => self.even(requests),
+            AtlasTiles::ByImportance { smallest_px } => self.by_importance(requests, smallest_px),
         };
         let Some((_, first)) = chosen.first() else { return };
         let settings = &self.inputs.settings.atlas;
@@ -50,40 +50,40 @@ impl<'a> Planner<'a> {
         self.plan.atlas = Some(map);
     }
 
-    /// The lights under which something casts a shadow.
-    fn asking(&mut self, candidates: Vec<Candidate<'a>>) -> Vec<Asking<'a>> {
+    /// Returns the requests of the lights that have casters.
+    fn requests(&mut self, candidates: Vec<Candidate<'a>>) -> Vec<Request<'a>> {
         let smallest_px = match self.inputs.settings.atlas.tiles {
             AtlasTiles::Even => smallest_atlas_tile_px(self.inputs.settings.atlas.map_size_px),
             AtlasTiles::ByImportance { smallest_px } => smallest_px,
         };
-        let mut asking = Vec::new();
+        let mut requests = Vec::new();
         for candidate in candidates {
-            let params = self.params(&candidate, false);
-            // The smallest tile has the widest margin: what its view misses, a larger tile's misses too.
+            let params = self.light_params(&candidate, false);
+            // The smallest tile has the widest margin: casters outside its view are outside a larger tile's too.
             let cull = |tile| self.fit(&candidate.shape, tile, smallest_px, &params).cull(self, &params);
             let casters: Vec<Vec<u32>> = (0..candidate.shape.tiles()).map(cull).collect();
             if casters.iter().all(Vec::is_empty) {
-                self.skip(candidate.light, UnshadowedReason::NoCasterInRange);
+                self.reject(candidate.light, UnshadowedReason::NoCasterInRange);
             } else {
-                asking.push(Asking { candidate, params, casters });
+                requests.push(Request { candidate, params, casters });
             }
         }
-        asking
+        requests
     }
 
-    /// Tiles of one size for as many as there is room for, in the scene's order: a light keeps its tile when importances
-    /// change places.
-    fn even(&mut self, asking: Vec<Asking<'a>>) -> Vec<(Asking<'a>, Tiles)> {
+    /// Assigns tiles of one size to as many lights as fit, in the scene's order: lights keep their tiles when their ranks
+    /// change.
+    fn even(&mut self, requests: Vec<Request<'a>>) -> Vec<(Request<'a>, Tiles)> {
         let mut free = MAX_ATLAS_TILES;
         let mut chosen = Vec::new();
-        for light in asking {
+        for light in requests {
             if light.casters.len() <= free {
                 free -= light.casters.len();
                 chosen.push(light);
             } else {
-                // Less important lights do not get what is left.
+                // Less important lights do not get the remaining tiles.
                 free = 0;
-                self.skip(light.candidate.light, UnshadowedReason::AtlasFull);
+                self.reject(light.candidate.light, UnshadowedReason::AtlasFull);
             }
         }
         chosen.sort_by_key(|light| light.candidate.light);
@@ -99,12 +99,16 @@ impl<'a> Planner<'a> {
         chosen.into_iter().zip(counts.into_iter().map(tiles)).collect()
     }
 
-    /// Tiles as large as the lights are important.
-    fn by_importance(&mut self, mut asking: Vec<Asking<'a>>, smallest_px: u32) -> Vec<(Asking<'a>, Tiles)> {
+    /// Assigns tiles with sizes by the importance of the lights.
+    fn by_importance(
+        &mut self,
+        mut requests: Vec<Request<'a>>,
+        smallest_px: u32,
+    ) -> Vec<(Request<'a>, Tiles)> {
         let map_px = self.inputs.settings.atlas.map_size_px;
-        let params = AtlasConfig { map_px, smallest_px, largest_px: map_px };
-        let wishes: Vec<TileRequest> = (0u32..)
-            .zip(&asking)
+        let config = AtlasConfig { map_px, smallest_px, largest_px: map_px };
+        let tile_requests: Vec<TileRequest> = (0u32..)
+            .zip(&requests)
             .map(|(rank, light)| TileRequest {
                 owner: light.candidate.light,
                 tiles: light.casters.len() as u32,
@@ -112,31 +116,32 @@ impl<'a> Planner<'a> {
                 importance: -f64::from(rank),
             })
             .collect();
-        self.plan.atlas_allocation = allocate_tiles(&params, &wishes, self.before);
+        self.plan.atlas_allocation = allocate_tiles(&config, &tile_requests, self.previous);
         for &light in &self.plan.atlas_allocation.rejected.clone() {
-            self.skip(light, UnshadowedReason::AtlasFull);
+            self.reject(light, UnshadowedReason::AtlasFull);
         }
-        asking.sort_by_key(|light| light.candidate.light);
-        let tiles = |light: Asking<'a>| {
-            let granted = self.plan.atlas_allocation.for_owner(light.candidate.light)?;
+        requests.sort_by_key(|light| light.candidate.light);
+        let tiles = |light: Request<'a>| {
+            let entry = self.plan.atlas_allocation.for_owner(light.candidate.light)?;
             let rects = self.plan.atlas_allocation.rects_for(light.candidate.light).to_vec();
-            Some((light, Tiles { map_size_px: [map_px; 2], tile_px: granted.tile_px, rects }))
+            Some((light, Tiles { map_size_px: [map_px; 2], tile_px: entry.tile_px, rects }))
         };
-        asking.into_iter().filter_map(tiles).collect()
+        requests.into_iter().filter_map(tiles).collect()
     }
 
     /// Adds a light's views, and returns its tiles.
-    fn add_local(&mut self, light: Asking<'_>, tiles: Tiles) -> Vec<TilePlan> {
-        let Asking { candidate, params, casters } = light;
+    fn add_local(&mut self, light: Request<'_>, tiles: Tiles) -> Vec<TilePlan> {
+        let Request { candidate, params, casters } = light;
         let depth_step = self.inputs.settings.atlas.depth.step();
         let first_view = self.plan.views.len() as u32;
         let is_point = casters.len() > 1;
-        let record = self.set_light(candidate.light, &params, (MAP_ATLAS, first_view, casters.len() as u32));
-        record.select = if is_point { SELECT_FACE } else { SELECT_MAP };
+        let gpu_light =
+            self.set_light(candidate.light, &params, (MAP_ATLAS, first_view, casters.len() as u32));
+        gpu_light.select = if is_point { SELECT_FACE } else { SELECT_MAP };
         let mut planned = Vec::new();
         for ((index, casters), rect) in (0u32..).zip(casters).zip(tiles.rects) {
             let fit = self.fit(&candidate.shape, index as usize, tiles.tile_px, &params);
-            let tile = place(rect, tiles.map_size_px, &params, depth_step);
+            let tile = placement(rect, tiles.map_size_px, &params, depth_step);
             let (casters, tints) = self.opaque_and_tints(casters);
             let is_tinted = u32::from(!tints.is_empty());
             self.plan.views.push(ShadowView { is_tinted, ..fit.view(&tile, self.inputs.origin_world) });
@@ -166,7 +171,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// What a tile covers.
+/// The projection of a tile.
 enum TileFit {
     Spot(SpotFit),
     Directional(OrthoFit),

@@ -1,8 +1,8 @@
-//! The map of cascades.
+//! Planning of the map of cascades.
 
 use glam::DMat3;
 
-use super::{Planner, place};
+use super::{Planner, placement};
 use crate::atlas::{TileLayout, even_tiles};
 use crate::cascades::{CascadeFit, fit_cascades, split_distances};
 use crate::light_params::LightShadowParams;
@@ -17,15 +17,15 @@ struct Cascades<'s> {
     candidate: Candidate<'s>,
     params: LightShadowParams,
     fits: Vec<CascadeFit>,
-    /// Of each cascade.
+    /// The casters of each cascade.
     casters: Vec<Vec<u32>>,
 }
 
 impl<'a> Planner<'a> {
-    /// Gives cascades to these directional lights, or as many of them as something casts a shadow under.
+    /// Assigns cascades to those of these directional lights that have casters.
     pub(super) fn add_cascades(&mut self, mut lights: Vec<Candidate<'a>>) {
         let settings = &self.inputs.settings.cascades;
-        // What has no casters leaves larger tiles for the others.
+        // Lights without casters leave larger tiles for the others.
         let (layout, planned) = loop {
             if lights.is_empty() {
                 return;
@@ -36,7 +36,7 @@ impl<'a> Planner<'a> {
                 .map(|light| self.cascades(light, layout.tile_px))
                 .partition(|cascades| cascades.casters.iter().any(|casters| !casters.is_empty()));
             for cascades in &idle {
-                self.skip(cascades.candidate.light, UnshadowedReason::NoCasterInRange);
+                self.reject(cascades.candidate.light, UnshadowedReason::NoCasterInRange);
             }
             if idle.is_empty() {
                 break (layout, kept);
@@ -58,10 +58,10 @@ impl<'a> Planner<'a> {
 
     fn cascades(&self, candidate: Candidate<'a>, tile_px: u32) -> Cascades<'a> {
         let Shape::Directional { light_from_world } = candidate.shape else {
-            let params = self.params(&candidate, true);
+            let params = self.light_params(&candidate, true);
             return Cascades { candidate, params, fits: Vec::new(), casters: Vec::new() };
         };
-        let params = self.params(&candidate, true);
+        let params = self.light_params(&candidate, true);
         let fits = self.fit_cascades(light_from_world, tile_px, &params);
         let mut casters = self.cull_cascades(&fits, &params);
         if self.requirements.fits_on_gpu {
@@ -88,7 +88,7 @@ impl<'a> Planner<'a> {
             |ends: &[f64]| fit_cascades(range.camera, range.aspect, ends, light_from_world, tile, settings);
         let mut fits = fit(&ends);
         if let Some(last) = fits.last_mut().filter(|_| self.requirements.fits_on_gpu) {
-            // All of the view.
+            // The last cascade covers the whole view.
             *last = fit(&[range.fit_m])[0];
         }
         fits.into_iter()
@@ -110,7 +110,7 @@ impl<'a> Planner<'a> {
         let mut begin_m = self.range.near_m;
         let mut tiles = Vec::new();
         for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
-            let tile = place(rect, layout.size_px, &params, settings.depth.step());
+            let tile = placement(rect, layout.size_px, &params, settings.depth.step());
             let (casters, tints) = self.opaque_and_tints(casters);
             self.plan.views.push(ShadowView {
                 cascade,
@@ -125,11 +125,11 @@ impl<'a> Planner<'a> {
             tiles.push(TilePlan { light, view, kind, rect, casters, tints });
         }
         if settings.select != CascadeSelection::Map {
-            self.plan.views.push(ShadowView::nothing());
+            self.plan.views.push(ShadowView::empty());
         }
         let views = (MAP_CASCADES, first_view, tiles.len() as u32);
-        let record = self.set_light(candidate.light, &params, views);
-        *record = record.with_cascades(&settings);
+        let gpu_light = self.set_light(candidate.light, &params, views);
+        *gpu_light = gpu_light.with_cascades(&settings);
         tiles
     }
 }

@@ -1,4 +1,4 @@
-//! Which casters are drawn into a tile.
+//! Culling of the casters of each tile.
 
 use glam::DVec3;
 use shadowgraph_scene::{Aabb, BoundingSphere, Cone, ConvexVolume, CullVolume};
@@ -13,32 +13,32 @@ use crate::select::ShadowRange;
 use crate::settings::{CascadeSelection, CascadeSettings};
 use crate::spot::SpotFit;
 
-/// What is seen, to tell which casters matter.
-pub(super) struct Seen {
+/// The visible receivers.
+pub(super) struct VisibleReceivers {
     /// The view up to the shadow distance.
     view: ReceiverHull,
-    /// Everything that shadows can fall on.
+    /// The bounds of all receivers.
     receivers: ReceiverHull,
-    /// How far from where it should be a position can be on the GPU, metres.
+    /// Largest error of a position on the GPU, metres.
     precision_m: f64,
 }
 
-impl Seen {
+impl VisibleReceivers {
     pub(super) fn new(inputs: &ShadowInputs<'_>, range: &ShadowRange<'_>) -> Self {
-        let view = ReceiverHull::of_view(range.camera, range.aspect, range.near_m, range.distance_m);
+        let view = ReceiverHull::from_view(range.camera, range.aspect, range.near_m, range.distance_m);
         let bounds = inputs.casters.receivers();
         let origin = inputs.origin_world;
         let farthest = view.corners().iter().map(|corner| corner.distance(origin)).fold(0.0, f64::max);
-        Self { view, receivers: ReceiverHull::of_box(&bounds), precision_m: 1e-4 + 1e-6 * farthest }
+        Self { view, receivers: ReceiverHull::from_box(&bounds), precision_m: 1e-4 + 1e-6 * farthest }
     }
 
-    /// Where casters can darken anything that is seen, with a light in this direction.
+    /// Returns the volume in which casters can darken anything visible, with a light in this direction.
     fn towards(&self, to_light: DVec3, pad_m: f64) -> ConvexVolume {
         let pad_m = pad_m + self.precision_m;
         both([&self.view, &self.receivers].map(|hull| hull.swept_towards(to_light, pad_m)))
     }
 
-    /// The same for a light at this place.
+    /// Returns the same for a light at this position.
     fn around(&self, light_world: DVec3, pad_m: f64) -> ConvexVolume {
         let pad_m = pad_m + self.precision_m;
         both([&self.view, &self.receivers].map(|hull| hull.hull_with(light_world, pad_m)))
@@ -51,25 +51,25 @@ fn both([mut first, second]: [ConvexVolume; 2]) -> ConvexVolume {
 }
 
 impl Planner<'_> {
-    /// The casters of a directional light's tile.
+    /// Returns the casters of a directional light's tile.
     pub(super) fn cull_directional(&self, fit: &OrthoFit, params: &LightShadowParams) -> Vec<u32> {
         let mut planes = fit.cull_volume();
         if self.inputs.settings.cull.unseen {
             let to_light = fit.light_from_world.transpose().z_axis;
-            planes.planes.extend(self.seen.towards(to_light, params.radius_m(fit.texel_m, 1.0)).planes);
+            planes.planes.extend(self.visible.towards(to_light, params.radius_m(fit.texel_m, 1.0)).planes);
         }
         self.cull(&planes.into())
     }
 
-    /// The casters of a tile of a spot or point light.
+    /// Returns the casters of a tile of a spot or point light.
     pub(super) fn cull_local(&self, fit: &SpotFit, params: &LightShadowParams) -> Vec<u32> {
         let mut planes = fit.cull_volume();
         let cone = fit.cone;
         if self.inputs.settings.cull.unseen && !self.inputs.settings.atlas.cache {
             let pad_m = params.radius_m(fit.texel_per_m() * fit.far_m, 1.0);
-            planes.planes.extend(self.seen.around(cone.position_world, pad_m).planes);
+            planes.planes.extend(self.visible.around(cone.position_world, pad_m).planes);
         }
-        // The pyramid around the cone has corners that the light does not reach, but its filter can.
+        // The corners of the pyramid around the cone are outside the light, but its filter can read them.
         let widest = (fit.tan_half * std::f64::consts::SQRT_2).atan();
         self.cull(&CullVolume {
             sphere: Some(BoundingSphere {
@@ -86,7 +86,7 @@ impl Planner<'_> {
         })
     }
 
-    /// The casters of all cascades of a light.
+    /// Returns the casters of each cascade of a light.
     pub(super) fn cull_cascades(&self, fits: &[CascadeFit], params: &LightShadowParams) -> Vec<Vec<u32>> {
         let mut casters: Vec<_> = fits.iter().map(|fit| self.cull_directional(&fit.fit, params)).collect();
         let Some(first) = fits.first() else { return casters };
@@ -95,21 +95,22 @@ impl Planner<'_> {
         }
         let light_from_world = first.fit.light_from_world;
         let in_light = |hull: &ReceiverHull| LightSpaceView::new(hull, light_from_world);
-        let receivers = in_light(&self.seen.receivers);
-        let view = in_light(&self.seen.view).within(&receivers);
-        let served = self.served(fits, params, &receivers);
+        let receivers = in_light(&self.visible.receivers);
+        let view = in_light(&self.visible.view).intersect(&receivers);
+        let covered = self.covered(fits, params, &receivers);
         let axes = glam::DAffine3::from_mat3(light_from_world);
         for (cascade, (fit, casters)) in fits.iter().zip(&mut casters).enumerate().skip(1) {
-            let reach_m = params.radius_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
-            let query = RedundantCasters::new(&view, &served[..cascade], reach_m + self.seen.precision_m);
-            let bounds_of = |caster| self.inputs.casters.bounds_of(caster).transformed(&axes);
-            casters.retain(|&caster| !query.is_redundant(&bounds_of(caster)));
+            let radius_m = params.radius_m(fit.fit.texel_m, largest_scale(&self.inputs.settings.cascades));
+            let query =
+                RedundantCasters::new(&view, &covered[..cascade], radius_m + self.visible.precision_m);
+            let light_bounds = |caster| self.inputs.casters.caster_bounds(caster).transformed(&axes);
+            casters.retain(|&caster| !query.is_redundant(&light_bounds(caster)));
         }
         casters
     }
 
-    /// Which receivers read each cascade or a finer one.
-    fn served(
+    /// Returns the receivers that read each cascade or a finer one.
+    fn covered(
         &self,
         fits: &[CascadeFit],
         params: &LightShadowParams,
@@ -119,9 +120,10 @@ impl Planner<'_> {
         let blend = f64::from(settings.blend.fraction());
         let scale = f64::from(largest_scale(settings));
         let mut begin_m = self.range.near_m;
-        let served = |fit: &CascadeFit| {
+        let covered = |fit: &CascadeFit| {
             let OrthoFit { light_from_world, texel_m, .. } = fit.fit;
-            let slack_m = self.seen.precision_m + texel_m * (scale * f64::from(params.normal_texels()) + 0.1);
+            let slack_m =
+                self.visible.precision_m + texel_m * (scale * f64::from(params.normal_texels()) + 0.1);
             let length_m = fit.far_m - begin_m;
             begin_m = fit.far_m;
             match settings.select {
@@ -135,19 +137,20 @@ impl Planner<'_> {
                 CascadeSelection::Depth => {
                     let from_m = fit.far_m - blend * length_m - slack_m;
                     let range = &self.range;
-                    let beyond = ReceiverHull::of_view(range.camera, range.aspect, from_m, range.distance_m);
+                    let beyond =
+                        ReceiverHull::from_view(range.camera, range.aspect, from_m, range.distance_m);
                     CoveredByFinerCascade::Depth {
-                        beyond: LightSpaceView::new(&beyond, light_from_world).within(receivers),
+                        beyond: LightSpaceView::new(&beyond, light_from_world).intersect(receivers),
                     }
                 }
             }
         };
-        fits.iter().map(served).collect()
+        fits.iter().map(covered).collect()
     }
 }
 
-/// The points that a cascade's map covers wholly, on the light's axes: without its border, its blend, and where bias or the
-/// near plane may send a point to the next.
+/// Returns the points in light space that a cascade's map covers completely: without its border and its blend, and without
+/// the points for which bias or the near plane may select the next cascade.
 fn inner_box(fit: &OrthoFit, params: &LightShadowParams, slack_m: f64, blend: f64, scale: f64) -> Aabb {
     let center = fit.center_texels * fit.texel_m;
     let half = fit.half_extent_m();

@@ -129,22 +129,22 @@ fn lights_that_cannot_have_shadows_are_reported() {
     let bright_nan = Light { intensity: f32::NAN, ..sun(DOWN, 1.0) };
     let plan =
         plan(&[sun(DVec3::ZERO, 1.0), sun(DOWN, 0.0), bright_nan, nowhere, too_far, alone, broken, point]);
-    use UnshadowedReason::{NoCasterInRange, NoLight, OutOfView, Unusable};
+    use UnshadowedReason::{InvalidLight, NoCasterInRange, NoIntensity, OutOfView};
     assert_eq!(
         reasons(&plan),
         [
-            (0, Unusable),
-            (1, NoLight),
-            (2, Unusable),
+            (0, InvalidLight),
+            (1, NoIntensity),
+            (2, InvalidLight),
             (3, OutOfView),
             (4, OutOfView),
             (5, NoCasterInRange),
-            (6, Unusable),
-            (7, Unusable),
+            (6, InvalidLight),
+            (7, InvalidLight),
         ]
     );
     assert!(plan.cascades.is_none() && plan.atlas.is_none());
-    assert!(plan.unshadowed.iter().all(|u| !u.reason.text().is_empty()));
+    assert!(plan.unshadowed.iter().all(|u| !u.reason.describe().is_empty()));
 }
 
 #[test]

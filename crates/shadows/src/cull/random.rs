@@ -1,12 +1,12 @@
-//! Random views and lights for the tests, and distances found without planes.
+//! Random views and lights for the tests, and distances computed without planes.
 
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use shadowgraph_scene::{Camera, Projection};
 
-use super::ReceiverHull;
+use super::receivers::ReceiverHull;
 
-/// A slice of a camera's view.
+/// A slice of a camera's frustum.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
     pub(crate) camera: Camera,
@@ -17,14 +17,15 @@ pub(crate) struct View {
 
 impl View {
     pub(crate) fn hull(&self) -> ReceiverHull {
-        ReceiverHull::of_view(&self.camera, self.aspect, self.near_m, self.far_m)
+        ReceiverHull::from_view(&self.camera, self.aspect, self.near_m, self.far_m)
     }
 
-    /// The point at parts 0 to 1 of width, height and depth.
-    pub(crate) fn point(&self, at: DVec3) -> DVec3 {
-        let depth_m = self.near_m + (self.far_m - self.near_m) * at.z;
+    /// Returns the point at fractions 0 to 1 of width, height and depth.
+    pub(crate) fn point(&self, fractions: DVec3) -> DVec3 {
+        let depth_m = self.near_m + (self.far_m - self.near_m) * fractions.z;
         let corner = self.camera.slice_corners_view(self.aspect, depth_m, depth_m)[3];
-        let view = DVec3::new(corner.x * (2.0 * at.x - 1.0), corner.y * (2.0 * at.y - 1.0), -depth_m);
+        let view =
+            DVec3::new(corner.x * (2.0 * fractions.x - 1.0), corner.y * (2.0 * fractions.y - 1.0), -depth_m);
         self.camera.world_from_view.transform_point3(view)
     }
 
@@ -35,7 +36,7 @@ impl View {
         (self.near_m..=self.far_m).contains(&depth_m) && view.x.abs() <= corner.x && view.y.abs() <= corner.y
     }
 
-    /// How far the point is from the slice, metres; 0 inside.
+    /// Returns the distance of the point from the slice, metres; 0 inside.
     pub(crate) fn distance(&self, point: DVec3) -> f64 {
         if self.contains(point) {
             return 0.0;
@@ -47,7 +48,7 @@ impl View {
     }
 }
 
-/// How far the origin is from a triangle.
+/// Returns the distance of the origin from a triangle.
 fn distance_to_triangle([a, b, c]: [DVec3; 3]) -> f64 {
     let segment = |from: DVec3, to: DVec3| {
         let along = to - from;
@@ -61,8 +62,8 @@ fn distance_to_triangle([a, b, c]: [DVec3; 3]) -> f64 {
     if side(a, b) && side(b, c) && side(c, a) { edges.min(foot.length()) } else { edges }
 }
 
-/// The least value of a convex function.
-pub(crate) fn least(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
+/// Returns the minimum of a convex function.
+pub(crate) fn minimum(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..80 {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if value(a) < value(b) { high = b } else { low = a }
@@ -70,7 +71,7 @@ pub(crate) fn least(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> 
     value(low).min(value(high))
 }
 
-/// A small generator of numbers (splitmix64).
+/// A small random number generator (splitmix64).
 #[derive(Clone, Debug)]
 pub(crate) struct Random(pub(crate) u64);
 
@@ -86,25 +87,25 @@ impl Random {
         self.bits() % end
     }
 
-    /// 0 to 1.
-    pub(crate) fn part(&mut self) -> f64 {
+    /// Returns a number from 0 to 1.
+    pub(crate) fn fraction(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// 0 to 1, often one of the two.
-    pub(crate) fn part_or_end(&mut self) -> f64 {
+    /// Returns a number from 0 to 1, often one of the two.
+    pub(crate) fn fraction_or_end(&mut self) -> f64 {
         match self.below(6) {
             0 => 0.0,
             1 => 1.0,
-            _ => self.part(),
+            _ => self.fraction(),
         }
     }
 
     pub(crate) fn range(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.part()
+        low + (high - low) * self.fraction()
     }
 
-    /// Evenly over powers of ten.
+    /// Returns a power of ten with a uniform exponent.
     pub(crate) fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         10f64.powf(self.range(low, high))
     }
@@ -115,19 +116,19 @@ impl Random {
 
     pub(crate) fn unit(&mut self) -> DVec3 {
         loop {
-            let at = self.cube();
-            if (1e-3..1.0).contains(&at.length()) {
-                return at.normalize();
+            let vector = self.cube();
+            if (1e-3..1.0).contains(&vector.length()) {
+                return vector.normalize();
             }
         }
     }
 
-    /// Somewhere in a view, often on its rim.
+    /// Returns a point in a view, often on its boundary.
     pub(crate) fn visible(&mut self, view: &View) -> DVec3 {
-        let at = DVec3::new(self.part_or_end(), self.part_or_end(), self.part_or_end());
-        // Near ends are small: with even depths they would hardly be looked at.
-        let depth = if self.below(2) == 0 { at.z } else { at.z * self.magnitude(-4.0, 0.0) };
-        view.point(at.with_z(depth))
+        let fractions = DVec3::new(self.fraction_or_end(), self.fraction_or_end(), self.fraction_or_end());
+        // Near ends are small: with uniform depths they would hardly be sampled.
+        let depth = if self.below(2) == 0 { fractions.z } else { fractions.z * self.magnitude(-4.0, 0.0) };
+        view.point(fractions.with_z(depth))
     }
 
     pub(crate) fn projection(&mut self, near_m: f64, far_m: f64) -> Projection {
@@ -138,13 +139,13 @@ impl Random {
         Projection::Perspective { fov_y: self.range(10.0, 150.0).to_radians(), near: near_m, far: None }
     }
 
-    /// A view of any kind, up to `away_m` from the origin.
-    pub(crate) fn view(&mut self, away_m: f64) -> View {
+    /// Returns a view of any kind, up to `distance_m` from the origin.
+    pub(crate) fn view(&mut self, distance_m: f64) -> View {
         let far_m = self.magnitude(0.0, 4.0);
         let near_m = self.magnitude(-4.0, 1.0).min(far_m * self.range(0.01, 0.95));
         let projection = self.projection(near_m, far_m);
-        let eye = self.cube() * away_m;
-        // Often along the axes, where faces line up with lights and boxes.
+        let eye = self.cube() * distance_m;
+        // Often along the axes, where faces are parallel to lights and boxes.
         let forward = match self.below(3) {
             0 => DVec3::AXES[self.below(3) as usize],
             _ => self.unit(),
@@ -154,12 +155,12 @@ impl Random {
         View { camera, aspect: self.magnitude(-0.5, 0.6), near_m, far_m }
     }
 
-    /// The way to a light, often along an edge or a face of the view, or nearly so.
-    pub(crate) fn way_to_light(&mut self, view: &View) -> DVec3 {
+    /// Returns the direction to a light, often along an edge or a face of the view, or nearly so.
+    pub(crate) fn light_direction(&mut self, view: &View) -> DVec3 {
         let hull = view.hull();
         let corner = |random: &mut Self| hull.corners()[random.below(8) as usize];
         let face = |random: &mut Self| hull.faces()[random.below(hull.faces().len() as u64) as usize].normal;
-        let way = match self.below(6) {
+        let direction = match self.below(6) {
             0 => corner(self) - corner(self),
             1 => face(self),
             2 => face(self).cross(self.unit()),
@@ -167,12 +168,12 @@ impl Random {
             _ => self.unit(),
         };
         let sign = if self.below(2) == 0 { 1.0 } else { -1.0 };
-        let exact = (way * sign).try_normalize().unwrap_or(DVec3::Y);
+        let exact = (direction * sign).try_normalize().unwrap_or(DVec3::Y);
         let aside = if self.below(2) == 0 { 0.0 } else { self.magnitude(-9.0, -2.0) };
         (exact + self.unit() * aside).normalize()
     }
 
-    /// A light's axes, for the way towards it.
+    /// Returns the rotation to light space for the direction towards the light.
     pub(crate) fn axes(&mut self, to_light: DVec3) -> DMat3 {
         let right = if self.below(2) == 0 { DVec3::Y.cross(to_light) } else { DVec3::ZERO };
         let right = right.try_normalize().unwrap_or_else(|| to_light.any_orthonormal_vector());
@@ -180,10 +181,10 @@ impl Random {
     }
 }
 
-/// Seeds for scenes: a failure names the one that it came from.
+/// Seeds of scenes: a failure prints its seed.
 pub(crate) fn randoms() -> impl Strategy<Value = Random> {
     any::<u64>().prop_map(Random).no_shrink()
 }
 
-/// Cases per property.
+/// Number of cases of each property.
 pub(crate) const CASES: u32 = 4000;
