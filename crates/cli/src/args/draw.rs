@@ -1,10 +1,11 @@
 //! What all drawing commands ask for, and what it comes to.
 
+use super::options::Options;
 use crate::failure::Failure;
 use clap::Args;
 use shadowgraph::Registry;
 use shadowgraph::core::did_you_mean;
-use shadowgraph::options::{OptionError, Options, SettingsFile, ShadowDistance};
+use shadowgraph::options::{OptionError, SettingsFile, ShadowDistance};
 use shadowgraph::pipelines::{BUILT_IN, Parameters, Pipeline};
 use shadowgraph::scene::Scene;
 use shadowgraph::shadows::{ShadowSettings, Technique, Techniques};

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod draw;
+pub(crate) mod options;
 
 pub(crate) use draw::{DrawArgs, settings_file, technique};
 
@@ -215,10 +216,11 @@ pub(crate) enum Format {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+    use super::options::Options;
     use super::*;
     use clap::CommandFactory;
     use shadowgraph::Registry;
-    use shadowgraph::options::{AdapterChoice, Options};
+    use shadowgraph::options::AdapterChoice;
 
     #[test]
     fn the_command_line_is_consistent() {

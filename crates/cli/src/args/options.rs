@@ -1,0 +1,57 @@
+//! The values of a drawing command's options.
+
+use shadowgraph::options::{AdapterChoice, Aov, CameraChoice, ShadowDistance, Size, SunChoice};
+use shadowgraph::shadows::{ShadowSettings, Technique};
+use shadowgraph::{Pipeline, RenderConfig};
+
+/// The options of a drawing command, without the files of the scene and the output.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Options {
+    /// The pipeline.
+    pub(crate) pipeline: Pipeline,
+    /// The shadow technique; `None` for that of the pipeline.
+    pub(crate) technique: Option<Technique>,
+    /// Samples per pixel of colour images, 1 or 4.
+    pub(crate) samples: u32,
+    /// The shadow settings.
+    pub(crate) settings: ShadowSettings,
+    /// The size of the image.
+    pub(crate) size: Size,
+    /// The camera.
+    pub(crate) camera: CameraChoice,
+    /// The directional lights.
+    pub(crate) sun: SunChoice,
+    /// The shadow distance, instead of `settings.distance_m`.
+    pub(crate) shadow_distance: ShadowDistance,
+    /// The AOV that the image shows.
+    pub(crate) aov: Aov,
+    /// The GPU.
+    pub(crate) adapter: AdapterChoice,
+    /// Whether times per pass are measured.
+    pub(crate) timings: bool,
+}
+
+impl Options {
+    /// Returns the configuration of the renderer.
+    pub(crate) fn render_config(&self) -> RenderConfig {
+        RenderConfig { technique: self.technique, pipeline: self.pipeline.clone(), samples: self.samples }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            pipeline: Pipeline::default(),
+            technique: None,
+            samples: 1,
+            settings: ShadowSettings::default(),
+            size: Size::default(),
+            camera: CameraChoice::default(),
+            sun: SunChoice::default(),
+            shadow_distance: ShadowDistance::default(),
+            aov: Aov::default(),
+            adapter: AdapterChoice::default(),
+            timings: false,
+        }
+    }
+}
