@@ -7,7 +7,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::shadows::Techniques;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
-use shadowgraph_samples::trials::stained_glass;
+use shadowgraph_samples::test_scenes::stained_glass;
 use std::process::ExitCode;
 
 struct StainedGlass {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use shadowgraph_samples::trials;
+use shadowgraph_samples::test_scenes;
 use shadowgraph_scene::{Camera, Light, Projection};
 
 use shadowgraph::ron_file;
@@ -39,8 +39,9 @@ pub struct Case {
 /// Where a scene comes from.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SceneSource {
-    /// One of [`trials::TRIALS`].
-    Trial(String),
+    /// One of [`test_scenes::TEST_SCENES`].
+    #[serde(alias = "Trial")]
+    TestScene(String),
     /// A glTF or GLB file; a relative path starts at the folder of the file of cases.
     File(PathBuf),
 }
@@ -78,20 +79,20 @@ impl Case {
     /// Returns the sun at one of its heights.
     #[must_use]
     pub fn sun(&self, elevation_deg: f64) -> Light {
-        trials::sun(elevation_deg, self.sun_heading_deg)
+        test_scenes::sun(elevation_deg, self.sun_heading_deg)
     }
 
     /// Returns the scene's name in tables.
     #[must_use]
     pub fn name(&self) -> String {
         match &self.scene {
-            SceneSource::Trial(name) => name.clone(),
+            SceneSource::TestScene(name) => name.clone(),
             SceneSource::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         }
     }
 }
 
-/// Returns the cases that come with Shadowgraph: eight trials, four suns, a near and a far view each.
+/// Returns the built-in cases: eight test scenes, four suns, a near and a far view each.
 ///
 /// # Errors
 /// None in practice: a test reads them.
@@ -126,20 +127,23 @@ const FARTHEST_M: f64 = 1e9;
 impl Case {
     fn check(&self) -> Result<(), String> {
         let name = self.name();
-        if let SceneSource::Trial(trial) = &self.scene
-            && !trials::TRIALS.contains(&trial.as_str())
+        if let SceneSource::TestScene(test_scene) = &self.scene
+            && !test_scenes::TEST_SCENES.contains(&test_scene.as_str())
         {
-            return Err(format!("there is no trial `{trial}`; there is: {}", trials::TRIALS.join(", ")));
+            return Err(format!(
+                "unknown test scene `{test_scene}`; expected one of: {}",
+                test_scenes::TEST_SCENES.join(", ")
+            ));
         }
         let fits = |elevation: &f64| *elevation > 0.0 && *elevation <= 90.0;
         if let Some(wrong) = self.sun_elevations_deg.iter().find(|elevation| !fits(elevation)) {
             return Err(format!("{name}: sun_elevations_deg is {wrong}; give heights above 0 and up to 90"));
         }
-        if matches!(self.scene, SceneSource::Trial(_))
+        if matches!(self.scene, SceneSource::TestScene(_))
             && (self.sun_elevations_deg.is_empty() || self.views.is_empty())
         {
             return Err(format!(
-                "{name}: a trial has neither lights nor cameras; give sun_elevations_deg and views"
+                "{name}: a test scene has neither lights nor cameras; give sun_elevations_deg and views"
             ));
         }
         for view in &self.views {
@@ -178,31 +182,43 @@ mod tests {
     }
 
     #[test]
-    fn the_built_in_cases_hold_every_trial_under_four_suns() {
+    fn the_built_in_cases_contain_every_test_scene_under_four_suns() {
         let set = built_in_cases().unwrap();
         let names: Vec<_> = set.cases.iter().map(Case::name).collect();
-        assert_eq!(names, trials::TRIALS);
+        assert_eq!(names, test_scenes::TEST_SCENES);
         assert!(set.cases.iter().all(|case| case.sun_elevations_deg.len() == 4 && case.views.len() == 2));
     }
 
     #[test]
+    fn the_former_name_of_test_scenes_is_still_read() {
+        let text = r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [30], views: [
+            (name: "a", eye: (3, 1, 2), target: (0, 1, 0))])])"#;
+        let read = |text: &str| CaseSet::parse(text, Path::new("my.ron")).unwrap();
+        assert_eq!(read(text), read(&text.replace("TestScene", "Trial")));
+    }
+
+    #[test]
     fn a_wrong_case_is_refused_in_one_line_that_says_what_and_where() {
-        let text = r#"(cases: [(scene: Trial("castle"))])"#;
-        assert!(problem(text).contains("my.ron:1:10: there is no trial `castle`; there is: cube, slats"));
-        let text = r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [95], views: [])])"#;
-        assert!(problem(text).contains("cube: sun_elevations_deg is 95; give heights above 0 and up to 90"));
-        let text = r#"(cases: [(scene: Trial("cube"), suns: [])])"#;
+        let text = r#"(cases: [(scene: TestScene("castle"))])"#;
         assert!(
-            problem(text).contains("my.ron:1:33: ") && problem(text).contains("suns"),
+            problem(text).contains("my.ron:1:10: unknown test scene `castle`; expected one of: cube, slats")
+        );
+        let text = r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [95], views: [])])"#;
+        assert!(problem(text).contains("cube: sun_elevations_deg is 95; give heights above 0 and up to 90"));
+        let text = r#"(cases: [(scene: TestScene("cube"), suns: [])])"#;
+        assert!(
+            problem(text).contains("my.ron:1:37: ") && problem(text).contains("suns"),
             "{}",
             problem(text)
         );
         assert!(problem("(cases: [])").contains("my.ron:1:9: there is no case"));
         let view = r#"(name: "a", eye: (NaN, 1, 2), target: (0, 1, 2))"#;
-        let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
+        let text =
+            format!(r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
         assert!(problem(&text).contains("cube, view a: eye and target have NaN; give coordinates"));
         let view = r#"(name: "a", eye: (0, 1, 2), target: (0, 1, 2))"#;
-        let text = format!(r#"(cases: [(scene: Trial("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
+        let text =
+            format!(r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
         assert!(problem(&text).contains("cube, view a: eye and target"));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use shadowgraph_samples::trials;
+use shadowgraph_samples::test_scenes;
 use shadowgraph_scene::{Camera, Light, LightKind, Scene, gltf};
 
 use super::views::automatic_views;
@@ -74,7 +74,7 @@ impl Subject {
     /// If the file does not load.
     pub fn of_case(case: &Case, folder: &Path) -> Result<Self, Error> {
         let mut scene = match &case.scene {
-            SceneSource::Trial(name) => trials::trial(name).unwrap_or_default(),
+            SceneSource::TestScene(name) => test_scenes::test_scene(name).unwrap_or_default(),
             SceneSource::File(file) => gltf::load(&folder.join(file))?,
         };
         if scene.lights.is_empty() && case.sun_elevations_deg.is_empty() {

@@ -140,11 +140,11 @@ fn halton(index: u32) -> DVec3 {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use shadowgraph_samples::trials::trial;
+    use shadowgraph_samples::test_scenes::test_scene;
 
     #[test]
     fn every_second_view_stands_on_a_floor_and_all_are_different() {
-        let scene = trial("interior").unwrap();
+        let scene = test_scene("interior").unwrap();
         let views = automatic_views(&scene, 6).unwrap();
         let inside: Vec<_> = views.iter().filter(|(name, _)| name.starts_with("inside")).collect();
         assert_eq!((views.len(), inside.len()), (6, 3));

@@ -1,29 +1,29 @@
-//! The built-in demo scene: a stone courtyard in the evening sun, made by code.
+//! The built-in demo scene: a stone courtyard in the evening sun, created in code.
 
 mod arch;
+mod builder;
 mod court;
 mod far;
 mod hall;
-mod pattern;
-mod pictures;
+mod noise;
 mod props;
-mod stage;
+mod textures;
 
 use glam::{DVec3, Vec3};
 
-use self::stage::Stage;
+use self::builder::SceneBuilder;
 use shadowgraph_scene::{Camera, Light, LightKind, Projection, Scene};
 
-/// Height of the sun over the horizon, degrees.
+/// Elevation of the sun above the horizon, degrees.
 const SUN_ELEVATION_DEG: f64 = 38.0;
-/// From east towards north, the way the sun's light goes over the ground, degrees.
+/// Heading of the sunlight, from east towards north, degrees.
 const SUN_HEADING_DEG: f64 = 25.0;
 
-/// Makes the demo scene: a courtyard of about 30 m with an arcade, stairs, an alpha-cut fence, a ball on the
+/// Creates the demo scene: a courtyard of about 30 m with an arcade, stairs, an alpha-tested fence, a ball on the
 /// ground, a flagpole with ropes, towers up to 200 m away; one sun, and three coloured spots in a shaded hall.
 ///
-/// Cameras: "courtyard", the whole of it, and "contact", close to the ball and the fence. The same scene every
-/// time, under 60,000 triangles, without a file.
+/// Cameras: "courtyard" shows all of it, "contact" is close to the ball and the fence. The scene is always the
+/// same, has fewer than 60,000 triangles and needs no file.
 ///
 /// ```
 /// let scene = shadowgraph_samples::demo::demo_scene();
@@ -32,18 +32,18 @@ const SUN_HEADING_DEG: f64 = 25.0;
 /// ```
 #[must_use]
 pub fn demo_scene() -> Scene {
-    let mut stage = Stage::new();
-    court::build(&mut stage);
-    props::build(&mut stage);
-    hall::build(&mut stage);
-    far::build(&mut stage);
-    let mut scene = stage.scene;
+    let mut builder = SceneBuilder::new();
+    court::build(&mut builder);
+    props::build(&mut builder);
+    hall::build(&mut builder);
+    far::build(&mut builder);
+    let mut scene = builder.scene;
     scene.add_light(sun());
     scene.cameras = cameras();
     scene
 }
 
-/// The sun, warm and from the south-west.
+/// Returns the sun: warm light from the south-west.
 fn sun() -> Light {
     let (sin, cos) = SUN_ELEVATION_DEG.to_radians().sin_cos();
     let (north, east) = SUN_HEADING_DEG.to_radians().sin_cos();
@@ -56,7 +56,7 @@ fn sun() -> Light {
     }
 }
 
-/// The whole court first, then the place where the ball touches the ground.
+/// Returns the cameras: the whole court, and the contact of the ball with the ground.
 fn cameras() -> Vec<Camera> {
     let named = |name: &str, eye: DVec3, target: DVec3, fov_deg: f64| {
         let projection = Projection::Perspective { fov_y: fov_deg.to_radians(), near: 0.1, far: Some(320.0) };

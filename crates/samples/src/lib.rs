@@ -1,8 +1,8 @@
-//! The demo scene and the procedural test scenes, made by code.
+//! The demo scene and the procedural test scenes, created in code.
 
 pub mod demo;
-mod solids;
-pub mod trials;
+mod primitives;
+pub mod test_scenes;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

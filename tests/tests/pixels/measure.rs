@@ -10,14 +10,14 @@ use shadowgraph_quality::report::Motion;
 use shadowgraph_quality::{
     Instrument, Points, Probe, Question, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
 };
-use shadowgraph_samples::trials::trial;
+use shadowgraph_samples::test_scenes::test_scene;
 
 /// Measures a test scene under the sun at 30 degrees, from nearby.
 fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
     let gpu = gpu()?;
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == name).unwrap();
-    let mut scene = trial(name).unwrap();
+    let mut scene = test_scene(name).unwrap();
     scene.add_light(case.sun(30.0));
     let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
@@ -82,7 +82,7 @@ fn a_large_bias_is_measured_as_peter_panning_and_missing_contacts() {
 fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<f32>) {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
-    let mut scene = trial("slats").unwrap();
+    let mut scene = test_scene("slats").unwrap();
     scene.add_light(case.sun(30.0));
     for instance in &mut scene.instances {
         instance.world_from_local.translation += offset;
@@ -112,7 +112,7 @@ fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not
 
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
-    let mut scene = trial("slats").unwrap();
+    let mut scene = test_scene("slats").unwrap();
     scene.add_light(case.sun(30.0));
     let camera = case.views[0].camera();
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
@@ -129,7 +129,7 @@ fn cascades_of_different_resolution_are_measured_at_their_seam() {
     let Some(gpu) = gpu() else { return };
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
-    let mut scene = trial("slats").unwrap();
+    let mut scene = test_scene("slats").unwrap();
     scene.add_light(case.sun(30.0));
     let seam = |shadows: ShadowSettings| {
         let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };

@@ -8,7 +8,7 @@ use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 use shadowgraph_quality::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases};
-use shadowgraph_samples::trials::trial;
+use shadowgraph_samples::test_scenes::test_scene;
 
 /// The mask and the image have 8 bits each.
 const ROUNDING: f32 = 1.2 / 255.0;
@@ -82,7 +82,7 @@ fn assert_agree(name: &str, (unlike, asked): (usize, usize)) {
 fn in_every_test_scene_gpu_rays_match_cpu_rays_and_brute_force() {
     let Some(gpu) = gpu() else { return };
     for case in built_in_cases().unwrap().cases {
-        let mut scene = trial(&case.name()).unwrap();
+        let mut scene = test_scene(&case.name()).unwrap();
         scene.add_light(case.sun(30.0));
         let traced = traced(gpu, &scene, &case.views[0].camera(), 0);
         let (unlike, asked) = traced.unlike_the_cpu();

@@ -6,7 +6,7 @@ use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
 use shadowgraph::scene::{CasterMode, Scene, linear_from_srgb};
 use shadowgraph::shadows::{EVSM, MSM, NONE, PCF, PCSS, Pcf, RAYTRACED, SDSM, ShadowFilter, Technique};
 use shadowgraph::{Gpu, Renderer, SceneCasters, ViewOptions};
-use shadowgraph_samples::trials::stained_glass;
+use shadowgraph_samples::test_scenes::stained_glass;
 
 use crate::maps::draw_map;
 use crate::stage::{gpu, hard, view};

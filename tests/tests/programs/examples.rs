@@ -256,7 +256,7 @@ fn a_third_party_technique_is_rendered_measured_and_dumped() {
     let drawn = program(&["render", "--technique", "esm+contact", "--size", "320x180", "-o", "esm.png"]);
     assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
     let case = r#"(cases: [(
-        scene: Trial("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
+        scene: TestScene("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
         views: [(name: "near", eye: (3, 2, 5), target: (0, 0.5, 0))],
     )])"#;
     std::fs::write(dir.path().join("case.ron"), case).unwrap();

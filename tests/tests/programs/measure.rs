@@ -26,7 +26,7 @@ fn text(bytes: &[u8]) -> String {
 
 /// One small case, for tests that do not depend on the results.
 const SMALL: &str = r#"(cases: [(
-    scene: Trial("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
+    scene: TestScene("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
     views: [(name: "a <view>", eye: (3, 2, 5), target: (0, 0.5, 0))],
 )])"#;
 
@@ -77,7 +77,7 @@ fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_o
     let dir = tempfile::tempdir().unwrap();
     let (cases, out) = (dir.path().join("cases.ron"), dir.path().join("out"));
     let columns = r#"(cases: [(
-        scene: Trial("columns"), sun_elevations_deg: [30], sun_heading_deg: 20,
+        scene: TestScene("columns"), sun_elevations_deg: [30], sun_heading_deg: 20,
         views: [(name: "near", eye: (0.6, 1.7, 5), target: (-0.2, 1.2, -20))],
     )])"#;
     std::fs::write(&cases, columns).unwrap();
@@ -148,7 +148,7 @@ fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
     let variants = r#"(variants: [(name: "a", settings: ()), (name: "b", settings: ())])"#;
     let twice = file("twice.ron", &variants.replace("\"b\"", "\"a\""));
     let variants = file("variants.ron", variants);
-    let cases = file("cases.ron", r#"(cases: [(scene: Trial("castle"))])"#);
+    let cases = file("cases.ron", r#"(cases: [(scene: TestScene("castle"))])"#);
     for (arguments, code, expected) in [
         (vec!["--techniques", "pcf,soft"], 1, "--techniques: unknown technique `soft`"),
         (vec!["--check", &bounds], 1, "there is no metric `blur`"),
@@ -159,7 +159,7 @@ fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
             "`pcf: two` is not among --techniques: pcf; --variants: a, b",
         ),
         (vec!["--variants", &twice], 1, "there are two variants `a`"),
-        (vec!["--cases", &cases], 1, "there is no trial `castle`"),
+        (vec!["--cases", &cases], 1, "unknown test scene `castle`"),
         (vec!["--cases", &cases, "--sun", "none"], 2, "--sun"),
         (vec!["--cases", "no/such.ron"], 1, "no/such.ron: cannot be read"),
         (vec!["no/such.glb"], 1, "no/such.glb"),

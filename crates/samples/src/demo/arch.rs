@@ -1,39 +1,39 @@
-//! Columns and the arches they carry.
+//! Columns and arches.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use crate::solids::round::{bulge, lathe};
-use crate::solids::shape::{Point, Shape, cuboid, standing_box};
+use crate::primitives::mesh_builder::{MeshBuilder, SurfacePoint, box_on_ground, cuboid};
+use crate::primitives::round::{bulge, lathe};
 
-/// A wall with a round opening: its spring line is y = 0, it runs along X and is centred in Z. Metres.
+/// A wall along X with a round opening, centred in Z, with its spring line at y = 0. Lengths in metres.
 #[derive(Clone, Copy)]
 pub(super) struct ArchBay {
-    /// From the middle of one column to the middle of the next.
+    /// Distance between the centres of neighbouring columns.
     pub(super) width: f64,
-    /// Of the opening; less than half the width.
+    /// Radius of the opening, less than half the width.
     pub(super) radius: f64,
-    /// Of the wall above the spring line; more than the radius.
+    /// Height of the wall above the spring line, more than the radius.
     pub(super) height: f64,
-    /// Of the wall.
+    /// Thickness of the wall.
     pub(super) thickness: f64,
-    /// Pieces of the half circle.
+    /// Segments of the half circle.
     pub(super) segments: u32,
 }
 
 impl ArchBay {
-    /// The wall, its opening, the moulding around it, a keystone and a cornice.
-    pub(super) fn shape(&self) -> Shape {
+    /// Returns the wall with its opening, the moulding around it, a keystone and a cornice.
+    pub(super) fn shape(&self) -> MeshBuilder {
         let mut shape = self.wall();
         self.add_moulding(&mut shape);
         let (half_width, half_depth) = (self.width * 0.5, self.thickness * 0.5);
         let out = DVec3::new(0.21, 0.36, half_depth + 0.13);
         let key = DVec3::Y * (self.radius + 0.25);
-        shape.append_at(&cuboid(-out, out), key);
+        shape.append_translated(&cuboid(-out, out), key);
         for (drop, rise, overhang) in [(0.36, 0.14, 0.09), (0.22, 0.22, 0.22)] {
             let bottom = self.height - drop;
-            shape.append_at(
+            shape.append_translated(
                 &cuboid(
                     DVec3::new(-half_width, 0.0, -half_depth - overhang),
                     DVec3::new(half_width, rise, half_depth + overhang),
@@ -44,14 +44,14 @@ impl ArchBay {
         shape
     }
 
-    /// Only the wall and the inside of the opening: enough where it is seen from far away.
-    pub(super) fn wall(&self) -> Shape {
+    /// Returns only the wall and the inside of the opening, for distant arches.
+    pub(super) fn wall(&self) -> MeshBuilder {
         let (half_width, half_depth) = (self.width * 0.5, self.thickness * 0.5);
         let size = DVec3::new(half_width - self.radius, self.height, self.thickness);
-        let mut shape = Shape::default();
+        let mut shape = MeshBuilder::default();
         for left in [-half_width, self.radius] {
             let min = DVec3::new(left, 0.0, -half_depth);
-            shape.append_at(&cuboid(DVec3::ZERO, size), min);
+            shape.append_translated(&cuboid(DVec3::ZERO, size), min);
         }
         for side in [-1.0, 1.0] {
             // Straight strips from the half circle up to the top of the wall.
@@ -60,13 +60,13 @@ impl ArchBay {
                 let bottom = sin * self.radius;
                 let position =
                     DVec3::new(cos * self.radius, bottom + (self.height - bottom) * v, side * half_depth);
-                Point { position, normal: DVec3::Z * side, uv: DVec2::new(position.x, -position.y) }
+                SurfacePoint { position, normal: DVec3::Z * side, uv: DVec2::new(position.x, -position.y) }
             });
         }
         shape.grid(self.segments, 1, |u, v| {
             let (sin, cos) = (PI * u).sin_cos();
             let z = half_depth * (v * 2.0 - 1.0);
-            Point {
+            SurfacePoint {
                 position: DVec3::new(cos * self.radius, sin * self.radius, z),
                 normal: DVec3::new(-cos, -sin, 0.0),
                 uv: DVec2::new(u * PI * self.radius, z),
@@ -77,8 +77,8 @@ impl ArchBay {
         shape
     }
 
-    /// A raised band around the opening, on both faces.
-    fn add_moulding(&self, shape: &mut Shape) {
+    /// Adds a raised band around the opening, on both faces.
+    fn add_moulding(&self, shape: &mut MeshBuilder) {
         const WIDTH: f64 = 0.24;
         const RAISED: f64 = 0.08;
         for side in [-1.0, 1.0] {
@@ -93,7 +93,7 @@ impl ArchBay {
                 shape.grid(self.segments, 1, |u, v| {
                     let (sin, cos) = (PI * u).sin_cos();
                     let (r, z) = (r0 + (r1 - r0) * v, z0 + (z1 - z0) * v);
-                    Point {
+                    SurfacePoint {
                         position: DVec3::new(cos * r, sin * r, z),
                         normal: DVec3::new(cos * normal_r, sin * normal_r, normal_z),
                         uv: DVec2::new(u * PI * self.radius, r + z),
@@ -108,10 +108,10 @@ impl ArchBay {
     }
 }
 
-/// A column of this height with a square foot, a swelling shaft and a capital, standing on the ground.
-pub(super) fn column(height: f64, radius: f64) -> Shape {
+/// Returns a column of this height on the ground, with a square base, a swelling shaft and a capital.
+pub(super) fn column(height: f64, radius: f64) -> MeshBuilder {
     let (shaft_bottom, shaft_top) = (0.46, height - 0.5);
-    // The shaft swells a little before it tapers, so that it does not look hollow.
+    // The shaft swells slightly before it tapers (entasis).
     let shaft_radius = |t: f64| radius * (1.0 - 0.16 * t * t + 0.03 * (t * PI).sin());
     let shaft = (0..=8).map(|i| f64::from(i) / 8.0);
     let shaft = shaft.map(|t| DVec2::new(shaft_radius(t), shaft_bottom + (shaft_top - shaft_bottom) * t));
@@ -129,7 +129,7 @@ pub(super) fn column(height: f64, radius: f64) -> Shape {
         capital.collect(),
     ];
     let mut shape = lathe(&runs, 24);
-    shape.append_at(&standing_box(radius * 2.7, 0.2, radius * 2.7), DVec3::ZERO);
-    shape.append_at(&standing_box(radius * 2.7, 0.2, radius * 2.7), DVec3::Y * (height - 0.2));
+    shape.append_translated(&box_on_ground(radius * 2.7, 0.2, radius * 2.7), DVec3::ZERO);
+    shape.append_translated(&box_on_ground(radius * 2.7, 0.2, radius * 2.7), DVec3::Y * (height - 0.2));
     shape
 }

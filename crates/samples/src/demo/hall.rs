@@ -4,52 +4,59 @@ use std::f64::consts::PI;
 
 use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3};
 
+use super::builder::SceneBuilder;
 use super::court::{BACK_Z, FLOOR, FRONT_Z, HALL_BAY};
-use super::stage::Stage;
-use crate::solids::round::{bulge, lathe, ring, sphere};
-use crate::solids::shape::{Shape, standing_box, tapered_shaft};
+use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
+use crate::primitives::round::{bulge, lathe, ring, sphere};
 use shadowgraph_scene::{Light, LightKind};
 
 const PEDESTAL: f64 = 0.95;
-/// Where the figures stand between the hall's front and back.
+/// Position of the figures between the hall's front and back.
 const FIGURE_Z: f64 = BACK_Z + 2.0;
 
 /// Adds figures, lamps and spot lights.
-pub(super) fn build(stage: &mut Stage) {
-    let mut pedestal = standing_box(0.95, 0.16, 0.95);
-    pedestal.append_at(&standing_box(0.75, PEDESTAL - 0.28, 0.75), DVec3::Y * 0.16);
-    pedestal.append_at(&standing_box(0.9, 0.12, 0.9), DVec3::Y * (PEDESTAL - 0.12));
-    let pedestal = stage.mesh("pedestal", pedestal);
-    let lamp = lamp(stage);
+pub(super) fn build(builder: &mut SceneBuilder) {
+    let mut pedestal = box_on_ground(0.95, 0.16, 0.95);
+    pedestal.append_translated(&box_on_ground(0.75, PEDESTAL - 0.28, 0.75), DVec3::Y * 0.16);
+    pedestal.append_translated(&box_on_ground(0.9, 0.12, 0.9), DVec3::Y * (PEDESTAL - 0.12));
+    let pedestal = builder.add_mesh("pedestal", pedestal);
+    let lamp = lamp(builder);
     let figures = [("vase", vase()), ("rings", rings()), ("needle", needle())];
     let colors = [
         ("amber", Vec3::new(1.0, 0.50, 0.14)),
         ("teal", Vec3::new(0.10, 0.95, 0.62)),
         ("violet", Vec3::new(0.50, 0.26, 1.0)),
     ];
-    let materials = [stage.paint.stone, stage.paint.bronze, stage.paint.stone];
+    let materials = [builder.materials.stone, builder.materials.bronze, builder.materials.stone];
     for (i, ((name, shape), (color_name, color))) in figures.into_iter().zip(colors).enumerate() {
         let x = HALL_BAY * (i as f64 - 1.0);
         let foot = DVec3::new(x, FLOOR, FIGURE_Z);
-        stage.place_at("pedestal", pedestal, stage.paint.stone, foot);
-        let mesh = stage.mesh(name, shape);
-        stage.place_at(name, mesh, materials[i], foot + DVec3::Y * PEDESTAL);
-        // From the upper right, so that the shadow on the back wall stands to the left of its figure.
+        builder.add_instance_at("pedestal", pedestal, builder.materials.stone, foot);
+        let mesh = builder.add_mesh(name, shape);
+        builder.add_instance_at(name, mesh, materials[i], foot + DVec3::Y * PEDESTAL);
+        // From the upper right, so that the shadow on the back wall is to the left of its figure.
         let position = DVec3::new(x + 1.9, FLOOR + 3.7, FRONT_Z - 0.9);
         let target = foot + DVec3::new(-0.35, PEDESTAL + 0.4, 0.0);
-        spot(stage, lamp, color_name, color, position, target);
+        spot(builder, lamp, color_name, color, position, target);
     }
-    vases(stage);
+    vases(builder);
 }
 
-/// A spot light and the lamp that seems to give it; the lamp is behind the light's tip.
-fn spot(stage: &mut Stage, lamp: [usize; 2], name: &str, color: Vec3, position: DVec3, target: DVec3) {
+/// Adds a spot light and the model of its lamp, which is behind the tip of the light.
+fn spot(
+    builder: &mut SceneBuilder,
+    lamp: [usize; 2],
+    name: &str,
+    color: Vec3,
+    position: DVec3,
+    target: DVec3,
+) {
     let direction = (target - position).normalize();
-    let turn = DQuat::from_rotation_arc(DVec3::Y, direction);
-    let placed = DAffine3::from_rotation_translation(turn, position - direction * 0.04);
-    stage.place("lamp", lamp[0], stage.paint.iron, placed);
-    stage.place("lamp glass", lamp[1], stage.paint.lamp, placed);
-    stage.scene.add_light(Light {
+    let rotation = DQuat::from_rotation_arc(DVec3::Y, direction);
+    let transform = DAffine3::from_rotation_translation(rotation, position - direction * 0.04);
+    builder.add_instance("lamp", lamp[0], builder.materials.iron, transform);
+    builder.add_instance("lamp glass", lamp[1], builder.materials.lamp, transform);
+    builder.scene.add_light(Light {
         name: Some(name.to_owned()),
         kind: LightKind::Spot {
             position_world: position,
@@ -64,16 +71,16 @@ fn spot(stage: &mut Stage, lamp: [usize; 2], name: &str, color: Vec3, position: 
     });
 }
 
-/// Housing and glass, opening along +Y just below the origin.
-fn lamp(stage: &mut Stage) -> [usize; 2] {
+/// Adds the meshes of a lamp's housing and glass, which opens along +Y just below the origin.
+fn lamp(builder: &mut SceneBuilder) -> [usize; 2] {
     let run = |points: &[(f64, f64)]| points.iter().map(|&(r, y)| DVec2::new(r, y)).collect::<Vec<_>>();
     let housing = lathe(&[run(&[(0.0, -0.34), (0.06, -0.33), (0.08, -0.28), (0.14, 0.0)])], 16);
     let glass = lathe(&[run(&[(0.135, -0.01), (0.0, -0.01)])], 16);
-    [stage.mesh("lamp", housing), stage.mesh("lamp glass", glass)]
+    [builder.add_mesh("lamp", housing), builder.add_mesh("lamp glass", glass)]
 }
 
-/// A turned vase of about 1.1 m.
-fn vase() -> Shape {
+/// Returns a turned vase of about 1.1 m.
+fn vase() -> MeshBuilder {
     let belly = (0..=14).map(|i| f64::from(i) / 14.0);
     let radius = |t: f64| 0.13 + 0.27 * (t * PI).sin().powf(1.4) * (1.25 - t * 0.55);
     let belly: Vec<DVec2> = belly.map(|t| DVec2::new(radius(t), 0.1 + t * 0.78)).collect();
@@ -83,35 +90,35 @@ fn vase() -> Shape {
     lathe(&[bulge(0.16, 0.0, 0.05, 6), belly, neck.to_vec(), lip.to_vec(), inside.to_vec()], 28)
 }
 
-/// Two rings through each other around a ball.
-fn rings() -> Shape {
-    let mut shape = Shape::default();
+/// Returns two interlocked rings around a ball.
+fn rings() -> MeshBuilder {
+    let mut shape = MeshBuilder::default();
     let middle = DVec3::Y * 0.66;
-    for (radius, turn) in [(0.58, 0.5), (0.42, -0.9)] {
-        let placed = DAffine3::from_translation(middle) * DAffine3::from_rotation_y(turn);
-        shape.append(&ring(radius, 0.06, 40, 12), placed);
+    for (radius, rotation) in [(0.58, 0.5), (0.42, -0.9)] {
+        let transform = DAffine3::from_translation(middle) * DAffine3::from_rotation_y(rotation);
+        shape.append(&ring(radius, 0.06, 40, 12), transform);
     }
-    shape.append_at(&sphere(0.17, 14), middle);
-    shape.append_at(&standing_box(0.24, 0.12, 0.24), DVec3::ZERO);
+    shape.append_translated(&sphere(0.17, 14), middle);
+    shape.append_translated(&box_on_ground(0.24, 0.12, 0.24), DVec3::ZERO);
     shape
 }
 
-/// A small obelisk with a pyramid on top, on three steps.
-fn needle() -> Shape {
-    let mut shape = Shape::default();
+/// Returns a small obelisk with a pyramid on top, on three steps.
+fn needle() -> MeshBuilder {
+    let mut shape = MeshBuilder::default();
     for (i, width) in [0.62, 0.5, 0.38].into_iter().enumerate() {
-        shape.append_at(&standing_box(width, 0.09, width), DVec3::Y * (0.09 * i as f64));
+        shape.append_translated(&box_on_ground(width, 0.09, width), DVec3::Y * (0.09 * i as f64));
     }
-    shape.append_at(&tapered_shaft(0.27..=1.25, 0.15, 0.09), DVec3::ZERO);
-    shape.append_at(&tapered_shaft(1.25..=1.42, 0.09, 0.002), DVec3::ZERO);
+    shape.append_translated(&tapered_shaft(0.27..=1.25, 0.15, 0.09), DVec3::ZERO);
+    shape.append_translated(&tapered_shaft(1.25..=1.42, 0.09, 0.002), DVec3::ZERO);
     shape
 }
 
-/// Vases in the sun, on both sides of the stairs.
-fn vases(stage: &mut Stage) {
-    let mesh = stage.mesh("garden vase", vase());
+/// Adds vases in the sun, on both sides of the stairs.
+fn vases(builder: &mut SceneBuilder) {
+    let mesh = builder.add_mesh("garden vase", vase());
     for x in [-6.05, 6.05] {
         let position = DVec3::new(x, FLOOR + 0.12, FRONT_Z + 1.9);
-        stage.place_at("garden vase", mesh, stage.paint.stone, position);
+        builder.add_instance_at("garden vase", mesh, builder.materials.stone, position);
     }
 }

@@ -6,7 +6,7 @@ use super::*;
 use shadowgraph_scene::AlphaMode;
 
 #[test]
-fn every_vertex_has_unit_normal_and_square_tangent() {
+fn every_vertex_has_a_unit_normal_and_a_perpendicular_tangent() {
     for mesh in demo_scene().meshes {
         for vertex in &mesh.vertices {
             let normal = Vec3::from(vertex.normal);
@@ -52,7 +52,7 @@ fn every_reference_is_in_range() {
 }
 
 #[test]
-fn everything_that_is_made_is_used() {
+fn all_meshes_and_materials_are_used() {
     let scene = demo_scene();
     for (index, mesh) in scene.meshes.iter().enumerate() {
         assert!(scene.instances.iter().any(|instance| instance.mesh == index), "{}", mesh.name);
@@ -77,7 +77,7 @@ fn scene_has_one_sun_then_three_spots_and_all_cast_shadows() {
 }
 
 #[test]
-fn scene_is_small_to_draw_and_wide_to_see() {
+fn scene_has_few_triangles_and_large_bounds() {
     let scene = demo_scene();
     assert!((10_000..60_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
     let bounds = scene.bounds();
@@ -95,14 +95,14 @@ fn ball_touches_the_court() {
 }
 
 #[test]
-fn fence_picture_has_holes_and_iron() {
+fn fence_texture_has_holes_and_iron() {
     let scene = demo_scene();
     let fence = scene.materials.iter().find(|material| material.name == "wrought iron").unwrap();
     assert_eq!(fence.alpha, AlphaMode::Mask { cutoff: 0.5 });
     let image = &scene.images[fence.base_color_texture.unwrap().image];
     let iron = image.rgba8.chunks_exact(4).filter(|texel| texel[3] >= 128).count();
-    let share = iron as f64 / f64::from(image.width * image.height);
-    assert!((0.15..0.6).contains(&share), "{share}");
+    let fraction = iron as f64 / f64::from(image.width * image.height);
+    assert!((0.15..0.6).contains(&fraction), "{fraction}");
 }
 
 #[test]

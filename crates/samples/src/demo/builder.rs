@@ -1,19 +1,19 @@
-//! The scene under construction, and what its surfaces are made of.
+//! The builder of the demo scene, and its materials.
 
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
-use super::pictures;
-use crate::solids::shape::Shape;
+use super::textures;
+use crate::primitives::mesh_builder::MeshBuilder;
 use shadowgraph_scene::{AlphaMode, Image, Instance, Material, Scene, TextureRef};
 
-/// A scene to which parts are added, and its materials by name.
-pub(super) struct Stage {
+/// A scene under construction, and its materials by name.
+pub(super) struct SceneBuilder {
     pub(super) scene: Scene,
-    pub(super) paint: Palette,
+    pub(super) materials: Materials,
 }
 
 /// Indices of the materials.
-pub(super) struct Palette {
+pub(super) struct Materials {
     pub(super) paving: usize,
     pub(super) masonry: usize,
     pub(super) stone: usize,
@@ -29,53 +29,59 @@ pub(super) struct Palette {
     pub(super) lamp: usize,
 }
 
-impl Stage {
-    /// An empty scene with all materials.
+impl SceneBuilder {
+    /// Creates an empty scene with all materials.
     pub(super) fn new() -> Self {
         let mut scene = Scene::default();
-        let paint = Palette::new(&mut scene);
-        Self { scene, paint }
+        let materials = Materials::new(&mut scene);
+        Self { scene, materials }
     }
 
-    /// Adds a mesh and answers its index.
-    pub(super) fn mesh(&mut self, name: &str, shape: Shape) -> usize {
+    /// Adds a mesh and returns its index.
+    pub(super) fn add_mesh(&mut self, name: &str, shape: MeshBuilder) -> usize {
         self.scene.meshes.push(shape.finish(name));
         self.scene.meshes.len() - 1
     }
 
     /// Adds an instance of a mesh.
-    pub(super) fn place(&mut self, name: &str, mesh: usize, material: usize, world_from_local: DAffine3) {
+    pub(super) fn add_instance(
+        &mut self,
+        name: &str,
+        mesh: usize,
+        material: usize,
+        world_from_local: DAffine3,
+    ) {
         self.scene.instances.push(Instance { name: name.to_owned(), mesh, material, world_from_local });
     }
 
-    /// Adds an instance of a mesh that is only moved.
-    pub(super) fn place_at(&mut self, name: &str, mesh: usize, material: usize, position: DVec3) {
-        self.place(name, mesh, material, DAffine3::from_translation(position));
+    /// Adds a translated instance of a mesh.
+    pub(super) fn add_instance_at(&mut self, name: &str, mesh: usize, material: usize, position: DVec3) {
+        self.add_instance(name, mesh, material, DAffine3::from_translation(position));
     }
 
-    /// Adds a mesh that is used once, made where it stands.
-    pub(super) fn add(&mut self, name: &str, shape: Shape, material: usize) {
-        let mesh = self.mesh(name, shape);
-        self.place(name, mesh, material, DAffine3::IDENTITY);
+    /// Adds a mesh and its only instance, without a transform.
+    pub(super) fn add_single(&mut self, name: &str, shape: MeshBuilder, material: usize) {
+        let mesh = self.add_mesh(name, shape);
+        self.add_instance(name, mesh, material, DAffine3::IDENTITY);
     }
 }
 
-impl Palette {
+impl Materials {
     fn new(scene: &mut Scene) -> Self {
         let mut image = |image: Image| {
             scene.images.push(image);
             scene.images.len() - 1
         };
-        let paving = [image(pictures::paving()), image(pictures::paving_normals())];
-        let masonry = [image(pictures::masonry()), image(pictures::masonry_normals())];
-        let planks = [image(pictures::planks()), image(pictures::planks_normals())];
-        let (stone, earth) = (image(pictures::stone()), image(pictures::earth()));
-        let (cloth, fence) = (image(pictures::cloth()), image(pictures::fence()));
+        let paving = [image(textures::paving()), image(textures::paving_normals())];
+        let masonry = [image(textures::masonry()), image(textures::masonry_normals())];
+        let planks = [image(textures::planks()), image(textures::planks_normals())];
+        let (stone, earth) = (image(textures::stone()), image(textures::earth()));
+        let (cloth, fence) = (image(textures::cloth()), image(textures::fence()));
         let mut add = |material: Material| {
             scene.materials.push(material);
             scene.materials.len() - 1
         };
-        let panel = pictures::FENCE_PANEL.as_vec2();
+        let panel = textures::FENCE_PANEL.as_vec2();
         Self {
             paving: add(tiled("paving", paving[0], 4.0).normals(paving[1], 4.0).rough(0.62)),
             masonry: add(tiled("masonry", masonry[0], 2.0).normals(masonry[1], 2.0).rough(0.9)),
@@ -108,22 +114,22 @@ impl Palette {
     }
 }
 
-/// A linear colour.
+/// Returns an opaque linear colour.
 fn linear(red: f32, green: f32, blue: f32) -> Vec4 {
     Vec4::new(red, green, blue, 1.0)
 }
 
-/// A material of one colour.
+/// Returns a material of one colour.
 fn plain(name: &str, base_color: Vec4, metallic: f32, roughness: f32) -> Material {
     Material { name: name.to_owned(), base_color, metallic, roughness, ..Material::default() }
 }
 
-/// An image whose texture coordinates are scaled.
+/// Returns a reference to an image with scaled texture coordinates.
 fn scaled(image: usize, u: f32, v: f32) -> TextureRef {
     TextureRef { uv_transform: [[u, 0.0, 0.0], [0.0, v, 0.0]], ..TextureRef::new(image) }
 }
 
-/// A rough material whose picture shows `metres` of it.
+/// Returns a rough material whose texture covers `metres`.
 fn tiled(name: &str, image: usize, metres: f32) -> Material {
     Material {
         base_color_texture: Some(scaled(image, 1.0 / metres, 1.0 / metres)),
@@ -131,15 +137,15 @@ fn tiled(name: &str, image: usize, metres: f32) -> Material {
     }
 }
 
-/// Further steps of making a material.
-trait With {
-    /// Adds a normal picture that shows `metres`.
+/// Builder methods for materials.
+trait MaterialExt {
+    /// Adds a normal map that covers `metres`.
     fn normals(self, image: usize, metres: f32) -> Self;
     /// Sets the roughness.
     fn rough(self, roughness: f32) -> Self;
 }
 
-impl With for Material {
+impl MaterialExt for Material {
     fn normals(self, image: usize, metres: f32) -> Self {
         Self { normal_texture: Some(scaled(image, 1.0 / metres, 1.0 / metres)), ..self }
     }

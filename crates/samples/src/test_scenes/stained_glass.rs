@@ -3,8 +3,8 @@
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 use super::{ground, sun};
-use crate::solids::round::sphere;
-use crate::solids::shape::{Shape, cuboid, standing_box};
+use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
+use crate::primitives::round::sphere;
 use shadowgraph_scene::{
     AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Mesh, Projection, Scene, TextureRef,
 };
@@ -19,8 +19,9 @@ const HALF_LEAD: f64 = 0.03;
 /// The height of the window's lower edge, metres.
 const SILL: f64 = 0.7;
 
-/// Makes a wall with a window of six panes, one of them textured and one with coloured corners; behind it in its light a seventh
-/// pane, a glass ball and a box; a sun outside, a lamp inside that shines through the seventh pane, and a camera.
+/// Creates a wall with a window of six panes, one of them textured and one with coloured corners; in the light behind it a
+/// seventh pane, a glass ball and a box; a sun outside, a point light inside that shines through the seventh pane, and a
+/// camera.
 #[must_use]
 pub fn stained_glass() -> Scene {
     let stone = Vec4::new(0.75, 0.75, 0.75, 1.0);
@@ -31,39 +32,39 @@ pub fn stained_glass() -> Scene {
             metallic: 0.0,
             ..Material::default()
         }],
-        images: vec![picture()],
+        images: vec![rings_texture()],
         ..Scene::default()
     };
     let (name, floor) = ground(10.0);
     add(&mut scene, floor.finish(name), 0);
     add(&mut scene, wall().finish("wall"), 0);
-    let mut block = Shape::default();
-    block.append(&standing_box(0.6, 0.7, 0.6), DAffine3::from_translation(DVec3::new(-1.5, 0.0, 2.4)));
+    let mut block = MeshBuilder::default();
+    block.append(&box_on_ground(0.6, 0.7, 0.6), DAffine3::from_translation(DVec3::new(-1.5, 0.0, 2.4)));
     add(&mut scene, block.finish("box"), 0);
     add_panes(&mut scene);
-    let mut ball = Shape::default();
-    ball.append_at(&sphere(0.5, 64), DVec3::new(1.7, 0.5, 2.6));
+    let mut ball = MeshBuilder::default();
+    ball.append_translated(&sphere(0.5, 64), DVec3::new(1.7, 0.5, 2.6));
     let glass = glass(&mut scene, Vec4::new(0.2, 0.8, 0.9, 0.3));
     add(&mut scene, ball.finish("ball"), glass);
     scene.add_light(sun(42.0, -75.0));
-    scene.add_light(lamp());
+    scene.add_light(point_light());
     let projection = Projection::Perspective { fov_y: 0.8, near: 0.1, far: Some(100.0) };
     let camera = Camera::look_at(DVec3::new(0.6, 3.6, 8.2), DVec3::new(0.3, 0.7, 1.2), DVec3::Y, projection);
     scene.cameras.push(camera);
     scene
 }
 
-fn lamp() -> Light {
+fn point_light() -> Light {
     let kind = LightKind::Point { position_world: DVec3::new(-3.4, 2.4, 4.4), range: Some(20.0) };
     Light { name: Some("lamp".into()), kind, color: Vec3::ONE, intensity: 9_000.0, casts_shadow: true }
 }
 
-fn wall() -> Shape {
+fn wall() -> MeshBuilder {
     let (half, top) = (4.0, 4.2);
-    let mut wall = Shape::default();
+    let mut wall = MeshBuilder::default();
     let mut stones = |min: [f64; 2], max: [f64; 2], depth: f64| {
         let (min, max) = (DVec3::new(min[0], min[1], -depth), DVec3::new(max[0], max[1], depth));
-        wall.append_at(&cuboid(min, max), DVec3::ZERO);
+        wall.append_translated(&cuboid(min, max), DVec3::ZERO);
     };
     let head = SILL + 2.0 * PANE;
     stones([-half, 0.0], [half, SILL], 0.1);
@@ -115,7 +116,7 @@ fn add_panes(scene: &mut Scene) {
 }
 
 fn pane(corner: DVec3, name: &str) -> Mesh {
-    let mut pane = Shape::default();
+    let mut pane = MeshBuilder::default();
     pane.parallelogram(corner, DVec3::X * PANE, DVec3::Y * PANE);
     pane.finish(name)
 }
@@ -139,14 +140,15 @@ fn add(scene: &mut Scene, mesh: Mesh, material: usize) {
     scene.instances.push(Instance { name, mesh: index, material, world_from_local: DAffine3::IDENTITY });
 }
 
-/// Rings of colours that go over into each other, clearer towards the middle.
-fn picture() -> Image {
+/// Returns concentric colour gradients, more transparent towards the centre.
+fn rings_texture() -> Image {
     const SIDE: u32 = 64;
     let texel = |index: u32| {
         let at = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
         let radius = at(index % SIDE).hypot(at(index / SIDE));
-        let part = |turn: f64| (127.5 + 127.5 * ((radius * 0.8 + turn) * std::f64::consts::TAU).cos()) as u8;
-        [part(0.0), part(0.33), part(0.67), (150.0 + 60.0 * radius.min(1.0)) as u8]
+        let channel =
+            |phase: f64| (127.5 + 127.5 * ((radius * 0.8 + phase) * std::f64::consts::TAU).cos()) as u8;
+        [channel(0.0), channel(0.33), channel(0.67), (150.0 + 60.0 * radius.min(1.0)) as u8]
     };
     Image {
         name: "rings".into(),

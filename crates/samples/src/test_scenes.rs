@@ -1,4 +1,4 @@
-//! Small scenes made by code whose shadows are known to be hard for shadow maps, to measure them by.
+//! Small procedural scenes whose shadows are difficult for shadow maps, for measurements.
 
 mod stained_glass;
 
@@ -6,36 +6,36 @@ pub use stained_glass::stained_glass;
 
 use glam::{DAffine3, DVec2, DVec3, Vec3, Vec4};
 
-use crate::solids::round::{lathe, sphere};
-use crate::solids::shape::{Shape, cuboid, standing_box};
+use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
+use crate::primitives::round::{lathe, sphere};
 use shadowgraph_scene::{Instance, Light, LightKind, Material, Scene};
 
-/// The names of all trials.
-pub const TRIALS: [&str; 8] = ["cube", "slats", "stairs", "columns", "eaves", "spheres", "tower", "interior"];
+/// The names of all test scenes.
+pub const TEST_SCENES: [&str; 8] =
+    ["cube", "slats", "stairs", "columns", "eaves", "spheres", "tower", "interior"];
 
-/// Which way the sun's light has to go for the tower's shadow to fall where it is looked for, from east towards
-/// north, degrees.
+/// The heading of the sunlight at which the tower's shadow falls on the boxes, from east towards north, degrees.
 pub const TOWER_SUN_HEADING_DEG: f64 = 40.0;
 
-/// Makes a trial by its name; `None` where there is none. It has neither lights nor cameras.
+/// Creates a test scene by its name; `None` if there is none. It has neither lights nor cameras.
 ///
 /// - `cube`: a box of 2 m, turned by 20 degrees, on a plane.
 /// - `slats`: a fence of upright slats, 2 cm wide and 8 cm apart.
 /// - `stairs`: nine steps between two walls.
-/// - `columns`: two rows of round columns that go on for 150 m.
-/// - `eaves`: a house whose roof hangs over, 5 cm above its walls.
+/// - `columns`: two rows of round columns over 150 m.
+/// - `eaves`: a house with an overhanging roof, 5 cm above its walls.
 /// - `spheres`: balls of 10 cm to 1 m that touch the ground, and one that does not.
-/// - `tower`: boxes of 30 cm in the shadow's edge of a tower of 60 m, 90 m away towards the sun.
+/// - `tower`: boxes of 30 cm at the edge of the shadow of a tower of 60 m, 90 m away towards the sun.
 /// - `interior`: a room with walls of 5 cm, two windows and a doorway.
 ///
 /// ```
-/// use shadowgraph_samples::trials::{TRIALS, trial};
-/// assert!(TRIALS.iter().all(|name| trial(name).is_some_and(|scene| scene.triangle_count() > 0)));
-/// assert!(trial("castle").is_none());
+/// use shadowgraph_samples::test_scenes::{TEST_SCENES, test_scene};
+/// assert!(TEST_SCENES.iter().all(|name| test_scene(name).is_some_and(|scene| scene.triangle_count() > 0)));
+/// assert!(test_scene("castle").is_none());
 /// ```
 #[must_use]
-pub fn trial(name: &str) -> Option<Scene> {
-    let solids = match name {
+pub fn test_scene(name: &str) -> Option<Scene> {
+    let objects = match name {
         "cube" => cube(),
         "slats" => slats(),
         "stairs" => stairs(),
@@ -49,7 +49,7 @@ pub fn trial(name: &str) -> Option<Scene> {
     let base_color = Vec4::new(0.6, 0.6, 0.6, 1.0);
     let grey = Material { name: "grey".into(), base_color, metallic: 0.0, ..Material::default() };
     let mut scene = Scene { materials: vec![grey], ..Scene::default() };
-    for (name, shape) in solids {
+    for (name, shape) in objects {
         let instance = Instance {
             name: name.to_owned(),
             mesh: scene.meshes.len(),
@@ -62,8 +62,8 @@ pub fn trial(name: &str) -> Option<Scene> {
     Some(scene)
 }
 
-/// Makes a sun that casts shadows: its height over the horizon, and which way its light goes over the ground, from
-/// east (+X) towards north (-Z), both in degrees.
+/// Creates a sun that casts shadows from its elevation above the horizon and the heading of its light, from east (+X)
+/// towards north (-Z), both in degrees.
 #[must_use]
 pub fn sun(elevation_deg: f64, heading_deg: f64) -> Light {
     let (sin, cos) = elevation_deg.to_radians().sin_cos();
@@ -82,11 +82,11 @@ fn heading(degrees: f64) -> DVec3 {
     DVec3::new(east, 0.0, -north)
 }
 
-type Solids = Vec<(&'static str, Shape)>;
+type Objects = Vec<(&'static str, MeshBuilder)>;
 
-/// A floor of so many metres to each side, in cells: no triangle is as large as the world.
-fn ground(half_m: f64) -> (&'static str, Shape) {
-    let mut shape = Shape::default();
+/// Returns a floor that extends `half_m` to each side, divided into cells to avoid huge triangles.
+fn ground(half_m: f64) -> (&'static str, MeshBuilder) {
+    let mut shape = MeshBuilder::default();
     let cells = (half_m / 10.0).ceil().max(1.0);
     let (cell, count) = (2.0 * half_m / cells, cells as u32);
     for row in 0..count {
@@ -99,96 +99,97 @@ fn ground(half_m: f64) -> (&'static str, Shape) {
     ("ground", shape)
 }
 
-fn cube() -> Solids {
-    let mut turned = Shape::default();
-    turned.append(&standing_box(2.0, 2.0, 2.0), DAffine3::from_rotation_y(20f64.to_radians()));
+fn cube() -> Objects {
+    let mut turned = MeshBuilder::default();
+    turned.append(&box_on_ground(2.0, 2.0, 2.0), DAffine3::from_rotation_y(20f64.to_radians()));
     vec![ground(40.0), ("cube", turned)]
 }
 
-fn slats() -> Solids {
-    let slat = standing_box(0.02, 1.6, 0.02);
-    let mut fence = Shape::default();
+fn slats() -> Objects {
+    let slat = box_on_ground(0.02, 1.6, 0.02);
+    let mut fence = MeshBuilder::default();
     for i in 0..60 {
-        fence.append_at(&slat, DVec3::new(0.1 * f64::from(i) - 2.95, 0.0, 0.0));
+        fence.append_translated(&slat, DVec3::new(0.1 * f64::from(i) - 2.95, 0.0, 0.0));
     }
     for height in [0.25, 1.3] {
         let (min, max) = (DVec3::new(-3.0, height, -0.02), DVec3::new(3.0, height + 0.05, -0.01));
-        fence.append_at(&cuboid(min, max), DVec3::ZERO);
+        fence.append_translated(&cuboid(min, max), DVec3::ZERO);
     }
     vec![ground(40.0), ("slats", fence)]
 }
 
-fn stairs() -> Solids {
+fn stairs() -> Objects {
     const STEPS: u32 = 9;
     let (rise, tread) = (0.17, 0.3);
-    let mut steps = Shape::default();
+    let mut steps = MeshBuilder::default();
     for i in 0..STEPS {
         let top = rise * f64::from(i + 1);
         let front = -tread * f64::from(i);
         let step = cuboid(DVec3::new(-1.6, top - rise, front - tread), DVec3::new(1.6, top, front));
-        steps.append_at(&step, DVec3::ZERO);
+        steps.append_translated(&step, DVec3::ZERO);
     }
     let length = tread * f64::from(STEPS);
     for side in [-1.75, 1.75] {
-        steps.append_at(&standing_box(0.3, 2.2, length + 0.6), DVec3::new(side, 0.0, -length * 0.5));
+        steps.append_translated(&box_on_ground(0.3, 2.2, length + 0.6), DVec3::new(side, 0.0, -length * 0.5));
     }
     vec![ground(40.0), ("stairs", steps)]
 }
 
-fn columns() -> Solids {
+fn columns() -> Objects {
     let profile = |points: &[(f64, f64)]| points.iter().map(|&(r, y)| DVec2::new(r, y)).collect();
     let shaft = lathe(&[profile(&[(0.3, 0.0), (0.26, 4.0)]), profile(&[(0.26, 4.0), (0.0, 4.0)])], 24);
-    let mut rows = Shape::default();
+    let mut rows = MeshBuilder::default();
     for i in 0..36 {
         for side in [-2.5, 2.5] {
-            rows.append_at(&shaft, DVec3::new(side, 0.0, -4.2 * f64::from(i)));
+            rows.append_translated(&shaft, DVec3::new(side, 0.0, -4.2 * f64::from(i)));
         }
     }
     vec![ground(180.0), ("columns", rows)]
 }
 
-fn eaves() -> Solids {
+fn eaves() -> Objects {
     let mut house = cuboid(DVec3::new(-4.0, 0.0, -3.0), DVec3::new(4.0, 3.0, 3.0));
     let (min, max) = (DVec3::new(-4.6, 3.05, -3.6), DVec3::new(4.6, 3.17, 3.6));
-    house.append_at(&cuboid(min, max), DVec3::ZERO);
+    house.append_translated(&cuboid(min, max), DVec3::ZERO);
     vec![ground(40.0), ("house", house)]
 }
 
-fn spheres() -> Solids {
-    let mut balls = Shape::default();
+fn spheres() -> Objects {
+    let mut balls = MeshBuilder::default();
     for (radius, x, gap) in
         [(0.1, -1.6, 0.0), (0.25, -1.0, 0.0), (0.5, 0.0, 0.0), (1.0, 2.0, 0.0), (0.3, -2.6, 0.5)]
     {
-        balls.append_at(&sphere(radius, 48), DVec3::new(x, radius + gap, 0.0));
+        balls.append_translated(&sphere(radius, 48), DVec3::new(x, radius + gap, 0.0));
     }
     vec![ground(40.0), ("balls", balls)]
 }
 
-fn tower() -> Solids {
+fn tower() -> Objects {
     let towards_sun = -heading(TOWER_SUN_HEADING_DEG);
-    // Aside, so that one edge of the shadow goes through the boxes.
+    // Offset sideways, so that one edge of the shadow crosses the boxes.
     let aside = towards_sun.cross(DVec3::Y) * 5.0;
-    let mut tower = Shape::default();
-    tower.append_at(&standing_box(8.0, 60.0, 8.0), towards_sun * 90.0 + aside);
-    let mut boxes = Shape::default();
+    let mut tower = MeshBuilder::default();
+    tower.append_translated(&box_on_ground(8.0, 60.0, 8.0), towards_sun * 90.0 + aside);
+    let mut boxes = MeshBuilder::default();
     for i in 0..25 {
         let (column, row) = (f64::from(i % 5), f64::from(i / 5));
-        boxes.append_at(&standing_box(0.3, 0.3, 0.3), DVec3::new(column - 2.0, 0.0, row - 2.0) * 1.5);
+        boxes
+            .append_translated(&box_on_ground(0.3, 0.3, 0.3), DVec3::new(column - 2.0, 0.0, row - 2.0) * 1.5);
     }
     vec![ground(140.0), ("tower", tower), ("boxes", boxes)]
 }
 
-fn interior() -> Solids {
+fn interior() -> Objects {
     const WALL: f64 = 0.05;
     let (width, depth, height) = (6.0, 5.0, 2.8);
     let (x, z) = (width * 0.5, depth * 0.5);
-    let mut room = Shape::default();
+    let mut room = MeshBuilder::default();
     let mut wall =
-        |min: [f64; 3], max: [f64; 3]| room.append_at(&cuboid(min.into(), max.into()), DVec3::ZERO);
+        |min: [f64; 3], max: [f64; 3]| room.append_translated(&cuboid(min.into(), max.into()), DVec3::ZERO);
     wall([-x - WALL, height, -z - WALL], [x + WALL, height + WALL, z + WALL]);
     wall([-x, 0.0, -z - WALL], [x, height, -z]);
     wall([x, 0.0, -z - WALL], [x + WALL, height, z + WALL]);
-    // In the front a doorway, in the west two windows.
+    // A doorway in the front and two windows in the west.
     wall([-x, 0.0, z], [1.0, height, z + WALL]);
     wall([2.0, 0.0, z], [x, height, z + WALL]);
     wall([1.0, 2.1, z], [2.0, height, z + WALL]);
@@ -197,7 +198,7 @@ fn interior() -> Solids {
     for (from, to) in [(-z - WALL, -1.7), (-0.5, 0.5), (1.7, z + WALL)] {
         wall([-x - WALL, 0.9, from], [-x, 2.2, to]);
     }
-    room.append_at(&standing_box(1.6, 0.75, 0.9), DVec3::new(-0.8, 0.0, 0.0));
+    room.append_translated(&box_on_ground(1.6, 0.75, 0.9), DVec3::new(-0.8, 0.0, 0.0));
     vec![ground(30.0), ("room", room)]
 }
 
@@ -207,9 +208,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_trial_stands_on_the_ground_and_is_small_enough_to_trace() {
-        for name in TRIALS {
-            let scene = trial(name).unwrap();
+    fn every_test_scene_stands_on_the_ground_and_is_small_enough_to_trace() {
+        for name in TEST_SCENES {
+            let scene = test_scene(name).unwrap();
             let bounds = scene.bounds();
             assert!(scene.triangle_count() < 60_000, "{name}: {}", scene.triangle_count());
             assert!(bounds.min.y.abs() < 1e-6 && bounds.max.y > 1.0, "{name}: {bounds:?}");
@@ -218,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sun_goes_where_its_angles_say() {
+    fn the_sun_has_the_direction_of_its_angles() {
         let LightKind::Directional { direction } = sun(30.0, 90.0).kind else { unreachable!() };
         assert!((direction - DVec3::new(0.0, -0.5, -(0.75f64.sqrt()))).length() < 1e-12, "{direction}");
         let LightKind::Directional { direction } = sun(90.0, 0.0).kind else { unreachable!() };

@@ -1,4 +1,4 @@
-//! A mesh under construction: patches of positions, normals and texture coordinates.
+//! A mesh builder: patches of positions, normals and texture coordinates.
 
 use std::ops::RangeInclusive;
 
@@ -6,27 +6,27 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use shadowgraph_scene::{Mesh, Vertex};
 
-/// Step of the finite differences that give a surface its normals, in parameter units.
+/// Step of the finite differences for normals, in parameter units.
 const DERIVATIVE_STEP: f64 = 1e-4;
 
-/// A point of a surface: where it is, which way it faces, and its texture coordinate.
+/// A point of a surface: its position, its normal and its texture coordinates.
 #[derive(Clone, Copy)]
-pub(crate) struct Point {
+pub(crate) struct SurfacePoint {
     pub(crate) position: DVec3,
     pub(crate) normal: DVec3,
     pub(crate) uv: DVec2,
 }
 
-/// Points and triangles, in f64 until [`Shape::finish`].
+/// A mesh under construction, in f64 until [`MeshBuilder::finish`].
 #[derive(Clone, Default)]
-pub(crate) struct Shape {
-    points: Vec<Point>,
+pub(crate) struct MeshBuilder {
+    points: Vec<SurfacePoint>,
     indices: Vec<u32>,
 }
 
-impl Shape {
-    /// Adds a patch of `columns` x `rows` cells; `point` is asked at (u, v), both 0 to 1.
-    pub(crate) fn grid(&mut self, columns: u32, rows: u32, point: impl Fn(f64, f64) -> Point) {
+impl MeshBuilder {
+    /// Adds a patch of `columns` x `rows` cells; `point` is evaluated at (u, v), both 0 to 1.
+    pub(crate) fn grid(&mut self, columns: u32, rows: u32, point: impl Fn(f64, f64) -> SurfacePoint) {
         let first = self.points.len() as u32;
         for row in 0..=rows {
             for column in 0..=columns {
@@ -46,13 +46,13 @@ impl Shape {
         }
     }
 
-    /// Adds a patch whose normals come from the surface's own slopes. The normal is d/du x d/dv.
+    /// Adds a patch whose normals are computed from the derivatives of its positions. The normal is d/du x d/dv.
     pub(crate) fn surface(&mut self, columns: u32, rows: u32, position: impl Fn(f64, f64) -> DVec3) {
         let h = DERIVATIVE_STEP;
         self.grid(columns, rows, |u, v| {
             let along_u = position(u + h, v) - position(u - h, v);
             let along_v = position(u, v + h) - position(u, v - h);
-            Point {
+            SurfacePoint {
                 position: position(u, v),
                 normal: along_u.cross(along_v).normalize_or(DVec3::Y),
                 uv: DVec2::new(u, v),
@@ -65,18 +65,18 @@ impl Shape {
     pub(crate) fn parallelogram(&mut self, corner: DVec3, edge_u: DVec3, edge_v: DVec3) {
         let normal = edge_u.cross(edge_v).normalize_or(DVec3::Y);
         let (length_u, length_v) = (edge_u.length(), edge_v.length());
-        self.grid(1, 1, |u, v| Point {
+        self.grid(1, 1, |u, v| SurfacePoint {
             position: corner + edge_u * u + edge_v * v,
             normal,
             uv: DVec2::new(u * length_u, (1.0 - v) * length_v),
         });
     }
 
-    /// Adds another shape, placed by a rigid or scaling transform.
-    pub(crate) fn append(&mut self, other: &Shape, local_from_other: DAffine3) {
+    /// Adds another mesh with a rigid or scaling transform.
+    pub(crate) fn append(&mut self, other: &MeshBuilder, local_from_other: DAffine3) {
         let first = self.points.len() as u32;
         let normals: DMat3 = local_from_other.matrix3.inverse().transpose();
-        self.points.extend(other.points.iter().map(|point| Point {
+        self.points.extend(other.points.iter().map(|point| SurfacePoint {
             position: local_from_other.transform_point3(point.position),
             normal: (normals * point.normal).normalize_or(DVec3::Y),
             uv: point.uv,
@@ -84,12 +84,12 @@ impl Shape {
         self.indices.extend(other.indices.iter().map(|index| first + index));
     }
 
-    /// Adds another shape, moved by `offset`.
-    pub(crate) fn append_at(&mut self, other: &Shape, offset: DVec3) {
+    /// Adds another mesh, translated by `offset`.
+    pub(crate) fn append_translated(&mut self, other: &MeshBuilder, offset: DVec3) {
         self.append(other, DAffine3::from_translation(offset));
     }
 
-    /// Adds a triangle wound so that it agrees with its normals; drops it if it has no area.
+    /// Adds a triangle with the winding that agrees with its normals; drops it if it has no area.
     fn triangle(&mut self, [a, b, c]: [u32; 3]) {
         let [pa, pb, pc] = [a, b, c].map(|index| self.points[index as usize]);
         let facing = (pb.position - pa.position).cross(pc.position - pa.position);
@@ -114,8 +114,8 @@ impl Shape {
         Mesh::new(name, vertices.collect(), self.indices)
     }
 
-    /// Per vertex the direction of growing u in the surface, and the side of the bitangent (glTF's: the
-    /// bitangent points to the top of the picture, where v is small).
+    /// Returns the tangent of each vertex: the direction of increasing u, and the sign of the bitangent (as in glTF, the
+    /// bitangent points to the top of the image, in the direction of decreasing v).
     fn tangents(&self) -> Vec<[f32; 4]> {
         let mut sums = vec![(DVec3::ZERO, DVec3::ZERO); self.points.len()];
         for corners in self.indices.chunks_exact(3) {
@@ -133,7 +133,7 @@ impl Shape {
                 sums[corner as usize].1 += along_v;
             }
         }
-        let tangent = |(point, (along_u, along_v)): (&Point, (DVec3, DVec3))| {
+        let tangent = |(point, (along_u, along_v)): (&SurfacePoint, (DVec3, DVec3))| {
             let flat = along_u - point.normal * point.normal.dot(along_u);
             let tangent = flat.normalize_or(point.normal.any_orthonormal_vector());
             let side = if point.normal.cross(tangent).dot(along_v) > 0.0 { -1.0 } else { 1.0 };
@@ -143,11 +143,11 @@ impl Shape {
     }
 }
 
-/// A box between two corners, its uv in metres.
-pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Shape {
+/// Returns a box between two corners, with uv in metres.
+pub(crate) fn cuboid(min: DVec3, max: DVec3) -> MeshBuilder {
     let size = max - min;
     let (x, y, z) = (DVec3::X * size.x, DVec3::Y * size.y, DVec3::Z * size.z);
-    let mut shape = Shape::default();
+    let mut shape = MeshBuilder::default();
     shape.parallelogram(min + z, x, y);
     shape.parallelogram(min + x, -x, y);
     shape.parallelogram(min + x + z, -z, y);
@@ -157,29 +157,30 @@ pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Shape {
     shape
 }
 
-/// A box of this size standing on the ground, centred over the origin.
-pub(crate) fn standing_box(width: f64, height: f64, depth: f64) -> Shape {
+/// Returns a box of this size on the ground, centred above the origin.
+pub(crate) fn box_on_ground(width: f64, height: f64, depth: f64) -> MeshBuilder {
     cuboid(DVec3::new(-width * 0.5, 0.0, -depth * 0.5), DVec3::new(width * 0.5, height, depth * 0.5))
 }
 
-/// A square shaft from `y` with half sides that taper from bottom to top, closed by a lid.
-pub(crate) fn tapered_shaft(y: RangeInclusive<f64>, half_bottom: f64, half_top: f64) -> Shape {
+/// Returns a square shaft over the heights `y`, which tapers from bottom to top and is closed at the top. Its half widths
+/// are `half_bottom` and `half_top`.
+pub(crate) fn tapered_shaft(y: RangeInclusive<f64>, half_bottom: f64, half_top: f64) -> MeshBuilder {
     let (bottom, top) = (*y.start(), *y.end());
-    let mut side = Shape::default();
+    let mut side = MeshBuilder::default();
     let normal = DVec3::new(0.0, half_bottom - half_top, top - bottom).normalize_or(DVec3::Z);
     side.grid(1, 1, |u, v| {
         let half = half_bottom + (half_top - half_bottom) * v;
         let x = (u * 2.0 - 1.0) * half;
-        Point {
+        SurfacePoint {
             position: DVec3::new(x, bottom + (top - bottom) * v, half),
             normal,
             uv: DVec2::new(x, bottom - (top - bottom) * v),
         }
     });
-    let mut shape = Shape::default();
+    let mut shape = MeshBuilder::default();
     for quarter in 0..4 {
-        let turn = DAffine3::from_rotation_y(f64::from(quarter) * std::f64::consts::FRAC_PI_2);
-        shape.append(&side, turn);
+        let rotation = DAffine3::from_rotation_y(f64::from(quarter) * std::f64::consts::FRAC_PI_2);
+        shape.append(&side, rotation);
     }
     let lid = DVec3::new(-half_top, top, half_top);
     shape.parallelogram(lid, DVec3::X * half_top * 2.0, DVec3::NEG_Z * half_top * 2.0);

@@ -1,4 +1,0 @@
-//! Meshes made by code: boxes, round things, and patches of surfaces.
-
-pub(crate) mod round;
-pub(crate) mod shape;
