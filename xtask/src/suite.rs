@@ -25,7 +25,17 @@ const STEPS: [(&str, Work); 6] = [
     ("tests", Work::Tests(&["test", "--workspace", "--no-fail-fast"])),
     (
         "core without a GPU library",
-        Work::Tests(&["test", "--package", "shadowgraph-core", "--no-default-features", "--no-fail-fast"]),
+        // The tests of many random frames only use the compiler, which is the same as in the step before.
+        Work::Tests(&[
+            "test",
+            "--package",
+            "shadowgraph-core",
+            "--no-default-features",
+            "--no-fail-fast",
+            "--",
+            "--skip",
+            "random_frames",
+        ]),
     ),
 ];
 
