@@ -9,7 +9,6 @@ mod commands;
 mod console;
 mod dump;
 mod failure;
-mod limits;
 mod measure;
 mod nodes;
 mod progress;

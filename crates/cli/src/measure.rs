@@ -105,7 +105,7 @@ fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, Option
     for name in names {
         if name == "all" {
             chosen.extend(known.kinds().iter().map(|&kind| Technique::from(kind)));
-            chosen.extend([Technique::default().collected(), Technique::default().with_contact()]);
+            chosen.extend([Technique::default().with_screen(), Technique::default().with_contact()]);
         } else {
             chosen.push(technique("techniques", name, known)?);
         }

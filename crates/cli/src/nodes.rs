@@ -1,106 +1,109 @@
-//! `shadowgraph nodes`: what there is to choose from.
+//! `shadowgraph nodes`: pipelines, nodes, techniques and settings.
 
 use std::fmt::Write as _;
 
 use super::args::NodesArgs;
 use super::console;
 use super::failure::Failure;
-use super::limits::{Check, check_own, check_shared, rows, shared};
-use serde_json::Value;
+use shadowgraph::Registry;
 use shadowgraph::core::did_you_mean;
 use shadowgraph::pipelines::{BUILT_IN, Pipeline, schema};
-use shadowgraph::shadows::{ShadowSettings, Techniques};
-use shadowgraph::{Registry, ron_file};
+use shadowgraph::shadows::{DescribeSettings, Setting, SettingType, ShadowSettings, Techniques};
 
-/// Prints all that there is, one of it, or the schema of files.
+/// Prints the overview, a description of one thing, or the JSON Schema of files.
 pub(crate) fn nodes(args: &NodesArgs, registry: &Registry) -> Result<(), Failure> {
-    let text = match &args.name {
-        _ if args.schema => serde_json::to_string_pretty(&schema(&registry.nodes))? + "\n",
+    let text = match args.name.as_deref() {
+        Some(SETTINGS) if args.schema => {
+            serde_json::to_string_pretty(&registry.techniques.settings_schema())? + "\n"
+        }
+        Some(name) if args.schema => return Err(no_schema(name)),
+        None if args.schema => serde_json::to_string_pretty(&schema(&registry.nodes))? + "\n",
         Some(name) => one(name, registry)?,
-        None => all(registry)?,
+        None => all(registry),
     };
     console::print(&text)
 }
 
-/// All about a pipeline, a kind of node or a technique.
+fn no_schema(name: &str) -> Failure {
+    let message = format!(
+        "--schema: `{name}` has no schema; allowed: no name (pipeline files) or `{SETTINGS}` (settings files)"
+    );
+    Failure { code: Failure::USAGE, message }
+}
+
+/// Describes a pipeline, a kind of node, a technique or the shared settings.
 fn one(name: &str, registry: &Registry) -> Result<String, Failure> {
     let Registry { techniques, nodes } = registry;
-    let mut told = String::new();
+    let mut out = String::new();
     if let Some(text) = Pipeline::built_in_text(name) {
-        let _ = write!(told, "pipeline {name}, as a file\n\n{text}");
+        let _ = write!(out, "pipeline {name}, as a file\n\n{text}");
     }
-    let of_technique = techniques.find(name).is_ok().then(|| technique(name, techniques)).transpose()?;
-    let of_all = (name == SHARED).then(shared_settings).transpose()?;
-    for text in [nodes.describe(name).ok(), of_technique, of_all].into_iter().flatten() {
-        told += if told.is_empty() { "" } else { "\n" };
-        told += &text;
+    let technique = techniques.find(name).is_ok().then(|| technique(name, techniques));
+    let shared = (name == SETTINGS).then(shared_settings);
+    for text in [nodes.describe(name).ok(), technique, shared].into_iter().flatten() {
+        out += if out.is_empty() { "" } else { "\n" };
+        out += &text;
     }
-    if told.is_empty() {
+    if out.is_empty() {
         let kinds = nodes.kinds().iter().map(|kind| kind.name);
-        let of_techniques = techniques.kinds().iter().map(|kind| kind.name);
-        let tops = Techniques::modifiers().map(|(top, ..)| top);
-        let all = BUILT_IN.iter().copied().chain(kinds).chain(of_techniques).chain(tops).chain([SHARED]);
+        let names = techniques.kinds().iter().map(|kind| kind.name);
+        let modifiers = Techniques::modifiers().map(|modifier| modifier.name);
+        let all = BUILT_IN.iter().copied().chain(kinds).chain(names).chain(modifiers).chain([SETTINGS]);
         let hint = did_you_mean(name, all);
         let message = format!("unknown pipeline, node kind or technique `{name}`{hint}");
         return Err(Failure { code: Failure::INPUT, message });
     }
-    Ok(told)
+    Ok(out)
 }
 
-/// What the settings that all techniques share are asked for by.
-const SHARED: &str = "settings";
+/// The name that stands for the settings that all techniques share.
+const SETTINGS: &str = "settings";
 
-/// A technique and what is on top of it, each with its own settings.
-fn technique(name: &str, techniques: &Techniques) -> Result<String, Failure> {
+/// Describes a technique and its modifiers with their settings.
+fn technique(name: &str, techniques: &Techniques) -> String {
     let mut out = String::new();
     for part in name.split('+').map(str::trim) {
         let kind = techniques.kinds().iter().find(|kind| kind.name == part);
-        let top = || Techniques::modifiers().find(|(top, ..)| *top == part);
-        let (title, summary, defaults) = match kind {
-            Some(kind) => (part.to_owned(), kind.summary, kind.default_settings()),
-            None => match top() {
-                Some((_, summary, defaults)) => (format!("+{part}"), summary, Some(defaults)),
+        let modifier = || Techniques::modifiers().find(|modifier| modifier.name == part);
+        let (title, summary, settings) = match kind {
+            Some(kind) => (part.to_owned(), kind.summary, kind.settings()),
+            None => match modifier() {
+                Some(modifier) => (format!("+{part}"), modifier.summary, modifier.settings),
                 None => continue,
             },
         };
         let _ = writeln!(out, "technique {title}: {summary}");
-        let settings = ShadowSettings::default();
-        match techniques.own_settings(part, &settings) {
-            Some(own) => {
-                let check = |value: &Value| check_own(techniques, part, &settings, value);
-                table(&mut out, &own?, &defaults.unwrap_or_default(), &check);
-            }
-            None => out.push_str("  without settings of its own\n"),
+        table(&mut out, "", settings);
+        if settings.is_empty() {
+            out.push_str("  no settings\n");
         }
     }
-    out.push_str("`nodes settings` lists those that all techniques share\n");
-    Ok(out)
+    out.push_str("`nodes settings` lists the settings that all techniques share\n");
+    out
 }
 
-fn shared_settings() -> Result<String, Failure> {
+fn shared_settings() -> String {
     let mut out =
-        String::from("settings of all techniques, by the path in a file of --settings, with defaults\n");
-    let defaults = ShadowSettings::default();
-    table(&mut out, &shared(&defaults)?, &ron::to_string(&defaults)?, &check_shared);
-    Ok(out)
+        String::from("settings of all techniques, by their path in a file of --settings, with defaults\n");
+    table(&mut out, "", ShadowSettings::settings());
+    out
 }
 
-/// Settings with their defaults, as files have them, and what they may be.
-fn table(out: &mut String, root: &Value, defaults: &str, check: Check<'_>) {
-    for (name, limit) in rows(root, check) {
-        let default = spaced(ron_file::value(defaults, &name).unwrap_or_default());
-        let words = match (limit.words(), &*default) {
-            (words, _) if !words.is_empty() => words,
-            (_, "true" | "false") => "true or false".to_owned(),
-            (_, list) if list.starts_with('[') => "a list".to_owned(),
-            _ => String::new(),
-        };
-        let allowed = if words.is_empty() { String::new() } else { format!("; {words}") };
-        let _ = writeln!(out, "  setting  {name:<32} {default}{allowed}");
+/// Writes one line for each setting, with the path of its struct before its name.
+fn table(out: &mut String, parent: &str, settings: &[Setting]) {
+    for setting in settings {
+        let path = format!("{parent}{}", setting.name);
+        match setting.ty {
+            SettingType::Struct(fields) => table(out, &format!("{path}."), fields),
+            SettingType::List(_, SettingType::Struct(fields)) => table(out, &format!("{path}[]."), fields),
+            _ => {
+                let _ = writeln!(out, "  setting  {path:<32} {}", setting.describe());
+            }
+        }
     }
 }
 
-fn all(registry: &Registry) -> Result<String, Failure> {
+fn all(registry: &Registry) -> String {
     let Registry { techniques, nodes } = registry;
     let mut out = String::from("pipelines; `nodes NAME` prints the file of one\n");
     for pipeline in BUILT_IN.iter().filter_map(|name| name.parse::<Pipeline>().ok()) {
@@ -110,27 +113,23 @@ fn all(registry: &Registry) -> Result<String, Failure> {
     for kind in nodes.kinds() {
         let _ = writeln!(out, "  {:<16}{}", kind.name, kind.about);
     }
-    out.push_str("\ntechniques, and their own settings as they are by default; `nodes NAME` and `nodes settings` tell of ranges\n");
+    out.push_str("\ntechniques with the defaults of their settings; `nodes NAME` and `nodes settings` describe settings\n");
     for kind in techniques.kinds() {
         let _ = writeln!(out, "  {:<16}{}", kind.name, kind.summary);
-        settings(&mut out, kind.name, kind.default_settings());
+        defaults(&mut out, kind.name, kind.settings());
     }
-    out.push_str("\non top of each technique, such as pcf+contact\n");
-    for (name, what, defaults) in Techniques::modifiers() {
-        let _ = writeln!(out, "  {:<16}{what}", format!("+{name}"));
-        settings(&mut out, name, Some(defaults));
+    out.push_str("\nmodifiers of techniques, as in pcf+contact\n");
+    for modifier in Techniques::modifiers() {
+        let _ = writeln!(out, "  {:<16}{}", format!("+{}", modifier.name), modifier.summary);
+        defaults(&mut out, modifier.name, modifier.settings);
     }
-    Ok(out)
+    out
 }
 
-/// What a settings file has in its `techniques`.
-fn settings(out: &mut String, name: &str, defaults: Option<String>) {
-    if let Some(defaults) = defaults {
-        let _ = writeln!(out, "  {:<16}\"{name}\": {}", "", spaced(&defaults));
+/// Writes settings as the field `techniques` of a settings file has them.
+fn defaults(out: &mut String, name: &str, settings: &'static [Setting]) {
+    if !settings.is_empty() {
+        let ty = SettingType::Struct(settings);
+        let _ = writeln!(out, "  {:<16}\"{name}\": {}", "", ty.ron(&ty.default_value()));
     }
-}
-
-/// RON as people write it.
-fn spaced(ron: &str) -> String {
-    ron.replace(':', ": ").replace(',', ", ")
 }

@@ -99,7 +99,7 @@ mod tests {
                 r#"(variants: [(name: "a", settings: ()), (name: "a", settings: ())])"#,
                 "mine.ron:1:47: there are two variants `a`",
             ),
-            (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, ":48: shadow setting `distance_m`"),
+            (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, ":48: invalid value: `distance_m`"),
             (r#"(variants: [(name: "a", settings: (distance: 1.0))])"#, "distance"),
         ] {
             let error = error_of(text);

@@ -128,12 +128,6 @@ fn values<'t>(text: &'t str, path: &str) -> Vec<&'t RawValue> {
     found
 }
 
-/// Returns the text of the value at a path of fields and indices; `None` if there is none.
-pub fn value<'t>(text: &'t str, path: &str) -> Option<&'t str> {
-    let found = values(text, path);
-    (found.len() == path.split('.').count()).then(|| found.last().map(|value| value.get_ron().trim()))?
-}
-
 /// Returns the offset in bytes of a raw value, including blanks before it. Raw values are slices of the text that they were parsed
 /// from.
 pub fn start_of(text: &str, raw: &RawValue) -> usize {

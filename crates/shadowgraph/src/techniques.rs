@@ -22,6 +22,6 @@ pub(crate) fn create(
         Ok(GpuRayScene::new(&ray_scene(scene, origin_world)?, limit)?)
     };
     let technique = config.technique();
-    let technique = if config.pipeline.has_screen_shadows() { technique.collected() } else { technique };
+    let technique = if config.pipeline.has_screen_shadows() { technique.with_screen() } else { technique };
     Ok(technique.make(&TechniqueContext::new(&gpu.device).with_rays(&rays))?)
 }

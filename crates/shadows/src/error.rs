@@ -1,18 +1,20 @@
 //! Errors of planning and of techniques.
 
+use crate::settings::Setting;
+
 /// Errors of shadows.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A value of [`ShadowSettings`](crate::ShadowSettings) is out of range.
-    #[error("shadow setting `{field}` is {value}; allowed: {allowed}")]
+    #[error("invalid value: `{field}` is {value}; allowed: {allowed}")]
     Setting {
-        /// The field's path, such as `cascades.map_size_px`.
-        field: &'static str,
+        /// The field's path, such as `cascades.map_size_px` or `techniques.pcss.filter_taps`.
+        field: String,
         /// The value.
         value: String,
-        /// The allowed values.
-        allowed: &'static str,
+        /// The allowed values, with their unit.
+        allowed: String,
     },
     /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) refers to a light that does not exist.
     #[error(
@@ -53,7 +55,7 @@ pub enum Error {
     },
     /// The settings of a technique cannot be parsed.
     #[error(
-        "technique `{technique}`: its settings: {} (line {}, column {} of them)",
+        "settings of technique `{technique}`: {} (line {}, column {} of them)",
         reason.code, reason.span.start.line, reason.span.start.col
     )]
     MalformedSettings {
@@ -61,18 +63,6 @@ pub enum Error {
         technique: String,
         /// What is wrong, and the position in the text of its settings.
         reason: Box<ron::error::SpannedError>,
-    },
-    /// A value of a technique's settings is out of range.
-    #[error("technique `{technique}`: shadow setting `{field}` is {value}; allowed: {allowed}")]
-    TechniqueSetting {
-        /// Its name.
-        technique: String,
-        /// The field's path in its settings.
-        field: &'static str,
-        /// The value.
-        value: String,
-        /// The allowed values.
-        allowed: &'static str,
     },
     /// The name of a technique is unknown.
     #[error("unknown technique `{name}`{hint}")]
@@ -88,4 +78,35 @@ pub enum Error {
     /// The scene's triangles cannot be traced.
     #[error(transparent)]
     Rays(#[from] crate::rays::Error),
+}
+
+impl Error {
+    /// Returns the error that a setting has a value that it does not allow.
+    pub fn invalid(setting: &Setting, value: impl ToString) -> Self {
+        Self::Setting { field: setting.name.to_owned(), value: value.to_string(), allowed: setting.allowed() }
+    }
+
+    /// Returns the error with the name of the struct that the field is in before its path.
+    #[must_use]
+    pub fn inside(self, parent: &str) -> Self {
+        match self {
+            Self::Setting { field, value, allowed } => {
+                let field = match (&*field, parent) {
+                    (_, "") => field,
+                    ("", _) => parent.to_owned(),
+                    _ => format!("{parent}.{field}"),
+                };
+                Self::Setting { field, value, allowed }
+            }
+            other => other,
+        }
+    }
+
+    /// Returns the error with other words for what is allowed.
+    pub(crate) fn allowing(self, allowed: String) -> Self {
+        match self {
+            Self::Setting { field, value, .. } => Self::Setting { field, value, allowed },
+            other => other,
+        }
+    }
 }

@@ -2,23 +2,25 @@
 //!
 //! `shadows/tent.wgsl` has the same weights; [`filter_taps`] is its reference implementation for tests and tools.
 
-use serde::{Deserialize, Serialize};
+use crate::declare_settings;
 
-/// The filter that smooths the edges of shadows: its width in texels and its number of bilinear comparisons.
-///
-/// The weights are those of a tent: each texel counts with the area over it of a triangle that is centred at the point and
-/// as wide as the filter.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum ShadowFilter {
-    /// 2 x 2 texels, 1 comparison: the hardware's bilinear filter, usually called hard shadows.
-    Tent2,
-    /// 3 x 3 texels, 4 comparisons.
-    Tent3,
-    /// 5 x 5 texels, 9 comparisons.
-    #[default]
-    Tent5,
-    /// 7 x 7 texels, 16 comparisons.
-    Tent7,
+declare_settings! {
+    /// The filter that smooths the edges of shadows: its width in texels and its number of bilinear comparisons.
+    ///
+    /// The weights are those of a tent: each texel counts with the area over it of a triangle that is centred at the point and
+    /// as wide as the filter.
+    #[derive(Copy, Eq, PartialOrd, Ord, Hash)]
+    #[default(Tent5)]
+    pub enum ShadowFilter {
+        /// 2 x 2 texels, 1 comparison: the hardware's bilinear filter, usually called hard shadows.
+        Tent2;
+        /// 3 x 3 texels, 4 comparisons.
+        Tent3;
+        /// 5 x 5 texels, 9 comparisons.
+        Tent5;
+        /// 7 x 7 texels, 16 comparisons.
+        Tent7;
+    }
 }
 
 impl ShadowFilter {

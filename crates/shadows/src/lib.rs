@@ -51,14 +51,16 @@ pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
 pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TileKind, TilePlan, plan_shadows, plan_shadows_after};
 pub use registry::{
-    EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind, Techniques,
+    EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,
+    TechniqueModifier, Techniques,
 };
 pub use requirements::Requirements;
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
-    CascadeSettings, CullSettings, DepthFormat, LightRef, LightShadows, MAX_CASCADE_LIGHTS, MAX_CASCADES,
-    NormalBias, OwnSettings, ShadowSettings, SplitScheme, TechniqueSettings,
+    CascadeSettings, CullSettings, DepthFormat, DescribeSettings, LightRef, LightShadows, MAX_CASCADE_LIGHTS,
+    MAX_CASCADES, NamedSettings, NormalBias, Payload, Setting, SettingType, SettingValue, ShadowSettings,
+    SplitScheme, TechniqueSettings, Variant, color, defaults, settings_file,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{
@@ -75,6 +77,17 @@ pub use views::{
     NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,
     TilePlacement,
 };
+
+/// What `declare_settings!` expands to needs this.
+#[doc(hidden)]
+pub mod __settings {
+    pub use crate::settings::{Given, json};
+
+    /// Returns the first variant, as the default of an enum that declares none.
+    pub fn first_variant(variants: &[crate::Variant]) -> serde_json::Value {
+        variants.first().map(crate::Variant::example).unwrap_or_default()
+    }
+}
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

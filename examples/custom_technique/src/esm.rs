@@ -2,13 +2,12 @@
 //! are smooth even with few texels.
 
 use bytemuck::{Pod, Zeroable};
-use serde::{Deserialize, Serialize};
 use shadowgraph::core::Frame;
 use shadowgraph::shaders::{MAPPED, ModuleSource};
 use shadowgraph::shadows::binding::UNIFORM;
 use shadowgraph::shadows::{
-    Error, GpuStruct, Requirements, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs, ShadowTechnique,
-    SurfaceBuffers, TechniqueKind, TechniqueSettings, gpu_struct,
+    Error, GpuStruct, NamedSettings, Requirements, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs,
+    ShadowTechnique, SurfaceBuffers, TechniqueKind, declare_settings, gpu_struct,
 };
 
 /// The technique for the registry: a name, a description, a constructor, and the settings.
@@ -18,30 +17,16 @@ pub const ESM: TechniqueKind =
     })
     .with_settings::<EsmSettings>();
 
-/// The settings in a file: `(techniques: {"esm": (falloff_m: 0.1)})`.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct EsmSettings {
-    /// The distance behind an occluder at which visibility has fallen to 1/e, metres, 0.001 to 10.
-    pub falloff_m: f32,
-}
-
-impl Default for EsmSettings {
-    fn default() -> Self {
-        Self { falloff_m: 0.05 }
+declare_settings! {
+    /// The settings in a file: `(techniques: {"esm": (falloff_m: 0.1)})`.
+    pub struct EsmSettings {
+        /// Distance behind an occluder at which visibility has fallen to 1/e.
+        falloff_m: f32 = 0.05, 0.001..=10, in "metres";
     }
 }
 
-impl TechniqueSettings for EsmSettings {
+impl NamedSettings for EsmSettings {
     const NAME: &'static str = "esm";
-
-    fn validate(&self) -> Result<(), Error> {
-        if (0.001..=10.0).contains(&self.falloff_m) {
-            return Ok(());
-        }
-        let (value, allowed) = (self.falloff_m.to_string(), "0.001 to 10 (metres)");
-        Err(Error::Setting { field: "falloff_m", value, allowed })
-    }
 }
 
 /// `Falloff` of `esm.wgsl`.

@@ -28,7 +28,7 @@ fn configs() -> Vec<(String, RenderConfig)> {
     ]);
     let on_top = [
         Technique::from(PCF).with_contact(),
-        Technique::from(PCSS).collected(),
+        Technique::from(PCSS).with_screen(),
         Technique::from(EVSM).with_contact(),
         Technique::from(RAYTRACED).with_contact(),
     ];

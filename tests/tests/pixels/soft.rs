@@ -30,7 +30,7 @@ fn options() -> ViewOptions {
 
 /// Returns settings with many taps, so that noise is small.
 fn fine() -> PcssSettings {
-    PcssSettings { filter_taps: 64, blocker_taps: 64, most_texels: 24.0, ..PcssSettings::default() }
+    PcssSettings { filter_taps: 64, blocker_taps: 64, max_radius_texels: 24.0, ..PcssSettings::default() }
 }
 
 /// Returns the width of the penumbra on the floor, from a tenth to nine tenths of the light, metres.
@@ -66,7 +66,7 @@ fn penumbrae_of_a_sun_are_as_wide_as_its_angular_size_gives() {
 fn penumbrae_of_a_spot_light_widen_with_the_distance_behind_the_occluder() {
     let Some(gpu) = gpu() else { return };
     let mut options = options();
-    options.shadows.techniques.set(&PcssSettings { lamp_radius_m: 0.1, ..fine() }).unwrap();
+    options.shadows.techniques.set(&PcssSettings { light_radius_m: 0.1, ..fine() }).unwrap();
     let spot = || {
         let kind = LightKind::Spot {
             position_world: DVec3::new(0.0, 4.0, 0.0),

@@ -51,7 +51,7 @@ fn screen_space_shadows_match_per_pixel_shadows_with_every_map_technique() {
     let (scene, options) = demo();
     for kind in [PCF, PCSS, EVSM, MSM, SDSM] {
         let asked = greys(gpu, &scene, &options, kind);
-        let collected = greys(gpu, &scene, &options, Technique::from(kind).collected());
+        let collected = greys(gpu, &scene, &options, Technique::from(kind).with_screen());
         let part = differing(&asked, &collected, 2);
         println!("{}: {:.3} % of the pixels differ", kind.name, 100.0 * part);
         assert!(part < 0.001, "{}: {part}", kind.name);

@@ -58,7 +58,7 @@ fn maps_and_rays_agree_on_the_colours_behind_stained_glass() {
         options.shadows.cascades.filter = ShadowFilter::Tent2;
         options.shadows.atlas.filter = ShadowFilter::Tent2;
         let truth = mask(gpu, &scene, &hard(&options), RAYTRACED.into());
-        let maps = mask(gpu, &scene, &options, Technique::from(PCF).collected());
+        let maps = mask(gpu, &scene, &options, Technique::from(PCF).with_screen());
         let (part, coloured) = (differing(&maps, &truth, 0.02), coloured(&truth));
         println!("light {light}: {:.3} % differ, {:.1} % are coloured", 100.0 * part, 100.0 * coloured);
         assert!(coloured > 0.04, "light {light}: {coloured}");
@@ -78,8 +78,8 @@ fn every_map_technique_tints_light_with_and_without_contact_shadows() {
         mask.retain(|_| *faces.next().unwrap());
     };
     keep(&mut truth);
-    let techniques = [PCSS, EVSM, MSM, SDSM].map(|kind| Technique::from(kind).collected());
-    for technique in techniques.into_iter().chain([Technique::from(PCF).collected().with_contact()]) {
+    let techniques = [PCSS, EVSM, MSM, SDSM].map(|kind| Technique::from(kind).with_screen());
+    for technique in techniques.into_iter().chain([Technique::from(PCF).with_screen().with_contact()]) {
         let mut mask = mask(gpu, &scene, &options, technique);
         keep(&mut mask);
         let part = differing(&mask, &truth, 0.1);
@@ -92,7 +92,7 @@ fn every_map_technique_tints_light_with_and_without_contact_shadows() {
 fn materials_that_cast_no_tint_leave_light_uncoloured() {
     let Some(gpu) = gpu() else { return };
     let (mut scene, options) = lit_by(0);
-    let pcf = Technique::from(PCF).collected();
+    let pcf = Technique::from(PCF).with_screen();
     assert!(coloured(&mask(gpu, &scene, &options, pcf)) > 0.04);
     for mode in [CasterMode::On, CasterMode::Off] {
         scene.materials.iter_mut().for_each(|material| material.casts = Some(mode));

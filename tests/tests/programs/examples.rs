@@ -251,7 +251,7 @@ fn a_third_party_technique_is_rendered_measured_and_dumped() {
     assert!(dump.stdout.contains("esm/cascades"), "{}", dump.stdout);
     std::fs::write(dir.path().join("mine.ron"), "(techniques: {\"esm\": (falloff_m: 0.0)})").unwrap();
     let refused = program(&["render", "--settings", "mine.ron"]);
-    let expected = "technique `esm`: shadow setting `falloff_m` is 0; allowed: 0.001 to 10 (metres)";
+    let expected = "invalid value: `techniques.esm.falloff_m` is 0; allowed: 0.001 to 10 (metres)";
     assert!(refused.code == Some(1) && refused.stderr.contains(expected), "{}", refused.stderr);
     let drawn = program(&["render", "--technique", "esm+contact", "--size", "320x180", "-o", "esm.png"]);
     assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);

@@ -23,10 +23,7 @@ fn nodes(arguments: &[&str]) -> (Option<i32>, String, String) {
 #[test]
 fn nodes_describes_a_node_a_pipeline_a_technique_and_the_shared_settings() {
     let (code, text, _) = nodes(&["bloom"]);
-    assert!(
-        code == Some(0) && text.contains("setting  strength           0.06; a number from 0 to 1"),
-        "{text}"
-    );
+    assert!(code == Some(0) && text.contains("setting  strength           0.06; 0 to 1: "), "{text}");
     let (_, text, _) = nodes(&["deferred"]);
     assert!(text.starts_with("pipeline deferred, as a file") && text.contains("input    gbuffer"), "{text}");
     let (_, text, _) = nodes(&["pcss"]);
@@ -48,4 +45,11 @@ fn nodes_describes_a_node_a_pipeline_a_technique_and_the_shared_settings() {
     let (_, schema, _) = nodes(&["--schema"]);
     let schema: serde_json::Value = serde_json::from_str(&schema).unwrap();
     assert_eq!(schema["required"], serde_json::json!(["nodes"]));
+    let (_, schema, _) = nodes(&["settings", "--schema"]);
+    let schema: serde_json::Value = serde_json::from_str(&schema).unwrap();
+    assert_eq!(
+        schema["properties"]["techniques"]["properties"]["pcss"]["properties"]["filter_taps"]["maximum"],
+        64
+    );
+    assert_eq!(schema["properties"]["cascades"]["properties"]["count"]["default"], 4);
 }

@@ -114,10 +114,10 @@ pub(crate) struct ViewArgs {
 /// `shadowgraph nodes`
 #[derive(Debug, Args)]
 pub(crate) struct NodesArgs {
-    /// A pipeline, a kind of node or a technique, to be told all about: its file, or its ports and settings with ranges
+    /// Describe one pipeline, kind of node or technique, or `settings`: its file, or its ports and settings with ranges
     pub(crate) name: Option<String>,
-    /// Print the JSON Schema of pipeline files, for editors
-    #[arg(long, conflicts_with = "name")]
+    /// Print the JSON Schema of pipeline files for editors, with `settings` that of settings files
+    #[arg(long)]
     pub(crate) schema: bool,
 }
 

@@ -241,7 +241,7 @@ fn technique(ui: &mut Ui, stage: &mut Stage) {
     ComboBox::from_id_salt("technique").selected_text(stage.technique.name()).show_ui(ui, |ui| {
         for kind in stage.registry.techniques.kinds().to_vec() {
             let plain = Technique::from(kind);
-            for choice in [plain, plain.collected(), plain.with_contact()] {
+            for choice in [plain, plain.with_screen(), plain.with_contact()] {
                 let label = ui.selectable_value(&mut stage.technique, choice, choice.name());
                 label.on_hover_text(kind.summary);
             }

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::node::{AnyNode, Node};
 use super::port::{Port, Presence};
-use super::setting::{Setting, SettingType, Settings};
+use super::setting::{Setting, Settings};
 use crate::build_context::BuildContext;
 use crate::error::Error;
 
@@ -98,12 +98,7 @@ impl NodeKind {
             }
         }
         for setting in self.settings {
-            let allowed = setting.allowed();
-            let default = match setting.ty {
-                SettingType::Color([red, green, blue]) => format!("({red:?}, {green:?}, {blue:?})"),
-                _ => setting.default_value().to_string(),
-            };
-            let _ = writeln!(out, "  setting  {:<18} {default}; {allowed}: {}", setting.name, setting.about);
+            let _ = writeln!(out, "  setting  {:<18} {}", setting.name, setting.describe());
         }
         out
     }

@@ -37,7 +37,8 @@ impl Nodes {
         unique(ports(kind.inputs), "input")?;
         unique(ports(kind.outputs), "output")?;
         unique(kind.settings.iter().map(|setting| setting.name).collect(), "setting")?;
-        if let Some(error) = kind.settings.iter().find_map(|setting| setting.fault(&setting.default_value()))
+        if let Some(error) =
+            kind.settings.iter().find_map(|setting| setting.check(&setting.default_value()).err())
         {
             return Err(format!("invalid default: {error}"));
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::settings::{MAX_CASCADES, setting};
+use crate::settings::MAX_CASCADES;
 
 /// A time budget for shadows, and the quality levels to choose from.
 ///
@@ -110,4 +110,8 @@ impl QualityLevel {
             || self.cascades < other.cascades
             || self.distance_scale < other.distance_scale
     }
+}
+
+fn setting(field: &str, value: impl ToString, allowed: &str) -> Error {
+    Error::Setting { field: field.into(), value: value.to_string(), allowed: allowed.into() }
 }

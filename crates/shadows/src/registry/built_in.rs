@@ -1,4 +1,4 @@
-//! The techniques that come with Shadowgraph.
+//! The built-in techniques.
 
 use super::TechniqueKind;
 use crate::techniques::{
@@ -9,14 +9,14 @@ use crate::techniques::{
 /// `pcf`: the default.
 pub const PCF: TechniqueKind = TechniqueKind::new(
     "pcf",
-    "shadow maps: cascades for suns, an atlas for lamps, evenly soft edges",
+    "shadow maps: cascades for directional lights, an atlas for spot and point lights, a filter of fixed width",
     |context| Ok(Box::new(Pcf::new(context.device))),
 );
 
 /// `pcss`: [`Pcss`].
 pub const PCSS: TechniqueKind = TechniqueKind::new(
     "pcss",
-    "shadow maps with edges that get softer away from what casts them",
+    "shadow maps with penumbrae that widen with the distance from the caster",
     |context| Ok(Box::new(Pcss::new(context.device))),
 )
 .with_settings::<PcssSettings>();
@@ -24,14 +24,14 @@ pub const PCSS: TechniqueKind = TechniqueKind::new(
 /// `evsm`: [`Evsm`].
 pub const EVSM: TechniqueKind = TechniqueKind::new(
     "evsm",
-    "exponential variance shadow maps: evenly soft edges that cost the same however soft",
+    "exponential variance shadow maps: filtered in advance, so wide filters cost no more",
     |context| Ok(Box::new(Evsm::new(context.device)?)),
 )
 .with_settings::<EvsmSettings>();
 
 /// `msm`: [`Msm`].
 pub const MSM: TechniqueKind =
-    TechniqueKind::new("msm", "moment shadow maps: as evsm, in 64 bits a texel", |context| {
+    TechniqueKind::new("msm", "moment shadow maps: as evsm, with 64 bits for each texel", |context| {
         Ok(Box::new(Msm::new(context.device)?))
     })
     .with_settings::<MsmSettings>();
@@ -39,7 +39,7 @@ pub const MSM: TechniqueKind =
 /// `sdsm`: [`Sdsm`].
 pub const SDSM: TechniqueKind = TechniqueKind::new(
     "sdsm",
-    "shadow maps whose cascades the GPU fits to the surfaces that are seen",
+    "sample distribution shadow maps: cascades that the GPU fits to the visible surfaces",
     |context| Ok(Box::new(Sdsm::new(context.device)?)),
 )
 .with_settings::<SdsmSettings>();
@@ -47,14 +47,14 @@ pub const SDSM: TechniqueKind = TechniqueKind::new(
 /// `raytraced`: [`Raytraced`].
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
-    "rays through the scene's triangles, hard or soft: what the others are measured against",
+    "rays through the scene's triangles, for hard or soft shadows: the reference for the others",
     |context| Ok(Box::new(Raytraced::new(context.device, &context.rays()?)?)),
 )
 .with_settings::<RaytracedSettings>();
 
 /// `none`: [`NoShadows`].
 pub const NONE: TechniqueKind =
-    TechniqueKind::new("none", "everything is lit: the floor of cost", |_| Ok(Box::new(NoShadows)));
+    TechniqueKind::new("none", "no shadows: everything is lit", |_| Ok(Box::new(NoShadows)));
 
 /// The default first.
 pub(super) const ALL: [TechniqueKind; 7] = [PCF, PCSS, EVSM, MSM, SDSM, RAYTRACED, NONE];

@@ -1,4 +1,4 @@
-//! Whether a technique is what it says, found out without a GPU.
+//! Checks of a technique without a GPU, as it is registered.
 
 use shadowgraph_shaders::{compose, naga};
 
@@ -8,34 +8,34 @@ use crate::technique::binding::STORAGE;
 use crate::technique::{ShadowTechnique, layout, shadow_layout};
 use crate::techniques::compute::{pipeline, shader};
 
-/// Checks a name, and that no other has it.
-pub(super) fn name(name: &str, mut taken: impl Iterator<Item = &'static str>) -> Result<(), String> {
+/// Checks a name, and that it is not taken.
+pub(super) fn name(name: &str, mut known: impl Iterator<Item = &'static str>) -> Result<(), String> {
     let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     if name.is_empty() || !name.chars().all(fits) {
-        return Err("a name has small letters, digits and `_`".into());
+        return Err("a name must be of lower-case letters, digits and `_`".into());
     }
-    if taken.any(|known| known == name) {
-        return Err("there is a technique of this name already".into());
+    if known.any(|known| known == name) {
+        return Err("the name is taken by another technique".into());
     }
     Ok(())
 }
 
-/// Makes one on wgpu's noop device, and checks all that can be checked before a frame is drawn.
+/// Creates the technique on wgpu's noop device, and checks everything that does not need a frame.
 pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let technique = caught(&device, || kind.make(&TechniqueContext::new(&device)))?.map_err(one_line)?;
     if technique.name() != kind.name {
-        return Err(format!("what it makes is called `{}`", technique.name()));
+        return Err(format!("it creates a technique named `{}`", technique.name()));
     }
     if let Some(settings) = kind.settings {
         if settings.name != kind.name {
-            return Err(format!("its settings are those of `{}`", settings.name));
+            return Err(format!("its settings are named `{}`", settings.name));
         }
-        (settings.check)(&ShadowSettings::default()).map_err(|error| format!("by default: {error}"))?;
+        (settings.check)(&ShadowSettings::default()).map_err(|error| format!("default settings: {error}"))?;
     }
     limits(&technique.binding_types())?;
     if technique.variant_count() == 0 {
-        return Err("it has no variant: `variant_count` is at least 1".into());
+        return Err("`variant_count` must be at least 1".into());
     }
     (0..technique.variant_count()).try_for_each(|variant| {
         let module = compose("check.wgsl", &technique.modules(variant)).map_err(one_line)?;
@@ -51,9 +51,9 @@ pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
     })
 }
 
-/// What a stage of a lit pass leaves of wgpu's default limits: it reads the view and the lights, a block, five textures and five
-/// samplers of materials besides. The mask of `+screen` takes a texture and a block more.
-const ROOM: [(&str, usize); 4] =
+/// The bindings of a stage that a lit pass leaves to techniques within wgpu's default limits: it reads the view and the lights, a
+/// uniform block, five textures and five samplers of materials. The mask of `+screen` takes a texture and a uniform block more.
+const AVAILABLE: [(&str, usize); 4] =
     [("storage buffers", 6), ("textures", 10), ("samplers", 11), ("uniform blocks", 10)];
 
 pub(super) fn limits(types: &[wgpu::BindingType]) -> Result<(), String> {
@@ -65,17 +65,17 @@ pub(super) fn limits(types: &[wgpu::BindingType]) -> Result<(), String> {
             BindingType::Texture { .. } => 1,
             BindingType::Sampler(_) => 2,
             BindingType::Buffer { ty: BufferBindingType::Uniform, .. } => 3,
-            other => return Err(format!("binding {number} is {other:?}: lit passes only read")),
+            other => return Err(format!("binding {number} is {other:?}; lit passes can only read")),
         };
         counts[class] += 1;
     }
-    let over = counts.into_iter().zip(ROOM).find(|(count, (_, room))| count > room);
-    over.map_or(Ok(()), |(count, (what, room))| {
-        Err(format!("it binds {count} {what}; group 1 has room for {room} with wgpu's default limits"))
+    let exceeded = counts.into_iter().zip(AVAILABLE).find(|(count, (_, available))| count > available);
+    exceeded.map_or(Ok(()), |(count, (what, available))| {
+        Err(format!("it has {count} bindings for {what}; wgpu's default limits leave {available} to group 1"))
     })
 }
 
-/// Whether what the WGSL reads of group 1 is what `binding_types` says: wgpu compares them when a pipeline is made.
+/// Checks that the WGSL reads of group 1 what `binding_types` declares: wgpu compares them when a pipeline is created.
 fn check_bindings(
     device: &wgpu::Device,
     technique: &dyn ShadowTechnique,
@@ -88,7 +88,7 @@ fn check_bindings(
     })
 }
 
-/// Runs `work`, and returns what the device found wrong with it: by default wgpu ends the program.
+/// Runs `work` and returns the device's validation error, which would end the program otherwise.
 fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let done = work();

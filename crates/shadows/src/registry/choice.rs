@@ -1,32 +1,33 @@
-//! A technique as users choose it, with its modifier.
+//! A technique with its modifier.
 
 use std::fmt;
 
 use super::{PCF, TechniqueContext, TechniqueKind};
+use crate::error::Error;
+use crate::settings::NamedSettings;
 use crate::technique::ShadowTechnique;
 use crate::techniques::{ContactSettings, ScreenSettings, ScreenShadows};
-use crate::{Error, TechniqueSettings};
 
-/// A technique, and whether its shadows are collected on the screen: `pcf`, `pcf+screen`, `pcf+contact`.
+/// A technique and its modifier: `pcf`, `pcf+screen`, `pcf+contact`.
 #[derive(Clone, Copy)]
 pub struct Technique {
     base: TechniqueKind,
     modifier: Modifier,
 }
 
-/// What is added to a technique.
+/// A change to how a technique's shadows are evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Modifier {
     #[default]
     None,
-    /// Its shadows are collected in a mask.
+    /// Shadows are evaluated in screen space, into a mask.
     Screen,
-    /// Its shadows are collected in a mask, and contact shadows are added.
+    /// As `Screen`, with contact shadows added.
     Contact,
 }
 
 impl Technique {
-    /// Returns its name, with the modifier.
+    /// Returns the name with the modifier, such as `pcf+contact`.
     pub fn name(&self) -> String {
         let base = self.base.name;
         match self.modifier {
@@ -36,24 +37,24 @@ impl Technique {
         }
     }
 
-    /// Returns the technique with its shadows collected in a screen mask.
+    /// Returns the technique with its shadows evaluated in screen space.
     #[must_use]
-    pub fn collected(self) -> Self {
+    pub fn with_screen(self) -> Self {
         self.with_modifier(Modifier::Screen)
     }
 
-    /// Returns the technique with its shadows collected in a screen mask, and contact shadows added.
+    /// Returns the technique with its shadows evaluated in screen space, and contact shadows added.
     #[must_use]
     pub fn with_contact(self) -> Self {
         self.with_modifier(Modifier::Contact)
     }
 
-    /// Returns the technique with a modifier. Contact shadows include the screen mask.
+    /// Returns the technique with a modifier; `Contact` includes `Screen`.
     pub(super) fn with_modifier(self, modifier: Modifier) -> Self {
         if self.modifier == Modifier::Contact { self } else { Self { modifier, ..self } }
     }
 
-    /// Makes one.
+    /// Creates an instance of the technique.
     ///
     /// # Errors
     /// As [`TechniqueKind::make`].

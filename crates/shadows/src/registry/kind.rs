@@ -1,14 +1,14 @@
-//! What there is to know of a technique before one is made.
+//! Techniques by name, before one is created.
 
 use std::fmt;
 
+use crate::error::Error;
 use crate::rays::{GpuRayScene, RayScene};
-use crate::settings::failed;
+use crate::settings::{NamedSettings, Setting, SettingType, ShadowSettings, failed, json};
 use crate::technique::ShadowTechnique;
-use crate::{Error, ShadowSettings, TechniqueSettings};
 use serde_json::Value;
 
-/// A technique by name, and how one is made. A plain constant:
+/// A technique by name, and the function that creates one. A plain constant:
 ///
 /// ```
 /// use shadowgraph_shadows::{NoShadows, TechniqueKind};
@@ -18,9 +18,9 @@ use serde_json::Value;
 /// ```
 #[derive(Clone, Copy)]
 pub struct TechniqueKind {
-    /// The name that users choose it by: small letters, digits and `_`.
+    /// The name that users choose: lower-case letters, digits and `_`.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// One line about the technique.
     pub summary: &'static str,
     pub(super) make: MakeTechnique,
     pub(super) settings: Option<SettingsKind>,
@@ -34,61 +34,69 @@ impl fmt::Debug for TechniqueKind {
 
 type MakeTechnique = fn(&TechniqueContext<'_>) -> Result<Box<dyn ShadowTechnique>, Error>;
 
-/// The settings of a technique, whatever their type.
+/// The settings of a technique or modifier, without their type.
 #[derive(Clone, Copy)]
 pub(super) struct SettingsKind {
     pub(super) name: &'static str,
+    pub(super) settings: fn() -> &'static [Setting],
     pub(super) check: fn(&ShadowSettings) -> Result<(), Error>,
-    pub(super) defaults: fn() -> String,
     pub(super) json: fn(&ShadowSettings) -> Result<Value, Error>,
     pub(super) set_json: fn(&mut ShadowSettings, Value) -> Result<(), Error>,
 }
 
 impl SettingsKind {
-    pub(super) const fn of<T: TechniqueSettings>() -> Self {
+    pub(super) const fn new<T: NamedSettings>() -> Self {
         Self {
             name: T::NAME,
+            settings: T::settings,
             check: |settings| settings.techniques.get::<T>().map(drop),
-            // Numbers and the like can always be written.
-            defaults: || ron::to_string(&T::default()).unwrap_or_default(),
-            json: |settings| {
-                serde_json::to_value(settings.techniques.get::<T>()?).map_err(|error| failed(T::NAME, &error))
-            },
+            json: |settings| Ok(json(&settings.techniques.get::<T>()?)),
             set_json: |settings, value| {
-                let own: T = serde_json::from_value(value).map_err(|error| failed(T::NAME, &error))?;
-                settings.techniques.set(&own)
+                let read: T = serde_json::from_value(value).map_err(|error| failed(T::NAME, &error))?;
+                settings.techniques.set(&read)
             },
         }
+    }
+
+    /// Returns the defaults as RON.
+    pub(super) fn defaults(&self) -> String {
+        let ty = SettingType::Struct((self.settings)());
+        ty.ron(&ty.default_value())
     }
 }
 
 impl TechniqueKind {
-    /// Describes a technique and how it is made.
+    /// Describes a technique and the function that creates one.
     pub const fn new(name: &'static str, summary: &'static str, make: MakeTechnique) -> Self {
         Self { name, summary, make, settings: None }
     }
 
-    /// Adds that it has settings of its own.
+    /// Adds the technique's settings.
     #[must_use]
-    pub const fn with_settings<T: TechniqueSettings>(self) -> Self {
-        Self { settings: Some(SettingsKind::of::<T>()), ..self }
+    pub const fn with_settings<T: NamedSettings>(self) -> Self {
+        Self { settings: Some(SettingsKind::new::<T>()), ..self }
     }
 
-    /// Returns the settings that it has by default, in RON; `None` if it has none of its own.
+    /// Returns the descriptions of the technique's settings; empty if it has none.
+    pub fn settings(&self) -> &'static [Setting] {
+        self.settings.map_or(&[], |settings| (settings.settings)())
+    }
+
+    /// Returns the defaults of the technique's settings in RON; `None` if it has no settings.
     pub fn default_settings(&self) -> Option<String> {
-        self.settings.map(|settings| (settings.defaults)())
+        self.settings.map(|settings| settings.defaults())
     }
 
-    /// Makes one.
+    /// Creates an instance of the technique.
     ///
     /// # Errors
-    /// If a shader does not compose, or the scene's triangles cannot be had.
+    /// If a shader does not compose, or the scene's triangles are not available.
     pub fn make(&self, context: &TechniqueContext<'_>) -> Result<Box<dyn ShadowTechnique>, Error> {
         (self.make)(context)
     }
 }
 
-/// What techniques are made with.
+/// The device and the scene that techniques are created for.
 #[derive(Clone, Copy)]
 pub struct TechniqueContext<'c> {
     /// The device that draws.
@@ -97,13 +105,13 @@ pub struct TechniqueContext<'c> {
 }
 
 impl<'c> TechniqueContext<'c> {
-    /// For techniques of a scene without triangles.
+    /// Creates a context without a scene's triangles.
     pub fn new(device: &'c wgpu::Device) -> Self {
         Self { device, rays: None }
     }
 
-    /// Tells where the scene's triangles come from, for techniques that trace rays. They are relative to the origin of the
-    /// frames that are drawn: when that moves, techniques are made anew.
+    /// Adds the source of the scene's triangles, for techniques that trace rays. They are relative to the origin of the
+    /// frames that are drawn: when that moves, techniques are created again.
     #[must_use]
     pub fn with_rays(self, rays: &'c dyn Fn() -> Result<GpuRayScene, Error>) -> Self {
         Self { rays: Some(rays), ..self }

@@ -1,17 +1,20 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
-use serde::{Deserialize, Serialize};
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::ModuleSource;
 
 use super::*;
+use crate::declare_settings;
+use crate::gpu_struct;
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::settings::NamedSettings;
 use crate::technique::binding::{FILTERED_MAP, SAMPLER, STORAGE, UNIFORM};
 use crate::technique::{GpuStruct, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::{Requirements, ShadowInputs, TechniqueSettings, gpu_struct};
 
 const HEAD: &str = "#define_import_path shadowgraph::technique\n#import shadowgraph::receiver::Receiver\n";
 const COLOR: &str = "fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f { return vec3f(1.0); }\n";
 
-/// What it says of itself is not always so.
+/// A technique whose declarations may be wrong.
 #[derive(Default)]
 struct Liar {
     name: &'static str,
@@ -73,7 +76,7 @@ fn refused_kind(kind: TechniqueKind) -> String {
 }
 
 #[test]
-fn every_built_in_technique_is_what_it_says() {
+fn every_built_in_technique_passes_registration() {
     for kind in Techniques::built_in().kinds() {
         assert_eq!(check::kind(kind), Ok(()), "{}", kind.name);
         assert!(!kind.summary.is_empty());
@@ -88,13 +91,13 @@ fn a_technique_of_another_crate_is_found_by_its_name() {
     });
     techniques.register(mine).unwrap();
     assert_eq!(techniques.find("mine").unwrap(), mine);
-    assert_eq!(techniques.find("mine+screen").unwrap(), Technique::from(mine).collected());
+    assert_eq!(techniques.find("mine+screen").unwrap(), Technique::from(mine).with_screen());
     assert_eq!(techniques.find("screen").unwrap().name(), "pcf+screen");
     assert_eq!(techniques.find("pcf+screen+contact").unwrap().name(), "pcf+contact");
 }
 
 #[test]
-fn what_is_no_technique_is_refused_with_the_part_that_is_none_and_what_there_is() {
+fn an_unknown_technique_is_an_error_with_the_unknown_part_and_the_known_names() {
     let techniques = Techniques::built_in();
     let wrong = [("", ""), ("soft", "soft"), ("pcf+soft", "+soft"), ("pcf+pcss", "+pcss"), ("pcf+", "+")];
     for (name, part) in wrong {
@@ -115,19 +118,19 @@ fn what_is_no_technique_is_refused_with_the_part_that_is_none_and_what_there_is(
 }
 
 #[test]
-fn a_name_that_is_taken_or_cannot_be_typed_is_refused() {
+fn a_name_that_is_taken_or_has_other_characters_is_an_error() {
     for (name, part) in
-        [("pcf", "already"), ("screen", "already"), ("Mine", "small letters"), ("", "small letters")]
+        [("pcf", "taken"), ("screen", "taken"), ("Mine", "lower-case letters"), ("", "lower-case letters")]
     {
         let kind = TechniqueKind::new(name, "", |_| Ok(Box::new(Liar { wgsl: LIT, ..Liar::default() })));
         assert!(refused_kind(kind).contains(part), "{name}");
     }
     let other = refused(|_| Ok(Box::new(Liar { name: "other", wgsl: LIT, ..Liar::default() })));
-    assert!(other.contains("what it makes is called `other`"), "{other}");
+    assert!(other.contains("it creates a technique named `other`"), "{other}");
 }
 
 #[test]
-fn a_function_that_is_missing_or_returns_something_else_is_told() {
+fn a_missing_function_or_another_return_type_is_an_error() {
     let missing = refused(|_| Ok(Box::new(Liar { name: "mine", ..Liar::default() })));
     assert!(missing.contains("shadow_visibility"), "{missing}");
     let grey = refused(|_| {
@@ -138,7 +141,7 @@ fn a_function_that_is_missing_or_returns_something_else_is_told() {
 }
 
 #[test]
-fn wrong_wgsl_is_told_with_file_and_line() {
+fn an_error_in_wgsl_names_file_and_line() {
     let error = refused(|_| {
         let wgsl =
             "fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {\n    return nothing;\n}\n";
@@ -148,7 +151,7 @@ fn wrong_wgsl_is_told_with_file_and_line() {
 }
 
 #[test]
-fn bindings_that_are_not_as_said_are_told() {
+fn bindings_that_differ_from_the_declared_types_are_an_error() {
     let none = refused(|_| Ok(Box::new(Liar { name: "mine", wgsl: BOUND, ..Liar::default() })));
     assert!(none.contains("group: 1, binding: 0"), "{none}");
     let other = refused(|_| {
@@ -158,7 +161,7 @@ fn bindings_that_are_not_as_said_are_told() {
 }
 
 #[test]
-fn more_bindings_than_a_lit_pass_has_room_for_are_told() {
+fn more_bindings_than_a_lit_pass_leaves_are_an_error() {
     for (ty, count, what) in [
         (STORAGE, 7, "storage buffers"),
         (FILTERED_MAP, 11, "textures"),
@@ -167,12 +170,15 @@ fn more_bindings_than_a_lit_pass_has_room_for_are_told() {
     ] {
         assert!(check::limits(&vec![ty; count - 1]).is_ok());
         let error = check::limits(&vec![ty; count]).unwrap_err();
-        assert!(error.starts_with(&format!("it binds {count} ")) && error.contains(what), "{error}");
+        assert!(
+            error.starts_with(&format!("it has {count} bindings for ")) && error.contains(what),
+            "{error}"
+        );
     }
 }
 
 #[test]
-fn structs_that_lie_otherwise_in_rust_are_told() {
+fn structs_with_another_layout_in_rust_are_an_error() {
     #[repr(C)]
     struct Mine {
         far: f32,
@@ -185,40 +191,35 @@ fn structs_that_lie_otherwise_in_rust_are_told() {
     assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, not 0"), "{error}");
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(default)]
-struct Strength {
-    strength: f32,
-}
-
-impl Default for Strength {
-    fn default() -> Self {
-        Self { strength: f32::NAN }
+declare_settings! {
+    /// Settings whose default is out of range.
+    struct Strength {
+        /// Strength.
+        strength: f32 = f32::NAN, 0..=1;
     }
 }
 
-impl TechniqueSettings for Strength {
+impl NamedSettings for Strength {
     const NAME: &'static str = "mine";
-
-    fn validate(&self) -> Result<(), Error> {
-        crate::settings::in_range("strength", self.strength, 0.0, 1.0, "0 to 1")
-    }
 }
 
 #[test]
-fn settings_that_are_wrong_by_default_are_told() {
+fn default_settings_out_of_range_are_an_error() {
     let kind =
         TechniqueKind::new("mine", "", |_| Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() })));
     let error = refused_kind(kind.with_settings::<Strength>());
-    assert!(error.contains("by default") && error.contains("`strength` is NaN"), "{error}");
+    assert!(
+        error.contains("default settings: ") && error.contains("`techniques.mine.strength` is NaN"),
+        "{error}"
+    );
 }
 
 #[test]
-fn settings_of_another_technique_are_told() {
+fn settings_of_another_technique_are_an_error() {
     let kind =
         TechniqueKind::new("mine", "", |_| Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() })));
     let error = refused_kind(kind.with_settings::<crate::PcssSettings>());
-    assert!(error.contains("its settings are those of `pcss`"), "{error}");
+    assert!(error.contains("its settings are named `pcss`"), "{error}");
 }
 
 #[test]
@@ -228,18 +229,15 @@ fn settings_of_techniques_are_checked_with_the_others() {
         let settings: ShadowSettings = ron::from_str(text).unwrap();
         techniques.check(&settings).map_err(|error| error.to_string()).unwrap_err()
     };
-    assert!(error("(distance_m: 0.0)").starts_with("shadow setting `distance_m`"));
+    assert!(error("(distance_m: 0.0)").starts_with("invalid value: `distance_m`"));
     let out_of_range = error(r#"(techniques: {"pcss": (filter_taps: 0)})"#);
-    assert!(
-        out_of_range.contains("technique `pcss`") && out_of_range.contains("`filter_taps` is 0"),
-        "{out_of_range}"
-    );
+    assert!(out_of_range.contains("`techniques.pcss.filter_taps` is 0"), "{out_of_range}");
     assert!(error(r#"(techniques: {"contact": (steps: 99)})"#).contains("1 to 64"));
-    assert!(error(r#"(techniques: {"none": ()})"#).contains("no settings of its own"));
+    assert!(error(r#"(techniques: {"none": ()})"#).contains("it has no settings"));
     assert!(error(r#"(techniques: {"soft": ()})"#).starts_with("unknown technique `soft`"));
     let kind = error(r#"(techniques: {"pcss": (filter_taps: 2.5)})"#);
     assert!(
-        kind.starts_with("technique `pcss`: its settings: ")
+        kind.starts_with("settings of technique `pcss`: ")
             && kind.ends_with("(line 1, column 16 of them)")
             && kind.lines().count() == 1,
         "{kind}"

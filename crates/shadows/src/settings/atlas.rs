@@ -1,69 +1,54 @@
 //! The atlas.
 
-use serde::{Deserialize, Serialize};
-
 use super::DepthFormat;
-use super::check::{in_range, map_size, setting};
-use crate::{Error, ShadowFilter};
+use super::describe::refused;
+use crate::declare_settings;
+use crate::error::Error;
+use crate::filter::ShadowFilter;
 
-/// The atlas: one map for spot and point lights and the directional lights that have no cascades.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct AtlasSettings {
-    /// Width of the map, pixels, a power of two from 256 to 8192.
-    pub map_size_px: u32,
-    /// How it is divided among the lights.
-    pub tiles: AtlasTiles,
-    /// Whether tiles are kept from frame to frame, and drawn again only when their light, their place or their casters
-    /// change. Casters that are not seen are then drawn too, as the next frame may see them.
-    pub cache: bool,
-    /// How finely the map stores depth.
-    pub depth: DepthFormat,
-    /// How shadows' edges are smoothed.
-    pub filter: ShadowFilter,
-    /// Where the depth range of a spot or point light begins, metres from the light, 0.0001 to 100. Nearer casters count
-    /// as being there.
-    pub spot_near_m: f32,
+declare_settings! {
+    /// The atlas: one map for spot and point lights and the directional lights that have no cascades.
+    #[check(AtlasSettings::check_tiles)]
+    pub struct AtlasSettings {
+        /// Width of the map.
+        map_size_px: u32 = 2048, power_of_two 256..=8192, in "pixels";
+        /// Division of the map among the lights.
+        tiles: AtlasTiles = AtlasTiles::ByImportance { smallest_px: 64 };
+        /// Keeps tiles from frame to frame, and draws one again only when its light, its place or its casters change.
+        /// Casters that are not visible are then drawn too, as the next frame may see them.
+        cache: bool = false;
+        /// Format of the map.
+        depth: DepthFormat = DepthFormat::Depth32;
+        /// Filter of shadow edges.
+        filter: ShadowFilter = ShadowFilter::Tent5;
+        /// Distance from a spot or point light at which its depth range begins. Nearer casters are drawn at that distance.
+        spot_near_m: f32 = 0.05, 0.0001..=100, in "metres";
+    }
 }
 
-/// How the atlas is divided among its lights. A point light needs six tiles, others one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum AtlasTiles {
-    /// Up to 16 tiles of one size: the map is split 1, 2, 3 or 4 times each way, as they need.
-    Even,
-    /// The larger the part of the picture that a light can fill, times its
-    /// [importance](super::LightShadows::importance), the larger its tiles: powers of two. A light keeps size and place
-    /// while its wish changes little. If there is too little room, all get smaller, and last the least important get none.
-    ByImportance {
-        /// The width of the smallest tile, pixels, a power of two from 64 to 1024. At most a quarter of the map.
-        smallest_px: u32,
-    },
-}
-
-impl Default for AtlasSettings {
-    fn default() -> Self {
-        Self {
-            map_size_px: 2048,
-            tiles: AtlasTiles::ByImportance { smallest_px: 64 },
-            cache: false,
-            depth: DepthFormat::default(),
-            filter: ShadowFilter::default(),
-            spot_near_m: 0.05,
-        }
+declare_settings! {
+    /// Division of the atlas among its lights. A point light needs six tiles, others one.
+    #[derive(Copy, Eq, Hash)]
+    pub enum AtlasTiles {
+        /// Up to 16 tiles of one size: the map is split 1, 2, 3 or 4 times each way, as the lights need.
+        Even;
+        /// Tiles of powers of two: the larger the part of the image that a light can fill, times its `importance`, the larger its tiles.
+        /// A light keeps size and place while its request changes little. If the map is too small, all tiles get smaller, and last
+        /// the least important lights get none.
+        ByImportance {
+            /// Width of the smallest tile.
+            smallest_px: u32 = 64, power_of_two 64..=1024, in "pixels", and "at most a quarter of the map";
+        };
     }
 }
 
 impl AtlasSettings {
-    pub(super) fn validate(&self) -> Result<(), Error> {
-        map_size("atlas.map_size_px", self.map_size_px)?;
-        if let AtlasTiles::ByImportance { smallest_px } = self.tiles
-            && !(smallest_px.is_power_of_two()
-                && (64..=1024).contains(&smallest_px)
-                && smallest_px <= self.map_size_px / 4)
-        {
-            let allowed = "64, 128, 256, 512 or 1024 (pixels), at most a quarter of the map";
-            return Err(setting("atlas.tiles.smallest_px", smallest_px, allowed));
+    fn check_tiles(&self) -> Result<(), Error> {
+        match self.tiles {
+            AtlasTiles::ByImportance { smallest_px } if smallest_px > self.map_size_px / 4 => {
+                Err(refused(Self::SETTINGS, "tiles.smallest_px", smallest_px))
+            }
+            _ => Ok(()),
         }
-        in_range("atlas.spot_near_m", self.spot_near_m, 1e-4, 100.0, "0.0001 to 100 (metres)")
     }
 }

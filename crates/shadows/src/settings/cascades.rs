@@ -1,118 +1,120 @@
 //! The cascades of directional lights.
 
-use serde::{Deserialize, Serialize};
-
 use super::DepthFormat;
-use super::check::{in_range, map_size, setting};
-use crate::{Error, ShadowFilter};
+use super::describe::refused;
+use crate::declare_settings;
+use crate::error::Error;
+use crate::filter::ShadowFilter;
 
-/// The cascades of the brightest directional lights that cast shadows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct CascadeSettings {
-    /// How many, 0 to 8; 0: every directional light has one tile of the atlas.
-    pub count: u32,
-    /// How many lights have cascades, 1 to 4, the brightest first. Other directional lights have one tile of the atlas.
-    pub lights: u32,
-    /// Width of the map that holds them all, pixels, a power of two from 256 to 8192. It is split as often each way as
-    /// its tiles need: twice for up to four.
-    pub map_size_px: u32,
-    /// Whether the map is kept from frame to frame, and a cascade drawn again only when it, its light or its casters change:
-    /// while the camera stands still.
-    pub cache: bool,
-    /// How finely the map stores depth.
-    pub depth: DepthFormat,
-    /// Where one cascade ends and the next begins.
-    pub split: SplitScheme,
-    /// By how much of its length a slice of the view reaches into the one before it, 0 to 0.5.
-    pub overlap: f32,
-    /// What a cascade's tile covers.
-    pub fit: CascadeFitting,
-    /// How a point finds its cascade.
-    pub select: CascadeSelection,
-    /// How one cascade goes over into the next.
-    pub blend: CascadeBlend,
-    /// The outer part of the last cascade, over which its shadows fade out, 0 (none) to 1, in addition to the fade at the
-    /// end of the shadow distance.
-    pub edge_fade: f32,
-    /// How shadows' edges are smoothed.
-    pub filter: ShadowFilter,
-    /// The width of the filter at the end of the shadow distance, in parts of its width at the camera, 0.2 to 1.
-    pub far_filter: f32,
-    /// How much farther towards the light depth is told apart than a cascade needs by itself, metres, 0 to 10,000.
-    /// Casters beyond that count as being there.
-    pub near_offset_m: f32,
-    /// What the bias of each cascade is multiplied by, 0 to 16; 1 for those that are left out.
-    pub bias_scales: Vec<f32>,
+declare_settings! {
+    /// The cascades of the brightest directional lights that cast shadows.
+    #[check(CascadeSettings::check_split)]
+    pub struct CascadeSettings {
+        /// Cascades of each light. With 0 every directional light has one tile of the atlas.
+        count: u32 = 4, 0..=8;
+        /// Lights that have cascades, the brightest first. Other directional lights have one tile of the atlas.
+        lights: u32 = 1, 1..=4;
+        /// Width of the map that holds all cascades. It is split as often each way as its tiles need: twice for up to four.
+        map_size_px: u32 = 4096, power_of_two 256..=8192, in "pixels";
+        /// Keeps the map from frame to frame, and draws a cascade again only when it, its light or its casters change:
+        /// while the camera stands still.
+        cache: bool = false;
+        /// Format of the map.
+        depth: DepthFormat = DepthFormat::Depth32;
+        /// Ends of the cascades.
+        split: SplitScheme = SplitScheme::Practical { lambda: 0.85 };
+        /// Part of its length by which a slice of the view reaches into the one before it.
+        overlap: f32 = 0.0, 0..=0.5, in "part of a slice's length";
+        /// Volume that a cascade's tile covers.
+        fit: CascadeFitting = CascadeFitting::Stable;
+        /// Selection of the cascade of a point.
+        select: CascadeSelection = CascadeSelection::Map;
+        /// Transition from one cascade to the next.
+        blend: CascadeBlend = CascadeBlend::Hard;
+        /// Outer part of the last cascade over which its shadows fade out, in addition to the fade at the end of the shadow distance.
+        edge_fade: f32 = 0.0, 0..=1, in "outer part of the last cascade";
+        /// Filter of shadow edges.
+        filter: ShadowFilter = ShadowFilter::Tent5;
+        /// Width of the filter at the end of the shadow distance, as a part of its width at the camera.
+        far_filter: f32 = 1.0, 0.2..=1, in "part of the filter's width";
+        /// Distance towards the light by which the depth range is longer than the cascade needs. Casters beyond it are drawn at its end.
+        near_offset_m: f32 = 0.0, 0..=10000, in "metres";
+        /// Factors of the bias of each cascade; 1 for those that are left out.
+        bias_scales: Vec<f32> = Vec::new(), 0..=16;
+    }
 }
 
-/// How the shadow distance is divided among the cascades.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum SplitScheme {
-    /// Fixed ratios for the number of cascades: 0.25 for two, 0.1 and 0.35 for three, 0.067, 0.2 and 0.467 for four;
-    /// equal lengths for others.
-    #[default]
-    Standard,
-    /// The ends of all cascades but the last, as parts of the way from the near plane to the shadow distance:
-    /// above 0, rising, below 1.
-    Ratios(Vec<f32>),
-    /// The ends of all cascades but the last, metres of view depth: above 0, rising. Ends beyond the shadow distance are
-    /// moved before it.
-    Metres(Vec<f32>),
-    /// Each cascade ends this many times as far as the one before it, 1.01 to 100.
-    Factor(f32),
-    /// The first cascade ends here (metres of view depth, 0.001 to 100,000), and all others the same number of times as
-    /// far as the one before them. In small scenes the first ends earlier, so that each is at least twice the last.
-    Geometric {
-        /// Where the first cascade ends.
-        first_m: f32,
-    },
-    /// As `Geometric` from the near plane on: the texels are as large on screen everywhere, and the first cascades very
-    /// short.
-    Logarithmic,
-    /// Between equal lengths (`lambda` 0) and `Logarithmic` (`lambda` 1): Zhang et al., "Parallel-Split Shadow Maps for
-    /// Large-scale Virtual Environments", 2006.
-    Practical {
-        /// The weight of the logarithmic scheme, 0 to 1.
-        lambda: f32,
-    },
+declare_settings! {
+    /// Division of the shadow distance among the cascades.
+    #[default(Standard)]
+    pub enum SplitScheme {
+        /// Fixed ratios for the number of cascades: 0.25 for two, 0.1 and 0.35 for three, 0.067, 0.2 and 0.467 for four;
+        /// equal lengths for others.
+        Standard;
+        /// Ends of all cascades but the last, as parts of the way from the near plane to the shadow distance.
+        Ratios(Vec<f32> = vec![0.067, 0.2, 0.467], 0..=1, and "one fewer than cascades, above 0, rising, below 1");
+        /// Ends of all cascades but the last, as view depth. Ends beyond the shadow distance are moved before it.
+        Metres(Vec<f32> = vec![10.0, 30.0, 90.0], 0..=1000000, in "metres", and "one fewer than cascades, above 0, rising");
+        /// Ratio of the end of each cascade to the end of the one before it.
+        Factor(f32 = 3.0, 1.01..=100);
+        /// The first cascade has a fixed end, and the ratio of ends is the same for all others. In small scenes the first ends earlier, so
+        /// that each is at least twice the last.
+        Geometric {
+            /// View depth at which the first cascade ends.
+            first_m: f32 = 10.0, 0.001..=100000, in "metres";
+        };
+        /// As `Geometric` from the near plane on: the texels are as large on screen everywhere, and the first cascades very
+        /// short.
+        Logarithmic;
+        /// Between equal lengths (`lambda` 0) and `Logarithmic` (`lambda` 1): Zhang et al., "Parallel-Split Shadow Maps for
+        /// Large-scale Virtual Environments", 2006.
+        Practical {
+            /// Weight of the logarithmic scheme.
+            lambda: f32 = 0.85, 0..=1;
+        };
+    }
 }
 
-/// What a cascade's tile covers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum CascadeFitting {
-    /// The sphere around its slice of the view: as large wherever the camera looks, and moved in whole texels only, so
-    /// shadows stand still.
-    #[default]
-    Stable,
-    /// The box around its slice of the view in the light's axes: finer texels, that change as the camera turns.
-    Tight,
+declare_settings! {
+    /// The volume that a cascade's tile covers.
+    #[derive(Copy, Eq, Hash)]
+    #[default(Stable)]
+    pub enum CascadeFitting {
+        /// The sphere around its slice of the view: of the same size wherever the camera looks, and moved in whole texels only, so
+        /// shadows do not shimmer.
+        Stable;
+        /// The box around its slice of the view in the light's axes: finer texels, which change as the camera turns.
+        Tight;
+    }
 }
 
-/// How a point finds its cascade.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum CascadeSelection {
-    /// The first whose map covers it: the finest texels that there are.
-    #[default]
-    Map,
-    /// The first whose sphere holds it.
-    Sphere,
-    /// The one whose slice of view depth it is in.
-    Depth,
+declare_settings! {
+    /// Selection of the cascade of a point.
+    #[derive(Copy, Eq, Hash)]
+    #[default(Map)]
+    pub enum CascadeSelection {
+        /// The first cascade whose map covers the point: the finest texels available.
+        Map;
+        /// The first cascade whose sphere contains the point.
+        Sphere;
+        /// The cascade whose slice of view depth contains the point.
+        Depth;
+    }
 }
 
-/// How one cascade goes over into the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub enum CascadeBlend {
-    /// At once.
-    #[default]
-    Hard,
-    /// Both are looked up over this outer part of each cascade, 0.001 to 0.5, and mixed.
-    Soft(f32),
-    /// Over this outer part of each cascade, 0.001 to 0.5, every pixel takes one of the two, by a pattern of noise: the
-    /// price of one lookup.
-    Dither(f32),
+declare_settings! {
+    /// Transition from one cascade to the next.
+    #[derive(Copy)]
+    #[default(Hard)]
+    pub enum CascadeBlend {
+        /// No blending.
+        Hard;
+        /// Both cascades are read over this outer part of each cascade, and mixed.
+        Soft(f32 = 0.1, 0.001..=0.5, in "outer part of a cascade");
+        /// Over this outer part of each cascade, every pixel reads one of the two, by a pattern of noise: the
+        /// cost of one lookup.
+        Dither(f32 = 0.1, 0.001..=0.5, in "outer part of a cascade");
+    }
 }
 
 impl CascadeBlend {
@@ -132,28 +134,6 @@ pub const MAX_CASCADES: u32 = 8;
 /// The most lights that can have cascades.
 pub const MAX_CASCADE_LIGHTS: u32 = 4;
 
-impl Default for CascadeSettings {
-    fn default() -> Self {
-        Self {
-            count: 4,
-            lights: 1,
-            map_size_px: 4096,
-            cache: false,
-            depth: DepthFormat::default(),
-            split: SplitScheme::Practical { lambda: 0.85 },
-            overlap: 0.0,
-            fit: CascadeFitting::default(),
-            select: CascadeSelection::default(),
-            blend: CascadeBlend::default(),
-            edge_fade: 0.0,
-            filter: ShadowFilter::default(),
-            far_filter: 1.0,
-            near_offset_m: 0.0,
-            bias_scales: Vec::new(),
-        }
-    }
-}
-
 impl CascadeSettings {
     /// Returns the part of its length by which a slice reaches into the one before it: what is blended is covered by both.
     #[must_use]
@@ -161,51 +141,16 @@ impl CascadeSettings {
         f64::from(self.overlap.max(self.blend.fraction()))
     }
 
-    pub(super) fn validate(&self) -> Result<(), Error> {
-        if self.count > MAX_CASCADES {
-            return Err(setting("cascades.count", self.count, "0 to 8"));
+    fn check_split(&self) -> Result<(), Error> {
+        let (ends, below, name) = match &self.split {
+            SplitScheme::Ratios(ends) => (ends, 1.0, "split.Ratios"),
+            SplitScheme::Metres(ends) => (ends, f32::INFINITY, "split.Metres"),
+            _ => return Ok(()),
+        };
+        if rising(ends, self.count, below) {
+            return Ok(());
         }
-        if !(1..=MAX_CASCADE_LIGHTS).contains(&self.lights) {
-            return Err(setting("cascades.lights", self.lights, "1 to 4"));
-        }
-        map_size("cascades.map_size_px", self.map_size_px)?;
-        self.split.validate(self.count)?;
-        in_range("cascades.overlap", self.overlap, 0.0, 0.5, "0 to 0.5 (part of a slice's length)")?;
-        if self.blend != CascadeBlend::Hard {
-            let fraction = self.blend.fraction();
-            in_range("cascades.blend", fraction, 0.001, 0.5, "0.001 to 0.5 (outer part of a cascade)")?;
-        }
-        in_range("cascades.edge_fade", self.edge_fade, 0.0, 1.0, "0 to 1 (outer part of the last cascade)")?;
-        in_range("cascades.far_filter", self.far_filter, 0.2, 1.0, "0.2 to 1 (part of the filter's width)")?;
-        in_range("cascades.near_offset_m", self.near_offset_m, 0.0, 1e4, "0 to 10000 (metres)")?;
-        self.bias_scales
-            .iter()
-            .try_for_each(|&scale| in_range("cascades.bias_scales", scale, 0.0, 16.0, "each 0 to 16"))
-    }
-}
-
-impl SplitScheme {
-    fn validate(&self, count: u32) -> Result<(), Error> {
-        match self {
-            Self::Standard | Self::Logarithmic => Ok(()),
-            Self::Ratios(ends) if rising(ends, count, 1.0) => Ok(()),
-            Self::Ratios(ends) => {
-                let allowed = "one ratio fewer than cascades, above 0, rising, below 1";
-                Err(setting("cascades.split", format!("{ends:?} for {count} cascades"), allowed))
-            }
-            Self::Metres(ends) if rising(ends, count, f32::MAX) => Ok(()),
-            Self::Metres(ends) => {
-                let allowed = "one end fewer than cascades, above 0, rising (metres)";
-                Err(setting("cascades.split", format!("{ends:?} for {count} cascades"), allowed))
-            }
-            Self::Factor(factor) => in_range("cascades.split", *factor, 1.01, 100.0, "1.01 to 100 (factor)"),
-            Self::Geometric { first_m } => {
-                in_range("cascades.split.first_m", *first_m, 0.001, 1e5, "0.001 to 100000 (metres)")
-            }
-            Self::Practical { lambda } => {
-                in_range("cascades.split.lambda", *lambda, 0.0, 1.0, "0 to 1 (0: equal lengths)")
-            }
-        }
+        Err(refused(Self::SETTINGS, name, format!("{ends:?} for {} cascades", self.count)))
     }
 }
 

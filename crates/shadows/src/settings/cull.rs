@@ -1,25 +1,20 @@
-//! Which casters are left out.
+//! Culling of casters.
 
-use serde::{Deserialize, Serialize};
+use crate::declare_settings;
 
-/// Which casters are left out of maps. None of it changes what is seen.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct CullSettings {
-    /// Leaves out casters that cannot darken anything that the camera sees within the shadow distance. Switch it off where
-    /// shadows are asked for at points beside the view.
-    pub unseen: bool,
-    /// Leaves casters out of a cascade if finer ones serve all that is seen of what they darken.
-    pub covered: bool,
-}
-
-impl Default for CullSettings {
-    fn default() -> Self {
-        Self { unseen: true, covered: true }
+declare_settings! {
+    /// Culling of casters. It never changes what is visible.
+    #[derive(Eq)]
+    pub struct CullSettings {
+        /// Leaves out casters that cannot darken anything that the camera sees within the shadow distance. Turn it off where
+        /// shadows are evaluated at points outside the view.
+        unseen: bool = true;
+        /// Leaves a caster out of a cascade if finer cascades cover everything visible that it darkens.
+        covered: bool = true;
     }
 }
 
 impl CullSettings {
-    /// Leaves out only what is beside a map.
+    /// Leaves out only casters that are outside a map.
     pub const NONE: Self = Self { unseen: false, covered: false };
 }

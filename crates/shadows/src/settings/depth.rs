@@ -1,22 +1,24 @@
-//! How finely a map stores depth.
+//! Depth formats of maps.
 
-use serde::{Deserialize, Serialize};
+use crate::declare_settings;
 
-/// The format of a shadow map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum DepthFormat {
-    /// 16 bits: half the memory. Enough for directional lights; for spot and point lights only with a near plane that is
-    /// not much nearer than what they light.
-    Depth16,
-    /// At least 24 bits.
-    Depth24,
-    /// 32 bits, floating.
-    #[default]
-    Depth32,
+declare_settings! {
+    /// The format of a shadow map.
+    #[derive(Copy, Eq, Hash)]
+    #[default(Depth32)]
+    pub enum DepthFormat {
+        /// 16 bits: half the memory. Enough for directional lights; for spot and point lights only with a near plane that is
+        /// not much nearer than what they light.
+        Depth16;
+        /// At least 24 bits.
+        Depth24;
+        /// 32 bits, floating.
+        Depth32;
+    }
 }
 
 impl DepthFormat {
-    /// All of them, from coarse to fine.
+    /// All formats, from coarse to fine.
     pub const ALL: [Self; 3] = [Self::Depth16, Self::Depth24, Self::Depth32];
 
     /// Returns the texture format.
@@ -29,7 +31,7 @@ impl DepthFormat {
         }
     }
 
-    /// Returns how far apart two depths are that it can tell apart: 0 where that is less than what shaders compute with.
+    /// Returns the smallest difference of depth that the format resolves; 0 where shaders compute no finer.
     #[must_use]
     pub fn step(self) -> f32 {
         match self {

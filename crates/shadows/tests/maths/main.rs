@@ -5,6 +5,7 @@ mod atlas;
 mod bias;
 mod cascades;
 mod common;
+mod documents;
 mod filter;
 mod layout;
 mod numbers;

@@ -47,100 +47,100 @@ fn an_unknown_field_is_named_with_the_known_ones() {
 #[test]
 fn a_value_out_of_range_is_named_with_field_and_range() {
     for (text, expected) in [
-        ("(distance_m: -1.0)", "shadow setting `distance_m` is -1; allowed: 0.001 to 1000000 (metres)"),
-        ("(distance_m: NaN)", "shadow setting `distance_m` is NaN; allowed: 0.001 to 1000000 (metres)"),
+        ("(distance_m: -1.0)", "invalid value: `distance_m` is -1; allowed: 0.001 to 1000000 (metres)"),
+        ("(distance_m: NaN)", "invalid value: `distance_m` is NaN; allowed: 0.001 to 1000000 (metres)"),
         (
             "(fade_fraction: 1.5)",
-            "shadow setting `fade_fraction` is 1.5; allowed: 0.001 to 1 (part of the distance)",
+            "invalid value: `fade_fraction` is 1.5; allowed: 0.001 to 1 (part of the distance)",
         ),
-        ("(cascades: (count: 9))", "shadow setting `cascades.count` is 9; allowed: 0 to 8"),
-        ("(cascades: (lights: 0))", "shadow setting `cascades.lights` is 0; allowed: 1 to 4"),
+        ("(cascades: (count: 9))", "invalid value: `cascades.count` is 9; allowed: 0 to 8"),
+        ("(cascades: (lights: 0))", "invalid value: `cascades.lights` is 0; allowed: 1 to 4"),
         (
             "(cascades: (overlap: 0.6))",
-            "shadow setting `cascades.overlap` is 0.6; allowed: 0 to 0.5 (part of a slice's length)",
+            "invalid value: `cascades.overlap` is 0.6; allowed: 0 to 0.5 (part of a slice's length)",
         ),
         (
             "(cascades: (blend: Soft(0.7)))",
-            "shadow setting `cascades.blend` is 0.7; allowed: 0.001 to 0.5 (outer part of a cascade)",
+            "invalid value: `cascades.blend` is 0.7; allowed: 0.001 to 0.5 (outer part of a cascade)",
         ),
         (
             "(cascades: (edge_fade: -1.0))",
-            "shadow setting `cascades.edge_fade` is -1; allowed: 0 to 1 (outer part of the last cascade)",
+            "invalid value: `cascades.edge_fade` is -1; allowed: 0 to 1 (outer part of the last cascade)",
         ),
         (
             "(cascades: (far_filter: 0.0))",
-            "shadow setting `cascades.far_filter` is 0; allowed: 0.2 to 1 (part of the filter's width)",
+            "invalid value: `cascades.far_filter` is 0; allowed: 0.2 to 1 (part of the filter's width)",
         ),
         (
             "(cascades: (near_offset_m: inf))",
-            "shadow setting `cascades.near_offset_m` is inf; allowed: 0 to 10000 (metres)",
+            "invalid value: `cascades.near_offset_m` is inf; allowed: 0 to 10000 (metres)",
         ),
         (
             "(cascades: (bias_scales: [1.0, NaN]))",
-            "shadow setting `cascades.bias_scales` is NaN; allowed: each 0 to 16",
+            "invalid value: `cascades.bias_scales` is NaN; allowed: a list, each 0 to 16",
         ),
         (
             "(cascades: (split: Metres([10.0, 5.0, 20.0])))",
-            "shadow setting `cascades.split` is [10.0, 5.0, 20.0] for 4 cascades; \
-             allowed: one end fewer than cascades, above 0, rising (metres)",
+            "invalid value: `cascades.split` is [10.0, 5.0, 20.0] for 4 cascades; \
+             allowed: a list, each 0 to 1000000 (metres), one fewer than cascades, above 0, rising",
         ),
-        (
-            "(cascades: (split: Factor(1.0)))",
-            "shadow setting `cascades.split` is 1; allowed: 1.01 to 100 (factor)",
-        ),
+        ("(cascades: (split: Factor(1.0)))", "invalid value: `cascades.split` is 1; allowed: 1.01 to 100"),
         (
             "(cascades: (split: Geometric(first_m: 0.0)))",
-            "shadow setting `cascades.split.first_m` is 0; allowed: 0.001 to 100000 (metres)",
+            "invalid value: `cascades.split.first_m` is 0; allowed: 0.001 to 100000 (metres)",
         ),
-        ("(lights: [(light: 0, strength: 1.5)])", "shadow setting `lights.strength` is 1.5; allowed: 0 to 1"),
+        (
+            "(lights: [(light: 0, strength: 1.5)])",
+            "invalid value: `lights.0.strength` is 1.5; allowed: 0 to 1",
+        ),
         (
             "(lights: [(light: 0, near_m: Some(0.0))])",
-            "shadow setting `lights.near_m` is 0; allowed: 0.0001 to 10000 (metres)",
+            "invalid value: `lights.0.near_m` is 0; allowed: 0.0001 to 10000 (metres)",
         ),
         (
             "(lights: [(light: \"lamp\", importance: -1.0)])",
-            "shadow setting `lights.importance` is -1; allowed: 0 to 100",
+            "invalid value: `lights.0.importance` is -1; allowed: 0 to 100",
         ),
         (
             "(cascades: (map_size_px: 1000))",
-            "shadow setting `cascades.map_size_px` is 1000; allowed: 256, 512, 1024, 2048, 4096 or 8192 (pixels)",
+            "invalid value: `cascades.map_size_px` is 1000; allowed: 256, 512, 1024, 2048, 4096 or 8192 (pixels)",
         ),
         (
             "(atlas: (map_size_px: 16384))",
-            "shadow setting `atlas.map_size_px` is 16384; allowed: 256, 512, 1024, 2048, 4096 or 8192 (pixels)",
+            "invalid value: `atlas.map_size_px` is 16384; allowed: 256, 512, 1024, 2048, 4096 or 8192 (pixels)",
         ),
         (
             "(atlas: (spot_near_m: 0.0))",
-            "shadow setting `atlas.spot_near_m` is 0; allowed: 0.0001 to 100 (metres)",
+            "invalid value: `atlas.spot_near_m` is 0; allowed: 0.0001 to 100 (metres)",
         ),
         (
             "(cascades: (split: Ratios([0.2, 0.1, 0.5])))",
-            "shadow setting `cascades.split` is [0.2, 0.1, 0.5] for 4 cascades; \
-             allowed: one ratio fewer than cascades, above 0, rising, below 1",
+            "invalid value: `cascades.split` is [0.2, 0.1, 0.5] for 4 cascades; \
+             allowed: a list, each 0 to 1, one fewer than cascades, above 0, rising, below 1",
         ),
         (
             "(cascades: (split: Practical(lambda: 2.0)))",
-            "shadow setting `cascades.split.lambda` is 2; allowed: 0 to 1 (0: equal lengths)",
+            "invalid value: `cascades.split.lambda` is 2; allowed: 0 to 1",
         ),
         (
             "(bias: (normal_texels: 9.0))",
-            "shadow setting `bias.normal_texels` is 9; allowed: 0 to 4 (texels)",
+            "invalid value: `bias.normal_texels` is 9; allowed: 0 to 4 (texels)",
         ),
         (
             "(bias: (slope: inf))",
-            "shadow setting `bias.slope` is inf; allowed: 0 to 4 (times the receiver's slope)",
+            "invalid value: `bias.slope` is inf; allowed: 0 to 4 (times the receiver's slope)",
         ),
         (
             "(bias: (min_slope: -0.1))",
-            "shadow setting `bias.min_slope` is -0.1; allowed: 0 to 4 (texels of depth per texel)",
+            "invalid value: `bias.min_slope` is -0.1; allowed: 0 to 4 (texels of depth per texel)",
         ),
         (
             "(bias: (max_slope: 0.5))",
-            "shadow setting `bias.max_slope` is 0.5; allowed: 1 to 100 (texels of depth per texel)",
+            "invalid value: `bias.max_slope` is 0.5; allowed: 1 to 100 (texels of depth per texel)",
         ),
         (
             "(bias: (depth_texels: 17.0))",
-            "shadow setting `bias.depth_texels` is 17; allowed: 0 to 16 (texels)",
+            "invalid value: `bias.depth_texels` is 17; allowed: 0 to 16 (texels)",
         ),
     ] {
         assert_eq!(read(text).unwrap_err(), expected, "{text}");

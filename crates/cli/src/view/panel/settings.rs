@@ -1,21 +1,15 @@
 //! Every setting, live.
 
-use std::collections::BTreeMap;
-
 use egui::{CollapsingHeader, Ui};
 use serde_json::Value;
 
 use super::super::stage::Stage;
 use super::Wish;
 use super::edit::edit;
-use crate::limits::{Limits, check_own, check_shared, shared};
-use shadowgraph::shadows::ShadowSettings;
+use shadowgraph::shadows::{ShadowSettings, TechniqueSettings, Techniques};
 
 #[derive(Default)]
-pub(super) struct SettingsPanel {
-    /// By technique; that of all is empty.
-    limits: BTreeMap<&'static str, Limits>,
-}
+pub(super) struct SettingsPanel;
 
 impl SettingsPanel {
     pub(super) fn show(&mut self, ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
@@ -30,36 +24,64 @@ impl SettingsPanel {
             }
         });
         ui.label(&stage.note);
-        CollapsingHeader::new("Shadow maps").default_open(true).show(ui, |ui| self.shared(ui, stage));
+        CollapsingHeader::new("Shadow maps").default_open(true).show(ui, |ui| edit_shared(ui, stage));
         let names: Vec<&'static str> = stage.registry.techniques.with_settings().collect();
         for name in names {
             let used = stage.technique.name().split('+').any(|part| part == name);
-            CollapsingHeader::new(name).default_open(used).show(ui, |ui| self.own(ui, stage, name));
+            CollapsingHeader::new(name).default_open(used).show(ui, |ui| edit_technique(ui, stage, name));
         }
         wish
     }
+}
 
-    fn shared(&mut self, ui: &mut Ui, stage: &mut Stage) {
-        let Ok(mut value) = shared(&stage.settings) else { return };
-        let limits = self.limits.entry("").or_default();
-        if edit(ui, &mut value, limits, &check_shared)
-            && let Ok(read) = serde_json::from_value::<ShadowSettings>(value)
-            && read.validate().is_ok()
-        {
-            let techniques = std::mem::take(&mut stage.settings.techniques);
-            stage.settings = ShadowSettings { techniques, ..read };
-        }
+/// Shows the settings that all techniques share.
+fn edit_shared(ui: &mut Ui, stage: &mut Stage) {
+    let Ok(mut value) = shared(&stage.settings) else { return };
+    if edit(ui, &mut value, ShadowSettings::SETTINGS, &check_shared)
+        && let Ok(read) = serde_json::from_value::<ShadowSettings>(value)
+        && read.validate().is_ok()
+    {
+        let techniques = std::mem::take(&mut stage.settings.techniques);
+        stage.settings = ShadowSettings { techniques, ..read };
     }
+}
 
-    fn own(&mut self, ui: &mut Ui, stage: &mut Stage, name: &'static str) {
-        let Some(Ok(mut value)) = stage.registry.techniques.own_settings(name, &stage.settings) else {
-            return;
-        };
-        let (techniques, settings) = (&stage.registry.techniques, &stage.settings);
-        let check = |value: &Value| check_own(techniques, name, settings, value);
-        if edit(ui, &mut value, self.limits.entry(name).or_default(), &check) {
-            // What is out of range stays as it was.
-            let _refused = stage.registry.techniques.set_own_settings(name, &mut stage.settings, value);
-        }
+/// Shows the settings of one technique.
+fn edit_technique(ui: &mut Ui, stage: &mut Stage, name: &'static str) {
+    let Some(Ok(mut value)) = stage.registry.techniques.technique_settings(name, &stage.settings) else {
+        return;
+    };
+    let (techniques, settings) = (&stage.registry.techniques, &stage.settings);
+    let check = |value: &Value| check_technique(techniques, name, settings, value);
+    if edit(ui, &mut value, techniques.describe_settings(name), &check) {
+        // Values out of range are dropped.
+        let _refused = stage.registry.techniques.set_technique_settings(name, &mut stage.settings, value);
     }
+}
+
+/// Returns the settings that all techniques share as JSON.
+pub(super) fn shared(settings: &ShadowSettings) -> Result<Value, serde_json::Error> {
+    let settings = ShadowSettings { techniques: TechniqueSettings::default(), ..settings.clone() };
+    let mut value = serde_json::to_value(settings)?;
+    if let Some(fields) = value.as_object_mut() {
+        fields.remove("techniques");
+    }
+    Ok(value)
+}
+
+/// Checks the settings that all techniques share.
+pub(super) fn check_shared(value: &Value) -> Result<(), String> {
+    let read: ShadowSettings = serde_json::from_value(value.clone()).map_err(|error| error.to_string())?;
+    read.validate().map_err(|error| error.to_string())
+}
+
+/// Checks the settings of one technique.
+fn check_technique(
+    techniques: &Techniques,
+    name: &str,
+    settings: &ShadowSettings,
+    value: &Value,
+) -> Result<(), String> {
+    let set = techniques.set_technique_settings(name, &mut settings.clone(), value.clone());
+    set.map_err(|error| error.to_string())
 }

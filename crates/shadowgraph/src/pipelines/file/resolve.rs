@@ -147,7 +147,7 @@ fn settings(
         let given = entry.settings.iter().find(|(name, _)| name.value == setting.name);
         let value = given
             .map_or_else(|| setting.default_value(), |(_, value)| parameters.resolve(&value.value).clone());
-        if let (Some(error), Some((_, given))) = (setting.fault(&value), given) {
+        if let (Err(error), Some((_, given))) = (setting.check(&value), given) {
             let parameter = referenced_parameter(&given.value);
             let parameter = parameter.map(|name| format!(", set by the parameter `{name}`"));
             let problem = format!("`{}`: {error}{}", entry.name.value, parameter.unwrap_or_default());

@@ -7,7 +7,7 @@ fn rejected_field(change: impl FnOnce(&mut BudgetConfig)) -> Option<&'static str
     change(&mut config);
     match QualityController::new(config) {
         Ok(_) => None,
-        Err(Error::Setting { field, .. }) => Some(field),
+        Err(Error::Setting { field, .. }) => Some(field.leak()),
         Err(other) => panic!("{other}"),
     }
 }

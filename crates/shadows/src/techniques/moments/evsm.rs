@@ -1,90 +1,76 @@
 //! Settings of `evsm`, and the encodings of its moments.
 
-use serde::{Deserialize, Serialize};
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{EVSM, ModuleSource};
 
 use super::{MomentParams, Moments};
+use crate::declare_settings;
 use crate::error::Error;
-use crate::settings::TechniqueSettings;
-use crate::settings::in_range;
+use crate::settings::{NamedSettings, refused};
 
-/// Settings of the technique `evsm`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct EvsmSettings {
-    /// Which moments there are.
-    pub moments: EvsmMoments,
-    /// In how many bits each is stored.
-    pub precision: EvsmPrecision,
-    /// How steeply depth is warped away from the light: the higher, the less light leaks where shadows overlap. 1 to 42, with
-    /// [`EvsmPrecision::Half`] to 5.54: its squares must fit.
-    pub away: f32,
-    /// How steeply depth is warped towards the light, in the same ranges.
-    pub towards: f32,
-    /// The part of the light in a shadow that is taken for light that leaks, 0 to 0.95: edges get as much darker.
-    pub bleed: f32,
-    /// How far apart two depths are that count as one, parts of the tile's depth range, 0 to 0.1.
-    pub bias: f32,
-    /// How many texels of the map of depths a texel of moments stands for along each axis, 1, 2 or 4.
-    pub downscale: u32,
-    /// How many texels of moments edges are blurred over to either side, 0 to 4.
-    pub blur_texels: u32,
-    /// How many sizes of the map there are, each half of the one before, 1 to 3: far away the smaller ones are read.
-    pub mips: u32,
-}
-
-/// Which moments `evsm` has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum EvsmMoments {
-    /// Depth warped away from the light, and its square.
-    Two,
-    /// Depth warped towards the light and its square besides: less light leaks near what casts shadows.
-    #[default]
-    Four,
-}
-
-/// In how many bits `evsm` stores a moment.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum EvsmPrecision {
-    /// 16: half of the memory, and more light leaks.
-    Half,
-    /// 32.
-    #[default]
-    Full,
-}
-
-impl Default for EvsmSettings {
-    fn default() -> Self {
-        Self {
-            moments: EvsmMoments::default(),
-            precision: EvsmPrecision::default(),
-            away: 40.0,
-            towards: 5.0,
-            bleed: 0.2,
-            bias: 1e-4,
-            downscale: 2,
-            blur_texels: 0,
-            mips: 2,
-        }
+declare_settings! {
+    /// Settings of the technique `evsm`.
+    #[check(EvsmSettings::check)]
+    pub struct EvsmSettings {
+        /// Moments that are stored.
+        moments: EvsmMoments = EvsmMoments::Four;
+        /// Bits of each moment.
+        precision: EvsmPrecision = EvsmPrecision::Full;
+        /// Positive exponent: the steeper depth is warped away from the light, the less light leaks where shadows overlap.
+        positive_exponent: f32 = 40.0, 1..=42, and "with Half to 5.54, as its square must fit", alias "away";
+        /// Negative exponent: warps depth towards the light.
+        negative_exponent: f32 = 5.0, 1..=42, and "with Half to 5.54, as its square must fit", alias "towards";
+        /// Part of the light in a shadow that counts as light bleeding and is removed; edges get darker by as much.
+        bleed: f32 = 0.2, 0..=0.95, in "part of the light";
+        /// Difference below which two depths count as one.
+        bias: f32 = 0.0001, 0..=0.1, in "part of the depth range";
+        /// Texels of the depth map for each texel of moments along each axis.
+        downscale: u32 = 2, power_of_two 1..=4, in "texels";
+        /// Radius of the blur of edges in texels of moments.
+        blur_texels: u32 = 0, 0..=4, in "texels", and "downscale x (blur_texels + 1.5 x 2^(mips - 1)) up to 24";
+        /// Sizes of the map of moments, each half of the one before: far surfaces read the smaller ones.
+        mips: u32 = 2, 1..=3;
     }
 }
 
-impl TechniqueSettings for EvsmSettings {
+declare_settings! {
+    /// The moments that `evsm` stores.
+    #[derive(Copy, Eq)]
+    #[default(Four)]
+    pub enum EvsmMoments {
+        /// Depth warped by the positive exponent, and its square.
+        Two;
+        /// Depth warped by the negative exponent and its square as well: less light leaks near casters.
+        Four;
+    }
+}
+
+declare_settings! {
+    /// The bits of each moment of `evsm`.
+    #[derive(Copy, Eq)]
+    #[default(Full)]
+    pub enum EvsmPrecision {
+        /// 16 bits: half of the memory, and more light leaks.
+        Half;
+        /// 32 bits.
+        Full;
+    }
+}
+
+impl EvsmSettings {
+    fn check(&self) -> Result<(), Error> {
+        let exponents =
+            [("positive_exponent", self.positive_exponent), ("negative_exponent", self.negative_exponent)];
+        let too_large = exponents.into_iter().find(|(_, exponent)| *exponent > 5.54);
+        if let (EvsmPrecision::Half, Some((field, exponent))) = (self.precision, too_large) {
+            return Err(refused(Self::SETTINGS, field, exponent));
+        }
+        self.params().check(Self::SETTINGS)
+    }
+}
+
+impl NamedSettings for EvsmSettings {
     const NAME: &'static str = "evsm";
-
-    fn validate(&self) -> Result<(), Error> {
-        for (field, exponent) in [("away", self.away), ("towards", self.towards)] {
-            match self.precision {
-                EvsmPrecision::Half => {
-                    in_range(field, exponent, 1.0, 5.54, "1 to 5.54 with Half, to 42 with Full")?
-                }
-                EvsmPrecision::Full => in_range(field, exponent, 1.0, 42.0, "1 to 42")?,
-            }
-        }
-        in_range("bias", self.bias, 0.0, 0.1, "0 to 0.1 (part of the depth range)")?;
-        self.params().validate()
-    }
 }
 
 impl Moments for EvsmSettings {
@@ -115,7 +101,7 @@ impl Moments for EvsmSettings {
 
     fn params(&self) -> MomentParams {
         MomentParams {
-            exponents: [self.away, self.towards],
+            exponents: [self.positive_exponent, self.negative_exponent],
             bleed: self.bleed,
             bias: self.bias,
             downscale: self.downscale,

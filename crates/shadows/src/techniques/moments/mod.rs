@@ -20,8 +20,7 @@ use crate::light_params::settings_requirements;
 use crate::maps::ShadowMaps;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
-use crate::settings::TechniqueSettings;
-use crate::settings::in_range;
+use crate::settings::{NamedSettings, Setting, refused};
 use crate::technique::GpuStruct;
 use crate::technique::binding::UNIFORM;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
@@ -41,7 +40,7 @@ pub struct MomentShadows<S> {
 }
 
 /// The differences between the techniques that use moments.
-pub trait Moments: TechniqueSettings {
+pub trait Moments: NamedSettings {
     /// Number of encodings in which moments can be stored.
     const LAYOUTS: u32;
 
@@ -95,21 +94,12 @@ impl MomentParams {
         }
     }
 
-    /// Checks the settings that the techniques have in common.
-    fn validate(&self) -> Result<(), Error> {
-        in_range("bleed", self.bleed, 0.0, 0.95, "0 to 0.95 (part of the light)")?;
-        let whole = |field, value: u32, allowed: &'static [u32], words| match allowed.contains(&value) {
-            true => Ok(()),
-            false => Err(crate::settings::setting(field, value, words)),
-        };
-        whole("downscale", self.downscale, &[1, 2, 4], "1, 2 or 4 (texels)")?;
-        whole("blur_texels", self.radius, &[0, 1, 2, 3, 4], "0 to 4 (texels)")?;
-        whole("mips", self.mips, &[1, 2, 3], "1 to 3")?;
-        if self.kernel_radius_texels() > 24.0 {
-            let words = "so few that downscale x (blur_texels + 1.5 x 2^(mips - 1)) is at most 24";
-            return Err(crate::settings::setting("blur_texels", self.radius, words));
+    /// Checks the width of the filter, which follows from several settings.
+    fn check(&self, settings: &'static [Setting]) -> Result<(), Error> {
+        match self.kernel_radius_texels() > 24.0 {
+            true => Err(refused(settings, "blur_texels", self.radius)),
+            false => Ok(()),
         }
-        Ok(())
     }
 }
 

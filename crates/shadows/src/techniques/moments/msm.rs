@@ -1,44 +1,38 @@
 //! Settings of `msm`.
 
-use serde::{Deserialize, Serialize};
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{MSM, ModuleSource};
 
 use super::{MomentParams, Moments};
+use crate::declare_settings;
 use crate::error::Error;
-use crate::settings::TechniqueSettings;
-use crate::settings::in_range;
+use crate::settings::NamedSettings;
 
-/// Settings of the technique `msm`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct MsmSettings {
-    /// The part of the light in a shadow that is taken for light that leaks, 0 to 0.95: edges get as much darker.
-    pub bleed: f32,
-    /// How far moments are moved to those that any depth could have, 0.00001 to 0.1: less, and rounding shows; more, and light
-    /// leaks.
-    pub bias: f32,
-    /// How many texels of the map of depths a texel of moments stands for along each axis, 1, 2 or 4.
-    pub downscale: u32,
-    /// How many texels of moments edges are blurred over to either side, 0 to 4.
-    pub blur_texels: u32,
-    /// How many sizes of the map there are, each half of the one before, 1 to 3: far away the smaller ones are read.
-    pub mips: u32,
-}
-
-impl Default for MsmSettings {
-    fn default() -> Self {
-        Self { bleed: 0.02, bias: 6e-5, downscale: 2, blur_texels: 0, mips: 2 }
+declare_settings! {
+    /// Settings of the technique `msm`.
+    #[check(MsmSettings::check)]
+    pub struct MsmSettings {
+        /// Part of the light in a shadow that counts as light bleeding and is removed; edges get darker by as much.
+        bleed: f32 = 0.02, 0..=0.95, in "part of the light";
+        /// Weight of the moments that any depth could have: less, and rounding shows; more, and light leaks.
+        bias: f32 = 0.00006, 0.00001..=0.1;
+        /// Texels of the depth map for each texel of moments along each axis.
+        downscale: u32 = 2, power_of_two 1..=4, in "texels";
+        /// Radius of the blur of edges in texels of moments.
+        blur_texels: u32 = 0, 0..=4, in "texels", and "downscale x (blur_texels + 1.5 x 2^(mips - 1)) up to 24";
+        /// Sizes of the map of moments, each half of the one before: far surfaces read the smaller ones.
+        mips: u32 = 2, 1..=3;
     }
 }
 
-impl TechniqueSettings for MsmSettings {
+impl MsmSettings {
+    fn check(&self) -> Result<(), Error> {
+        self.params().check(Self::SETTINGS)
+    }
+}
+
+impl NamedSettings for MsmSettings {
     const NAME: &'static str = "msm";
-
-    fn validate(&self) -> Result<(), Error> {
-        in_range("bias", self.bias, 1e-5, 0.1, "0.00001 to 0.1")?;
-        self.params().validate()
-    }
 }
 
 impl Moments for MsmSettings {

@@ -17,7 +17,7 @@ use crate::light_params::settings_requirements;
 use crate::maps::{ShadowMaps, comparison_sampler};
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
-use crate::settings::TechniqueSettings;
+use crate::settings::NamedSettings;
 use crate::technique::GpuStruct;
 use crate::technique::binding::{COMPARISON_SAMPLER, UNIFORM};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
@@ -43,8 +43,8 @@ impl SoftLights {
     fn new(settings: &PcssSettings) -> Self {
         Self {
             sun_radius: settings.sun_radius_rad.tan(),
-            punctual_radius: settings.lamp_radius_m,
-            max_texels: settings.most_texels,
+            punctual_radius: settings.light_radius_m,
+            max_texels: settings.max_radius_texels,
             blocker_taps: settings.blocker_taps,
             filter_taps: settings.filter_taps,
         }
@@ -66,7 +66,10 @@ impl ShadowTechnique for Pcss {
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
         let own: PcssSettings = inputs.settings.techniques.get()?;
         let base = settings_requirements(inputs.settings);
-        Ok(Requirements { kernel_radius_texels: base.kernel_radius_texels.max(own.most_texels), ..base })
+        Ok(Requirements {
+            kernel_radius_texels: base.kernel_radius_texels.max(own.max_radius_texels),
+            ..base
+        })
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {

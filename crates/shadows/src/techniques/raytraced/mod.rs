@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::plan::ShadowInputs;
 use crate::rays::GpuRayScene;
 use crate::requirements::Requirements;
-use crate::settings::TechniqueSettings;
+use crate::settings::NamedSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
 use crate::technique::layout;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
@@ -184,7 +184,7 @@ fn mask_layers(lights: &[Light]) -> Vec<u32> {
 fn traced_bytes(max_coordinate_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8> {
     let none = [LIT];
     let layers = if layers.is_empty() { &none } else { layers };
-    let sizes = [settings.sun_radius_rad.tan(), settings.lamp_radius_m];
+    let sizes = [settings.sun_radius_rad.tan(), settings.light_radius_m];
     let header = [max_coordinate_m.to_bits(), settings.rays, sizes[0].to_bits(), sizes[1].to_bits()];
     [bytemuck::bytes_of(&header), bytemuck::cast_slice(layers)].concat()
 }

@@ -14,7 +14,7 @@ use super::mask::{MASK, no_mask};
 use crate::error::Error;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
-use crate::settings::{ShadowSettings, TechniqueSettings};
+use crate::settings::{NamedSettings, ShadowSettings};
 use crate::technique::GpuStruct;
 use crate::technique::binding::UNIFORM;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};

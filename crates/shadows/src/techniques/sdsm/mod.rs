@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::light_params::settings_requirements;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
-use crate::settings::TechniqueSettings;
+use crate::settings::NamedSettings;
 use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use fit::GpuFit;
 
