@@ -1,4 +1,4 @@
-//! Where tiles lie.
+//! Layouts of tiles.
 
 use glam::DVec3;
 use shadowgraph_shadows::{MAX_ATLAS_TILES, ShadowFilter, TileLayout, even_tiles, smallest_atlas_tile_px};
@@ -22,16 +22,16 @@ fn tiles_are_inside_the_map_and_do_not_overlap() {
 }
 
 #[test]
-fn border_is_as_wide_as_the_filter_reaches() {
+fn the_border_is_as_wide_as_the_filters_radius() {
     for (filter, (_, layout)) in ShadowFilter::ALL.into_iter().flat_map(|f| layouts().map(move |l| (f, l))) {
         for tile in &layout.tiles {
             let (min, max) = tile.inner_uv(layout.size_px, filter.border_px());
             let size = glam::Vec2::new(layout.size_px[0] as f32, layout.size_px[1] as f32);
             let (min, max) = (min * size, max * size);
-            let reach = filter.kernel_radius_texels() - 1e-2;
-            assert!(min.x - reach >= tile.x as f32 && min.y - reach >= tile.y as f32);
-            assert!(max.x + reach <= (tile.x + tile.width) as f32);
-            assert!(max.y + reach <= (tile.y + tile.height) as f32);
+            let radius = filter.kernel_radius_texels() - 1e-2;
+            assert!(min.x - radius >= tile.x as f32 && min.y - radius >= tile.y as f32);
+            assert!(max.x + radius <= (tile.x + tile.width) as f32);
+            assert!(max.y + radius <= (tile.y + tile.height) as f32);
             assert!(min.cmplt(max).all());
         }
     }
@@ -47,7 +47,7 @@ fn a_map_is_split_one_two_three_or_four_times_by_count() {
 }
 
 #[test]
-fn rows_that_nobody_needs_are_left_off() {
+fn unused_rows_are_omitted() {
     assert_eq!(even_tiles(1, 4096).size_px, [4096, 4096]);
     assert_eq!(even_tiles(2, 4096).size_px, [4096, 2048]);
     assert_eq!(even_tiles(3, 4096).size_px, [4096, 4096]);

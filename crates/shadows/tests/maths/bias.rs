@@ -1,4 +1,4 @@
-//! Self-shadowing and the place of outlines, with the CPU twin of `pcf.wgsl` on analytic scenes.
+//! Self-shadowing and the position of outlines, with the CPU reference of `pcf.wgsl` on analytic scenes.
 
 use crate::common::{Analytic, Receiver};
 use glam::DVec3;
@@ -13,7 +13,7 @@ const ELEVATIONS_DEG: [f64; 4] = [15.0, 30.0, 52.0, 75.0];
 const AZIMUTHS_DEG: [f64; 3] = [0.0, 25.0, 45.0];
 const TEXELS_M: [f64; 3] = [0.01, 0.03, 0.1];
 
-/// A surface of the scene, and which of its plane's points belong to it.
+/// A surface of the scene, and a test of which points of its plane belong to it.
 struct Surface {
     normal: DVec3,
     points: Vec<DVec3>,
@@ -38,7 +38,7 @@ fn sun_direction(elevation_deg: f64, azimuth_deg: f64) -> DVec3 {
     -DVec3::new(a.cos() * e.cos(), e.sin(), a.sin() * e.cos())
 }
 
-fn place(rect: TileRect, map_size_px: [u32; 2]) -> TilePlacement {
+fn placement(rect: TileRect, map_size_px: [u32; 2]) -> TilePlacement {
     TilePlacement { rect, map_size_px, border_px: 3, depth_step: 0.0 }
 }
 
@@ -46,17 +46,17 @@ fn cube() -> Aabb {
     Aabb { min: DVec3::new(-0.5, 0.0, -0.5), max: DVec3::new(0.5, 1.0, 0.5) }
 }
 
-/// A cube of 1 m on a floor, under a sun.
+/// Returns a cube of 1 m on a floor, under a sun.
 fn sunlit(direction: DVec3, texel_m: f64, bias: &BiasSettings) -> Analytic {
     let radius_m = texel_m * f64::from(TILE_PX) * 0.48;
-    // Off the middle, so that no edge falls on the border of texels by design.
+    // Off-centre, so that no edge coincides with the border of texels.
     let sphere = BoundingSphere { center_world: DVec3::new(0.313, 0.217, 0.131), radius_m };
     let fit = OrthoFit::new(light_from_world(direction).unwrap(), sphere, TILE_PX, 8.0);
     let (rect, map_size_px) = whole_tile();
     Analytic {
         floor: 0.0,
         block: cube(),
-        view: ShadowView::directional(&fit, &place(rect, map_size_px), DVec3::ZERO),
+        view: ShadowView::directional(&fit, &placement(rect, map_size_px), DVec3::ZERO),
         light: light(bias),
         map_size_px,
     }
@@ -67,14 +67,14 @@ fn grid(steps: i32, at: impl Fn(f64, f64) -> DVec3) -> Vec<DVec3> {
     (0..steps * steps).map(|i| at(part(i % steps), part(i / steps))).collect()
 }
 
-/// The floor around the cube as far as the shadow goes, closer at the foot of the cube, and its lit faces.
+/// Returns the floor around the cube up to the end of the shadow, denser at the foot of the cube, and its lit faces.
 fn surfaces(direction: DVec3, texel_m: f64) -> Vec<Surface> {
     let away = direction.with_y(0.0).normalize();
     let side = DVec3::new(-away.z, 0.0, away.x);
     let length = 2.2 + direction.with_y(0.0).length() / -direction.y;
     let off_cube = |p: DVec3| p.x.abs() > 0.5 || p.z.abs() > 0.5;
     let mut floor = grid(45, |u, v| away * (u * length - 1.2) + side * (2.4 * v - 1.2));
-    // The cube's foot, on all sides: four texels wide, for what only a close look shows.
+    // The cube's foot, on all sides, four texels wide and dense.
     let rim = texel_m * 4.0;
     for axis in [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {
         let along = DVec3::new(axis.z, 0.0, axis.x);
@@ -117,7 +117,7 @@ fn for_each_case(mut check: impl FnMut(&Analytic, Receiver, f64, fn(DVec3) -> bo
 }
 
 #[test]
-fn outline_is_within_one_and_a_half_texels_of_the_computed_one() {
+fn the_outline_is_within_one_and_a_half_texels_of_the_exact_one() {
     let mut wrong = 0;
     for_each_case(|scene, receiver, visibility, on, name| {
         if (visibility > 0.5) == scene.in_shadow(receiver) {
@@ -127,7 +127,7 @@ fn outline_is_within_one_and_a_half_texels_of_the_computed_one() {
             assert!(near, "{name}: {} at {}", visibility, receiver.position);
         }
     });
-    assert!(wrong > 0, "the test does not look closely enough");
+    assert!(wrong > 0, "the test is not dense enough");
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn surfaces_away_from_outlines_and_corners_are_fully_lit() {
         if scene.in_shadow(receiver) || [0.5, 1.0, 1.75, 2.5, 3.25, 4.0].into_iter().any(edges) {
             return;
         }
-        // Near the foot of a lit wall the filter falls on the wall: never more than half of it.
+        // Near the foot of a lit wall the filter overlaps the wall: never more than half of it.
         assert!(visibility > 0.5, "{name}: {visibility} at {}", receiver.position);
         let facing = receiver.normal.dot(scene.to_light(receiver.position));
         let reach = 4.5 * scene.texel_m(receiver.position) / facing;
@@ -169,8 +169,8 @@ fn without_any_bias_surfaces_would_shadow_themselves() {
 }
 
 #[test]
-fn filtered_shadow_edge_is_centred_on_the_true_edge() {
-    // Far from where it touches anything, the middle of the penumbra is where the edge is.
+fn a_filtered_shadow_edge_is_centred_on_the_exact_edge() {
+    // Far from contacts, the middle of the penumbra is at the edge.
     let direction = sun_direction(52.0, 0.0);
     let bias = BiasSettings { normal_texels: 0.0, ..bias() };
     let scene = sunlit(direction, 0.03, &bias);
@@ -198,14 +198,14 @@ fn spotlit(position: DVec3, target: DVec3, tile_px: u32) -> Analytic {
     Analytic {
         floor: 0.0,
         block: cube(),
-        view: ShadowView::spot(&fit, &place(rect, map_size_px), DVec3::ZERO),
+        view: ShadowView::spot(&fit, &placement(rect, map_size_px), DVec3::ZERO),
         light: light(&bias()),
         map_size_px,
     }
 }
 
 #[test]
-fn spot_shadows_have_true_outlines_and_no_acne() {
+fn spot_shadows_have_correct_outlines_and_no_acne() {
     let (mut covered, mut shadowed) = (0, 0);
     for position in [DVec3::new(3.0, 4.0, 1.0), DVec3::new(6.0, 2.0, -2.0), DVec3::new(0.2, 8.0, 0.1)] {
         for tile_px in [128, 1024] {

@@ -1,4 +1,4 @@
-//! Splits, spheres, and what the cascades cover.
+//! Splits, spheres, and the coverage of cascades.
 
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
@@ -14,7 +14,7 @@ fn any_direction() -> impl Strategy<Value = DVec3> {
     let axis = prop_oneof![Just(0.0), -1.0..1.0f64];
     [axis.clone(), axis.clone(), axis]
         .prop_map(DVec3::from)
-        .prop_filter("has a length", |d| d.length() > 0.05)
+        .prop_filter("is not zero", |d| d.length() > 0.05)
         .prop_map(DVec3::normalize)
 }
 
@@ -43,7 +43,7 @@ fn any_camera() -> impl Strategy<Value = Camera> {
 
 fn plan(camera: &Camera, aspect: f64, light: Light, settings: &ShadowSettings) -> (ShadowPlan, DVec3) {
     let origin_world = origin_near(camera.position_world());
-    // Something large: everything is in reach.
+    // A large caster: everything is in range.
     let casters = Boxes(vec![cube(camera.position_world(), 1e5)]);
     let lights = [light];
     let inputs =
@@ -53,7 +53,7 @@ fn plan(camera: &Camera, aspect: f64, light: Light, settings: &ShadowSettings) -
 
 proptest! {
     #[test]
-    fn sphere_holds_the_corners_of_its_slice(
+    fn a_sphere_contains_the_corners_of_its_slice(
         camera in any_camera(), aspect in 0.3..4.0f64, from in 0.0..0.9f64, length in 0.01..1.0f64,
     ) {
         let far = camera.far().unwrap_or(150.0).min(150.0);
@@ -67,7 +67,7 @@ proptest! {
     }
 
     #[test]
-    fn splits_rise_to_the_shadow_distance(
+    fn splits_ascend_to_the_shadow_distance(
         near in 0.0..5.0f64, length in 0.1..1000.0f64, count in 1u32..=8, lambda in 0f32..=1.0,
         number in 0.01f32..1000.0,
     ) {
@@ -102,7 +102,7 @@ proptest! {
         let corner = camera.slice_corners_view(aspect, depth, far)[3];
         let view = DVec3::new(corner.x * at.0, corner.y * at.1, -depth);
         let position = camera.world_from_view.transform_point3(view) - origin_world;
-        // As precise as a GPU has it.
+        // With the precision of a GPU.
         let receiver = Receiver { position: position.as_vec3().as_dvec3(), normal };
         let found = plan.views.iter().find_map(|view| Lookup::new(view, &plan.lights[0], receiver));
         prop_assert!(found.is_some(), "no cascade at {view}");
@@ -131,7 +131,7 @@ proptest! {
     }
 
     #[test]
-    fn casters_towards_the_light_are_kept_and_those_beyond_refused(
+    fn casters_towards_the_light_are_kept_and_those_beyond_are_culled(
         center_world in any_position(), radius_m in 0.1..200.0f64, direction in any_direction(),
         towards in 0.0..1e4f64, within in any_direction(),
     ) {
@@ -148,7 +148,7 @@ proptest! {
     }
 
     #[test]
-    fn smaller_tiles_see_all_that_larger_ones_see(
+    fn smaller_tiles_cover_everything_that_larger_ones_cover(
         center_world in any_position(), radius_m in 0.1..200.0f64, direction in any_direction(),
         corner in (0..2, 0..2, 0..2), step in 0usize..3,
     ) {
@@ -164,7 +164,7 @@ proptest! {
     }
 
     #[test]
-    fn light_axes_are_a_rotation_that_looks_along_the_light(direction in any_direction()) {
+    fn light_space_is_a_rotation_along_the_light(direction in any_direction()) {
         let rotation: DMat3 = light_from_world(direction).unwrap();
         prop_assert!((rotation.determinant() - 1.0).abs() < 1e-9);
         prop_assert!((rotation * direction - DVec3::NEG_Z).length() < 1e-9);
@@ -174,7 +174,7 @@ proptest! {
 }
 
 #[test]
-fn light_from_straight_above_or_below_has_axes() {
+fn a_light_from_straight_above_or_below_has_axes() {
     for direction in [DVec3::NEG_Y, DVec3::Y, DVec3::new(1e-9, -1.0, 1e-9), DVec3::new(0.0, -3.0, 0.01)] {
         let rotation = light_from_world(direction).unwrap();
         assert!(rotation.is_finite() && (rotation * direction.normalize()).z < -0.999_999);
@@ -185,7 +185,7 @@ fn light_from_straight_above_or_below_has_axes() {
 }
 
 #[test]
-fn radius_is_the_same_wherever_the_camera_is_and_looks() {
+fn the_radius_does_not_depend_on_the_camera() {
     let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
     let radius = |eye: DVec3, forward: DVec3| {
         let camera = Camera::look_at(eye, eye + forward, DVec3::Y, projection);
@@ -200,8 +200,8 @@ fn radius_is_the_same_wherever_the_camera_is_and_looks() {
 }
 
 #[test]
-fn sphere_stays_the_margin_away_from_the_tile_whatever_snapping_does() {
-    // A radius that needs no rounding up, so that nothing else is spare.
+fn the_sphere_keeps_the_margin_from_the_tiles_edges_after_snapping() {
+    // A radius that is not rounded up, so that there is no other slack.
     let (radius_m, tile_px) = (8.0, 256);
     for margin_px in [4.0, 6.5] {
         for i in 0..200 {
@@ -239,12 +239,12 @@ fn schemes_split_as_documented() {
     close(&SplitScheme::Metres(vec![20.0, 30.0]), &[20.0, 30.0, 101.0]);
     close(&SplitScheme::Factor(2.0), &[12.625, 25.25, 50.5, 101.0]);
     close(&SplitScheme::Geometric { first_m: 6.0 }, &[6.0, (6.0f64 * 101.0).sqrt(), 101.0]);
-    // Where the first would end too late, each is twice the last.
+    // Where the first would end too far away, each ends twice as far as the last.
     close(&SplitScheme::Geometric { first_m: 90.0 }, &[25.25, 50.5, 101.0]);
 }
 
 #[test]
-fn bounds_of_nothing_touch_no_cascade() {
+fn empty_bounds_intersect_no_cascade() {
     let rotation = light_from_world(DVec3::NEG_Y).unwrap();
     let sphere = BoundingSphere { center_world: DVec3::ZERO, radius_m: 10.0 };
     assert!(!OrthoFit::new(rotation, sphere, 512, 4.0).cull_volume().intersects(&Aabb::EMPTY));

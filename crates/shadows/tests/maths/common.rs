@@ -1,10 +1,10 @@
-//! Scenes and a CPU twin of `pcf.wgsl`.
+//! Scenes and a CPU reference of `pcf.wgsl`.
 
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection};
 use shadowgraph_shadows::{CasterView, ShadowCasters, ShadowFilter, ShadowLight, ShadowView, filter_taps};
 
-/// Boxes that cast shadows.
+/// Boxes as casters.
 pub(crate) struct Boxes(pub(crate) Vec<Aabb>);
 
 impl ShadowCasters for Boxes {
@@ -50,14 +50,14 @@ pub(crate) fn camera(eye: DVec3, target: DVec3) -> Camera {
     Camera::look_at(eye, target, DVec3::Y, projection)
 }
 
-/// A point that may be in shadow, on a plane. World is relative to the frame's origin.
+/// A receiver on a plane. World space is relative to the frame's origin.
 #[derive(Clone, Copy)]
 pub(crate) struct Receiver {
     pub(crate) position: DVec3,
     pub(crate) normal: DVec3,
 }
 
-/// What `pcf.wgsl` makes of a map, one of whose texels is given by `stored`; `None` where the view does not
+/// Returns the visibility that `pcf.wgsl` computes from a map whose texels are `stored(x, y)`; `None` if the view does not
 /// cover the receiver.
 pub(crate) fn visibility(
     view: &ShadowView,
@@ -134,24 +134,24 @@ impl Lookup {
     }
 }
 
-/// What the sampler does: four comparisons (GreaterEqual), mixed by where the point is between their centres.
+/// Returns the result of the comparison sampler: four comparisons (GreaterEqual), interpolated between their centres.
 fn bilinear_comparison(point: DVec2, depth: f64, stored: &dyn Fn(i64, i64) -> f64) -> f64 {
     let corner = (point - 0.5).floor();
-    let part = point - 0.5 - corner;
+    let weight = point - 0.5 - corner;
     let lit = |x: i64, y: i64| f64::from(u8::from(depth >= stored(corner.x as i64 + x, corner.y as i64 + y)));
-    let top = lit(0, 0) * (1.0 - part.x) + lit(1, 0) * part.x;
-    let bottom = lit(0, 1) * (1.0 - part.x) + lit(1, 1) * part.x;
-    top * (1.0 - part.y) + bottom * part.y
+    let top = lit(0, 0) * (1.0 - weight.x) + lit(1, 0) * weight.x;
+    let bottom = lit(0, 1) * (1.0 - weight.x) + lit(1, 1) * weight.x;
+    top * (1.0 - weight.y) + bottom * weight.y
 }
 
-/// Where a ray first meets a box, in lengths of `direction`, if it is after `from`.
+/// Returns the distance at which a ray first hits a box after `from`, in lengths of `direction`.
 pub(crate) fn hit_box(bounds: &Aabb, origin: DVec3, direction: DVec3, from: f64) -> Option<f64> {
     let (a, b) = ((bounds.min - origin) / direction, (bounds.max - origin) / direction);
     let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
     (enter <= leave && leave > from).then_some(enter.max(from))
 }
 
-/// A light that looks at a block on a floor: what its map holds, and what is really in shadow.
+/// A light above a block on a floor: the contents of its map, and the exact shadow.
 pub(crate) struct Analytic {
     pub(crate) floor: f64,
     pub(crate) block: Aabb,
@@ -161,63 +161,68 @@ pub(crate) struct Analytic {
 }
 
 impl Analytic {
-    /// The depth in a texel of the map: that of what the light meets first through the texel's centre.
+    /// Returns the depth in a texel of the map: that of the first surface along the light through the texel's centre.
     pub(crate) fn stored(&self, x: i64, y: i64) -> f64 {
         let map_from_world = self.view.map_from_world.as_dmat4();
         let texel = DVec2::new(x as f64, y as f64) + 0.5;
         let uv = texel / DVec2::new(f64::from(self.map_size_px[0]), f64::from(self.map_size_px[1]));
         let through = map_from_world.inverse().project_point3(uv.extend(0.5));
-        let way = -self.to_light(through);
-        // Far enough back to be before everything.
-        let start = if self.view.light.w > 0.0 { through - way } else { through - way * 1000.0 };
-        let floor = (self.floor - start.y) / way.y;
+        let ray = -self.to_light(through);
+        // Far enough back to be in front of everything.
+        let start = if self.view.light.w > 0.0 { through - ray } else { through - ray * 1000.0 };
+        let floor = (self.floor - start.y) / ray.y;
         let floor = if floor > 0.0 { floor } else { f64::INFINITY };
-        let first = hit_box(&self.block, start, way, 0.0).unwrap_or(f64::INFINITY).min(floor);
+        let first = hit_box(&self.block, start, ray, 0.0).unwrap_or(f64::INFINITY).min(floor);
         if first.is_finite() {
-            map_from_world.project_point3(start + way * first).z.clamp(0.0, 1.0)
+            map_from_world.project_point3(start + ray * first).z.clamp(0.0, 1.0)
         } else {
             0.0
         }
     }
 
-    /// What the shader would answer, 0 to 1; `None` outside the tile.
+    /// Returns the visibility that the shader computes, 0 to 1; `None` outside the tile.
     pub(crate) fn visibility(&self, receiver: Receiver) -> Option<f64> {
         let stored = |x: i64, y: i64| self.stored(x, y);
         visibility(&self.view, &self.light, self.map_size_px, receiver, &stored)
     }
 
-    /// Whether the block is between the point and the light.
+    /// Returns whether the block is between the point and the light.
     pub(crate) fn in_shadow(&self, receiver: Receiver) -> bool {
         let start = receiver.position + receiver.normal * 1e-7;
         hit_box(&self.block, start, self.to_light(start), 0.0).is_some()
     }
 
-    /// The way to the light: unit length, or the whole distance to a spot light.
+    /// Returns the vector to the light: unit length, or the whole distance to a spot light.
     pub(crate) fn to_light(&self, position: DVec3) -> DVec3 {
         let light = self.view.light.as_dvec4();
         light.truncate() - position * light.w
     }
 
-    /// The width of a texel at a point, metres.
+    /// Returns the width of a texel at a point, metres.
     pub(crate) fn texel_m(&self, position: DVec3) -> f64 {
         let w = (self.view.map_from_world.as_dmat4() * position.extend(1.0)).w;
         f64::from(self.view.texel_world) * w
     }
 
-    /// Whether the outline of the shadow passes within this many texels of the point, measured across the light.
-    /// `on` tells whether a point of the plane belongs to the surface.
-    pub(crate) fn near_outline(&self, receiver: Receiver, texels: f64, on: &dyn Fn(DVec3) -> bool) -> bool {
+    /// Returns whether the outline of the shadow passes within this many texels of the point, measured across the light.
+    /// `is_on_surface` returns whether a point of the plane belongs to the surface.
+    pub(crate) fn near_outline(
+        &self,
+        receiver: Receiver,
+        texels: f64,
+        is_on_surface: &dyn Fn(DVec3) -> bool,
+    ) -> bool {
         let Receiver { position, normal } = receiver;
-        let truth = self.in_shadow(receiver);
+        let expected = self.in_shadow(receiver);
         let to_light = self.to_light(position);
         let (right, up) = to_light.normalize().any_orthonormal_pair();
         let distance = texels * self.texel_m(position);
         (0..24).any(|step| {
             let (sin, cos) = (f64::from(step) * std::f64::consts::TAU / 24.0).sin_cos();
-            let beside = position + (right * cos + up * sin) * distance;
-            let way = self.to_light(beside);
-            let at = beside + way * ((position - beside).dot(normal) / way.dot(normal));
-            on(at) && self.in_shadow(Receiver { position: at, normal }) != truth
+            let nearby = position + (right * cos + up * sin) * distance;
+            let ray = self.to_light(nearby);
+            let at = nearby + ray * ((position - nearby).dot(normal) / ray.dot(normal));
+            is_on_surface(at) && self.in_shadow(Receiver { position: at, normal }) != expected
         })
     }
 }

@@ -1,4 +1,4 @@
-//! The records of Rust and WGSL lie in memory alike.
+//! The structs of Rust and WGSL have the same layout.
 
 use std::mem::offset_of;
 
@@ -9,8 +9,8 @@ use shadowgraph_shadows::{
 };
 
 macro_rules! fields {
-    ($record:ty: $($field:ident),* $(,)?) => {
-        [$((stringify!($field), offset_of!($record, $field))),*]
+    ($struct:ty: $($field:ident),* $(,)?) => {
+        [$((stringify!($field), offset_of!($struct, $field))),*]
     };
 }
 
@@ -23,14 +23,14 @@ const ENTRY: &str = "
 }";
 
 #[test]
-fn records_lie_in_wgsl_as_in_rust() {
+fn structs_have_the_same_layout_in_wgsl_and_rust() {
     let module = compose_source(&ModuleSource::new("touch.wgsl", ENTRY), &[]).unwrap();
     let view = fields!(ShadowView: clip_from_world, map_from_world, uv_min, uv_max, light, center, radius,
         texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, begin_m, end_m, tile_px,
         bias_scale, depth_step, noise_px, is_tinted, reserved);
     layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
     assert_eq!(size_of::<ShadowView>(), 256);
-    // `depth.wgsl` reads these two where they are.
+    // `depth.wgsl` declares these two offsets.
     assert_eq!((offset_of!(ShadowView, clip_from_world), offset_of!(ShadowView, noise_px)), (0, 232));
     let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
         normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
@@ -64,15 +64,15 @@ fn constants_are_the_same_in_wgsl_and_rust() {
 fn technique_composes_into_the_lit_pass_and_into_compute() {
     let technique = MAPPED;
     compose("forward.wgsl", std::slice::from_ref(&technique)).unwrap();
-    // Called from compute, implicit derivatives would be refused.
+    // In a compute shader, implicit derivatives would be a validation error.
     let entry = "
         #import shadowgraph::receiver::Receiver
         #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
         @group(0) @binding(0) var<storage, read_write> result: array<vec4f>;
-        @compute @workgroup_size(1) fn ask() {
+        @compute @workgroup_size(1) fn evaluate() {
             let receiver = Receiver();
             result[0] = vec4f(shadow_visibility(0u, receiver), 1.0);
             result[1] = vec4f(shadow_debug_color(0u, receiver), 1.0);
         }";
-    compose_source(&ModuleSource::new("ask.wgsl", entry), &[technique]).unwrap();
+    compose_source(&ModuleSource::new("evaluate.wgsl", entry), &[technique]).unwrap();
 }

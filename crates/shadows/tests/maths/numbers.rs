@@ -1,4 +1,4 @@
-//! Every number of a settings file, one after the other, as nobody means it.
+//! Every number of a settings file, replaced by extreme values one after the other.
 
 use glam::DVec3;
 use shadowgraph_scene::{LightKind, origin_near};
@@ -10,13 +10,13 @@ use shadowgraph_shadows::{
 
 use crate::common::{Boxes, camera, cube, light, spot, sun};
 
-/// Where numbers are in a text: begin and end.
+/// Returns the ranges of numbers in a text.
 fn numbers(text: &str) -> Vec<(usize, usize)> {
     let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-');
     let mut found = Vec::new();
     let mut begin = None;
     for (at, c) in text.char_indices() {
-        // `Tent5` and `Depth32` hold digits, but are words.
+        // `Tent5` and `Depth32` contain digits, but are identifiers.
         let begins = is_number(c) && !text[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
         match begin {
             None if begins => begin = Some(at),
@@ -47,7 +47,7 @@ fn usable(settings: &ShadowSettings) -> bool {
     });
     let plan = match plan {
         Ok(plan) => plan,
-        // How many lights there are is no matter of settings alone.
+        // The number of lights does not depend on the settings alone.
         Err(error) => return matches!(error, Error::UnknownLight { .. }),
     };
     let is_finite = |view: &ShadowView| {
@@ -58,7 +58,7 @@ fn usable(settings: &ShadowSettings) -> bool {
 }
 
 #[test]
-fn no_number_of_a_settings_file_makes_a_plan_that_is_not_finite() {
+fn no_number_in_a_settings_file_makes_a_plan_that_is_not_finite() {
     let own = LightShadows {
         depth_texels: Some(0.5),
         slope: Some(1.0),

@@ -1,4 +1,4 @@
-//! Which lights get which maps, tiles and casters.
+//! The maps, tiles and casters of lights.
 
 use glam::DVec3;
 use shadowgraph_scene::{Camera, CameraError, Light, LightKind, Projection, origin_near};
@@ -12,7 +12,7 @@ use crate::common::{Boxes, camera, cube, light, spot, sun};
 
 const DOWN: DVec3 = DVec3::new(0.3, -1.0, 0.2);
 
-fn look() -> Camera {
+fn default_camera() -> Camera {
     camera(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO)
 }
 
@@ -27,21 +27,21 @@ fn try_plan(
 }
 
 fn plan_with(lights: &[Light], casters: Vec<shadowgraph_scene::Aabb>) -> ShadowPlan {
-    try_plan(&look(), lights, &Boxes(casters), &ShadowSettings::default()).unwrap()
+    try_plan(&default_camera(), lights, &Boxes(casters), &ShadowSettings::default()).unwrap()
 }
 
-/// With tiles of one size.
+/// Plans with tiles of one size.
 fn plan_even(lights: &[Light], casters: Vec<shadowgraph_scene::Aabb>) -> ShadowPlan {
     let mut settings = ShadowSettings::default();
     settings.atlas.tiles = AtlasTiles::Even;
-    try_plan(&look(), lights, &Boxes(casters), &settings).unwrap()
+    try_plan(&default_camera(), lights, &Boxes(casters), &settings).unwrap()
 }
 
 fn plan(lights: &[Light]) -> ShadowPlan {
     plan_with(lights, vec![cube(DVec3::ZERO, 1.0)])
 }
 
-fn lamp(x: f64) -> Light {
+fn spot_at(x: f64) -> Light {
     spot(DVec3::new(x, 4.0, 0.0), DVec3::new(-x, -4.0, 0.0), 12.0, 0.6)
 }
 
@@ -50,9 +50,9 @@ fn reasons(plan: &ShadowPlan) -> Vec<(u32, UnshadowedReason)> {
 }
 
 #[test]
-fn nothing_to_shadow_costs_nothing() {
+fn without_shadows_the_plan_is_empty() {
     let no_shadow = Light { casts_shadow: false, ..sun(DOWN, 1.0) };
-    for plan in [plan(&[]), plan(&[no_shadow]), plan_with(&[sun(DOWN, 1.0), lamp(1.0)], vec![])] {
+    for plan in [plan(&[]), plan(&[no_shadow]), plan_with(&[sun(DOWN, 1.0), spot_at(1.0)], vec![])] {
         assert!(plan.cascades.is_none() && plan.atlas.is_none() && plan.views.is_empty());
         assert!(plan.lights.iter().all(|light| *light == ShadowLight::default()));
         // Buffers cannot be empty.
@@ -62,8 +62,8 @@ fn nothing_to_shadow_costs_nothing() {
 }
 
 #[test]
-fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
-    let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 90.0), sun(-DVec3::ONE, 20.0), lamp(2.0)]);
+fn the_brightest_directional_light_gets_the_cascades_and_others_a_tile() {
+    let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 90.0), sun(-DVec3::ONE, 20.0), spot_at(2.0)]);
     let cascades = plan.cascades.as_ref().unwrap();
     assert!(cascades.tiles.iter().all(|tile| tile.light == 1));
     assert_eq!(cascades.tiles[3].casters, [0]);
@@ -77,10 +77,10 @@ fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
         [(0, 4), (2, 5), (3, 6)]
     );
     assert_eq!(plan.views.len(), 7);
-    let of =
+    let gpu_light =
         |light: usize| (plan.lights[light].map, plan.lights[light].first_view, plan.lights[light].view_count);
     assert_eq!(
-        [of(0), of(1), of(2), of(3)],
+        [gpu_light(0), gpu_light(1), gpu_light(2), gpu_light(3)],
         [(MAP_ATLAS, 4, 1), (MAP_CASCADES, 0, 4), (MAP_ATLAS, 5, 1), (MAP_ATLAS, 6, 1),]
     );
     assert_eq!(plan.view_bytes().len(), 7 * 256);
@@ -89,7 +89,7 @@ fn brightest_directional_light_gets_the_cascades_and_others_a_tile() {
 
 #[test]
 fn views_describe_their_tiles() {
-    let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 9.0), lamp(2.0)]);
+    let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 9.0), spot_at(2.0)]);
     for map in [plan.cascades.as_ref().unwrap(), plan.atlas.as_ref().unwrap()] {
         for tile in &map.tiles {
             let view = &plan.views[tile.view as usize];
@@ -114,7 +114,7 @@ fn each_cascade_has_its_own_casters() {
     let behind_sun_side = cube(DVec3::new(900.0, 0.0, 0.0), 1.0);
     let plan = plan_with(&[sun(DOWN, 1.0)], vec![near, far, above, behind_sun_side]);
     let tiles = plan.cascades.unwrap().tiles;
-    assert_eq!(tiles[0].casters, [0, 2], "what is between light and view casts into it");
+    assert_eq!(tiles[0].casters, [0, 2], "casters between light and view are included");
     assert!(tiles[3].casters.contains(&1) && !tiles[1].casters.contains(&1));
     assert!(tiles.iter().all(|tile| !tile.casters.contains(&3)));
 }
@@ -122,13 +122,13 @@ fn each_cascade_has_its_own_casters() {
 #[test]
 fn lights_that_cannot_have_shadows_are_reported() {
     let point = light(LightKind::Point { position_world: DVec3::Y, range: Some(-1.0) }, 10.0);
-    let nowhere = spot(DVec3::new(0.0, 2.0, 500.0), DVec3::Z, 5.0, 0.5);
+    let behind = spot(DVec3::new(0.0, 2.0, 500.0), DVec3::Z, 5.0, 0.5);
     let too_far = spot(DVec3::new(0.0, 2.0, -400.0), DVec3::NEG_Y, 5.0, 0.5);
     let alone = spot(DVec3::new(4.0, 2.0, 0.0), DVec3::NEG_Y, 3.0, 0.3);
     let broken = spot(DVec3::NAN, DVec3::NEG_Y, 3.0, 0.3);
     let bright_nan = Light { intensity: f32::NAN, ..sun(DOWN, 1.0) };
     let plan =
-        plan(&[sun(DVec3::ZERO, 1.0), sun(DOWN, 0.0), bright_nan, nowhere, too_far, alone, broken, point]);
+        plan(&[sun(DVec3::ZERO, 1.0), sun(DOWN, 0.0), bright_nan, behind, too_far, alone, broken, point]);
     use UnshadowedReason::{InvalidLight, NoCasterInRange, NoIntensity, OutOfView};
     assert_eq!(
         reasons(&plan),
@@ -149,8 +149,8 @@ fn lights_that_cannot_have_shadows_are_reported() {
 
 #[test]
 fn row_07_seventeenth_light_is_reported_and_the_least_important_one() {
-    let mut lights: Vec<Light> = (0..17).map(|i| lamp(f64::from(i) * 0.2 - 1.7)).collect();
-    // Small and far away: the least of them.
+    let mut lights: Vec<Light> = (0..17).map(|i| spot_at(f64::from(i) * 0.2 - 1.7)).collect();
+    // Small and far away: the least important one.
     lights[4] = spot(DVec3::new(0.0, 1.5, -30.0), DVec3::NEG_Y, 2.0, 0.5);
     let casters = vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(0.0, 0.0, -30.0), 1.0)];
     let plan = plan_even(&lights, casters);
@@ -164,17 +164,17 @@ fn row_07_seventeenth_light_is_reported_and_the_least_important_one() {
 #[test]
 fn row_07_light_without_casters_gives_up_its_tile() {
     let alone = spot(DVec3::new(4.0, 2.0, 0.0), DVec3::NEG_Y, 3.0, 0.3);
-    let with = plan(&[lamp(1.0), alone.clone()]);
+    let with = plan(&[spot_at(1.0), alone.clone()]);
     assert_eq!(with.atlas.unwrap().tiles[0].rect.width, 2048, "one light has the whole map");
     let casters = vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(4.0, 0.0, 0.0), 1.0)];
-    let both = plan_even(&[lamp(1.0), alone], casters).atlas.unwrap();
+    let both = plan_even(&[spot_at(1.0), alone], casters).atlas.unwrap();
     assert_eq!((both.size_px, both.tiles.len()), ([2048, 1024], 2));
     assert_eq!((both.tiles[0].casters.as_slice(), both.tiles[1].casters.as_slice()), (&[0][..], &[1][..]));
 }
 
 #[test]
 fn equal_inputs_give_equal_plans() {
-    let lights: Vec<Light> = (0..20).map(|i| lamp(f64::from(i % 7))).chain([sun(DOWN, 1.0)]).collect();
+    let lights: Vec<Light> = (0..20).map(|i| spot_at(f64::from(i % 7))).chain([sun(DOWN, 1.0)]).collect();
     let (a, b) = (plan(&lights), plan(&lights));
     assert_eq!(a, b);
     assert_eq!(a.view_bytes(), b.view_bytes());
@@ -187,7 +187,8 @@ fn one_to_four_cascades_have_their_maps() {
         settings.cascades.count = count;
         settings.cascades.map_size_px = 512;
         let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
-        let map = try_plan(&look(), &[sun(DOWN, 1.0)], &casters, &settings).unwrap().cascades.unwrap();
+        let map =
+            try_plan(&default_camera(), &[sun(DOWN, 1.0)], &casters, &settings).unwrap().cascades.unwrap();
         assert_eq!((map.size_px, map.tiles.len()), (size_px, count as usize));
     }
 }
@@ -197,7 +198,7 @@ fn shadows_fade_out_at_the_distance_or_the_far_plane() {
     for (distance_m, end) in [(60.0, 60.0), (5000.0, 1000.0)] {
         let settings = ShadowSettings { distance_m, fade_fraction: 0.25, ..ShadowSettings::default() };
         let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
-        let plan = try_plan(&look(), &[sun(DOWN, 1.0), lamp(1.0)], &casters, &settings).unwrap();
+        let plan = try_plan(&default_camera(), &[sun(DOWN, 1.0), spot_at(1.0)], &casters, &settings).unwrap();
         for light in &plan.lights {
             assert_eq!(light.fade_end_m, end);
             assert_eq!((light.fade(0.0), light.fade(0.75 * end - 0.1), light.fade(end)), (1.0, 1.0, 0.0));
@@ -208,7 +209,7 @@ fn shadows_fade_out_at_the_distance_or_the_far_plane() {
 }
 
 #[test]
-fn view_that_begins_beyond_the_shadow_distance_has_none() {
+fn a_view_that_begins_beyond_the_shadow_distance_has_no_shadows() {
     let projection = Projection::Perspective { fov_y: 1.0, near: 200.0, far: None };
     let camera = Camera::look_at(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO, DVec3::Y, projection);
     let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
@@ -217,8 +218,9 @@ fn view_that_begins_beyond_the_shadow_distance_has_none() {
 }
 
 #[test]
-fn views_that_are_none_are_errors() {
-    let (good, casters, settings) = (look(), Boxes(vec![cube(DVec3::ZERO, 1.0)]), ShadowSettings::default());
+fn invalid_views_are_errors() {
+    let (good, casters, settings) =
+        (default_camera(), Boxes(vec![cube(DVec3::ZERO, 1.0)]), ShadowSettings::default());
     let inputs = ShadowInputs {
         view: 0,
         camera: &good,
@@ -229,21 +231,23 @@ fn views_that_are_none_are_errors() {
         settings: &settings,
     };
     for aspect in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let refused = plan_shadows(&ShadowInputs { aspect, ..inputs });
-        assert!(matches!(refused, Err(Error::Camera(CameraError::Aspect(_)))), "{refused:?}");
+        let result = plan_shadows(&ShadowInputs { aspect, ..inputs });
+        assert!(matches!(result, Err(Error::Camera(CameraError::Aspect(_)))), "{result:?}");
     }
-    let mut lost = look();
-    lost.world_from_view.translation.x = f64::NAN;
+    let mut invalid = default_camera();
+    invalid.world_from_view.translation.x = f64::NAN;
     assert_eq!(
-        plan_shadows(&ShadowInputs { camera: &lost, ..inputs }),
+        plan_shadows(&ShadowInputs { camera: &invalid, ..inputs }),
         Err(Error::Camera(CameraError::Transform))
     );
     for (near, far) in [(5.0, 5.0), (5.0, 1.0), (5.0, f64::NAN), (0.0, 1.0), (-1.0, 1.0), (f64::NAN, 1.0)] {
         let flat = Projection::Perspective { fov_y: 1.0, near, far: Some(far) };
-        let refused =
-            plan_shadows(&ShadowInputs { camera: &Camera { projection: flat, ..look() }, ..inputs });
-        let allowed = matches!(refused, Err(Error::Camera(CameraError::Near(_) | CameraError::Far { .. })));
-        assert!(allowed, "{near} {far} {refused:?}");
+        let result = plan_shadows(&ShadowInputs {
+            camera: &Camera { projection: flat, ..default_camera() },
+            ..inputs
+        });
+        let allowed = matches!(result, Err(Error::Camera(CameraError::Near(_) | CameraError::Far { .. })));
+        assert!(allowed, "{near} {far} {result:?}");
     }
     let wrong = ShadowSettings { distance_m: 0.0, ..ShadowSettings::default() };
     let error = plan_shadows(&ShadowInputs { settings: &wrong, ..inputs }).unwrap_err();
@@ -254,20 +258,20 @@ fn views_that_are_none_are_errors() {
 fn a_light_with_two_entries_is_an_error() {
     let entry = || LightShadows::new(LightRef::Index(0));
     let settings = ShadowSettings { lights: vec![entry(), entry()], ..ShadowSettings::default() };
-    let refused = try_plan(&look(), &[sun(DOWN, 1.0)], &Boxes(Vec::new()), &settings).unwrap_err();
-    assert_eq!(refused, Error::DuplicateLight { entry: 1, light: 0 });
+    let result = try_plan(&default_camera(), &[sun(DOWN, 1.0)], &Boxes(Vec::new()), &settings).unwrap_err();
+    assert_eq!(result, Error::DuplicateLight { entry: 1, light: 0 });
 }
 
 #[test]
 fn light_at_the_camera_and_a_hemisphere_wide_spot_have_usable_views() {
-    let at_camera = spot(look().position_world(), DVec3::NEG_Z, 20.0, std::f64::consts::FRAC_PI_2);
+    let at_camera = spot(default_camera().position_world(), DVec3::NEG_Z, 20.0, std::f64::consts::FRAC_PI_2);
     let plan = plan(&[at_camera]);
     assert_eq!(plan.views.len(), 1);
     assert!(plan.views[0].map_from_world.is_finite());
 }
 
 #[test]
-fn needs_name_filter_and_bias() {
+fn requirements_contain_filter_and_bias() {
     let mut settings = ShadowSettings::default();
     settings.bias.normal_texels = 2.0;
     let requirements = ShadowPlan::all_lit(0, &settings).requirements;
@@ -278,7 +282,7 @@ fn needs_name_filter_and_bias() {
     assert_eq!(requirements.margin_px(), 6.0);
 }
 
-/// The radius of the last cascade of a plan with a cube of this side.
+/// Returns the radius of the last cascade of a plan with a cube of this side.
 fn last_radius_m(camera: &Camera, side: f64) -> f32 {
     let boxes = Boxes(vec![cube(DVec3::ZERO, side)]);
     let plan = try_plan(camera, &[sun(DOWN, 1.0)], &boxes, &ShadowSettings::default()).unwrap();
@@ -286,15 +290,18 @@ fn last_radius_m(camera: &Camera, side: f64) -> f32 {
 }
 
 #[test]
-fn cascades_end_where_nothing_is_left_to_be_shadowed_but_not_beyond_the_shadow_distance() {
-    let (small, large, huge) =
-        (last_radius_m(&look(), 10.0), last_radius_m(&look(), 40.0), last_radius_m(&look(), 4000.0));
+fn cascades_end_at_the_last_receiver_but_not_beyond_the_shadow_distance() {
+    let (small, large, huge) = (
+        last_radius_m(&default_camera(), 10.0),
+        last_radius_m(&default_camera(), 40.0),
+        last_radius_m(&default_camera(), 4000.0),
+    );
     assert!(small * 2.0 < large && large * 2.0 < huge, "{small} {large} {huge}");
-    assert_eq!(huge, last_radius_m(&look(), 8000.0));
+    assert_eq!(huge, last_radius_m(&default_camera(), 8000.0));
 }
 
 #[test]
-fn cascades_stay_as_large_when_the_camera_turns() {
+fn cascades_keep_their_size_when_the_camera_turns() {
     let eye = DVec3::new(3.0, 2.0, 8.0);
     let radii = (0..32).map(|turn| {
         let (sin, cos) = (f64::from(turn) * 0.2).sin_cos();
@@ -304,50 +311,50 @@ fn cascades_stay_as_large_when_the_camera_turns() {
     assert_eq!(radii.len(), 1, "{radii:?}");
 }
 
-/// Lamps over a floor of small boxes, from near to far.
-fn street_lamps(count: usize) -> (Vec<Light>, Boxes) {
+/// Returns spot and point lights over a row of small boxes, from near to far.
+fn street_lights(count: usize) -> (Vec<Light>, Boxes) {
     let at = |i: usize| DVec3::new((i % 8) as f64 * 5.0 - 17.0, 3.0, -4.0 * (i / 8) as f64);
-    let lamp = |i: usize| {
+    let light_at = |i: usize| {
         if i.is_multiple_of(2) {
             return spot(at(i), DVec3::NEG_Y, 6.0, 0.8);
         }
         light(LightKind::Point { position_world: at(i), range: Some(6.0) }, 50.0)
     };
     let boxes = (0..count).map(|i| cube(at(i).with_y(0.5), 1.0)).collect();
-    ((0..count).map(lamp).collect(), Boxes(boxes))
+    ((0..count).map(light_at).collect(), Boxes(boxes))
 }
 
 #[test]
 fn row_38_sixty_four_spot_and_point_lights_share_one_atlas() {
-    let (lights, casters) = street_lamps(72);
+    let (lights, casters) = street_lights(72);
     let mut settings = ShadowSettings::default();
     settings.atlas.map_size_px = 4096;
-    let plan = try_plan(&look(), &lights, &casters, &settings).unwrap();
+    let plan = try_plan(&default_camera(), &lights, &casters, &settings).unwrap();
     let shadowed = plan.lights.iter().filter(|light| light.view_count > 0).count();
     assert!(
         shadowed >= 64 && reasons(&plan).iter().all(|(_, reason)| *reason == UnshadowedReason::OutOfView),
         "{shadowed} {:?}",
         reasons(&plan)
     );
-    // Nearer lamps have larger tiles, and none overlaps another.
+    // Nearer lights have larger tiles, and no tiles overlap.
     let tiles = &plan.atlas.as_ref().unwrap().tiles;
     let width = |light: u32| tiles.iter().find(|tile| tile.light == light).map(|tile| tile.rect.width);
     assert!(width(2) > width(66), "{:?} {:?}", width(2), width(66));
     assert!(tiles.iter().enumerate().all(|(i, a)| tiles[..i].iter().all(|b| !a.rect.overlaps(&b.rect))));
     settings.atlas.tiles = AtlasTiles::Even;
-    let even = try_plan(&look(), &lights, &casters, &settings).unwrap();
+    let even = try_plan(&default_camera(), &lights, &casters, &settings).unwrap();
     assert!(even.lights.iter().filter(|light| light.view_count > 0).count() <= 16);
     assert!(reasons(&even).iter().any(|(_, reason)| *reason == UnshadowedReason::AtlasFull), "reported");
 }
 
 #[test]
 fn row_38_a_light_that_matters_more_has_larger_tiles() {
-    let lights = [lamp(-2.0), lamp(0.0), lamp(2.0)];
+    let lights = [spot_at(-2.0), spot_at(0.0), spot_at(2.0)];
     let width = |importance| {
         let own = LightShadows { importance, ..LightShadows::new(1.into()) };
         let settings = ShadowSettings { lights: vec![own], ..ShadowSettings::default() };
         let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
-        let plan = try_plan(&look(), &lights, &casters, &settings).unwrap();
+        let plan = try_plan(&default_camera(), &lights, &casters, &settings).unwrap();
         plan.atlas.unwrap().tiles.iter().find(|tile| tile.light == 1).unwrap().rect.width
     };
     assert!(
@@ -361,10 +368,10 @@ fn row_38_a_light_that_matters_more_has_larger_tiles() {
 
 #[test]
 fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
-    let (lights, casters) = street_lamps(24);
+    let (lights, casters) = street_lights(24);
     let settings = ShadowSettings::default();
     let at = |step: f64| camera(DVec3::new(0.3 * step, 2.0, 8.0), DVec3::ZERO);
-    let plan = |step: f64, before: Option<&shadowgraph_shadows::AtlasAllocation>| {
+    let plan = |step: f64, previous: Option<&shadowgraph_shadows::AtlasAllocation>| {
         let camera = at(step);
         let inputs = ShadowInputs {
             view: 0,
@@ -375,29 +382,29 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
             origin_world: DVec3::ZERO,
             settings: &settings,
         };
-        plan_shadows_after(&inputs, before, &Requirements::NONE).unwrap()
+        plan_shadows_after(&inputs, previous, &Requirements::NONE).unwrap()
     };
     let rects = |plan: &ShadowPlan| plan.atlas_allocation.rects.clone();
     let (mut changed, mut changed_without) = (0, 0);
     let first = plan(0.0, None);
-    let mut before = first.clone();
+    let mut previous = first.clone();
     for step in 1..40 {
-        // There and back again, by 30 cm each.
+        // Back and forth, by 30 cm each.
         let at = f64::from(step % 2);
-        let next = plan(at, Some(&before.atlas_allocation));
-        changed += usize::from(rects(&next) != rects(&before));
+        let next = plan(at, Some(&previous.atlas_allocation));
+        changed += usize::from(rects(&next) != rects(&previous));
         changed_without += usize::from(rects(&plan(at, None)) != rects(&plan(1.0 - at, None)));
-        before = next;
+        previous = next;
     }
-    assert!(changed <= 1, "{changed} of 39, {changed_without} without memory");
+    assert!(changed <= 1, "{changed} of 39, {changed_without} without a previous frame");
 }
 
 #[test]
-fn casters_beside_the_view_are_drawn_as_far_as_a_technique_looks_for_them() {
-    // Beside what the camera sees, in the light of nothing that it sees.
+fn casters_outside_the_view_are_drawn_within_the_techniques_blocker_reach() {
+    // The second box is outside the view, and its shadow too.
     let casters = Boxes(vec![cube(DVec3::ZERO, 1.0), cube(DVec3::new(9.0, 0.0, 3.0), 1.0)]);
     let settings = ShadowSettings { distance_m: 20.0, ..ShadowSettings::default() };
-    let camera = look();
+    let camera = default_camera();
     let inputs = ShadowInputs {
         view: 0,
         camera: &camera,

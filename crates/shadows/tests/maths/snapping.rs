@@ -1,4 +1,4 @@
-//! Shadows that stand still while the camera moves: tiles move in whole texels.
+//! Stable shadows while the camera moves: tiles move in whole texels.
 
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Projection, origin_near};
@@ -24,7 +24,7 @@ fn plan_at(eye: DVec3, forward: DVec3, light: DVec3, origin_world: DVec3) -> Sha
     .unwrap()
 }
 
-/// How far each cascade's matrix moved, in texels on each of the light's axes, as the GPU gets it.
+/// Returns the movement of each cascade's matrix in light space, texels, with the precision of the GPU.
 fn moved_texels(a: &ShadowPlan, b: &ShadowPlan) -> Vec<DVec3> {
     let cascades = a.views.iter().zip(&b.views).take(4);
     let moved = cascades.map(|(a, b)| {
@@ -78,7 +78,7 @@ fn turning_the_camera_moves_every_cascade_by_exactly_whole_texels() {
 }
 
 #[test]
-fn texels_stay_where_they_are_in_the_world_when_the_origin_moves() {
+fn texels_keep_their_world_position_when_the_origin_moves() {
     let forward = DVec3::new(0.3, -0.2, -1.0);
     let light = DVec3::new(-0.4, -0.8, 0.35);
     for base in ORIGINS {
@@ -89,7 +89,7 @@ fn texels_stay_where_they_are_in_the_world_when_the_origin_moves() {
                 let half_px = f64::from(view.tile_px[2]) / 2.0;
                 view.clip_from_world.as_dmat4().transform_point3(base - origin_world) * half_px
             };
-            // A sixteenth of a texel, and what f32 makes of a kilometre.
+            // A sixteenth of a texel, and the rounding of a kilometre in f32.
             let moved = (of(a, origins[0]) - of(b, origins[1])).abs().max_element();
             assert!(moved < 1.0 / 16.0 + 0.02, "{moved} texels at {base}");
         }

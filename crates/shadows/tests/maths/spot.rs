@@ -18,14 +18,14 @@ fn cone(position_world: DVec3, direction: DVec3, half_angle: f64, range_m: f64) 
     SpotCone { position_world, direction: direction.normalize(), half_angle, range_m }
 }
 
-/// Points on the cone's surface at a part of its range.
-fn rim(cone: &SpotCone, part: f64) -> impl Iterator<Item = DVec3> + use<> {
+/// Returns points on the cone's surface at a fraction of its range.
+fn rim(cone: &SpotCone, fraction: f64) -> impl Iterator<Item = DVec3> + use<> {
     let cone = *cone;
     let (right, up) = cone.direction.any_orthonormal_pair();
     (0..32).map(move |step| {
         let (sin, cos) = (f64::from(step) * std::f64::consts::TAU / 32.0).sin_cos();
         let outward = (right * cos + up * sin) * cone.half_angle.sin();
-        cone.position_world + (cone.direction * cone.half_angle.cos() + outward) * cone.range_m * part
+        cone.position_world + (cone.direction * cone.half_angle.cos() + outward) * cone.range_m * fraction
     })
 }
 
@@ -73,7 +73,7 @@ proptest! {
     }
 
     #[test]
-    fn casters_in_the_cone_are_kept_and_those_elsewhere_refused(
+    fn casters_in_the_cone_are_kept_and_others_are_culled(
         cone in any_cone(), part in 0.0..1.0f64, side in -1.0..1.0f64,
     ) {
         let volume = fit(cone, 64).cull_volume();
@@ -82,7 +82,7 @@ proptest! {
                 cone.position_world + cone.direction * cone.range_m * part * cone.half_angle.cos(), side.abs());
             prop_assert!(volume.contains_point(inside));
         }
-        // From the light's very place to the end of its range, and not behind it or beyond.
+        // From the light's position to the end of its range, not behind it or beyond.
         let along = |m: f64| Aabb::from_points([cone.position_world + cone.direction * m]);
         prop_assert!(volume.intersects(&along(1e-6)));
         prop_assert!(!volume.intersects(&along(-0.01 * cone.range_m)));
@@ -90,17 +90,17 @@ proptest! {
     }
 
     #[test]
-    fn bounding_sphere_holds_the_cone(cone in any_cone(), part in 0.0..1.0f64) {
+    fn the_bounding_sphere_contains_the_cone(cone in any_cone(), part in 0.0..1.0f64) {
         let sphere = cone.bounding_sphere();
         let end = cone.position_world + cone.direction * cone.range_m * part;
         for point in rim(&cone, part).chain([end]) {
-            // The end of the axis sticks out of a wide cone's flat disc.
+            // The end of the axis is outside a wide cone's flat disc.
             prop_assert!(point.distance(sphere.center_world) <= sphere.radius_m * (1.0 + 1e-9), "{point}");
         }
     }
 
     #[test]
-    fn smaller_tiles_see_all_that_larger_ones_see(cone in any_cone(), at in (-1.0..1.0f64, -1.0..1.0f64)) {
+    fn smaller_tiles_cover_everything_that_larger_ones_cover(cone in any_cone(), at in (-1.0..1.0f64, -1.0..1.0f64)) {
         let (small, large) = (fit(cone, 64), fit(cone, 2048));
         prop_assert!(small.tan_half > large.tan_half);
         let to_world = large.light_from_world.transpose();
@@ -110,13 +110,13 @@ proptest! {
 }
 
 #[test]
-fn cone_wider_than_a_tile_can_be_is_cut() {
+fn a_cone_wider_than_a_tile_is_limited() {
     let wide = fit(cone(DVec3::ZERO, DVec3::NEG_Y, std::f64::consts::FRAC_PI_2, 10.0), 512);
     assert!(wide.tan_half.is_finite() && wide.tan_half < 6.0);
 }
 
 #[test]
-fn near_plane_stays_before_a_short_range() {
+fn the_near_plane_is_within_a_short_range() {
     let short = fit(cone(DVec3::ZERO, DVec3::NEG_Y, 0.5, 0.06), 512);
     assert_eq!(short.near_m, 0.03);
     assert!(short.clip_from_world(DVec3::ZERO).is_finite());
