@@ -131,7 +131,9 @@ fn integration_tests(dir: &Path) -> Vec<String> {
 
 /// Reads one of cargo's messages: `None` if it is not about a test program.
 fn program(message: &str) -> Option<Program> {
-    let is_test = message.contains(r#""reason":"compiler-artifact""#) && message.contains(r#""test":true}"#);
+    // The profile says whether it was built as a test; the target has a field of that name, too.
+    let (_, profile) = message.split_once(r#""profile":{"#)?;
+    let is_test = profile.split_once('}')?.0.contains(r#""test":true"#);
     let value = |key: &str| {
         let (_, rest) = message.split_once(&format!("\"{key}\":\""))?;
         Some(PathBuf::from(rest.split_once('"')?.0.replace(r"\\", r"\")))
@@ -148,7 +150,7 @@ mod tests {
     fn only_messages_about_test_programs_name_a_program() {
         let message = |test: bool, executable: &str| {
             format!(
-                r#"{{"reason":"compiler-artifact","manifest_path":"/r/a/Cargo.toml","target":{{"name":"a","test":true,"x":1}},"profile":{{"test":{test}}},"executable":{executable}}}"#
+                r#"{{"reason":"compiler-artifact","manifest_path":"/r/a/Cargo.toml","target":{{"name":"a","test":true}},"profile":{{"debuginfo":0,"test":{test}}},"executable":{executable}}}"#
             )
         };
         let expected = Program { file: "/t/a-1".into(), dir: "/r/a".into() };
