@@ -181,7 +181,9 @@ impl SettingType {
             Self::Struct(_) => "a struct".into(),
             Self::List(_, item) => format!("a list, each {}", item.allowed()),
             Self::Optional(inner) => match inner {
-                Self::Enum(..) => format!("None, or Some of {}", inner.allowed()),
+                Self::Enum(..) => {
+                    format!("None, or Some of {}", inner.allowed().trim_start_matches("one of "))
+                }
                 _ => format!("None, or Some({})", inner.allowed()),
             },
             Self::Other(_, words) => (*words).into(),
