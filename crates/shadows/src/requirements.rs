@@ -1,7 +1,6 @@
 //! The requirements of a technique on shared services.
 
-/// What a technique requires of shared services, beyond what each light's settings do: how far it reads around a point, how
-/// far it moves lookups, and how far from a receiver it searches for blockers.
+/// The requirements of a technique on shared services, beyond those of each light's settings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Requirements {
     /// Radius around the point that the filter reads, texels, 0 to 24: the borders of tiles are as wide.

@@ -15,9 +15,9 @@ use crate::spot::SpotFit;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ShadowView {
-    /// From world to the tile: x and y -w to w, y up; z/w 1 nearest to the light, 0 farthest.
+    /// Matrix from world to the tile: x and y -w to w, y up; z/w 1 nearest to the light, 0 farthest.
     pub clip_from_world: Mat4,
-    /// From world to the map: x/w and y/w 0 to 1 over the whole map, y down; z/w as above.
+    /// Matrix from world to the map: x/w and y/w 0 to 1 over the whole map, y down; z/w as above.
     pub map_from_world: Mat4,
     /// Top left of the tile without its border, texture coordinates of the map.
     pub uv_min: Vec2,
@@ -70,13 +70,13 @@ pub struct ShadowLight {
     pub view_count: u32,
     /// The map that contains them: [`MAP_CASCADES`] or [`MAP_ATLAS`].
     pub map: u32,
-    /// How the view of a point is selected: one of `SELECT_*`.
+    /// Method that selects the view of a point: one of `SELECT_*`.
     pub select: u32,
-    /// How adjacent views are blended: one of `BLEND_*`.
+    /// Method that blends adjacent views: one of `BLEND_*`.
     pub blend: u32,
     /// [`ShadowFilter::taps`](crate::ShadowFilter::taps).
     pub filter_taps: u32,
-    /// How lookups are biased towards the light: one of `BIAS_*`.
+    /// Method that biases lookups towards the light: one of `BIAS_*`.
     pub bias_method: u32,
     /// 1 if the normal bias is scaled by the sine of the angle between normal and light, else 0.
     pub normal_sine: u32,

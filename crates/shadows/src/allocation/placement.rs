@@ -86,7 +86,7 @@ fn free_around(tiles: &mut [Tile], map_level: u32) -> FreeBlocks {
 
 /// Places the tiles that have no position, largest first. Returns whether all of them fit.
 ///
-/// In that order a tile does not fit only if it fits in no order: what is left of a block that is split
+/// In that order, a tile that does not fit would not fit in any order: the rest of a block that is split
 /// is a whole number of blocks of the present size.
 fn fill(tiles: &mut [Tile], free: &mut FreeBlocks) -> bool {
     let mut unplaced: Vec<usize> = (0..tiles.len()).filter(|&i| tiles[i].start.is_none()).collect();

@@ -82,7 +82,7 @@ pub(super) struct Request {
     pub(super) importance: f64,
     /// The level of the requested size.
     pub(super) requested: u32,
-    /// How many times the requested size was halved in the previous frame; 0 for a new owner.
+    /// Number of halvings of the requested size in the previous frame; 0 for a new owner.
     pub(super) halved_before: u32,
     /// The level of the allocated size.
     pub(super) level: u32,
@@ -133,9 +133,9 @@ pub(super) fn assign_levels(capacity: u64, requests: &mut [Request]) -> usize {
 /// The most cells in use after an owner has been given a size.
 #[derive(Clone, Copy)]
 struct Limits {
-    /// For owners that were halved no further than now, and for new ones.
+    /// The limit for owners that were halved no further than now, and for new ones.
     to_keep: u64,
-    /// For owners that were halved further.
+    /// The limit for owners that were halved further.
     to_grow: u64,
 }
 

@@ -9,7 +9,7 @@ use super::supporting_planes::SupportingPlanes;
 /// The sine of the angle to a parallel light below which an edge counts as a point, through which no plane is built.
 const ALONG_LIGHT: f64 = 1e-6;
 
-/// The same for an edge and a light at a position.
+/// The sine of the angle to a light at a position below which an edge counts as a point.
 const TOWARDS_POSITION: f64 = 1e-9;
 
 impl ReceiverHull {

@@ -46,7 +46,7 @@ pub struct RayTriangle {
 /// [`RayMaterial::cutoff`] of a translucent material.
 pub const TINT: f32 = -1.0;
 
-/// How light passes through a triangle, 64 bytes.
+/// The material of a triangle that is not opaque, 64 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RayMaterial {

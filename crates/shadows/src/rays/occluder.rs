@@ -11,11 +11,11 @@ pub(crate) const MAX_COORDINATE_M: f32 = 1e9;
 pub struct Occluder {
     /// The corners, metres relative to the frame's origin.
     pub corners: [Vec3; 3],
-    /// How light passes through it.
+    /// The surface of the triangle.
     pub surface: Surface,
 }
 
-/// How light passes through a triangle.
+/// The surface of a triangle: the light that passes through it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Surface {
     /// Blocks all light.

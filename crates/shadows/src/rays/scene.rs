@@ -21,7 +21,7 @@ const MAX_OCCLUDERS: usize = 1 << 30;
 #[derive(Clone)]
 pub struct RayScene {
     bvh: Bvh2,
-    /// In the order of the tree's leaves.
+    /// The triangles, in the order of the tree's leaves.
     triangles: Vec<RayTriangle>,
     materials: Vec<RayMaterial>,
     textures: Vec<ChannelTexture>,
