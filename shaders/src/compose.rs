@@ -1,4 +1,4 @@
-//! Puts files together into one module.
+//! Composes files into one module.
 
 use naga::valid::Capabilities;
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor};
@@ -11,11 +11,11 @@ use crate::{
 };
 
 /// Composes a built-in entry file, such as `"forward.wgsl"`, with the modules that it imports. `extra` adds
-/// modules, such as the shadow technique's, or takes the place of built-in ones with the same import path.
+/// modules, such as the shadow technique's, or replaces built-in ones with the same import path.
 ///
 /// # Errors
 ///
-/// No entry file has that name, an import is not found, or the WGSL is wrong: the text gives file and line.
+/// No entry file has that name, an import is not found, or the WGSL is invalid; the message names file and line.
 pub fn compose(entry_file: &str, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
     match ENTRIES.iter().find(|entry| entry.file == entry_file) {
         Some(entry) => compose_source(entry, extra),
@@ -23,7 +23,7 @@ pub fn compose(entry_file: &str, extra: &[ModuleSource]) -> Result<naga::Module,
     }
 }
 
-/// Composes an entry file of the caller's own with the modules that it imports: the built-in ones and `extra`.
+/// Composes an entry file of the caller with the modules that it imports: the built-in ones and `extra`.
 ///
 /// ```
 /// use shadowgraph_shaders::{ModuleSource, compose_source};
@@ -39,7 +39,7 @@ pub fn compose(entry_file: &str, extra: &[ModuleSource]) -> Result<naga::Module,
 ///
 /// # Errors
 ///
-/// An import is not found, or the WGSL is wrong: the text gives file and line.
+/// An import is not found, or the WGSL is invalid; the message names file and line.
 pub fn compose_source(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
     let key = (folder::current(entry), folder::with_folder(extra));
     if let Some(module) = cache::find(&key) {
@@ -52,7 +52,7 @@ pub fn compose_source(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<na
 
 fn compose_uncached(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
     let library = Library::new(extra)?;
-    // What the device can do is checked when it gets the module.
+    // Capabilities are checked when a device compiles the module.
     let mut composer = Composer::default().with_capabilities(Capabilities::all());
     for path in library.needed_by(entry)? {
         let Some(module) = library.get(&path) else { continue };

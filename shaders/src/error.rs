@@ -1,19 +1,19 @@
-//! What can be wrong with WGSL and its composition.
+//! Errors in WGSL and its composition.
 
-/// Why WGSL could not be composed, or a struct does not lie in memory as expected.
+/// An error of composing WGSL, or of comparing struct layouts.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// No built-in entry file has this name.
-    #[error("there is no built-in entry file `{file}`; there are: {known}")]
+    #[error("unknown built-in entry file `{file}`; expected one of: {known}")]
     UnknownFile {
-        /// What was asked for.
+        /// The requested file.
         file: String,
-        /// The names there are.
+        /// The existing names.
         known: String,
     },
-    /// An import that no module answers.
-    #[error("{file}:{line}: no module is called `{path}`; near names: {near}")]
+    /// An import of an unknown module.
+    #[error("{file}:{line}: unknown module `{path}`; did you mean one of: {similar}?")]
     UnknownImport {
         /// The importing file.
         file: String,
@@ -21,13 +21,13 @@ pub enum Error {
         line: usize,
         /// The import path that was not found.
         path: String,
-        /// The import paths that look most like it.
-        near: String,
+        /// The import paths that are most similar.
+        similar: String,
     },
     /// The technique's module is imported but was not passed.
     #[error(
-        "{file}:{line}: no shadow technique is given for `shadowgraph::technique`: pass the technique's module \
-         along; built in are: {known}"
+        "{file}:{line}: no module was passed for `shadowgraph::technique`: pass the module of a shadow technique; \
+         built in are: {known}"
     )]
     NoTechnique {
         /// The importing file.
@@ -37,14 +37,14 @@ pub enum Error {
         /// The files of the built-in techniques.
         known: String,
     },
-    /// A file that should be imported does not say by which path.
-    #[error("{file}: a module needs a line `#define_import_path some::path`, or it cannot be imported")]
+    /// A module without an import path.
+    #[error("{file}: expected a line `#define_import_path some::path`, which a module needs to be imported")]
     NoImportPath {
         /// The file.
         file: String,
     },
     /// Two of the passed modules have the same import path.
-    #[error("{first} and {second} both define the import path `{path}`: pass one of them")]
+    #[error("duplicate import path `{path}` in {first} and {second}: pass one of them")]
     DuplicateModule {
         /// The path.
         path: String,
@@ -53,79 +53,79 @@ pub enum Error {
         /// The other one.
         second: String,
     },
-    /// Modules import each other in a circle.
-    #[error("modules import each other in a circle: {cycle}")]
+    /// Modules import each other in a cycle.
+    #[error("cycle of module imports: {cycle}")]
     ImportCycle {
-        /// The files on the way round.
+        /// The files of the cycle.
         cycle: String,
     },
-    /// The WGSL itself is wrong.
-    #[error("{file}:{line}: {message}{}", below(text))]
+    /// Invalid WGSL.
+    #[error("{file}:{line}: {message}{}", source_line(text))]
     Wgsl {
         /// The file.
         file: String,
         /// The line, from 1.
         line: usize,
-        /// What is wrong.
+        /// The error.
         message: String,
-        /// The text of the line.
+        /// The source of the line.
         text: String,
     },
     /// The module has no struct of this name, or several that differ.
-    #[error("{count} structs are called `{name}`, one was expected; the module's structs: {known}")]
+    #[error("expected one struct `{name}`, found {count}; the module's structs: {known}")]
     StructNotFound {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// How many there are.
+        /// The number of structs of this name.
         count: usize,
-        /// The structs there are.
+        /// The structs of the module.
         known: String,
     },
     /// The struct has another size.
-    #[error("WGSL struct `{name}` takes {actual} bytes, not {expected}")]
+    #[error("WGSL struct `{name}` has {actual} bytes, expected {expected}")]
     StructSize {
         /// The struct.
         name: String,
         /// Bytes in WGSL.
         actual: usize,
-        /// Bytes that were expected.
+        /// Expected bytes.
         expected: usize,
     },
     /// The struct lacks a field.
-    #[error("WGSL struct `{name}` has no field `{field}`; it has: {known}")]
+    #[error("WGSL struct `{name}` has no field `{field}`; its fields: {known}")]
     FieldMissing {
         /// The struct.
         name: String,
-        /// The field that was expected.
+        /// The expected field.
         field: String,
-        /// The fields there are.
+        /// The existing fields.
         known: String,
     },
-    /// The struct has a field more.
-    #[error("WGSL struct `{name}` also has a field `{field}` at byte {offset}, which was not expected")]
+    /// The struct has an additional field.
+    #[error("WGSL struct `{name}` has an unexpected field `{field}` at byte {offset}")]
     FieldUnexpected {
         /// The struct.
         name: String,
         /// The field.
         field: String,
-        /// Its place in bytes.
+        /// Its offset in bytes.
         offset: usize,
     },
-    /// A field is elsewhere.
-    #[error("field `{field}` of WGSL struct `{name}` is at byte {actual}, not {expected}")]
+    /// A field has another offset.
+    #[error("field `{field}` of WGSL struct `{name}` is at byte {actual}, expected {expected}")]
     FieldOffset {
         /// The struct.
         name: String,
         /// The field.
         field: String,
-        /// Its place in WGSL, bytes.
+        /// Its offset in WGSL, in bytes.
         actual: usize,
-        /// The place that was expected, bytes.
+        /// Expected offset in bytes.
         expected: usize,
     },
 }
 
-/// A line of its own for a source text, where there is any.
-fn below(text: &str) -> String {
+/// Returns the source line on a separate line, if there is one.
+fn source_line(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("\n    {text}") }
 }

@@ -1,4 +1,4 @@
-//! A folder of WGSL files that take the place of the built-in ones, to work on them while a program runs.
+//! A directory of WGSL files that replace the built-in ones, to edit them while a program runs.
 
 use crate::ModuleSource;
 use crate::imports::import_path;
@@ -9,19 +9,19 @@ use std::sync::{PoisonError, RwLock};
 
 static FOLDER: RwLock<Option<PathBuf>> = RwLock::new(None);
 
-/// Sets the folder whose files take the place of built-in ones of the same name, such as `forward.wgsl` or
-/// `shadows/pcf.wgsl`, each time that something is composed from now on, in the whole program; `None` for the built-in ones
-/// again. For tools that show the effect of a change while they run. Files that are not there stay as they are built in.
+/// Sets the directory whose files replace built-in ones of the same name, such as `forward.wgsl` or `shadows/pcf.wgsl`,
+/// whenever shaders are composed from now on, in the whole program; `None` restores the built-in ones. It is meant for tools
+/// that show the effect of a change while they run. Files that do not exist there stay built in.
 pub fn set_folder(folder: Option<PathBuf>) {
     *FOLDER.write().unwrap_or_else(PoisonError::into_inner) = folder;
 }
 
-/// The source as the folder has it.
+/// Returns the source from the directory, or the given one.
 pub(crate) fn current(module: &ModuleSource) -> ModuleSource {
     read(module).unwrap_or_else(|| module.clone())
 }
 
-/// The modules that are passed, and those built in that the folder has, as the folder has them.
+/// Returns the passed modules, and the built-in ones that the directory replaces, with their sources from the directory.
 pub(crate) fn with_folder(extra: &[ModuleSource]) -> Vec<ModuleSource> {
     let mut all: Vec<ModuleSource> = extra.iter().map(current).collect();
     let passed: Vec<_> = extra.iter().filter_map(|module| import_path(module).ok()).collect();

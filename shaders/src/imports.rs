@@ -1,4 +1,4 @@
-//! Which modules a file imports, and in which order they must be added.
+//! Finds the modules that a file imports, and the order in which they must be added.
 
 use std::collections::BTreeMap;
 
@@ -14,14 +14,14 @@ use crate::{
 /// The modules that can be imported, by import path.
 pub(crate) struct Library<'a>(BTreeMap<String, &'a ModuleSource>);
 
-/// An import path as a file writes it: a module's, or that of an item in one.
+/// An import path in a file, of a module or of an item in one.
 struct Import {
     path: String,
     line: usize,
 }
 
 impl<'a> Library<'a> {
-    /// The built-in modules and `extra`, which can take the place of built-in ones.
+    /// Creates the library of the built-in modules and `extra`, which can replace built-in ones.
     pub(crate) fn new(extra: &'a [ModuleSource]) -> Result<Self, Error> {
         let mut modules = BTreeMap::new();
         for module in MODULES {
@@ -39,17 +39,17 @@ impl<'a> Library<'a> {
         Ok(Self(modules))
     }
 
-    /// The module of this import path.
+    /// Returns the module of this import path.
     pub(crate) fn get(&self, path: &str) -> Option<&ModuleSource> {
         self.0.get(path).copied()
     }
 
-    /// The module of this file name.
+    /// Returns the module of this file name.
     pub(crate) fn by_file(&self, file: &str) -> Option<&ModuleSource> {
         self.0.values().copied().find(|module| module.file == file)
     }
 
-    /// The import paths of all modules that `entry` needs, each after those it imports itself.
+    /// Returns the import paths of all modules that `entry` needs, each after its own imports.
     pub(crate) fn needed_by(&self, entry: &ModuleSource) -> Result<Vec<String>, Error> {
         let mut done = Vec::new();
         for path in self.imported_by(entry)? {
@@ -63,8 +63,8 @@ impl<'a> Library<'a> {
             return Ok(());
         }
         if let Some(start) = open.iter().position(|other| *other == path) {
-            let round = open[start..].iter().chain([&path]).filter_map(|path| self.get(path));
-            let cycle = round.map(|module| module.file.as_ref()).collect::<Vec<_>>().join(" -> ");
+            let cycle_paths = open[start..].iter().chain([&path]).filter_map(|path| self.get(path));
+            let cycle = cycle_paths.map(|module| module.file.as_ref()).collect::<Vec<_>>().join(" -> ");
             return Err(Error::ImportCycle { cycle });
         }
         let Some(module) = self.get(&path) else { return Ok(()) };
@@ -77,7 +77,7 @@ impl<'a> Library<'a> {
         Ok(())
     }
 
-    /// The import paths of the modules that a file names.
+    /// Returns the import paths of the modules that a file imports.
     fn imported_by(&self, file: &ModuleSource) -> Result<Vec<String>, Error> {
         let mut modules = Vec::new();
         for import in imports(file)? {
@@ -89,7 +89,7 @@ impl<'a> Library<'a> {
         Ok(modules)
     }
 
-    /// The module that an import path names: the path itself or, for an item, what stands before its name.
+    /// Returns the module of an import path: the path itself or, for an item, its parent.
     fn module_of(&self, path: &str) -> Option<String> {
         let parent = path.rsplit_once("::").map(|(parent, _)| parent);
         [Some(path), parent].into_iter().flatten().find(|path| self.0.contains_key(*path)).map(str::to_owned)
@@ -101,19 +101,19 @@ impl<'a> Library<'a> {
         if path == TECHNIQUE || path.rsplit_once("::").is_some_and(|(parent, _)| parent == TECHNIQUE) {
             return Error::NoTechnique { file, line, known: names(TECHNIQUES) };
         }
-        let mut near: Vec<&str> = self.0.keys().map(String::as_str).collect();
-        // An item's name at the end is no reason to call a module far away.
+        let mut similar: Vec<&str> = self.0.keys().map(String::as_str).collect();
+        // The name of an item must not count as a difference from its module.
         let parent = path.rsplit_once("::").map_or(path.as_str(), |(parent, _)| parent);
-        near.sort_by_key(|known| edits(known, &path).min(edits(known, parent)));
-        near.truncate(3);
-        Error::UnknownImport { near: near.join(", "), file, line, path }
+        similar.sort_by_key(|known| edit_distance(known, &path).min(edit_distance(known, parent)));
+        similar.truncate(3);
+        Error::UnknownImport { similar: similar.join(", "), file, line, path }
     }
 }
 
-/// The path of the line `#define_import_path`.
+/// Returns the path of the line `#define_import_path`.
 pub(crate) fn import_path(module: &ModuleSource) -> Result<String, Error> {
     let path = get_preprocessor_data(&module.source).0;
-    // Text that cannot be read so far gets its own message later; here only the path matters.
+    // Invalid source is reported later; here only the path matters.
     let path = path.or_else(|| {
         let line = module.source.lines().find_map(|line| line.trim().strip_prefix("#define_import_path"))?;
         line.split_whitespace().next().map(str::to_owned)
@@ -121,7 +121,7 @@ pub(crate) fn import_path(module: &ModuleSource) -> Result<String, Error> {
     path.ok_or_else(|| Error::NoImportPath { file: module.file.to_string() })
 }
 
-/// What a file imports: its `#import` lines, and paths written out in the text.
+/// Returns the imports of a file: its `#import` lines, and paths written inline.
 fn imports(file: &ModuleSource) -> Result<Vec<Import>, Error> {
     let mut found = Vec::new();
     for (line, statement) in import_statements(&file.source) {
@@ -143,7 +143,7 @@ fn imports(file: &ModuleSource) -> Result<Vec<Import>, Error> {
     Ok(found)
 }
 
-/// The `#import` statements without comments, each with the line it starts on.
+/// Returns the `#import` statements without comments, each with its first line.
 fn import_statements(source: &str) -> Vec<(usize, String)> {
     let mut statements: Vec<(usize, String)> = Vec::new();
     let mut braces = 0;
@@ -169,8 +169,8 @@ fn open_braces(text: &str) -> usize {
     text.matches('{').count().saturating_sub(text.matches('}').count())
 }
 
-/// How many letters must be added, removed or changed to get from one name to the other.
-fn edits(a: &str, b: &str) -> usize {
+/// Returns the edit distance of two names.
+fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, letter) in a.chars().enumerate() {
@@ -201,10 +201,10 @@ mod tests {
     }
 
     #[test]
-    fn edits_count_letters() {
-        assert_eq!(edits("view", "view"), 0);
-        assert_eq!(edits("viewe", "view"), 1);
-        assert_eq!(edits("veiw", "view"), 2);
-        assert_eq!(edits("", "view"), 4);
+    fn the_edit_distance_counts_letters() {
+        assert_eq!(edit_distance("view", "view"), 0);
+        assert_eq!(edit_distance("viewe", "view"), 1);
+        assert_eq!(edit_distance("veiw", "view"), 2);
+        assert_eq!(edit_distance("", "view"), 4);
     }
 }

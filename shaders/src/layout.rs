@@ -1,4 +1,4 @@
-//! Checks that a struct lies in memory in WGSL as it does in Rust.
+//! Checks that a struct has the same memory layout in WGSL and in Rust.
 
 use naga::TypeInner;
 
@@ -9,7 +9,7 @@ use crate::{Error, report::plain_names};
 pub struct Field {
     /// Its name in WGSL.
     pub name: String,
-    /// Its place in the struct, in bytes.
+    /// Its offset in the struct, in bytes.
     pub offset: usize,
 }
 
@@ -18,7 +18,7 @@ pub struct Field {
 pub struct Layout {
     /// Bytes, rounded up to the struct's alignment.
     pub size: usize,
-    /// In the order of declaration.
+    /// Fields in the order of declaration.
     pub fields: Vec<Field>,
 }
 
@@ -26,8 +26,8 @@ pub struct Layout {
 ///
 /// # Errors
 ///
-/// [`Error::StructNotFound`] where no struct is called so, or several that differ.
-pub fn of(module: &naga::Module, struct_name: &str) -> Result<Layout, Error> {
+/// [`Error::StructNotFound`] if there is no struct of this name, or several that differ.
+pub fn struct_layout(module: &naga::Module, struct_name: &str) -> Result<Layout, Error> {
     let structs = structs(module);
     let mut found: Vec<&Layout> = Vec::new();
     for (name, layout) in &structs {
@@ -45,8 +45,8 @@ pub fn of(module: &naga::Module, struct_name: &str) -> Result<Layout, Error> {
     }
 }
 
-/// Checks a struct of a composed module against the size and the field offsets (in bytes) that Rust has for it.
-/// All of the WGSL fields must be listed, in any order; padding that WGSL does not declare is not.
+/// Checks a struct of a composed module against its size and field offsets (in bytes) in Rust. All WGSL fields must be listed,
+/// in any order, without padding that WGSL does not declare.
 ///
 /// ```
 /// use shadowgraph_shaders::{compose, layout};
@@ -58,14 +58,14 @@ pub fn of(module: &naga::Module, struct_name: &str) -> Result<Layout, Error> {
 ///
 /// # Errors
 ///
-/// The first difference: the struct is not there, has another size, or has a field missing, too many or elsewhere.
+/// The first difference: the struct is missing or has another size, or a field is missing, unexpected or at another offset.
 pub fn check(
     module: &naga::Module,
     struct_name: &str,
     size: usize,
     fields: &[(&str, usize)],
 ) -> Result<(), Error> {
-    let layout = of(module, struct_name)?;
+    let layout = struct_layout(module, struct_name)?;
     let name = || struct_name.to_owned();
     for &(field, expected) in fields {
         let Some(actual) = layout.fields.iter().find(|f| f.name == field) else {
@@ -87,7 +87,7 @@ pub fn check(
     Ok(())
 }
 
-/// Every struct of the module under the name its author gave it.
+/// Returns every struct of the module with its name in the source.
 fn structs(module: &naga::Module) -> Vec<(String, Layout)> {
     let mut structs = Vec::new();
     for (_, ty) in module.types.iter() {
@@ -126,21 +126,18 @@ mod tests {
         let text =
             |size, fields: &[(&str, usize)]| check(&module, "Two", size, fields).unwrap_err().to_string();
         let right = [("first", 0), ("second", 12), ("third", 16)];
-        assert_eq!(text(20, &right), "WGSL struct `Two` takes 32 bytes, not 20");
+        assert_eq!(text(20, &right), "WGSL struct `Two` has 32 bytes, expected 20");
         let moved = [("first", 0), ("second", 16), ("third", 16)];
-        assert_eq!(text(32, &moved), "field `second` of WGSL struct `Two` is at byte 12, not 16");
+        assert_eq!(text(32, &moved), "field `second` of WGSL struct `Two` is at byte 12, expected 16");
         let renamed = [("first", 0), ("other", 12)];
         assert_eq!(
             text(32, &renamed),
-            "WGSL struct `Two` has no field `other`; it has: first, second, third"
+            "WGSL struct `Two` has no field `other`; its fields: first, second, third"
         );
-        assert_eq!(
-            text(32, &right[..2]),
-            "WGSL struct `Two` also has a field `third` at byte 16, which was not expected"
-        );
+        assert_eq!(text(32, &right[..2]), "WGSL struct `Two` has an unexpected field `third` at byte 16");
         assert_eq!(
             check(&module, "One", 0, &[]).unwrap_err().to_string(),
-            "0 structs are called `One`, one was expected; the module's structs: Two"
+            "expected one struct `One`, found 0; the module's structs: Two"
         );
     }
 }

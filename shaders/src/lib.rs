@@ -2,11 +2,10 @@
 //!
 //! A WGSL file is either a *module*, which names its import path (`#define_import_path shadowgraph::view`) and
 //! is imported by others (`#import shadowgraph::view::{view, lights}`), or an *entry file* with entry points.
-//! [`compose`] puts a built-in entry file together with everything that it imports, [`compose_source`] does so
-//! for a file of the caller's own. What comes out is a validated [`naga::Module`] (for wgpu,
-//! `ShaderSource::Naga`).
+//! [`compose`] composes a built-in entry file with everything that it imports, [`compose_source`] a file of the caller.
+//! The result is a validated [`naga::Module`] (for wgpu, `ShaderSource::Naga`).
 //!
-//! The module `shadowgraph::technique` is the caller's to pass: [`MAPPED`], [`RAYTRACED`], [`NONE`] or that of another technique.
+//! The caller passes the module `shadowgraph::technique`: [`MAPPED`], [`RAYTRACED`], [`NONE`] or that of another technique.
 //! It defines `shadow_visibility` and `shadow_debug_color`; `shadows/none.wgsl` shows their signatures.
 //!
 //! ```
@@ -17,8 +16,8 @@
 //! # Ok::<(), shadowgraph_shaders::Error>(())
 //! ```
 //!
-//! Names of what a module exports (struct members too) must not end in a digit or hold two underscores in a row:
-//! naga gives such names another ending when it writes them for those who import the module.
+//! Names that a module exports (also of struct members) must not end in a digit or contain two underscores in a row: naga
+//! changes the ending of such names when it writes them for importing modules.
 
 mod cache;
 mod compose;

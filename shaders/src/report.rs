@@ -1,4 +1,4 @@
-//! Turns naga_oil's errors into a file, a line and a sentence.
+//! Converts errors of naga_oil to a file, a line and a message.
 
 use std::error::Error as _;
 
@@ -6,13 +6,13 @@ use naga_oil::compose::{Composer, ComposerError, ComposerErrorInner, ErrSource};
 
 use crate::{Error, ModuleSource, imports::Library};
 
-/// naga_oil puts the number of the module into the upper bits of a place in the text.
-const PLACE_BITS: u32 = 21;
+/// naga_oil stores the index of the module in the upper bits of source offsets.
+const OFFSET_BITS: u32 = 21;
 
-/// What naga_oil adds to names, up to the encoded import path and an `X`.
-const NAME_MARKS: [&str; 2] = ["X_naga_oil_mod_X", "X_naga_oil_vrt_X"];
+/// Decorations that naga_oil adds to names, followed by the encoded import path and an `X`.
+const NAME_DECORATIONS: [&str; 2] = ["X_naga_oil_mod_X", "X_naga_oil_vrt_X"];
 
-/// Says where and what an error of composition is.
+/// Converts an error of composition.
 pub(crate) fn wgsl_error(
     error: &ComposerError,
     composer: &Composer,
@@ -21,12 +21,12 @@ pub(crate) fn wgsl_error(
 ) -> Error {
     let module = match &error.source {
         ErrSource::Module { name, .. } => library.get(name).filter(|_| composer.contains_module(name)),
-        // Also a module's, where its text could not be read at all.
+        // Also for a module whose source could not be parsed at all.
         ErrSource::Constructing { path, .. } => library.by_file(path),
     };
     let file = module.unwrap_or(entry);
     let known = module.is_some() || matches!(error.source, ErrSource::Constructing { .. });
-    // The end of the text counts to its last line.
+    // The end of the source belongs to its last line.
     let last = file.source.lines().count().max(1);
     let line = if known { line_of(error, composer).min(last) } else { 1 };
     Error::Wgsl {
@@ -37,19 +37,19 @@ pub(crate) fn wgsl_error(
     }
 }
 
-/// The line, from 1. Composition keeps the number of lines.
+/// Returns the line, from 1. Composition preserves line numbers.
 fn line_of(error: &ComposerError, composer: &Composer) -> usize {
     if let ComposerErrorInner::InvalidWgslDirective { position, .. } = &error.inner {
         return position + 1;
     }
     let source = error.source.source(composer);
-    let place = place_of(&error.inner, error.source.offset());
-    let before = source.as_bytes().iter().take(place);
+    let offset = offset_of(&error.inner, error.source.offset());
+    let before = source.as_bytes().iter().take(offset);
     before.filter(|byte| **byte == b'\n').count() + 1
 }
 
-/// How many bytes stand before the error in its file.
-fn place_of(inner: &ComposerErrorInner, header: usize) -> usize {
+/// Returns the byte offset of the error in its file.
+fn offset_of(inner: &ComposerErrorInner, header: usize) -> usize {
     use ComposerErrorInner as E;
     match inner {
         E::WgslParseError(error) => {
@@ -58,37 +58,37 @@ fn place_of(inner: &ComposerErrorInner, header: usize) -> usize {
         }
         E::ShaderValidationError(error) | E::HeaderValidationError(error) => {
             let spans = || error.spans().filter_map(|(span, _)| span.to_range());
-            let module = spans().last().map(|span| span.start >> PLACE_BITS);
-            let inside = spans().filter(|span| Some(span.start >> PLACE_BITS) == module);
-            // The whole function is one of them: the shortest says most.
+            let module = spans().last().map(|span| span.start >> OFFSET_BITS);
+            let inside = spans().filter(|span| Some(span.start >> OFFSET_BITS) == module);
+            // The spans include the whole function: the shortest is the most precise.
             let start = inside.min_by_key(ExactSizeIterator::len).map_or(0, |span| span.start);
-            (start & ((1 << PLACE_BITS) - 1)).saturating_sub(header)
+            (start & ((1 << OFFSET_BITS) - 1)).saturating_sub(header)
         }
         E::InvalidIdentifier { at, .. } => {
             at.to_range().map_or(0, |range| range.start).saturating_sub(header)
         }
         E::DecorationInSource(range) => range.start,
-        E::ImportParseError(_, place)
-        | E::ImportNotFound(_, place)
-        | E::NotEnoughEndIfs(place)
-        | E::TooManyEndIfs(place)
-        | E::ElseWithoutCondition(place)
-        | E::DefineInModule(place)
-        | E::UnknownShaderDefOperator { pos: place, .. }
-        | E::UnknownShaderDef { pos: place, .. }
-        | E::InvalidShaderDefComparisonValue { pos: place, .. }
-        | E::OverrideNotVirtual { pos: place, .. }
-        | E::InvalidShaderDefDefinitionValue { pos: place, .. } => *place,
+        E::ImportParseError(_, offset)
+        | E::ImportNotFound(_, offset)
+        | E::NotEnoughEndIfs(offset)
+        | E::TooManyEndIfs(offset)
+        | E::ElseWithoutCondition(offset)
+        | E::DefineInModule(offset)
+        | E::UnknownShaderDefOperator { pos: offset, .. }
+        | E::UnknownShaderDef { pos: offset, .. }
+        | E::InvalidShaderDefComparisonValue { pos: offset, .. }
+        | E::OverrideNotVirtual { pos: offset, .. }
+        | E::InvalidShaderDefDefinitionValue { pos: offset, .. } => *offset,
         _ => 0,
     }
 }
 
-/// The sentence, with the reasons below it.
+/// Returns the message with its causes.
 fn message_of(inner: &ComposerErrorInner) -> String {
     match inner {
         ComposerErrorInner::WgslParseError(error) => {
             let message = error.message();
-            // The label often says the same again.
+            // The label often repeats the message.
             let label = error.labels().map(|(_, label)| label).find(|label| !label.is_empty());
             match label.filter(|label| !message.contains(label)) {
                 Some(label) => format!("{message} ({label})"),
@@ -107,23 +107,24 @@ fn message_of(inner: &ComposerErrorInner) -> String {
             message
         }
         ComposerErrorInner::InvalidIdentifier { original, .. } => format!(
-            "`{original}` cannot be exported from a module: a name must not end in a digit, hold two underscores \
+            "`{original}` cannot be exported from a module: a name must not end in a digit, contain two underscores \
              in a row or be a reserved word"
         ),
         other => other.to_string(),
     }
 }
 
-/// Keeps a text to one line.
+/// Replaces control characters by spaces, to keep a string on one line.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// Takes naga_oil's marks off all names in a text.
+/// Removes naga_oil's decorations from all names in a string.
 pub(crate) fn plain_names(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some((start, mark)) = NAME_MARKS.iter().filter_map(|mark| Some((rest.find(mark)?, mark))).min()
+    while let Some((start, mark)) =
+        NAME_DECORATIONS.iter().filter_map(|mark| Some((rest.find(mark)?, mark))).min()
     {
         plain.push_str(&rest[..start]);
         let path = &rest[start + mark.len()..];
@@ -138,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_are_taken_off_all_names() {
+    fn decorations_are_removed_from_all_names() {
         let decorated = Composer::decorated_name(Some("shadowgraph::view"), "View");
         assert_eq!(plain_names(&format!("[{decorated}, {decorated}] and View")), "[View, View] and View");
     }

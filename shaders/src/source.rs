@@ -2,17 +2,17 @@
 
 use std::borrow::Cow;
 
-/// A WGSL file: its name, for messages, and its text.
+/// A WGSL file: its name, for messages, and its source.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct ModuleSource {
-    /// The name that errors give, such as a path.
+    /// The name in error messages, such as a path.
     pub file: Cow<'static, str>,
-    /// The WGSL text. A module has a line `#define_import_path a::b`; an entry file needs none.
+    /// The WGSL source. A module has a line `#define_import_path a::b`; an entry file needs none.
     pub source: Cow<'static, str>,
 }
 
 impl ModuleSource {
-    /// Makes a source from a name for messages and a text.
+    /// Creates a source from a name for messages and its WGSL.
     pub fn new(file: impl Into<Cow<'static, str>>, source: impl Into<Cow<'static, str>>) -> Self {
         Self { file: file.into(), source: source.into() }
     }
@@ -31,15 +31,15 @@ macro_rules! file {
 /// The technique `none`: no shadows, no bindings.
 pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 
-/// The techniques of shadow maps: it finds the tiles that a point is read from. What they say is found by the function
-/// `filtered` of the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
+/// The module of shadow map techniques: it finds the tiles that a point is read from, and evaluates the function `filtered` of
+/// the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
 pub const MAPPED: ModuleSource = file!("shadows/mapped.wgsl");
 
 /// The filter of the technique `pcss`, for [`MAPPED`].
 pub const PCSS: ModuleSource = file!("shadows/pcss.wgsl");
 
-/// The filter of techniques whose maps hold moments of depth, for [`MAPPED`]; what the moments are is the module
-/// `shadowgraph::shadows::encoding`.
+/// The filter of techniques with moment maps, for [`MAPPED`]; the module `shadowgraph::shadows::encoding` defines the
+/// moments.
 pub const MOMENTS: ModuleSource = file!("shadows/moments.wgsl");
 
 /// The moments of the technique `evsm`, for [`MOMENTS`].
@@ -48,20 +48,20 @@ pub const EVSM: ModuleSource = file!("shadows/evsm.wgsl");
 /// The moments of the technique `msm`, for [`MOMENTS`].
 pub const MSM: ModuleSource = file!("shadows/msm.wgsl");
 
-/// The passes that make maps of moments, for [`EVSM`] or [`MSM`]: `FORMAT` stands for that of a texel.
+/// The passes that create moment maps, for [`EVSM`] or [`MSM`]: replace `FORMAT` by the texel format.
 pub const PREFILTER: ModuleSource = file!("prefilter.wgsl");
 
-/// The technique `screen`: what another technique says of all that the picture shows, in a screen mask. Its bindings follow
-/// those of the other: `MASK` and `LAYERS` stand for their numbers, and the other's import path is `shadowgraph::collected`.
+/// The technique `screen`: the visibility of another technique for all visible surfaces, in a screen mask. Its bindings follow
+/// those of the other technique, whose import path is `shadowgraph::collected`: replace `MASK` and `LAYERS` by their numbers.
 pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");
 
-/// The technique `screen` where nothing but its mask is needed; `MASK` and `LAYERS` are as in [`SCREEN`].
+/// The technique `screen` if only its mask is needed; `MASK` and `LAYERS` are as in [`SCREEN`].
 pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 
-/// Which lights a point asks, those of its cluster: in the place of the built-in module that asks all of them.
+/// The lights of a point's cluster; it replaces the built-in module that evaluates all lights.
 pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
 
-/// Ambient occlusion of the screen, where lit passes have it: in the place of the built-in module without. `OCCLUSION` stands for the
+/// Screen-space ambient occlusion for lit passes; it replaces the built-in module without occlusion. Replace `OCCLUSION` by the
 /// number of its binding in group 0.
 pub const OCCLUDED: ModuleSource = file!("occluded.wgsl");
 
@@ -100,7 +100,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("view.wgsl"),
 ];
 
-/// The modules of which the caller passes one, as all have the import path [`TECHNIQUE`].
+/// The built-in modules with the import path [`TECHNIQUE`], of which the caller passes one.
 pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED];
 
 /// The files with entry points.
@@ -136,18 +136,18 @@ pub(crate) const ENTRIES: &[ModuleSource] = &[
 /// The import path of every shadow technique's module.
 pub(crate) const TECHNIQUE: &str = "shadowgraph::technique";
 
-/// Gives a built-in WGSL file by its name, such as `"shadows/none.wgsl"`.
+/// Returns a built-in WGSL file by its name, such as `"shadows/none.wgsl"`.
 #[must_use]
 pub fn builtin(file: &str) -> Option<ModuleSource> {
     all().find(|module| module.file == file).cloned()
 }
 
-/// Lists the names of the built-in WGSL files: modules, techniques, entry files, each by name.
+/// Returns the names of the built-in WGSL files: modules, techniques and entry files, each sorted by name.
 pub fn builtin_files() -> impl Iterator<Item = &'static str> {
     all().map(|module| module.file.as_ref())
 }
 
-/// The names of some files, with commas.
+/// Joins the names of some files with commas.
 pub(crate) fn names(files: &[ModuleSource]) -> String {
     files.iter().map(|module| module.file.as_ref()).collect::<Vec<_>>().join(", ")
 }

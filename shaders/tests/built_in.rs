@@ -1,4 +1,4 @@
-//! Every built-in file composes, is valid under wgpu's default limits, and keeps what Rust code relies on.
+//! Every built-in file composes, is valid under wgpu's default limits, and keeps the names and layouts that Rust relies on.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use naga::{
@@ -49,13 +49,13 @@ fn composed(entry: &str) -> naga::Module {
     compose(entry, &[NONE]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The author's name of something that naga_oil has marked.
+/// Returns the undecorated name.
 fn plain(name: &Option<String>) -> String {
     let name = name.as_deref().unwrap_or_default();
     name.split("X_naga_oil").next().unwrap_or_default().to_owned()
 }
 
-/// `group.binding name` of every resource, in order.
+/// Returns `group.binding name` of every resource, in order.
 fn bindings(module: &naga::Module) -> Vec<String> {
     let variables = module.global_variables.iter().filter_map(|(_, v)| v.binding.map(|b| (b, &v.name)));
     let mut table: Vec<_> = variables.map(|(b, name)| (b.group, b.binding, plain(name))).collect();
@@ -82,7 +82,7 @@ fn every_entry_is_valid_with_every_filter() {
         let modules = [vec![MAPPED], filter].concat();
         for entry in ENTRIES {
             let module = compose(entry, &modules).unwrap_or_else(|error| panic!("{entry}: {error}"));
-            // What wgpu has everywhere but on old OpenGL.
+            // Available everywhere except on old OpenGL.
             let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
             let mut validator = Validator::new(ValidationFlags::all(), capabilities);
             validator.validate(&module).unwrap_or_else(|error| panic!("{entry}: {error:?}"));
@@ -172,7 +172,7 @@ fn constants_that_pipelines_set_keep_their_names() {
 }
 
 #[test]
-fn structs_lie_in_memory_as_agreed() {
+fn structs_have_the_same_layout_in_wgsl_and_rust() {
     let forward = composed("forward.wgsl");
     let view = [
         ("clip_from_world", 0),
@@ -213,12 +213,12 @@ fn structs_lie_in_memory_as_agreed() {
         ("uv_transforms", 64),
     ];
     layout::check(&forward, "Material", 224, &material).unwrap();
-    // What it reads of a ShadowView.
+    // The members of a ShadowView that it reads.
     let of_shadows = [("clip_from_world", 0), ("of_shadows", 64), ("noise_px", 232)];
     layout::check(&composed("depth.wgsl"), "DepthView", 240, &of_shadows).unwrap();
 }
 
-/// How a vertex stage arrives at its position: the functions it calls, by name, in order.
+/// Returns the names of the functions that an entry point calls, in order.
 fn functions_called(module: &naga::Module, entry: &str) -> Vec<String> {
     fn called(module: &naga::Module, body: &naga::Block) -> Vec<String> {
         let mut names = Vec::new();
@@ -235,7 +235,7 @@ fn functions_called(module: &naga::Module, entry: &str) -> Vec<String> {
     called(module, &entry.function.body)
 }
 
-/// True where the stage's position output is declared invariant.
+/// Returns whether the stage's position output is declared invariant.
 fn has_invariant_position(module: &naga::Module, entry: &str) -> bool {
     let entry = module.entry_points.iter().find(|e| e.name == entry).unwrap();
     assert_eq!(entry.stage, ShaderStage::Vertex);

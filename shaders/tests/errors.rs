@@ -1,4 +1,4 @@
-//! Mistakes in WGSL are reported by file and line, in a few words.
+//! Errors in WGSL are reported with file and line, in a short message.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use shadowgraph_shaders::{ModuleSource, NONE, compose, compose_source};
@@ -17,7 +17,7 @@ const ENTRY_OF_A_TECHNIQUE: &str = "\
 ";
 
 #[test]
-fn a_mistake_in_a_users_module_names_its_file_and_line() {
+fn an_error_in_a_users_module_names_its_file_and_line() {
     let technique = ModuleSource::new(
         "my_shadows.wgsl",
         "#define_import_path shadowgraph::technique\n\
@@ -50,7 +50,7 @@ fn a_wrong_type_in_a_users_module_names_its_file_and_line() {
 }
 
 #[test]
-fn a_mistake_in_the_entry_file_is_found_below_its_imports() {
+fn an_error_in_the_entry_file_is_found_below_its_imports() {
     let entry = "#import shadowgraph::view::{\n    view, // the camera\n    lights,\n}\n\
         @fragment fn fs() -> @location(0) vec4f {\n    return vec4f(view.exposur);\n}\n";
     assert_eq!(
@@ -72,16 +72,16 @@ fn text_that_is_not_wgsl_is_an_error_with_a_line() {
 }
 
 #[test]
-fn an_unknown_import_is_named_with_names_that_are_near() {
+fn an_unknown_import_is_an_error_with_similar_names() {
     let entry = "// mine\n#import shadowgraph::recevier::Receiver\nfn f(receiver: Receiver) {}\n";
     let text = error_of(entry, &[]);
-    let start = "mine.wgsl:2: no module is called `shadowgraph::recevier::Receiver`; \
-        near names: shadowgraph::receiver, ";
+    let start = "mine.wgsl:2: unknown module `shadowgraph::recevier::Receiver`; \
+        did you mean one of: shadowgraph::receiver, ";
     assert!(text.starts_with(start), "{text}");
-    // Also where nothing of it is used, or where it is written out in place.
-    assert!(error_of("#import a::b\n", &[]).starts_with("mine.wgsl:1: no module is called `a::b`"));
+    // Also if nothing of it is used, or if it is written inline.
+    assert!(error_of("#import a::b\n", &[]).starts_with("mine.wgsl:1: unknown module `a::b`"));
     let inline = "fn f() -> f32 {\n    return shadowgraph::veiw::view.near;\n}\n";
-    assert!(error_of(inline, &[]).starts_with("mine.wgsl:2: no module is called `shadowgraph::veiw`"));
+    assert!(error_of(inline, &[]).starts_with("mine.wgsl:2: unknown module `shadowgraph::veiw`"));
 }
 
 #[test]
@@ -92,18 +92,22 @@ fn an_item_that_a_module_does_not_have_is_named() {
 }
 
 #[test]
-fn a_missing_technique_says_which_there_are() {
+fn a_missing_technique_is_an_error_that_lists_the_built_in_ones() {
     let text = compose("forward.wgsl", &[]).unwrap_err().to_string();
     assert!(text.starts_with("shade.wgsl:"), "{text}");
-    assert!(text.contains("no shadow technique is given") && text.contains("shadows/none.wgsl"), "{text}");
+    assert!(
+        text.contains("no module was passed for `shadowgraph::technique`")
+            && text.contains("shadows/none.wgsl"),
+        "{text}"
+    );
 }
 
 #[test]
-fn an_unknown_entry_file_says_which_there_are() {
+fn an_unknown_entry_file_is_an_error_that_lists_the_existing_ones() {
     let text = compose("foward.wgsl", &[]).unwrap_err().to_string();
     assert_eq!(
         text,
-        "there is no built-in entry file `foward.wgsl`; there are: blur.wgsl, check.wgsl, clusters.wgsl, collect.wgsl, contact.wgsl, deferred.wgsl, \
+        "unknown built-in entry file `foward.wgsl`; expected one of: blur.wgsl, check.wgsl, clusters.wgsl, collect.wgsl, contact.wgsl, deferred.wgsl, \
          denoise.wgsl, depth.wgsl, forward.wgsl, gbuffer.wgsl, post/bloom.wgsl, post/bloom_mix.wgsl, post/fog.wgsl, \
          post/fxaa.wgsl, post/occlusion.wgsl, post/occlusion_blur.wgsl, post/overlay.wgsl, post/pyramid.wgsl, post/pyramid_halve.wgsl, post/sky.wgsl, post/temporal.wgsl, probe.wgsl, \
          raytrace.wgsl, sdsm.wgsl, show.wgsl, tonemap.wgsl"
@@ -113,22 +117,22 @@ fn an_unknown_entry_file_says_which_there_are() {
 }
 
 #[test]
-fn modules_need_a_path_of_their_own() {
+fn modules_need_separate_import_paths() {
     let nameless = ModuleSource::new("nameless.wgsl", "fn f() {}");
-    assert!(error_of("", &[nameless]).starts_with("nameless.wgsl: a module needs a line"));
+    assert!(error_of("", &[nameless]).starts_with("nameless.wgsl: expected a line"));
     let other = ModuleSource::new("other.wgsl", NONE.source);
     assert_eq!(
         error_of("", &[NONE, other]),
-        "shadows/none.wgsl and other.wgsl both define the import path `shadowgraph::technique`: pass one of them"
+        "duplicate import path `shadowgraph::technique` in shadows/none.wgsl and other.wgsl: pass one of them"
     );
 }
 
 #[test]
-fn modules_in_a_circle_are_an_error_that_shows_it() {
+fn a_cycle_of_imports_is_an_error_that_shows_it() {
     let a = ModuleSource::new("a.wgsl", "#define_import_path a\n#import b::f\nfn e() { f(); }\n");
     let b = ModuleSource::new("b.wgsl", "#define_import_path b\n#import a::e\nfn f() { e(); }\n");
     let text = error_of("#import a::e\nfn g() { e(); }\n", &[a, b]);
-    assert_eq!(text, "modules import each other in a circle: a.wgsl -> b.wgsl -> a.wgsl");
+    assert_eq!(text, "cycle of module imports: a.wgsl -> b.wgsl -> a.wgsl");
 }
 
 #[test]
@@ -139,7 +143,7 @@ fn a_name_that_cannot_be_exported_is_named() {
 }
 
 #[test]
-fn a_passed_module_takes_the_place_of_a_built_in_one() {
+fn a_passed_module_replaces_a_built_in_one() {
     let tonemap = compose("tonemap.wgsl", &[]).unwrap();
     let mine = "#define_import_path shadowgraph::fullscreen\n\
         struct FullscreenVertex { @builtin(position) position: vec4f, @location(0) uv: vec2f }\n\

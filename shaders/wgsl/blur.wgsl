@@ -1,5 +1,5 @@
-// Blurs a screen mask over surfaces: a Poisson disc, turned from pixel to pixel, wider nearby, that leaves out what lies on
-// another surface. After Pranckevičius, "Deferred Cascaded Shadow Maps" (2009), and Mitchell, "Poisson Shadow Blur" (ShaderX3,
+// Blurs a screen mask over surfaces with a Poisson disc, rotated per pixel and wider nearby, that skips samples on other
+// surfaces. After Pranckevičius, "Deferred Cascaded Shadow Maps" (2009), and Mitchell, "Poisson Shadow Blur" (ShaderX3,
 // 2005).
 #import shadowgraph::view::{view, view_depth_of}
 #import shadowgraph::noise::pixel_noise
@@ -7,10 +7,10 @@
 
 // 16 bytes.
 struct Blur {
-    // How soft shadows' edges are blurred: the radius in metres, and at most in pixels.
+    // The blur radius in metres, and its limit in pixels.
     radius_world: f32,
-    most_px: f32,
-    // How far apart two surfaces are, in parts of their view depth, that are not blurred over each other.
+    max_px: f32,
+    // The distance of two surfaces, as a fraction of their view depth, above which they are not blurred together.
     depth_threshold: f32,
 }
 
@@ -30,7 +30,7 @@ const DISC = array<vec2f, TAPS>(
 
 // Pixels per metre at this view depth.
 fn pixels_per_metre(depth: f32) -> f32 {
-    // The second row of the projection: how much of the picture's half height one unit of height is.
+    // The second row of the projection: one unit of height at depth 1, in halves of the image's height.
     let m = view.clip_from_world;
     let up = length(vec3f(m[0].y, m[1].y, m[2].y)) * 0.5 * view.size_px.y;
     return select(up / max(depth, 1e-6), up, view.orthographic == 1u);
@@ -48,22 +48,22 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
     var count = 1.0;
     if any(normal != vec3f(0.0)) {
         let depth = view_depth_of(surface.xyz);
-        let radius_px = min(blur.radius_world * pixels_per_metre(depth), blur.most_px);
-        let apart = blur.depth_threshold * depth;
+        let radius_px = min(blur.radius_world * pixels_per_metre(depth), blur.max_px);
+        let max_distance = blur.depth_threshold * depth;
         let pixel = vec2f(id.xy);
         let angle = 6.2831853 * pixel_noise(pixel);
-        let turn = mat2x2f(cos(angle), sin(angle), -sin(angle), cos(angle));
+        let rotation = mat2x2f(cos(angle), sin(angle), -sin(angle), cos(angle));
         // Within half a pixel there is nothing to blur.
         let taps = select(0u, TAPS, radius_px > 0.5);
         for (var tap = 0u; tap < taps; tap++) {
-            let at = vec2i(round(pixel + turn * DISC[tap] * radius_px));
+            let at = vec2i(round(pixel + rotation * DISC[tap] * radius_px));
             if any(at < vec2i(0)) || any(at >= vec2i(size)) {
                 continue;
             }
             let other = textureLoad(surfaces, at, 0);
-            // Behind an edge, or on a surface that only crosses this one.
+            // Skip samples behind an edge, or on a surface that only intersects this one.
             let off_plane = abs(dot(other.xyz - surface.xyz, normal));
-            if other.w >= 1.0 && abs(view_depth_of(other.xyz) - depth) < apart && off_plane < 0.5 * apart {
+            if other.w >= 1.0 && abs(view_depth_of(other.xyz) - depth) < max_distance && off_plane < 0.5 * max_distance {
                 sum += textureLoad(collected, at, id.z, 0).rgb;
                 count += 1.0;
             }

@@ -1,4 +1,4 @@
-// Asks a technique all that can be asked: whether its functions are there and fit is found out when this is compiled.
+// Calls every function of a technique: compiling this checks that they exist with the right signatures.
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
 

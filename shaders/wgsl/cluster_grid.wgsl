@@ -1,19 +1,19 @@
-// The boxes that a view is cut into, so that each knows the lights that reach it (Olsson, Billeter and Assarsson, "Clustered
+// The grid of clusters that a view frustum is divided into for light culling (Olsson, Billeter and Assarsson, "Clustered
 // Deferred and Forward Shading", 2012).
 #define_import_path shadowgraph::cluster_grid
 
 // Across, down, and away from the camera.
 const CLUSTERS: vec3u = vec3u(16u, 9u, 24u);
-// The last slice goes on without end from here, in metres times the near plane's distance.
-const FARTHEST: f32 = 10000.0;
+// Where the last, unbounded slice begins, in multiples of the near plane's distance.
+const LAST_SLICE_NEARS: f32 = 10000.0;
 
-// How far in front of the camera a slice begins, metres; slices grow with the distance.
+// View depth where a slice begins, metres; slices grow with the distance.
 fn slice_begin(slice: u32, near: f32) -> f32 {
-    return near * pow(FARTHEST, f32(slice) / f32(CLUSTERS.z));
+    return near * pow(LAST_SLICE_NEARS, f32(slice) / f32(CLUSTERS.z));
 }
 
 fn slice_of(view_depth: f32, near: f32) -> u32 {
-    let slice = log(max(view_depth / near, 1.0)) / log(FARTHEST) * f32(CLUSTERS.z);
+    let slice = log(max(view_depth / near, 1.0)) / log(LAST_SLICE_NEARS) * f32(CLUSTERS.z);
     return min(u32(slice), CLUSTERS.z - 1u);
 }
 

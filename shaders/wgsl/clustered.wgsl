@@ -1,4 +1,4 @@
-// Which lights a point asks: those of its cluster.
+// The lights to evaluate at a point: those of its cluster.
 #define_import_path shadowgraph::light_list
 #import shadowgraph::view::view
 #import shadowgraph::cluster_grid::{CLUSTERS, slice_of, cluster_texel}

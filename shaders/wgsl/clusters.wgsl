@@ -1,4 +1,4 @@
-// Finds the lights that reach each cluster: a thread for 32 lights of one.
+// Finds the lights that reach each cluster, with one thread per cluster and 32 lights.
 #import shadowgraph::view::{view, lights, Light, LIGHT_DIRECTIONAL}
 #import shadowgraph::cluster_grid::{CLUSTERS, slice_begin, cluster_texel}
 
@@ -9,7 +9,7 @@ struct Box {
     high: vec3f,
 }
 
-// How many halves of the picture one unit is at a depth of one.
+// The size of one unit at depth 1, in halves of the image.
 fn projection_scale(axis: i32) -> f32 {
     let c = view.clip_from_world;
     return length(vec3f(c[0][axis], c[1][axis], c[2][axis]));
@@ -21,7 +21,7 @@ fn box_of(cluster: vec3u) -> Box {
     let size = 2.0 / vec2f(CLUSTERS.xy);
     let left = -1.0 + f32(cluster.x) * size.x;
     let top = 1.0 - f32(cluster.y) * size.y;
-    // A little wider, for what a pixel's centre lies beside.
+    // A little wider, for pixels whose centre lies outside.
     let first = vec2f(left - 1e-3, top - size.y - 1e-3) / scale;
     let last = vec2f(left + size.x + 1e-3, top + 1e-3) / scale;
     let begin = select(slice_begin(cluster.z, view.near) * 0.999, 0.0, cluster.z == 0u);

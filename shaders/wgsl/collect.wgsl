@@ -1,4 +1,4 @@
-// Collects shadows: asks the technique for each light and each surface that the picture shows, and writes a screen mask.
+// Collects shadows in screen space: evaluates the technique for each light at each pixel, and writes a screen mask.
 #import shadowgraph::view::{view_depth_of, to_neighbour}
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::surface::unpack_normal

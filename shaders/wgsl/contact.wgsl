@@ -1,6 +1,6 @@
-// Short shadows that maps are too coarse for: from each surface a march over the picture towards the light, until something that
-// the picture shows is in the way. After Sousa, "Secrets of CryENGINE 3 Graphics Technology" (SIGGRAPH 2011), *screen space
-// self-shadowing*.
+// Contact shadows, for which maps are too coarse: marches through the depth of the screen from each surface towards the light,
+// until a visible surface occludes it. After Sousa, "Secrets of CryENGINE 3 Graphics Technology" (SIGGRAPH 2011), *screen
+// space self-shadowing*.
 #import shadowgraph::view::{view, lights, view_depth_of, LIGHT_DIRECTIONAL}
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::surface::unpack_normal
@@ -8,9 +8,9 @@
 
 // 16 bytes.
 struct Contact {
-    // How far the march goes.
+    // Length of the march.
     length_world: f32,
-    // How thick surfaces are taken to be: what passes farther behind them is not in their shadow.
+    // Assumed thickness of surfaces: rays that pass farther behind them are not occluded.
     thickness_world: f32,
     steps: u32,
 }
@@ -21,12 +21,12 @@ struct Contact {
 @group(1) @binding(3) var<uniform> layers: MaskLayers;
 @group(1) @binding(4) var<uniform> contact: Contact;
 
-// The last part of the march: what is met there counts less and less, as maps take over.
+// The last fraction of the march, over which contact shadows fade out in favour of the maps.
 const FADE: f32 = 0.25;
-// The height over a surface's plane, in parts of its view depth, below which things are part of the surface.
-const FLAT: f32 = 0.0005;
+// The least height of an occluder above the surface's plane, as a fraction of view depth.
+const MIN_HEIGHT: f32 = 0.0005;
 
-// 1: nothing is in the way.
+// 1: not occluded.
 fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) -> f32 {
     var to_light = -lights[light].direction;
     var length_world = contact.length_world;
@@ -40,12 +40,12 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
         return 1.0;
     }
     let size = vec2f(textureDimensions(surfaces));
-    let height = FLAT * view_depth_of(position);
-    // Steps that are missed here are hit next door.
+    let height = MIN_HEIGHT * view_depth_of(position);
+    // Jitter: neighbouring pixels sample different steps.
     let noise = pixel_noise(vec2f(pixel));
     for (var step = 0u; step < contact.steps; step++) {
-        let part = (f32(step) + 0.5 + 0.5 * noise) / f32(contact.steps);
-        let point = position + to_light * (part * length_world);
+        let fraction = (f32(step) + 0.5 + 0.5 * noise) / f32(contact.steps);
+        let point = position + to_light * (fraction * length_world);
         let clip = view.clip_from_world * vec4f(point, 1.0);
         if clip.w <= 0.0 {
             break;
@@ -58,11 +58,11 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
         if other.w < 1.0 {
             continue;
         }
-        // Only what stands out from the surface's own plane can be in its light.
-        let stands_out = dot(other.xyz - position, normal) > height;
+        // Only what rises above the surface's plane can occlude it.
+        let is_above = dot(other.xyz - position, normal) > height;
         let behind = view_depth_of(point) - view_depth_of(other.xyz);
-        if stands_out && behind > 0.0 && behind < contact.thickness_world {
-            return saturate((part - 1.0) / FADE + 1.0);
+        if is_above && behind > 0.0 && behind < contact.thickness_world {
+            return saturate((fraction - 1.0) / FADE + 1.0);
         }
     }
     return 1.0;

@@ -1,16 +1,16 @@
-// Averages the noise of a screen mask over a few pixels, on the same surface only: neighbours whose turns of the noise differ stand
-// for as many more rays. Pixels whose rays all agree are beside soft edges: they stay as they are, and are not mixed in.
+// Averages the noise of a screen mask over a few pixels of the same surface: neighbours with other noise values count as
+// additional rays. Pixels whose rays all agree are outside penumbrae: they are unchanged and not averaged in.
 #import shadowgraph::view::view_depth_of
 #import shadowgraph::surface::unpack_normal
 
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
 @group(1) @binding(1) var collected: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
-// x: how many pixels to either side.
+// x: pixels to either side.
 @group(1) @binding(4) var<uniform> radius_px: vec4u;
 
-// How far off a surface's plane, in parts of its view depth, things are another surface.
-const APART: f32 = 0.002;
+// The distance from a surface's plane, as a fraction of its view depth, above which samples belong to another surface.
+const MAX_PLANE_DISTANCE: f32 = 0.002;
 
 @compute @workgroup_size(8, 8)
 fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
@@ -24,7 +24,7 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
     var sum = textureLoad(collected, pixel, id.z, 0).rgb;
     var count = 1.0;
     if any(normal != vec3f(0.0)) && any(sum > vec3f(0.0)) && any(sum < vec3f(1.0)) {
-        let apart = APART * view_depth_of(surface.xyz);
+        let max_distance = MAX_PLANE_DISTANCE * view_depth_of(surface.xyz);
         let radius = i32(radius_px.x);
         for (var y = -radius; y <= radius; y++) {
             for (var x = -radius; x <= radius; x++) {
@@ -35,7 +35,7 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
                 let other = textureLoad(surfaces, at, 0);
                 let visibility = textureLoad(collected, at, id.z, 0).rgb;
                 let is_edge = any(visibility > vec3f(0.0)) && any(visibility < vec3f(1.0));
-                if is_edge && other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < apart {
+                if is_edge && other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < max_distance {
                     sum += visibility;
                     count += 1.0;
                 }

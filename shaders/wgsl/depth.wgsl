@@ -1,17 +1,17 @@
-// Depth, and the colour of light behind translucent casters: the prepass and the shadow maps.
+// Depth, and the transmittance of translucent casters, for the prepass and shadow maps.
 //
 //   opaque        vs_depth, no fragment stage
 //   with holes    vs_depth, fs_mask
 //   dithered      vs_depth, fs_dither
 //   translucent   vs_depth, fs_tint: its colour multiplies the target, its depth is not written
-//   casters before the near plane are kept at depth 1:
+//   casters in front of the near plane are kept at depth 1:
 //     the device clamps (unclipped_depth)      as above
 //     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp, fs_dither_clamp or fs_tint_clamp
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
 #import shadowgraph::material::{TextureCoordinates, base_color, hole_cutoff}
 
-// What is read of a ShadowView, or of a View where nothing is dithered: bound at a dynamic offset.
+// The used members of a ShadowView, or of a View if nothing is dithered; bound at a dynamic offset.
 struct DepthView {
     clip_from_world: mat4x4f,
     @size(168) of_shadows: vec4f,
@@ -20,8 +20,8 @@ struct DepthView {
 
 @group(0) @binding(0) var<storage, read> depth_view: DepthView;
 
-// fs_clamp and fs_mask_clamp write the depth themselves, which the pipeline's own slope bias does not reach:
-// they add this times the depth's steepest change per pixel. Reversed depth: negative pushes away.
+// fs_clamp and fs_mask_clamp write the depth themselves, so the pipeline's slope bias does not apply: they add this times the
+// depth's steepest change per pixel. Depth is reversed: negative pushes away.
 override SLOPE_BIAS: f32 = 0.0;
 
 struct DepthVertex {
@@ -57,8 +57,8 @@ fn alpha_of(in: DepthVertex) -> f32 {
     return color_of(in).a;
 }
 
-// What of the light passes: what gets past the surface, in its colour the more the denser it is.
-fn passed(in: DepthVertex) -> vec4f {
+// The transmitted fraction of the light, tinted more by denser surfaces.
+fn transmitted(in: DepthVertex) -> vec4f {
     let color = color_of(in);
     let alpha = saturate(color.a);
     return vec4f((1.0 - alpha) * mix(vec3f(1.0), saturate(color.rgb), alpha * (2.0 - alpha)), 1.0);
@@ -68,15 +68,15 @@ fn covers(in: DepthVertex) -> bool {
     return alpha_of(in) >= hole_cutoff();
 }
 
-// As many pixels as alpha says.
-fn covers_by_chance(in: DepthVertex) -> bool {
-    // Texels of the world: the pattern stays where it is while the tile moves.
+// Whether the dithered alpha covers a pixel.
+fn covers_dithered(in: DepthVertex) -> bool {
+    // World-aligned texels: the pattern does not move with the tile.
     let texel = vec2f((vec2u(in.position.xy) + depth_view.noise_px) & vec2u(1023u));
     let noise = pixel_noise(texel);
     return alpha_of(in) > noise;
 }
 
-// Takes derivatives: call in uniform control flow.
+// Uses derivatives: call in uniform control flow.
 fn clamped_depth(in: DepthVertex) -> f32 {
     let depth = in.unclamped.x / in.unclamped.y;
     let slope = max(abs(dpdx(depth)), abs(dpdy(depth)));
@@ -92,7 +92,7 @@ fn fs_mask(in: DepthVertex) {
 
 @fragment
 fn fs_dither(in: DepthVertex) {
-    if !covers_by_chance(in) {
+    if !covers_dithered(in) {
         discard;
     }
 }
@@ -114,7 +114,7 @@ fn fs_mask_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
 @fragment
 fn fs_dither_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
     let depth = clamped_depth(in);
-    if !covers_by_chance(in) {
+    if !covers_dithered(in) {
         discard;
     }
     return depth;
@@ -122,15 +122,15 @@ fn fs_dither_clamp(in: DepthVertex) -> @builtin(frag_depth) f32 {
 
 @fragment
 fn fs_tint(in: DepthVertex) -> @location(0) vec4f {
-    return passed(in);
+    return transmitted(in);
 }
 
 struct ClampedTint {
     @builtin(frag_depth) depth: f32,
-    @location(0) passed: vec4f,
+    @location(0) transmitted: vec4f,
 }
 
 @fragment
 fn fs_tint_clamp(in: DepthVertex) -> ClampedTint {
-    return ClampedTint(clamped_depth(in), passed(in));
+    return ClampedTint(clamped_depth(in), transmitted(in));
 }

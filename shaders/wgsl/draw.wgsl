@@ -1,4 +1,4 @@
-// Where things stand: group 3 of every pass that draws meshes, and the vertices of a mesh.
+// Instance transforms, group 3 of every pass that draws meshes, and the vertices of a mesh.
 #define_import_path shadowgraph::draw
 
 // Rows of the affine matrix world_from_local; world is relative to the frame's origin. 48 bytes.
@@ -15,7 +15,7 @@ struct Vertex {
     @builtin(instance_index) instance: u32,
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
-    // w: the side the bitangent is on, 1 or -1.
+    // w: handedness of the bitangent, 1 or -1.
     @location(2) tangent: vec4f,
     @location(3) uv_first: vec2f,
     @location(4) uv_second: vec2f,
@@ -40,18 +40,18 @@ fn handedness(instance: u32) -> f32 {
     return select(1.0, -1.0, dot(m.row_x.xyz, cross(m.row_y.xyz, m.row_z.xyz)) < 0.0);
 }
 
-// The outward normal, not unit length. Cofactors stand in for the inverse transpose: the same direction under
-// any scale, and defined where a scale is 0. They turn round when mirrored; an outward normal does not.
+// The outward normal, not unit length. Cofactors replace the inverse transpose: they give the same direction under any scale
+// and are defined where a scale is 0. They flip when mirrored; an outward normal does not.
 fn world_normal(instance: u32, normal: vec3f) -> vec3f {
     let m = instances[instance];
     let cofactor_x = cross(m.row_y.xyz, m.row_z.xyz);
     let cofactor_y = cross(m.row_z.xyz, m.row_x.xyz);
     let cofactor_z = cross(m.row_x.xyz, m.row_y.xyz);
-    let turned = vec3f(dot(cofactor_x, normal), dot(cofactor_y, normal), dot(cofactor_z, normal));
-    return turned * handedness(instance);
+    let normal_world = vec3f(dot(cofactor_x, normal), dot(cofactor_y, normal), dot(cofactor_z, normal));
+    return normal_world * handedness(instance);
 }
 
-// Every pass that must agree on depth to the bit takes its position from here, into an @invariant output.
+// All passes that must have bit-identical depth compute positions with this function, for an @invariant output.
 fn clip_position(clip_from_world: mat4x4f, position: vec3f) -> vec4f {
     return clip_from_world * vec4f(position, 1.0);
 }

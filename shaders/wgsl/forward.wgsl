@@ -1,14 +1,14 @@
-// The forward lit pass: every light, every material, whatever the shadow technique.
+// The forward lit pass: all lights and materials, with any shadow technique.
 #import shadowgraph::view::view
 #import shadowgraph::draw::Vertex
 #import shadowgraph::mesh::{MeshVertex, mesh_vertex, mesh_surface}
 #import shadowgraph::material::{MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_UNSHADOWED, material_has}
 #import shadowgraph::surface::pack_normal
 #import shadowgraph::lighting::surface_of
-#import shadowgraph::shade::{lit, visibility_shown, debug_shown}
+#import shadowgraph::shade::{shade_surface, visibility_output, debug_output}
 
-// What is written: 0 light, 1 the visibility of light AOV_LIGHT, 2 the technique's debug colours for that light,
-// 3 the shading normal, 4 the surface itself.
+// The output: 0 light, 1 the visibility of light AOV_LIGHT, 2 the technique's debug colours for that light, 3 the shading
+// normal, 4 the surface.
 override AOV: u32 = 0u;
 override AOV_LIGHT: u32 = 0u;
 
@@ -18,7 +18,7 @@ const AOV_NORMAL: u32 = 3u;
 const AOV_SURFACE: u32 = 4u;
 
 // Half floats end at 65504.
-const BRIGHTEST: f32 = 60000.0;
+const MAX_RADIANCE: f32 = 60000.0;
 
 @vertex
 fn vs_forward(vertex: Vertex) -> MeshVertex {
@@ -32,10 +32,10 @@ fn fs_forward(in: MeshVertex, @builtin(front_facing) front_facing: bool) -> @loc
     let blended = material_has(MATERIAL_BLEND);
     let unshadowed = material_has(MATERIAL_UNSHADOWED);
     if AOV == AOV_VISIBILITY {
-        return visibility_shown(AOV_LIGHT, receiver, unshadowed);
+        return visibility_output(AOV_LIGHT, receiver, unshadowed);
     }
     if AOV == AOV_CASCADE {
-        return debug_shown(AOV_LIGHT, receiver, mesh.to_camera, unshadowed);
+        return debug_output(AOV_LIGHT, receiver, mesh.to_camera, unshadowed);
     }
     if AOV == AOV_NORMAL {
         return vec4f(mesh.normal * 0.5 + 0.5, 1.0);
@@ -44,12 +44,12 @@ fn fs_forward(in: MeshVertex, @builtin(front_facing) front_facing: bool) -> @loc
         return vec4f(receiver.position, pack_normal(receiver.geometric_normal));
     }
 
-    // Unlit colours and glow are what the picture shows: exposure, which follows the lights, does not change them.
+    // Exposure adapts to the lights, so it does not apply to unlit colours and emission.
     var radiance = mesh.color.rgb;
     if !material_has(MATERIAL_UNLIT) {
-        let surface = surface_of(mesh.color.rgb, mesh.metal_rough, mesh.open, mesh.normal, mesh.to_camera);
-        radiance = lit(surface, receiver, unshadowed) * view.exposure + mesh.glow;
+        let surface = surface_of(mesh.color.rgb, mesh.metal_rough, mesh.ambient_occlusion, mesh.normal, mesh.to_camera);
+        radiance = shade_surface(surface, receiver, unshadowed) * view.exposure + mesh.emission;
     }
     let alpha = select(1.0, saturate(mesh.color.a), blended);
-    return vec4f(min(radiance, vec3f(BRIGHTEST)) * alpha, alpha);
+    return vec4f(min(radiance, vec3f(MAX_RADIANCE)) * alpha, alpha);
 }

@@ -3,11 +3,11 @@
 #import shadowgraph::view::{Light, LIGHT_DIRECTIONAL, LIGHT_SPOT}
 
 const PI: f32 = 3.14159265358979;
-// Below this the highlight of a strong light is too large a number for a half float target.
+// Below this the highlight of a strong light exceeds a half float target.
 const MIN_ROUGHNESS: f32 = 0.089;
-// What glass and stone reflect at right angles.
+// Reflectance of glass and stone at normal incidence.
 const DIELECTRIC_REFLECTANCE: f32 = 0.04;
-// Lights are never nearer than this, in metres: the inverse square has no upper end.
+// The least distance of a light, in metres, since the inverse square is unbounded.
 const MIN_LIGHT_DISTANCE: f32 = 0.01;
 
 struct Surface {
@@ -15,7 +15,7 @@ struct Surface {
     diffuse_color: vec3f,
     // Perceptual, MIN_ROUGHNESS to 1.
     roughness: f32,
-    // Reflected at right angles.
+    // Reflectance at normal incidence.
     specular_color: vec3f,
     occlusion: f32,
     normal: vec3f,
@@ -26,7 +26,7 @@ struct Surface {
 struct ArrivingLight {
     // Unit length.
     to_light: vec3f,
-    // 0 outside the cone and out of range.
+    // 0 outside the cone and beyond the range.
     attenuation: f32,
 }
 
@@ -90,9 +90,9 @@ fn fresnel(specular_color: vec3f, v_dot_h: f32) -> vec3f {
     return specular_color + (1.0 - specular_color) * pow(1.0 - v_dot_h, 5.0);
 }
 
-// Radiance to the camera per unit of illuminance that arrives at right angles to `to_light`.
+// Radiance towards the camera per unit of illuminance perpendicular to `to_light`.
 fn reflected(surface: Surface, to_light: vec3f, n_dot_l: f32) -> vec3f {
-    // The light can be right behind the camera's back: then the two ways cancel out.
+    // If the light is directly opposite the camera, the two directions cancel out.
     let sum = surface.to_camera + to_light;
     let half_way = sum * inverseSqrt(max(dot(sum, sum), 1e-8));
     let n_dot_h = saturate(dot(surface.normal, half_way));
@@ -104,7 +104,7 @@ fn reflected(surface: Surface, to_light: vec3f, n_dot_l: f32) -> vec3f {
     return (diffuse + specular) * n_dot_l;
 }
 
-// The share of an even surrounding that a surface reflects specularly: Karis' polynomial, "Physically Based
+// The fraction of a uniform environment that a surface reflects specularly: Karis' polynomial, "Physically Based
 // Shading on Mobile" (2014), after Lazarov's "Getting More Physical in Call of Duty: Black Ops II" (2013).
 fn environment_reflectance(specular_color: vec3f, roughness: f32, n_dot_v: f32) -> vec3f {
     let r = roughness * vec4f(-1.0, -0.0275, -0.572, 0.022) + vec4f(1.0, 0.0425, 1.04, -0.04);
@@ -113,13 +113,13 @@ fn environment_reflectance(specular_color: vec3f, roughness: f32, n_dot_v: f32) 
     return specular_color * scale_bias.x + scale_bias.y;
 }
 
-// Light from all around that no light source is counted for: a sky above and a ground below.
+// Ambient light: a sky above and a ground below.
 fn ambient(surface: Surface, sky: vec3f, ground: vec3f) -> vec3f {
-    let around_normal = mix(ground, sky, surface.normal.y * 0.5 + 0.5);
-    let mirrored = reflect(-surface.to_camera, surface.normal);
-    // The rougher, the wider the part of the surroundings that is reflected.
-    let around_mirrored = mix(
-        mix(ground, sky, smoothstep(-0.3, 0.3, mirrored.y)), around_normal, surface.roughness);
+    let diffuse_ambient = mix(ground, sky, surface.normal.y * 0.5 + 0.5);
+    let reflected_direction = reflect(-surface.to_camera, surface.normal);
+    // Rougher surfaces reflect a wider part of the environment.
+    let specular_ambient = mix(
+        mix(ground, sky, smoothstep(-0.3, 0.3, reflected_direction.y)), diffuse_ambient, surface.roughness);
     let specular = environment_reflectance(surface.specular_color, surface.roughness, surface.n_dot_v);
-    return (surface.diffuse_color * around_normal + specular * around_mirrored) * surface.occlusion;
+    return (surface.diffuse_color * diffuse_ambient + specular * specular_ambient) * surface.occlusion;
 }

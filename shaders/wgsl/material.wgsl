@@ -1,13 +1,13 @@
-// A metallic-roughness material: group 2. Absent textures are 1x1 stand-ins: white, and for normals flat.
+// A metallic-roughness material: group 2. Absent textures are 1x1 placeholders: white, or flat normals.
 #define_import_path shadowgraph::material
 
 const MATERIAL_MASK: u32 = 1u;
 const MATERIAL_BLEND: u32 = 2u;
 const MATERIAL_UNLIT: u32 = 4u;
 const MATERIAL_DOUBLE_SIDED: u32 = 8u;
-// Without it the normal texture is not read.
+// If not set, the normal texture is not read.
 const MATERIAL_NORMAL_MAP: u32 = 16u;
-// No shadows fall on it.
+// It receives no shadows.
 const MATERIAL_UNSHADOWED: u32 = 32u;
 
 const BASE_COLOR: u32 = 0u;
@@ -25,7 +25,7 @@ struct Material {
     roughness: f32,
     normal_scale: f32,
     occlusion_strength: f32,
-    // Below this alpha a masked material has holes.
+    // Fragments of a masked material below this alpha are holes.
     alpha_cutoff: f32,
     // MATERIAL_* bits.
     flags: u32,
@@ -53,7 +53,7 @@ struct TextureCoordinates {
     second: vec2f,
 }
 
-// True where all of `bits` (MATERIAL_*) are set. The answer is the same for a whole draw.
+// Whether all of `bits` (MATERIAL_*) are set. The result is uniform over a draw.
 fn material_has(bits: u32) -> bool {
     return (material.flags & bits) == bits;
 }
@@ -69,7 +69,7 @@ fn texture_uv(slot: u32, uv: TextureCoordinates) -> vec2f {
 
 // The functions below sample with implicit derivatives: call them in uniform control flow.
 
-// Linear colour and alpha; `vertex_color` is the mesh's own.
+// Linear colour and alpha; `vertex_color` is that of the mesh.
 fn base_color(uv: TextureCoordinates, vertex_color: vec4f) -> vec4f {
     let texel = textureSample(base_color_texture, base_color_sampler, texture_uv(BASE_COLOR, uv));
     return material.base_color * vertex_color * texel;
@@ -90,19 +90,19 @@ fn normal_in_tangent_space(uv: TextureCoordinates) -> vec3f {
     return scaled * inverseSqrt(max(dot(scaled, scaled), 1e-8));
 }
 
-// 1: all of the ambient light arrives.
+// 1: not occluded.
 fn occlusion(uv: TextureCoordinates) -> f32 {
     let texel = textureSample(occlusion_texture, occlusion_sampler, texture_uv(OCCLUSION, uv)).r;
     return 1.0 + material.occlusion_strength * (texel - 1.0);
 }
 
-// Radiance the surface gives off by itself, before exposure.
+// Emitted radiance, before exposure.
 fn emissive(uv: TextureCoordinates) -> vec3f {
     return material.emissive * textureSample(emissive_texture, emissive_sampler, texture_uv(EMISSIVE, uv)).rgb;
 }
 
-// True where an alpha below the cutoff makes a hole. Blended surfaces are cut at one half where they must be
-// one or the other (in depth).
+// Whether an alpha below the cutoff makes a hole. Blended surfaces are cut at one half where they must be either opaque or
+// a hole (in depth).
 fn is_hole(alpha: f32) -> bool {
     return (material.flags & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u && alpha < hole_cutoff();
 }

@@ -1,4 +1,4 @@
-// The surfaces of meshes as cameras see them: the vertices of passes that shade, and the normals of what they hit.
+// Mesh surfaces for passes that shade: their vertices, materials and normals.
 #define_import_path shadowgraph::mesh
 #import shadowgraph::view::{view, view_depth_of, direction_to_camera, to_neighbour}
 #import shadowgraph::draw::{
@@ -15,7 +15,7 @@ struct MeshVertex {
     // Relative to the camera: its small numbers keep the derivatives precise where they matter, nearby.
     @location(0) from_camera: vec3f,
     @location(1) normal: vec3f,
-    // w: which side the bitangent is on.
+    // w: handedness of the bitangent.
     @location(2) tangent: vec4f,
     @location(3) uv_first: vec2f,
     @location(4) uv_second: vec2f,
@@ -36,42 +36,42 @@ fn mesh_vertex(vertex: Vertex) -> MeshVertex {
     );
 }
 
-// What a fragment of a mesh is.
+// The surface of a mesh's fragment.
 struct MeshSurface {
     // Linear.
     color: vec4f,
     // x: metallic, y: perceptual roughness.
     metal_rough: vec2f,
-    // 1: all of the ambient light arrives.
-    open: f32,
+    // 1: not occluded.
+    ambient_occlusion: f32,
     // Radiance, before exposure.
-    glow: vec3f,
+    emission: vec3f,
     to_camera: vec3f,
     // Shading normal.
     normal: vec3f,
     receiver: Receiver,
 }
 
-// For fragments: the holes of masked materials are discarded. Call in uniform control flow.
+// For fragments: discards the holes of masked materials. Call in uniform control flow.
 fn mesh_surface(in: MeshVertex, front_facing: bool) -> MeshSurface {
-    // Everything that needs the neighbouring pixels comes before the first branch that they may not share.
+    // Derivatives come before the first non-uniform branch.
     let ddx_position = dpdx(in.from_camera);
     let ddy_position = dpdy(in.from_camera);
     let uv = TextureCoordinates(in.uv_first, in.uv_second);
     let color = base_color(uv, in.color);
     let metal_rough = metallic_roughness(uv);
-    let open = occlusion(uv);
-    let glow = emissive(uv);
+    let ambient_occlusion = occlusion(uv);
+    let emission = emissive(uv);
     let to_camera = direction_to_camera(in.from_camera);
     let normal = shading_normal(in, uv, front_facing, to_camera);
     if material_has(MATERIAL_MASK) && is_hole(color.a) {
         discard;
     }
     let receiver = receiver_of(in, ddx_position, ddy_position, normal, to_camera, front_facing);
-    return MeshSurface(color, metal_rough, open, glow, to_camera, normal, receiver);
+    return MeshSurface(color, metal_rough, ambient_occlusion, emission, to_camera, normal, receiver);
 }
 
-// `fallback` where the direction has no length.
+// `fallback` for a direction of length 0.
 fn normalize_or(direction: vec3f, fallback: vec3f) -> vec3f {
     let length_squared = dot(direction, direction);
     if length_squared > 1e-30 {
@@ -80,10 +80,9 @@ fn normalize_or(direction: vec3f, fallback: vec3f) -> vec3f {
     return fallback;
 }
 
-// The triangle's own normal, towards the viewer: for the front of a surface and for a back that is shown alike,
-// that is the side that is seen.
+// The triangle's normal, on the side that the camera sees, for front and back faces alike.
 fn geometric_normal(ddx_position: vec3f, ddy_position: vec3f, to_camera: vec3f, shading_normal: vec3f) -> vec3f {
-    // Scaled to the same length first: up close, the product of two derivatives is too small a number.
+    // Normalised first: up close, the product of two derivatives is too small.
     let right = normalize_or(ddx_position, vec3f(0.0));
     let down = normalize_or(ddy_position, vec3f(0.0));
     let n = normalize_or(cross(right, down), shading_normal);
@@ -95,8 +94,8 @@ fn shading_normal(in: MeshVertex, uv: TextureCoordinates, front_facing: bool, to
     let smooth_normal = normalize_or(in.normal, to_camera);
     var normal = smooth_normal;
     if material_has(MATERIAL_NORMAL_MAP) {
-        let across = in.tangent.xyz - smooth_normal * dot(in.tangent.xyz, smooth_normal);
-        let tangent = normalize_or(across, vec3f(0.0));
+        let projected = in.tangent.xyz - smooth_normal * dot(in.tangent.xyz, smooth_normal);
+        let tangent = normalize_or(projected, vec3f(0.0));
         let bitangent = cross(smooth_normal, tangent) * in.tangent.w;
         let mapped = normal_in_tangent_space(uv);
         normal = normalize_or(
@@ -105,7 +104,7 @@ fn shading_normal(in: MeshVertex, uv: TextureCoordinates, front_facing: bool, to
     return select(-normal, normal, front_facing);
 }
 
-// What is asked about a surface. The derivatives are those of `in.from_camera`.
+// The receiver of a fragment. The derivatives are those of `in.from_camera`.
 fn receiver_of(
     in: MeshVertex, ddx_position: vec3f, ddy_position: vec3f, normal: vec3f, to_camera: vec3f, front_facing: bool,
 ) -> Receiver {

@@ -1,5 +1,5 @@
-// Turns a map of depths into one of moments: averages them over a texel and blurs them with a tent, across and then down; then
-// halves the result again and again. What lies on another tile is never mixed in.
+// Converts a depth map to a moment map: averages moments over a texel and blurs them with a separable tent; then downsamples
+// the result repeatedly. Tiles are never mixed.
 #import shadowgraph::shadows::types::ShadowView
 #import shadowgraph::shadows::moment_params::{MomentParams, linear_depth}
 #import shadowgraph::shadows::encoding::{moments_of, packed, unpacked}
@@ -13,18 +13,18 @@
 @group(1) @binding(1) var halfway: texture_storage_2d<rgba32float, write>;
 
 @group(1) @binding(0) var blurred: texture_2d<f32>;
-// FORMAT stands for that of the encoding.
+// FORMAT is replaced by the format of the encoding.
 @group(1) @binding(1) var moments: texture_storage_2d<FORMAT, write>;
 
 @group(1) @binding(0) var finer: texture_2d<u32>;
 
 const NO_TILE: u32 = 0xffffffffu;
 
-// The tile of a texel: its place among the map's tiles.
+// The index of the tile of a texel.
 fn tile_at(texel: vec2u) -> u32 {
     for (var i = 0u; i < arrayLength(&tiles); i++) {
         let rect = shadow_views[tiles[i]].tile_px / params.downscale;
-        // Below the left or top edge the difference is a large number.
+        // Left of or above the tile the difference wraps to a large number.
         if all(texel - rect.xy < rect.zw) {
             return i;
         }
@@ -32,13 +32,13 @@ fn tile_at(texel: vec2u) -> u32 {
     return NO_TILE;
 }
 
-// How much a texel beside the middle counts.
+// The weight of a texel at an offset from the centre.
 fn tent(offset: i32) -> f32 {
     let width = f32(params.radius + 1u);
     return (width - abs(f32(offset))) / (width * width);
 }
 
-// The mean of the moments of all depths that a texel stands for.
+// The mean of the moments of all depths that a texel covers.
 fn resolved(shadow_view: ShadowView, texel: vec2u) -> vec4f {
     var sum = vec4f(0.0);
     for (var y = 0u; y < params.downscale; y++) {
@@ -57,14 +57,14 @@ fn cs_resolve(@builtin(global_invocation_id) id: vec3u) {
     }
     let tile = tile_at(id.xy);
     if tile == NO_TILE {
-        // Beside all tiles everything is far away.
+        // Outside all tiles the depth is the farthest.
         textureStore(halfway, id.xy, moments_of(params, 1.0));
         return;
     }
     textureStore(halfway, id.xy, resolved(shadow_views[tiles[tile]], id.xy));
 }
 
-// The first and the last texel of the row or column of a tile that a texel is in.
+// The first and last texel of a texel's row or column in its tile.
 fn ends(texel: vec2u, axis: u32) -> vec2i {
     let tile = tile_at(texel);
     if tile == NO_TILE {

@@ -1,6 +1,6 @@
-// What rays can meet beside what is opaque: here everything. A scene that has less puts another module in its place.
+// The kinds of surfaces that rays can hit besides opaque ones: here all. A scene with fewer replaces this module.
 #define_import_path shadowgraph::ray_surfaces
 
-// Surfaces with holes, and those that colour light.
+// Surfaces with holes, and surfaces that tint light.
 const CUTOUTS: bool = true;
 const TINTS: bool = true;

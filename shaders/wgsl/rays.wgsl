@@ -1,8 +1,8 @@
 #define_import_path shadowgraph::rays
 #import shadowgraph::ray_surfaces::{CUTOUTS, TINTS}
-// Shadow rays through a tree of triangles: the same arithmetic as the CPU's.
+// Shadow rays through a BVH of triangles, with the same arithmetic as the CPU implementation.
 
-// A box of the tree, 32 bytes. With a count of 0, `first` is the first of its two boxes, else of its triangles.
+// A node of the BVH, 32 bytes. With a count of 0, `first` is the first of its two children, otherwise of its triangles.
 struct RayNode {
     lowest: vec3f,
     first: u32,
@@ -13,7 +13,7 @@ struct RayNode {
 // 48 bytes, metres relative to the frame's origin.
 struct RayTriangle {
     a: vec3f,
-    // RAY_NONE: no light passes.
+    // RAY_NONE: opaque.
     material: u32,
     b: vec3f,
     unused_b: u32,
@@ -21,14 +21,14 @@ struct RayTriangle {
     unused_c: u32,
 }
 
-// Where light passes through a triangle, 64 bytes.
+// Transmission of light through a triangle, 64 bytes.
 struct RayMaterial {
     uv_a: vec2f,
     uv_b: vec2f,
     uv_c: vec2f,
-    // Its alpha channel, before red, green and blue if it tints. RAY_NONE: the factor alone.
+    // Its alpha channel, followed by red, green and blue if it tints. RAY_NONE: only the factor.
     texture: u32,
-    // Alpha below this is a hole. RAY_TINT: none is, but light is coloured.
+    // Alpha below this is a hole. RAY_TINT: no holes, but light is tinted.
     cutoff: f32,
     // The factor of each corner.
     alpha: vec3f,
@@ -59,12 +59,12 @@ const RAY_TINT: f32 = -1.0;
 const RAY_WRAP_REPEAT: u32 = 0u;
 const RAY_WRAP_MIRROR: u32 = 1u;
 const RAY_BILINEAR: u32 = 16u;
-// The most levels of the tree.
+// The largest depth of the BVH.
 const RAY_STACK: u32 = 64u;
-// The end of a ray that has none.
+// The end of an unlimited ray.
 const RAY_FAR: f32 = 3.0e38;
 const RAY_MISS: f32 = 3.4e38;
-// The part of the way to a point light that its rays go.
+// The fraction of the distance to a point light that its rays cover.
 const RAY_WAY_TO_LIGHT: f32 = 1.0 - 1.0 / 4096.0;
 
 struct ShadowRay {
@@ -73,7 +73,7 @@ struct ShadowRay {
     // 1 / direction, finite.
     inverse: vec3f,
     max_t: f32,
-    // What takes the direction to (0, 0, 1), after its longest axis (0 to 2) was turned to z.
+    // The shear that maps the direction to (0, 0, 1), after its longest axis (0 to 2) was rotated to z.
     shear: vec3f,
     axis: u32,
 }
@@ -98,7 +98,7 @@ fn ray_new(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> ShadowRay
     return ShadowRay(origin, min_t, inverse, max_t, shear, axis);
 }
 
-// How far along the ray the box begins, below 0 if the origin is inside; RAY_MISS if the ray misses it.
+// The distance along the ray at which it enters the box, below 0 if the origin is inside; RAY_MISS if it misses.
 fn ray_enters(ray: ShadowRay, node: RayNode) -> f32 {
     let to_lowest = (node.lowest - ray.origin) * ray.inverse;
     let to_highest = (node.highest - ray.origin) * ray.inverse;
@@ -109,14 +109,14 @@ fn ray_enters(ray: ShadowRay, node: RayNode) -> f32 {
     return select(RAY_MISS, enters, leaves >= enters && leaves >= 0.0);
 }
 
-// The point as the ray sees it: x and y across, z along the ray, metres.
+// The point in the ray's sheared space: x and y across, z along the ray, metres.
 fn ray_sheared(ray: ShadowRay, point: vec3f) -> vec3f {
     let p = ray_turned(point - ray.origin, ray.axis);
     return vec3f(p.x - ray.shear.x * p.z, p.y - ray.shear.y * p.z, ray.shear.z * p.z);
 }
 
-// p.x * q.y - p.y * q.x, the numbers split into halves of 12 bits whose products f32 holds exactly: wrong by
-// 2^-36 of |p| |q|, with and without fused products.
+// p.x * q.y - p.y * q.x, with the numbers split into halves of 12 bits whose products are exact in f32: the error is 2^-36 of
+// |p| |q|, with and without fused products.
 fn ray_side(p: vec2f, q: vec2f) -> f32 {
     let p_high = bitcast<vec2f>(bitcast<vec2u>(p) & vec2u(0xfffff000u));
     let q_high = bitcast<vec2f>(bitcast<vec2u>(q) & vec2u(0xfffff000u));
@@ -138,7 +138,7 @@ fn ray_folded(at: f32, wrap: u32) -> f32 {
     return clamp(at, 0.0, 1.0);
 }
 
-// The texel that stands for one up to one step outside.
+// The wrapped index of a texel at most one step outside.
 fn ray_inside(index: i32, size: i32, wrap: u32) -> u32 {
     if wrap == RAY_WRAP_REPEAT {
         return u32(select(select(index, index - size, index >= size), index + size, index < 0));
@@ -172,7 +172,7 @@ fn ray_value(image: RayTexture, uv: vec2f) -> f32 {
     return top + (bottom - top) * part.y;
 }
 
-// What one of a triangle's channels has where it is hit.
+// The value of one of a triangle's channels at the hit.
 fn ray_channel(material: RayMaterial, channel: u32, weights: vec3f) -> f32 {
     if material.texture == RAY_NONE {
         return 1.0;
@@ -181,7 +181,7 @@ fn ray_channel(material: RayMaterial, channel: u32, weights: vec3f) -> f32 {
     return ray_value(ray_textures[material.texture + channel], uv);
 }
 
-// Whether a triangle stops light where it is hit; if it does not, what it leaves of it.
+// Whether a triangle blocks light at the hit; if it does not, `passed` is multiplied by its transmittance.
 fn ray_stops(index: u32, weights: vec3f, passed: ptr<function, vec3f>) -> bool {
     if !(CUTOUTS || TINTS) || index == RAY_NONE {
         return true;
@@ -228,8 +228,8 @@ fn ray_meets_any(ray: ShadowRay, node: RayNode, passed: ptr<function, vec3f>) ->
     return false;
 }
 
-// What of light passes along the ray from `min_t` up to `max_t`, metres, at most RAY_FAR: 0 if anything lies there but holes and what
-// is translucent. `direction` has unit length.
+// The fraction of light that passes along the ray from `min_t` to `max_t`, metres, at most RAY_FAR: 0 if an opaque surface lies
+// between. `direction` has unit length.
 fn ray_passed(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> vec3f {
     var passed = vec3f(1.0);
     let ray = ray_new(origin, direction, min_t, max_t);
@@ -257,7 +257,7 @@ fn ray_passed(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> vec3f 
             other = node_before;
             enters_other = enters_before;
         }
-        // The root is in no pair: 0 stands for none.
+        // The root is in no pair, so 0 means none.
         var next = 0u;
         if enters < max_t {
             if node.count == 0u {

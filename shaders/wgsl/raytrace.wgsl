@@ -1,4 +1,4 @@
-// Writes the screen mask of the technique `raytraced`: for each light and pixel how much of the light the surface sees.
+// Writes the screen mask of the technique `raytraced`: the visibility of each light at each pixel.
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::traced::{traced, traced_visibility}
 
@@ -12,15 +12,15 @@ fn cs_raytrace(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, id.xy, 0);
     let normal = unpack_normal(surface.w);
-    var lit = vec3f(1.0);
+    var visibility = vec3f(1.0);
     if any(normal != vec3f(0.0)) {
-        lit = traced_visibility(light_of(id.z), surface.xyz, normal, vec2f(id.xy) + 0.5);
+        visibility = traced_visibility(light_of_layer(id.z), surface.xyz, normal, vec2f(id.xy) + 0.5);
     }
-    textureStore(mask, id.xy, id.z, vec4f(lit, 1.0));
+    textureStore(mask, id.xy, id.z, vec4f(visibility, 1.0));
 }
 
-// The light that has a layer.
-fn light_of(layer: u32) -> u32 {
+// The light of a layer.
+fn light_of_layer(layer: u32) -> u32 {
     for (var light = 0u; light < arrayLength(&traced.layers); light++) {
         if traced.layers[light] == layer {
             return light;

@@ -1,5 +1,5 @@
-// How much of the light from all around the picture's surroundings leave: all of it. A pass that has ambient occlusion of the
-// screen puts `occluded.wgsl` in this one's place.
+// Screen-space ambient occlusion, absent: 1 everywhere. A pass with ambient occlusion replaces this module by
+// `occluded.wgsl`.
 #define_import_path shadowgraph::screen_occlusion
 
 fn screen_occlusion(pixel: vec2f, transparent: bool) -> f32 {

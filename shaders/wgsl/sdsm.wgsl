@@ -1,28 +1,28 @@
-// Fits cascades to the surfaces that the picture shows (Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011): finds
-// how far away they are, splits that range, and puts each cascade around the surfaces of its part. Nothing is read back.
+// Fits cascades to the visible surfaces (Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011): finds their depth
+// range, splits it, and fits each cascade to the surfaces in its split. Nothing is read back.
 #import shadowgraph::view::{view, view_depth_of}
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, NOT_A_CASCADE}
 
 // 40 bytes.
 struct Fit {
-    // How many views there are; those of cascades come first.
+    // Number of views; those of cascades come first.
     views: u32,
-    // How many cascades each light has that has any. The last of them covers the whole view and stays as it is: the farthest part of
-    // what is seen is read from it.
+    // Number of cascades of each light that has any. The last cascade covers the whole view and is not fitted: the farthest
+    // split is read from it.
     cascades: u32,
-    // How many lights have cascades.
+    // Number of lights with cascades.
     lights: u32,
-    // 0: splits at equal distances, 1: at equal ratios.
+    // 0: uniform splits, 1: logarithmic splits.
     lambda: f32,
     map_size_px: vec2f,
     // View depths where shadows begin and end, metres.
     nearest: f32,
     farthest: f32,
-    // Above 1 the nearer cascades are shorter.
+    // Above 1 nearer cascades are shorter.
     nearness: f32,
 }
 
-// Of surfaces in a cascade, on the light's axes; coded so that whole numbers have the order of the floats.
+// Bounds of the surfaces in a cascade, on the light's axes; floats are encoded as integers of the same order.
 struct Bounds {
     lowest: array<atomic<u32>, 3>,
     highest: array<atomic<u32>, 3>,
@@ -32,20 +32,20 @@ struct Bounds {
 @group(1) @binding(1) var<storage, read> planned: array<ShadowView>;
 @group(1) @binding(2) var<storage, read> shadow_lights: array<ShadowLight>;
 @group(1) @binding(3) var<uniform> fit: Fit;
-// The bits of the least and the greatest view depth.
+// The bits of the smallest and the largest view depth.
 @group(1) @binding(4) var<storage, read_write> depths: array<atomic<u32>, 2>;
 // One for each view of a cascade.
 @group(1) @binding(5) var<storage, read_write> bounds: array<Bounds>;
 
 @group(2) @binding(0) var<storage, read_write> fitted: array<ShadowView>;
 
-const MOST_VIEWS: u32 = 32u;
-const EDGE: u32 = 8u;
+const MAX_VIEWS: u32 = 32u;
+const GROUP_SIZE: u32 = 8u;
 
 var<workgroup> group_depths: array<atomic<u32>, 2>;
 var<workgroup> group_bounds: array<atomic<u32>, 192>;
 
-fn coded(x: f32) -> u32 {
+fn encoded(x: f32) -> u32 {
     let bits = bitcast<u32>(x);
     return select(bits | 0x80000000u, ~bits, (bits >> 31u) == 1u);
 }
@@ -54,7 +54,7 @@ fn decoded(code: u32) -> f32 {
     return bitcast<f32>(select(~code, code & 0x7fffffffu, (code >> 31u) == 1u));
 }
 
-// The view depth of a pixel's surface; 0 where there is none in reach of shadows.
+// The view depth of a pixel's surface; 0 where there is none within the shadow range.
 fn depth_at(pixel: vec2u) -> f32 {
     if any(pixel >= textureDimensions(surfaces)) {
         return 0.0;
@@ -83,13 +83,13 @@ fn cs_depths(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
     }
 }
 
-// Where cascade `index` ends, if it is fitted.
+// The view depth where cascade `index` ends, if it is fitted.
 fn split(index: u32) -> f32 {
     let first = bitcast<f32>(atomicLoad(&depths[0]));
     let last = bitcast<f32>(atomicLoad(&depths[1])) * 1.0001;
-    let part = pow(f32(index + 1u) / f32(fit.cascades), fit.nearness);
-    let by_ratio = first * pow(last / first, part);
-    return mix(mix(first, last, part), by_ratio, fit.lambda);
+    let fraction = pow(f32(index + 1u) / f32(fit.cascades), fit.nearness);
+    let by_ratio = first * pow(last / first, fraction);
+    return mix(mix(first, last, fraction), by_ratio, fit.lambda);
 }
 
 // The light's axes in the world.
@@ -102,8 +102,8 @@ fn axes(shadow_view: ShadowView) -> mat3x3f {
 
 @compute @workgroup_size(8, 8)
 fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) local: u32) {
-    let slots = 6u * min(fit.cascades * fit.lights, MOST_VIEWS);
-    for (var slot = local; slot < slots; slot += EDGE * EDGE) {
+    let slots = 6u * min(fit.cascades * fit.lights, MAX_VIEWS);
+    for (var slot = local; slot < slots; slot += GROUP_SIZE * GROUP_SIZE) {
         atomicStore(&group_bounds[slot], select(0u, 0xffffffffu, slot % 6u < 3u));
     }
     workgroupBarrier();
@@ -114,20 +114,20 @@ fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
         while cascade + 1u < fit.cascades && depth >= split(cascade) {
             cascade++;
         }
-        // What is in the farthest part is left to the cascade that covers the whole view.
+        // Surfaces in the farthest split are left to the cascade that covers the whole view.
         let lights = select(0u, fit.lights, cascade + 1u < fit.cascades);
         for (var light = 0u; light < lights; light++) {
             let index = light * fit.cascades + cascade;
             let at = position * axes(planned[index]);
             for (var axis = 0u; axis < 3u; axis++) {
-                let code = coded(at[axis]);
+                let code = encoded(at[axis]);
                 atomicMin(&group_bounds[6u * index + axis], code);
                 atomicMax(&group_bounds[6u * index + 3u + axis], code);
             }
         }
     }
     workgroupBarrier();
-    for (var slot = local; slot < slots; slot += EDGE * EDGE) {
+    for (var slot = local; slot < slots; slot += GROUP_SIZE * GROUP_SIZE) {
         let code = atomicLoad(&group_bounds[slot]);
         if slot % 6u < 3u {
             atomicMin(&bounds[slot / 6u].lowest[slot % 3u], code);
@@ -137,7 +137,7 @@ fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
     }
 }
 
-// The next of 32 equal steps per factor of two that is not below x: a small change of the view changes no texel.
+// Rounds up to one of 32 equal steps per factor of two, so that a small change of the view changes no texel.
 fn rounded_up(x: f32) -> f32 {
     let step = exp2(floor(log2(x))) / 32.0;
     return ceil(x / step) * step;
@@ -150,16 +150,16 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
         lowest[axis] = decoded(atomicLoad(&bounds[index].lowest[axis]));
         highest[axis] = decoded(atomicLoad(&bounds[index].highest[axis]));
     }
-    var made = old;
-    made.end_m = split(cascade);
-    made.begin_m = fit.nearest;
+    var result = old;
+    result.end_m = split(cascade);
+    result.begin_m = fit.nearest;
     if cascade > 0u {
-        made.begin_m = split(cascade - 1u);
+        result.begin_m = split(cascade - 1u);
     }
-    // Surfaces go on for a pixel around where they were found.
+    // Surfaces extend up to a pixel beyond the sampled positions.
     let c = view.clip_from_world;
     let scale = length(vec3f(c[0].y, c[1].y, c[2].y));
-    let pixel = 2.0 / (scale * view.size_px.y) * select(made.end_m, 1.0, view.orthographic == 1u);
+    let pixel = 2.0 / (scale * view.size_px.y) * select(result.end_m, 1.0, view.orthographic == 1u);
     let half = 0.5 * (highest - lowest) + 2.0 * pixel;
     let center = 0.5 * (highest + lowest);
 
@@ -175,7 +175,7 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
     let texel = rounded_up(2.0 * max(half.x, half.y) / (tile.z - 2.0 * margin));
     let extent = 0.5 * texel * tile.z;
     let snapped = round(center.xy / texel);
-    // Towards the light there is room for what slopes up steeply around a point.
+    // Leaves a margin towards the light for steep slopes around a point.
     let far = center.z - half.z - 8.0 * texel;
     let range = rounded_up(2.0 * half.z + 128.0 * texel);
 
@@ -183,19 +183,19 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
     let x = vec4f(axes[0], -snapped.x * texel) / extent;
     let y = vec4f(axes[1], -snapped.y * texel) / extent;
     let z = vec4f(axes[2], -far) / range;
-    made.clip_from_world = transpose(mat4x4f(x, y, z, vec4f(0.0, 0.0, 0.0, 1.0)));
+    result.clip_from_world = transpose(mat4x4f(x, y, z, vec4f(0.0, 0.0, 0.0, 1.0)));
     let u = (0.5 * tile.z * x + vec4f(0.0, 0.0, 0.0, tile.x + 0.5 * tile.z)) / fit.map_size_px.x;
     let v = (-0.5 * tile.w * y + vec4f(0.0, 0.0, 0.0, tile.y + 0.5 * tile.w)) / fit.map_size_px.y;
-    made.map_from_world = transpose(mat4x4f(u, v, z, vec4f(0.0, 0.0, 0.0, 1.0)));
-    made.center = axes * vec3f(snapped * texel, center.z);
-    made.radius = length(half);
-    made.texel_world = texel;
-    made.depth_per_texel = texel / range;
-    made.axis_scale = extent;
-    made.depth_range_m = range;
+    result.map_from_world = transpose(mat4x4f(u, v, z, vec4f(0.0, 0.0, 0.0, 1.0)));
+    result.center = axes * vec3f(snapped * texel, center.z);
+    result.radius = length(half);
+    result.texel_world = texel;
+    result.depth_per_texel = texel / range;
+    result.axis_scale = extent;
+    result.depth_range_m = range;
     let moved = vec2f(snapped.x, -snapped.y) - tile.xy - 0.5 * tile.zw;
-    made.noise_px = vec2u(moved - 1024.0 * floor(moved / 1024.0));
-    return made;
+    result.noise_px = vec2u(moved - 1024.0 * floor(moved / 1024.0));
+    return result;
 }
 
 @compute @workgroup_size(64)
@@ -208,7 +208,7 @@ fn cs_fit(@builtin(global_invocation_id) id: vec3u) {
     let cascade = old.cascade;
     let is_fitted = cascade != NOT_A_CASCADE && cascade + 1u < fit.cascades;
     if is_fitted && index < fit.cascades * fit.lights {
-        // Where no surface is in a cascade's part it stays as planned.
+        // A cascade without surfaces in its split stays as planned.
         if atomicLoad(&bounds[index].highest[0]) != 0u {
             fitted[index] = fitted_view(old, index, cascade);
             return;

@@ -1,4 +1,4 @@
-// What arrives at a surface from every light, shadows included.
+// The light that a surface reflects from every light, with shadows.
 #define_import_path shadowgraph::shade
 #import shadowgraph::view::{view, lights, Light}
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT}
@@ -7,7 +7,7 @@
 #import shadowgraph::light_list::light_mask
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
 
-// What the technique says, where the material lets shadows fall.
+// The visibility from the technique; 1 for a material without shadows.
 fn visibility_of(light: u32, receiver: Receiver, unshadowed: bool) -> vec3f {
     if unshadowed {
         return vec3f(1.0);
@@ -15,10 +15,10 @@ fn visibility_of(light: u32, receiver: Receiver, unshadowed: bool) -> vec3f {
     return shadow_visibility(light, receiver);
 }
 
-fn lit(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3f {
+fn shade_surface(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3f {
     let transparent = (receiver.flags & RECEIVER_TRANSPARENT) != 0u;
-    let open = screen_occlusion(receiver.pixel, transparent);
-    var sum = ambient(surface, view.ambient_sky, view.ambient_ground) * open;
+    let ambient_occlusion = screen_occlusion(receiver.pixel, transparent);
+    var sum = ambient(surface, view.ambient_sky, view.ambient_ground) * ambient_occlusion;
     for (var word = 0u; word * 32u < view.light_count; word++) {
         var mask = light_mask(word, receiver.pixel, receiver.view_depth);
         while mask != 0u {
@@ -40,8 +40,8 @@ fn lit(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3f {
     return sum;
 }
 
-// Grey: the factor of a light in the lit pass. Alpha 0 where the surface faces away from the light.
-fn visibility_shown(light: u32, receiver: Receiver, unshadowed: bool) -> vec4f {
+// Grey: the visibility of a light in the lit pass. Alpha 0 where the surface faces away from the light.
+fn visibility_output(light: u32, receiver: Receiver, unshadowed: bool) -> vec4f {
     if light >= view.light_count {
         return vec4f(0.0);
     }
@@ -53,8 +53,8 @@ fn visibility_shown(light: u32, receiver: Receiver, unshadowed: bool) -> vec4f {
     return vec4f(vec3f(factor), 1.0);
 }
 
-// The technique's colours, shaded so that shapes and shadows can be made out.
-fn debug_shown(light: u32, receiver: Receiver, to_camera: vec3f, unshadowed: bool) -> vec4f {
+// The technique's debug colours, shaded so that shapes and shadows are visible.
+fn debug_output(light: u32, receiver: Receiver, to_camera: vec3f, unshadowed: bool) -> vec4f {
     var shade = 0.4 + 0.2 * saturate(dot(receiver.shading_normal, to_camera));
     if light >= view.light_count {
         return vec4f(vec3f(shade), 1.0);

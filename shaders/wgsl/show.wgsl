@@ -1,10 +1,10 @@
-// Shows a texture in the viewport, nearest texel: for debugging and for pictures of depth. Greys are written as
-// they are: into an sRGB target they come out lighter than into a plain one.
+// Shows a texture in the viewport with nearest texels, for debugging and depth outputs. Greys are written without
+// conversion: an sRGB target shows them lighter than a linear one.
 //
 //   vs_show_depth, fs_show_depth    the camera's depth: white near, dark far, black where nothing is drawn
-//   vs_show_depth, fs_show_atlas    raw depth, stretched to what the texture holds; black where it is empty
+//   vs_show_depth, fs_show_atlas    raw depth, stretched to the range in the texture; black where it is empty
 //   vs_show_texture, fs_show_texture    any float texture
-//   vs_show_texture, fs_show_grey       one of a single channel
+//   vs_show_texture, fs_show_grey       a single-channel texture
 #import shadowgraph::view::view_depth_from_depth
 #import shadowgraph::fullscreen::fullscreen_vertex
 
@@ -12,15 +12,15 @@
 @group(1) @binding(0) var depth_texture: texture_depth_2d;
 @group(1) @binding(0) var float_texture: texture_2d<f32>;
 
-// The grey of the farthest thing drawn, so that it stands out from the background.
+// The grey of the farthest depth, distinct from the background.
 const DARKEST: f32 = 0.06;
-// The depth range is taken from this many texels a side.
+// The depth range is sampled at this many texels a side.
 const PROBES: u32 = 64u;
 
 struct ShowVertex {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
-    // Smallest and largest raw depth that is drawn.
+    // Smallest and largest drawn raw depth.
     @location(1) @interpolate(flat) depth_range: vec2f,
 }
 

@@ -1,5 +1,5 @@
-// A picture of surfaces: where each pixel's is, metres relative to the frame's origin, and its geometric normal as
-// one number. All 0 where nothing is drawn.
+// Surface textures: the position of each pixel's surface, metres relative to the frame's origin, and its geometric normal
+// as one number. All 0 where nothing is drawn.
 #define_import_path shadowgraph::surface
 
 // The unit octahedron, unfolded to the square from -1 to 1 (Cigolle et al. 2014).
@@ -9,7 +9,7 @@ fn octahedral(normal: vec3f) -> vec2f {
     return select(folded, flat, normal.z >= 0.0);
 }
 
-// 12 bits an axis, as a whole number from 1 that a float holds exactly.
+// 12 bits an axis, as an integer from 1 that a float holds exactly.
 fn pack_normal(normal: vec3f) -> f32 {
     let square = vec2u(round((octahedral(normal) * 0.5 + 0.5) * 4095.0));
     return f32(1u + square.x * 4096u + square.y);
@@ -20,8 +20,8 @@ fn unpack_normal(packed: f32) -> vec3f {
     if packed < 1.0 {
         return vec3f(0.0);
     }
-    let whole = u32(packed) - 1u;
-    return unfold(vec2f(vec2u(whole / 4096u, whole % 4096u)) / 4095.0 * 2.0 - 1.0);
+    let integer = u32(packed) - 1u;
+    return unfold(vec2f(vec2u(integer / 4096u, integer % 4096u)) / 4095.0 * 2.0 - 1.0);
 }
 
 // The direction of a point of the unfolded octahedron, unit length.

@@ -1,7 +1,7 @@
-// From scene-linear light, exposure applied, to a picture. The target must be an sRGB format: it encodes.
+// Tonemaps scene-linear light with exposure applied. The target must have an sRGB format, which encodes the output.
 #import shadowgraph::fullscreen::{FullscreenVertex, fullscreen_vertex}
 
-// As large as the target.
+// Has the size of the target.
 @group(0) @binding(0) var hdr_texture: texture_2d<f32>;
 
 @vertex
@@ -16,7 +16,7 @@ fn filmic(color: vec3f) -> vec3f {
     return saturate((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14));
 }
 
-// Very bright colours go a little towards white, as on film; otherwise a bright red stays a flat red.
+// Moves very bright colours towards white, as film does; otherwise a bright red stays a flat red.
 fn desaturate_highlights(color: vec3f) -> vec3f {
     let peak = max(color.r, max(color.g, color.b));
     return mix(color, vec3f(peak), 0.3 * smoothstep(1.0, 12.0, peak));

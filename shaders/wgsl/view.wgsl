@@ -1,4 +1,4 @@
-// The camera and the lights of a frame: group 0 of every pass that lights.
+// The camera and the lights of a frame: group 0 of every lit pass.
 #define_import_path shadowgraph::view
 
 // Positions are metres relative to the frame's origin. Depth is reversed: near 1, far 0. 256 bytes.
@@ -12,7 +12,7 @@ struct View {
     size_px: vec2f,
     // 0: infinitely far (perspective only).
     far: f32,
-    // Everything a lit pass writes is multiplied by this.
+    // Multiplies the output of lit passes.
     exposure: f32,
     // Radiance of the sky above and of the ground below, before exposure.
     ambient_sky: vec3f,
@@ -30,9 +30,9 @@ const LIGHT_POINT: u32 = 2u;
 struct Light {
     position: vec3f,
     kind: u32,
-    // The way the light travels, unit length.
+    // The direction in which the light travels, unit length.
     direction: vec3f,
-    // Metres; 0: no end.
+    // Metres; 0: unlimited.
     range: f32,
     // Linear colour times lux (directional) or candela (spot, point).
     color: vec3f,
@@ -44,13 +44,13 @@ struct Light {
 @group(0) @binding(0) var<storage, read> view: View;
 @group(0) @binding(1) var<storage, read> lights: array<Light>;
 
-// Metres in front of the camera, of a point.
+// View depth of a point, metres in front of the camera.
 fn view_depth_of(position: vec3f) -> f32 {
     return -(view.view_from_world * vec4f(position, 1.0)).z;
 }
 
-// Metres in front of the camera, of a value of the depth buffer. The far plane's value (0) has no depth
-// where the view is infinitely far: ask for `depth > 0` first.
+// View depth of a value of the depth buffer, metres. The far plane's value (0) has none in an infinite view: check
+// `depth > 0` first.
 fn view_depth_from_depth(depth: f32) -> f32 {
     if view.orthographic == 1u {
         return view.far - depth * (view.far - view.near);
@@ -61,7 +61,7 @@ fn view_depth_from_depth(depth: f32) -> f32 {
     return view.near * view.far / (view.near + depth * (view.far - view.near));
 }
 
-// The way to the camera, unit length, from a point given relative to the camera.
+// The direction to the camera, unit length, from a point relative to the camera.
 fn direction_to_camera(from_camera: vec3f) -> vec3f {
     if view.orthographic == 1u {
         // The third row of the rotation: the view's +Z axis, which points from the scene to the camera.
@@ -71,12 +71,12 @@ fn direction_to_camera(from_camera: vec3f) -> vec3f {
     return normalize(-from_camera);
 }
 
-// From a point to where the next pixel right (axis 0) or up (1) meets the plane of its surface. Unlike derivatives it does not
-// depend on what the neighbours show.
+// The offset from a point to where the next pixel right (axis 0) or up (1) meets the plane of its surface. Unlike derivatives
+// it does not depend on the surfaces of the neighbours.
 fn to_neighbour(position: vec3f, normal: vec3f, view_depth: f32, axis: i32) -> vec3f {
     let m = view.view_from_world;
     let across = vec3f(m[0][axis], m[1][axis], m[2][axis]);
-    // That row of the projection: how many halves of the picture one unit is, at a depth of one.
+    // That row of the projection: the size of one unit at depth 1, in halves of the image.
     let c = view.clip_from_world;
     let scale = length(vec3f(c[0][axis], c[1][axis], c[2][axis]));
     let step = across * 2.0 / (view.size_px[axis] * scale);
@@ -84,12 +84,12 @@ fn to_neighbour(position: vec3f, normal: vec3f, view_depth: f32, axis: i32) -> v
         let forward = -vec3f(m[0].z, m[1].z, m[2].z);
         return step - forward * (dot(normal, step) / away_from_zero(dot(normal, forward)));
     }
-    let way = position - view.position;
-    let other = way + step * view_depth;
-    return other * (dot(normal, way) / away_from_zero(dot(normal, other))) - way;
+    let from_camera = position - view.position;
+    let other = from_camera + step * view_depth;
+    return other * (dot(normal, from_camera) / away_from_zero(dot(normal, other))) - from_camera;
 }
 
-// Surfaces that are seen edge-on stretch over many pixels, but not without end.
+// Bounds the derivatives of surfaces seen edge-on.
 fn away_from_zero(x: f32) -> f32 {
     return select(min(x, -1e-6), max(x, 1e-6), x >= 0.0);
 }

@@ -1,4 +1,4 @@
-// Light that thin fog scatters to the camera, shadows included: shafts of light. Steps along each pixel's way, with the phase
+// Light that thin fog scatters to the camera, with shadows: light shafts. Marches along each pixel's ray, with the phase
 // function of Henyey and Greenstein (1941).
 #import shadowgraph::view::{view, lights, view_depth_of, to_neighbour, LIGHT_DIRECTIONAL}
 #import shadowgraph::fullscreen::{FullscreenVertex, fullscreen_vertex}
@@ -9,15 +9,15 @@
 #import shadowgraph::technique::shadow_visibility
 
 struct Fog {
-    // The part of the light that is scattered and not swallowed, by colour.
+    // The fraction of the light that is scattered and not absorbed, by colour.
     albedo: vec3f,
     // Per metre, at `height`.
     density: f32,
     // Relative to the frame's origin, metres.
     height: f32,
-    // How fast it gets thinner above, per metre.
+    // Exponential falloff of the density above, per metre.
     falloff: f32,
-    // -1 back to the light, 0 evenly, 1 onwards.
+    // -1 backward, 0 isotropic, 1 forward.
     anisotropy: f32,
     // Metres from the camera.
     distance: f32,
@@ -46,18 +46,18 @@ fn phase(cosine: f32) -> f32 {
     return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
 }
 
-// The light of all lights that a point scatters along `way`, per unit of what is scattered.
-fn scattered(position: vec3f, way: vec3f, pixel: vec2f) -> vec3f {
+// The light of all lights that a point scatters along the ray, per unit of scattered light.
+fn scattered(position: vec3f, direction: vec3f, pixel: vec2f) -> vec3f {
     let view_depth = view_depth_of(position);
     let receiver = Receiver(
         position,
         view_depth,
-        -way,
+        -direction,
         RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN,
-        -way,
+        -direction,
         pixel,
-        to_neighbour(position, -way, view_depth, 0),
-        -to_neighbour(position, -way, view_depth, 1),
+        to_neighbour(position, -direction, view_depth, 0),
+        -to_neighbour(position, -direction, view_depth, 1),
     );
     var sum = (view.ambient_sky + view.ambient_ground) * 0.5;
     for (var word = 0u; word * 32u < view.light_count; word++) {
@@ -71,38 +71,38 @@ fn scattered(position: vec3f, way: vec3f, pixel: vec2f) -> vec3f {
             let arriving = arriving_light(lights[i], position);
             if arriving.attenuation > 0.0 {
                 let visibility = shadow_visibility(i, receiver);
-                let onwards = phase(dot(way, arriving.to_light));
-                sum += lights[i].color * arriving.attenuation * visibility * onwards;
+                let phase_factor = phase(dot(direction, arriving.to_light));
+                sum += lights[i].color * arriving.attenuation * visibility * phase_factor;
             }
         }
     }
     return sum;
 }
 
-// What is added, and in alpha what part of the light behind is lost.
+// Scattered light, and in alpha the fraction of the background that is lost.
 @fragment
 fn fs_fog(in: FullscreenVertex) -> @location(0) vec4f {
     let depth = textureLoad(depth_texture, vec2u(in.position.xy), 0);
     let near = at_depth(in.position.xy, 1.0);
-    let beyond = at_depth(in.position.xy, 0.5);
-    let way = normalize(beyond - near);
-    var reach = fog.distance;
+    let far = at_depth(in.position.xy, 0.5);
+    let direction = normalize(far - near);
+    var ray_length = fog.distance;
     if depth > 0.0 {
-        reach = min(reach, distance(at_depth(in.position.xy, depth), near));
+        ray_length = min(ray_length, distance(at_depth(in.position.xy, depth), near));
     }
-    let step = reach / f32(fog.steps);
+    let step = ray_length / f32(fog.steps);
     let noise = pixel_noise(in.position.xy);
     var light = vec3f(0.0);
-    var passing = 1.0;
+    var transmittance = 1.0;
     for (var i = 0u; i < fog.steps; i++) {
-        let position = near + way * (f32(i) + noise) * step;
+        let position = near + direction * (f32(i) + noise) * step;
         let density = fog.density * exp(-max(position.y - fog.height, 0.0) * fog.falloff);
-        let kept = exp(-density * step);
+        let step_transmittance = exp(-density * step);
         if density > 0.0 {
-            light += passing * (1.0 - kept) * scattered(position, way, in.position.xy);
+            light += transmittance * (1.0 - step_transmittance) * scattered(position, direction, in.position.xy);
         }
-        passing *= kept;
+        transmittance *= step_transmittance;
     }
     let seen = light * fog.albedo * view.exposure;
-    return vec4f(min(seen, vec3f(60000.0)), 1.0 - passing);
+    return vec4f(min(seen, vec3f(60000.0)), 1.0 - transmittance);
 }

@@ -1,23 +1,23 @@
-// Smooth edges of a finished picture (Lottes, "FXAA", 2009, the quality variant in short).
-@group(0) @binding(0) var picture: texture_2d<f32>;
+// Anti-aliasing of the finished image (Lottes, "FXAA", 2009, a short form of the quality variant).
+@group(0) @binding(0) var image: texture_2d<f32>;
 @group(0) @binding(1) var linear: sampler;
 
-// The picture's texels are linear light; the eye judges contrast otherwise.
+// Perceptual luma: the image is linear, perceived contrast is not.
 fn luma(color: vec3f) -> f32 {
     return sqrt(dot(color, vec3f(0.299, 0.587, 0.114)));
 }
 
 fn luma_at(uv: vec2f) -> f32 {
-    return luma(textureSampleLevel(picture, linear, uv, 0.0).rgb);
+    return luma(textureSampleLevel(image, linear, uv, 0.0).rgb);
 }
 
 const STEPS: array<f32, 10> = array(1.0, 1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 2.0, 4.0, 8.0);
 
 @fragment
 fn fs_fxaa(@location(0) uv: vec2f) -> @location(0) vec4f {
-    let texel = 1.0 / vec2f(textureDimensions(picture));
-    let own = textureSampleLevel(picture, linear, uv, 0.0);
-    let m = luma(own.rgb);
+    let texel = 1.0 / vec2f(textureDimensions(image));
+    let center = textureSampleLevel(image, linear, uv, 0.0);
+    let m = luma(center.rgb);
     let n = luma_at(uv + vec2f(0.0, -texel.y));
     let s = luma_at(uv + vec2f(0.0, texel.y));
     let w = luma_at(uv + vec2f(-texel.x, 0.0));
@@ -26,7 +26,7 @@ fn fs_fxaa(@location(0) uv: vec2f) -> @location(0) vec4f {
     let low = min(m, min(min(n, s), min(w, e)));
     let range = high - low;
     if range < max(0.0312, high * 0.125) {
-        return own;
+        return center;
     }
     let nw = luma_at(uv - texel);
     let se = luma_at(uv + texel);
@@ -42,10 +42,10 @@ fn fs_fxaa(@location(0) uv: vec2f) -> @location(0) vec4f {
     let side = select(step, -step, toward_first);
     let gradient = 0.25 * max(abs(first - m), abs(second - m));
     let middle = 0.5 * (m + select(second, first, toward_first));
-    // Along the edge, half a texel beside the pixel, both ways to where it ends.
-    let beside = select(vec2f(side * 0.5, 0.0), vec2f(0.0, side * 0.5), horizontal);
+    // Search along the edge, half a texel off the pixel, in both directions to its ends.
+    let edge_uv = select(vec2f(side * 0.5, 0.0), vec2f(0.0, side * 0.5), horizontal);
     let along = select(vec2f(0.0, texel.y), vec2f(texel.x, 0.0), horizontal);
-    var ends = array(uv + beside, uv + beside);
+    var ends = array(uv + edge_uv, uv + edge_uv);
     var ends_luma = array(0.0, 0.0);
     var done = array(false, false);
     for (var i = 0; i < 10; i++) {
@@ -57,17 +57,17 @@ fn fs_fxaa(@location(0) uv: vec2f) -> @location(0) vec4f {
             }
         }
     }
-    let away = array(
+    let distances = array(
         select(uv.y - ends[0].y, uv.x - ends[0].x, horizontal),
         select(ends[1].y - uv.y, ends[1].x - uv.x, horizontal),
     );
-    let nearest = select(1, 0, away[0] < away[1]);
+    let nearest = select(1, 0, distances[0] < distances[1]);
     let rising = (ends_luma[nearest] < 0.0) != (m < middle);
-    let edge_shift = select(0.0, 0.5 - away[nearest] / (away[0] + away[1]), rising);
-    // Single pixels have no edge: they go by how much they differ from all around.
+    let edge_shift = select(0.0, 0.5 - distances[nearest] / (distances[0] + distances[1]), rising);
+    // Single pixels have no edge: they are smoothed by how much they differ from their neighbours.
     let average = (2.0 * (n + s + w + e) + nw + ne + sw + se) / 12.0;
-    let lone = smoothstep(0.0, 1.0, saturate(abs(average - m) / range));
-    let shift = max(edge_shift, lone * lone * 0.75) * side;
+    let subpixel = smoothstep(0.0, 1.0, saturate(abs(average - m) / range));
+    let shift = max(edge_shift, subpixel * subpixel * 0.75) * side;
     let at = uv + select(vec2f(shift, 0.0), vec2f(0.0, shift), horizontal);
-    return vec4f(textureSampleLevel(picture, linear, at, 0.0).rgb, own.a);
+    return vec4f(textureSampleLevel(image, linear, at, 0.0).rgb, center.a);
 }

@@ -1,12 +1,12 @@
-// How much of the sky above each pixel its surroundings leave open, by their horizons in slices of the screen (Jimenez et al.,
-// "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
+// Ground-truth ambient occlusion: how much of the hemisphere above each pixel is unoccluded, from the horizons in slices of
+// the screen (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
 #import shadowgraph::view::{view, view_depth_from_depth}
 #import shadowgraph::noise::pixel_noise
 
 struct Settings {
-    // How far surroundings matter, metres.
+    // Radius within which occluders count, metres.
     radius_m: f32,
-    // 1 as it is, more for darker corners.
+    // Exponent: 1 is physical, more is darker.
     power: f32,
     slices: u32,
     steps: u32,
@@ -16,8 +16,8 @@ struct Settings {
 @group(0) @binding(2) var<uniform> settings: Settings;
 
 const PI: f32 = 3.14159265358979;
-// Nothing is looked for farther away on the screen, pixels.
-const FARTHEST_PX: f32 = 96.0;
+// The largest radius on the screen, pixels.
+const MAX_RADIUS_PX: f32 = 96.0;
 
 fn projection_scale() -> vec2f {
     let c = view.clip_from_world;
@@ -31,18 +31,18 @@ fn position_at(texel: vec2i) -> vec3f {
     let depth = textureLoad(depth_texture, inside, 0);
     let view_depth = select(1e6, view_depth_from_depth(depth), depth > 0.0);
     let ndc = (vec2f(inside) + 0.5) / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
-    let reach = select(view_depth, 1.0, view.orthographic == 1u);
-    return vec3f(ndc / projection_scale() * reach, -view_depth);
+    let depth_scale = select(view_depth, 1.0, view.orthographic == 1u);
+    return vec3f(ndc / projection_scale() * depth_scale, -view_depth);
 }
 
-// The nearer of both neighbours tells the slope: the other may be behind an edge.
-fn slope(texel: vec2i, along: vec2i, own: vec3f) -> vec3f {
-    let after = position_at(texel + along) - own;
-    let before = own - position_at(texel - along);
-    // Beside the picture there is nothing to compare with: the place is the own one again.
-    let has_after = any(after != vec3f(0.0));
-    let has_before = any(before != vec3f(0.0));
-    return select(before, after, has_after && (!has_before || abs(after.z) < abs(before.z)));
+// The slope towards the nearer of both neighbours: the other may be behind an edge.
+fn slope(texel: vec2i, along: vec2i, center: vec3f) -> vec3f {
+    let next = position_at(texel + along) - center;
+    let previous = center - position_at(texel - along);
+    // Outside the image the clamped position is the centre's, so the difference is 0.
+    let has_next = any(next != vec3f(0.0));
+    let has_previous = any(previous != vec3f(0.0));
+    return select(previous, next, has_next && (!has_previous || abs(next.z) < abs(previous.z)));
 }
 
 @fragment
@@ -51,19 +51,19 @@ fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if textureLoad(depth_texture, texel, 0) == 0.0 {
         return vec4f(1.0);
     }
-    let own = position_at(texel);
-    let to_camera = select(normalize(-own), vec3f(0.0, 0.0, 1.0), view.orthographic == 1u);
-    let normal = normalize(cross(slope(texel, vec2i(1, 0), own), slope(texel, vec2i(0, -1), own)));
-    let reach = select(-own.z, 1.0, view.orthographic == 1u);
-    let radius_px = clamp(settings.radius_m * projection_scale().x / reach * view.size_px.x * 0.5, 1.0, FARTHEST_PX);
+    let center = position_at(texel);
+    let to_camera = select(normalize(-center), vec3f(0.0, 0.0, 1.0), view.orthographic == 1u);
+    let normal = normalize(cross(slope(texel, vec2i(1, 0), center), slope(texel, vec2i(0, -1), center)));
+    let depth_scale = select(-center.z, 1.0, view.orthographic == 1u);
+    let radius_px = clamp(settings.radius_m * projection_scale().x / depth_scale * view.size_px.x * 0.5, 1.0, MAX_RADIUS_PX);
     let noise = pixel_noise(position.xy);
-    var open = 0.0;
+    var visibility = 0.0;
     for (var slice = 0u; slice < settings.slices; slice++) {
         let angle = (f32(slice) + noise) * PI / f32(settings.slices);
-        let way = vec2f(cos(angle), sin(angle));
-        // The slice's plane holds the way and the look at the camera.
-        let way_view = vec3f(way.x, -way.y, 0.0);
-        let side = normalize(cross(way_view, to_camera));
+        let direction = vec2f(cos(angle), sin(angle));
+        // The slice's plane contains this direction and the direction to the camera.
+        let direction_view = vec3f(direction.x, -direction.y, 0.0);
+        let side = normalize(cross(direction_view, to_camera));
         let projected = normal - side * dot(normal, side);
         let length_projected = max(length(projected), 1e-4);
         let tangent = cross(to_camera, side);
@@ -71,25 +71,25 @@ fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let normal_angle = sign(dot(projected, tangent)) * acos(cos_normal);
         var horizons = vec2f(-1.0);
         for (var step = 0u; step < settings.steps; step++) {
-            let part = (f32(step) + fract(noise * 7.0 + 0.5)) / f32(settings.steps);
-            let offset = way * max(part * part * radius_px, f32(step) + 1.0);
+            let fraction = (f32(step) + fract(noise * 7.0 + 0.5)) / f32(settings.steps);
+            let offset = direction * max(fraction * fraction * radius_px, f32(step) + 1.0);
             for (var end = 0; end < 2; end++) {
                 let other = position_at(texel + vec2i(round(offset * select(1.0, -1.0, end == 1))));
-                let delta = other - own;
+                let delta = other - center;
                 let distance = max(length(delta), 1e-5);
-                // What is far away matters less and less.
-                let near = saturate(1.0 - (distance - 0.5 * settings.radius_m) / (0.5 * settings.radius_m));
-                let horizon = mix(-1.0, dot(delta / distance, to_camera), near);
+                // Occluders fade out with distance.
+                let weight = saturate(1.0 - (distance - 0.5 * settings.radius_m) / (0.5 * settings.radius_m));
+                let horizon = mix(-1.0, dot(delta / distance, to_camera), weight);
                 horizons[end] = max(horizons[end], horizon);
             }
         }
-        // The arc between both horizons, as far as the surface's half space has it.
+        // The arc between both horizons, clipped to the hemisphere of the normal.
         let first = normal_angle + min(acos(clamp(horizons.x, -1.0, 1.0)) - normal_angle, PI * 0.5);
         let second = normal_angle + max(-acos(clamp(horizons.y, -1.0, 1.0)) - normal_angle, -PI * 0.5);
         let arc = 2.0 * cos_normal
             + (2.0 * first * sin(normal_angle) - cos(2.0 * first - normal_angle))
             + (2.0 * second * sin(normal_angle) - cos(2.0 * second - normal_angle));
-        open += length_projected * arc * 0.25;
+        visibility += length_projected * arc * 0.25;
     }
-    return vec4f(pow(saturate(open / f32(settings.slices)), settings.power));
+    return vec4f(pow(saturate(visibility / f32(settings.slices)), settings.power));
 }

@@ -1,8 +1,8 @@
-// Takes the grain out of occlusion: the mean over four by four pixels of the same surface.
+// Removes the noise of ambient occlusion: averages four by four pixels of the same surface.
 #import shadowgraph::view::{view, view_depth_from_depth}
 
 @group(0) @binding(1) var depth_texture: texture_depth_2d;
-@group(0) @binding(2) var grainy: texture_2d<f32>;
+@group(0) @binding(2) var noisy: texture_2d<f32>;
 
 @fragment
 fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
@@ -11,15 +11,15 @@ fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if depth == 0.0 {
         return vec4f(1.0);
     }
-    let own = view_depth_from_depth(depth);
+    let center_depth = view_depth_from_depth(depth);
     var sum = vec2f(0.0);
     for (var y = -2; y < 2; y++) {
         for (var x = -2; x < 2; x++) {
             let other = clamp(texel + vec2i(x, y), vec2i(0), vec2i(view.size_px) - 1);
             let other_depth = textureLoad(depth_texture, other, 0);
-            let away = abs(view_depth_from_depth(max(other_depth, 1e-9)) - own) / own;
-            let weight = select(0.0, saturate(1.0 - away * 20.0) + 1e-3, other_depth > 0.0);
-            sum += vec2f(textureLoad(grainy, other, 0).r, 1.0) * weight;
+            let difference = abs(view_depth_from_depth(max(other_depth, 1e-9)) - center_depth) / center_depth;
+            let weight = select(0.0, saturate(1.0 - difference * 20.0) + 1e-3, other_depth > 0.0);
+            sum += vec2f(textureLoad(noisy, other, 0).r, 1.0) * weight;
         }
     }
     return vec4f(sum.x / max(sum.y, 1e-3));

@@ -1,4 +1,4 @@
-// The first level of a pyramid of depth: the depth itself.
+// The first level of a depth pyramid: the depth itself.
 @group(0) @binding(0) var depth_texture: texture_depth_2d;
 
 @fragment

@@ -1,6 +1,6 @@
-// The moments of the technique `evsm`: depth and its square, each warped by exponentials, one that grows away from the light and
+// The moments of the technique `evsm`: depth and its square, warped by two exponentials, one that grows away from the light and
 // one that grows towards it (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008; Annen et al., "Exponential Shadow Maps",
-// 2008). A tail of Chebyshev's inequality bounds how much of what lies around a point is farther away than the point.
+// 2008). Chebyshev's inequality bounds the fraction of the filter that is farther away than the point.
 #define_import_path shadowgraph::shadows::encoding
 #import shadowgraph::shadows::moment_params::MomentParams
 #import shadowgraph::shadows::evsm_layout::{FOUR, HALF}
@@ -16,12 +16,12 @@ fn moments_of(params: MomentParams, depth: f32) -> vec4f {
     return vec4f(warp, warp * warp).xzyw;
 }
 
-// As a texel holds them.
+// The encoding in a texel.
 fn packed(moments: vec4f) -> vec4u {
     if HALF {
-        // Half floats end at 65504.
-        let kept = clamp(moments, vec4f(-65504.0), vec4f(65504.0));
-        return vec4u(pack2x16float(kept.xy), pack2x16float(kept.zw), 0u, 0u);
+        // The largest half float is 65504.
+        let clamped = clamp(moments, vec4f(-65504.0), vec4f(65504.0));
+        return vec4u(pack2x16float(clamped.xy), pack2x16float(clamped.zw), 0u, 0u);
     }
     return bitcast<vec4u>(moments);
 }
@@ -33,24 +33,24 @@ fn unpacked(texel: vec4u) -> vec4f {
     return bitcast<vec4f>(texel);
 }
 
-fn chebyshev(moments: vec2f, depth: f32, least_variance: f32, bleed: f32) -> f32 {
+fn chebyshev(moments: vec2f, depth: f32, min_variance: f32, bleed: f32) -> f32 {
     if depth <= moments.x {
         return 1.0;
     }
-    let variance = max(moments.y - moments.x * moments.x, least_variance);
+    let variance = max(moments.y - moments.x * moments.x, min_variance);
     let offset = depth - moments.x;
     let bound = variance / (variance + offset * offset);
     return saturate((bound - bleed) / (1.0 - bleed));
 }
 
-fn lit_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
+fn visibility_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
     let warp = warped(params, depth);
-    // Depths that are this close count as one, on the curve of each warp.
+    // Depths this close count as equal, on the curve of each warp.
     let close = params.bias * params.exponents * warp;
-    let least = close * close;
-    let lit = chebyshev(moments.xy, warp.x, least.x, params.bleed);
+    let min_variances = close * close;
+    let visibility = chebyshev(moments.xy, warp.x, min_variances.x, params.bleed);
     if FOUR {
-        return min(lit, chebyshev(moments.zw, warp.y, least.y, params.bleed));
+        return min(visibility, chebyshev(moments.zw, warp.y, min_variances.y, params.bleed));
     }
-    return lit;
+    return visibility;
 }

@@ -1,7 +1,7 @@
-// How the moments of `evsm` are stored: here in the form of most. Frames that ask for another put a module in its place.
+// The storage of `evsm` moments: the most common form. Frames with another form replace this module.
 #define_import_path shadowgraph::shadows::evsm_layout
 
-// Four moments, or only those of the warp that grows away from the light.
+// Four moments, or only the two of the warp that grows away from the light.
 const FOUR: bool = true;
-// Each in 16 bits, or in 32.
+// 16 bits each, or 32.
 const HALF: bool = false;

@@ -1,4 +1,4 @@
-// Which light each layer of a screen mask is for.
+// The layers of a screen mask and their lights.
 #define_import_path shadowgraph::shadows::layers
 
 // 80 bytes.

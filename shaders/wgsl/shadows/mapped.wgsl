@@ -1,5 +1,5 @@
-// Techniques of shadow maps: finds the tiles of a point, and asks the technique's filter what they say. The filter is the module
-// shadowgraph::shadows::filter; it has the bindings from 8 on.
+// Shadow map techniques: finds the tiles of a point and evaluates the technique's filter there. The filter is the module
+// shadowgraph::shadows::filter; its bindings start at 8.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::filter::filtered
@@ -22,17 +22,17 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     if !blend.first.covered {
         return vec3f(1.0);
     }
-    var lit = vec3f(0.0);
+    var visibility = vec3f(0.0);
     var lookup = blend.first;
     var weight = blend.weight;
     for (var i = 0u; i < 2u; i++) {
         if weight > 0.0 {
-            lit += weight * filtered(shadow, receiver, lookup) * tint(shadow, receiver, lookup);
+            visibility += weight * filtered(shadow, receiver, lookup) * tint(shadow, receiver, lookup);
         }
         lookup = blend.next;
         weight = 1.0 - blend.weight;
     }
-    return mix(vec3f(1.0), lit, strength * edge_fade(shadow, receiver, blend.first));
+    return mix(vec3f(1.0), visibility, strength * edge_fade(shadow, receiver, blend.first));
 }
 
 fn cascade_tint(cascade: u32) -> vec3f {
@@ -49,7 +49,7 @@ fn cascade_tint(cascade: u32) -> vec3f {
     }
 }
 
-// The colour of the cascade that is read, paler as the shadows fade, mixed where cascades blend; violet in the atlas; white
+// The colour of the cascade that is read, paler where shadows fade, blended where cascades blend; violet in the atlas; white
 // without shadows.
 fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
     if light >= arrayLength(&shadow_lights) || shadow_lights[light].view_count == 0u {

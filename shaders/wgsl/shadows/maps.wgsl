@@ -1,17 +1,17 @@
-// The shadow maps of a frame: depth, 1 nearest to the light, and the colour that light has behind what it passes through.
+// The shadow maps of a frame: depth, 1 nearest to the light, and the tint of light behind translucent casters.
 #define_import_path shadowgraph::shadows::maps
 #import shadowgraph::shadows::types::MAP_CASCADES
 
 @group(1) @binding(2) var cascade_map: texture_depth_2d;
 @group(1) @binding(3) var atlas_map: texture_depth_2d;
-// Of translucent casters that opaque ones do not hide from the light: the product of what they let through.
+// The product of the transmittances of translucent casters that are not behind opaque ones.
 @group(1) @binding(4) var cascade_tints: texture_2d<f32>;
 @group(1) @binding(5) var atlas_tints: texture_2d<f32>;
-// Depth of the translucent caster that is nearest to the light.
+// Depth of the translucent caster nearest to the light.
 @group(1) @binding(6) var cascade_tint_depths: texture_depth_2d;
 @group(1) @binding(7) var atlas_tint_depths: texture_depth_2d;
 
-// Texels each way. `map`: MAP_*.
+// The size of a map in texels. `map`: MAP_*.
 fn map_size(map: u32) -> vec2f {
     if map == MAP_CASCADES {
         return vec2f(textureDimensions(cascade_map));
@@ -40,7 +40,7 @@ fn stored_tint_depth(map: u32, texel: vec2i) -> f32 {
     return textureLoad(atlas_tint_depths, texel, 0);
 }
 
-// How much what the map stores changes at a point, per texel: the bias of gradient shadow maps follows it.
+// The gradient of the stored depth at a point, per texel, for gradient biases.
 fn stored_gradient(map: u32, uv: vec2f) -> f32 {
     let size_px = map_size(map);
     let at = vec2i(clamp(floor(uv * size_px), vec2f(1.0), size_px - 2.0));

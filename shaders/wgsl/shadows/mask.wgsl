@@ -1,10 +1,10 @@
-// The technique `screen` where all that is lit is on the screen mask: one texel is read, and nothing is known of how it came
-// about.
+// The technique `screen` where everything lit is covered by the screen mask: it reads one texel, independent of the collected
+// technique.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::layers::{MaskLayers, mask_layer, UNMASKED}
 
-// A layer a light.
+// One layer per light.
 @group(1) @binding(MASK) var shadow_mask: texture_2d_array<f32>;
 @group(1) @binding(LAYERS) var<uniform> mask_layers: MaskLayers;
 

@@ -1,8 +1,8 @@
-// The filter of techniques whose maps hold moments of depth: how much of the light gets to a point follows from the mean of
-// moments around it. What the moments are, and what follows from them, is the module shadowgraph::shadows::encoding.
+// The filter of techniques with moment maps: the visibility follows from the mean of the moments around a point. The module
+// shadowgraph::shadows::encoding defines the moments and the visibility that they give.
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
-#import shadowgraph::shadows::encoding::{unpacked, lit_of}
+#import shadowgraph::shadows::encoding::{unpacked, visibility_of}
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::moment_params::{MomentParams, linear_depth}
 #import shadowgraph::shadows::tiles::shadow_views
@@ -19,7 +19,8 @@ fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
     return unpacked(textureLoad(atlas_moments, texel, mip));
 }
 
-// Of the finest size, whose sides are powers of two: some drivers ask one pixel of many which mip is meant.
+// Computed from the finest size, whose sides are powers of two: some drivers take the mip of textureDimensions from one pixel
+// of a group.
 fn size_of(map: u32, mip: u32) -> vec2f {
     if map == MAP_CASCADES {
         return vec2f(textureDimensions(cascade_moments) >> vec2u(mip));
@@ -27,19 +28,19 @@ fn size_of(map: u32, mip: u32) -> vec2f {
     return vec2f(textureDimensions(atlas_moments) >> vec2u(mip));
 }
 
-// Mixed between four texels. Points that a tile covers are at least a texel away from its edge.
-fn mixed(map: u32, uv: vec2f, mip: u32) -> vec4f {
+// Bilinear filtering. Points that a tile covers are at least a texel away from its edge.
+fn bilinear(map: u32, uv: vec2f, mip: u32) -> vec4f {
     let at = uv * size_of(map, mip) - 0.5;
     let base = floor(at);
-    let part = at - base;
+    let fraction = at - base;
     let texel = vec2i(base);
-    let top = mix(stored(map, texel, mip), stored(map, texel + vec2i(1, 0), mip), part.x);
-    let bottom = mix(stored(map, texel + vec2i(0, 1), mip), stored(map, texel + vec2i(1, 1), mip), part.x);
-    return mix(top, bottom, part.y);
+    let top = mix(stored(map, texel, mip), stored(map, texel + vec2i(1, 0), mip), fraction.x);
+    let bottom = mix(stored(map, texel + vec2i(0, 1), mip), stored(map, texel + vec2i(1, 1), mip), fraction.x);
+    return mix(top, bottom, fraction.y);
 }
 
-// How many texels of moments lie across a pixel of the picture: between what the longer and what the shorter side says.
-fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
+// Moment texels texels_per_pixel a pixel of the screen: the geometric mean of both axes.
+fn texels_per_pixel_at(shadow_view: ShadowView, receiver: Receiver) -> f32 {
     var distance = 1.0;
     if shadow_view.light.w != 0.0 {
         distance = length(shadow_view.light.xyz - receiver.position);
@@ -49,20 +50,20 @@ fn texels_across(shadow_view: ShadowView, receiver: Receiver) -> f32 {
     return pixel_world / max(texel_world, 1e-9);
 }
 
-// How much of the light gets to a point: 0 (in shadow) to 1.
+// The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
-    let across = texels_across(shadow_view, receiver);
-    let level = select(0.0, min(log2(across), f32(params.mips - 1u)), across > 1.0);
+    let texels_per_pixel = texels_per_pixel_at(shadow_view, receiver);
+    let level = select(0.0, min(log2(texels_per_pixel), f32(params.mips - 1u)), texels_per_pixel > 1.0);
     let mip = u32(level);
-    var moments = mixed(light.map, lookup.uv, mip);
+    var moments = bilinear(light.map, lookup.uv, mip);
     if level > f32(mip) {
-        moments = mix(moments, mixed(light.map, lookup.uv, mip + 1u), level - f32(mip));
+        moments = mix(moments, bilinear(light.map, lookup.uv, mip + 1u), level - f32(mip));
     }
-    // A quarter of the way that is read is left to the receiver's own plane, and to the foot of lit walls; tents take more.
-    let reach = 0.25 * f32(params.downscale * (params.radius + 1u)) * exp2(level);
+    // Bias by a quarter of the filter radius for the receiver's plane and for the foot of lit walls; tent filters need more.
+    let bias_texels = 0.25 * f32(params.downscale * (params.radius + 1u)) * exp2(level);
     let slope = lookup.plane.slope;
-    let rise = reach * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
+    let rise = bias_texels * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
     let depth = min(lookup.plane.depth + rise, 1.0);
-    return lit_of(params, moments, linear_depth(shadow_view, depth));
+    return visibility_of(params, moments, linear_depth(shadow_view, depth));
 }

@@ -1,5 +1,5 @@
 // The moments of the technique `msm`: the first four powers of depth, in 16 bits each (Peters and Klein, "Moment Shadow Mapping",
-// 2015). The sharpest bound that four moments allow says how much of what lies around a point is farther away than the point.
+// 2015). The sharpest bound that four moments allow gives the fraction of the filter that is farther away than the point.
 #define_import_path shadowgraph::shadows::encoding
 #import shadowgraph::shadows::moment_params::MomentParams
 
@@ -10,7 +10,7 @@ fn moments_of(params: MomentParams, depth: f32) -> vec4f {
     return vec4f(z, square, square * z, square * square);
 }
 
-// The paper's transform: mixtures of moments that use the range from 0 to 1 well, so that rounding costs least.
+// The paper's transform: combinations of moments that use the range from 0 to 1 well, to reduce rounding errors.
 const QUANTIZED_FROM_MOMENTS = mat4x4f(
     vec4f(-2.07224649, 13.7948857237, 0.105877704, 9.7924062118),
     vec4f(32.23703778, -59.4683975703, -1.9077466311, -33.7652110555),
@@ -25,7 +25,7 @@ const MOMENTS_FROM_QUANTIZED = mat4x4f(
 );
 const QUANTIZED_OFFSET = vec4f(0.035955884801, 0.0, 0.0, 0.0);
 
-// As a texel holds them.
+// The encoding in a texel.
 fn packed(moments: vec4f) -> vec4u {
     let quantized = QUANTIZED_FROM_MOMENTS * moments + QUANTIZED_OFFSET;
     return vec4u(pack2x16unorm(quantized.xy), pack2x16unorm(quantized.zw), 0u, 0u);
@@ -36,20 +36,20 @@ fn unpacked(texel: vec4u) -> vec4f {
     return MOMENTS_FROM_QUANTIZED * (quantized - QUANTIZED_OFFSET);
 }
 
-const SMALLEST: f32 = 1e-12;
+const EPSILON: f32 = 1e-12;
 
 // The paper's algorithm 4, *Hamburger four moment shadow mapping*.
-fn lit_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
-    // Away from what rounding may have made of them: towards moments that any depths could have.
+fn visibility_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
+    // Biases the moments against rounding errors, towards moments that are always valid.
     let b = mix(moments, vec4f(0.5), params.bias);
     // The Cholesky factors of the moments' matrix.
     let l32_d22 = b.z - b.x * b.y;
     let d22 = b.y - b.x * b.x;
     let variance_of_square = b.w - b.y * b.y;
-    // One depth alone, at an end of the range, has none.
-    let d33_d22 = max(variance_of_square * d22 - l32_d22 * l32_d22, SMALLEST);
+    // It is 0 for a single depth at an end of the range.
+    let d33_d22 = max(variance_of_square * d22 - l32_d22 * l32_d22, EPSILON);
     let l32 = l32_d22 / d22;
-    // Of the polynomial whose roots are where depths can be that shadow the point as much as moments allow.
+    // Coefficients of the polynomial whose roots are the depths that shadow the point as much as the moments allow.
     var c = vec3f(1.0, depth, depth * depth);
     c.y -= b.x;
     c.z -= b.y + l32 * c.y;
@@ -57,18 +57,18 @@ fn lit_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
     c.z *= d22 / d33_d22;
     c.y -= l32 * c.z;
     c.x -= dot(c.yz, b.xy);
-    let highest = select(c.z, SMALLEST, abs(c.z) < SMALLEST);
+    let highest = select(c.z, EPSILON, abs(c.z) < EPSILON);
     let p = c.y / highest;
     let q = c.x / highest;
     let root = sqrt(max(0.25 * p * p - q, 0.0));
     let z1 = -0.5 * p - root;
     let z2 = -0.5 * p + root;
-    // How much lies nearer to the light than the point.
+    // The fraction that is nearer to the light than the point.
     var blocked = 0.0;
     if z2 < depth {
-        blocked = 1.0 + (z1 * z2 - b.x * (z1 + z2) + b.y) / min((z2 - depth) * (depth - z1), -SMALLEST);
+        blocked = 1.0 + (z1 * z2 - b.x * (z1 + z2) + b.y) / min((z2 - depth) * (depth - z1), -EPSILON);
     } else if z1 < depth {
-        blocked = (depth * z2 - b.x * (depth + z2) + b.y) / max((z2 - z1) * (depth - z1), SMALLEST);
+        blocked = (depth * z2 - b.x * (depth + z2) + b.y) / max((z2 - z1) * (depth - z1), EPSILON);
     }
     return saturate(1.0 - blocked / (1.0 - params.bleed));
 }

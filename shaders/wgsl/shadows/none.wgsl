@@ -1,4 +1,4 @@
-// The technique that casts no shadow. It needs no bindings.
+// The technique without shadows. It has no bindings.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
 

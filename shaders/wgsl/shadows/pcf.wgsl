@@ -1,4 +1,4 @@
-// The filter of the technique `pcf`: a tent of comparisons, with biases in each tap's own place.
+// The filter of the technique `pcf`: a tent of comparisons, each with a bias for its position.
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
@@ -7,26 +7,26 @@
 #import shadowgraph::shadows::types::{ShadowLight, MAP_CASCADES, BIAS_GRADIENT}
 #import shadowgraph::shadows::variant::FILTER_TAPS
 
-// Linear, GreaterEqual: lit where the point is at least as near to the light as what the map has.
+// Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
 @group(1) @binding(8) var shadow_sampler: sampler_comparison;
 
-// How much of the map around a point is not nearer to the light than the point: 0 (in shadow) to 1.
+// The visibility of the light from a point, the fraction of the filter that is not nearer to the light: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;
     var plane = lookup.plane;
     let size_px = map_size(light.map);
     if light.bias_method == BIAS_GRADIENT {
-        plane.depth += lookup.gradient_bias * min(stored_gradient(light.map, lookup.uv), lookup.steepest);
+        plane.depth += lookup.gradient_bias * min(stored_gradient(light.map, lookup.uv), lookup.max_gradient);
     }
     let taps = select(FILTER_TAPS, light.filter_taps, FILTER_TAPS == 0u);
     let half = max(light.filter_half - light.filter_falloff * receiver.view_depth, 0.5);
     let at = lookup.uv * size_px;
-    // Centre of the texel up and left of the point, and how far the point is past it.
+    // Centre of the texel up and left of the point, and the offset of the point from it.
     let base = floor(at + 0.5) - 0.5;
     let s = at - base;
     let x_axis = tent_axis(taps, half, s.x, plane.slope.x);
     let y_axis = tent_axis(taps, half, s.y, plane.slope.y);
-    var lit = 0.0;
+    var visibility = 0.0;
     for (var y = 0u; y < taps; y++) {
         for (var x = 0u; x < taps; x++) {
             let tap = vec2f(x_axis.offset[x], y_axis.offset[y]);
@@ -38,8 +38,8 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
             } else {
                 compared = textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
             }
-            lit += x_axis.weight[x] * y_axis.weight[y] * compared;
+            visibility += x_axis.weight[x] * y_axis.weight[y] * compared;
         }
     }
-    return lit;
+    return visibility;
 }

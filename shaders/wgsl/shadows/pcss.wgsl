@@ -1,5 +1,5 @@
-// The filter of the technique `pcss`: edges as wide as the light's size makes them (Fernando, "Percentage-Closer Soft Shadows",
-// 2005). Taps lie on a Vogel spiral that is turned from pixel to pixel.
+// The filter of the technique `pcss`: penumbrae with a width that follows from the light's size (Fernando, "Percentage-Closer Soft
+// Shadows", 2005). Taps lie on a Vogel spiral that is rotated per pixel.
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::receiver::Receiver
@@ -11,68 +11,68 @@
 
 // 20 bytes.
 struct SoftLights {
-    // Of directional lights: the tangent of half the angle they take up in the sky.
+    // Directional lights: the tangent of the angular radius.
     sun_radius: f32,
-    // Of others, metres.
+    // Spot and point lights: the radius in metres.
     punctual_radius: f32,
-    // The most that an edge is softened to either side.
+    // The largest filter radius.
     max_texels: f32,
     blocker_taps: u32,
     filter_taps: u32,
 }
 
-// Linear, GreaterEqual: lit where the point is at least as near to the light as what the map has.
+// Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
 @group(1) @binding(8) var shadow_sampler: sampler_comparison;
 @group(1) @binding(9) var<uniform> soft_lights: SoftLights;
 
 const GOLDEN_ANGLE: f32 = 2.39996323;
-const TURN: f32 = 6.28318531;
-// An edge in a map is never sharper than its texels.
-const LEAST_TEXELS: f32 = 0.7;
+const TAU: f32 = 6.28318531;
+// The least filter radius: an edge in a map is never sharper than its texels.
+const MIN_TEXELS: f32 = 0.7;
 
-// Within a circle of radius 1.
-fn spiral(tap: u32, count: u32, turn: f32) -> vec2f {
-    let angle = f32(tap) * GOLDEN_ANGLE + turn;
+// A point in the unit disc.
+fn spiral(tap: u32, count: u32, rotation: f32) -> vec2f {
+    let angle = f32(tap) * GOLDEN_ANGLE + rotation;
     return sqrt((f32(tap) + 0.5) / f32(count)) * vec2f(cos(angle), sin(angle));
 }
 
-// Metres from a spot or point light along the tile's axis.
+// Distance from a spot or point light along the tile's axis, metres.
 fn axis_distance(shadow_view: ShadowView, depth: f32) -> f32 {
     let far = shadow_view.near_m + shadow_view.depth_range_m;
     return shadow_view.near_m * far / (shadow_view.near_m + depth * shadow_view.depth_range_m);
 }
 
-// How wide an edge is to either side, texels, if what casts it has this depth.
-fn edge_texels(shadow_view: ShadowView, point: f32, blocker: f32) -> f32 {
+// The half width of the penumbra in texels, for a blocker at this depth.
+fn penumbra_texels(shadow_view: ShadowView, point: f32, blocker: f32) -> f32 {
     if shadow_view.light.w == 0.0 {
-        let way_m = (blocker - point) * shadow_view.depth_range_m;
-        return soft_lights.sun_radius * way_m / shadow_view.texel_world;
+        let distance_m = (blocker - point) * shadow_view.depth_range_m;
+        return soft_lights.sun_radius * distance_m / shadow_view.texel_world;
     }
     let near_m = axis_distance(shadow_view, blocker);
     let far_m = axis_distance(shadow_view, point);
     return soft_lights.punctual_radius * (far_m - near_m) / (near_m * far_m * shadow_view.texel_world);
 }
 
-// The depth that a tap so many texels beside the point is compared with: the nearest of the texels that it reads.
+// The reference depth of a tap at an offset in texels: the nearest of the texels that it reads.
 fn tap_depth(lookup: Lookup, tap: vec2f) -> f32 {
     let slope = lookup.plane.slope;
     return tent_depth(lookup.plane, abs(dot(slope, tap)) + 0.5 * (abs(slope.x) + abs(slope.y)), tap);
 }
 
-// How much of the light is seen from a point: 0 (in shadow) to 1.
+// The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let size_px = map_size(light.map);
     let at = lookup.uv * size_px;
-    let turn = TURN * pixel_noise(receiver.pixel);
+    let rotation = TAU * pixel_noise(receiver.pixel);
 
-    // What is in the way, and how far from the point it is on average.
-    let widest = clamp(edge_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, soft_lights.max_texels);
+    // Blocker search: the mean depth of the blockers.
+    let widest = clamp(penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, soft_lights.max_texels);
     var blockers = 0.0;
     var depths = 0.0;
     for (var i = 0u; i < soft_lights.blocker_taps; i++) {
-        let tap = widest * spiral(i, soft_lights.blocker_taps, turn);
+        let tap = widest * spiral(i, soft_lights.blocker_taps, rotation);
         let stored = stored_depth(light.map, vec2i(floor(at + tap)));
         if stored > tap_depth(lookup, tap) {
             blockers += 1.0;
@@ -83,18 +83,18 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
         return 1.0;
     }
 
-    let edge = edge_texels(shadow_view, lookup.plane.depth, depths / blockers);
-    let radius = clamp(edge, LEAST_TEXELS, soft_lights.max_texels);
-    var lit = 0.0;
+    let penumbra = penumbra_texels(shadow_view, lookup.plane.depth, depths / blockers);
+    let radius = clamp(penumbra, MIN_TEXELS, soft_lights.max_texels);
+    var visibility = 0.0;
     for (var i = 0u; i < soft_lights.filter_taps; i++) {
-        let tap = radius * spiral(i, soft_lights.filter_taps, turn);
+        let tap = radius * spiral(i, soft_lights.filter_taps, rotation);
         let uv = (at + tap) / size_px;
         let depth = tap_depth(lookup, tap);
         if in_cascades {
-            lit += textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
+            visibility += textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
         } else {
-            lit += textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
+            visibility += textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
         }
     }
-    return lit / f32(soft_lights.filter_taps);
+    return visibility / f32(soft_lights.filter_taps);
 }

@@ -1,10 +1,10 @@
-// The technique `raytraced`: shadows by rays through the scene's triangles. What the picture shows is looked up
-// in a screen mask that raytrace.wgsl has written, everything else is traced in place.
+// The technique `raytraced`: shadows by rays through the scene's triangles. Visible surfaces read the screen mask that
+// raytrace.wgsl has written; everything else is traced in place.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN}
 #import shadowgraph::shadows::traced::{traced, traced_visibility, TRACED_LIT, TRACED_UNMASKED}
 
-// A layer a light.
+// One layer per light.
 @group(1) @binding(6) var shadow_mask: texture_2d_array<f32>;
 
 fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {

@@ -1,17 +1,17 @@
-// The technique `screen`: what the picture shows is looked up in a screen mask that collect.wgsl has written; everything else
-// asks the technique whose shadows were collected.
+// The technique `screen`: visible surfaces read the screen mask that collect.wgsl has written; everything else evaluates the
+// collected technique.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN, RECEIVER_COARSER}
 #import shadowgraph::shadows::layers::{MaskLayers, mask_layer, UNMASKED}
 #import shadowgraph::collected
 
-// A layer a light.
+// One layer per light.
 @group(1) @binding(MASK) var shadow_mask: texture_2d_array<f32>;
 @group(1) @binding(LAYERS) var<uniform> mask_layers: MaskLayers;
 
 fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
-    let beside = RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN | RECEIVER_COARSER;
-    if (receiver.flags & beside) == 0u {
+    let off_mask = RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN | RECEIVER_COARSER;
+    if (receiver.flags & off_mask) == 0u {
         let layer = mask_layer(mask_layers, light);
         if layer != UNMASKED {
             return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;

@@ -1,4 +1,4 @@
-// Finds the tiles of shadow maps that a point is read from, and how much each of them counts.
+// Finds the shadow map tiles that a point is read from, and their weights.
 #define_import_path shadowgraph::shadows::tiles
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::receiver::{Receiver, RECEIVER_COARSER}
@@ -11,18 +11,18 @@
 @group(1) @binding(1) var<storage, read> shadow_lights: array<ShadowLight>;
 
 // +X, -X, +Y, -Y, +Z, -Z.
-fn cube_face(way: vec3f) -> u32 {
-    let size = abs(way);
+fn cube_face(direction: vec3f) -> u32 {
+    let size = abs(direction);
     if size.x >= size.y && size.x >= size.z {
-        return select(0u, 1u, way.x < 0.0);
+        return select(0u, 1u, direction.x < 0.0);
     }
     if size.y >= size.z {
-        return select(2u, 3u, way.y < 0.0);
+        return select(2u, 3u, direction.y < 0.0);
     }
-    return select(4u, 5u, way.z < 0.0);
+    return select(4u, 5u, direction.z < 0.0);
 }
 
-// Which of the light's views, from `first` on, a point is read from; view_count, the view of nothing, where none is.
+// The index of the light's view, from `first` on, that a point is read from; view_count, the empty view, if there is none.
 fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
     var chosen = light.view_count;
     if light.select == SELECT_FACE {
@@ -37,7 +37,7 @@ fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
         }
         return chosen;
     }
-    // As many views as end before the point.
+    // The number of views that end before the point.
     chosen = 0u;
     for (var i = 0u; i < light.view_count; i++) {
         chosen += select(0u, 1u, receiver.view_depth >= shadow_views[light.first_view + i].end_m);
@@ -45,7 +45,7 @@ fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
     return max(chosen, first);
 }
 
-// How the point is looked up in one of the light's views, from `first` on.
+// The lookup of a point in the light's views, from `first` on.
 fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
     var lookup: Lookup;
     var begin = first;
@@ -54,7 +54,7 @@ fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
         begin = select_view(light, receiver, first);
         end = begin + 1u;
     }
-    // The first that covers the point has the finest texels.
+    // The first view that covers the point has the finest texels.
     for (var i = begin; i < end; i++) {
         lookup = look_up(shadow_views[light.first_view + i], light, receiver);
         lookup.view = i;
@@ -65,8 +65,8 @@ fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
     return lookup;
 }
 
-// 1 within a view, falling to 0 over the outer `fraction` of it.
-fn inner_part(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction: f32) -> f32 {
+// 1 inside a view, falling to 0 over its outer `fraction`.
+fn inner_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction: f32) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     if light.select == SELECT_SPHERE {
         let offset = receiver.position - shadow_view.center;
@@ -83,32 +83,32 @@ fn inner_part(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction: 
     return saturate(2.0 * min(min(to_edge.x, to_edge.y), min(depth, 1.0 - depth)) / fraction);
 }
 
-// How much of the shadows is left at this distance: all of it before the fade begins, nothing at its end.
+// The strength of shadows at this view depth: full before the fade begins, 0 at its end.
 fn shadow_fade(light: ShadowLight, view_depth: f32) -> f32 {
     return light.strength * saturate((light.fade_end_m - view_depth) * light.fade_per_m);
 }
 
-// What is left of the shadows at the outer edge of the last view.
+// The strength of shadows at the outer edge of the last view.
 fn edge_fade(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     if light.edge_fade <= 0.0 || lookup.view + 1u != light.view_count {
         return 1.0;
     }
-    return inner_part(light, receiver, lookup, light.edge_fade);
+    return inner_weight(light, receiver, lookup, light.edge_fade);
 }
 
-// How much what one view says counts where the next one covers the point too: less in its outer part.
+// The weight of a view where the next one covers the point too: lower near its edge.
 fn blend_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     if (receiver.flags & RECEIVER_COARSER) != 0u {
         return 0.0;
     }
-    let inner = inner_part(light, receiver, lookup, light.blend_fraction);
+    let inner = inner_weight(light, receiver, lookup, light.blend_fraction);
     if light.blend == BLEND_DITHER {
         return select(0.0, 1.0, pixel_noise(receiver.pixel) < inner);
     }
     return inner;
 }
 
-// The view that a point is read from, the next one, and how much the first counts: all, where there is no next one.
+// The view that a point is read from, the next one, and the weight of the first; 1 if there is no next one.
 struct Blend {
     first: Lookup,
     next: Lookup,

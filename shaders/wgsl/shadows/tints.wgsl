@@ -1,4 +1,4 @@
-// The colour of the light that gets to a point through translucent casters: a map of colours beside that of depths, as in Filion and
+// The tint of light that reaches a point through translucent casters: a colour map next to the depth map, as in Filion and
 // McNaughton, "StarCraft II: Effects & Techniques" (SIGGRAPH 2008).
 #define_import_path shadowgraph::shadows::tints
 #import shadowgraph::receiver::Receiver
@@ -8,8 +8,8 @@
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::ShadowLight
 
-// What of the light is left, 0 to 1 each: the mean over the texels around the point from which light does get there. Those that are
-// blocked are the filter's affair.
+// The transmittance, 0 to 1 each: the mean over the texels around the point that are not blocked. Blocked texels are left to the
+// filter.
 fn tint(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
     if shadow_views[light.first_view + lookup.view].is_tinted == 0u {
         return vec3f(1.0);
@@ -21,8 +21,8 @@ fn tint(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
     let first = floor(at - 0.5);
     let s = at - 0.5 - first;
     let slope = lookup.plane.slope;
-    var lit = 0.0;
-    var passed = vec3f(0.0);
+    var unblocked_weight = 0.0;
+    var transmitted = vec3f(0.0);
     for (var y = 1 - taps; y <= taps; y++) {
         let down = f32(y) - s.y;
         let height = tent_integral(down + 0.5, half) - tent_integral(down - 0.5, half);
@@ -35,13 +35,13 @@ fn tint(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
             if depth < stored_depth(light.map, texel) {
                 continue;
             }
-            lit += weight;
+            unblocked_weight += weight;
             if depth < stored_tint_depth(light.map, texel) {
-                passed += weight * stored_tint(light.map, texel);
+                transmitted += weight * stored_tint(light.map, texel);
             } else {
-                passed += weight;
+                transmitted += weight;
             }
         }
     }
-    return select(vec3f(1.0), passed / max(lit, 1e-6), lit > 0.0);
+    return select(vec3f(1.0), transmitted / max(unblocked_weight, 1e-6), unblocked_weight > 0.0);
 }

@@ -1,4 +1,4 @@
-// What is known of each shadow view (a tile of a map) and of each light's shadows.
+// Data of each shadow view (a tile of a map) and of each light's shadows.
 // World is relative to the frame's origin. Depth is reversed: 1 nearest to the light, 0 farthest.
 #define_import_path shadowgraph::shadows::types
 
@@ -6,21 +6,21 @@
 struct ShadowView {
     // To the tile: x and y -w to w, y up.
     clip_from_world: mat4x4f,
-    // To the map: x/w and y/w 0 to 1 over all of it, y down. All zeros: the view of nothing.
+    // To the map: x/w and y/w 0 to 1 over all of it, y down. All zeros: the empty view.
     map_from_world: mat4x4f,
-    // The tile without its border, in parts of the map: around points in here the filter stays in the tile.
+    // The tile without its border, in texture coordinates: around points inside, the filter stays in the tile.
     uv_min: vec2f,
     uv_max: vec2f,
-    // The way to the light (w 0, unit length), or the light's position (w 1).
+    // The direction to the light (w 0, unit length), or the light's position (w 1).
     light: vec4f,
-    // The sphere that the tile was made for.
+    // The bounding sphere that the tile covers.
     center: vec3f,
     radius: f32,
     // Width of a texel, metres; for a spot light at 1 m along its axis.
     texel_world: f32,
-    // How much depth changes over the width of a texel towards the light; for a spot light times the distance.
+    // Change of depth over the width of a texel towards the light; for a spot light multiplied by the distance.
     depth_per_texel: f32,
-    // What rows 0 and 1 of clip_from_world are to be multiplied by to get the light's unit axes.
+    // Factor of rows 0 and 1 of clip_from_world that gives the light's unit axes.
     axis_scale: f32,
     // Metres from depth 1 to depth 0.
     depth_range_m: f32,
@@ -28,16 +28,16 @@ struct ShadowView {
     near_m: f32,
     // NOT_A_CASCADE in the atlas.
     cascade: u32,
-    // View depths of the cascade's own part, metres.
+    // View depths of the cascade's split, metres.
     begin_m: f32,
     end_m: f32,
     // Left, top, width, height.
     tile_px: vec4u,
-    // What biases are multiplied by.
+    // Factor of all biases.
     bias_scale: f32,
-    // How far apart two depths are that the map can tell apart.
+    // The smallest difference of depths that the map resolves.
     depth_step: f32,
-    // What is added to a pixel of the map to get its texel in the world, modulo 1024.
+    // Offset from a pixel of the map to its world-aligned texel, modulo 1024.
     noise_px: vec2u,
     // 1: translucent casters are drawn into it.
     is_tinted: u32,
@@ -63,27 +63,27 @@ struct ShadowLight {
     bias_method: u32,
     // 1: the bias along the normal is scaled by the sine of the angle between normal and light.
     normal_sine: u32,
-    // How dark the shadows are, 0 to 1.
+    // Opacity of the shadows, 0 to 1.
     strength: f32,
-    // How far a receiver is moved along its normal, texels.
+    // Offset of receivers along their normal, texels.
     normal_bias_texels: f32,
-    // How far a tap is moved towards the light, in parts of the depth change that bias_method follows.
+    // Offset of taps towards the light, relative to the slope that bias_method follows.
     slope_bias: f32,
-    // The flattest depth change that taps allow for in every direction, texels per texel.
+    // The least slope that taps allow for in every direction, texels per texel.
     min_slope: f32,
-    // The steepest depth change that slope_bias follows, texels per texel.
+    // The largest slope that slope_bias follows, texels per texel.
     max_slope: f32,
-    // How far all taps are moved towards the light, texels.
+    // Constant offset of all taps towards the light, texels.
     depth_bias_texels: f32,
     // View depth where the shadows end, metres.
     fade_end_m: f32,
-    // How fast they fade out before that.
+    // Rate of the fade before that.
     fade_per_m: f32,
     // The outer part of a view that is blended with the next.
     blend_fraction: f32,
     // The outer part of the last view over which shadows fade out; 0: none.
     edge_fade: f32,
-    // Half the width of the filter's tent at the camera, texels, and how much narrower it gets with each metre of view depth.
+    // Half the width of the filter's tent at the camera, texels, and its decrease per metre of view depth.
     filter_half: f32,
     filter_falloff: f32,
 }
@@ -91,8 +91,8 @@ struct ShadowLight {
 const MAP_CASCADES: u32 = 0u;
 const MAP_ATLAS: u32 = 1u;
 
-// The first view that covers the point, the first whose sphere holds it, the one whose view depths it is in, or the face of
-// a cube. After the last view of SELECT_SPHERE and SELECT_DEPTH there is a view of nothing.
+// The first view that covers the point, the first whose sphere contains it, the one whose view depths contain it, or a cube
+// face. After the last view of SELECT_SPHERE and SELECT_DEPTH there is an empty view.
 const SELECT_MAP: u32 = 0u;
 const SELECT_SPHERE: u32 = 1u;
 const SELECT_DEPTH: u32 = 2u;
@@ -102,7 +102,7 @@ const BLEND_HARD: u32 = 0u;
 const BLEND_SOFT: u32 = 1u;
 const BLEND_DITHER: u32 = 2u;
 
-// Along the receiver's plane, by the receiver's slope, by the map's own gradient.
+// Along the receiver's plane, by the receiver's slope, by the map's gradient.
 const BIAS_PLANE: u32 = 0u;
 const BIAS_SLOPE: u32 = 1u;
 const BIAS_GRADIENT: u32 = 2u;

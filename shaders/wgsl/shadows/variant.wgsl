@@ -1,7 +1,7 @@
-// What a frame's shadows need of the shader: here everything. A frame that needs less puts another module in its place.
+// Shader features that a frame's shadows need: here all. A frame that needs fewer replaces this module.
 #define_import_path shadowgraph::shadows::variant
 
-// Comparisons along each axis that the filters of all lights make, 1 to 4; 0: those of some lights are different ones.
+// Comparisons along each axis in the filters of all lights, 1 to 4; 0: lights differ.
 const FILTER_TAPS: u32 = 0u;
-// Whether there are shadows at all.
+// Whether the frame has shadows.
 const SHADOWED: bool = true;
