@@ -29,27 +29,27 @@ pub fn device_is_lost(device: &wgpu::Device) -> bool {
         mapped_at_creation: false,
     });
     buffer.map_async(wgpu::MapMode::Write, .., drop);
-    now(scope.pop()).is_some()
+    poll_once(scope.pop()).is_some()
 }
 
 /// Creates a texture or buffer of `bytes` bytes, or returns why it cannot. `name` is for the error.
-pub(crate) fn make<T>(
+pub(crate) fn create_checked<T>(
     device: &wgpu::Device,
     name: &str,
     bytes: u64,
-    make: impl FnOnce(&wgpu::Device) -> T,
+    create: impl FnOnce(&wgpu::Device) -> T,
 ) -> Result<T, Error> {
     let scope = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-    let made = make(device);
-    if now(scope.pop()).is_some() {
+    let created = create(device);
+    if poll_once(scope.pop()).is_some() {
         return Err(Error::OutOfMemory { resource: name.into(), bytes });
     }
-    if device_is_lost(device) { Err(Error::DeviceLost) } else { Ok(made) }
+    if device_is_lost(device) { Err(Error::DeviceLost) } else { Ok(created) }
 }
 
 /// Returns the result of a future that is ready immediately. In browsers error scopes are not; there wgpu's errors go to
 /// the console instead.
-pub(crate) fn now<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
+pub(crate) fn poll_once<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
     match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(result) => result,
         Poll::Pending => None,

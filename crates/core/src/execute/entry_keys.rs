@@ -26,7 +26,7 @@ pub(super) fn entry_key(resources: &Resources<'_>, entry: &Bind<'_>) -> Option<E
     }
 }
 
-/// Returns whether an entry binds what the key stands for. A token of another frame or pass never does.
+/// Returns whether an entry binds what the key identifies. A token of another frame or pass never does.
 pub(super) fn matches(key: &EntryKey, resources: &Resources<'_>, entry: &Bind<'_>) -> bool {
     let recording = resources.recording;
     let same = |token: &Token, access: u32| token.frame == recording.frame && token.access == access;

@@ -1,5 +1,5 @@
 //! A debug mode: reused memory and discarded attachments are filled with conspicuous values, so that a read of contents
-//! that nobody wrote shows at once.
+//! that nobody wrote is visible immediately.
 
 use super::record::Recording;
 use crate::access::ClearValue;

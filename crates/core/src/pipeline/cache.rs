@@ -30,8 +30,8 @@ struct Table<K, P>(FxHashMap<u64, Vec<Entry<K, P>>>);
 
 /// The pipelines of one-line passes, for one device.
 ///
-/// A pipeline is expensive to create, so it stays as long as its shader is still held by somebody. After that it is
-/// dropped when it has been idle as long as other objects are kept: that serves shaders that are created in each frame.
+/// A pipeline is expensive to create, so it is kept while its shader exists elsewhere. After that it is dropped when idle, like
+/// other objects, so that shaders that are created in each frame find their pipelines too.
 #[derive(Default)]
 pub(crate) struct PipelineCache {
     frame: u64,

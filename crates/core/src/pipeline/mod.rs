@@ -1,4 +1,4 @@
-//! Shaders as they are handed over, and the pipelines that are made of them.
+//! Shaders of fullscreen and compute passes, and their pipelines.
 
 mod cache;
 mod shader;

@@ -1,7 +1,7 @@
-//! Shaders as they are handed over.
+//! Shaders of fullscreen and compute passes.
 
 use super::validation::describe;
-use crate::device::now;
+use crate::device::poll_once;
 use crate::error::Error;
 use rustc_hash::FxHasher;
 use std::borrow::Cow;
@@ -71,7 +71,7 @@ impl ProgrammableStage {
         // For what only the driver rejects.
         let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
         let created = create();
-        let errors = [now(internal.pop()), now(validation.pop())];
+        let errors = [poll_once(internal.pop()), poll_once(validation.pop())];
         match errors.into_iter().flatten().next() {
             None => Ok(created),
             Some(error) => Err(self.error(format!("{prefix}{}", describe(&error)))),
@@ -93,7 +93,7 @@ macro_rules! shader {
                 Self(Arc::new(ProgrammableStage::new(name.into(), Source::Wgsl(text.into()))))
             }
 
-            /// Creates a shader from a module of yours, such as one that a shader composer made.
+            /// Creates a shader from an existing module, such as one from a shader composer.
             pub fn module(name: impl Into<Cow<'static, str>>, module: &wgpu::ShaderModule) -> Self {
                 Self(Arc::new(ProgrammableStage::new(name.into(), Source::Module(module.clone()))))
             }

@@ -155,7 +155,7 @@ fn check_colors(plan: &Plan, limits: &wgpu::Limits) -> Result<(), Error> {
         let mut bytes = 0u32;
         for access in colors() {
             let ResourceDesc::Texture(desc) = plan.decl.resource(access.resource).desc else { continue };
-            // WebGPU adds them up so: each begins at a multiple of its own alignment.
+            // By the rules of WebGPU, each begins at a multiple of its alignment.
             bytes = bytes.next_multiple_of(desc.format.target_component_alignment().unwrap_or(1));
             bytes += desc.format.target_pixel_byte_cost().unwrap_or(0);
             let allowed = limits.max_color_attachment_bytes_per_sample;

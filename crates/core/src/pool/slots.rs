@@ -2,7 +2,7 @@
 
 use super::check_limit;
 use crate::desc::{BufferDesc, ResourceDesc, TextureDesc};
-use crate::device::make;
+use crate::device::create_checked;
 use crate::error::Error;
 use crate::plan::Slot;
 use rustc_hash::FxHashMap;
@@ -139,7 +139,7 @@ fn create(device: &wgpu::Device, slot: &Slot, label: &str) -> Result<PhysicalRes
                 usage: slot.buffer_usage,
                 mapped_at_creation: false,
             };
-            Ok(PhysicalResource::Buffer(make(device, label, desc.size, |device| {
+            Ok(PhysicalResource::Buffer(create_checked(device, label, desc.size, |device| {
                 device.create_buffer(&desc)
             })?))
         }
@@ -171,7 +171,7 @@ pub(crate) fn create_texture(
         usage,
         view_formats: &[],
     };
-    make(device, label, bytes, |device| device.create_texture(&desc))
+    create_checked(device, label, bytes, |device| device.create_texture(&desc))
 }
 
 fn check_texture(device: &wgpu::Device, name: &str, desc: &TextureDesc) -> Result<(), Error> {

@@ -1,6 +1,6 @@
 //! Mapped memory through which a frame's bytes reach the GPU.
 
-use crate::device::make;
+use crate::device::create_checked;
 use crate::error::Error;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -145,5 +145,5 @@ fn create(device: &wgpu::Device, bytes: u64, class: u64) -> Result<wgpu::Buffer,
         usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: true,
     };
-    make(device, "frame uploads", desc.size, |device| device.create_buffer(&desc))
+    create_checked(device, "frame uploads", desc.size, |device| device.create_buffer(&desc))
 }

@@ -47,7 +47,7 @@ fn poll(device: &wgpu::Device) {
 fn blocks_are_written_at_their_offsets_and_padded_with_zeros_to_a_multiple_of_four() {
     let (device, queue) = noop();
     let mut staging = Staging::default();
-    // Leaves bytes in the chunk that must not show up later.
+    // Leaves bytes in the chunk that must not be visible later.
     let (dirty, back) = record(&device, &mut staging, &[0xff; 300]);
     queue.submit([dirty.finish()]);
     back.wait(&device).unwrap();
@@ -160,7 +160,7 @@ fn a_chunk_of_a_rejected_submission_is_free_again() {
 }
 
 #[test]
-fn a_destroyed_device_is_survived() {
+fn a_destroyed_device_is_an_error_and_no_panic() {
     for (device, queue) in [Some(noop()), drawing()].into_iter().flatten() {
         let mut staging = Staging::default();
         let (encoder, back) = record(&device, &mut staging, &[1; 8]);

@@ -1,7 +1,7 @@
 //! The buffer that holds a frame's uniform blocks.
 
 use super::staging::Chunk;
-use crate::device::make;
+use crate::device::create_checked;
 use crate::error::Error;
 
 /// The smallest buffer in bytes.
@@ -9,7 +9,7 @@ const MIN_BYTES: u64 = 16 * 1024;
 
 /// The buffer that holds the blocks on the GPU, the same from frame to frame until it is too small.
 ///
-/// One buffer serves any number of frames in flight. A frame's blocks are copied in at the start of the encoder that
+/// One buffer is enough for any number of frames in flight. A frame's blocks are copied in at the start of the encoder that
 /// also records every pass that reads them, and a queue runs encoders one after the other, in the order of their
 /// submission: a copy waits for the reads recorded before it, and reads wait for the copy before them (wgpu inserts
 /// the barriers, since it knows every use of the buffer). So no other frame can come between a frame's copy and its
@@ -39,7 +39,8 @@ impl UniformBuffer {
             usage: Usage::UNIFORM | Usage::STORAGE | Usage::COPY_DST,
             mapped_at_creation: false,
         };
-        let buffer = make(device, "uniform blocks", desc.size, |device| device.create_buffer(&desc))?;
+        let buffer =
+            create_checked(device, "uniform blocks", desc.size, |device| device.create_buffer(&desc))?;
         self.buffer = Some(buffer.clone());
         Ok(buffer)
     }

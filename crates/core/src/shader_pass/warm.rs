@@ -17,7 +17,7 @@ impl Graph {
     ///
     /// The frame is executed with separate textures and buffers, submitted and waited for, and leaves only the pipelines
     /// and the plan behind: histories are unchanged, and imports that the frame writes are replaced by textures and
-    /// buffers of zeros, so that nothing of yours is drawn into. Side effects of bodies do happen.
+    /// buffers of zeros, so that none of your objects is drawn into. Side effects of bodies do happen.
     ///
     #[doc = include_str!("warm.md")]
     ///

@@ -59,7 +59,7 @@ fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(MAX_SIDE_PX) / u64::from(longest)).max(1) as u32)
 }
 
-/// Returns the index of the texel in the middle of those that a kept texel stands for.
+/// Returns the index of the texel in the middle of those that a kept texel represents.
 fn nearest(index: u32, kept: u32, full: u32) -> u32 {
     let middle = (2 * u64::from(index) + 1) * u64::from(full) / (2 * u64::from(kept));
     middle as u32

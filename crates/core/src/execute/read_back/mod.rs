@@ -12,7 +12,7 @@ pub use request::ReadBackRequest;
 pub(super) use source::TexturePart;
 
 use crate::desc::TextureDesc;
-use crate::device::{device_is_lost, make};
+use crate::device::{create_checked, device_is_lost};
 use crate::error::Error;
 use crate::pool::check_limit;
 use completion::{Completion, MapOutcome};
@@ -192,5 +192,5 @@ fn create_target(device: &wgpu::Device, name: &str, size: u64) -> Result<wgpu::B
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     };
-    make(device, name, size, |device| device.create_buffer(&desc))
+    create_checked(device, name, size, |device| device.create_buffer(&desc))
 }

@@ -42,9 +42,9 @@ impl Frame<'_> {
     /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     /// let mut graph = Graph::new();
     /// let mut frame = graph.frame();
-    /// let mut picture = frame.create_texture("picture", TextureDesc::d2(3, 2, Format::Rgba8Unorm));
-    /// frame.render_pass("clear").color(&mut picture, Contents::clear_color([1.0; 4]));
-    /// let request = frame.read_back_texture(&picture, Subresource::FULL);
+    /// let mut image = frame.create_texture("image", TextureDesc::d2(3, 2, Format::Rgba8Unorm));
+    /// frame.render_pass("clear").color(&mut image, Contents::clear_color([1.0; 4]));
+    /// let request = frame.read_back_texture(&image, Subresource::FULL);
     ///
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

@@ -49,10 +49,10 @@ fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, mip_level: u32, bytes: &[
     queue.write_texture(target, bytes, layout, size);
 }
 
-/// Records and submits the copy of a part.
+/// Records and submits the copy of a part of a texture.
 fn read(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::Texture, part: &TexturePart) -> ReadBack {
     let mut encoder = encoder(device);
-    let back = ReadBack::texture(device, &mut encoder, "picture", texture, part).unwrap();
+    let back = ReadBack::texture(device, &mut encoder, "image", texture, part).unwrap();
     valid(device, || queue.submit([encoder.finish()]));
     back
 }
@@ -61,15 +61,19 @@ fn texels(values: impl IntoIterator<Item = u32>) -> Vec<u8> {
     values.into_iter().flat_map(u32::to_le_bytes).collect()
 }
 
-/// The error of reading what should be refused.
-fn refusal(device: &wgpu::Device, description: &wgpu::TextureDescriptor<'_>, part: &TexturePart) -> String {
+/// Returns the error of a read-back that is not possible.
+fn problem_of(
+    device: &wgpu::Device,
+    description: &wgpu::TextureDescriptor<'_>,
+    part: &TexturePart,
+) -> String {
     let texture = valid(device, || device.create_texture(description));
-    let refused = ReadBack::texture(device, &mut encoder(device), "picture", &texture, part);
+    let refused = ReadBack::texture(device, &mut encoder(device), "image", &texture, part);
     refused.err().unwrap().to_string()
 }
 
 #[test]
-fn any_range_of_a_buffer_comes_back() {
+fn any_range_of_a_buffer_is_read() {
     let (device, queue) = noop();
     let contents: Vec<u8> = (0..64).collect();
     let source = buffer(&device, &contents);
@@ -84,7 +88,7 @@ fn any_range_of_a_buffer_comes_back() {
 }
 
 #[test]
-fn bytes_come_with_the_next_submission_where_nothing_else_is_called() {
+fn bytes_arrive_with_the_next_submission_without_other_calls() {
     let (device, queue) = noop();
     let mut encoder = encoder(&device);
     let source = buffer(&device, &[1, 2, 3, 4]);
@@ -97,45 +101,45 @@ fn bytes_come_with_the_next_submission_where_nothing_else_is_called() {
 }
 
 #[test]
-fn ranges_that_a_buffer_does_not_have_are_refused() {
+fn ranges_outside_a_buffer_are_errors() {
     let (device, _queue) = noop();
     let source = buffer(&device, &[0; 8]);
-    let refused = |source: &wgpu::Buffer, range| {
+    let problem = |source: &wgpu::Buffer, range| {
         let back = ReadBack::buffer(&device, &mut encoder(&device), "numbers", source, range);
         let error = back.err().unwrap();
         assert!(matches!(&error, Error::ReadBack { resource, .. } if resource == "numbers"), "{error:?}");
         error.to_string()
     };
-    assert!(refused(&source, 4..12).contains("it has 8 bytes, but 4..12 are requested"));
-    assert!(refused(&source, 4..4).contains("at least one"));
-    assert!(refused(&source, u64::MAX - 1..u64::MAX).contains("it has 8 bytes"));
+    assert!(problem(&source, 4..12).contains("it has 8 bytes, but 4..12 are requested"));
+    assert!(problem(&source, 4..4).contains("at least one"));
+    assert!(problem(&source, u64::MAX - 1..u64::MAX).contains("it has 8 bytes"));
     let odd = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: 6,
         usage: wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     });
-    assert!(refused(&odd, 4..6).contains("multiple of 4"));
+    assert!(problem(&odd, 4..6).contains("multiple of 4"));
     let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: 8,
         usage: wgpu::BufferUsages::UNIFORM,
         mapped_at_creation: false,
     });
-    assert!(refused(&uniforms, 0..8).contains("COPY_SRC"));
+    assert!(problem(&uniforms, 0..8).contains("COPY_SRC"));
 }
 
 #[test]
-fn texels_of_an_odd_width_come_back_tightly_packed() {
+fn texels_of_an_odd_width_are_tightly_packed() {
     let Some((device, queue)) = drawing() else { return };
-    let picture = texture(&device, [3, 2, 1], TextureFormat::Rgba8Unorm);
+    let image = texture(&device, [3, 2, 1], TextureFormat::Rgba8Unorm);
     let contents: Vec<u8> = (0..24).collect();
-    write(&queue, &picture, 0, &contents);
-    assert_eq!(read(&device, &queue, &picture, &WHOLE).wait(&device).unwrap(), contents);
+    write(&queue, &image, 0, &contents);
+    assert_eq!(read(&device, &queue, &image, &WHOLE).wait(&device).unwrap(), contents);
 }
 
 #[test]
-fn layers_come_back_one_after_the_other() {
+fn layers_follow_each_other() {
     let Some((device, queue)) = drawing() else { return };
     let layers = texture(&device, [5, 3, 4], TextureFormat::R32Uint);
     write(&queue, &layers, 0, &texels(0..60));
@@ -144,7 +148,7 @@ fn layers_come_back_one_after_the_other() {
 }
 
 #[test]
-fn a_mip_level_comes_back_in_its_own_size() {
+fn a_mip_level_has_its_own_size() {
     let Some((device, queue)) = drawing() else { return };
     let mips = device.create_texture(&wgpu::TextureDescriptor {
         mip_level_count: 3,
@@ -156,7 +160,7 @@ fn a_mip_level_comes_back_in_its_own_size() {
 }
 
 #[test]
-fn slices_of_a_volume_come_back_like_layers() {
+fn slices_of_a_volume_are_read_like_layers() {
     let Some((device, queue)) = drawing() else { return };
     let volume = device.create_texture(&wgpu::TextureDescriptor {
         dimension: wgpu::TextureDimension::D3,
@@ -194,7 +198,7 @@ fn cleared_depth(
 }
 
 #[test]
-fn depth_comes_back_by_its_aspect() {
+fn depth_is_read_by_its_aspect() {
     let Some((device, queue)) = drawing() else { return };
     for aspect in [TextureAspect::DepthOnly, TextureAspect::All] {
         let bytes = cleared_depth(&device, &queue, [3, 3, 1], aspect).wait(&device).unwrap();
@@ -203,12 +207,12 @@ fn depth_comes_back_by_its_aspect() {
 }
 
 #[test]
-fn a_poll_on_another_thread_wakes_whoever_awaits() {
+fn a_poll_on_another_thread_wakes_the_awaiting_one() {
     let Some((device, queue)) = drawing() else { return };
     let back = cleared_depth(&device, &queue, [64, 64, 1], TextureAspect::DepthOnly);
     std::thread::scope(|scope| {
         let awaiting = scope.spawn(|| block_on(back));
-        // Late enough that the other thread most likely sleeps by now.
+        // Long enough that the other thread most likely sleeps by now.
         std::thread::sleep(Duration::from_millis(20));
         scope.spawn(|| device.poll(wgpu::PollType::wait_indefinitely()).unwrap());
         assert_eq!(awaiting.join().unwrap().unwrap(), 0.25_f32.to_le_bytes().repeat(64 * 64));
@@ -245,7 +249,7 @@ fn a_frame_submitted_from_another_thread_is_waited_for() {
 }
 
 #[test]
-fn a_dropped_encoder_is_an_error_and_wakes_whoever_awaits() {
+fn a_dropped_encoder_is_an_error_and_wakes_the_awaiting_thread() {
     let (device, _queue) = noop();
     let source = buffer(&device, &[0; 4]);
     for finished in [false, true] {
@@ -269,7 +273,7 @@ fn a_dropped_encoder_is_an_error_and_wakes_whoever_awaits() {
 }
 
 #[test]
-fn waiting_for_an_encoder_that_nobody_submits_ends_in_an_error() {
+fn waiting_for_an_encoder_that_is_never_submitted_is_an_error() {
     let (device, queue) = noop();
     let mut encoder = encoder(&device);
     let source = buffer(&device, &[0; 4]);
@@ -277,13 +281,13 @@ fn waiting_for_an_encoder_that_nobody_submits_ends_in_an_error() {
     let start = Instant::now();
     assert!(back.wait(&device).unwrap_err().to_string().contains("submit it before waiting"));
     assert!(start.elapsed() < Duration::from_secs(30));
-    // Nobody is left to be told, and that is fine.
+    // No receiver is left, which is fine.
     valid(&device, || queue.submit([encoder.finish()]));
     valid(&device, || queue.submit([]));
 }
 
 #[test]
-fn textures_that_cannot_be_copied_are_refused() {
+fn textures_that_cannot_be_copied_are_errors() {
     let (device, _queue) = noop();
     let plain = description([4, 4, 2], TextureFormat::Rgba8Unorm);
     let many = wgpu::TextureDescriptor {
@@ -292,20 +296,21 @@ fn textures_that_cannot_be_copied_are_refused() {
         ..description([4, 4, 1], TextureFormat::Rgba8Unorm)
     };
     assert!(
-        refusal(&device, &many, &WHOLE).contains("4 samples per texel: resolve it into a texture with one")
+        problem_of(&device, &many, &WHOLE)
+            .contains("4 samples per texel: resolve it into a texture with one")
     );
     let sampled = wgpu::TextureDescriptor { usage: TextureUsages::TEXTURE_BINDING, ..plain.clone() };
-    assert!(refusal(&device, &sampled, &WHOLE).contains("created without COPY_SRC"));
-    let mip = refusal(&device, &plain, &TexturePart { mip: 1, ..WHOLE });
+    assert!(problem_of(&device, &sampled, &WHOLE).contains("created without COPY_SRC"));
+    let mip = problem_of(&device, &plain, &TexturePart { mip: 1, ..WHOLE });
     assert!(mip.contains("it has 1 mip levels, but level 1 is requested"), "{mip}");
-    let layers = refusal(&device, &plain, &TexturePart { layers: 1..3, ..WHOLE });
+    let layers = problem_of(&device, &plain, &TexturePart { layers: 1..3, ..WHOLE });
     assert!(layers.contains("it has 2 layers, but 1..3 are requested"), "{layers}");
     let stencil = TexturePart { aspect: TextureAspect::StencilOnly, ..WHOLE };
-    assert!(refusal(&device, &plain, &stencil).contains("Rgba8Unorm has no aspect StencilOnly"));
+    assert!(problem_of(&device, &plain, &stencil).contains("Rgba8Unorm has no aspect StencilOnly"));
 }
 
 #[test]
-fn depth_without_a_layout_in_memory_is_refused() {
+fn depth_that_cannot_be_copied_is_an_error() {
     let (device, _queue) = noop();
     let depth = TexturePart { aspect: TextureAspect::DepthOnly, ..WHOLE };
     let opaque = [
@@ -314,15 +319,15 @@ fn depth_without_a_layout_in_memory_is_refused() {
         (TextureFormat::Depth24PlusStencil8, &depth),
     ];
     for (format, part) in opaque {
-        let refused = refusal(&device, &description([4, 4, 1], format), part);
+        let refused = problem_of(&device, &description([4, 4, 1], format), part);
         assert!(refused.contains("use Depth32Float instead"), "{refused}");
     }
-    let both = refusal(&device, &description([4, 4, 1], TextureFormat::Depth24PlusStencil8), &WHOLE);
+    let both = problem_of(&device, &description([4, 4, 1], TextureFormat::Depth24PlusStencil8), &WHOLE);
     assert!(both.contains("two aspects"), "{both}");
 }
 
 #[test]
-fn the_future_can_go_to_another_thread() {
+fn the_future_can_be_sent_to_another_thread() {
     fn sendable<T: Send + Sync + Unpin>() {}
     sendable::<ReadBack>();
 }

@@ -1,4 +1,4 @@
-//! Pictures of what passes write.
+//! Captures of what passes write.
 
 use super::gpu::Gpu;
 use crate::dump::{TexelValues, TextureSnapshot};
@@ -27,13 +27,13 @@ fn capture<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Plan, FrameCa
     let mut plain = Graph::new();
     let mut frame = plain.frame();
     declare(&mut frame);
-    assert_eq!(captured.0, plain.compile(frame).unwrap().into_plan(), "the plan is that of the frame itself");
+    assert_eq!(captured.0, plain.compile(frame).unwrap().into_plan(), "the plan is the frame's own");
     captured
 }
 
-/// The first value of a picture's first texel, and of its last.
-fn ends(picture: &TextureSnapshot) -> [f32; 2] {
-    let texels = picture.texels.as_ref().unwrap();
+/// Returns the first value of a snapshot's first texel and of its last.
+fn ends(snapshot: &TextureSnapshot) -> [f32; 2] {
+    let texels = image.texels.as_ref().unwrap();
     let number = |index: usize| match &texels.values {
         TexelValues::Bytes(bytes) => bytes[index].into(),
         TexelValues::Floats(floats) => floats[index],
@@ -43,12 +43,12 @@ fn ends(picture: &TextureSnapshot) -> [f32; 2] {
 }
 
 #[test]
-fn every_version_of_a_texture_has_a_picture_behind_the_pass_that_wrote_it() {
+fn every_version_of_a_texture_has_a_snapshot_after_the_pass_that_wrote_it() {
     for gpu in Gpu::all() {
         let (plan, captured) = capture(&gpu, |frame| {
             let mut scene = frame.create_texture("scene", small());
             frame.render_pass("first").color(&mut scene, gray(0.2));
-            // Merged with the first but for the capture.
+            // Merged with the first pass without the capture.
             frame.render_pass("second").color(&mut scene, Contents::Preserve);
             frame.render_pass("third").color(&mut scene, gray(0.6));
             let mut never_read = frame.create_texture("never read", small());
@@ -62,21 +62,21 @@ fn every_version_of_a_texture_has_a_picture_behind_the_pass_that_wrote_it() {
             .iter()
             .map(|p| (plan.resource(p.resource).name, p.version, plan.pass(p.pass.unwrap()).name))
             .collect();
-        // What `third` clears over nobody needs, so the passes before it do not run.
+        // `third` clears the results of the passes before it, so they are culled.
         assert!(
             seen.contains(&("scene", 3, "third")) && seen.contains(&("never read", 1, "kept")),
             "{seen:?}"
         );
         assert_eq!(seen.len(), plan.order().len());
         if gpu.draws {
-            let third = captured.textures.iter().find(|picture| picture.version == 3).unwrap();
+            let third = captured.textures.iter().find(|snapshot| snapshot.version == 3).unwrap();
             assert_eq!(ends(third), [153.0, 153.0]);
         }
     }
 }
 
 #[test]
-fn a_pass_that_draws_over_another_has_a_picture_of_its_own() {
+fn a_pass_that_draws_over_another_has_a_separate_snapshot() {
     let Some(gpu) = Gpu::drawing() else { return };
     let white = gpu.draw("white", Format::Rgba8Unorm);
     let (plan, captured) = capture(&gpu, |frame| {
@@ -92,7 +92,7 @@ fn a_pass_that_draws_over_another_has_a_picture_of_its_own() {
         });
         frame.export_texture(&scene);
     });
-    assert_eq!(plan.steps().len(), 1, "merged as without");
+    assert_eq!(plan.steps().len(), 1, "merged as without the capture");
     let [cleared, drawn] = &captured.textures[..] else { panic!("{captured:?}") };
     assert_eq!((ends(cleared), ends(drawn)), ([51.0, 51.0], [51.0, 255.0]));
 }
@@ -121,7 +121,7 @@ fn tiles_are_shown_together_with_the_names_of_their_passes() {
 }
 
 #[test]
-fn mips_and_layers_have_pictures_of_their_own() {
+fn mips_and_layers_have_separate_snapshots() {
     for gpu in Gpu::all() {
         let (_, captured) = capture(&gpu, |frame| {
             let desc = TextureDesc { mip_levels: 2, ..small().layers(2) };
@@ -148,7 +148,7 @@ fn mips_and_layers_have_pictures_of_their_own() {
 }
 
 #[test]
-fn what_cannot_be_copied_says_why_instead() {
+fn a_texture_that_cannot_be_copied_has_a_reason_instead() {
     for gpu in Gpu::all() {
         let (_, captured) = capture(&gpu, |frame| {
             let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..small() });
@@ -169,7 +169,7 @@ fn what_cannot_be_copied_says_why_instead() {
 }
 
 #[test]
-fn depth_and_stencil_together_are_shown_by_their_depth() {
+fn combined_depth_and_stencil_are_captured_as_depth() {
     let Some(gpu) = Gpu::drawing() else { return };
     if !gpu.device.features().contains(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
         return;

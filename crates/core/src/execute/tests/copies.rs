@@ -1,4 +1,4 @@
-//! What the graph copies itself, and bytes on their way to the GPU.
+//! Copies that the graph records itself, and uploads.
 
 use super::gpu::{Gpu, NUMBERS, number, square};
 use crate::{
@@ -29,7 +29,7 @@ fn bytes_are_copied_between_a_format_and_its_srgb_form() {
 }
 
 #[test]
-fn parts_of_textures_are_copied_to_parts_of_others() {
+fn subresources_of_textures_are_copied_to_those_of_others() {
     for gpu in Gpu::all() {
         let draw = gpu.draw("place", NUMBERS);
         let mut graph = Graph::new();
@@ -61,7 +61,7 @@ fn parts_of_textures_are_copied_to_parts_of_others() {
         }
         let target = executed.texture(target).unwrap();
         let texels = gpu.texels(target, 0, 2);
-        // The source has 8 texels a side, so centres lie at odd sixteenths.
+        // The source has 8 texels a side, so centres are at odd sixteenths.
         assert_eq!(texels[9 * 16 + 1..9 * 16 + 4], [509, 511, 513]);
         assert_eq!(texels[13 * 16 + 1..13 * 16 + 4], [1309, 1311, 1313]);
         assert_eq!(texels.iter().filter(|&&texel| texel == 1).count(), 256 - 15);
@@ -70,7 +70,7 @@ fn parts_of_textures_are_copied_to_parts_of_others() {
 }
 
 #[test]
-fn copies_that_wgpu_does_not_make_are_errors() {
+fn copies_that_wgpu_does_not_support_are_errors() {
     let gpu = Gpu::noop();
     let (tile, depth) =
         (Subresource::FULL.rect(Rect::new(0, 0, 4, 4)), Subresource::FULL.aspect(Aspect::Depth));
@@ -135,7 +135,7 @@ fn several_layers_are_copied_at_once() {
 }
 
 #[test]
-fn parts_of_buffers_are_copied_to_parts_of_others() {
+fn ranges_of_buffers_are_copied_to_ranges_of_others() {
     for gpu in Gpu::all() {
         let mut graph = Graph::new();
         let mut frame = graph.frame();
@@ -149,7 +149,7 @@ fn parts_of_buffers_are_copied_to_parts_of_others() {
     }
 }
 
-/// Takes a copy of an upload, so that the buffer is of the pool like any other.
+/// Copies an upload, so that the buffer is from the pool like any other.
 fn uploaded<'f>(frame: &mut Frame<'f>, bytes: &'f [u8]) -> (Buffer, BufferExport) {
     let upload = frame.upload_buffer("upload", bytes);
     let export = frame.export_buffer(&upload);
@@ -160,7 +160,7 @@ fn uploaded<'f>(frame: &mut Frame<'f>, bytes: &'f [u8]) -> (Buffer, BufferExport
 fn uploads_of_any_length_arrive_with_zeros_at_the_end() {
     for gpu in Gpu::all() {
         let mut graph = Graph::new();
-        // Large ones first, so that what comes after lies in dirty memory.
+        // Large ones first, so that later ones get dirty memory.
         for round in 0..2 {
             for length in [1000usize, 5, 4, 1, 0] {
                 let bytes = vec![0xab; length];
@@ -177,7 +177,7 @@ fn uploads_of_any_length_arrive_with_zeros_at_the_end() {
 }
 
 #[test]
-fn an_empty_upload_beside_others_takes_none_of_their_bytes() {
+fn an_empty_upload_next_to_others_gets_none_of_their_bytes() {
     for gpu in Gpu::all() {
         let mut graph = Graph::new();
         let large = vec![0xab; 64 * 1024];
@@ -191,7 +191,7 @@ fn an_empty_upload_beside_others_takes_none_of_their_bytes() {
 }
 
 #[test]
-fn an_upload_that_nothing_reads_is_not_made() {
+fn an_upload_that_nothing_reads_is_not_created() {
     let gpu = Gpu::noop();
     let mut graph = Graph::new();
     let mut frame = graph.frame();
@@ -210,7 +210,7 @@ fn frames_recorded_before_any_is_submitted_keep_their_own_uniforms_and_uploads()
             for own in 0..4u32 {
                 let mut frame = graph.frame();
                 let mut sums = frame.upload_buffer("sums", bytes([100 * own + round; 4]));
-                // More and more of them, so that the buffer behind them has to grow in between.
+                // Their number increases, so that their buffer has to grow in between.
                 let blocks: Vec<_> =
                     (0..50 * (own + 1)).map(|index| frame.uniform(&number(own * 7 + index))).collect();
                 let mut pass = frame.compute_pass("add");
@@ -221,7 +221,7 @@ fn frames_recorded_before_any_is_submitted_keep_their_own_uniforms_and_uploads()
                 let mut encoder = gpu.encoder();
                 let compiled = graph.compile(frame).unwrap();
                 let executed = compiled.execute(&mut graph, &gpu.device, &mut encoder).unwrap();
-                // The frames share the buffer, so what each leaves there is read in its own encoder.
+                // The frames share the buffer, so its contents are read in the encoder of each frame.
                 let buffer = executed.buffer(export).unwrap();
                 let back = crate::ReadBack::buffer(&gpu.device, &mut encoder, "sums", buffer, 0..16).unwrap();
                 let expected = 100 * own + round + own * 7 + 50 * (own + 1) - 1;

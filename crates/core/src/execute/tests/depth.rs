@@ -1,4 +1,4 @@
-//! Depth and stencil: tested while sampled, read by aspect, and never stored where nobody needs it.
+//! Depth and stencil: tested while sampled, read by aspect, and not stored where unused.
 
 use super::gpu::{Gpu, NUMBERS, aspect, depth_test, square};
 use crate::{Aspect, Bind, Contents, Format, Frame, Graph, Rect, Texture, TextureDesc};
@@ -7,7 +7,7 @@ fn depth(frame: &mut Frame<'_>, format: Format) -> Texture {
     frame.create_texture("depth", TextureDesc::d2(8, 8, format))
 }
 
-/// What a pass reads of both aspects of what `fill` draws: 1000 times the stencil and 100 times the depth.
+/// Returns both aspects of what `fill` draws as a pass reads them: 1000 times the stencil and 100 times the depth.
 fn aspects(gpu: &Gpu, fill: impl FnOnce(&mut Frame<'_>, &mut Texture)) -> wgpu::Texture {
     let read = gpu.draw("aspects", NUMBERS);
     let mut graph = Graph::new();
@@ -68,7 +68,7 @@ fn depth_and_stencil_are_bound_as_aspects() {
 }
 
 #[test]
-fn each_aspect_is_cleared_by_a_pass_of_its_own() {
+fn each_aspect_is_cleared_by_a_separate_pass() {
     for gpu in Gpu::all() {
         let read = aspects(&gpu, |frame, depth| {
             let contents = Contents::clear_depth_stencil(0.5, 9);
@@ -109,7 +109,7 @@ fn depth_that_one_pass_needs_is_a_transient_attachment() {
 }
 
 #[test]
-fn a_tile_of_one_aspect_is_cleared_and_the_other_aspect_stays() {
+fn a_tile_of_one_aspect_is_cleared_and_the_other_aspect_is_kept() {
     for gpu in Gpu::all() {
         for which in [Aspect::Depth, Aspect::Stencil, Aspect::All] {
             let read = aspects(&gpu, |frame, depth| {

@@ -1,4 +1,4 @@
-//! Bodies that fail, and what is left of a frame that did.
+//! Bodies that fail, and the state after a frame that failed.
 
 use super::gpu::{Gpu, NUMBERS, square};
 use crate::{Contents, Error, Frame, Graph, TextureExport};
@@ -89,16 +89,16 @@ fn a_body_of_any_kind_fails_with_the_name_of_its_pass_and_node() {
     }
 }
 
-/// How the second of two merged passes goes wrong.
+/// How the second of two merged passes fails.
 #[derive(Clone, Copy, Debug)]
-enum Mishap {
+enum Fault {
     None,
     Error,
     Panic,
 }
 
-/// Two passes that share a render pass, of which the second writes 7 unless it goes wrong.
-fn frame<'f>(graph: &Graph, draw: &'f super::Draw, mishap: Mishap) -> (Frame<'f>, TextureExport) {
+/// Declares two passes that share a render pass; the second writes 7 unless it fails.
+fn frame<'f>(graph: &Graph, draw: &'f super::Draw, fault: Fault) -> (Frame<'f>, TextureExport) {
     let mut frame = graph.frame();
     let mut a = frame.create_texture("a", square(8));
     frame.render_pass("clear").color(&mut a, Contents::clear_color([3.0, 0.0, 0.0, 0.0]));
@@ -106,10 +106,10 @@ fn frame<'f>(graph: &Graph, draw: &'f super::Draw, mishap: Mishap) -> (Frame<'f>
     pass.color(&mut a, Contents::Preserve);
     pass.body(move |ctx| {
         draw.record_as_it_is(ctx);
-        match mishap {
-            Mishap::None => Ok(()),
-            Mishap::Error => Err(Error::body("spilt")),
-            Mishap::Panic => panic!("the panic of a body, which this test is about"),
+        match fault {
+            Fault::None => Ok(()),
+            Fault::Error => Err(Error::body("spilt")),
+            Fault::Panic => panic!("the panic of a body, which this test is about"),
         }
     });
     let a = frame.export_texture(&a);
@@ -122,10 +122,10 @@ fn after_a_body_failed_or_panicked_the_next_frame_is_as_before() {
         let draw = gpu.draw("seven", NUMBERS);
         for threads in [None, Some(2)] {
             let mut graph = Graph::new();
-            let (before, a) = frame(&graph, &draw, Mishap::None);
+            let (before, a) = frame(&graph, &draw, Fault::None);
             let before = gpu.run(&mut graph, before).texture(a).unwrap().clone();
-            for mishap in [Mishap::Error, Mishap::Panic] {
-                let (failing, _) = frame(&graph, &draw, mishap);
+            for fault in [Fault::Error, Fault::Panic] {
+                let (failing, _) = frame(&graph, &draw, fault);
                 let record = AssertUnwindSafe(|| {
                     let compiled = graph.compile(failing).unwrap();
                     match threads {
@@ -134,14 +134,14 @@ fn after_a_body_failed_or_panicked_the_next_frame_is_as_before() {
                     }
                 });
                 let outcome = catch_unwind(record).map(|error| error.unwrap().to_string());
-                match mishap {
-                    Mishap::Panic => assert!(outcome.is_err(), "a panic goes on"),
+                match fault {
+                    Fault::Panic => assert!(outcome.is_err(), "a panic is propagated"),
                     _ => assert_eq!(outcome.unwrap(), "SG0602: pass `draw`: spilt"),
                 }
-                let (after, a) = frame(&graph, &draw, Mishap::None);
+                let (after, a) = frame(&graph, &draw, Fault::None);
                 let after = gpu.run(&mut graph, after);
                 assert_eq!(after.plan().steps().len(), 1);
-                assert_eq!(*after.texture(a).unwrap(), before, "{mishap:?}, {threads:?}");
+                assert_eq!(*after.texture(a).unwrap(), before, "{fault:?}, {threads:?}");
                 gpu.assert_filled(&before, 7);
             }
         }
@@ -149,7 +149,7 @@ fn after_a_body_failed_or_panicked_the_next_frame_is_as_before() {
 }
 
 #[test]
-fn formats_that_the_device_does_not_allow_are_errors_of_ours() {
+fn unsupported_formats_are_errors_of_the_graph() {
     use crate::Format;
     let storage = [
         Format::Rgba8UnormSrgb,
@@ -167,26 +167,26 @@ fn formats_that_the_device_does_not_allow_are_errors_of_ours() {
         (Format::Rgba32Float, 4),
     ];
     for gpu in Gpu::all() {
-        let refused = |format: Format, samples: u32, storage: bool| {
+        let check = |format: Format, samples: u32, storage: bool| {
             let mut graph = Graph::new();
             let mut frame = graph.frame();
             let desc = crate::TextureDesc { format, samples, ..square(8) };
-            let mut picture = frame.create_texture("picture", desc);
+            let mut image = frame.create_texture("image", desc);
             if storage {
-                frame.compute_pass("store").storage_texture_mut(&mut picture, Contents::Overwrite);
+                frame.compute_pass("store").storage_texture_mut(&mut image, Contents::Overwrite);
             } else {
-                frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
+                frame.render_pass("draw").color(&mut image, Contents::clear_color([0.0; 4]));
             }
-            frame.export_texture(&picture);
+            frame.export_texture(&image);
             let error = gpu.try_run(&mut graph, frame).err();
             assert_eq!(error.as_ref().map(Error::code), Some("SG0605"), "{format:?} x {samples}: {error:?}");
         };
-        // The driver's own formats are in no way promised, so the device of the tests does not ask for them.
+        // Driver-specific formats are not guaranteed, so the tests' device does not request them.
         for format in storage {
-            refused(format, 1, true);
+            check(format, 1, true);
         }
         for (format, samples) in drawn {
-            refused(format, samples, false);
+            check(format, samples, false);
         }
         let mut graph = Graph::new();
         let mut frame = graph.frame();

@@ -1,4 +1,4 @@
-//! Whole frames of many kinds of passes, and what comes out of them.
+//! Whole frames of many kinds of passes, and their results.
 
 use super::gpu::{Gpu, NUMBERS, number, square};
 use crate::{Bind, BufferDesc, Contents, Error, Format, Frame, Graph, TextureDesc};
@@ -78,7 +78,7 @@ fn the_body_of_a_culled_pass_does_not_run() {
 }
 
 #[test]
-fn an_export_is_taken_out_of_its_own_frame_only() {
+fn an_export_belongs_to_its_own_frame_only() {
     let gpu = Gpu::noop();
     let mut graph = Graph::new();
     let mut exports = Vec::new();
@@ -95,7 +95,7 @@ fn an_export_is_taken_out_of_its_own_frame_only() {
     }
     let [(texture, buffer), (next, _)] = exports[..] else { unreachable!() };
     assert_eq!(executed[0].texture(texture).unwrap().width(), 4);
-    assert_eq!(executed[0].buffer(buffer).unwrap().size(), 12, "as large as was asked for");
+    assert_eq!(executed[0].buffer(buffer).unwrap().size(), 12, "has the requested size");
     assert!(executed[0].texture(next).is_none());
 }
 
@@ -131,7 +131,7 @@ fn a_token_of_a_part_resolves_to_that_part() {
 }
 
 #[test]
-fn a_frame_made_without_a_graph_runs_too() {
+fn a_frame_created_without_a_graph_runs_too() {
     let gpu = Gpu::noop();
     let mut frame = Frame::new();
     let mut color = frame.create_texture("color", square(8));
@@ -143,7 +143,7 @@ fn a_frame_made_without_a_graph_runs_too() {
 }
 
 #[test]
-fn a_texture_over_the_limits_is_an_error_that_names_the_limit() {
+fn a_texture_beyond_the_limits_is_an_error_that_names_the_limit() {
     let gpu = Gpu::noop();
     let mut graph = Graph::new();
     let mut frame = graph.frame();
@@ -156,7 +156,7 @@ fn a_texture_over_the_limits_is_an_error_that_names_the_limit() {
 }
 
 #[test]
-fn a_group_of_more_entries_than_most_have_is_cached_like_any() {
+fn a_group_with_many_entries_is_cached_like_any() {
     let gpu = Gpu::noop();
     let mut graph = Graph::new();
     let entry = |binding| wgpu::BindGroupLayoutEntry {

@@ -1,4 +1,4 @@
-//! A device with what the tests do with it.
+//! A device with helpers for tests.
 
 use crate::execute::ReadBack;
 use crate::execute::read_back::TexturePart;
@@ -8,7 +8,7 @@ use crate::{Aspect, Bind, Error, Executed, Format, Frame, Graph, RenderContext, 
 pub(super) struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
-    /// Whether pixels come out as drawn.
+    /// Whether the device draws.
     pub(super) draws: bool,
     shaders: wgpu::ShaderModule,
 }
@@ -22,7 +22,7 @@ impl Gpu {
         drawing().map(|device| Self::new(device, true))
     }
 
-    /// The device that only validates, and the one that draws where there is one.
+    /// Returns the device that only validates, and one that draws if there is one.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         [Some(Self::noop()), Self::drawing()].into_iter().flatten()
     }
@@ -32,7 +32,7 @@ impl Gpu {
         Self { device, queue, draws, shaders }
     }
 
-    /// Records and submits, and fails the test with whatever wgpu objects to.
+    /// Records and submits, and fails the test on a validation error of wgpu.
     pub(super) fn try_run(&self, graph: &mut Graph, frame: Frame<'_>) -> Result<Executed, Error> {
         valid(&self.device, || {
             let mut encoder = self.encoder();
@@ -50,7 +50,7 @@ impl Gpu {
         self.device.create_command_encoder(&Default::default())
     }
 
-    /// The texels of one mip of one layer (or slice), 4 bytes each; of a device that does not draw, none.
+    /// Returns the texels of one mip of one layer (or slice), 4 bytes each; none on a device that does not draw.
     pub(super) fn texels(&self, texture: &wgpu::Texture, mip: u32, layer: u32) -> Vec<u32> {
         let mut encoder = self.encoder();
         let back = self.read_texels(&mut encoder, texture, (mip, layer));
@@ -101,12 +101,12 @@ impl Gpu {
         })
     }
 
-    /// A draw over the whole viewport with the fragment stage `entry` into one colour attachment.
+    /// Creates a draw over the whole viewport with the fragment stage `entry` into one colour attachment.
     pub(super) fn draw(&self, entry: &'static str, format: Format) -> Draw {
         self.draw_with(entry, format.into(), None, 1)
     }
 
-    /// The same with blending, depth test or samples.
+    /// Creates the same draw with blending, depth test or samples.
     pub(super) fn draw_with(
         &self,
         entry: &'static str,
@@ -120,7 +120,7 @@ impl Gpu {
         Draw { pipeline, layout, index: 0 }
     }
 
-    /// A draw with a uniform block in group 5 and nothing in others.
+    /// Creates a draw with a uniform block in group 5 and no other bindings.
     pub(super) fn draw_with_far_group(&self) -> Draw {
         let layout = self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: None,
@@ -204,7 +204,7 @@ impl Draw {
         Ok(())
     }
 
-    /// Draws with the groups that happen to be set.
+    /// Draws with the groups that are set.
     pub(super) fn record_as_it_is(&self, ctx: &mut RenderContext<'_>) {
         ctx.pass.set_pipeline(&self.pipeline);
         ctx.pass.draw(0..3, 0..1);
@@ -233,7 +233,7 @@ impl Compute {
 
 pub(super) const NUMBERS: Format = Format::R32Uint;
 
-/// A square of numbers.
+/// Describes a square texture of numbers.
 pub(super) fn square(side: u32) -> TextureDesc {
     TextureDesc::d2(side, side, NUMBERS)
 }
@@ -244,7 +244,7 @@ pub(super) fn number(number: u32) -> [u8; 16] {
     block
 }
 
-/// A depth test.
+/// Describes a depth test.
 pub(super) fn depth_test(
     format: Format,
     compare: wgpu::CompareFunction,

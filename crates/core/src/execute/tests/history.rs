@@ -1,4 +1,4 @@
-//! What one frame leaves to the next.
+//! Histories: contents that one frame leaves to the next.
 
 use super::gpu::{Draw, Gpu, NUMBERS, square};
 use crate::{
@@ -21,7 +21,7 @@ impl<'g> Counter<'g> {
         Self { gpu, draw, graph: Graph::new(), desc: square(8), resize: Resize::Reset }
     }
 
-    /// Declares the history and what counts in it.
+    /// Declares the history and the pass that counts in it.
     fn declare(&self, frame: &mut Frame<'g>) -> (History, TextureExport) {
         let mut history = frame.history("count", self.desc, self.resize);
         for mip in 0..self.desc.mip_levels {
@@ -38,12 +38,12 @@ impl<'g> Counter<'g> {
         (history, export)
     }
 
-    /// Counts in one more frame and checks how far it got, and whether it could go on from another.
+    /// Counts in one more frame and checks the count, and whether the history was valid.
     fn expect(&mut self, count: u32, valid: bool) -> wgpu::Texture {
         self.expect_with(count, valid, |_, _| {})
     }
 
-    /// The same in a frame that `add` declares more in.
+    /// The same in a frame to which `add` adds more.
     fn expect_with(
         &mut self,
         count: u32,
@@ -90,23 +90,23 @@ fn history_carries_contents_from_frame_to_frame() {
         let known = counter.graph.device.histories.prior();
         for count in 3..8 {
             let half = counter.expect(count, true);
-            assert_eq!(half, halves[(count as usize + 1) % 2], "the halves take turns");
+            assert_eq!(half, halves[(count as usize + 1) % 2], "the halves alternate");
         }
-        assert!(Arc::ptr_eq(&known, &counter.graph.device.histories.prior()), "nothing is listed anew");
+        assert!(Arc::ptr_eq(&known, &counter.graph.device.histories.prior()), "the list is unchanged");
         assert_eq!(counter.graph.bytes(), 2 * counter.desc.bytes());
         assert_eq!(counter.graph.plan_counts().compiled, 1, "the first frame has the same plan");
     });
 }
 
 #[test]
-fn a_frame_that_is_not_executed_or_fails_does_not_count() {
+fn a_frame_that_is_not_executed_or_fails_has_no_effect() {
     each(|mut counter| {
         counter.expect(1, false);
         let mut dropped = counter.graph.frame();
         counter.declare(&mut dropped);
         drop(counter.graph.compile(dropped).unwrap());
         counter.expect(2, true);
-        // It would have needed new textures, too.
+        // It would have needed new textures as well.
         let mut failing = counter.graph.frame();
         let (history, _) = counter.declare(&mut failing);
         let mut pass = failing.compute_pass("fail");
@@ -119,7 +119,7 @@ fn a_frame_that_is_not_executed_or_fails_does_not_count() {
 }
 
 #[test]
-fn a_history_survives_a_new_usage() {
+fn a_history_keeps_its_contents_with_a_new_usage() {
     each(|mut counter| {
         counter.expect(1, false);
         let old = counter.expect(2, true);
@@ -131,14 +131,14 @@ fn a_history_survives_a_new_usage() {
         assert!(!old.usage().contains(wgpu::TextureUsages::STORAGE_BINDING));
         assert!(new.usage().contains(wgpu::TextureUsages::STORAGE_BINDING));
         assert_eq!(counter.graph.bytes(), 2 * counter.desc.bytes());
-        // The usage stays, and with it the textures.
+        // The usage is kept, and so are the textures.
         counter.expect(4, true);
         assert_eq!(counter.expect(5, true), new);
     });
 }
 
 #[test]
-fn all_mips_and_layers_survive_a_new_usage_and_a_resize() {
+fn all_mips_and_layers_keep_their_contents_with_a_new_usage_and_a_resize() {
     each(|mut counter| {
         counter.resize = Resize::Resample;
         counter.desc = TextureDesc { mip_levels: 3, ..square(8).layers(2) };
@@ -171,7 +171,7 @@ fn a_resize_resets_or_resamples_as_declared() {
         counter.expect(4, true);
         counter.desc = square(8);
         counter.expect(5, true);
-        // From and to the size before, in frames whose plans are known.
+        // From and to the earlier size, in frames whose plans are cached.
         counter.resize = Resize::Reset;
         counter.desc = square(16);
         counter.expect(1, false);
@@ -202,7 +202,7 @@ fn another_format_or_number_of_layers_resets() {
 }
 
 #[test]
-fn frames_without_the_history_leave_it_until_it_is_idle_for_long() {
+fn frames_without_the_history_keep_it_until_it_has_been_idle_too_long() {
     each(|mut counter| {
         counter.graph.set_limits(PoolLimits { idle_frames: 2, budget_bytes: Some(0) });
         counter.expect(1, false);
@@ -218,7 +218,7 @@ fn frames_without_the_history_leave_it_until_it_is_idle_for_long() {
 }
 
 #[test]
-fn frames_of_other_plans_go_on_with_the_history() {
+fn frames_of_other_plans_continue_the_history() {
     each(|mut counter| {
         for round in 0..3 {
             counter.expect(2 * round + 1, round > 0);
@@ -237,7 +237,7 @@ fn history_desc(frame: &Frame<'_>, history: &History) -> TextureDesc {
 }
 
 #[test]
-fn views_have_histories_of_their_own() {
+fn views_have_separate_histories() {
     each(|mut counter| {
         // The right view only every second frame, the outer one always.
         for (left, right) in [(1, Some(1)), (2, None), (3, Some(2)), (4, None), (5, Some(3))] {
@@ -296,7 +296,7 @@ fn two_histories_of_one_name_in_one_view_are_an_error() {
     assert!(error.to_string().contains("`count` is invalid: duplicate history name in its view"), "{error}");
 }
 
-/// Clears a history in the first frame; in the next, draws what it was with the fragment stage `read` into numbers.
+/// Clears a history in the first frame; in the next, draws its contents with the fragment stage `read` into numbers.
 fn kept(gpu: &Gpu, desc: TextureDesc, clear: Contents, read: &'static str, expected: u32) {
     let draw = gpu.draw(read, NUMBERS);
     let mut graph = Graph::new();
@@ -326,7 +326,7 @@ fn kept(gpu: &Gpu, desc: TextureDesc, clear: Contents, read: &'static str, expec
 }
 
 #[test]
-fn depth_and_samples_survive_a_new_usage() {
+fn depth_and_samples_keep_their_contents_with_a_new_usage() {
     for gpu in Gpu::all() {
         for format in [Format::Depth16Unorm, Format::Depth24Plus, Format::Depth32Float] {
             kept(&gpu, TextureDesc::d2(8, 8, format), Contents::clear_depth(0.25), "hundredths", 25);
@@ -360,7 +360,7 @@ fn a_filtered_format_keeps_a_constant_colour_through_a_resize() {
 }
 
 #[test]
-fn what_cannot_be_resampled_is_reset_and_says_so() {
+fn a_history_that_cannot_be_resampled_is_reset_and_not_valid() {
     let of = |format| TextureDesc::d2(8, 8, format);
     let volume = TextureDesc {
         size: Extent { width: 8, height: 8, depth_or_array_layers: 2 },

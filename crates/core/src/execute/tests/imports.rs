@@ -1,4 +1,4 @@
-//! Textures and buffers of the caller's.
+//! Imports of the caller's textures and buffers.
 
 use super::gpu::{Gpu, NUMBERS, square};
 use crate::test_device::{block_on, valid};
@@ -90,7 +90,7 @@ fn an_import_without_the_usage_that_a_pass_needs_is_an_error_that_names_it() {
     assert!(matches!(&error, Error::ImportUsage { needed, .. } if needed.contains("RENDER_ATTACHMENT")));
 }
 
-/// wgpu's noop device, and the instance, which counts what is alive.
+/// Returns wgpu's noop device, and the instance, which counts live objects.
 fn counted() -> (wgpu::Instance, Gpu) {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::NOOP,
@@ -105,27 +105,27 @@ fn counted() -> (wgpu::Instance, Gpu) {
     (instance, Gpu::new(device, false))
 }
 
-/// How many textures and how many views somebody holds.
-fn alive(instance: &wgpu::Instance) -> (usize, usize) {
+/// Returns the numbers of live textures and views.
+fn live_objects(instance: &wgpu::Instance) -> (usize, usize) {
     let hub = instance.generate_report().unwrap().hub;
     (hub.textures.num_kept_from_user, hub.texture_views.num_kept_from_user)
 }
 
 #[test]
-fn of_an_import_that_was_drawn_into_nothing_is_held_after_the_frame() {
-    // A surface cannot be configured anew while its last texture or a view of it is alive.
+fn nothing_of_an_import_that_was_drawn_into_is_held_after_the_frame() {
+    // A surface cannot be reconfigured while its last texture or a view of it exists.
     let (instance, gpu) = counted();
     let mut graph = Graph::new();
     for _ in 0..3 {
-        let before = alive(&instance);
+        let before = live_objects(&instance);
         let screen = gpu.texture(square(8), Usage::RENDER_ATTACHMENT);
         let mut frame = graph.frame();
         let mut out = frame.import_texture("screen", &screen, false);
         frame.render_pass("draw").color(&mut out, Contents::clear_color([0.0; 4]));
         let executed = gpu.run(&mut graph, frame);
-        assert!(alive(&instance) > before);
+        assert!(live_objects(&instance) > before);
         drop((screen, executed));
-        assert_eq!(alive(&instance), before);
+        assert_eq!(live_objects(&instance), before);
     }
 }
 
@@ -145,17 +145,17 @@ fn an_import_may_be_destroyed_after_its_frame() {
 }
 
 #[test]
-fn an_import_that_was_bound_is_let_go_of_with_its_bind_group() {
+fn an_import_that_was_bound_is_released_with_its_bind_group() {
     let (instance, gpu) = counted();
     let draw = gpu.draw("loaded", NUMBERS);
     let mut graph = Graph::new();
     graph.set_limits(crate::PoolLimits { idle_frames: 2, ..Default::default() });
-    let mut run = |picture: Option<&wgpu::Texture>| {
+    let mut run = |image: Option<&wgpu::Texture>| {
         let mut frame = graph.frame();
         let mut color = frame.create_texture("color", square(8));
-        let token = picture.map(|picture| frame.import_texture("picture", picture, true));
+        let token = image.map(|image| frame.import_texture("image", image, true));
         let mut pass = frame.render_pass("draw");
-        let token = token.map(|picture| pass.sample(&picture));
+        let token = token.map(|image| pass.sample(&image));
         pass.color(&mut color, Contents::Overwrite);
         pass.body(|ctx| match token {
             Some(token) => draw.record(ctx, &[Bind::Texture(token)]),
@@ -166,14 +166,14 @@ fn an_import_that_was_bound_is_let_go_of_with_its_bind_group() {
     };
     let mut counts = Vec::new();
     for _ in 0..3 {
-        let picture = gpu.texture(square(8), Usage::TEXTURE_BINDING);
-        run(Some(&picture));
-        drop(picture);
+        let image = gpu.texture(square(8), Usage::TEXTURE_BINDING);
+        run(Some(&image));
+        drop(image);
         for _ in 0..3 {
             run(None);
         }
-        counts.push(alive(&instance));
+        counts.push(live_objects(&instance));
     }
-    // The one texture of the graph's, with its view.
+    // The graph's only texture, with its view.
     assert_eq!(counts, [(1, 1); 3]);
 }

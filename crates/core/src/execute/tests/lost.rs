@@ -6,7 +6,7 @@ use crate::{
     Contents, Error, Format, Frame, Graph, ReadBackRequest, Subresource, TextureDesc, device_is_lost,
 };
 
-/// A cleared square that is read back.
+/// Declares a cleared square that is read back.
 fn square(graph: &Graph) -> (Frame<'static>, ReadBackRequest) {
     let mut frame = graph.frame();
     let mut color = frame.create_texture("color", TextureDesc::d2(16, 16, Format::Rgba8Unorm));
@@ -25,7 +25,7 @@ enum Moment {
     Never,
 }
 
-/// Draws the square, and destroys the device on the way.
+/// Draws the square, and destroys the device at that moment.
 fn draw(gpu: &Gpu, graph: &mut Graph, destroyed: Moment) -> Result<Vec<u8>, Error> {
     let at = |moment| {
         if moment == destroyed {
@@ -57,7 +57,7 @@ fn a_device_that_is_destroyed_at_any_moment_is_an_error_and_the_next_device_draw
                         assert_eq!(draw(&gpu, &mut graph, Moment::Never).unwrap(), expected);
                     }
                     match draw(&gpu, &mut graph, moment) {
-                        // What was submitted may have been finished before.
+                        // The submission may have completed before.
                         Ok(bytes) => assert!(moment == BeforeWaiting && bytes == expected, "{moment:?}"),
                         Err(error) => assert_eq!(error, Error::DeviceLost, "{moment:?}"),
                     }
@@ -71,7 +71,7 @@ fn a_device_that_is_destroyed_at_any_moment_is_an_error_and_the_next_device_draw
 }
 
 #[test]
-fn a_body_that_fails_on_a_lost_device_fails_for_that() {
+fn a_body_that_fails_on_a_lost_device_is_reported_as_a_lost_device() {
     let (gpu, mut graph) = (Gpu::noop(), Graph::new());
     let mut frame = graph.frame();
     let mut pass = frame.encoder_pass("draw");
@@ -85,7 +85,7 @@ fn a_body_that_fails_on_a_lost_device_fails_for_that() {
 }
 
 #[test]
-fn a_graph_that_ran_out_of_memory_lets_go_and_draws_what_fits() {
+fn a_graph_that_ran_out_of_memory_evicts_and_draws_what_fits() {
     let Some(gpu) = Gpu::drawing() else { return };
     let mut graph = Graph::new();
     // A quarter of a TiB: within the default limits, and beyond any device.

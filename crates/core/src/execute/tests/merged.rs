@@ -5,7 +5,7 @@ use crate::test_device::block_on;
 use crate::{Bind, Contents, Format, Graph, TextureDesc};
 
 #[test]
-fn a_pass_that_draws_with_the_bind_group_of_the_one_before_it_is_refused() {
+fn a_pass_that_draws_with_the_bind_group_of_an_earlier_one_is_an_error() {
     for gpu in Gpu::all() {
         let draw = gpu.draw("number", NUMBERS);
         for sets_its_own in [true, false] {
@@ -39,7 +39,7 @@ fn a_pass_that_draws_with_the_bind_group_of_the_one_before_it_is_refused() {
 }
 
 #[test]
-fn groups_beyond_those_that_every_device_has_are_unset_too() {
+fn groups_beyond_the_default_limit_are_unset_too() {
     let required_limits = wgpu::Limits { max_bind_groups: 6, ..Default::default() };
     let desc = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
     let gpu = Gpu::new(wgpu::Device::noop(&desc), false);
@@ -67,7 +67,7 @@ fn groups_beyond_those_that_every_device_has_are_unset_too() {
     assert!(error.contains("index 5"), "{error}");
 }
 
-/// Has one pass leave all of its state behind, and a second one draw white into what it finds.
+/// Runs one pass that leaves all of its state changed, and a second one that draws white.
 fn after_a_messy_pass(gpu: &Gpu, second: &super::Draw) -> Vec<u32> {
     let mut graph = Graph::new();
     let mut frame = graph.frame();
@@ -162,7 +162,7 @@ fn merged_passes_are_one_render_pass_of_the_encoder() {
         assert!(usage.contains(wgpu::TextureUsages::TRANSIENT_ATTACHMENT));
         if gpu.draws {
             let texels = gpu.texels(executed.texture(color).unwrap(), 0, 0);
-            assert_eq!(texels[..8], [9, 9, 9, 9, 1, 1, 1, 1], "the second drew where the first had");
+            assert_eq!(texels[..8], [9, 9, 9, 9, 1, 1, 1, 1], "the second drew where the first did");
         }
     }
 }

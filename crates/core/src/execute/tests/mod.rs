@@ -1,5 +1,5 @@
-//! Recording frames: on wgpu's noop device, which validates everything and draws nothing, and where there is a driver
-//! also on one that draws.
+//! Recording frames: on wgpu's noop device, which validates everything and draws nothing, and if there is a driver also on
+//! a device that draws.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod capture;

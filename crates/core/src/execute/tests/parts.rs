@@ -1,4 +1,4 @@
-//! Passes on parts of textures: tiles, mips, layers and slices.
+//! Passes on subresources of textures: tiles, mips, layers and slices.
 
 use super::gpu::{Gpu, NUMBERS, number, square};
 use crate::{Bind, Contents, Error, Extent, Graph, Rect, Subresource, TextureDesc};
@@ -37,7 +37,7 @@ fn a_tile_has_the_viewport_and_scissor_of_its_rectangle() {
             }
             let texels = gpu.texels(executed.texture(atlas).unwrap(), 0, 0);
             let at = |x: usize, y: usize| texels[y * 16 + x];
-            // Centres of texels in a tile of 4 lie at 2, 6, 10 and 14 sixteenths of it.
+            // Centres of texels in a tile of 4 are at 2, 6, 10 and 14 sixteenths.
             assert_eq!([at(0, 8), at(3, 8), at(0, 11), at(3, 11)], [202, 214, 1402, 1414]);
             assert_eq!([at(8, 2), at(15, 2), at(8, 5), at(15, 5)], [201, 215, 1401, 1415]);
             assert_eq!(texels.iter().filter(|&&texel| texel == 9999).count(), 256 - 16 - 32, "nothing else");
@@ -46,7 +46,7 @@ fn a_tile_has_the_viewport_and_scissor_of_its_rectangle() {
 }
 
 #[test]
-fn a_tile_is_cleared_alone_and_its_neighbours_stay() {
+fn only_a_tile_is_cleared_and_its_neighbours_are_kept() {
     for gpu in Gpu::all() {
         let mut graph = Graph::new();
         for frame_number in 0..3 {
@@ -78,7 +78,7 @@ fn a_tile_is_cleared_alone_and_its_neighbours_stay() {
 }
 
 #[test]
-fn mips_and_layers_are_drawn_into_and_bound_by_themselves() {
+fn single_mips_and_layers_are_drawn_into_and_bound() {
     for gpu in Gpu::all() {
         let (fill, load) = (gpu.draw("number", NUMBERS), gpu.draw("loaded", NUMBERS));
         let mut graph = Graph::new();
@@ -110,7 +110,7 @@ fn mips_and_layers_are_drawn_into_and_bound_by_themselves() {
     }
 }
 
-/// A volume with every slice of the mip cleared by a pass of its own.
+/// Describes a volume whose slices are cleared by separate passes.
 fn volume(mips: u32) -> TextureDesc {
     TextureDesc {
         size: Extent { width: 8, height: 8, depth_or_array_layers: 4 },
@@ -170,8 +170,8 @@ fn two_slices_of_a_volume_are_drawn_into_at_once() {
 }
 
 #[test]
-fn a_slice_that_nothing_reads_takes_no_other_slice_along() {
-    // wgpu knows no slices: one that is discarded counts as all of them.
+fn discarding_an_unread_slice_keeps_the_others() {
+    // wgpu does not track slices: discarding one discards them all.
     for gpu in Gpu::all() {
         let mut graph = Graph::new();
         let mut frame = graph.frame();
@@ -208,8 +208,8 @@ fn a_slice_is_not_drawn_into_while_another_is_sampled() {
 }
 
 #[test]
-fn storage_textures_of_parts_are_bound_by_themselves() {
-    // The noop device checks that the view is one of a single mip and layer, as storage textures must be.
+fn storage_textures_are_bound_by_subresource() {
+    // The noop device checks that the view has a single mip and layer, as storage textures must.
     let gpu = Gpu::noop();
     let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: None,

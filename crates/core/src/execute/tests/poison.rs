@@ -1,4 +1,4 @@
-//! Loud values in what nobody wrote.
+//! Poison values in contents that nobody wrote.
 
 use super::gpu::{Gpu, NUMBERS, depth_test, number, square};
 use crate::{
@@ -17,14 +17,14 @@ fn poisoned(on: bool) -> Graph {
 }
 
 #[test]
-fn poison_shows_what_a_false_cover_leaves_unwritten() {
+fn poison_shows_texels_that_a_false_overwrite_leaves_unwritten() {
     let Some(gpu) = Gpu::drawing() else { return };
-    for (format, entry, drawn, loud) in
+    for (format, entry, drawn, poison) in
         [(Format::Rgba8Unorm, "white", u32::MAX, MAGENTA), (NUMBERS, "seven", 7, u32::MAX)]
     {
         let draw = gpu.draw(entry, format);
         let mut graph = poisoned(true);
-        // Off again at the end: the very same frame, of which nothing is made anew but the objects.
+        // Off again at the end: the same frame, for which only the objects are created again.
         for (number, on) in [true, true, false].into_iter().enumerate() {
             graph.set_poison(on);
             let mut frame = graph.frame();
@@ -40,13 +40,13 @@ fn poison_shows_what_a_false_cover_leaves_unwritten() {
             let executed = gpu.run(&mut graph, frame);
             let texels = gpu.texels(executed.texture(color).unwrap(), 0, 0);
             assert_eq!(texels[..32], [drawn; 32], "frame {number}");
-            assert_eq!(texels[32..], [if on { loud } else { 0 }; 32], "frame {number}");
+            assert_eq!(texels[32..], [if on { poison } else { 0 }; 32], "frame {number}");
         }
     }
 }
 
 #[test]
-fn poison_shows_an_attachment_of_several_samples_that_is_not_covered() {
+fn poison_shows_a_multisampled_attachment_that_is_not_overwritten() {
     for gpu in Gpu::all() {
         let mut graph = poisoned(true);
         let mut frame = graph.frame();
@@ -64,8 +64,8 @@ fn poison_shows_an_attachment_of_several_samples_that_is_not_covered() {
     }
 }
 
-/// What each word of a texture of that format is when nothing wrote it.
-fn is_loud(format: Format, word: u32) -> bool {
+/// Returns whether a word of a texture of that format is its poison value.
+fn is_poison(format: Format, word: u32) -> bool {
     let halves = [word & 0xffff, word >> 16];
     match format {
         Format::Rgba8Unorm | Format::Rgba8UnormSrgb => word == MAGENTA || halves[1] >> 8 == 135,
@@ -81,7 +81,7 @@ fn is_loud(format: Format, word: u32) -> bool {
 }
 
 #[test]
-fn every_kind_of_texture_is_filled_as_a_whole() {
+fn every_kind_of_texture_is_filled_completely() {
     use wgpu::TextureFormat::*;
     let formats = [
         R8Unorm,
@@ -128,11 +128,11 @@ fn every_kind_of_texture_is_filled_as_a_whole() {
                 let size = desc.size.mip_level_size(mip, desc.dimension);
                 for layer in 0..size.depth_or_array_layers {
                     let words = gpu.texels(texture, mip, layer);
-                    // A line is filled by a copy.
+                    // A 1D texture is filled by a copy.
                     let format =
                         if desc.dimension == wgpu::TextureDimension::D1 { Rgba8Snorm } else { desc.format };
-                    let loud = words.iter().all(|&word| is_loud(format, word));
-                    assert!(loud, "{desc:?}, mip {mip}, layer {layer}: {words:x?}");
+                    let poison = words.iter().all(|&word| is_poison(format, word));
+                    assert!(poison, "{desc:?}, mip {mip}, layer {layer}: {words:x?}");
                 }
             }
         }
@@ -140,7 +140,7 @@ fn every_kind_of_texture_is_filled_as_a_whole() {
 }
 
 #[test]
-fn samples_that_outlive_their_pass_and_depth_with_stencil_are_filled() {
+fn stored_samples_and_depth_with_stencil_are_filled() {
     for gpu in Gpu::all() {
         let (last_sample, aspects) = (gpu.draw("last_sample", NUMBERS), gpu.draw("aspects", NUMBERS));
         let mut graph = poisoned(true);
@@ -192,7 +192,7 @@ fn buffers_are_filled_to_their_end() {
 fn an_attachment_is_filled_after_a_discard() {
     for gpu in Gpu::all() {
         for on in [true, false] {
-            let behind = Mutex::new(None);
+            let physical = Mutex::new(None);
             let mut graph = poisoned(on);
             let mut frame = graph.frame();
             let mut color = frame.create_texture("color", square(8));
@@ -204,7 +204,7 @@ fn an_attachment_is_filled_after_a_discard() {
             let token = pass.color(&mut color, Contents::clear_color([9.0; 4]));
             pass.keep();
             pass.body(|ctx| {
-                *behind.lock().unwrap() = Some(ctx.texture(token)?.clone());
+                *physical.lock().unwrap() = Some(ctx.texture(token)?.clone());
                 Ok(())
             });
             let executed = gpu.run(&mut graph, frame);
@@ -212,13 +212,13 @@ fn an_attachment_is_filled_after_a_discard() {
             let ops = executed.plan().accesses(again).next().unwrap().ops.unwrap();
             assert_eq!(ops.store, StoreAction::Discard);
             gpu.assert_filled(executed.texture(copy).unwrap(), 7);
-            let behind = behind.into_inner().unwrap().unwrap();
-            gpu.assert_filled(&behind, if on { u32::MAX } else { 0 });
+            let physical = physical.into_inner().unwrap().unwrap();
+            gpu.assert_filled(&physical, if on { u32::MAX } else { 0 });
         }
     }
 }
 
-/// Runs a frame three times without and three times with loud values, and compares what comes out.
+/// Runs a frame three times without and three times with poison, and compares the results.
 fn draws_the_same<'f>(gpu: &Gpu, declare: impl Fn(&mut Frame<'f>) -> Vec<TextureExport>) {
     let texels = [false, true].map(|on| {
         let mut graph = poisoned(on);
@@ -296,7 +296,7 @@ fn buffers_and_histories_hold_the_same() {
 }
 
 #[test]
-fn tiles_that_are_cleared_after_others_are_covered_draw_the_same() {
+fn tiles_that_are_cleared_after_others_are_overwritten_draw_the_same() {
     for gpu in Gpu::all() {
         let seven = gpu.draw("seven", NUMBERS);
         let tiles = [0, 4, 8].map(|x| Subresource::FULL.rect(Rect::new(x, 2, 4, 4)));
@@ -323,7 +323,7 @@ fn tiles_that_are_cleared_after_others_are_covered_draw_the_same() {
 }
 
 #[test]
-fn a_slice_beside_one_that_is_discarded_holds_the_same() {
+fn a_slice_next_to_a_discarded_one_holds_the_same() {
     for gpu in Gpu::all() {
         let seven = gpu.draw("seven", NUMBERS);
         draws_the_same(&gpu, |frame| {
@@ -349,9 +349,9 @@ fn a_slice_beside_one_that_is_discarded_holds_the_same() {
     }
 }
 
-/// What makes the tiles above hard: the plan counts on the zeros that one pass loads for the clear of another.
+/// The difficulty of the tiles above: the plan uses the zeros that one pass loads for the clear of another.
 #[test]
-fn a_clear_may_count_on_the_load_of_the_pass_before() {
+fn a_clear_may_rely_on_the_load_of_an_earlier_pass() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", square(16));
     let tiles = [0, 4].map(|x| Subresource::FULL.rect(Rect::new(x, 2, 4, 4)));

@@ -41,7 +41,7 @@ fn a_multisampled_attachment_is_resolved_and_never_stored() {
 }
 
 #[test]
-fn passes_that_are_merged_resolve_once_at_the_end() {
+fn merged_passes_resolve_once_at_the_end() {
     for gpu in Gpu::all() {
         let draw = gpu.draw_with("white", COLORS.into(), None, 4);
         let mut graph = Graph::new();

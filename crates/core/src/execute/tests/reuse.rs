@@ -1,9 +1,9 @@
-//! What stays from frame to frame, and what goes.
+//! Which objects are kept from frame to frame, and which are dropped.
 
 use super::gpu::{Gpu, NUMBERS, square};
 use crate::{Bind, Contents, Frame, Graph, PoolLimits, TextureExport};
 
-/// A chain of textures, each made from the one before it, the last of them exported.
+/// A chain of textures, each drawn from the previous one, the last of them exported.
 fn chain<'f>(graph: &Graph, draw: &'f super::Draw, side: u32, length: u32) -> (Frame<'f>, TextureExport) {
     let mut frame = graph.frame();
     let mut last = frame.create_texture("first", square(side));
@@ -35,7 +35,7 @@ impl<'g> Chains<'g> {
         Self { gpu, draw: gpu.draw("loaded", NUMBERS), graph: Graph::new() }
     }
 
-    /// Runs a frame, checks its numbers, and returns what it exported.
+    /// Runs a frame, checks its numbers, and returns its export.
     fn run(&mut self, side: u32, length: u32) -> wgpu::Texture {
         let (frame, export) = chain(&self.graph, &self.draw, side, length);
         let executed = self.gpu.run(&mut self.graph, frame);
@@ -111,7 +111,7 @@ fn plans_that_alternate_keep_their_textures() {
 }
 
 #[test]
-fn more_plans_than_are_kept_find_their_textures_again() {
+fn plans_beyond_the_kept_ones_find_their_textures_again() {
     let gpu = Gpu::noop();
     let mut chains = Chains::new(&gpu);
     let mut round = || [2, 3, 4, 5, 6, 7].map(|length| chains.run(16, length));
@@ -121,7 +121,7 @@ fn more_plans_than_are_kept_find_their_textures_again() {
 }
 
 #[test]
-fn what_lies_idle_for_longer_than_the_limit_is_dropped() {
+fn objects_that_are_idle_longer_than_the_limit_are_dropped() {
     for gpu in Gpu::all() {
         for idle_frames in [0, 1, 8, 20] {
             let mut chains = Chains::new(&gpu);
@@ -140,14 +140,14 @@ fn what_lies_idle_for_longer_than_the_limit_is_dropped() {
 }
 
 #[test]
-fn above_the_budget_the_longest_idle_goes_first_and_what_the_frame_needs_stays() {
+fn above_the_budget_the_longest_idle_is_dropped_first_and_used_ones_are_kept() {
     for gpu in Gpu::all() {
         let mut chains = Chains::new(&gpu);
         let budget_bytes = Some(2 * (bytes(32) + bytes(16)));
         chains.graph.set_limits(PoolLimits { idle_frames: 100, budget_bytes });
         chains.run(32, 2);
         let kept = chains.run(16, 2);
-        assert_eq!(chains.graph.bytes(), 2 * (bytes(32) + bytes(16)), "within the budget nothing goes");
+        assert_eq!(chains.graph.bytes(), 2 * (bytes(32) + bytes(16)), "within the budget nothing is dropped");
         chains.run(8, 2);
         assert_eq!(chains.graph.bytes(), bytes(32) + 2 * (bytes(16) + bytes(8)), "one of the oldest");
         assert_eq!(chains.run(16, 2), kept);
@@ -170,7 +170,7 @@ fn a_frame_that_only_changed_in_size_and_back_is_right() {
 }
 
 #[test]
-fn two_frames_in_flight_share_textures_and_stay_apart() {
+fn two_frames_in_flight_share_textures_without_interference() {
     for gpu in Gpu::all() {
         let mut chains = Chains::new(&gpu);
         let mut commands = Vec::new();

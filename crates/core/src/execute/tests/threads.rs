@@ -6,14 +6,14 @@ use crate::{Bind, BufferExport, Contents, Error, Executed, Frame, Graph, Rect, S
 use std::sync::Mutex;
 use std::thread::ThreadId;
 
-/// Sixteen tiles, each drawn several times over, alone and merged, with uploads and compute passes between.
+/// Declares sixteen tiles, each drawn several times, separately and merged, with uploads and compute passes between.
 fn frame<'f>(
     graph: &Graph,
     (draw, add): (&'f super::Draw, &'f super::Compute),
     threads: &'f Mutex<Vec<ThreadId>>,
 ) -> (Frame<'f>, Exports) {
     let mut frame = graph.frame();
-    // Else all tiles would become one render pass, and one thread would draw them all.
+    // Otherwise all tiles would become one render pass, which one thread would draw.
     frame.fix_order();
     let mut atlas = frame.create_texture("atlas", square(64));
     frame.render_pass("clear").color(&mut atlas, Contents::clear_color([1.0, 0.0, 0.0, 0.0]));
@@ -38,7 +38,7 @@ fn frame<'f>(
         pass.body(move |ctx| add.record(ctx, &[Bind::Uniform(block), Bind::Buffer(token)], 1));
     }
     let (atlas, sums) = (frame.export_texture(&atlas), frame.export_buffer(&sums));
-    // Copied by whoever records the last passes.
+    // Copied by the thread that records the last passes.
     let late = frame.upload_buffer("late", vec![9u8; 256]);
     let late = frame.export_buffer(&late);
     (frame, Exports { atlas, sums, late })

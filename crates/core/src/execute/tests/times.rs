@@ -5,7 +5,7 @@ use crate::test_device::{drawing_with, valid};
 use crate::{Contents, Frame, Graph, PassTime, Timer};
 use wgpu::Features;
 
-/// Two passes that are merged, a compute pass in a node, and a copy.
+/// Runs two passes that are merged, a compute pass in a node, and a copy.
 fn frame(graph: &Graph) -> Frame<'static> {
     let mut frame = graph.frame();
     let mut color = frame.create_texture("color", square(64));
@@ -31,7 +31,7 @@ fn frame(graph: &Graph) -> Frame<'static> {
 fn times(gpu: &Gpu) -> Vec<PassTime> {
     let (mut graph, mut timer) = (Graph::new(), Timer::new());
     let mut times = Vec::new();
-    // The same timer may serve every frame.
+    // One timer can be used for every frame.
     for _ in 0..2 {
         let frame = frame(&graph);
         let executed = valid(&gpu.device, || {
@@ -68,11 +68,11 @@ fn merged_passes_share_a_gpu_time_and_say_so() {
     assert!(times[0].gpu_ms.unwrap() >= 0.0, "{times:?}");
     assert_eq!(times[0].gpu_ms, times[1].gpu_ms);
     assert!(times[2].gpu_ms.is_some(), "{times:?}");
-    assert_eq!(times[3].gpu_ms, None, "nothing is written between passes on this device");
+    assert_eq!(times[3].gpu_ms, None, "this device writes no timestamps between passes");
 }
 
 #[test]
-fn merged_passes_are_told_apart_where_timestamps_go_inside_passes() {
+fn merged_passes_are_measured_separately_with_timestamps_inside_passes() {
     let features = Features::TIMESTAMP_QUERY
         | Features::TIMESTAMP_QUERY_INSIDE_PASSES
         | Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;

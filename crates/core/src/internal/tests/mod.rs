@@ -8,14 +8,14 @@ mod stage;
 use crate::desc::Format;
 use std::io::Write;
 
-/// A device, with what its adapter can do with formats; the noop device has no adapter.
+/// A device with its adapter, for the capabilities of formats; the noop device has none.
 struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     adapter: Option<wgpu::Adapter>,
 }
 
-/// What of this an adapter has is asked for: formats that not every device renders to.
+/// Features for formats that not every device renders to, requested where the adapter supports them.
 const FORMATS: wgpu::Features = wgpu::Features::DEPTH32FLOAT_STENCIL8
     .union(wgpu::Features::RG11B10UFLOAT_RENDERABLE)
     .union(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM)
@@ -132,7 +132,7 @@ impl Gpu {
     }
 }
 
-/// Native futures are ready at once.
+/// Polls a native future, which is ready at once.
 fn block_on<F: Future>(future: F) -> F::Output {
     let mut context = std::task::Context::from_waker(std::task::Waker::noop());
     match std::pin::pin!(future).poll(&mut context) {
@@ -141,8 +141,8 @@ fn block_on<F: Future>(future: F) -> F::Output {
     }
 }
 
-/// As `CONTRIBUTING.md` has it.
-#[allow(clippy::print_stdout, reason = "the line is for whoever runs the test")]
+/// Records a skip as described in `CONTRIBUTING.md`.
+#[allow(clippy::print_stdout, reason = "skips are printed")]
 fn skip(id: &str, reason: &str) {
     let line = format!("SKIP {id}: {}\n", reason.replace('\n', " "));
     print!("{line}");

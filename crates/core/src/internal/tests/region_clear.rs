@@ -1,4 +1,4 @@
-//! Clearing a part, against `LoadOp::Clear` of the whole.
+//! Clearing a region, compared with `LoadOp::Clear` of the whole attachment.
 
 use super::Gpu;
 use super::stage::{SIDE, Stage, Values};
@@ -8,8 +8,8 @@ use crate::internal::{RegionClear, RegionClears, module, vertex};
 
 const ALL: Rect = Rect { x: 0, y: 0, width: SIDE, height: SIDE };
 
-// Values that the formats have exactly: between two of a format's, drivers may round a draw and a clear differently,
-// and Mesa's llvmpipe does so in `Rgb10a2Unorm`.
+// Values that the formats represent exactly: drivers may round others differently in a draw and a clear, as Mesa's llvmpipe
+// does in `Rgb10a2Unorm`.
 const FLOAT: [[f64; 4]; 2] = [[1.0, 0.4, 0.8, 0.0], [0.2, 0.4, 0.6, 0.8]];
 const TENTHS: [[f64; 4]; 2] = [[1.0, 0.0, 1.0, 0.0], [1.0 / 3.0, 2.0 / 3.0, 0.0, 1.0 / 3.0]];
 const SIGNED: [[f64; 4]; 2] = [[1.0, -1.0, 0.0, 1.0], [-1.0, 0.0, 1.0, -1.0]];
@@ -21,7 +21,7 @@ const SINT: [[f64; 4]; 2] = [[1.0, -2.0, 3.0, -4.0], [-128.0, 127.0, -1.0, 0.0]]
 const WIDE_UINT: [[f64; 4]; 2] = [[1.0, 2.0, 3.0, 4.0], [4_294_967_295.0, 16_777_217.0, 0.0, 5.0]];
 const WIDE_SINT: [[f64; 4]; 2] = [[1.0, 2.0, 3.0, 4.0], [-2_147_483_647.0, 16_777_217.0, -1.0, 5.0]];
 
-/// Colour formats of every class and width, with values before and after.
+/// Colour formats of every sample type and width, with values before and after.
 pub(super) const COLORS: [(Format, [[f64; 4]; 2]); 30] = [
     (Format::R8Unorm, FLOAT),
     (Format::Rg8Unorm, FLOAT),
@@ -82,14 +82,14 @@ fn check_depth_stencils(gpu: &Gpu, samples: u32) {
     let before = depth_stencil(Some(0.5), Some(9));
     for format in DEPTH_STENCILS.into_iter().filter(|format| gpu.renders(*format, samples)) {
         let stage = Stage::new(gpu, &[], Some(format), samples);
-        // Both, one of two, and what not every format has.
+        // Both, one of two, and aspects that not every format has.
         for over in [(Some(0.25), Some(200)), (Some(0.25), None), (None, Some(200))] {
             stage.check(&before, &depth_stencil(over.0, over.1));
         }
     }
 }
 
-/// PipelineTargets of all classes, one of them left alone and one missing, with depth.
+/// Clears attachments of all sample types, one of them unchanged and one missing, with depth.
 fn check_mixed(gpu: &Gpu, samples: u32) {
     let formats = [
         Some(Format::Rgba8Unorm),
@@ -108,7 +108,7 @@ fn check_mixed(gpu: &Gpu, samples: u32) {
     let (float, sint) = (Some(FLOAT[1]), Some(SINT[1]));
     for colors in [
         vec![float, None, Some(UINT[1]), sint, None, sint],
-        // The hole has a value, which is ignored, and the list ends early.
+        // The missing attachment has a value, which is ignored, and the list is shorter.
         vec![None, float, None, sint],
         vec![None; 6],
     ] {
@@ -118,7 +118,7 @@ fn check_mixed(gpu: &Gpu, samples: u32) {
     }
 }
 
-/// A pass that reads depth and stencil and clears colour.
+/// Records a pass that reads depth and stencil and clears colour.
 fn check_read_only_depth(gpu: &Gpu) {
     for format in [Format::Depth32Float, Format::Depth24PlusStencil8] {
         let mut stage = Stage::new(gpu, &[Some(Format::Rgba8Unorm)], Some(format), 1);
@@ -160,7 +160,7 @@ fn a_cleared_depth_is_stored_as_a_whole_clear_stores_it() {
 }
 
 #[test]
-fn attachments_of_all_classes_are_cleared_in_one_pass_around_a_hole_and_one_left_alone() {
+fn attachments_of_all_sample_types_are_cleared_in_one_pass_next_to_a_missing_and_an_unchanged_one() {
     let Some(gpu) = Gpu::real() else { return };
     check_mixed(&gpu, 1);
 }
@@ -232,7 +232,7 @@ fn an_empty_rectangle_or_nothing_to_clear_records_nothing() {
 }
 
 #[test]
-fn values_share_a_pipeline_and_are_dropped_when_they_lie_idle() {
+fn values_share_a_pipeline_and_are_dropped_when_idle() {
     let gpu = Gpu::noop();
     let stage = Stage::new(&gpu, &[Some(Format::R8Unorm)], None, 1);
     let mut clears = RegionClears::default();

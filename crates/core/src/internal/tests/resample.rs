@@ -1,4 +1,4 @@
-//! Resampling, against the same mapping on the CPU.
+//! Resampling, compared with the same mapping on the CPU.
 
 use super::Gpu;
 use super::region_clear::{COLORS, DEPTH_STENCILS};
@@ -15,7 +15,7 @@ fn extent([width, height]: [u32; 2], layers: u32) -> wgpu::Extent3d {
     wgpu::Extent3d { width, height, depth_or_array_layers: layers }
 }
 
-/// Gives every texel of one mip and layer another value.
+/// Fills one mip and layer with a different value in every texel.
 fn fill(gpu: &Gpu, clears: &mut RegionClears, texture: &wgpu::Texture, mip: u32, layer: u32) {
     let format = texture.format();
     let class = format.sample_type(None, None).unwrap();
@@ -44,7 +44,7 @@ fn fill(gpu: &Gpu, clears: &mut RegionClears, texture: &wgpu::Texture, mip: u32,
     });
 }
 
-/// Returns a filled source and what became of the target.
+/// Returns a filled source and the resampled target.
 fn resample(
     gpu: &Gpu,
     format: Format,
@@ -63,7 +63,7 @@ fn resample(
     (source, target)
 }
 
-/// Compares all mips and layers with the texel of the source under each centre.
+/// Compares all mips and layers with the source texel at each centre.
 fn check_nearest(gpu: &Gpu, (source, target): (wgpu::Texture, wgpu::Texture)) {
     for (mip, layer) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let from_mip = mip.min(source.mip_level_count() - 1);
@@ -82,7 +82,7 @@ fn check_nearest(gpu: &Gpu, (source, target): (wgpu::Texture, wgpu::Texture)) {
 }
 
 #[test]
-fn what_cannot_be_filtered_takes_the_texel_under_the_centre() {
+fn formats_that_cannot_be_filtered_use_the_texel_at_the_centre() {
     let Some(gpu) = Gpu::real() else { return };
     let formats =
         [Format::R32Uint, Format::Rgba8Sint, Format::R32Float, Format::Depth32Float, Format::Depth16Unorm];
@@ -106,7 +106,7 @@ fn color_is_filtered_bilinearly() {
                 let place = [index as u32 % sizes.1[0], index as u32 / sizes.1[0]];
                 let expected = bilinear(&texels, sizes, place);
                 let error = |(a, b): (&u8, f64)| (f64::from(*a) - b).abs();
-                // Weights have 8 bits.
+                // Filter weights have 8 bits.
                 let worst = texel.iter().zip(expected).map(error).fold(0.0, f64::max);
                 assert!(worst < 1.5, "{sizes:?} {place:?}: {texel:?}, not {expected:?}");
             }
@@ -125,7 +125,7 @@ fn the_same_size_is_a_copy() {
     }
 }
 
-/// The four texels around the place of a target's texel, weighted, with clamped edges.
+/// Returns the weighted sum of the four source texels around a target texel, with clamped edges.
 fn bilinear(texels: &[Vec<u8>], (from, to): ([u32; 2], [u32; 2]), place: [u32; 2]) -> [f64; 4] {
     let at = |axis: usize| {
         let at = (f64::from(place[axis]) + 0.5) * f64::from(from[axis]) / f64::from(to[axis]) - 0.5;
@@ -144,7 +144,7 @@ fn bilinear(texels: &[Vec<u8>], (from, to): ([u32; 2], [u32; 2]), place: [u32; 2
 }
 
 #[test]
-fn every_format_that_fits_validates() {
+fn every_supported_format_validates() {
     let gpu = Gpu::noop();
     let features = gpu.device.features();
     let formats = COLORS.iter().map(|(format, _)| *format).chain(DEPTH_STENCILS);
@@ -157,7 +157,7 @@ fn every_format_that_fits_validates() {
 }
 
 #[test]
-fn shapes_that_do_not_fit_are_refused_with_the_reason() {
+fn unsupported_shapes_are_errors_with_the_reason() {
     let features = wgpu::Features::empty();
     let d2 = |format| TextureDesc::d2(4, 4, format);
     let plain = d2(Format::Rgba8Unorm);
@@ -171,7 +171,7 @@ fn shapes_that_do_not_fit_are_refused_with_the_reason() {
 }
 
 #[test]
-fn textures_that_do_not_fit_each_other_record_nothing() {
+fn textures_that_do_not_match_record_nothing() {
     let gpu = Gpu::noop();
     let texture = |format, layers| gpu.texture(format, extent([4, 4], layers), 1, 1);
     let sampled = texture(Format::Rgba8Unorm, 1);

@@ -1,4 +1,4 @@
-//! A pass to clear parts of: its textures, and what each texel is to be afterwards.
+//! A pass in which regions are cleared: its textures, and the expected texels.
 
 use super::Gpu;
 use crate::Rect;
@@ -7,7 +7,7 @@ use crate::internal::{RegionClear, RegionClears, Targets};
 
 pub(super) const SIDE: u32 = 8;
 
-/// Two tiles that share an edge, a rectangle off any grid, and the last texel.
+/// Two tiles that share an edge, a rectangle that is not on a grid, and the last texel.
 const RECTS: [Rect; 4] = [
     Rect { x: 0, y: 0, width: 4, height: 8 },
     Rect { x: 4, y: 0, width: 4, height: 8 },
@@ -23,7 +23,7 @@ pub(super) struct Values {
 }
 
 impl Values {
-    /// What is everywhere once `self` was there and `over` has cleared all.
+    /// Returns the values everywhere after `over` has cleared everything over `self`.
     fn under(&self, over: &Values) -> Values {
         let colors = self.colors.iter().enumerate();
         Values {
@@ -60,7 +60,7 @@ impl<'g> Stage<'g> {
         }
     }
 
-    /// Opens a pass that clears all to `values`, or loads all, and leaves the rest to `record`.
+    /// Opens a pass that clears everything to `values`, or loads everything, and calls `record`.
     pub(super) fn pass(&self, values: Option<&Values>, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
         let colors = self.colors.iter().enumerate().map(|(index, view)| {
             let value = values.map(|values| values.colors[index].unwrap_or_default());
@@ -121,7 +121,7 @@ impl<'g> Stage<'g> {
         let clear = |clears: &mut RegionClears, rect| {
             let clear = RegionClear { colors: &over.colors, depth: over.depth, stencil: over.stencil, rect };
             self.pass(None, |pass| {
-                // What an earlier draw of the pass may have left.
+                // State that an earlier draw of the pass may have left.
                 pass.set_scissor_rect(1, 1, 2, 2);
                 pass.set_viewport(1.0, 1.0, 2.0, 2.0, 0.0, 0.5);
                 clears.record(&self.gpu.device, pass, &self.targets, &clear);
@@ -144,7 +144,7 @@ impl<'g> Stage<'g> {
     }
 }
 
-/// Takes the texels of one picture inside a rectangle and of another outside.
+/// Combines the texels of one image inside a rectangle with those of another outside.
 fn mix(rect: Rect, inside: &[Vec<u8>], outside: &[Vec<u8>]) -> Vec<Vec<u8>> {
     let is_inside = |index: usize| {
         let (x, y) = (index as u32 % SIDE, index as u32 / SIDE);
@@ -178,7 +178,7 @@ fn depth_attachment<'v>(
     }
 }
 
-/// Clears to a value or loads.
+/// Returns operations that clear to a value or load.
 fn ops<V>(value: Option<V>) -> wgpu::Operations<V> {
     let load = value.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear);
     wgpu::Operations { load, store: wgpu::StoreOp::Store }

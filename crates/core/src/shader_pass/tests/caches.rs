@@ -1,20 +1,20 @@
-//! What is made, and how often.
+//! Which pipelines and bind groups are created, and how often.
 
 use super::{Gpu, TEXT, cleared, fragment, kernel, texture};
 use crate::{Contents, Error, Executed, Format, Frame, FullscreenShader};
 
-/// A frame that draws `shader` into a picture of each format.
+/// Runs a frame that draws `shader` into a texture of each format.
 fn draws<'f>(gpu: &Gpu, shader: &FullscreenShader, formats: &[Format]) -> Frame<'f> {
     let mut frame = gpu.graph.frame();
     for &format in formats {
-        let mut picture = texture(&mut frame, "picture", 4, format);
-        frame.fullscreen("draw", shader).draw(&mut picture);
-        frame.export_texture(&picture);
+        let mut image = texture(&mut frame, "image", 4, format);
+        frame.fullscreen("draw", shader).draw(&mut image);
+        frame.export_texture(&image);
     }
     frame
 }
 
-/// A frame that scales a picture of this side.
+/// Runs a frame that scales a texture of this size.
 fn scales(
     gpu: &mut Gpu,
     shader: &FullscreenShader,
@@ -23,9 +23,9 @@ fn scales(
 ) -> Result<Executed, Error> {
     let mut frame = gpu.graph.frame();
     let source = cleared(&mut frame, "source", side, 1.0);
-    let mut picture = texture(&mut frame, "picture", side, Format::Rgba8Unorm);
-    frame.fullscreen("scale", shader).sample(&source).sampler(nearest).uniform(&[0; 16]).draw(&mut picture);
-    frame.export_texture(&picture);
+    let mut image = texture(&mut frame, "image", side, Format::Rgba8Unorm);
+    frame.fullscreen("scale", shader).sample(&source).sampler(nearest).uniform(&[0; 16]).draw(&mut image);
+    frame.export_texture(&image);
     gpu.run(frame)
 }
 
@@ -41,7 +41,7 @@ fn equal_shaders_share_a_pipeline() {
 }
 
 #[test]
-fn what_a_pipeline_is_made_of_tells_it_from_others() {
+fn pipelines_differ_by_source_entry_point_constants_and_targets() {
     let mut gpu = Gpu::noop();
     let shaders = [
         fragment("level"),
@@ -58,15 +58,15 @@ fn what_a_pipeline_is_made_of_tells_it_from_others() {
     gpu.run(frame).unwrap();
     assert_eq!(gpu.cached().0, 5, "another format");
     let mut frame = gpu.graph.frame();
-    let mut picture = cleared(&mut frame, "picture", 4, 0.0);
-    frame.fullscreen("over", &shaders[0]).draw_over(&mut picture, wgpu::BlendState::ALPHA_BLENDING);
-    frame.export_texture(&picture);
+    let mut image = cleared(&mut frame, "image", 4, 0.0);
+    frame.fullscreen("over", &shaders[0]).draw_over(&mut image, wgpu::BlendState::ALPHA_BLENDING);
+    frame.export_texture(&image);
     gpu.run(frame).unwrap();
     assert_eq!(gpu.cached().0, 6, "a blend");
 }
 
 #[test]
-fn pipelines_stay_while_their_shader_does() {
+fn pipelines_are_kept_while_their_shader_is() {
     let mut gpu = Gpu::noop();
     let (kept, dropped) = (fragment("level"), fragment("gradient"));
     for shader in [&kept, &dropped] {
@@ -81,11 +81,11 @@ fn pipelines_stay_while_their_shader_does() {
     assert_eq!(gpu.cached().0, 1);
     let frame = draws(&gpu, &kept, &[Format::Rgba8Unorm]);
     gpu.run(frame).unwrap();
-    assert_eq!(gpu.cached().0, 1, "the one that is left is that of the shader that is left");
+    assert_eq!(gpu.cached().0, 1, "the remaining pipeline is that of the remaining shader");
 }
 
 #[test]
-fn shaders_made_anew_in_each_frame_find_their_pipeline() {
+fn shaders_created_in_each_frame_find_their_pipeline() {
     let mut gpu = Gpu::noop();
     for _ in 0..30 {
         let mut frame = gpu.graph.frame();
@@ -101,7 +101,7 @@ fn shaders_made_anew_in_each_frame_find_their_pipeline() {
 }
 
 #[test]
-fn bind_groups_are_made_exactly_when_a_slot_changes() {
+fn bind_groups_are_created_only_when_a_slot_changes() {
     let mut gpu = Gpu::noop();
     let nearest = gpu.device.create_sampler(&wgpu::SamplerDescriptor::default());
     let scaled = fragment("scaled");
@@ -113,13 +113,13 @@ fn bind_groups_are_made_exactly_when_a_slot_changes() {
         assert_eq!(groups(&mut gpu, 64), 1, "an unchanged frame");
     }
     assert_eq!(groups(&mut gpu, 128), 2, "another size is another slot");
-    assert_eq!(groups(&mut gpu, 64), 2, "the old size is still there");
+    assert_eq!(groups(&mut gpu, 64), 2, "the old size is still cached");
     for _ in 0..10 {
         groups(&mut gpu, 64);
     }
-    assert_eq!(groups(&mut gpu, 64), 1, "what lies idle goes");
+    assert_eq!(groups(&mut gpu, 64), 1, "idle groups are dropped");
     let pipelines = gpu.cached().0;
-    assert_eq!(pipelines, 1, "sizes make no pipelines");
+    assert_eq!(pipelines, 1, "sizes need no new pipelines");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn a_buffer_with_the_same_slot_keeps_its_group_and_another_sampler_gets_one() {
 }
 
 #[test]
-fn frames_declare_shader_passes_in_the_memory_of_frames_before() {
+fn frames_declare_shader_passes_in_the_memory_of_earlier_frames() {
     let mut gpu = Gpu::noop();
     let shader = fragment("level");
     let formats = [Format::Rgba8Unorm; 20];

@@ -1,4 +1,4 @@
-//! What one-line dispatches compute.
+//! Results of one-line dispatches.
 
 use super::{Gpu, kernel, texture, words};
 use crate::{Contents, Format, Subresource};
@@ -22,7 +22,7 @@ fn numbers_are_doubled() {
 }
 
 #[test]
-fn a_part_of_a_buffer_is_bound_alone() {
+fn a_range_of_a_buffer_is_bound() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let mut numbers = frame.upload_buffer("numbers", bytes(0..128));
@@ -82,7 +82,7 @@ fn the_number_of_workgroups_may_come_from_a_buffer() {
 }
 
 #[test]
-fn a_storage_texture_is_painted_from_a_buffer() {
+fn a_storage_texture_is_written_from_a_buffer() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let inputs = frame.upload_buffer("inputs", bytes([1, 2, 3]));

@@ -1,10 +1,10 @@
-//! One-line passes: what they draw on a device that draws, and what is made and refused on wgpu's noop device.
+//! One-line passes: their output on a device that draws, and their caches and errors on wgpu's noop device.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod caches;
 mod compute;
+mod errors;
 mod pixels;
-mod refusals;
 mod warm;
 
 use crate::test_device::valid;
@@ -42,7 +42,7 @@ impl Gpu {
         crate::test_device::drawing().map(Self::new)
     }
 
-    /// Compiles and records.
+    /// Compiles and records a frame.
     fn record(&mut self, frame: Frame<'_>) -> Result<(Executed, wgpu::CommandEncoder), crate::Error> {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         let compiled = self.graph.compile(frame)?;
@@ -50,7 +50,7 @@ impl Gpu {
         Ok((executed, encoder))
     }
 
-    /// Compiles, records and submits, and fails with whatever wgpu objects to.
+    /// Compiles, records and submits a frame, and fails on a validation error of wgpu.
     fn run(&mut self, frame: Frame<'_>) -> Result<Executed, crate::Error> {
         let device = self.device.clone();
         valid(&device, || {
@@ -66,7 +66,7 @@ impl Gpu {
         requests.map(|request| executed.read_back(request).unwrap().wait(&self.device).unwrap())
     }
 
-    /// Counts of what is cached: pipelines that draw and that compute, bind groups.
+    /// Returns the numbers of cached render pipelines, compute pipelines and bind groups.
     fn cached(&self) -> (usize, usize, usize) {
         let caches = self.graph.device.caches();
         let (render, compute) = caches.pipelines.len();
@@ -78,11 +78,11 @@ fn texture(frame: &mut Frame<'_>, name: &str, side: u32, format: Format) -> Text
     frame.create_texture(name, TextureDesc::d2(side, side, format))
 }
 
-/// A picture cleared to grey of this level.
+/// Declares a texture cleared to grey of this level.
 fn cleared(frame: &mut Frame<'_>, name: &str, side: u32, level: f64) -> Texture {
-    let mut picture = texture(frame, name, side, Format::Rgba8Unorm);
-    frame.render_pass(name).color(&mut picture, Contents::clear_color([level; 4]));
-    picture
+    let mut image = texture(frame, name, side, Format::Rgba8Unorm);
+    frame.render_pass(name).color(&mut image, Contents::clear_color([level; 4]));
+    image
 }
 
 fn whole(frame: &mut Frame<'_>, texture: &Texture) -> ReadBackRequest {

@@ -1,4 +1,4 @@
-//! What one-line draws draw, texel by texel.
+//! Output of one-line draws, texel by texel.
 
 use super::{Gpu, cleared, fragment, texture, whole, words};
 use crate::{
@@ -15,7 +15,7 @@ const ADD: BlendState = {
     BlendState { color: add, alpha: add }
 };
 
-/// The gradient's texels on a square: uv in red and green, in 8 bits.
+/// Returns the texels of the gradient on a square: uv in red and green, in 8 bits.
 fn gradient(side: u32) -> Vec<u8> {
     let level = |at: u32| ((at as f32 + 0.5) / side as f32 * 255.0).round() as u8;
     (0..side * side).flat_map(|i| [level(i % side), level(i / side), 0, 255]).collect()
@@ -25,72 +25,72 @@ fn gradient(side: u32) -> Vec<u8> {
 fn uv_begins_at_the_upper_left_corner() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
-    let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
-    frame.fullscreen("gradient", &fragment("gradient")).draw(&mut picture);
-    let read = whole(&mut frame, &picture);
+    let mut image = texture(&mut frame, "image", 4, Format::Rgba8Unorm);
+    frame.fullscreen("gradient", &fragment("gradient")).draw(&mut image);
+    let read = whole(&mut frame, &image);
     assert_eq!(gpu.bytes(frame, [read]), [gradient(4)]);
 }
 
 #[test]
-fn a_module_of_the_callers_draws_like_a_text() {
+fn a_module_draws_like_its_source() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
         source: wgpu::ShaderSource::Wgsl(super::TEXT.into()),
     });
     let mut frame = gpu.graph.frame();
-    let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
+    let mut image = texture(&mut frame, "image", 4, Format::Rgba8Unorm);
     frame
         .fullscreen("gradient", &FullscreenShader::module("own", &module).entry_point("gradient"))
-        .draw(&mut picture);
-    let read = whole(&mut frame, &picture);
+        .draw(&mut image);
+    let read = whole(&mut frame, &image);
     assert_eq!(gpu.bytes(frame, [read]), [gradient(4)]);
 }
 
 #[test]
-fn a_constant_changes_what_is_drawn() {
+fn a_constant_changes_the_output() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let reads = [fragment("level"), fragment("level").constant("LEVEL", 0.6)].map(|shader| {
-        let mut picture = texture(&mut frame, "picture", 2, Format::Rgba8Unorm);
-        frame.fullscreen("level", &shader).draw(&mut picture);
-        whole(&mut frame, &picture)
+        let mut image = texture(&mut frame, "image", 2, Format::Rgba8Unorm);
+        frame.fullscreen("level", &shader).draw(&mut image);
+        whole(&mut frame, &image)
     });
     assert_eq!(gpu.bytes(frame, reads), [vec![51; 16], vec![153; 16]]);
 }
 
 #[test]
-fn drawing_over_blends_with_what_is_there() {
+fn drawing_over_blends_with_the_contents() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let level = fragment("level").constant("LEVEL", 0.4);
     for (blend, expected) in [(Some(ADD), 51 + 102), (None, 102), (Some(BlendState::REPLACE), 102)] {
         let mut frame = gpu.graph.frame();
-        let mut picture = cleared(&mut frame, "picture", 3, 0.2);
-        frame.fullscreen("over", &level).draw_over(&mut picture, blend);
-        let read = whole(&mut frame, &picture);
+        let mut image = cleared(&mut frame, "image", 3, 0.2);
+        frame.fullscreen("over", &level).draw_over(&mut image, blend);
+        let read = whole(&mut frame, &image);
         assert_eq!(gpu.bytes(frame, [read]), [vec![expected; 36]], "{blend:?}");
     }
 }
 
 #[test]
-fn drawing_over_keeps_what_the_shader_discards() {
+fn drawing_over_keeps_texels_that_the_shader_discards() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
-    let mut picture = cleared(&mut frame, "picture", 2, 0.2);
-    frame.fullscreen("half", &fragment("right_half")).draw_over(&mut picture, None);
-    let read = whole(&mut frame, &picture);
+    let mut image = cleared(&mut frame, "image", 2, 0.2);
+    frame.fullscreen("half", &fragment("right_half")).draw_over(&mut image, None);
+    let read = whole(&mut frame, &image);
     let row = [[51; 4], [255; 4]].concat();
     assert_eq!(gpu.bytes(frame, [read]), [row.repeat(2)]);
 }
 
 #[test]
-fn a_tile_is_drawn_over_and_the_rest_stays() {
+fn a_tile_is_overwritten_and_the_rest_is_kept() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
-    let mut picture = cleared(&mut frame, "picture", 4, 0.2);
+    let mut image = cleared(&mut frame, "image", 4, 0.2);
     let tile = Subresource::FULL.rect(Rect::new(2, 1, 2, 2));
-    frame.fullscreen("tile", &fragment("gradient")).subresource(tile).draw(&mut picture);
-    let read = whole(&mut frame, &picture);
+    frame.fullscreen("tile", &fragment("gradient")).subresource(tile).draw(&mut image);
+    let read = whole(&mut frame, &image);
     let mut expected = vec![51; 64];
     for (row, texels) in gradient(2).chunks(8).enumerate() {
         let start = ((row + 1) * 4 + 2) * 4;
@@ -103,13 +103,13 @@ fn a_tile_is_drawn_over_and_the_rest_stays() {
 fn draws_into_tiles_of_one_target_share_a_render_pass() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
-    let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
+    let mut image = texture(&mut frame, "image", 4, Format::Rgba8Unorm);
     let shaders = [0.2, 0.4].map(|level| fragment("level").constant("LEVEL", level));
     for (x, shader) in [0, 2].into_iter().zip(&shaders) {
         let tile = Subresource::FULL.rect(Rect::new(x, 0, 2, 4));
-        frame.fullscreen(format_args!("tile {x}"), shader).subresource(tile).draw(&mut picture);
+        frame.fullscreen(format_args!("tile {x}"), shader).subresource(tile).draw(&mut image);
     }
-    let read = whole(&mut frame, &picture);
+    let read = whole(&mut frame, &image);
     let mut executed = gpu.run(frame).unwrap();
     let plan = executed.plan();
     assert_eq!(plan.merge_reasons, [MergeReason::First, MergeReason::Merged]);
@@ -131,7 +131,7 @@ fn two_targets_of_different_formats_are_drawn_at_once() {
 }
 
 #[test]
-fn one_target_is_kept_while_the_other_is_covered() {
+fn one_target_is_preserved_while_the_other_is_overwritten() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let mut first = cleared(&mut frame, "first", 2, 0.2);
@@ -143,7 +143,7 @@ fn one_target_is_kept_while_the_other_is_covered() {
 }
 
 #[test]
-fn a_mip_level_is_drawn_from_the_one_before() {
+fn a_mip_level_is_drawn_from_the_previous_one() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let mut frame = gpu.graph.frame();
     let desc = TextureDesc { mip_levels: 3, ..TextureDesc::d2(8, 8, Format::Rgba8Unorm) };
@@ -176,12 +176,12 @@ fn depth_is_drawn_and_tested_against() {
             frame.render_pass("stencil").depth(&mut depth, Contents::Clear(ClearValue::DepthStencil(1.0, 3)));
         }
         frame.fullscreen("depth", &fragment("depth_of_uv")).draw_depth(&mut depth);
-        let mut picture = cleared(&mut frame, "picture", 2, 0.2);
+        let mut image = cleared(&mut frame, "image", 2, 0.2);
         frame
             .fullscreen("sky", &fragment("level").constant("LEVEL", 1.0))
             .depth_test(&depth, wgpu::CompareFunction::Equal)
-            .draw_over(&mut picture, None);
-        let read = whole(&mut frame, &picture);
+            .draw_over(&mut image, None);
+        let read = whole(&mut frame, &image);
         let row = [[51; 4], [255; 4]].concat();
         assert_eq!(gpu.bytes(frame, [read]), [row.repeat(2)], "{format:?}");
     }
@@ -194,11 +194,11 @@ fn multisampled_targets_are_drawn_into() {
     let desc = TextureDesc { samples: 4, ..TextureDesc::d2(2, 2, Format::Rgba8Unorm) };
     let mut many = frame.create_texture("many", desc);
     frame.fullscreen("level", &fragment("level")).draw(&mut many);
-    let mut picture = texture(&mut frame, "picture", 2, Format::Rgba8Unorm);
+    let mut image = texture(&mut frame, "image", 2, Format::Rgba8Unorm);
     let mut resolve = frame.render_pass("resolve");
     resolve.color(&mut many, Contents::Preserve);
-    resolve.resolve(&mut picture);
-    let read = whole(&mut frame, &picture);
+    resolve.resolve(&mut image);
+    let read = whole(&mut frame, &image);
     assert_eq!(gpu.bytes(frame, [read]), [vec![51; 16]]);
 }
 
@@ -210,15 +210,15 @@ fn frames_in_flight_draw_with_their_own_uniforms() {
     let record = |gpu: &mut Gpu, factor: f32| {
         let mut frame = gpu.graph.frame();
         let source = cleared(&mut frame, "source", 2, 0.2);
-        let mut picture = texture(&mut frame, "picture", 2, Format::Rgba8Unorm);
+        let mut image = texture(&mut frame, "image", 2, Format::Rgba8Unorm);
         let factor = [factor; 4].map(f32::to_le_bytes).concat();
         frame
             .fullscreen("scale", &scaled)
             .sample(&source)
             .sampler(&nearest)
             .uniform(&factor)
-            .draw(&mut picture);
-        let read = whole(&mut frame, &picture);
+            .draw(&mut image);
+        let read = whole(&mut frame, &image);
         let (mut executed, encoder) = gpu.record(frame).unwrap();
         (executed.read_back(read).unwrap(), encoder)
     };
@@ -234,17 +234,17 @@ fn frames_in_flight_draw_with_their_own_uniforms() {
 }
 
 #[test]
-fn a_uniform_block_serves_several_passes() {
+fn several_passes_share_a_uniform_block() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let nearest = gpu.device.create_sampler(&wgpu::SamplerDescriptor::default());
     let mut frame = gpu.graph.frame();
     let factor = frame.uniform(&[2.0f32; 4].map(f32::to_le_bytes).concat());
-    let mut before = cleared(&mut frame, "picture 0", 2, 0.2);
+    let mut before = cleared(&mut frame, "image 0", 2, 0.2);
     for pass in 1..3 {
-        let mut picture = texture(&mut frame, "picture", 2, Format::Rgba8Unorm);
+        let mut image = texture(&mut frame, "image", 2, Format::Rgba8Unorm);
         let scale = frame.fullscreen(format_args!("scale {pass}"), &fragment("scaled"));
-        scale.sample(&before).sampler(&nearest).uniform(factor).draw(&mut picture);
-        before = picture;
+        scale.sample(&before).sampler(&nearest).uniform(factor).draw(&mut image);
+        before = image;
     }
     let read = whole(&mut frame, &before);
     assert_eq!(gpu.bytes(frame, [read]), [[204; 16]]);
@@ -259,9 +259,9 @@ fn threads_record_one_line_passes_and_read_backs() {
         let reads: Vec<_> = (1..=5)
             .map(|step| {
                 let level = fragment("level").constant("LEVEL", f64::from(step) * 0.2);
-                let mut picture = texture(&mut frame, "picture", 2, Format::Rgba8Unorm);
-                frame.fullscreen(format_args!("level {step}"), &level).draw(&mut picture);
-                whole(&mut frame, &picture)
+                let mut image = texture(&mut frame, "image", 2, Format::Rgba8Unorm);
+                frame.fullscreen(format_args!("level {step}"), &level).draw(&mut image);
+                whole(&mut frame, &image)
             })
             .collect();
         let compiled = graph.compile(frame).unwrap();

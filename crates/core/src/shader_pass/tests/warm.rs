@@ -1,26 +1,26 @@
-//! First draws met before the first frame.
+//! Warming up pipelines.
 
 use super::{Gpu, TEXT, cleared, fragment, kernel, texture, whole, words};
 use crate::{Contents, Format, Frame, FullscreenShader, Resize, Subresource, TextureDesc};
 use std::time::{Duration, Instant};
 
 #[test]
-fn a_warmed_frame_finds_its_pipelines_and_its_plan() {
+fn a_warmed_up_frame_finds_its_pipelines_and_its_plan() {
     let mut gpu = Gpu::noop();
     let (shader, double) = (fragment("level"), kernel("double"));
     let frame = |gpu: &Gpu| {
         let mut frame = gpu.graph.frame();
-        let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
-        frame.fullscreen("draw", &shader).draw(&mut picture);
+        let mut image = texture(&mut frame, "image", 4, Format::Rgba8Unorm);
+        frame.fullscreen("draw", &shader).draw(&mut image);
         let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
         frame.compute("double", &double).storage_mut(&mut numbers, Contents::Preserve).dispatch([1; 3]);
-        frame.export_texture(&picture);
+        frame.export_texture(&image);
         frame.export_buffer(&numbers);
         frame
     };
     let warm = frame(&gpu);
     gpu.graph.warm(warm, &gpu.device, &gpu.queue).unwrap();
-    assert_eq!(gpu.cached(), (1, 1, 0), "pipelines, and nothing else");
+    assert_eq!(gpu.cached(), (1, 1, 0), "pipelines only");
     assert_eq!(gpu.graph.bytes(), 0);
     let real = frame(&gpu);
     gpu.run(real).unwrap();
@@ -29,14 +29,14 @@ fn a_warmed_frame_finds_its_pipelines_and_its_plan() {
 }
 
 #[test]
-fn warming_late_keeps_what_is_there() {
+fn warming_up_later_keeps_existing_pipelines() {
     let mut gpu = Gpu::noop();
     let shader = fragment("level");
     let frame = |gpu: &Gpu, format| {
         let mut frame = gpu.graph.frame();
-        let mut picture = texture(&mut frame, "picture", 4, format);
-        frame.fullscreen("draw", &shader).draw(&mut picture);
-        frame.export_texture(&picture);
+        let mut image = texture(&mut frame, "image", 4, format);
+        frame.fullscreen("draw", &shader).draw(&mut image);
+        frame.export_texture(&image);
         frame
     };
     for _ in 0..50 {
@@ -48,18 +48,18 @@ fn warming_late_keeps_what_is_there() {
     assert_eq!(gpu.cached().0, 2);
     let own = frame(&gpu, Format::Rgba8Unorm);
     gpu.run(own).unwrap();
-    assert_eq!(gpu.cached().0, 2, "made late, and as young as a frame of now");
+    assert_eq!(gpu.cached().0, 2, "created later, and not idle");
 }
 
 #[test]
-fn a_refused_frame_keeps_the_pipelines() {
+fn a_frame_with_an_error_keeps_the_pipelines() {
     let mut gpu = Gpu::noop();
     let (good, bad) = (fragment("level"), fragment("wrong_type"));
     for shader in [&good, &bad] {
         let mut frame = gpu.graph.frame();
-        let mut picture = texture(&mut frame, "picture", 4, Format::Rgba8Unorm);
-        frame.fullscreen("draw", shader).draw(&mut picture);
-        frame.export_texture(&picture);
+        let mut image = texture(&mut frame, "image", 4, Format::Rgba8Unorm);
+        frame.fullscreen("draw", shader).draw(&mut image);
+        frame.export_texture(&image);
         let warmed = gpu.graph.warm(frame, &gpu.device, &gpu.queue);
         assert_eq!(warmed.is_ok(), shader.0.name == "level");
     }
@@ -67,7 +67,7 @@ fn a_refused_frame_keeps_the_pipelines() {
 }
 
 #[test]
-fn warming_draws_into_nothing_of_the_callers_and_moves_no_history() {
+fn warming_up_changes_no_import_and_no_history() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -114,25 +114,25 @@ fn warming_draws_into_nothing_of_the_callers_and_moves_no_history() {
     let mut own = compiled.execute(&mut crate::Graph::new(), &gpu.device, &mut encoder).unwrap();
     gpu.queue.submit([encoder.finish()]);
     let held = own.read_back(target_read).unwrap().wait(&gpu.device).unwrap();
-    assert_eq!(held, [51; 16], "what the first frame drew");
-    assert_eq!(gpu.bytes(frame, [read]), [[51; 16]], "what the first frame left");
+    assert_eq!(held, [51; 16], "drawn by the first frame");
+    assert_eq!(gpu.bytes(frame, [read]), [[51; 16]], "left by the first frame");
 }
 
-/// A shader that no driver has seen and kept on disk.
+/// Returns a shader that no driver has cached on disk.
 fn unseen(name: &'static str, entry: &'static str, salt: u128) -> FullscreenShader {
     let text = TEXT.replace("vec4f(uv, 0.0, 1.0)", &format!("vec4f(uv, uv.x * {salt}e-20, 1.0)"));
     FullscreenShader::wgsl(name, text).entry_point(entry)
 }
 
-/// A chain of passes of different shaders; returns the time from declaring to the GPU's being done.
+/// Runs a chain of passes with different shaders; returns the time from declaration to completion on the GPU.
 fn timed(gpu: &mut Gpu, shaders: &[FullscreenShader]) -> Duration {
     let start = Instant::now();
     let mut frame = gpu.graph.frame();
-    let mut picture = cleared(&mut frame, "picture", 32, 0.0);
+    let mut image = cleared(&mut frame, "image", 32, 0.0);
     for shader in shaders {
-        frame.fullscreen(&*shader.0.name, shader).draw_over(&mut picture, wgpu::BlendState::ALPHA_BLENDING);
+        frame.fullscreen(&*shader.0.name, shader).draw_over(&mut image, wgpu::BlendState::ALPHA_BLENDING);
     }
-    let read = frame.read_back_texture(&picture, Subresource::FULL);
+    let read = frame.read_back_texture(&image, Subresource::FULL);
     let [texels] = gpu.bytes(frame, [read]);
     assert_eq!(words(&texels).len(), 32 * 32);
     start.elapsed()
@@ -142,9 +142,9 @@ fn shaders(salt: u128) -> Vec<FullscreenShader> {
     (0..4).map(|i| unseen("gradient", "gradient", salt + i)).collect()
 }
 
-/// Prints times for whoever runs it with `--nocapture`; that machines differ, it asserts little.
+/// Prints times with `--nocapture`; it asserts little, since machines differ.
 #[test]
-fn the_first_frame_after_warming_is_no_longer_the_slow_one() {
+fn the_first_frame_after_warming_up_is_not_slow() {
     let Some(mut gpu) = Gpu::drawing() else { return };
     let salt = std::time::UNIX_EPOCH.elapsed().unwrap().as_nanos() % 8_000_000;
     let median = |mut times: Vec<Duration>| {
@@ -157,13 +157,11 @@ fn the_first_frame_after_warming_is_no_longer_the_slow_one() {
         cold.push(timed(&mut gpu, &unwarmed));
         let warmed = shaders(salt + 100 * round + 50);
         let mut frame = gpu.graph.frame();
-        let mut picture = cleared(&mut frame, "picture", 8, 0.0);
+        let mut image = cleared(&mut frame, "image", 8, 0.0);
         for shader in &warmed {
-            frame
-                .fullscreen(&*shader.0.name, shader)
-                .draw_over(&mut picture, wgpu::BlendState::ALPHA_BLENDING);
+            frame.fullscreen(&*shader.0.name, shader).draw_over(&mut image, wgpu::BlendState::ALPHA_BLENDING);
         }
-        frame.export_texture(&picture);
+        frame.export_texture(&image);
         let start = Instant::now();
         gpu.graph.warm(frame, &gpu.device, &gpu.queue).unwrap();
         warming.push(start.elapsed());

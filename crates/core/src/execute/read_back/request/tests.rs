@@ -54,18 +54,18 @@ fn words(words: impl IntoIterator<Item = u32>) -> Vec<u8> {
 }
 
 #[test]
-fn a_texture_of_odd_width_comes_back_without_padding() {
+fn a_texture_of_odd_width_is_read_without_padding() {
     let Some(gpu) = drawing() else { return };
     let bytes = read(&gpu, |frame| {
-        let mut picture = frame.create_texture("picture", TextureDesc::d2(3, 5, Format::Rgba8Unorm));
-        frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.2, 0.4, 0.6, 1.0]));
-        frame.read_back_texture(&picture, Subresource::FULL)
+        let mut image = frame.create_texture("image", TextureDesc::d2(3, 5, Format::Rgba8Unorm));
+        frame.render_pass("clear").color(&mut image, Contents::clear_color([0.2, 0.4, 0.6, 1.0]));
+        frame.read_back_texture(&image, Subresource::FULL)
     });
     assert_eq!(bytes, [51, 102, 153, 255].repeat(15));
 }
 
 #[test]
-fn depth_and_stencil_come_back_by_their_aspect() {
+fn depth_and_stencil_are_read_by_their_aspect() {
     let Some(gpu) = drawing() else { return };
     let depth = read(&gpu, |frame| {
         let mut depth = frame.create_texture("depth", TextureDesc::d2(3, 3, Format::Depth32Float));
@@ -82,7 +82,7 @@ fn depth_and_stencil_come_back_by_their_aspect() {
 }
 
 #[test]
-fn a_mip_of_a_layer_comes_back_alone() {
+fn a_mip_of_a_layer_is_read() {
     let Some(gpu) = drawing() else { return };
     let one = |part| {
         read(&gpu, |frame| {
@@ -96,21 +96,21 @@ fn a_mip_of_a_layer_comes_back_alone() {
 }
 
 #[test]
-fn a_rectangle_comes_back_alone() {
+fn a_rectangle_is_read() {
     let Some(gpu) = drawing() else { return };
     let bytes = read(&gpu, |frame| {
-        let mut picture = frame.create_texture("picture", TextureDesc::d2(8, 8, Format::R32Uint));
-        frame.render_pass("clear").color(&mut picture, Contents::clear_color([1.0; 4]));
+        let mut image = frame.create_texture("image", TextureDesc::d2(8, 8, Format::R32Uint));
+        frame.render_pass("clear").color(&mut image, Contents::clear_color([1.0; 4]));
         let mut pass = frame.render_pass("tile");
         let tile = Subresource::FULL.rect(Rect::new(5, 3, 1, 2));
-        pass.subresource(tile).color(&mut picture, Contents::clear_color([2.0; 4]));
-        frame.read_back_texture(&picture, Subresource::FULL.rect(Rect::new(4, 4, 3, 2)))
+        pass.subresource(tile).color(&mut image, Contents::clear_color([2.0; 4]));
+        frame.read_back_texture(&image, Subresource::FULL.rect(Rect::new(4, 4, 3, 2)))
     });
     assert_eq!(bytes, words([1, 2, 1, 1, 1, 1]));
 }
 
 #[test]
-fn any_range_of_a_buffer_comes_back() {
+fn any_range_of_a_buffer_is_read() {
     let gpu = noop();
     let contents: Vec<u8> = (0..64).collect();
     for (part, range) in [
@@ -127,7 +127,7 @@ fn any_range_of_a_buffer_comes_back() {
 }
 
 #[test]
-fn frames_in_flight_have_each_its_own_result() {
+fn frames_in_flight_have_separate_results() {
     let gpu = noop();
     let mut graph = Graph::new();
     let frames: Vec<_> = (0..4u8)
@@ -177,22 +177,22 @@ fn a_result_is_taken_once_and_by_its_own_frame() {
 #[test]
 fn the_plan_shows_a_read_back_as_an_export() {
     let mut frame = Frame::new();
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(4, 4, Format::Rgba8Unorm));
+    let mut image = frame.create_texture("image", TextureDesc::d2(4, 4, Format::Rgba8Unorm));
     let pass = frame.render_pass("draw");
     let id = pass.id();
-    { pass }.color(&mut picture, Contents::clear_color([0.0; 4]));
-    frame.read_back_texture(&picture, Subresource::FULL);
+    { pass }.color(&mut image, Contents::clear_color([0.0; 4]));
+    frame.read_back_texture(&image, Subresource::FULL);
     let plan = frame.compile().unwrap().into_plan();
-    let resource = plan.resource(picture.id());
+    let resource = plan.resource(image.id());
     assert!(resource.exported);
     assert!(resource.texture_usage.contains(TextureUsages::COPY_SRC | TextureUsages::RENDER_ATTACHMENT));
     assert!(!resource.texture_usage.contains(TextureUsages::TRANSIENT_ATTACHMENT));
-    assert_eq!(plan.order(), [id], "what writes it is not culled");
+    assert_eq!(plan.order(), [id], "the pass that writes it is not culled");
     assert!(plan.to_text().contains("exported"), "{}", plan.to_text());
 }
 
 #[test]
-fn what_is_read_back_shares_its_slot_with_nothing_later() {
+fn a_resource_that_is_read_back_shares_its_slot_with_no_later_one() {
     let gpu = noop();
     let (mut graph, mut requests) = (Graph::new(), Vec::new());
     let mut frame = graph.frame();
@@ -223,19 +223,19 @@ fn an_import_is_read_back() {
 }
 
 #[test]
-fn mistakes_are_those_of_exports() {
+fn errors_are_those_of_exports() {
     let square = TextureDesc::d2(4, 4, Format::Rgba8Unorm);
     let later = refusal(|frame| {
-        let mut picture = frame.create_texture("picture", square);
-        frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
-        frame.read_back_texture(&picture, Subresource::FULL);
-        frame.render_pass("again").color(&mut picture, Contents::clear_color([0.0; 4]));
+        let mut image = frame.create_texture("image", square);
+        frame.render_pass("draw").color(&mut image, Contents::clear_color([0.0; 4]));
+        frame.read_back_texture(&image, Subresource::FULL);
+        frame.render_pass("again").color(&mut image, Contents::clear_color([0.0; 4]));
     });
     assert_eq!(later.code(), "SG0101", "{later}");
     let stale = refusal(|frame| {
-        let mut picture = frame.create_texture("picture", square);
-        let before = picture.clone();
-        frame.render_pass("draw").color(&mut picture, Contents::clear_color([0.0; 4]));
+        let mut image = frame.create_texture("image", square);
+        let before = image.clone();
+        frame.render_pass("draw").color(&mut image, Contents::clear_color([0.0; 4]));
         frame.read_back_texture(&before, Subresource::FULL);
     });
     assert_eq!(stale.code(), "SG0101", "{stale}");
@@ -252,8 +252,8 @@ fn mistakes_are_those_of_exports() {
 }
 
 #[test]
-fn what_one_copy_cannot_take_is_refused_in_words() {
-    let refused = |desc: TextureDesc, part: Subresource, words: &str| {
+fn what_one_copy_cannot_read_is_an_error_that_says_why() {
+    let expect_error = |desc: TextureDesc, part: Subresource, words: &str| {
         let error = refusal(|frame| {
             let texture = frame.create_texture("texture", desc);
             frame.read_back_texture(&texture, part);
@@ -265,15 +265,15 @@ fn what_one_copy_cannot_take_is_refused_in_words() {
     let color = TextureDesc::d2(8, 8, Format::Rgba8Unorm);
     let depth = |format| TextureDesc::d2(8, 8, format);
     let rect = Subresource::FULL.rect(Rect::new(1, 1, 2, 2));
-    refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 mip levels are requested");
-    refused(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last one");
-    refused(color, Subresource::FULL.bytes(0..4), "no byte ranges");
-    refused(color, Subresource::FULL.aspect(Aspect::Depth), "lacks that aspect");
-    refused(TextureDesc { samples: 4, ..color }, Subresource::FULL, "resolve it");
-    refused(depth(Format::Depth32Float), rect, "copied whole");
-    refused(depth(Format::Depth24Plus), Subresource::FULL, "use Depth32Float");
-    refused(depth(Format::Depth24PlusStencil8), Subresource::FULL, "only the depth or only the stencil");
-    refused(depth(Format::Bc1RgbaUnorm), rect, "whole blocks");
+    expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 mip levels are requested");
+    expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last one");
+    expect_error(color, Subresource::FULL.bytes(0..4), "no byte ranges");
+    expect_error(color, Subresource::FULL.aspect(Aspect::Depth), "lacks that aspect");
+    expect_error(TextureDesc { samples: 4, ..color }, Subresource::FULL, "resolve it");
+    expect_error(depth(Format::Depth32Float), rect, "copied whole");
+    expect_error(depth(Format::Depth24Plus), Subresource::FULL, "use Depth32Float");
+    expect_error(depth(Format::Depth24PlusStencil8), Subresource::FULL, "only the depth or only the stencil");
+    expect_error(depth(Format::Bc1RgbaUnorm), rect, "whole blocks");
     let error = refusal(|frame| {
         let numbers = frame.upload_buffer("numbers", vec![0; 8]);
         frame.read_back_buffer(&numbers, Subresource::FULL.bytes(4..12));
@@ -282,7 +282,7 @@ fn what_one_copy_cannot_take_is_refused_in_words() {
 }
 
 #[test]
-fn an_import_without_the_usage_is_refused() {
+fn an_import_without_the_usage_is_an_error() {
     let error = refusal(|frame| {
         let desc = TextureDesc::d2(8, 8, Format::Rgba8Unorm);
         let own = frame.declare_import_texture("own", desc, TextureUsages::RENDER_ATTACHMENT, true);

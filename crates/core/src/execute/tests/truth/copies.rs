@@ -1,4 +1,4 @@
-//! What the device has made of graphs, beside what it should be.
+//! Results of graphs on the device, compared with the expected ones.
 
 use super::declare::Exports;
 use super::gpu::{Gpu, Imports};
@@ -7,7 +7,7 @@ use super::interpret::{State, Word};
 use super::run::{Failure, Kind};
 use crate::Executed;
 
-/// Words in a row of texels, as copies need them.
+/// Alignment of a row of texels in words, as copies require.
 const ROW: usize = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize / 4;
 
 /// Copies of everything that is compared, of many frames.
@@ -29,7 +29,7 @@ struct Expected {
     words: Vec<Word>,
 }
 
-/// What a frame leaves behind.
+/// The results of a frame.
 pub(super) struct Held<'e> {
     pub(super) executed: &'e Executed,
     pub(super) exports: &'e Exports,
@@ -39,7 +39,7 @@ pub(super) struct Held<'e> {
 /// Bytes that a graph may need in the copies for each frame.
 pub(super) fn copied_bytes(graph: &Graph) -> u64 {
     let planes = graph.all_planes().map(|plane| graph.size(plane).1 * 4 * ROW as u32);
-    // What is imported and exported is copied twice.
+    // Imports that are exported are copied twice.
     planes.chain(graph.buffers.iter().map(|buffer| buffer.words * 4)).map(u64::from).sum::<u64>() * 2
 }
 
@@ -127,7 +127,7 @@ impl<'g> Copies<'g> {
         self.end += buffer.size().next_multiple_of(4 * ROW as u64);
     }
 
-    /// An export that is not there: something to fail on, unlike anything that could be copied.
+    /// Records a missing export, which fails the comparison.
     fn missing(&mut self, (graph, what, _): (usize, String, &[Word])) {
         let what = format!("{what}, which was not exported");
         self.expected.push(Expected { graph, what, start: usize::MAX, width: ROW, words: Vec::new() });

@@ -1,4 +1,4 @@
-//! A graph as a frame.
+//! Declares a graph as a frame.
 
 use super::gpu::{Gpu, Imports, Params, Tokens};
 use super::graph::{Graph, Inputs, Pass, Plane, Role, Span, Target};
@@ -7,7 +7,7 @@ use crate::{
     Bind, Buffer, BufferDesc, BufferExport, Format, Frame, Rect, Resize, Texture, TextureDesc, TextureExport,
 };
 
-/// What is taken out of the frame, by number in the graph.
+/// The exports of the frame, by index in the graph.
 pub(super) struct Exports {
     pub(super) textures: Vec<(usize, TextureExport)>,
     pub(super) buffers: Vec<(usize, BufferExport)>,
@@ -34,7 +34,7 @@ struct Declarer<'d, 'f> {
     gpu: &'f Gpu,
     salt: u32,
     textures: Vec<Texture>,
-    /// An upload is there once it has been declared.
+    /// An upload exists once it has been declared.
     buffers: Vec<Option<Buffer>>,
 }
 

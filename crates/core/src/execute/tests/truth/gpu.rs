@@ -1,4 +1,4 @@
-//! The few pipelines that all graphs draw and compute with.
+//! The pipelines that all graphs use.
 
 use super::graph::{Graph, Inputs, Role};
 use super::interpret::{State, Word};
@@ -17,7 +17,7 @@ pub(super) struct Gpu {
     pub(super) texels: Compute,
     no_texture: wgpu::TextureView,
     no_buffer: wgpu::Buffer,
-    /// What wgpu objected to on threads of the graph's, where scopes of this thread's do not reach.
+    /// Validation errors on the graph's threads, which error scopes of this thread do not catch.
     pub(super) objections: Arc<Mutex<Vec<String>>>,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Draw {
 }
 
 impl Draw {
-    /// Draws over what the graph has set, or over less.
+    /// Draws over the scissor that the graph has set, or over less.
     pub(super) fn record(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -147,7 +147,7 @@ impl Gpu {
     }
 }
 
-/// By number in the graph.
+/// Imports by index in the graph.
 pub(super) struct Imports {
     pub(super) textures: Vec<Option<wgpu::Texture>>,
     pub(super) buffers: Vec<Option<wgpu::Buffer>>,
@@ -158,7 +158,7 @@ fn bytes(words: &[Word]) -> Vec<u8> {
     words.iter().flat_map(|word| value(word).to_le_bytes()).collect()
 }
 
-/// What a shader gets to know of its pass; `truth.wgsl` has the same fields.
+/// Parameters of a pass for its shader; `truth.wgsl` has the same fields.
 #[derive(Default)]
 pub(super) struct Params {
     pub(super) preserve: bool,

@@ -39,16 +39,16 @@ impl Span {
     }
 }
 
-/// Where a resource comes from.
+/// The origin of a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Transient,
-    /// CachedPipeline by the caller; `true` if the frame may count on what it holds.
+    /// Created by the caller; `true` if its contents are defined.
     Imported(bool),
-    /// Of the history of that number.
+    /// Of the history with that index.
     Previous(usize),
     Current(usize),
-    /// A buffer that is filled from the CPU before all else.
+    /// A buffer that is first filled from the CPU.
     Uploaded,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct Buffer {
     pub(super) exported: bool,
 }
 
-/// What a value is made of: a constant, and what is read at and about its place.
+/// The inputs of a value: a constant, and values read at and around its position.
 #[derive(Clone, Debug)]
 pub(super) struct Inputs {
     pub(super) constant: u32,
@@ -115,7 +115,7 @@ pub(super) enum Pass {
         targets: Vec<Target>,
         /// Where it draws: everywhere, in its tile, or in less than that.
         area: Rect,
-        /// Words written beside the texels, and whether what was there is mixed in.
+        /// Words written besides the texels, and whether the old contents are mixed in.
         words: Option<(Span, bool)>,
         keep: bool,
     },
@@ -174,7 +174,7 @@ impl Pass {
     }
 }
 
-/// A graph. Of its imports, the first contents follow from the seed.
+/// A graph. The initial contents of its imports follow from the seed.
 #[derive(Clone, Debug)]
 pub(super) struct Graph {
     pub(super) seed: u64,
@@ -184,7 +184,7 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    /// The graph in words, a line for each texture, buffer and pass.
+    /// Describes the graph, with a line for each texture, buffer and pass.
     pub(super) fn lines(&self) -> Vec<String> {
         let textures = self.textures.iter().enumerate().map(|(index, own)| format!("t{index}: {own:?}"));
         let buffers = self.buffers.iter().enumerate().map(|(index, own)| format!("b{index}: {own:?}"));

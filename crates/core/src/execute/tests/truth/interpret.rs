@@ -1,4 +1,4 @@
-//! What a graph comes to: pass by pass in order of declaration, on plain arrays.
+//! Computes the results of a graph: pass by pass in order of declaration, on plain arrays.
 
 use super::graph::{Contents, Graph, Inputs, Pass, Plane, Role, Span, Target, places};
 use super::random::Random;
@@ -7,7 +7,7 @@ use super::random::Random;
 pub(super) enum Word {
     /// Nothing has been written.
     Undefined,
-    /// The graph counts it as written, but it may be anything, such as the padding of rows.
+    /// Written according to the graph, but with any value, such as the padding of rows.
     Unknown,
     Is(u32),
 }
@@ -31,7 +31,7 @@ impl From<Option<u32>> for Word {
     }
 }
 
-/// What all textures and buffers hold.
+/// The contents of all textures and buffers.
 #[derive(Clone)]
 pub(super) struct State {
     /// By texture, then by layer and mip.
@@ -41,7 +41,7 @@ pub(super) struct State {
 }
 
 impl State {
-    /// What is there before the first frame: the caller's numbers, and zeros in histories.
+    /// Returns the contents before the first frame: the caller's numbers, and zeros in histories.
     pub(super) fn new(graph: &Graph) -> Self {
         let mut random = Random::new(!graph.seed);
         let mut filled = |role: Role, count: u32| -> Vec<Word> {
@@ -63,7 +63,7 @@ impl State {
         Self { textures, mips, buffers }
     }
 
-    /// Starts a frame: histories move on, and what lives within a frame is gone.
+    /// Starts a frame: histories are swapped, and contents of transient resources are undefined.
     pub(super) fn begin(&mut self, graph: &Graph) {
         for (index, texture) in graph.textures.iter().enumerate() {
             if let Role::Previous(history) = texture.role {
@@ -116,7 +116,7 @@ impl State {
         &mut self.buffers[span.buffer][span.words()]
     }
 
-    /// Runs a pass. `salt` tells frames of the same graph apart.
+    /// Runs a pass. `salt` differs between frames of the same graph.
     pub(super) fn run(&mut self, graph: &Graph, pass: &Pass, salt: u32) {
         match pass {
             Pass::Draw { inputs, targets, area, words, keep: _ } => {
@@ -166,14 +166,14 @@ impl State {
         (x, y): (u32, u32),
         value: Option<u32>,
     ) {
-        let beside = value.map(|value| mixed(value, 1));
+        let extra = value.map(|value| mixed(value, 1));
         let (width, _) = graph.size(targets[0].plane);
         let place = (x + y * width) as usize;
-        for (target, value) in targets.iter().zip([value, beside]) {
+        for (target, value) in targets.iter().zip([value, extra]) {
             self.plane_mut(target.plane)[place] = value.into();
         }
         if let Some((span, preserve)) = words {
-            write(&mut self.words_mut(span)[place], beside, preserve);
+            write(&mut self.words_mut(span)[place], extra, preserve);
         }
     }
 
@@ -203,7 +203,7 @@ impl State {
         }
     }
 
-    /// What a pass makes of its inputs at a place; `None` if it depends on what nobody knows.
+    /// Returns the value that a pass computes at a position; `None` if it depends on unknown contents.
     fn value(&self, graph: &Graph, inputs: &Inputs, (x, y): (u32, u32), salt: u32) -> Option<u32> {
         let mut state = mixed(inputs.constant ^ salt, x + 4099 * y);
         for &(plane, shift) in &inputs.planes {

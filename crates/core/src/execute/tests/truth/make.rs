@@ -6,7 +6,7 @@ use super::maker::Maker;
 use super::random::Random;
 
 impl Graph {
-    /// Makes the graph of a seed. All that it reads is defined, as far as the interpreter knows.
+    /// Creates the graph of a seed. It reads only contents that the interpreter knows as defined.
     pub(super) fn random(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let mut graph = Self { seed, textures: Vec::new(), buffers: Vec::new(), passes: Vec::new() };
@@ -34,7 +34,7 @@ impl Graph {
 
     fn declare(&mut self, random: &mut Random) {
         let sizes = [(8, 8), (8, 8), (16, 16), (16, 8)];
-        // Most have the same shape, so that they can take turns in a slot.
+        // Most have the same shape, so that they can share a slot.
         let common = random.pick(&sizes);
         for _ in 0..4 + random.below(6) {
             let role = random.pick(&[Role::Imported(true), Role::Imported(false)]);
@@ -67,7 +67,7 @@ impl Graph {
         }
     }
 
-    /// What is left to the next frame must be written.
+    /// Writes the histories, which must be written in each frame.
     fn fill_histories(&mut self, random: &mut Random, state: &mut State) {
         for plane in self.all_planes().collect::<Vec<_>>() {
             let current = matches!(self.textures[plane.texture].role, Role::Current(_));
@@ -79,7 +79,7 @@ impl Graph {
         }
     }
 
-    /// Takes out what the last passes made, and little else, so that lifetimes end before the frame does.
+    /// Exports the results of the last passes and little else, so that lifetimes end before the frame does.
     fn export(&mut self, random: &mut Random, state: &State) {
         let last = &self.passes[self.passes.len().saturating_sub(2)..];
         let planes: Vec<_> = last.iter().flat_map(Pass::planes).map(|plane| plane.texture).collect();

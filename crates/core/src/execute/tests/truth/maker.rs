@@ -5,7 +5,7 @@ use super::interpret::{State, Word};
 use super::random::Random;
 use crate::Rect;
 
-/// Makes a pass that fits what is defined so far.
+/// Creates a pass that reads only what is defined so far.
 pub(super) struct Maker<'g> {
     pub(super) graph: &'g Graph,
     pub(super) state: &'g State,
@@ -110,7 +110,7 @@ impl Maker<'_> {
         });
         let others: Vec<_> = others.collect();
         match self.graph.passes.last() {
-            // Again into the same.
+            // Draw into the same again.
             Some(Pass::Draw { targets, .. }) if targets[0].plane == first => {
                 planes = targets.iter().map(|target| target.plane).collect();
             }
@@ -123,19 +123,19 @@ impl Maker<'_> {
         let area = if self.random.below(3) == 0 { self.rect(declared) } else { declared };
         let mut targets = Vec::new();
         for (index, &plane) in planes.iter().enumerate() {
-            // Beside a tile of one attachment, another may be declared as a whole.
+            // Next to a tile of one attachment, another may be declared as a whole.
             let rect = tile.filter(|_| index == 0 || self.random.below(2) == 0);
             let own = rect.unwrap_or(whole);
             targets.push(Target { plane, contents: self.contents(plane, own, own == area), rect });
         }
-        let words = (planes.len() == 1 && self.random.below(5) == 0).then(|| self.words_beside(whole, area));
+        let words = (planes.len() == 1 && self.random.below(5) == 0).then(|| self.extra_words(whole, area));
         let words = words.flatten();
         let inputs = self.inputs(&planes, words.map(|(span, _)| span.buffer));
         Some(Pass::Draw { inputs, targets, area, words, keep: self.random.below(12) == 0 })
     }
 
     /// Words for all texels of an attachment.
-    fn words_beside(&mut self, whole: Rect, area: Rect) -> Option<(Span, bool)> {
+    fn extra_words(&mut self, whole: Rect, area: Rect) -> Option<(Span, bool)> {
         let count = whole.width * whole.height;
         let large = |index: &usize| self.graph.buffers[*index].words >= count;
         let buffers: Vec<_> = (0..self.graph.buffers.len()).filter(large).collect();
@@ -159,7 +159,7 @@ impl Maker<'_> {
         Pass::Draw { inputs, targets, area, words: None, keep: false }
     }
 
-    /// A range of whole 256 bytes.
+    /// A range of multiples of 256 bytes.
     fn span(&mut self) -> Span {
         let all: Vec<_> = (0..self.graph.buffers.len()).collect();
         let untouched = |buffer: &&usize| self.state.buffer(**buffer).contains(&Word::Undefined);

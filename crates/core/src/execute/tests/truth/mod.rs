@@ -1,5 +1,5 @@
-//! Random small graphs of integer arithmetic, run on a device that draws, give exactly the numbers of an interpreter
-//! that knows nothing but the order of declaration.
+//! Random small graphs of integer arithmetic, run on a device that draws, give exactly the numbers of an interpreter that
+//! only follows the order of declaration.
 
 mod copies;
 mod declare;
@@ -23,7 +23,7 @@ const GRAPHS: u64 = 400;
 const BATCH: usize = 10;
 
 #[test]
-fn random_graphs_compute_what_the_interpreter_says() {
+fn random_graphs_compute_the_results_of_the_interpreter() {
     let Some(device) = drawing() else { return };
     let gpu = Gpu::new(device);
     let mut runner = Runner::new(&gpu);
@@ -39,7 +39,7 @@ fn random_graphs_compute_what_the_interpreter_says() {
         }
     }
     println!("{GRAPHS} graphs: {counts:?}");
-    counts.assert_worth_it();
+    counts.assert_covered();
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn random_graphs_are_valid_on_a_device_with_default_limits() {
     }
 }
 
-/// How much of what is tested the graphs held.
+/// How often the graphs contained the tested features.
 #[derive(Debug, Default)]
 struct Counts {
     passes: usize,
@@ -86,15 +86,15 @@ impl Counts {
         self.histories += graph.histories();
     }
 
-    /// Graphs that hold nothing of interest prove nothing.
-    fn assert_worth_it(&self) {
+    /// Asserts that the graphs contained all tested features.
+    fn assert_covered(&self) {
         let Self { culled, merged, clears_drawn, discards, slots_reused, reordered, histories, .. } = *self;
         let counts = [culled, merged, clears_drawn, discards, slots_reused, reordered, histories];
         assert!(counts.iter().all(|&count| count >= GRAPHS as usize / 8), "{self:?}");
     }
 }
 
-/// What went wrong, with the smallest graph that still fails so, and its plan.
+/// Describes a failure with the smallest graph that still fails in the same way, and its plan.
 fn report(gpu: &Gpu, batch: &[Graph], failure: &Failure) -> String {
     let alone = |graph: &Graph| Runner::new(gpu).run(std::slice::from_ref(graph), true).err();
     let mut text = failure.text.clone();
@@ -119,7 +119,7 @@ fn report(gpu: &Gpu, batch: &[Graph], failure: &Failure) -> String {
     text
 }
 
-/// Takes out one pass after the other and keeps what still fails.
+/// Removes passes one by one while the graph still fails.
 fn without_needless_passes(mut graph: Graph, fails: impl Fn(&Graph) -> bool) -> Graph {
     for index in (0..graph.passes.len()).rev() {
         let mut smaller = graph.clone();

@@ -1,4 +1,4 @@
-//! Graphs on a device in many ways, compared with what the interpreter says.
+//! Runs graphs on a device in many ways and compares them with the interpreter.
 
 use super::copies::{Copies, Held, copied_bytes};
 use super::declare::{Exports, declare};
@@ -12,19 +12,19 @@ use crate::{Executed, Options, OrderPolicy, Plan};
 struct Variation {
     name: &'static str,
     options: Options,
-    way: Way,
+    mode: RecordMode,
     poison: bool,
-    /// How many frames of the same graph follow each other.
+    /// Number of consecutive frames of the same graph.
     frames: u32,
     submission: Submission,
 }
 
 /// How a frame is recorded.
 #[derive(Clone, Copy)]
-enum Way {
+enum RecordMode {
     OneEncoder,
     Threads(usize),
-    /// With a copy of all that each pass writes.
+    /// With a capture.
     Captured,
 }
 
@@ -34,7 +34,7 @@ enum Submission {
     OneEncoder,
     /// All frames are recorded, then submitted together.
     Together,
-    /// Each frame is done before the next is recorded.
+    /// Each frame completes before the next is recorded.
     OneByOne,
 }
 
@@ -42,7 +42,7 @@ fn variations() -> [Variation; 8] {
     let plain = || Variation {
         name: "plain",
         options: Options::default(),
-        way: Way::OneEncoder,
+        mode: RecordMode::OneEncoder,
         poison: false,
         frames: 2,
         submission: Submission::Together,
@@ -61,12 +61,12 @@ fn variations() -> [Variation; 8] {
             ..plain()
         },
         Variation { name: "nothing merged", options: apart, ..plain() },
-        Variation { name: "two threads", way: Way::Threads(2), ..plain() },
-        Variation { name: "captured", way: Way::Captured, ..plain() },
+        Variation { name: "two threads", mode: RecordMode::Threads(2), ..plain() },
+        Variation { name: "captured", mode: RecordMode::Captured, ..plain() },
     ]
 }
 
-/// A graph of ours for each variation: what it pools is dirty from all that it ran before.
+/// A render graph for each variation, whose pool is dirty from everything it ran before.
 pub(super) struct Runner<'g> {
     gpu: &'g Gpu,
     graphs: Vec<(Variation, crate::Graph)>,
@@ -74,7 +74,7 @@ pub(super) struct Runner<'g> {
     pub(super) plans: Vec<Plan>,
 }
 
-/// Why graphs did not run as they should.
+/// Why graphs failed.
 #[derive(Debug)]
 pub(super) struct Failure {
     pub(super) kind: Kind,
@@ -83,11 +83,11 @@ pub(super) struct Failure {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// The compiler or the executor gave an error.
-    Refused,
-    /// wgpu objected.
+    /// The compiler or the executor returned an error.
+    Validation,
+    /// wgpu reported a validation error.
     Invalid,
-    /// A number is another than the interpreter's.
+    /// A number differs from the interpreter's.
     Wrong,
 }
 
@@ -101,7 +101,7 @@ impl<'g> Runner<'g> {
         Self { gpu, graphs: variations().into_iter().map(graph).collect(), plans: Vec::new() }
     }
 
-    /// Runs every graph in every variation, compares all that comes out, and returns how many words that was.
+    /// Runs every graph in every variation, compares all results, and returns the number of compared words.
     pub(super) fn run(&mut self, graphs: &[Graph], compare: bool) -> Result<usize, Failure> {
         let scope = self.gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let frames: u64 = self.graphs.iter().map(|(variation, _)| u64::from(variation.frames)).sum();
@@ -116,7 +116,7 @@ impl<'g> Runner<'g> {
                     Ok(_) => {}
                     Err(text) => {
                         let text = format!("seed {}, {}: {text}", graph.seed, variation.name);
-                        outcome = Err(Failure { kind: Kind::Refused, text });
+                        outcome = Err(Failure { kind: Kind::Validation, text });
                     }
                 }
             }
@@ -188,12 +188,12 @@ impl Run<'_, '_> {
         let exports = declare(&mut frame, self.graph, self.gpu, imports, salt);
         let compiled = self.pool.compile(frame).map_err(|error| error.to_string())?;
         let plan = compiled.shared_plan();
-        let executed = match self.variation.way {
-            Way::OneEncoder => compiled.execute(self.pool, &self.gpu.device, encoder),
-            Way::Captured => compiled
+        let executed = match self.variation.mode {
+            RecordMode::OneEncoder => compiled.execute(self.pool, &self.gpu.device, encoder),
+            RecordMode::Captured => compiled
                 .execute_captured(self.pool, &self.gpu.device, encoder)
                 .map(|(executed, _capture)| executed),
-            Way::Threads(threads) => {
+            RecordMode::Threads(threads) => {
                 let recorded = compiled.execute_on_threads(self.pool, &self.gpu.device, threads);
                 recorded.map(|(executed, own)| {
                     commands.extend(own);

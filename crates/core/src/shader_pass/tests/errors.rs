@@ -1,10 +1,10 @@
-//! Shaders that do not compile or do not fit are errors of the frame, and never wgpu's panic.
+//! Shaders that do not compile or do not match their pass are errors of the frame, never panics of wgpu.
 
 use super::{Gpu, cleared, fragment, kernel, texture};
 use crate::{ComputeShader, Contents, Error, Format, Frame, FullscreenShader};
 
-/// The error of a frame that `declare` puts together around a picture.
-fn refusal(declare: impl FnOnce(&mut Gpu, &mut Frame<'_>)) -> Error {
+/// Returns the error of a frame that `declare` declares.
+fn error_of(declare: impl FnOnce(&mut Gpu, &mut Frame<'_>)) -> Error {
     let mut gpu = Gpu::noop();
     let mut frame = gpu.graph.frame();
     declare(&mut gpu, &mut frame);
@@ -12,12 +12,12 @@ fn refusal(declare: impl FnOnce(&mut Gpu, &mut Frame<'_>)) -> Error {
 }
 
 fn draw(frame: &mut Frame<'_>, shader: &FullscreenShader, format: Format) {
-    let mut picture = texture(frame, "picture", 4, format);
-    frame.fullscreen("draw", shader).draw(&mut picture);
-    frame.export_texture(&picture);
+    let mut image = texture(frame, "image", 4, format);
+    frame.fullscreen("draw", shader).draw(&mut image);
+    frame.export_texture(&image);
 }
 
-fn says(error: &Error, shader: &str, words: &[&str]) {
+fn assert_error(error: &Error, shader: &str, words: &[&str]) {
     let Error::Shader { shader: named, message } = error else { panic!("{error:?}") };
     assert_eq!((&**named, error.code()), (shader, "SG0604"), "{error}");
     for word in words {
@@ -26,21 +26,21 @@ fn says(error: &Error, shader: &str, words: &[&str]) {
 }
 
 #[test]
-fn a_text_that_is_no_wgsl_is_an_error_that_shows_the_place() {
-    let error = refusal(|_, frame| {
+fn source_that_is_not_wgsl_is_an_error_that_shows_the_location() {
+    let error = error_of(|_, frame| {
         let shader = FullscreenShader::wgsl("broken", "fn half( -> f32 { return 0.5; }");
         draw(frame, &shader, Format::Rgba8Unorm);
     });
-    says(
+    assert_error(
         &error,
         "broken",
         &["line 1, column 10: expected identifier, found \"->\", in `fn half( -> f32 { return 0.5; }`"],
     );
-    let error = refusal(|_, frame| {
+    let error = error_of(|_, frame| {
         let text = "fn half() -> vec4f {\n    return vec2f(0.5);\n}";
         draw(frame, &FullscreenShader::wgsl("half", text), Format::Rgba8Unorm);
     });
-    says(
+    assert_error(
         &error,
         "half",
         &[
@@ -55,59 +55,63 @@ fn a_text_that_is_no_wgsl_is_an_error_that_shows_the_place() {
 
 #[test]
 fn a_missing_entry_point_is_an_error() {
-    let error = refusal(|_, frame| draw(frame, &fragment("nowhere"), Format::Rgba8Unorm));
-    says(&error, "nowhere", &["nowhere"]);
-    let error = refusal(|_, frame| {
+    let error = error_of(|_, frame| draw(frame, &fragment("nowhere"), Format::Rgba8Unorm));
+    assert_error(&error, "nowhere", &["nowhere"]);
+    let error = error_of(|_, frame| {
         let several = FullscreenShader::wgsl("several", super::TEXT);
         draw(frame, &several, Format::Rgba8Unorm);
     });
-    says(&error, "several", &["entry point"]);
+    assert_error(&error, "several", &["entry point"]);
 }
 
 #[test]
-fn an_output_that_does_not_fit_the_target_is_an_error() {
-    let error = refusal(|_, frame| draw(frame, &fragment("wrong_type"), Format::Rgba8Unorm));
-    says(&error, "wrong_type", &["Color state [0] is invalid: Output format Float32x4"]);
+fn an_output_that_does_not_match_the_target_is_an_error() {
+    let error = error_of(|_, frame| draw(frame, &fragment("wrong_type"), Format::Rgba8Unorm));
+    assert_error(&error, "wrong_type", &["Color state [0] is invalid: Output format Float32x4"]);
 }
 
 #[test]
-fn binding_too_much_or_too_little_is_an_error_that_names_the_pass() {
+fn too_many_or_too_few_bindings_are_an_error_that_names_the_pass() {
     for count in [0, 1, 3] {
-        let error = refusal(|_, frame| {
+        let error = error_of(|_, frame| {
             let source = cleared(frame, "source", 4, 0.0);
-            let mut picture = texture(frame, "picture", 4, Format::Rgba8Unorm);
+            let mut image = texture(frame, "image", 4, Format::Rgba8Unorm);
             let mut halve =
                 frame.fullscreen("halve it", &fragment(if count == 1 { "scaled" } else { "halve" }));
             for _ in 0..count {
                 halve = halve.sample(&source);
             }
-            halve.draw(&mut picture);
-            frame.export_texture(&picture);
+            halve.draw(&mut image);
+            frame.export_texture(&image);
         });
         let shader = if count == 1 { "scaled" } else { "halve" };
-        says(
+        assert_error(
             &error,
             shader,
-            &["what pass `halve it` binds", "exactly what the shader uses", "in order: Number of bindings"],
+            &[
+                "the bindings of pass `halve it`",
+                "exactly those that the shader uses",
+                "in order: Number of bindings",
+            ],
         );
     }
 }
 
 #[test]
-fn a_block_that_is_too_small_is_an_error() {
-    let error = refusal(|_, frame| {
+fn a_uniform_block_that_is_too_small_is_an_error() {
+    let error = error_of(|_, frame| {
         let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
         let multiply = kernel("multiply");
         let call = frame.compute("multiply", &multiply).storage_mut(&mut numbers, Contents::Preserve);
         call.uniform(&[1, 2]).dispatch([1; 3]);
         frame.export_buffer(&numbers);
     });
-    says(&error, "multiply", &["what pass `multiply` binds"]);
+    assert_error(&error, "multiply", &["the bindings of pass `multiply`"]);
 }
 
 #[test]
-fn an_empty_block_is_an_error() {
-    let error = refusal(|_, frame| {
+fn an_empty_uniform_block_is_an_error() {
+    let error = error_of(|_, frame| {
         let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
         let multiply = kernel("multiply");
         let call = frame.compute("multiply", &multiply).storage_mut(&mut numbers, Contents::Preserve);
@@ -121,24 +125,24 @@ fn an_empty_block_is_an_error() {
 
 #[test]
 fn a_binding_in_another_group_is_an_error_that_says_what_to_do() {
-    let error = refusal(|_, frame| draw(frame, &fragment("other_group"), Format::Rgba8Unorm));
-    says(&error, "other_group", &["something in group 1", "render_pass"]);
+    let error = error_of(|_, frame| draw(frame, &fragment("other_group"), Format::Rgba8Unorm));
+    assert_error(&error, "other_group", &["bindings in group 1", "render_pass"]);
 }
 
 #[test]
-fn a_text_without_the_stage_is_an_error() {
-    let error = refusal(|_, frame| {
+fn source_without_the_stage_is_an_error() {
+    let error = error_of(|_, frame| {
         let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
         let shader = ComputeShader::wgsl("empty", "");
         frame.compute("empty", &shader).storage_mut(&mut numbers, Contents::Preserve).dispatch([1; 3]);
         frame.export_buffer(&numbers);
     });
-    says(&error, "empty", &["entry point"]);
+    assert_error(&error, "empty", &["entry point"]);
 }
 
 #[test]
 fn more_workgroups_than_the_device_allows_are_an_error() {
-    let error = refusal(|_, frame| {
+    let error = error_of(|_, frame| {
         let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
         let call = frame.compute("double", &kernel("double")).storage_mut(&mut numbers, Contents::Preserve);
         call.dispatch([1, 70_000, 1]);
@@ -148,9 +152,9 @@ fn more_workgroups_than_the_device_allows_are_an_error() {
 }
 
 #[test]
-fn arguments_outside_the_buffer_or_off_the_grid_are_errors() {
+fn indirect_arguments_outside_the_buffer_or_misaligned_are_errors() {
     for offset in [4, 2, u64::MAX] {
-        let error = refusal(|_, frame| {
+        let error = error_of(|_, frame| {
             let arguments = frame.upload_buffer("arguments", vec![0; 12]);
             let mut numbers = frame.upload_buffer("numbers", vec![0; 64]);
             let call =
@@ -171,12 +175,12 @@ fn handles_of_another_frame_are_errors() {
     let (mut foreign, buffer) =
         (texture(&mut other, "t", 4, Format::Rgba8Unorm), other.upload_buffer("b", vec![0; 64]));
     for case in 0..5 {
-        let error = refusal(|_, frame| {
-            let mut picture = texture(frame, "picture", 4, Format::Rgba8Unorm);
+        let error = error_of(|_, frame| {
+            let mut image = texture(frame, "image", 4, Format::Rgba8Unorm);
             let mut bytes = frame.create_buffer("bytes", crate::BufferDesc::new(64));
             match case {
                 0 => drop(frame.fullscreen("draw", &fragment("level")).draw(&mut foreign)),
-                1 => drop(frame.fullscreen("draw", &fragment("halve")).sample(&foreign).draw(&mut picture)),
+                1 => drop(frame.fullscreen("draw", &fragment("halve")).sample(&foreign).draw(&mut image)),
                 2 => drop(frame.fullscreen("draw", &fragment("depth_of_uv")).draw_depth(&mut foreign)),
                 3 => {
                     let call = frame.compute("double", &kernel("double"));
@@ -190,8 +194,8 @@ fn handles_of_another_frame_are_errors() {
 }
 
 #[test]
-fn more_targets_than_any_device_has_are_an_error() {
-    let error = refusal(|_, frame| {
+fn more_targets_than_any_device_supports_are_an_error() {
+    let error = error_of(|_, frame| {
         let mut targets: Vec<_> = (0..9).map(|_| texture(frame, "t", 4, Format::Rgba8Unorm)).collect();
         let mut last = targets.pop().unwrap();
         let shader = fragment("level");
@@ -206,7 +210,7 @@ fn more_targets_than_any_device_has_are_an_error() {
 }
 
 #[test]
-fn a_frame_after_a_refused_one_draws() {
+fn a_frame_after_one_with_an_error_draws() {
     let mut gpu = Gpu::noop();
     for shader in [fragment("wrong_type"), fragment("level")] {
         let mut frame = gpu.graph.frame();
