@@ -44,7 +44,7 @@ fn vs_depth(vertex: Vertex) -> DepthVertex {
 fn vs_depth_clamp(vertex: Vertex) -> DepthVertex {
     let position = world_position(vertex.instance, vertex.position);
     let clip = clip_position(depth_view.clip_from_world, position);
-    // Halfway between the planes nothing is clipped; the fragment stage puts the depth back.
+    // Halfway between the planes nothing is clipped; the fragment stage restores the depth.
     let kept = vec4f(clip.xy, 0.5 * clip.w, clip.w);
     return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
 }

@@ -73,27 +73,27 @@ struct ShadowRay {
     // 1 / direction, finite.
     inverse: vec3f,
     max_t: f32,
-    // The shear that maps the direction to (0, 0, 1), after its longest axis (0 to 2) was rotated to z.
+    // The shear that maps the direction to (0, 0, 1), after its longest axis (0 to 2) was permuted to z.
     shear: vec3f,
     axis: u32,
 }
 
-// Where a receiver's rays start. `reach` is the largest coordinate of the scene; both distances in metres.
-fn ray_origin(position: vec3f, geometric_normal: vec3f, view_distance: f32, reach: f32) -> vec3f {
+// Where a receiver's rays start. `max_coordinate` is the largest coordinate of the scene; both distances in metres.
+fn ray_origin(position: vec3f, geometric_normal: vec3f, view_distance: f32, max_coordinate: f32) -> vec3f {
     let size = abs(position);
-    let coordinates = 2.0 * max(size.x, max(size.y, size.z)) + reach;
+    let coordinates = 2.0 * max(size.x, max(size.y, size.z)) + max_coordinate;
     return position + geometric_normal * (coordinates / 1048576.0 + view_distance / 131072.0);
 }
 
-fn ray_turned(p: vec3f, axis: u32) -> vec3f {
+fn ray_permuted(p: vec3f, axis: u32) -> vec3f {
     return select(select(p, p.zxy, axis == 1u), p.yzx, axis == 0u);
 }
 
 fn ray_new(origin: vec3f, direction: vec3f, min_t: f32, max_t: f32) -> ShadowRay {
     let size = abs(direction);
     let axis = select(select(2u, 1u, size.y >= size.z), 0u, size.x >= size.y && size.x >= size.z);
-    let turned = ray_turned(direction, axis);
-    let shear = vec3f(turned.x / turned.z, turned.y / turned.z, 1.0 / turned.z);
+    let permuted = ray_permuted(direction, axis);
+    let shear = vec3f(permuted.x / permuted.z, permuted.y / permuted.z, 1.0 / permuted.z);
     let inverse = 1.0 / select(direction, vec3f(1e-20), size < vec3f(1e-20));
     return ShadowRay(origin, min_t, inverse, max_t, shear, axis);
 }
@@ -111,7 +111,7 @@ fn ray_enters(ray: ShadowRay, node: RayNode) -> f32 {
 
 // The point in the ray's sheared space: x and y across, z along the ray, metres.
 fn ray_sheared(ray: ShadowRay, point: vec3f) -> vec3f {
-    let p = ray_turned(point - ray.origin, ray.axis);
+    let p = ray_permuted(point - ray.origin, ray.axis);
     return vec3f(p.x - ray.shear.x * p.z, p.y - ray.shear.y * p.z, ray.shear.z * p.z);
 }
 

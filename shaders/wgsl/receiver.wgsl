@@ -3,7 +3,7 @@
 
 // The surface is blended with what is behind it.
 const RECEIVER_TRANSPARENT: u32 = 1u;
-// The surface was seen from behind and its normals were turned to the viewer.
+// The surface was seen from behind and its normals were flipped towards the viewer.
 const RECEIVER_BACK_FACE: u32 = 2u;
 // The point is not the surface visible at `pixel`, so screen-space results do not apply to it.
 const RECEIVER_OFF_SCREEN: u32 = 4u;

@@ -49,11 +49,11 @@ fn fs_fxaa(@location(0) uv: vec2f) -> @location(0) vec4f {
     var ends_luma = array(0.0, 0.0);
     var done = array(false, false);
     for (var i = 0; i < 10; i++) {
-        for (var way = 0; way < 2; way++) {
-            if !done[way] {
-                ends[way] += along * STEPS[i] * (f32(way) * 2.0 - 1.0);
-                ends_luma[way] = luma_at(ends[way]) - middle;
-                done[way] = abs(ends_luma[way]) >= gradient;
+        for (var end = 0; end < 2; end++) {
+            if !done[end] {
+                ends[end] += along * STEPS[i] * (f32(end) * 2.0 - 1.0);
+                ends_luma[end] = luma_at(ends[end]) - middle;
+                done[end] = abs(ends_luma[end]) >= gradient;
             }
         }
     }

@@ -25,7 +25,7 @@ enum RecordMode {
     OneEncoder,
     Threads(usize),
     /// With a capture.
-    Captured,
+    Capture,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -62,7 +62,7 @@ fn variations() -> [Variation; 8] {
         },
         Variation { name: "nothing merged", options: apart, ..plain() },
         Variation { name: "two threads", mode: RecordMode::Threads(2), ..plain() },
-        Variation { name: "captured", mode: RecordMode::Captured, ..plain() },
+        Variation { name: "captured", mode: RecordMode::Capture, ..plain() },
     ]
 }
 
@@ -190,7 +190,7 @@ impl Run<'_, '_> {
         let plan = compiled.shared_plan();
         let executed = match self.variation.mode {
             RecordMode::OneEncoder => compiled.execute(self.pool, &self.gpu.device, encoder),
-            RecordMode::Captured => compiled
+            RecordMode::Capture => compiled
                 .execute_captured(self.pool, &self.gpu.device, encoder)
                 .map(|(executed, _capture)| executed),
             RecordMode::Threads(threads) => {
