@@ -33,7 +33,7 @@ fn capture<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Plan, FrameCa
 
 /// Returns the first value of a snapshot's first texel and of its last.
 fn ends(snapshot: &TextureSnapshot) -> [f32; 2] {
-    let texels = image.texels.as_ref().unwrap();
+    let texels = snapshot.texels.as_ref().unwrap();
     let number = |index: usize| match &texels.values {
         TexelValues::Bytes(bytes) => bytes[index].into(),
         TexelValues::Floats(floats) => floats[index],
