@@ -65,7 +65,7 @@ impl Renderer {
             let compiled = graph.compile(frame)?;
             let mut executed = execute(compiled, &mut graph, &mut encoder)?;
             drop(graph);
-            let texels = executed.read_back(request).ok_or_else(nothing_read)?;
+            let texels = executed.read_back(request).ok_or_else(read_back_error)?;
             gpu.queue.submit([encoder.finish()]);
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let (plan, times) = (executed.shared_plan(), Vec::new());
@@ -98,7 +98,7 @@ impl Renderer {
             let texels: Option<Vec<_>> =
                 requests.into_iter().map(|request| executed.read_back(request)).collect();
             gpu.queue.submit([encoder.finish()]);
-            let texels = texels.ok_or_else(nothing_read)?;
+            let texels = texels.ok_or_else(read_back_error)?;
             let images = views.iter().zip(texels).map(|(options, texels)| {
                 Ok(RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? })
             });
@@ -108,6 +108,6 @@ impl Renderer {
 }
 
 /// Returns the error for a read-back that the frame did not execute.
-fn nothing_read() -> Error {
+fn read_back_error() -> Error {
     Error::Gpu("nothing was read back".into())
 }
