@@ -169,8 +169,10 @@ impl Probe {
             ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
         let buffers = records.upload(&mut frame);
         let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-        let screen =
-            self.surfaces.as_ref().map(|drawer| drawer.screen_with_prepass(&mut frame, &buffers, geometry));
+        let screen = self
+            .surfaces
+            .as_ref()
+            .map(|drawer| drawer.surface_buffers_with_prepass(&mut frame, &buffers, geometry));
         let screen = screen.transpose()?;
         let inputs = ShadowInputs {
             view: 0,

@@ -60,7 +60,7 @@ impl SurfaceReader {
             );
             let buffers = records.upload(&mut frame);
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-            let screen = self.drawer.screen_with_prepass(&mut frame, &buffers, geometry)?;
+            let screen = self.drawer.surface_buffers_with_prepass(&mut frame, &buffers, geometry)?;
             let request = frame.read_back_texture(&screen.surfaces, Subresource::FULL);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;

@@ -50,16 +50,16 @@ impl<'v> RenderView<'v> {
         Geometry { scene: &self.casters.scene, draws: &self.draws, size_px: self.options.size_px }
     }
 
-    /// Adds the shadows of all lights. A technique that reads surface buffers needs `screen`.
+    /// Adds the shadows of all lights. A technique that reads surface buffers needs `surfaces`.
     ///
     /// # Errors
     /// For settings out of range, and for a technique that breaks its contract.
     pub fn add_shadows(
         &'v self,
         frame: &mut Frame<'v>,
-        screen: Option<&SurfaceBuffers>,
+        surfaces: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'v>, Error> {
-        Ok(add_shadows(self.technique, frame, &self.shadow_inputs(), screen)?)
+        Ok(add_shadows(self.technique, frame, &self.shadow_inputs(), surfaces)?)
     }
 
     /// Returns the inputs of the shadow technique.

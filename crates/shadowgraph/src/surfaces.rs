@@ -44,7 +44,7 @@ impl SurfaceDrawer {
     ///
     /// # Errors
     /// [`Error::Lighting`] if a pipeline variant cannot be created.
-    pub fn screen_with_prepass<'f>(
+    pub fn surface_buffers_with_prepass<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
@@ -52,12 +52,12 @@ impl SurfaceDrawer {
     ) -> Result<SurfaceBuffers, Error> {
         frame.node("one sample", |frame| {
             let depth = self.prepass.add_to(frame, view, geometry);
-            self.screen(frame, view, &depth, geometry)
+            self.surface_buffers(frame, view, &depth, geometry)
         })
     }
 
     /// Adds the pass for a technique that reads surfaces.
-    pub(crate) fn screen<'f>(
+    pub(crate) fn surface_buffers<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,

@@ -48,8 +48,9 @@ impl PipelineInstance for Script {
             |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
 
         let buffers = view.uniforms().jittered(self.jitters.next(view.index)).upload(frame);
-        let (depth, screen) = frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
-        let shadows = view.add_shadows(frame, screen.as_ref())?;
+        let (depth, surfaces) =
+            frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
+        let shadows = view.add_shadows(frame, surfaces.as_ref())?;
         let occluded = frame.node("occlusion", |frame| {
             self.occlusion.add_to(frame, &buffers, &depth, &OcclusionSettings::default())
         });

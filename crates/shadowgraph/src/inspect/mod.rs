@@ -36,7 +36,7 @@ impl Renderer {
         self.draw(gpu, options)?;
         let frame = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;
         let mut capture: Option<PendingCapture> = None;
-        let (_, records) = self.draw_with(gpu, options, |compiled, graph, encoder| {
+        let (_, shadow_buffers) = self.draw_with(gpu, options, |compiled, graph, encoder| {
             let (executed, taken) = compiled.execute_captured(graph, &gpu.device, encoder)?;
             capture = Some(taken);
             Ok(executed)
@@ -45,7 +45,7 @@ impl Renderer {
             Some(capture) => capture.wait(&gpu.device)?,
             None => FrameCapture::default(),
         };
-        let (views, lights) = match &records {
+        let (views, lights) = match &shadow_buffers {
             Some([views, lights]) => (read_structs(&captured, views), read_structs(&captured, lights)),
             None => (Vec::new(), Vec::new()),
         };

@@ -149,8 +149,8 @@ impl From<ViewBuffers> for Value<'_> {
 }
 
 impl From<SurfaceBuffers> for Value<'_> {
-    fn from(screen: SurfaceBuffers) -> Self {
-        Self::Surfaces(screen)
+    fn from(surfaces: SurfaceBuffers) -> Self {
+        Self::Surfaces(surfaces)
     }
 }
 

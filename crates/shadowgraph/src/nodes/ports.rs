@@ -100,7 +100,7 @@ impl<'f> Ports<'_, 'f> {
     pub fn surfaces(&self, name: &str) -> Result<Option<SurfaceBuffers>, Error> {
         match self.value(name)? {
             None => Ok(None),
-            Some(Value::Surfaces(screen)) => Ok(Some(screen.clone())),
+            Some(Value::Surfaces(surfaces)) => Ok(Some(surfaces.clone())),
             Some(_) => Err(self.wrong_kind(name)),
         }
     }

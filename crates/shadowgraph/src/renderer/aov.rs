@@ -19,8 +19,8 @@ impl Renderer {
     pub fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f RenderView<'f>) -> Result<ViewOutput, Error> {
         let output = self.instance.add(frame, view)?;
         let image = self.aov_image(frame, view, &output)?;
-        let ShadowOutputs { debug_buffers: records, unshadowed, .. } = output.shadows;
-        Ok(ViewOutput { image, records, unshadowed })
+        let ShadowOutputs { debug_buffers: shadow_buffers, unshadowed, .. } = output.shadows;
+        Ok(ViewOutput { image, shadow_buffers, unshadowed })
     }
 
     /// Returns the image of the AOV; passes that it does not need are culled.
@@ -67,7 +67,7 @@ pub struct ViewOutput {
     /// Four bytes per pixel, as large as the view.
     pub image: Texture,
     /// The GPU data of shadow maps, if there are any.
-    pub records: Option<[Buffer; 2]>,
+    pub shadow_buffers: Option<[Buffer; 2]>,
     /// The lights that should cast shadows and do not, with the reason.
     pub unshadowed: Vec<Unshadowed>,
 }

@@ -69,7 +69,7 @@ impl Renderer {
             gpu.queue.submit([encoder.finish()]);
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let (plan, times) = (executed.shared_plan(), Vec::new());
-            Ok((RenderedFrame { image, plan, times, unshadowed: output.unshadowed }, output.records))
+            Ok((RenderedFrame { image, plan, times, unshadowed: output.unshadowed }, output.shadow_buffers))
         })
     }
 

@@ -44,11 +44,11 @@ impl Geometry {
     ) -> Result<(Texture, Option<SurfaceBuffers>), Error> {
         let geometry = view.geometry();
         let depth = self.prepass.add_to(frame, buffers, geometry);
-        let screen = self.surfaces.as_ref().map(|drawer| match self.samples {
-            1 => drawer.screen(frame, buffers, &depth, geometry),
-            _ => drawer.screen_with_prepass(frame, buffers, geometry),
+        let surfaces = self.surfaces.as_ref().map(|drawer| match self.samples {
+            1 => drawer.surface_buffers(frame, buffers, &depth, geometry),
+            _ => drawer.surface_buffers_with_prepass(frame, buffers, geometry),
         });
-        Ok((depth, screen.transpose()?))
+        Ok((depth, surfaces.transpose()?))
     }
 }
 

@@ -52,8 +52,8 @@ impl Node for Shadows {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let screen = ports.surfaces("surfaces")?;
-        let shadows = view.add_shadows(frame, screen.as_ref())?;
+        let surfaces = ports.surfaces("surfaces")?;
+        let shadows = view.add_shadows(frame, surfaces.as_ref())?;
         ports.set("shadows", shadows);
         Ok(())
     }

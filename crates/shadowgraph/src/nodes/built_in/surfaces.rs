@@ -36,8 +36,9 @@ impl Node for Surfaces {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         if let Some(drawer) = &self.drawer {
-            let screen = drawer.screen_with_prepass(frame, &ports.view("view")?, view.geometry())?;
-            ports.set("surfaces", screen);
+            let surfaces =
+                drawer.surface_buffers_with_prepass(frame, &ports.view("view")?, view.geometry())?;
+            ports.set("surfaces", surfaces);
         }
         Ok(())
     }
