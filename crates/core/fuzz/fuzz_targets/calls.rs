@@ -9,7 +9,7 @@ mod frames;
 use shadowgraph_core::*;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    let Ok(compiled) = frames::chaos_from_bytes(bytes).compile() else { return };
+    let Ok(compiled) = frames::random_calls_from_bytes(bytes).compile() else { return };
     // Whatever was decided can be told.
     let plan = compiled.into_plan();
     let _texts = (plan.to_text(), plan.to_dot(), plan.to_json().unwrap());

@@ -17,7 +17,7 @@ fn nodes_nest_and_name_their_passes() {
 }
 
 #[test]
-fn a_node_that_declares_nothing_leaves_nothing() {
+fn a_node_without_declarations_is_removed() {
     let mut frame = Frame::new();
     frame.node("off", |frame| frame.node("also off", |_| {}));
     let plan = plan(frame);
@@ -25,7 +25,7 @@ fn a_node_that_declares_nothing_leaves_nothing() {
 }
 
 #[test]
-fn a_resource_is_of_its_node_even_where_the_node_has_no_pass() {
+fn a_resource_belongs_to_its_node_even_if_the_node_has_no_pass() {
     let mut frame = Frame::new();
     let mut a = frame.node("targets", |frame| color(frame, "a"));
     frame.node("scene", |frame| draw(frame, "draw", &mut a, BLACK));
@@ -39,7 +39,7 @@ fn a_resource_is_of_its_node_even_where_the_node_has_no_pass() {
 }
 
 #[test]
-fn what_a_condition_leaves_out_costs_nothing() {
+fn a_false_condition_declares_nothing() {
     let glow = |frame: &mut Frame<'_>| {
         let mut glow = color(frame, "glow");
         draw(frame, "glow", &mut glow, BLACK);
@@ -61,7 +61,7 @@ fn what_a_condition_leaves_out_costs_nothing() {
 }
 
 #[test]
-fn a_stand_in_is_one_texel_cleared_once_and_only_where_it_is_read() {
+fn a_placeholder_is_one_texel_cleared_once_and_only_if_it_is_read() {
     let white = ClearValue::Color([1.0; 4]);
     let mut frame = Frame::new();
     let placeholder = frame.or_placeholder(None, Format::R8Unorm, white);
@@ -103,7 +103,7 @@ fn what_nothing_published_is_an_error_that_names_the_node_and_the_type() {
 }
 
 #[test]
-fn views_make_the_same_declarations_and_have_histories_of_their_own() {
+fn views_repeat_declarations_and_have_separate_histories() {
     let mut frame = Frame::new();
     for eye in ["left", "right"] {
         frame.view(eye, |frame| {

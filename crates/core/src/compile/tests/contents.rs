@@ -47,7 +47,7 @@ fn a_pass_with_two_outputs_lives_if_one_is_needed() {
 }
 
 #[test]
-fn what_is_overwritten_before_it_is_read_is_culled() {
+fn a_write_overwritten_before_it_is_read_is_culled() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
     frame.render_pass("first").color(&mut a, BLACK);
@@ -60,7 +60,7 @@ fn what_is_overwritten_before_it_is_read_is_culled() {
 }
 
 #[test]
-fn a_kept_pass_and_what_it_reads_live() {
+fn a_kept_pass_and_its_producers_run() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
     frame.render_pass("draw").color(&mut a, BLACK);
@@ -121,7 +121,7 @@ fn loads_and_stores_follow_from_contents_and_say_why() {
 }
 
 #[test]
-fn what_an_import_held_is_loaded() {
+fn the_contents_of_an_import_are_loaded() {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(8, 8, Format::Rgba8Unorm);
     let mut out = frame.declare_import_texture("canvas", desc, TextureUsages::RENDER_ATTACHMENT, true);
@@ -132,7 +132,7 @@ fn what_an_import_held_is_loaded() {
 }
 
 #[test]
-fn what_is_overwritten_by_a_pass_that_lives_for_another_reason_is_discarded() {
+fn contents_overwritten_by_a_pass_that_runs_for_another_reason_are_discarded() {
     let mut frame = Frame::new();
     let (mut a, mut b) = (color(&mut frame, "a"), color(&mut frame, "b"));
     let mut first = frame.render_pass("first");
@@ -148,7 +148,7 @@ fn what_is_overwritten_by_a_pass_that_lives_for_another_reason_is_discarded() {
 }
 
 #[test]
-fn depth_that_is_only_tested_has_no_operations() {
+fn read_only_depth_has_no_operations() {
     let mut frame = Frame::new();
     let mut depth = depth(&mut frame, "depth");
     frame.render_pass("prepass").depth(&mut depth, FAR);
@@ -176,7 +176,7 @@ fn usages_are_those_of_passes_that_run() {
 }
 
 #[test]
-fn dependencies_tell_the_three_hazards_apart() {
+fn dependencies_distinguish_the_three_hazards() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
     frame.render_pass("write").color(&mut a, BLACK);

@@ -40,7 +40,7 @@ impl Counts {
         self.0.borrow().get(name).copied().unwrap_or(0)
     }
 
-    /// Adds up what one frame's plan holds.
+    /// Adds the counts of one plan.
     pub(super) fn frame(&self, spec: &Spec, plan: &Plan) {
         self.add("frames", 1);
         self.passes(plan);

@@ -64,7 +64,7 @@ fn exporting_undefined_contents_is_refused() {
 }
 
 #[test]
-fn writing_what_was_exported_is_refused() {
+fn writing_after_an_export_is_refused() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
     frame.render_pass("first").color(&mut a, BLACK);
@@ -119,7 +119,7 @@ fn reading_and_writing_one_texture_in_one_pass_is_refused() {
 }
 
 #[test]
-fn depth_that_is_only_tested_may_be_sampled_in_the_same_pass() {
+fn read_only_depth_may_be_sampled_in_the_same_pass() {
     let mut frame = Frame::new();
     let mut depth = frame.create_texture("depth", TextureDesc::d2(64, 64, Format::Depth32Float));
     frame.render_pass("prepass").depth(&mut depth, Contents::clear_depth(0.0));
@@ -152,7 +152,7 @@ fn a_render_pass_needs_an_attachment() {
 }
 
 #[test]
-fn formats_and_clear_values_must_suit_the_attachment() {
+fn formats_and_clear_values_must_match_the_attachment() {
     let mut frame = Frame::new();
     let mut depth = frame.create_texture("depth", TextureDesc::d2(8, 8, Format::Depth32Float));
     frame.render_pass("draw").color(&mut depth, BLACK);

@@ -20,7 +20,7 @@ struct Found {
 
 const FRAMES: u64 = 800;
 
-/// Plants a fault in random frames wherever it can be: `plant` says whether it could. It may be asked after several
+/// Plants a fault in random frames wherever possible: `plant` returns whether it did. It may be called after several
 /// stages.
 fn search(rules: &[Rule], plant: impl Fn(Stage, &mut Work) -> Option<bool>) -> Found {
     let mut found = Found { planted: 0, caught: 0, missed: None };

@@ -99,7 +99,7 @@ fn passes_with_other_attachments_do_not_merge() {
 }
 
 #[test]
-fn attachments_in_another_order_are_others() {
+fn the_order_of_attachments_matters_for_merging() {
     let mut frame = Frame::new();
     let (mut a, mut b) = (color(&mut frame, "a"), color(&mut frame, "b"));
     let mut first = frame.render_pass("first");
@@ -126,7 +126,7 @@ fn another_mip_or_layer_is_another_attachment() {
 }
 
 #[test]
-fn depth_that_is_tested_is_another_attachment_than_depth_that_is_written() {
+fn read_only_depth_differs_from_written_depth() {
     let mut frame = Frame::new();
     let mut depth = depth(&mut frame, "depth");
     frame.render_pass("write").depth(&mut depth, FAR);
@@ -152,7 +152,7 @@ fn a_pass_does_not_read_what_its_render_pass_writes() {
 }
 
 #[test]
-fn a_pass_does_not_write_what_its_render_pass_touches() {
+fn a_pass_does_not_write_what_its_render_pass_uses() {
     let mut frame = Frame::new();
     let (mut a, mut b) = (color(&mut frame, "a"), color(&mut frame, "b"));
     draw(&mut frame, "fill", &mut b, BLACK);
@@ -186,7 +186,7 @@ fn a_clear_of_a_whole_attachment_begins_a_render_pass() {
 }
 
 #[test]
-fn nothing_goes_on_after_a_resolve() {
+fn no_pass_is_merged_after_a_resolve() {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(64, 64, Format::Rgba8Unorm);
     let mut samples = frame.create_texture("samples", TextureDesc { samples: 4, ..desc });

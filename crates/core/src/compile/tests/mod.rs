@@ -31,7 +31,7 @@ fn random_bytes(seed: u64, count: usize) -> Vec<u8> {
     (0..count + 16).map(|_| next()).skip(16).collect()
 }
 
-/// Prints a line past the capture of the test harness: what was tried is part of the proof.
+/// Prints a line in spite of the capture of the test harness, to show what was tested.
 fn print(line: &str) {
     use std::io::Write as _;
     let _closed = writeln!(std::io::stderr(), "{line}");

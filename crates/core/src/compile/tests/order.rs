@@ -17,7 +17,7 @@ fn combine(frame: &mut Frame<'_>, name: &str, from: &[&Texture], to: &mut Textur
 }
 
 #[test]
-fn passes_that_free_memory_run_before_passes_that_take_some() {
+fn passes_that_free_memory_run_before_passes_that_need_more() {
     let mut frame = Frame::new();
     let (mut big, mut small, mut other, mut result) = (
         sized(&mut frame, "big", 64),
@@ -37,7 +37,7 @@ fn passes_that_free_memory_run_before_passes_that_take_some() {
 }
 
 #[test]
-fn passes_that_are_alike_run_as_declared() {
+fn equally_good_passes_run_in_order_of_declaration() {
     let mut frame = Frame::new();
     let names = ["c", "a", "b"];
     let made = names.map(|name| {
@@ -68,7 +68,7 @@ fn interrupted(order: OrderPolicy) -> Frame<'static> {
 }
 
 #[test]
-fn a_pass_that_goes_on_with_the_open_render_pass_runs_next() {
+fn a_pass_that_continues_the_open_render_pass_runs_next() {
     let plan = plan(interrupted(OrderPolicy::Automatic));
     assert_eq!(order(&plan), ["first", "second", "between"]);
     assert_eq!(plan.order_reason(pass(&plan, "second")), Some(OrderReason::ContinuesRenderPass));
@@ -85,7 +85,7 @@ fn a_frame_can_fix_the_order_by_one_call() {
 }
 
 #[test]
-fn an_order_by_name_holds_and_keeps_no_pass_alive() {
+fn an_explicit_order_holds_and_keeps_no_pass() {
     let mut frame = Frame::new();
     let culled = frame.encoder_pass("culled").id();
     let mut late = frame.encoder_pass("late");
@@ -102,7 +102,7 @@ fn an_order_by_name_holds_and_keeps_no_pass_alive() {
 }
 
 #[test]
-fn an_order_by_name_comes_before_memory() {
+fn an_explicit_order_has_priority_over_memory() {
     let passes = |by_name: bool| {
         let mut frame = Frame::new();
         let (mut large, mut small) = (sized(&mut frame, "large", 64), sized(&mut frame, "small", 8));
@@ -138,15 +138,15 @@ fn three(declared: [&str; 3], sides: [u32; 3]) -> Plan {
 }
 
 #[test]
-fn the_order_of_declaration_is_taken_where_it_needs_less() {
-    // `other` is the smallest, so step by step it would come first, and then lie about while the others run.
+fn the_order_of_declaration_is_used_if_it_needs_less_memory() {
+    // `other` is the smallest, so a greedy choice runs it first, and it stays in use while the others run.
     let plan = three(["first", "second", "other"], [16, 16, 8]);
     assert_eq!(order(&plan), ["first", "second", "other"]);
     assert_eq!(plan.order_reason(plan.order()[0]), Some(OrderReason::DeclarationNeedsLess));
 }
 
 #[test]
-fn passes_are_chosen_from_the_last_to_the_first_where_that_needs_less() {
+fn passes_are_chosen_from_last_to_first_if_that_needs_less_memory() {
     // Declared first, `other` is in the way both as declared and step by step.
     let plan = three(["other", "first", "second"], [16, 16, 8]);
     assert_eq!(order(&plan), ["first", "second", "other"]);

@@ -27,7 +27,7 @@ fn equal_frames_share_a_plan() {
 }
 
 #[test]
-fn a_changed_size_alone_is_no_full_compile() {
+fn a_change_of_size_only_is_not_a_full_compile() {
     let mut graph = Graph::new();
     compile(&mut graph, "a", 64, BLACK);
     let resized = compile(&mut graph, "a", 128, BLACK);
@@ -38,7 +38,7 @@ fn a_changed_size_alone_is_no_full_compile() {
 }
 
 #[test]
-fn anything_else_that_changes_is_a_full_compile() {
+fn any_other_change_is_a_full_compile() {
     let mut graph = Graph::new();
     compile(&mut graph, "a", 64, BLACK);
     compile(&mut graph, "b", 64, BLACK);
@@ -59,7 +59,7 @@ fn frames_that_alternate_keep_their_plans() {
 }
 
 #[test]
-fn a_frame_with_a_mistake_leaves_the_plans_as_they_are() {
+fn a_frame_with_an_error_does_not_change_the_plans() {
     let mut graph = Graph::new();
     compile(&mut graph, "a", 64, BLACK);
     let mut frame = graph.frame();

@@ -1,7 +1,9 @@
 //! Random frames, checked by the oracle.
 
 use super::counts::Counts;
-use super::frames::{MISTAKES, Source, Spec, chaos_from_bytes, frame_from_bytes, small_frame_from_bytes};
+use super::frames::{
+    INVALID_CHANGES, Source, Spec, frame_from_bytes, random_calls_from_bytes, small_frame_from_bytes,
+};
 use super::print;
 use super::shuffle::shuffled;
 use super::trial::trial;
@@ -62,11 +64,11 @@ fn every_rule_holds_on_20_000_random_frames_in_any_order_of_declaration() {
 }
 
 #[test]
-fn a_mistake_in_a_random_frame_gives_its_error() {
+fn an_error_in_a_random_frame_is_reported() {
     let made = Cell::new(0);
     run(2_000, 600, |bytes| {
         let spec = small_frame_from_bytes(&bytes[1..], 12);
-        let (code, report_error) = MISTAKES[usize::from(bytes[0]) % MISTAKES.len()];
+        let (code, report_error) = INVALID_CHANGES[usize::from(bytes[0]) % INVALID_CHANGES.len()];
         let (mut frame, _) = spec.build();
         report_error(&mut frame);
         made.set(made.get() + 1);
@@ -74,17 +76,17 @@ fn a_mistake_in_a_random_frame_gives_its_error() {
         prop_assert_eq!(error.as_ref().map(Error::code), Some(code), "{:?}\n{}", error, spec);
         Ok(())
     });
-    print(&format!("frames with a mistake: {} of {} kinds", made.get(), MISTAKES.len()));
+    print(&format!("invalid frames: {} of {} kinds", made.get(), INVALID_CHANGES.len()));
 }
 
 #[test]
 fn no_call_with_any_argument_panics() {
     let (valid, invalid) = (Cell::new(0), Cell::new(0));
     run(8_000, 160, |bytes| {
-        // Short ones come through now and then.
+        // Short ones are valid now and then.
         let length = 8 + usize::from(bytes[0]) % 100;
-        let mut frame = chaos_from_bytes(&bytes[1..length.min(bytes.len())]);
-        // Also what is checked after the first mistake must not panic.
+        let mut frame = random_calls_from_bytes(&bytes[1..length.min(bytes.len())]);
+        // Checks after the first error must not panic either.
         let decl = frame.decl.clone();
         let _ignored = crate::compile::compile(decl);
         let count =
@@ -96,7 +98,7 @@ fn no_call_with_any_argument_panics() {
 }
 
 #[test]
-fn a_frame_of_another_size_gets_the_plan_that_a_full_compile_would_make() {
+fn a_resized_frame_gets_the_plan_of_a_full_compile() {
     let (resized, reused) = (Cell::new(0), Cell::new(0));
     run(4_000, 600, |bytes| {
         let spec = small_frame_from_bytes(bytes, 14);

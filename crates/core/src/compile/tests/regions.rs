@@ -12,7 +12,7 @@ fn layered() -> TextureDesc {
 }
 
 #[test]
-fn mips_and_layers_have_contents_of_their_own() {
+fn mips_and_layers_have_separate_contents() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", layered());
     frame.render_pass("draw").subresource(Subresource::FULL.mip(1).layer(0)).color(&mut a, BLACK);
@@ -25,7 +25,7 @@ fn mips_and_layers_have_contents_of_their_own() {
 }
 
 #[test]
-fn all_mips_and_layers_together_are_the_whole() {
+fn all_mips_and_layers_together_are_the_full_resource() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", layered());
     for (mip, layer) in (0..3).flat_map(|mip| [(mip, 0), (mip, 1)]) {
@@ -39,7 +39,7 @@ fn all_mips_and_layers_together_are_the_whole() {
 }
 
 #[test]
-fn aspects_of_a_depth_stencil_texture_have_contents_of_their_own() {
+fn aspects_of_a_depth_stencil_texture_have_separate_contents() {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(64, 64, Format::Depth24PlusStencil8);
     let mut texture = frame.create_texture("depth", desc);
@@ -57,7 +57,7 @@ fn aspects_of_a_depth_stencil_texture_have_contents_of_their_own() {
 }
 
 #[test]
-fn an_aspect_alone_is_no_transient_attachment() {
+fn a_single_aspect_is_not_a_transient_attachment() {
     // The other aspect would be read-only, which wgpu forbids for transient attachments.
     let mut frame = Frame::new();
     let mut texture = frame.create_texture("depth", TextureDesc::d2(64, 64, Format::Depth24PlusStencil8));
@@ -71,7 +71,7 @@ fn an_aspect_alone_is_no_transient_attachment() {
 }
 
 #[test]
-fn ranges_of_a_buffer_have_contents_of_their_own() {
+fn ranges_of_a_buffer_have_separate_contents() {
     let mut frame = Frame::new();
     let mut buffer = frame.create_buffer("buffer", BufferDesc::new(64));
     let halves = [0..32, 32..64].map(|bytes| Subresource::FULL.bytes(bytes));
@@ -85,7 +85,7 @@ fn ranges_of_a_buffer_have_contents_of_their_own() {
 }
 
 #[test]
-fn slices_of_a_volume_get_fewer_from_mip_to_mip() {
+fn the_number_of_slices_of_a_volume_halves_from_mip_to_mip() {
     let volume = TextureDesc {
         mip_levels: 2,
         dimension: TextureDimension::D3,
@@ -107,7 +107,7 @@ fn slices_of_a_volume_get_fewer_from_mip_to_mip() {
 }
 
 #[test]
-fn tiles_do_not_order_each_other_and_a_reader_waits_for_its_own_alone() {
+fn tiles_do_not_order_each_other_and_a_reader_waits_only_for_its_tile() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
     for index in 0..4 {
@@ -122,7 +122,7 @@ fn tiles_do_not_order_each_other_and_a_reader_waits_for_its_own_alone() {
 }
 
 #[test]
-fn a_tile_that_is_alone_is_cleared_by_the_load_operation() {
+fn a_single_tile_is_cleared_by_the_load_operation() {
     let mut frame = Frame::new();
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(64, 64, Format::Depth32Float));
     frame.render_pass("tile").subresource(quarter(0)).depth(&mut atlas, FAR);
@@ -135,7 +135,7 @@ fn a_tile_that_is_alone_is_cleared_by_the_load_operation() {
 }
 
 #[test]
-fn a_tile_beside_live_ones_is_cleared_by_a_draw() {
+fn a_tile_next_to_live_ones_is_cleared_by_a_draw() {
     let mut frame = Frame::new();
     let desc = TextureDesc::d2(64, 64, Format::Depth32Float);
     let mut atlas = frame.declare_import_texture("atlas", desc, TextureUsages::all(), true);
@@ -161,7 +161,7 @@ fn the_rest_is_loaded_for_the_pass_that_needs_it() {
 }
 
 #[test]
-fn the_rest_is_not_loaded_where_nothing_needs_it() {
+fn the_rest_is_not_loaded_if_nothing_needs_it() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     draw(&mut frame, "all", &mut a, BLACK);
@@ -177,7 +177,7 @@ fn the_rest_is_not_loaded_where_nothing_needs_it() {
 }
 
 #[test]
-fn a_part_that_is_all_of_it_is_no_part() {
+fn a_subresource_that_covers_the_resource_is_the_full_resource() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     let all = Subresource::FULL.mips(0..1).layers(0..1).rect(Rect::new(0, 0, 64, 64));
@@ -226,7 +226,7 @@ fn a_resolve_target_cannot_be_a_rectangle() {
 }
 
 #[test]
-fn what_an_encoder_pass_reads_of_a_texture_is_there_while_it_draws_beside_it() {
+fn an_encoder_pass_may_read_a_texture_outside_of_what_it_draws() {
     let mut frame = Frame::new();
     let mut a = frame.create_texture("a", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     draw(&mut frame, "all", &mut a, BLACK);

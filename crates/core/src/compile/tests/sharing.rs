@@ -32,7 +32,7 @@ fn resources_with_disjoint_lifetimes_share_a_slot() {
 }
 
 #[test]
-fn slots_say_whom_they_follow_and_why_there_is_another() {
+fn slots_name_the_previous_resource_and_why_a_new_one_is_needed() {
     let plan = chain();
     let reasons: Vec<_> = plan.resources().map(|(_, r)| r.slot_reason).collect();
     let id = |name: &str| plan.find_resource(name).unwrap();
@@ -47,7 +47,7 @@ fn slots_say_whom_they_follow_and_why_there_is_another() {
 }
 
 #[test]
-fn resources_of_different_shape_never_share() {
+fn resources_with_different_descriptions_never_share_a_slot() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
     draw(&mut frame, "draw", &mut a, BLACK);
@@ -103,7 +103,7 @@ fn buffers_of_one_size_class_share_a_slot_of_its_size() {
 }
 
 #[test]
-fn an_exported_buffer_has_the_size_that_was_asked_for() {
+fn an_exported_buffer_has_the_requested_size() {
     let plan = buffers([1_000, 600, 980], true);
     let exported = plan.resource(plan.find_resource("980").unwrap());
     let slot = plan.slots().nth(exported.slot.unwrap().index()).unwrap();
@@ -157,7 +157,7 @@ fn transient_depth(options: Options, change: impl FnOnce(&mut Frame<'_>, &crate:
 }
 
 #[test]
-fn an_attachment_that_never_leaves_its_render_pass_is_transient() {
+fn an_attachment_used_in_only_one_render_pass_is_transient() {
     let usage = transient_depth(Options::default(), |_, _| {});
     assert_eq!(usage, TextureUsages::RENDER_ATTACHMENT | TextureUsages::TRANSIENT_ATTACHMENT);
 }
@@ -203,7 +203,7 @@ fn the_same_declaration_gives_the_same_plan() {
 }
 
 #[test]
-fn textures_as_large_as_can_be_said_are_refused_and_do_not_overflow() {
+fn the_largest_possible_textures_are_refused_and_do_not_overflow() {
     let most = TextureDesc::d2(u32::MAX, u32::MAX, Format::Rgba32Float).layers(u32::MAX);
     assert_eq!(most.bytes(), u64::MAX);
     let mut frame = Frame::new();

@@ -1,4 +1,4 @@
-//! Faults in what attachments load, clear and store.
+//! Faults in the load, clear and store operations of attachments.
 
 use super::{Stage, Work, search};
 use crate::access::{Access, ClearValue, Contents};
@@ -58,7 +58,7 @@ fn a_load_turned_into_a_clear() {
 }
 
 #[test]
-fn a_clear_turned_into_a_load_of_what_the_last_tenant_left() {
+fn a_clear_turned_into_a_load_of_the_previous_resource_in_the_slot() {
     let load = |ops: AttachmentOps, _| {
         let clears = matches!(ops.load, LoadAction::Clear(_));
         clears.then_some(AttachmentOps { load: LoadAction::Load, ..ops })
@@ -110,8 +110,8 @@ fn a_clear_of_a_region_by_a_load_operation() {
 #[test]
 fn a_pass_that_loads_within_a_render_pass() {
     let load = |ops: AttachmentOps, _| {
-        let goes_on = ops.load == LoadAction::Continue;
-        goes_on.then_some(AttachmentOps { load: LoadAction::Load, ..ops })
+        let continues = ops.load == LoadAction::Continue;
+        continues.then_some(AttachmentOps { load: LoadAction::Load, ..ops })
     };
     search(&[Rule::Contents], |stage, work| change(stage, work, load)).always_caught();
 }

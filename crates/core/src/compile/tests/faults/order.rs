@@ -56,7 +56,7 @@ fn a_lost_explicit_order() {
 }
 
 #[test]
-fn a_dependency_that_is_none() {
+fn a_superfluous_dependency() {
     let add = |stage, work: &mut Work| {
         let last = PassId((stage == Stage::Order).then_some(work.plan.decl.passes.len() as u32)? - 1);
         let first = *work.plan.order.first()?;
@@ -125,7 +125,7 @@ fn join(work: &mut Work, apart: impl Fn(MergeReason) -> bool) -> bool {
 fn a_merge_across_a_hazard() {
     let hazard = |reason| matches!(reason, MergeReason::Reads(..) | MergeReason::Writes(..));
     let merge = |stage, work: &mut Work| (stage == Stage::Merge).then(|| join(work, hazard));
-    // Some are no hazards of wgpu's: the compiler does not tell mips and layers apart here.
+    // Some are not hazards for wgpu: the compiler does not distinguish mips and layers here.
     search(&[Rule::Merging], merge).caught(20);
 }
 

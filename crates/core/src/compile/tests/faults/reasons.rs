@@ -1,4 +1,4 @@
-//! Faults in what is said of decisions that are right.
+//! Wrong reasons of right decisions.
 
 use super::{Stage, Work, search};
 use crate::compile::tests::oracle::Rule;
@@ -19,7 +19,7 @@ fn a_false_reason_for_culling() {
 }
 
 #[test]
-fn a_false_reason_for_a_place() {
+fn a_false_reason_for_a_position() {
     let lie = |stage, work: &mut Work| {
         for reason in (stage == Stage::Order).then_some(&mut work.plan.order_reasons)? {
             *reason = match *reason {

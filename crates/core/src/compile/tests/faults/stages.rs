@@ -1,4 +1,4 @@
-//! The compiler's stages one by one, so that what one hands to the next can be falsified.
+//! The stages of the compiler, run one by one, so that the result of each can be falsified.
 
 use crate::compile::{alias, cull, hazards, lifetime, merge, ops, order};
 use crate::declaration::Declaration;

@@ -1,4 +1,4 @@
-//! Faults in where resources live and what they may be used for.
+//! Faults in slots and usages of resources.
 
 use super::{Stage, Work, search};
 use crate::compile::tests::oracle::Rule;
@@ -13,7 +13,7 @@ fn transient(work: &Work) -> impl Iterator<Item = usize> + use<> {
     (0..origins.len()).rev().filter(move |&resource| origins[resource])
 }
 
-/// What the plan says of lifetimes is kept true, so that only what follows from the fault can be found.
+/// Lifetimes in the plan are kept right, so that only the fault itself can be found.
 fn tell_true_lifetimes(work: &mut Work) {
     let uses = crate::compile::lifetime::uses(&work.plan.decl, &work.plan.order, &work.plan.steps);
     for (placement, own) in work.plan.placements.iter_mut().zip(&uses) {

@@ -1,4 +1,4 @@
-//! A spec told to the builder, call by call.
+//! Declares the frame of a spec with the builder.
 
 use super::{AccessSpec, PassSpec, Spec};
 use crate::{
@@ -17,7 +17,7 @@ pub(in super::super) enum Handle {
 pub(in super::super) struct Names {
     pub(in super::super) handles: Vec<Option<Handle>>,
     passes: Vec<Option<PassId>>,
-    /// By id: the place in the spec.
+    /// Index in the spec of each id.
     resources: Vec<usize>,
 }
 
@@ -181,7 +181,7 @@ fn buffer(handles: &mut [Option<Handle>], resource: usize) -> &mut Buffer {
 
 fn render(pass: &mut Pass<'_, 'static, Rendering>, access: &AccessSpec, handles: &mut [Option<Handle>]) {
     let contents = access.contents.unwrap_or(Contents::Overwrite);
-    pass.subresource(access.subresource.to_part());
+    pass.subresource(access.subresource.to_subresource());
     match access.access {
         Access::Color(_) => {
             let _token = pass.color(texture(handles, access.resource), contents);
@@ -206,13 +206,13 @@ fn render(pass: &mut Pass<'_, 'static, Rendering>, access: &AccessSpec, handles:
 }
 
 fn compute(pass: &mut Pass<'_, 'static, Compute>, access: &AccessSpec, handles: &mut [Option<Handle>]) {
-    pass.subresource(access.subresource.to_part());
+    pass.subresource(access.subresource.to_subresource());
     shade(pass, access, handles);
 }
 
 fn encode(pass: &mut Pass<'_, 'static, Encoding>, access: &AccessSpec, handles: &mut [Option<Handle>]) {
     let contents = access.contents.unwrap_or(Contents::Overwrite);
-    pass.subresource(access.subresource.to_part());
+    pass.subresource(access.subresource.to_subresource());
     let of_texture = matches!(handles[access.resource], Some(Handle::Texture(_)));
     match (access.access, of_texture) {
         (Access::CopySource, true) => {
@@ -234,7 +234,7 @@ fn encode(pass: &mut Pass<'_, 'static, Encoding>, access: &AccessSpec, handles: 
     }
 }
 
-/// Declares what a shader touches.
+/// Declares the accesses of a shader.
 fn shade<K: ShaderPass>(
     pass: &mut Pass<'_, 'static, K>,
     access: &AccessSpec,
@@ -275,7 +275,7 @@ fn copy(
     to: AccessSpec,
     handles: &mut [Option<Handle>],
 ) {
-    let (source_part, target_part) = (from.subresource.to_part(), to.subresource.to_part());
+    let (source_part, target_part) = (from.subresource.to_subresource(), to.subresource.to_subresource());
     let source = match &handles[from.resource] {
         Some(Handle::Texture(texture)) => Handle::Texture(texture.clone()),
         Some(Handle::Buffer(buffer)) => Handle::Buffer(buffer.clone()),

@@ -1,6 +1,6 @@
 //! A resource as a short list of cells: single texels of each aspect, or 8 bytes of a buffer.
 
-use super::PartSpec;
+use super::SubresourceSpec;
 use crate::{Aspect, Format, ResourceDesc, TextureDesc};
 use wgpu_types::TextureDimension;
 
@@ -112,7 +112,7 @@ pub(super) fn layers(desc: &TextureDesc, mip: u32) -> u32 {
     }
 }
 
-impl PartSpec {
+impl SubresourceSpec {
     fn holds(&self, cell: &Cell) -> bool {
         let within = |range: Option<(u32, u32)>, at| range.is_none_or(|(start, end)| start <= at && at < end);
         let aspect = self.aspect == Aspect::All || self.aspect == cell.aspect;

@@ -1,6 +1,6 @@
 //! Frames in which the order of passes makes a difference to memory.
 
-use super::{AccessSpec, PartSpec, PassSpec, ResourceSpec, Source, Spec};
+use super::{AccessSpec, PassSpec, ResourceSpec, Source, Spec, SubresourceSpec};
 use crate::{Access, Contents, Format, Origin, PassKind, ResourceDesc, TextureDesc};
 
 /// Makes a frame of as many compute passes. Each fills a texture of its own, of very different sizes, from a
@@ -19,7 +19,7 @@ pub(in super::super) fn chain_from_bytes(bytes: &[u8], passes: usize) -> Spec {
             resource,
             access,
             contents,
-            subresource: PartSpec::default(),
+            subresource: SubresourceSpec::default(),
         };
         let reads = if index == 0 { 0 } else { source.below(fan_in + 1) };
         for _ in 0..reads {

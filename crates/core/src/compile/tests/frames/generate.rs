@@ -5,7 +5,7 @@
 
 use super::cells::{Cell, Cells, cells_of};
 use super::resources::{COLORS, DEPTHS};
-use super::{AccessSpec, PartSpec, PassSpec, ResourceSpec, Source, Spec};
+use super::{AccessSpec, PassSpec, ResourceSpec, Source, Spec, SubresourceSpec};
 use crate::{Access, Contents, Format, Options, OrderPolicy, Origin, PassKind, ResourceDesc};
 
 /// Makes a frame of up to 20 passes.
@@ -18,11 +18,11 @@ pub(in super::super) fn small_frame_from_bytes(bytes: &[u8], passes: usize) -> S
     Generator::new(bytes, false).frame(passes)
 }
 
-/// A frame that grows, and what is known of its contents.
+/// A frame being generated, and the state of its contents.
 pub(super) struct Generator<'b> {
     pub(super) source: Source<'b>,
     pub(super) spec: Spec,
-    /// Whether accesses may touch what nothing has defined.
+    /// Whether accesses may read undefined contents.
     wild: bool,
     /// By resource.
     pub(super) cells: Vec<Vec<Cell>>,
@@ -31,7 +31,7 @@ pub(super) struct Generator<'b> {
     pub(super) sizes: [(u32, u32); 2],
     /// The formats of its textures: of colour, then of depth. Few, so that textures can take turns in a slot.
     pub(super) formats: [[Format; 2]; 2],
-    /// The pass that is being made, and what it has touched.
+    /// The current pass, and what it has used.
     pub(super) pass: PassSpec,
     touched: Vec<Touched>,
 }
@@ -128,21 +128,21 @@ impl<'b> Generator<'b> {
 
     /// What of a resource a pass of this kind cannot touch in two ways: wgpu knows no tiles and no bytes
     /// within one pass, and slices of a volume only as attachments.
-    fn extents(&self, resource: usize, subresource: PartSpec) -> [Cells; 2] {
+    fn extents(&self, resource: usize, subresource: SubresourceSpec) -> [Cells; 2] {
         let [beside_attachments, beside_others] = match (self.pass.kind, self.spec.desc(resource)) {
             (PassKind::Copy | PassKind::Encoder, _) => [subresource; 2],
             (_, ResourceDesc::Texture(desc)) => [subresource.subresources(), subresource.tracked(desc)],
-            (_, ResourceDesc::Buffer(_)) => [PartSpec::default(); 2],
+            (_, ResourceDesc::Buffer(_)) => [SubresourceSpec::default(); 2],
         };
         let cells = &self.cells[resource];
         [beside_attachments.cells(cells), beside_others.cells(cells)]
     }
 
-    /// Whether the pass may touch a part besides what it touches already.
+    /// Returns whether the pass may use a part in addition to its other accesses.
     pub(super) fn is_free(
         &self,
         resource: usize,
-        subresource: PartSpec,
+        subresource: SubresourceSpec,
         writes: bool,
         attaches: bool,
     ) -> bool {
@@ -156,7 +156,7 @@ impl<'b> Generator<'b> {
         !self.touched.iter().any(clash)
     }
 
-    pub(super) fn is_defined(&mut self, resource: usize, subresource: PartSpec) -> bool {
+    pub(super) fn is_defined(&mut self, resource: usize, subresource: SubresourceSpec) -> bool {
         let cells = subresource.cells(&self.cells[resource]);
         self.defined[resource].covers(&cells) || self.wild && self.source.chance(1)
     }
@@ -167,7 +167,7 @@ impl<'b> Generator<'b> {
         resource: usize,
         access: Access,
         contents: Option<Contents>,
-        subresource: PartSpec,
+        subresource: SubresourceSpec,
     ) {
         let own = AccessSpec { resource, access, contents, subresource };
         let (written, attached) = (own.writes(), own.access.is_attachment());
@@ -185,14 +185,19 @@ impl<'b> Generator<'b> {
         self.spec.resources.len() - 1
     }
 
-    /// Writes what is still undefined of what the next frame will read.
+    /// Writes what is still undefined of the histories.
     fn finish_histories(&mut self) {
         for resource in 0..self.spec.resources.len() {
             let whole = Cells::first(self.cells[resource].len());
             let current = matches!(self.spec.resources[resource].origin, Origin::Current { .. });
             if current && !self.defined[resource].covers(&whole) {
                 self.begin(PassKind::Encoder);
-                self.touch(resource, Access::CopyTarget, Some(Contents::Overwrite), PartSpec::default());
+                self.touch(
+                    resource,
+                    Access::CopyTarget,
+                    Some(Contents::Overwrite),
+                    SubresourceSpec::default(),
+                );
                 self.end();
             }
         }

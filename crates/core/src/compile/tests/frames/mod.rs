@@ -1,25 +1,25 @@
-//! Frames as plain data: made from bytes, told to the builder, and believed by the oracle.
+//! Frames as plain data: generated from bytes, declared with the builder, and used as truth by the oracle.
 //!
 //! This folder and `oracle` use the crate's public names only, so that a fuzz target can include both.
 
 mod build;
 mod cells;
 mod chains;
-mod chaos;
+mod display;
 mod generate;
-mod mistakes;
+mod invalid;
 mod passes;
+mod random_calls;
 mod resources;
 mod source;
 mod transfers;
-mod words;
 
 pub(super) use build::Names;
 pub(super) use cells::{Cell, Cells, cells_of};
 pub(super) use chains::chain_from_bytes;
-pub(super) use chaos::chaos_from_bytes;
 pub(super) use generate::{frame_from_bytes, small_frame_from_bytes};
-pub(super) use mistakes::MISTAKES;
+pub(super) use invalid::INVALID_CHANGES;
+pub(super) use random_calls::random_calls_from_bytes;
 pub(super) use source::Source;
 
 use crate::{
@@ -52,7 +52,7 @@ pub(super) struct PassSpec {
     pub(super) keep: bool,
     /// How many nodes are around it.
     pub(super) nodes: usize,
-    /// Orders asked for by name, as places in the list of passes.
+    /// Explicit orders, as indices in the list of passes.
     pub(super) after: Vec<usize>,
     pub(super) accesses: Vec<AccessSpec>,
 }
@@ -63,12 +63,12 @@ pub(super) struct AccessSpec {
     pub(super) access: Access,
     /// `None` reads.
     pub(super) contents: Option<Contents>,
-    pub(super) subresource: PartSpec,
+    pub(super) subresource: SubresourceSpec,
 }
 
 /// What [`Subresource`] says; `None` is all there is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct PartSpec {
+pub(super) struct SubresourceSpec {
     pub(super) mips: Option<(u32, u32)>,
     pub(super) layers: Option<(u32, u32)>,
     pub(super) aspect: Aspect,
@@ -77,7 +77,7 @@ pub(super) struct PartSpec {
 }
 
 impl AccessSpec {
-    /// Whether it needs what was there before.
+    /// Returns whether it needs the earlier contents.
     pub(super) fn needs(&self) -> bool {
         matches!(self.contents, None | Some(Contents::Preserve))
     }
@@ -91,7 +91,7 @@ impl AccessSpec {
         matches!(self.access, Access::Color(_) | Access::Depth)
     }
 
-    /// Whether it is what a render pass draws into or tests against.
+    /// Returns whether it is an attachment.
     pub(super) fn attached(&self) -> bool {
         self.drawn() || self.access == Access::DepthRead
     }
@@ -108,8 +108,8 @@ impl PassSpec {
     }
 }
 
-impl PartSpec {
-    pub(super) fn to_part(self) -> Subresource {
+impl SubresourceSpec {
+    pub(super) fn to_subresource(self) -> Subresource {
         let mut subresource = Subresource::FULL.aspect(self.aspect);
         if let Some((start, end)) = self.mips {
             subresource = subresource.mips(start..end);
@@ -126,12 +126,12 @@ impl PartSpec {
         subresource
     }
 
-    /// All of the mips and layers that it touches, of the same aspects.
+    /// Returns all of the mips and layers that it uses, of the same aspects.
     pub(super) fn without_rect(self) -> Self {
         Self { rect: None, ..self }
     }
 
-    /// What wgpu cannot tell from it within one pass: all of its mips and layers, every slice of a volume.
+    /// Returns what wgpu tracks together with it within one pass: all of its mips and layers, every slice of a volume.
     pub(super) fn tracked(self, desc: &TextureDesc) -> Self {
         Self { rect: None, aspect: Aspect::All, ..self.with_all_slices(desc) }
     }
@@ -142,7 +142,7 @@ impl PartSpec {
         if volume { Self { layers: None, ..self } } else { self }
     }
 
-    /// All of the mips and layers that it touches.
+    /// Returns all of the mips and layers that it uses.
     pub(super) fn subresources(self) -> Self {
         Self { rect: None, aspect: Aspect::All, ..self }
     }

@@ -3,7 +3,7 @@
 use super::cells::{layers, mip_size};
 use super::generate::Generator;
 use super::resources::is_depth;
-use super::{AccessSpec, PartSpec};
+use super::{AccessSpec, SubresourceSpec};
 use crate::{Access, ClearValue, Contents, Origin, PassKind, ResourceDesc, TextureDesc};
 
 /// One mip of one layer, to draw into.
@@ -49,7 +49,7 @@ impl Generator<'_> {
         self.end();
     }
 
-    /// Draws into what the last render pass drew into.
+    /// Draws into the attachments of the last render pass.
     fn draw_again(&mut self) -> bool {
         let Some(last) = self.spec.passes.iter().rposition(|pass| pass.kind == PassKind::Render) else {
             return false;
@@ -63,7 +63,7 @@ impl Generator<'_> {
             } else {
                 None
             };
-            let subresource = PartSpec { rect, ..whole };
+            let subresource = SubresourceSpec { rect, ..whole };
             match access.access {
                 Access::DepthRead if self.is_defined(access.resource, subresource) => {
                     self.touch(access.resource, Access::DepthRead, None, subresource);
@@ -126,12 +126,12 @@ impl Generator<'_> {
         self.is_free(resource, self.target_part(&target, &desc), true, true).then_some(target)
     }
 
-    fn target_part(&self, target: &Target, desc: &TextureDesc) -> PartSpec {
+    fn target_part(&self, target: &Target, desc: &TextureDesc) -> SubresourceSpec {
         let only = |at, count| (count > 1).then_some((at, at + 1));
-        PartSpec {
+        SubresourceSpec {
             mips: only(target.mip, desc.mip_levels),
             layers: only(target.layer, desc.size.depth_or_array_layers),
-            ..PartSpec::default()
+            ..SubresourceSpec::default()
         }
     }
 
@@ -169,7 +169,7 @@ impl Generator<'_> {
         &mut self,
         resource: usize,
         access: Access,
-        subresource: PartSpec,
+        subresource: SubresourceSpec,
         preserve: usize,
     ) -> Contents {
         if self.source.chance(preserve) && self.is_defined(resource, subresource) {
@@ -187,7 +187,7 @@ impl Generator<'_> {
         })
     }
 
-    fn part_size(&self, resource: usize, subresource: PartSpec) -> (u32, u32) {
+    fn part_size(&self, resource: usize, subresource: SubresourceSpec) -> (u32, u32) {
         let mip = subresource.mips.map_or(0, |(start, _)| start);
         self.texture_desc(resource).map_or((1, 1), |desc| mip_size(&desc, mip))
     }
@@ -202,7 +202,7 @@ impl Generator<'_> {
             let back = self.source.below(count).min(self.source.below(count));
             let resource = count - 1 - back;
             let subresource =
-                if self.source.chance(96) { self.any_part(resource) } else { PartSpec::default() };
+                if self.source.chance(96) { self.any_part(resource) } else { SubresourceSpec::default() };
             if self.is_free(resource, subresource, false, false) && self.is_defined(resource, subresource) {
                 let access = self.read_access(resource);
                 return self.touch(resource, access, None, subresource);
@@ -266,7 +266,8 @@ impl Generator<'_> {
 
     /// Covers or preserves a part of a resource.
     fn write(&mut self, resource: usize, access: Access) {
-        let subresource = if self.source.chance(112) { self.any_part(resource) } else { PartSpec::default() };
+        let subresource =
+            if self.source.chance(112) { self.any_part(resource) } else { SubresourceSpec::default() };
         if !self.is_free(resource, subresource, true, false) {
             return;
         }

@@ -1,6 +1,6 @@
 //! Random shapes, resources and parts of them.
 
-use super::PartSpec;
+use super::SubresourceSpec;
 use super::cells::{Cells, UNIT, layers, mip_size};
 use super::generate::Generator;
 use crate::{Aspect, BufferDesc, Format, Origin, Rect, ResourceDesc, TextureDesc};
@@ -86,9 +86,11 @@ impl Generator<'_> {
     }
 
     /// A part of a resource to read, or to write other than by drawing.
-    pub(super) fn any_part(&mut self, resource: usize) -> PartSpec {
+    pub(super) fn any_part(&mut self, resource: usize) -> SubresourceSpec {
         match *self.spec.desc(resource) {
-            ResourceDesc::Buffer(desc) => PartSpec { bytes: self.bytes(desc.bytes), ..PartSpec::default() },
+            ResourceDesc::Buffer(desc) => {
+                SubresourceSpec { bytes: self.bytes(desc.bytes), ..SubresourceSpec::default() }
+            }
             ResourceDesc::Texture(desc) => self.texture_part(&desc),
         }
     }
@@ -103,7 +105,7 @@ impl Generator<'_> {
         Some((start as u64 * UNIT, end as u64 * UNIT))
     }
 
-    fn texture_part(&mut self, desc: &TextureDesc) -> PartSpec {
+    fn texture_part(&mut self, desc: &TextureDesc) -> SubresourceSpec {
         let mips = self.range(desc.mip_levels);
         let single = mips.map_or(desc.mip_levels == 1, |(start, end)| end - start == 1);
         let mip = mips.map_or(0, |(start, _)| start);
@@ -112,7 +114,7 @@ impl Generator<'_> {
         let layers = if layered { self.range(layers(desc, mip)) } else { None };
         let aspect = self.aspect(desc.format);
         let rect = if single { self.rect(mip_size(desc, mip)) } else { None };
-        PartSpec { mips, layers, aspect, rect, bytes: None }
+        SubresourceSpec { mips, layers, aspect, rect, bytes: None }
     }
 
     /// All of `count`, said or not, or one, or some.

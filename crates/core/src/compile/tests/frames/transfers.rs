@@ -1,6 +1,6 @@
 //! Random copies and uploads.
 
-use super::PartSpec;
+use super::SubresourceSpec;
 use super::cells::{layers, mip_size};
 use super::generate::Generator;
 use super::resources::is_depth;
@@ -21,7 +21,7 @@ impl Generator<'_> {
         let desc = ResourceDesc::Buffer(BufferDesc::new(8 + 8 * self.source.below(8) as u64));
         let resource = self.add_resource(desc, Origin::Transient);
         self.spec.resources[resource].uploaded = true;
-        self.touch(resource, Access::CopyTarget, Some(Contents::Overwrite), PartSpec::default());
+        self.touch(resource, Access::CopyTarget, Some(Contents::Overwrite), SubresourceSpec::default());
         self.end();
     }
 
@@ -36,11 +36,11 @@ impl Generator<'_> {
         if let Some(desc) = self.texture_desc(source)
             && subresource.mips.map_or(desc.mip_levels, |(start, end)| end - start) != 1
         {
-            subresource = PartSpec { mips: Some((0, 1)), layers: None, rect: None, ..subresource };
+            subresource = SubresourceSpec { mips: Some((0, 1)), layers: None, rect: None, ..subresource };
         }
         // Depth, stencil and samples are copied as whole mips.
         if self.texture_desc(source).is_some_and(|desc| is_depth(desc.format) || desc.samples > 1) {
-            subresource = PartSpec { rect: None, aspect: Aspect::All, ..subresource };
+            subresource = SubresourceSpec { rect: None, aspect: Aspect::All, ..subresource };
         }
         if !self.is_free(source, subresource, false, false) || !self.is_defined(source, subresource) {
             return;
@@ -52,8 +52,8 @@ impl Generator<'_> {
         }
     }
 
-    /// Copies bytes to a buffer of the same size, new or not, at the same place.
-    fn copy_bytes(&mut self, source: usize, desc: BufferDesc, subresource: PartSpec) {
+    /// Copies bytes to a buffer of the same size, new or not, at the same offset.
+    fn copy_bytes(&mut self, source: usize, desc: BufferDesc, subresource: SubresourceSpec) {
         let same = |r: &usize| *self.spec.desc(*r) == ResourceDesc::Buffer(desc) && *r != source;
         let known = (0..self.spec.resources.len()).find(same);
         let target = match known {
@@ -63,8 +63,8 @@ impl Generator<'_> {
         self.transfer((source, subresource), (target, subresource));
     }
 
-    /// Copies texels to a new texture of their size, or to the same place of a texture of the same shape.
-    fn copy_texels(&mut self, source: usize, desc: &TextureDesc, subresource: PartSpec) {
+    /// Copies texels to a new texture of their size, or to the same position of a texture with the same description.
+    fn copy_texels(&mut self, source: usize, desc: &TextureDesc, subresource: SubresourceSpec) {
         let shape = ResourceDesc::Texture(*desc);
         let writable = |r: &usize| !matches!(self.spec.resources[*r].origin, Origin::Previous { .. });
         let same = |r: &usize| *self.spec.desc(*r) == shape && *r != source && writable(r);
@@ -84,7 +84,7 @@ impl Generator<'_> {
         let flat = copy.dimension != TextureDimension::D3 || subresource.layers.is_none();
         if flat {
             let target = self.add_resource(ResourceDesc::Texture(copy), Origin::Transient);
-            let to = PartSpec { aspect: subresource.aspect, ..PartSpec::default() };
+            let to = SubresourceSpec { aspect: subresource.aspect, ..SubresourceSpec::default() };
             self.transfer((source, subresource), (target, to));
         }
     }
@@ -93,7 +93,7 @@ impl Generator<'_> {
     fn read_back(&mut self, source: usize, desc: &TextureDesc) {
         let single = desc.size.depth_or_array_layers == 1 && desc.samples == 1;
         let mips = (desc.mip_levels > 1).then_some((0, 1));
-        let subresource = PartSpec { mips, ..PartSpec::default() };
+        let subresource = SubresourceSpec { mips, ..SubresourceSpec::default() };
         if is_depth(desc.format)
             || !single
             || !self.is_free(source, subresource, false, false)
@@ -103,10 +103,10 @@ impl Generator<'_> {
         }
         let buffer = ResourceDesc::Buffer(BufferDesc::new(256 * u64::from(desc.size.height)));
         let target = self.add_resource(buffer, Origin::Transient);
-        self.transfer((source, subresource), (target, PartSpec::default()));
+        self.transfer((source, subresource), (target, SubresourceSpec::default()));
     }
 
-    fn transfer(&mut self, (source, from): (usize, PartSpec), (target, to): (usize, PartSpec)) {
+    fn transfer(&mut self, (source, from): (usize, SubresourceSpec), (target, to): (usize, SubresourceSpec)) {
         if self.is_free(target, to, true, false) && source != target {
             self.touch(source, Access::CopySource, None, from);
             self.touch(target, Access::CopyTarget, Some(Contents::Overwrite), to);

@@ -1,11 +1,11 @@
-//! A pass runs if and only if something needs what it leaves.
+//! A pass runs if and only if something needs what it writes.
 
 use super::truth::{Stamp, Truth};
 use super::{Oracle, Rule, spec_pass};
 use crate::Plan;
 
 impl Oracle<'_> {
-    /// Follows the contents back from what outlives the frame and from passes that are kept, cell by cell.
+    /// Follows the contents back from resources that outlive the frame and from kept passes, cell by cell.
     pub(super) fn culling(&mut self, truth: &Truth, plan: &Plan) {
         let spec = self.model.spec;
         let mut needed = vec![false; spec.passes.len()];

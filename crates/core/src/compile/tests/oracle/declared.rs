@@ -1,6 +1,6 @@
-//! The plan says what was declared, and nothing else.
+//! The plan contains exactly what was declared.
 
-use super::super::frames::{Names, PartSpec};
+use super::super::frames::{Names, SubresourceSpec};
 use super::{Oracle, Rule};
 use crate::{Plan, Subresource};
 
@@ -32,7 +32,7 @@ impl Oracle<'_> {
                 let expected = (names.id(access.resource), access.access, access.contents);
                 let version = versions[access.resource];
                 let same = (planned.resource, planned.access, planned.contents) == expected;
-                let subresource = planned.subresource == access.subresource.to_part()
+                let subresource = planned.subresource == access.subresource.to_subresource()
                     || self.is_whole(access.resource, access.subresource, planned.subresource);
                 self.expect(same && subresource && planned.version == version, Rule::Declared, || {
                     format!("{id:?} has {planned:?} for {access:?}")
@@ -42,7 +42,7 @@ impl Oracle<'_> {
         }
     }
 
-    fn is_whole(&self, resource: usize, subresource: PartSpec, planned: Subresource) -> bool {
+    fn is_whole(&self, resource: usize, subresource: SubresourceSpec, planned: Subresource) -> bool {
         planned == Subresource::FULL
             && subresource.cells(&self.model.cells[resource]) == self.model.whole(resource)
     }

@@ -7,7 +7,7 @@ use crate::{Origin, Plan};
 pub(in super::super) struct Live {
     /// In order, as places in the spec.
     pub(in super::super) order: Vec<usize>,
-    /// By pass: its place in the order.
+    /// Position of each pass in the order.
     pub(in super::super) places: Vec<Option<usize>>,
     /// By place in the order.
     pub(in super::super) steps: Vec<usize>,

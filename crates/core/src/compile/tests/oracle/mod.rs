@@ -25,7 +25,7 @@ use crate::{PassId, Plan, ResourceDesc};
 /// Which rule a plan breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
-    /// The plan says what was declared.
+    /// The plan contains what was declared.
     Declared,
     /// The order is a permutation of the passes that run.
     Permutation,
@@ -39,7 +39,7 @@ pub(super) enum Rule {
     Merging,
     /// Every access finds the contents that it was promised.
     Contents,
-    /// What outlives the frame holds what was written to it.
+    /// Resources that outlive the frame have the written contents.
     Survival,
     /// Nothing is loaded or stored for nothing.
     Waste,
@@ -57,7 +57,7 @@ pub(super) enum Rule {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Breach {
     pub(super) rule: Rule,
-    pub(super) words: String,
+    pub(super) message: String,
 }
 
 /// Checks a plan against the spec of its frame, which must be valid.
@@ -134,7 +134,7 @@ impl<'s> Model<'s> {
         whole.cells(&self.cells[access.resource])
     }
 
-    /// What wgpu cannot tell from an access of a shader within one pass.
+    /// Returns what wgpu tracks together with an access of a shader within one pass.
     fn subresources(&self, access: &AccessSpec) -> Cells {
         match self.spec.desc(access.resource) {
             ResourceDesc::Texture(desc) => {
@@ -149,7 +149,7 @@ impl<'s> Model<'s> {
         self.before[later][earlier]
     }
 
-    /// Whether two passes touch the same cells and one of them writes, or are ordered by name.
+    /// Returns whether two passes use the same cells and one of them writes, or have an explicit order.
     fn must_follow(&self, earlier: usize, later: usize) -> bool {
         let conflict = self.accesses(earlier).any(|(_, first, own)| {
             let clash = |(_, second, other): (usize, &AccessSpec, Cells)| {
@@ -169,13 +169,13 @@ struct Oracle<'s> {
 }
 
 impl Oracle<'_> {
-    fn report(&mut self, rule: Rule, words: impl Into<String>) {
-        self.breaches.push(Breach { rule, words: words.into() });
+    fn report(&mut self, rule: Rule, message: impl Into<String>) {
+        self.breaches.push(Breach { rule, message: message.into() });
     }
 
-    fn expect(&mut self, holds: bool, rule: Rule, words: impl FnOnce() -> String) {
+    fn expect(&mut self, holds: bool, rule: Rule, message: impl FnOnce() -> String) {
         if !holds {
-            self.report(rule, words());
+            self.report(rule, message());
         }
     }
 }

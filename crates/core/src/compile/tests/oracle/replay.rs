@@ -1,4 +1,4 @@
-//! The plan carried out on slots that hold whatever their last tenant left.
+//! Execution of the plan on slots that still hold the contents of the previous resource.
 
 use super::super::frames::{AccessSpec, Cells, Names};
 use super::truth::{Stamp, Truth, initial};
@@ -27,7 +27,7 @@ struct Replay<'p> {
     memory: Vec<Vec<Content>>,
     /// By resource: which memory it lives in.
     homes: Vec<usize>,
-    /// By resource: what its cells should hold at this point.
+    /// Expected contents of the cells of each resource.
     stamps: Vec<Vec<Stamp>>,
     open: Vec<Open>,
 }
@@ -112,7 +112,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Loads an attachment, or goes on with it.
+    /// Loads an attachment, or continues it.
     fn begin(
         &mut self,
         replay: &mut Replay<'_>,
@@ -123,8 +123,10 @@ impl Oracle<'_> {
     ) {
         let (resource, whole) = (access.resource, self.model.attachment(access));
         let open = replay.open.contains(&(resource, whole));
-        let goes_on = ops.load == LoadAction::Continue;
-        self.expect(open == goes_on, Rule::Contents, || format!("place {place} has {ops:?} for {access:?}"));
+        let continues = ops.load == LoadAction::Continue;
+        self.expect(open == continues, Rule::Contents, || {
+            format!("place {place} has {ops:?} for {access:?}")
+        });
         if !open {
             replay.open.push((resource, whole));
         }
@@ -153,7 +155,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Looks whether an access finds what it needs, or what it wants cleared.
+    /// Checks that an access finds what it needs, or cleared contents.
     fn find(
         &mut self,
         replay: &Replay<'_>,
@@ -195,7 +197,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether anything from this place on needs what is defined of these cells.
+    /// Returns whether anything from this position on needs the contents of these cells.
     fn wanted(&self, replay: &Replay<'_>, resource: usize, cells: &Cells, from: usize) -> bool {
         let defined = cells.iter().filter(|&cell| replay.stamps[resource][cell] != Stamp::Undefined);
         let mut defined = defined;

@@ -14,7 +14,7 @@ pub(in super::super) enum Stamp {
     Written(usize, usize),
 }
 
-/// Where a frame needs what nothing has defined.
+/// An access that needs undefined contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Invalid {
     Read,
@@ -33,9 +33,9 @@ impl Invalid {
 
 /// What happens in the order of declaration.
 pub(in super::super) struct Truth {
-    /// By pass and access: what each cell of it holds before the pass, if the access needs it.
+    /// Contents of each cell before the pass, for each pass and access that needs them.
     pub(super) needs: Vec<Vec<Vec<(usize, Stamp)>>>,
-    /// By resource and cell: what is left in the end.
+    /// Contents of each cell at the end, by resource.
     pub(super) finals: Vec<Vec<Stamp>>,
     pub(in super::super) invalid: Option<Invalid>,
 }

@@ -54,7 +54,7 @@ impl Oracle<'_> {
             let planned = plan.resource(names.id(resource));
             let own = planned.texture_usage - TextureUsages::TRANSIENT_ATTACHMENT;
             let same = match origin {
-                // Of imports the plan also knows what their owner allows.
+                // Imports also have the usages of their owner.
                 Origin::Imported { .. } => own.contains(texture) && planned.buffer_usage.contains(buffer),
                 _ => (own, planned.buffer_usage) == (texture, buffer),
             };

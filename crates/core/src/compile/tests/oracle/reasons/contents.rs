@@ -18,7 +18,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether a pass that runs touches some of these cells in such a way, and where it stands.
+    /// Returns the position of a pass that runs and uses some of these cells in such a way.
     fn at(
         &self,
         facts: &Facts<'_>,

@@ -1,8 +1,8 @@
-//! Reasons are true: what each says of its pass and resource is so.
+//! Every reason is true for its pass and resource.
 
 mod contents;
 mod merging;
-mod placing;
+mod positions;
 
 use super::super::frames::Names;
 use super::{Live, Oracle, Rule, spec_pass};
@@ -20,7 +20,7 @@ impl Facts<'_> {
         self.names.resource(id)
     }
 
-    /// The place in the order of a pass that runs.
+    /// Returns the position of a pass that runs.
     fn place(&self, id: PassId) -> Option<usize> {
         self.live.places[spec_pass(id)]
     }
@@ -42,7 +42,7 @@ impl Oracle<'_> {
         self.expect(holds, Rule::Reasons, || format!("{subject:?}: {reason:?} is not so"));
     }
 
-    /// Whether an access of the pass touches the resource in such a way.
+    /// Returns whether an access of the pass uses the resource in such a way.
     fn does(&self, pass: usize, resource: usize, how: impl Fn(&super::AccessSpec) -> bool) -> bool {
         self.model.spec.passes[pass].accesses.iter().any(|a| a.resource == resource && how(a))
     }

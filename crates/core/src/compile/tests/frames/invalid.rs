@@ -5,13 +5,13 @@ use crate::{
     TextureUsages,
 };
 
-/// Makes a mistake in a frame that has none.
-type Mistake = fn(&mut Frame<'static>);
+/// Makes a valid frame invalid.
+type InvalidChange = fn(&mut Frame<'static>);
 
 const BLACK: Contents = Contents::Clear(ClearValue::Color([0.0; 4]));
 
 /// Mistakes, with the code of the error for each.
-pub(in super::super) const MISTAKES: [(&str, Mistake); 26] = [
+pub(in super::super) const INVALID_CHANGES: [(&str, InvalidChange); 26] = [
     ("SG0101", |frame| {
         let mut texture = written(frame);
         let stale = texture.clone();

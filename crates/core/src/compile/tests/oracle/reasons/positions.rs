@@ -1,4 +1,4 @@
-//! Why passes stand where they do.
+//! Reasons of the positions of passes.
 
 use super::super::Oracle;
 use super::Facts;

@@ -1,4 +1,4 @@
-//! A frame in a few lines, for a test that fails.
+//! Short text of a frame, for failing tests.
 
 use super::{PassSpec, Spec};
 use crate::ResourceDesc;
@@ -33,7 +33,7 @@ fn write_pass(f: &mut Formatter<'_>, index: usize, pass: &PassSpec) -> Result {
     let keep = if pass.keep { ", kept" } else { "" };
     writeln!(f, "p{index}: {:?}{keep}, after {:?}", pass.kind, pass.after)?;
     for access in &pass.accesses {
-        let subresource = access.subresource.to_part().to_string();
+        let subresource = access.subresource.to_subresource().to_string();
         writeln!(f, "    {:?} of r{}, {subresource}, {:?}", access.access, access.resource, access.contents)?;
     }
     Ok(())

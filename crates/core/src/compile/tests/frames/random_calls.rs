@@ -21,24 +21,24 @@ const FORMATS: [Format; 10] = [
 ];
 
 /// Declares a frame at random. Nothing but a panic is a fault here.
-pub(in super::super) fn chaos_from_bytes(bytes: &[u8]) -> Frame<'static> {
-    let mut chaos =
-        Chaos { source: Source::new(bytes), textures: Vec::new(), buffers: Vec::new(), passes: Vec::new() };
+pub(in super::super) fn random_calls_from_bytes(bytes: &[u8]) -> Frame<'static> {
+    let mut calls =
+        RandomCalls { source: Source::new(bytes), textures: Vec::new(), buffers: Vec::new(), passes: Vec::new() };
     let mut frame = Frame::new();
-    while !chaos.source.is_empty() {
-        chaos.call(&mut frame);
+    while !calls.source.is_empty() {
+        calls.call(&mut frame);
     }
     frame
 }
 
-struct Chaos<'b> {
+struct RandomCalls<'b> {
     source: Source<'b>,
     textures: Vec<Texture>,
     buffers: Vec<Buffer>,
     passes: Vec<PassId>,
 }
 
-impl Chaos<'_> {
+impl RandomCalls<'_> {
     /// Small, or at the limits.
     fn number(&mut self) -> u32 {
         match self.source.below(16) {
