@@ -36,12 +36,12 @@ fn block(number: u32) -> Vec<u8> {
     [number, 0, 0, 0].map(u32::to_le_bytes).concat()
 }
 
-/// Returns what this frame draws, and the mean of it and of the frames before.
+/// Returns the image of this frame, and the mean of it and all earlier frames.
 fn accumulate(frame: &mut Frame<'_>, shaders: &Shaders, index: u32) -> (Texture, Texture) {
     let mut noisy = frame.create_texture("noisy", TextureDesc::d2(SIDE, SIDE, Format::Rgba16Float));
     frame.fullscreen("noisy", &shaders.noisy).uniform(&block(index)[..]).draw(&mut noisy);
 
-    // The graph keeps both halves and swaps them. In the first frame there is nothing to take the mean with.
+    // The graph keeps both textures and swaps them. In the first frame there is no earlier mean.
     let mut mean = frame.history("mean", TextureDesc::d2(SIDE, SIDE, Format::Rgba32Float), Resize::Reset);
     let frames_before = if mean.valid { index } else { 0 };
     let pass = frame.fullscreen("mean", &shaders.mean).sample(&noisy).sample(&mean.previous);

@@ -2,7 +2,7 @@
 @group(0) @binding(1) var before: texture_2d<f32>;
 @group(0) @binding(2) var<uniform> frame: vec4u;
 
-// `frame.x` frames came before this one; none if the history is not valid.
+// `frame.x` is the number of earlier frames; 0 if the history is not valid.
 @fragment fn mean(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let old = textureLoad(before, vec2u(at.xy), 0);
     return mix(old, textureLoad(present, vec2u(at.xy), 0), 1.0 / f32(frame.x + 1u));

@@ -22,12 +22,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut graph = Graph::new();
     let mut frame = graph.frame();
-    // Two floats of place and two of velocity each.
+    // Two floats of position and two of velocity each.
     let mut particles = frame.create_buffer("particles", BufferDesc::new(u64::from(PARTICLES) * 16));
     let groups = [PARTICLES / 64, 1, 1];
     frame.compute("scatter", &scatter).storage_mut(&mut particles, Contents::Overwrite).dispatch(groups);
     for step in 0..STEPS {
-        // Each step reads what the one before it wrote: `Preserve` says so, and orders them.
+        // Each step reads the result of the previous one: `Preserve` declares this and orders them.
         let pass = frame.compute(format_args!("step {step}"), &move_on);
         pass.storage_mut(&mut particles, Contents::Preserve).dispatch(groups);
     }

@@ -1,4 +1,4 @@
-// Particles in a flow that turns around four centres.
+// Particles in a flow around four centres.
 
 struct Particle { position: vec2f, velocity: vec2f }
 

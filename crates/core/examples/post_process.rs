@@ -1,4 +1,4 @@
-//! A post-process chain: one line a pass. Sizes, usages, loads, stores and the sharing of textures are the graph's.
+//! A post-process chain: one line for each pass. The graph derives usages, loads, stores and the sharing of textures.
 //!
 //! `cargo run -p shadowgraph-core --example post_process` writes `out/post_process.png` and prints the plan.
 #![allow(clippy::print_stdout, missing_docs, reason = "an example is a program")]
@@ -36,7 +36,7 @@ impl Shaders {
     }
 }
 
-/// A node: what is brighter than white, at half the size, blurred along one axis after the other.
+/// A node: pixels brighter than white, at half the size, blurred along one axis after the other.
 fn glow(frame: &mut Frame<'_>, shaders: &Shaders, scene: &Texture) -> Texture {
     let half = TextureDesc::d2(WIDTH / 2, HEIGHT / 2, Format::Rgba16Float);
     frame.node("glow", |frame| {

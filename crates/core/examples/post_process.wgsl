@@ -1,4 +1,4 @@
-// A chain of fullscreen passes: bright points, what is brighter than white, blurred, and laid over the picture.
+// A chain of fullscreen passes: bright points; pixels brighter than white, blurred, and added to the image.
 
 @group(0) @binding(0) var source: texture_2d<f32>;
 @group(0) @binding(1) var linear: sampler;

@@ -1,5 +1,5 @@
-//! Two views, an eye each: the same sub-graph declared twice, and both drawn into halves of one picture. The halves do not
-//! order each other, and the second view takes over the textures of the first.
+//! Two views, an eye each: the same sub-graph declared twice, and both drawn into halves of one image. The halves do not
+//! order each other, and the second view reuses the textures of the first.
 //!
 //! `cargo run -p shadowgraph-core --example two_views` writes `out/two_views.png` and prints the plan.
 #![allow(clippy::print_stdout, missing_docs, reason = "an example is a program")]
@@ -18,7 +18,7 @@ struct Shaders {
     linear: wgpu::Sampler,
 }
 
-/// What one eye sees, as a texture of its own.
+/// The view of one eye, as a texture.
 fn see(frame: &mut Frame<'_>, shaders: &Shaders, eye_x: f32) -> Texture {
     let mut color = frame.create_texture("color", TextureDesc::d2(SIDE, SIDE, Format::Rgba16Float));
     let eye = [eye_x, 0.0, 0.0, 0.0].map(f32::to_le_bytes).concat();
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut picture = frame.create_texture("picture", both);
     let eyes = [("left", -0.3, [1.0, 0.9, 0.85, 1.0]), ("right", 0.3, [0.85, 0.9, 1.0, 1.0f32])];
     for (index, (name, eye_x, tint)) in eyes.into_iter().enumerate() {
-        // Histories declared inside would be this view's own.
+        // Histories declared inside would belong to this view.
         frame.view(name, |frame| {
             let color = see(frame, &shaders, eye_x);
             let half = Rect::new(index as u32 * SIDE, 0, SIDE, SIDE);

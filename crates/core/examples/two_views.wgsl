@@ -1,4 +1,4 @@
-// A torus, marched from an eye that stands a little to one side.
+// A torus, ray-marched from an eye a little to one side.
 
 @group(0) @binding(0) var<uniform> eye: vec4f;
 

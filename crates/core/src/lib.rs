@@ -3,20 +3,20 @@
 //! store operations, and why.
 //!
 //! The declaration is the only thing you write. Usage flags, load and store operations, lifetimes and the sharing
-//! of textures are derived from it, and what was not declared cannot be touched.
+//! of textures are derived from it, and only declared resources can be accessed.
 //!
 //! ```
 //! use shadowgraph_core::{BufferDesc, Contents, Format, Frame, TextureDesc};
 //!
 //! let mut frame = Frame::new();
 //! let mut scene = frame.create_texture("scene", TextureDesc::d2(1280, 720, Format::Rgba16Float));
-//! let mut picture = frame.create_texture("picture", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
+//! let mut output = frame.create_texture("output", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
 //!
 //! frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
 //! let mut tonemap = frame.render_pass("tonemap");
 //! let _scene = tonemap.sample(&scene);
-//! tonemap.color(&mut picture, Contents::Overwrite);
-//! frame.export_texture(&picture);
+//! tonemap.color(&mut output, Contents::Overwrite);
+//! frame.export_texture(&output);
 //!
 //! let plan = frame.compile()?.into_plan();
 //! assert_eq!(plan.order().len(), 2);
@@ -26,13 +26,13 @@
 //!
 //! # Rules
 //!
-//! - Reading takes `&handle`; writing takes `&mut handle` and moves it on to the next version. An older clone is
-//!   stale from then on, and using it is an error that names the writer. So cycles cannot be written, and the order
+//! - Reading takes `&handle`; writing takes `&mut handle` and moves it to the next version. An older clone is
+//!   stale afterwards, and using it is an error that names the writer. So cycles cannot be written, and the order
 //!   of declaration is always a valid order.
-//! - Every write says what becomes of the old contents ([`Contents`]): cleared, covered or preserved. Reading
-//!   contents that nothing has defined is an error.
-//! - Declaring an access returns a token. Inside a pass body only a token of that very pass resolves.
-//! - Mistakes are collected while declaring and returned by [`Frame::compile`], the first one first.
+//! - Every write says what happens to the old contents ([`Contents`]): cleared, overwritten or preserved. Reading
+//!   undefined contents is an error.
+//! - Declaring an access returns a token. Inside a pass body only tokens of that pass resolve.
+//! - Errors are collected while declaring; [`Frame::compile`] returns the first one.
 //!
 //! # Features
 //!

@@ -1,4 +1,4 @@
-//! How often declaring and compiling allocate, counted: not at all once a graph has seen the frame.
+//! Counts allocations of declaring and compiling: none once a graph has compiled the frame.
 #![allow(clippy::expect_used, reason = "a test")]
 
 #[path = "../benches/cost/frames/mod.rs"]
@@ -10,16 +10,16 @@ use frames::chain::Chain;
 use frames::real;
 use shadowgraph_core::{Frame, Graph, Texture};
 
-/// Bytes that the real frame uploads.
+/// Uploaded bytes of the real frame.
 static BYTES: [u8; 256] = [0; 256];
 
-/// Declares and compiles a frame until nothing of it is new, and counts the allocations of one more.
+/// Declares and compiles a frame until everything is cached, and counts the allocations of one more.
 fn allocations<'f>(mut declare: impl FnMut(&mut Frame<'f>)) -> u64 {
     let mut graph = Graph::new();
     let mut frame = || {
         let mut frame = graph.frame();
         declare(&mut frame);
-        graph.compile(frame).expect("the frame has no mistake");
+        graph.compile(frame).expect("the frame is valid");
     };
     for _ in 0..3 {
         frame();
@@ -46,14 +46,14 @@ fn an_unchanged_frame_of_a_real_one_s_size_allocates_nothing() {
 }
 
 #[test]
-fn a_changed_frame_is_seen_to_allocate() {
+fn a_changed_frame_allocates() {
     let mut red = 0.0;
     let mut graph = Graph::new();
     let mut frame = || {
         red += 0.001;
         let mut frame = graph.frame();
         real::declare(&mut frame, &BYTES, red);
-        graph.compile(frame).expect("the frame has no mistake");
+        graph.compile(frame).expect("the frame is valid");
     };
     frame();
     assert!(measure(frame).count_total > 0, "the counter counts nothing");
@@ -97,7 +97,7 @@ mod bodies {
         assert_eq!(counted, 0);
     }
 
-    /// A pass that draws, one that reads it and one that goes on with that.
+    /// Passes that draw, read the result, and read that.
     fn three_passes(frame: &mut Frame<'_>) {
         let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
         let mut picture = frame.create_texture("picture", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
@@ -109,13 +109,13 @@ mod bodies {
         frame.export_texture(&picture);
     }
 
-    /// What recording a frame allocates in the steady state, wgpu's share with it.
+    /// Returns the allocations of recording a frame in the steady state, including wgpu's.
     fn recorded(device: &wgpu::Device, queue: &wgpu::Queue, graph: &mut Graph) -> u64 {
         let mut frame = || {
             let mut frame = graph.frame();
             three_passes(&mut frame);
             let mut encoder = device.create_command_encoder(&Default::default());
-            let compiled = graph.compile(frame).expect("the frame has no mistake");
+            let compiled = graph.compile(frame).expect("the frame is valid");
             compiled.execute(graph, device, &mut encoder).expect("it records");
             queue.submit([encoder.finish()]);
         };
@@ -132,7 +132,7 @@ mod bodies {
         let mut frame = graph.frame();
         three_passes(&mut frame);
         let mut encoder = device.create_command_encoder(&Default::default());
-        let compiled = graph.compile(frame).expect("the frame has no mistake");
+        let compiled = graph.compile(frame).expect("the frame is valid");
         let (_, capture) = compiled.execute_captured(&mut graph, &device, &mut encoder).expect("it records");
         queue.submit([encoder.finish()]);
         assert_eq!(capture.wait(&device).expect("a capture").textures.len(), 3);

@@ -1,4 +1,4 @@
-//! Every error can be had through the public API, says who, what and the way out, and has its section in
+//! Every error can be caused through the public API, names the pass, the resource and a fix, and has a section in
 //! `docs/errors.md`. The examples there are doctests.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "tests")]
@@ -14,7 +14,7 @@ mod page;
 use shadowgraph_core::{Error, Format, TextureDesc};
 use std::collections::BTreeSet;
 
-/// A failure: what came of it, and what its message has to say.
+/// An error, its expected code, and texts that its message must contain.
 struct Failure {
     code: &'static str,
     error: Error,
@@ -25,7 +25,7 @@ fn square() -> TextureDesc {
     TextureDesc::d2(64, 64, Format::Rgba8Unorm)
 }
 
-/// The codes that stand in the source, in the order of the variants.
+/// Codes in the source, in the order of the variants.
 fn codes() -> Vec<&'static str> {
     let source = include_str!("../src/error.rs");
     let arm = |line: &'static str| line.trim().strip_prefix("Self::")?.split_once("=> \"")?.1.get(..6);
@@ -60,7 +60,7 @@ fn codes_are_unique_and_each_begins_one_message() {
 }
 
 #[test]
-fn every_error_can_be_had_and_names_who_what_and_the_way_out() {
+fn every_error_can_be_caused_and_names_pass_resource_and_fix() {
     let found_by_compile = check(declared::failures());
     #[cfg(feature = "gpu")]
     let found_by_devices = check(executed::failures());

@@ -24,7 +24,7 @@ fn number() -> @location(0) u32 {
     return block.x;
 }
 
-// Where in the viewport this is, in sixteenths: x + 100 y.
+// Position in the viewport, in sixteenths: x + 100 y.
 @fragment
 fn place(vertex: Vertex) -> @location(0) u32 {
     let sixteenths = vec2u(vertex.across * 16.0);

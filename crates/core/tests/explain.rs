@@ -1,4 +1,4 @@
-//! Frames that draw the wrong thing, and the cause as `explain` tells it.
+//! Frames that draw the wrong thing, and the cause that `explain` reports.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use shadowgraph_core::{Contents, Format, Frame, Plan, TextureDesc};
@@ -7,7 +7,7 @@ fn color() -> TextureDesc {
     TextureDesc::d2(64, 64, Format::Rgba16Float)
 }
 
-/// Ambient occlusion that is not seen: the lit pass samples what has not been blurred.
+/// Ambient occlusion without effect: the lit pass samples the texture before the blur.
 fn culled() -> Plan {
     let mut frame = Frame::new();
     let mut raw = frame.create_texture("raw occlusion", color());
@@ -25,7 +25,7 @@ fn culled() -> Plan {
 }
 
 #[test]
-fn a_pass_that_is_wrongly_culled_names_what_nobody_reads() {
+fn a_wrongly_culled_pass_names_the_unread_resource() {
     let plan = culled();
     let why = plan.explain("blur occlusion").unwrap();
     assert!(why.contains("does not run: nothing reads `occlusion`"), "{why}");
@@ -33,9 +33,9 @@ fn a_pass_that_is_wrongly_culled_names_what_nobody_reads() {
     assert!(read.contains("samples `raw occlusion`: from `occlusion`"), "{read}");
 }
 
-/// Decals that cost a render pass: they test depth where the pass before writes it.
+/// Decals that cost a render pass: they test depth that the previous pass writes.
 #[test]
-fn a_merge_that_is_refused_names_the_attachment_that_makes_the_difference() {
+fn a_refused_merge_names_the_attachment_that_differs() {
     let mut frame = Frame::new();
     let mut lit = frame.create_texture("lit", color());
     let mut depth = frame.create_texture("depth", TextureDesc::d2(64, 64, Format::Depth32Float));
@@ -52,7 +52,7 @@ fn a_merge_that_is_refused_names_the_attachment_that_makes_the_difference() {
 
 /// Reflections that lag behind: they are declared before the fog that they should show.
 #[test]
-fn a_stale_read_names_the_version_and_who_wrote_it() {
+fn a_stale_read_names_the_version_and_its_writer() {
     let mut frame = Frame::new();
     let mut lit = frame.create_texture("lit", color());
     let mut reflected = frame.create_texture("reflected", color());
@@ -74,7 +74,7 @@ fn a_stale_read_names_the_version_and_who_wrote_it() {
 }
 
 #[test]
-fn a_name_that_several_have_is_explained_for_each_and_a_path_for_one() {
+fn a_shared_name_is_explained_for_each_and_a_path_for_one() {
     let mut frame = Frame::new();
     for node in ["left", "right"] {
         frame.node(node, |frame| {
@@ -94,7 +94,7 @@ fn a_name_that_several_have_is_explained_for_each_and_a_path_for_one() {
 }
 
 #[test]
-fn a_name_that_nothing_has_is_an_error_with_the_nearest() {
+fn an_unknown_name_is_an_error_with_a_suggestion() {
     let error = culled().explain("blur oclusion").unwrap_err();
     assert_eq!(error.code(), "SG0701");
     assert!(error.to_string().ends_with("did you mean `blur occlusion`?"), "{error}");

@@ -1,6 +1,6 @@
-//! Small frames, each a lesson, and what the dumps say of them.
+//! Small frames, each showing one feature, and their dumps.
 //!
-//! The texts are in `golden/NAME.txt`. A text that comes out differently fails the test with the difference; after
+//! The texts are in `golden/NAME.txt`. A different text fails the test and prints the difference; after
 //! reading it, accept it with
 //! `UPDATE_GOLDEN=1 cargo test -p shadowgraph-core --no-default-features --test golden`.
 
@@ -20,8 +20,8 @@ mod memory;
 mod merging;
 #[path = "golden/order.rs"]
 mod order;
-#[path = "golden/parts.rs"]
-mod parts;
+#[path = "golden/regions.rs"]
+mod regions;
 
 use compare::check;
 use shadowgraph_core::{Contents, Format, Frame, Plan, Texture, TextureDesc};
@@ -45,7 +45,7 @@ fn draw(frame: &mut Frame<'_>, name: &str) -> Texture {
     target
 }
 
-/// Reads a texture and covers a new one with something made of it.
+/// Reads a texture and overwrites a new one.
 fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Texture {
     let mut to = hdr(frame, name);
     let mut pass = frame.render_pass(name);

@@ -1,5 +1,5 @@
-//! What the graph can do, a test for each, by its public face alone. Elsewhere the same is proved at length; here it
-//! can be read and copied.
+//! Features of the graph, a test for each, using only the public API. Other tests are thorough; these can be read and
+//! copied.
 #![cfg(feature = "gpu")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
@@ -16,7 +16,7 @@ fn color(frame: &mut Frame<'_>, name: &str) -> Texture {
     frame.create_texture(name, TextureDesc::d2(64, 64, Format::Rgba8Unorm))
 }
 
-/// Reads `from` and covers a new texture.
+/// Reads `from` and overwrites a new texture.
 fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Texture {
     let mut to = color(frame, name);
     let mut pass = frame.render_pass(name);
@@ -40,7 +40,7 @@ fn run(graph: &mut Graph, compiled: Compiled<'_>, (device, queue): &(wgpu::Devic
     executed
 }
 
-/// An atlas of two tiles, each drawn by a pass of its own.
+/// An atlas of two tiles, each drawn by its own pass.
 fn atlas(frame: &mut Frame<'_>) -> Texture {
     let mut atlas = frame.create_texture("atlas", TextureDesc::d2(128, 64, Format::Depth32Float));
     for (name, x) in [("left", 0), ("right", 64)] {
@@ -342,7 +342,7 @@ fn bind_groups() {
     }
     assert_eq!(graph.plan_counts().reused, 1, "a uniform's value is no part of what is declared");
 
-    // A compute pass in one line, and a bind group of one's own from tokens.
+    // A compute pass in one line, and a bind group from tokens.
     let double = ComputeShader::wgsl(
         "double",
         "@group(0) @binding(0) var<storage, read_write> numbers: array<u32>;
@@ -392,7 +392,7 @@ fn outside() {
     let request = frame.read_back_buffer(&numbers, Subresource::FULL);
     let compiled = graph.compile(frame).unwrap();
     let mut executed = run(&mut graph, compiled, &gpu);
-    // A future; `wait` is for those who would rather block.
+    // A future; `wait` blocks instead.
     let bytes = executed.read_back(request).unwrap().wait(&gpu.0).unwrap();
     assert_eq!(bytes, [1, 2, 3, 4]);
 }
@@ -404,7 +404,7 @@ fn poison() {
         graph.set_poison(on);
         let mut frame = graph.frame();
         let mut bytes = frame.create_buffer("bytes", BufferDesc::new(16));
-        // It says that it covers the buffer, and writes nothing.
+        // It declares that it overwrites the buffer, but writes nothing.
         frame.encoder_pass("liar").copy_target_buffer(&mut bytes, Contents::Overwrite);
         let request = frame.read_back_buffer(&bytes, Subresource::FULL);
         let compiled = graph.compile(frame).unwrap();

@@ -1,4 +1,4 @@
-//! What both sides of a whole frame draw with: one device, one pipeline for each number of textures, and the caller's
+//! Objects that both sides of a whole frame draw with: a device, a pipeline for each number of textures, and the caller's
 //! two textures.
 
 use crate::frames::chain::{FAN_IN, FORMAT, desc};
@@ -7,9 +7,9 @@ use shadowgraph_core::wgpu;
 pub(crate) struct Drawing {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    /// For one texture, for two, and so on.
+    /// Pipelines for one texture, for two, and so on.
     pub(crate) programs: [Program; FAN_IN],
-    /// What the chain begins with, and where it ends.
+    /// First and last texture of the chain.
     pub(crate) ends: [wgpu::Texture; 2],
 }
 
@@ -19,7 +19,7 @@ pub(crate) struct Program {
 }
 
 impl Drawing {
-    /// Draws on a device that does nothing, so that only the CPU's work is left.
+    /// Creates the objects on a no-op device, so that only CPU work is measured.
     pub(crate) fn new() -> Self {
         let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
         let programs = std::array::from_fn(|index| Program::new(&device, index + 1));
@@ -27,7 +27,7 @@ impl Drawing {
         Self { device, queue, programs, ends }
     }
 
-    /// The program for so many textures.
+    /// Returns the shader for this many textures.
     pub(crate) fn program(&self, textures: usize) -> &Program {
         &self.programs[textures - 1]
     }
@@ -70,7 +70,7 @@ impl Program {
     }
 }
 
-/// A texture such as the chain draws into.
+/// Creates a texture for the chain.
 pub(crate) fn texture(device: &wgpu::Device) -> wgpu::Texture {
     let desc = desc();
     device.create_texture(&wgpu::TextureDescriptor {

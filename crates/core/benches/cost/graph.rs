@@ -1,4 +1,4 @@
-//! The graph's side.
+//! Frames drawn with the graph.
 
 use crate::drawing::Drawing;
 use crate::frames::Change;
@@ -8,10 +8,10 @@ use shadowgraph_core::{Bind, Frame, Graph, Texture};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// Bytes that the real frame uploads.
+/// Uploaded bytes of the real frame.
 static BYTES: [u8; 256] = [0; 256];
 
-/// What is declared and compiled frame by frame.
+/// A frame to declare and compile.
 pub(crate) struct Declared<'c> {
     graph: Graph,
     source: Source<'c>,
@@ -31,7 +31,7 @@ impl<'c> Declared<'c> {
         Self { graph: Graph::new(), source, change, number: 0, handles: Vec::new() }
     }
 
-    /// Declares and compiles a frame, and returns the time of the compiling alone.
+    /// Declares and compiles a frame, and returns only the time of compiling.
     pub(crate) fn frame(&mut self) -> Duration {
         self.number += 1;
         let red = self.change.red(self.number);
@@ -69,7 +69,7 @@ impl<'d> Whole<'d> {
         Self { graph, drawing, chain, change, draws: 1, threads: 1, number: 0, handles }
     }
 
-    /// Draws so often in each pass, recorded on so many threads.
+    /// Sets the draws of each pass and the number of recording threads.
     pub(crate) fn with(self, draws: u32, threads: usize) -> Self {
         Self { draws, threads, ..self }
     }

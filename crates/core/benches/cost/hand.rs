@@ -1,7 +1,7 @@
-//! The side without a graph: the chain's passes as somebody would write them who knows the frame by heart.
+//! The same frames without a graph: the chain's passes written by hand, with full knowledge of the frame.
 //!
-//! Textures, views and bind groups are made once. Textures take turns just as the graph's do, in the graph's order:
-//! more of them would cost wgpu more to keep track of, and be no fair reference.
+//! Textures, views and bind groups are created once. Textures are shared exactly as in the graph, in the same order:
+//! more textures would cost wgpu more tracking and be an unfair reference.
 
 use crate::drawing::{Drawing, texture};
 use crate::frames::chain::{Chain, RESULT, SOURCE};

@@ -1,8 +1,8 @@
-//! What a frame costs on the CPU: `cargo bench -p shadowgraph-core --bench cost`.
+//! CPU cost of a frame: `cargo bench -p shadowgraph-core --bench cost`.
 //!
-//! Criterion keeps the statistics of single figures; the table at the end holds them against their targets, and
-//! whole frames against the same passes written by hand, both sides taking turns in this one run. With
-//! `-- table` only the table is made.
+//! Criterion computes the statistics of single figures; the table at the end compares them with their targets, and
+//! whole frames with the same passes written by hand, measured alternately in the same run. `-- table` prints only the
+//! table.
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a benchmark")]
 
 mod drawing;
@@ -25,7 +25,7 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     single_figures(&mut criterion);
     criterion.final_summary();
-    // Listing, profiling, and the one run that `cargo test --benches` asks for measure nothing.
+    // Listing, profiling and the single run of `cargo test --benches` measure nothing.
     let measures_nothing = ["--test", "--list", "--profile-time"];
     if !std::env::args().any(|argument| measures_nothing.contains(&argument.as_str())) {
         let mut table = Table::default();
@@ -66,7 +66,7 @@ fn declares<'c>(source: Source<'c>, change: Change) -> Subject<'c> {
     })
 }
 
-/// A subject that declares and compiles, of which compiling counts.
+/// A subject that declares and compiles, with only the time of compiling.
 fn compiles<'c>(source: Source<'c>, change: Change) -> Subject<'c> {
     let mut declared = Declared::new(source, change);
     Box::new(move || declared.frame())

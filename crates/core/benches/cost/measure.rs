@@ -1,25 +1,25 @@
-//! Medians of several subjects that take turns, so that whatever else the machine does falls on all of them alike.
+//! Medians of several subjects that are measured alternately, so that other load affects all of them equally.
 
 use std::time::{Duration, Instant};
 
-/// Times one frame: runs it and returns the time that counts.
+/// Runs one frame and returns its measured time.
 pub(crate) type Subject<'s> = Box<dyn FnMut() -> Duration + 's>;
 
-/// How many times each subject has its turn.
+/// Number of rounds.
 const ROUNDS: usize = 151;
-/// A turn lasts about so long, in as many frames as that takes.
+/// Approximate duration of a subject in a round.
 const TURN: Duration = Duration::from_millis(2);
 
-/// What was measured of one subject.
+/// The measurement of a subject.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Measured {
     /// Median time of a frame in seconds.
     pub(crate) seconds: f64,
-    /// Median, over the rounds, of the time against that of the first subject in the same round.
+    /// Median over the rounds of the time relative to the first subject in the same round.
     pub(crate) ratio: f64,
 }
 
-/// A subject that counts all of its time.
+/// A subject with its whole time.
 pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Subject<'s> {
     Box::new(move || {
         let start = Instant::now();
@@ -28,14 +28,14 @@ pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Subject<'s> {
     })
 }
 
-/// Lets the subjects take turns.
+/// Measures the subjects alternately.
 pub(crate) fn measure<const N: usize>(mut subjects: [Subject<'_>; N]) -> [Measured; N] {
     let frames = subjects.each_mut().map(|subject| frames(subject));
     let mut rounds: Vec<[f64; N]> = Vec::with_capacity(ROUNDS);
     for round in 0..ROUNDS {
         let mut seconds = [0.0; N];
         for turn in 0..N {
-            // Every other round goes backwards, so that each follows each.
+            // Every other round is reversed, so that each subject follows each other one.
             let at = if round % 2 == 0 { turn } else { N - 1 - turn };
             seconds[at] = turn_of(&mut subjects[at], frames[at]);
         }
@@ -47,7 +47,7 @@ pub(crate) fn measure<const N: usize>(mut subjects: [Subject<'_>; N]) -> [Measur
     })
 }
 
-/// Warms a subject up, and returns the frames of its turn.
+/// Warms a subject up, and returns its frames per round.
 fn frames(subject: &mut Subject<'_>) -> u32 {
     let start = Instant::now();
     let mut count = 0;
@@ -58,7 +58,7 @@ fn frames(subject: &mut Subject<'_>) -> u32 {
     (count / 10).max(1)
 }
 
-/// The seconds of a frame.
+/// Returns the seconds of a frame.
 fn turn_of(subject: &mut Subject<'_>, frames: u32) -> f64 {
     let time: Duration = (0..frames).map(|_| subject()).sum();
     time.as_secs_f64() / f64::from(frames)

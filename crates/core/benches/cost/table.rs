@@ -1,22 +1,22 @@
-//! The table of what frames may cost and what they do.
+//! The table of measured costs and their targets.
 
 use std::fmt::Write as _;
 
-/// Rows under headings.
+/// A table with headings.
 #[derive(Default)]
 pub(crate) struct Table {
     text: String,
     missed: u32,
 }
 
-/// What a figure must not exceed.
+/// The maximum of a figure.
 #[derive(Clone, Copy)]
 pub(crate) enum Target {
-    /// Microseconds.
+    /// Maximum in microseconds.
     Micros(f64),
-    /// Times the reference.
+    /// Maximum as a multiple of the reference.
     Times(f64),
-    /// It is told for comparison only.
+    /// No maximum; only for comparison.
     None,
 }
 
@@ -25,7 +25,7 @@ impl Table {
         _ = writeln!(self.text, "\n{heading:<58}{:>13}{:>10}{:>12}", "measured", "ratio", "target");
     }
 
-    /// Adds a figure in seconds, and where there is a reference its ratio to that.
+    /// Adds a figure in seconds, with its ratio to the reference if there is one.
     pub(crate) fn row(&mut self, figure: &str, seconds: f64, ratio: Option<f64>, target: Target) {
         let micros = seconds * 1e6;
         let (target, missed) = match target {

@@ -1,10 +1,10 @@
-//! What the examples share: a device, and a PNG file.
+//! Helpers of the examples: a device, and PNG files.
 
 use shadowgraph_core::wgpu;
 use std::error::Error;
 use std::path::Path;
 
-/// Opens the first adapter that there is.
+/// Opens the first available adapter.
 pub(crate) fn open() -> Result<(wgpu::Device, wgpu::Queue), Box<dyn Error>> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;

@@ -1,4 +1,4 @@
-//! Any call of the builder with any argument: the frame compiles or is refused, and nothing panics.
+//! Any call of the builder with any argument: the frame compiles or returns an error, and nothing panics.
 #![no_main]
 #![allow(dead_code, unused_imports, reason = "the tests use more of what they share")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test")]
@@ -10,7 +10,7 @@ use shadowgraph_core::*;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let Ok(compiled) = frames::random_calls_from_bytes(bytes).compile() else { return };
-    // Whatever was decided can be told.
+    // Every decision can be described.
     let plan = compiled.into_plan();
     let _texts = (plan.to_text(), plan.to_dot(), plan.to_json().unwrap());
 });

@@ -1,5 +1,5 @@
-//! Frames that make sense, declared through the builder and compiled, in two orders of declaration: the oracle of the
-//! crate's own tests judges the plans.
+//! Valid frames, declared with the builder and compiled, in two orders of declaration: the oracle of the crate's tests
+//! checks the plans.
 #![no_main]
 #![allow(dead_code, unused_imports, reason = "the tests use more of what they share")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test")]

@@ -125,9 +125,9 @@ impl<'a> Recording<'a> {
     /// Resets the pass to the state that a body may rely on; `dirty` says whether it may have been changed.
     fn reset_state(&self, id: PassId, context: &mut RenderContext<'_>, dirty: bool) {
         let decl = &self.plan.decl;
-        let in_parts = !decl.subresources.is_empty()
+        let has_partial_accesses = !decl.subresources.is_empty()
             && decl.accesses(id).iter().any(|access| access.subresource != ALL_OF_RESOURCE);
-        if !dirty && !in_parts {
+        if !dirty && !has_partial_accesses {
             return;
         }
         let pass = &mut context.pass;

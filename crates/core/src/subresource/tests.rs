@@ -5,7 +5,7 @@ use super::*;
 use crate::desc::{BufferDesc, Format};
 use proptest::prelude::*;
 
-/// Aspects, mips, layers, texels across and down. A box that reaches the end goes on to infinity.
+/// Aspects, mips, layers, texels across and down. A box that reaches the end extends to infinity.
 const SIDES: [u64; AXES] = [2, 3, 2, 4, 4];
 const CELLS: usize = 2 * 3 * 2 * 4 * 4;
 

@@ -1,4 +1,4 @@
-//! Mistakes that `compile` finds, without a device.
+//! Errors that `compile` returns, without a device.
 
 use super::{Failure, square};
 use shadowgraph_core::{
@@ -33,7 +33,7 @@ pub(crate) fn failures() -> Vec<Failure> {
         .collect()
 }
 
-/// What is asked of a plan and of its dump.
+/// Errors of plans and dumps.
 fn dumps() -> Vec<Failure> {
     let plan = Frame::new().compile().expect("an empty frame").into_plan();
     let words = &["`draw`", "`dump` lists all names"];
@@ -69,9 +69,9 @@ fn handles() -> Vec<Failure> {
             &["pass `second` writes version 0 of `a`", "`first` has already", "same handle by `&mut`"],
             |frame| {
                 let mut a = frame.create_texture("a", square());
-                let mut twin = a.clone();
+                let mut clone = a.clone();
                 frame.render_pass("first").color(&mut a, BLACK);
-                frame.render_pass("second").color(&mut twin, BLACK);
+                frame.render_pass("second").color(&mut clone, BLACK);
             },
         ),
         failure("SG0103", &["pass `node/read` uses a handle of another frame", "import"], |frame| {

@@ -1,4 +1,4 @@
-//! Mistakes that need a device to be found.
+//! Errors that need a device.
 
 use super::{Failure, square};
 use shadowgraph_core::{
@@ -33,7 +33,7 @@ fn failure_on(
     Failure { code, error: error.expect("a failure"), words }
 }
 
-/// A quarter of a TiB: within the default limits, and beyond any device. `None` where no driver can say so.
+/// A quarter of a TiB: within the default limits, but more than any device has. `None` if the driver cannot report it.
 fn out_of_memory() -> Option<Failure> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&Default::default())).ok()?;
@@ -58,7 +58,7 @@ fn lost() -> Failure {
     })
 }
 
-/// A pass in a node draws without a pipeline, which only wgpu knows is wrong.
+/// A pass in a node that draws without a pipeline, which only wgpu detects.
 fn refused() -> Failure {
     let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let mut graph = Graph::new();
@@ -76,8 +76,9 @@ fn refused() -> Failure {
         });
         frame.export_texture(&other);
     });
-    let compiled = graph.compile(frame).expect("the frame has no failure");
-    let failed = compiled.execute_checked(&mut graph, &device, &queue).err().expect("wgpu objects");
+    let compiled = graph.compile(frame).expect("the frame is valid");
+    let failed =
+        compiled.execute_checked(&mut graph, &device, &queue).err().expect("a wgpu validation error");
     assert!(failed.plan.find_pass("blur").is_some(), "the plan comes with the error");
     Failure { code: "SG0606", error: failed.error, words: &["in `post/blur`", "pipeline"] }
 }

@@ -4,7 +4,7 @@ use super::codes;
 
 const PAGE: &str = include_str!("../../../../docs/errors.md");
 
-/// The sections of the page: code, title and text.
+/// Sections of the page: code, title and text.
 fn sections() -> Vec<(&'static str, &'static str, &'static str)> {
     let sections = PAGE.split("\n## ").skip(1);
     sections
@@ -25,15 +25,15 @@ fn every_code_has_one_section_in_order() {
 }
 
 #[test]
-fn every_section_has_an_example_that_fails_and_one_that_is_mended() {
+fn every_section_has_an_example_that_fails_and_a_fixed_one() {
     for (code, _, text) in sections() {
         let mut blocks: Vec<_> =
             text.split("```rust\n").skip(1).map(|b| b.split("```").next().unwrap()).collect();
         assert_eq!(blocks.len(), 2, "{code}");
-        let mended = blocks.pop().unwrap();
+        let fixed = blocks.pop().unwrap();
         let fails = blocks.pop().unwrap();
         assert!(fails.contains(&format!("\"{code}\"")) && fails.contains("assert_eq!"), "{code}: {fails}");
-        assert!(mended.contains("is_ok()") && !mended.contains(code), "{code}: {mended}");
+        assert!(fixed.contains("is_ok()") && !fixed.contains(code), "{code}: {fixed}");
     }
 }
 

@@ -1,13 +1,13 @@
-//! Compares a text with the one that was accepted.
+//! Compares a text with the accepted one.
 
 use std::path::PathBuf;
 
 const ACCEPT: &str = "UPDATE_GOLDEN=1 cargo test -p shadowgraph-core --no-default-features --test golden";
 
-/// Checks `text` against `golden/NAME.txt`, or writes it there where `UPDATE_GOLDEN` is set.
+/// Checks `text` against `golden/NAME.txt`, or writes it there if `UPDATE_GOLDEN` is set.
 ///
 /// # Panics
-/// If they differ, or nothing was accepted yet.
+/// If they differ, or if there is no accepted text.
 pub(crate) fn check(name: &str, text: &str) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.txt"));
     for line in text.lines() {
@@ -31,7 +31,7 @@ pub(crate) fn check(name: &str, text: &str) {
     }
 }
 
-/// Both texts line by line, by their longest common subsequence.
+/// Compares both texts line by line, by their longest common subsequence.
 fn difference(old: &str, new: &str) -> String {
     let (old, new): (Vec<_>, Vec<_>) = (old.lines().collect(), new.lines().collect());
     // `common[i][j]`: how many lines `old[i..]` and `new[j..]` have in common.
@@ -62,7 +62,7 @@ fn difference(old: &str, new: &str) -> String {
 }
 
 #[test]
-fn a_difference_shows_what_went_and_what_came() {
+fn a_difference_shows_removed_and_added_lines() {
     assert_eq!(difference("a\nb\nc\n", "a\nx\nc\nd\n"), "  a\n- b\n+ x\n  c\n+ d\n");
 }
 

@@ -1,4 +1,4 @@
-//! What is written, what is needed, and what follows: culling, loads and stores.
+//! Contents, and what follows from them: culling, loads and stores.
 
 use super::{BLACK, check, draw, filter, hdr, plan};
 use shadowgraph_core::TextureUsages;
@@ -6,7 +6,7 @@ use shadowgraph_core::{
     BufferDesc, ClearValue, Contents, Format, Frame, Rect, Resize, Subresource, TextureDesc,
 };
 
-/// A pass that nothing needs does not run, nor do the passes whose results only it reads.
+/// A pass that nothing needs does not run, nor do passes whose results only it reads.
 #[test]
 fn cull() {
     let mut frame = Frame::new();
@@ -20,7 +20,7 @@ fn cull() {
     check("cull", &plan(frame).to_text());
 }
 
-/// What the next pass covers before anyone reads it was not worth drawing.
+/// A pass whose result is overwritten before it is read does not run.
 #[test]
 fn overwritten() {
     let mut frame = Frame::new();
@@ -30,7 +30,7 @@ fn overwritten() {
     check("overwritten", &plan(frame).to_text());
 }
 
-/// The same piece by piece: what is covered in the end is what counts, not by how many passes.
+/// The same with several passes that together overwrite everything.
 #[test]
 fn overwritten_in_parts() {
     let mut frame = Frame::new();
@@ -43,7 +43,7 @@ fn overwritten_in_parts() {
     check("overwritten_in_parts", &plan(frame).to_text());
 }
 
-/// What is the caller's is needed after the frame, so who writes it runs, and what it holds already is loaded.
+/// An import is needed after the frame, so passes that write it run, and its earlier contents are loaded.
 #[test]
 fn import_kept() {
     let mut frame = Frame::new();
@@ -56,7 +56,7 @@ fn import_kept() {
     check("import_kept", &format!("{}\n{why}", plan.to_text()));
 }
 
-/// A history is read as the frame before left it and written for the next one; its writer always runs.
+/// A history is read with the contents from the previous frame and written for the next; its writer always runs.
 #[test]
 fn history() {
     let mut frame = Frame::new();
@@ -87,7 +87,7 @@ fn placeholder() {
     check("placeholder", &plan(frame).to_text());
 }
 
-/// Bytes from the CPU arrive by copy passes, which like any pass run only where something reads what they write.
+/// Copy passes upload bytes from the CPU; like other passes they run only if something reads the result.
 #[test]
 fn uploads() {
     let mut frame = Frame::new();

@@ -1,4 +1,4 @@
-//! The dumps as formats: what every one of them must hold.
+//! Requirements of every dump format.
 
 use super::{BLACK, FAR, draw, filter, hdr, plan};
 use shadowgraph_core::{Contents, Frame, Plan, Rect, Subresource, TextureUsages};
@@ -107,7 +107,7 @@ fn long_names_do_not_widen_the_text_dump() {
 }
 
 #[test]
-fn what_is_read_comes_from_the_caller_where_no_pass_wrote_it() {
+fn contents_that_no_pass_wrote_come_from_the_caller() {
     let text = all().to_text();
     assert!(text.contains("from the caller and 2 more"), "{text}");
 }

@@ -5,7 +5,7 @@ use shadowgraph_core::{
     BufferDesc, Contents, Format, Frame, Rect, Resize, Subresource, Texture, TextureDesc, TextureUsages,
 };
 
-/// All of it together: shadow tiles, a depth pass, lit passes that merge, culling on the GPU, accumulation over time,
+/// All features together: shadow tiles, a depth pass, lit passes that merge, culling on the GPU, accumulation over time,
 /// a chain of mips, an optional debug view that is off, and the window.
 #[test]
 fn whole_frame() {

@@ -1,9 +1,9 @@
-//! Which resources take turns in one physical texture.
+//! Which resources share a physical texture.
 
 use super::{BLACK, check, depth, draw, filter, hdr, plan};
 use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
 
-/// Resources of one shape share a texture where one is done before the next begins.
+/// Resources with the same description share a texture if their lifetimes do not overlap.
 #[test]
 fn reuse() {
     let mut frame = Frame::new();
@@ -17,7 +17,7 @@ fn reuse() {
     check("reuse", &plan(frame).to_text());
 }
 
-/// A resource that is read at the end is in the way of all in between.
+/// A resource that is read at the end occupies its slot until then.
 #[test]
 fn no_reuse_because_busy() {
     let mut frame = Frame::new();
@@ -35,7 +35,7 @@ fn no_reuse_because_busy() {
     check("no_reuse_because_busy", &format!("{}\n{why}", plan.to_text()));
 }
 
-/// A storage texture shares with none that is only drawn into: storage can switch off an attachment's compression.
+/// A storage texture does not share with attachments: storage usage can disable the compression of an attachment.
 #[test]
 fn storage_apart() {
     let mut frame = Frame::new();
@@ -49,7 +49,7 @@ fn storage_apart() {
     check("storage_apart", &plan(frame).to_text());
 }
 
-/// Of passes that are ready, the one that frees memory comes first: one branch is finished before the other begins.
+/// Of the ready passes, the one that frees memory runs first: one branch is finished before the other begins.
 #[test]
 fn order_chosen_for_memory() {
     let mut frame = Frame::new();
@@ -70,8 +70,8 @@ fn order_chosen_for_memory() {
     check("order_chosen_for_memory", &plan(frame).to_text());
 }
 
-/// Samples that are resolved in the pass that draws them never leave it: such attachments need no memory on GPUs
-/// that draw in tiles.
+/// Samples that are resolved in the pass that draws them are transient: such attachments need no memory on tile-based
+/// GPUs.
 #[test]
 fn multisampling() {
     let mut frame = Frame::new();

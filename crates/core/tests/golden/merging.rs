@@ -1,9 +1,9 @@
-//! Which passes share a render pass, and what forbids it.
+//! Which passes share a render pass, and what prevents it.
 
 use super::{BLACK, FAR, check, depth, filter, hdr, plan};
 use shadowgraph_core::{BufferDesc, Contents, Frame, Options};
 
-/// Neighbours that draw into the same attachments become one render pass: one load, one store.
+/// Adjacent passes with the same attachments become one render pass: one load, one store.
 #[test]
 fn merge() {
     let mut frame = Frame::new();
@@ -53,7 +53,7 @@ fn refused_merge_clears() {
     check("refused_merge_clears", &plan(frame).to_text());
 }
 
-/// Attachments that differ, be it by one, need a render pass each.
+/// Passes whose attachments differ by at least one need separate render passes.
 #[test]
 fn refused_merge_attachments() {
     let mut frame = Frame::new();
@@ -69,7 +69,7 @@ fn refused_merge_attachments() {
     check("refused_merge_attachments", &plan(frame).to_text());
 }
 
-/// The frame can switch merging off, for instance to time each pass alone.
+/// The frame can disable merging, for instance to time each pass alone.
 #[test]
 fn merging_off() {
     let mut frame = Frame::new();

@@ -3,7 +3,7 @@
 use super::{BLACK, FAR, check, depth, draw, filter, hdr, plan};
 use shadowgraph_core::{Contents, Format, Frame, TextureDesc, TextureUsages};
 
-/// Depth that is only tested may be sampled in the same pass, needs no store, and orders no readers.
+/// Read-only depth may be sampled in the same pass, needs no store, and orders no readers.
 #[test]
 fn read_only_depth() {
     let mut frame = Frame::new();
@@ -36,7 +36,7 @@ fn explicit_after() {
     check("explicit_after", &format!("{}\n{why}", plan.to_text()));
 }
 
-/// The same node declared for each view: names say which is which, and the second view reuses the first one's memory.
+/// The same node declared for each view: names distinguish them, and the second view reuses the memory of the first.
 #[test]
 fn two_views() {
     let mut frame = Frame::new();
@@ -55,7 +55,7 @@ fn two_views() {
     check("two_views", &plan(frame).to_text());
 }
 
-/// A frame may fix its order: nothing moves, also where another order would merge or save memory.
+/// A frame may fix its order: no pass moves, even if another order would merge passes or save memory.
 #[test]
 fn fixed_order() {
     let mut frame = Frame::new();
@@ -87,7 +87,7 @@ fn order_chosen_for_merging() {
     check("order_chosen_for_merging", &plan(frame).to_text());
 }
 
-/// Why does one pass run before another? The shortest chain of what each needs of the one before.
+/// Why one pass runs before another: the shortest chain of dependencies.
 #[test]
 fn why_before() {
     let mut frame = Frame::new();

@@ -1,19 +1,19 @@
-//! A chain with fan-in: each pass draws one triangle, and samples what the pass before it drew and up to two textures
-//! drawn a little earlier.
+//! A chain with fan-in: each pass draws one triangle, and samples the result of the previous pass and up to two earlier
+//! textures.
 
 use shadowgraph_core::{
     Contents, Format, Frame, Pass, Rendering, Texture, TextureDesc, TextureToken, TextureUsages,
 };
 
-/// The most that a pass samples.
+/// Maximum number of textures that a pass samples.
 pub(crate) const FAN_IN: usize = 3;
 
-/// Textures are sampled at most so many passes after they were drawn.
+/// Maximum distance in passes between drawing and sampling a texture.
 const WINDOW: usize = 8;
 
 pub(crate) const FORMAT: Format = Format::Rgba8Unorm;
 
-/// The first texture belongs to the caller and is only sampled, the second is the caller's too and shows the result.
+/// The first texture is imported and only sampled; the second is imported too and holds the result.
 pub(crate) const SOURCE: usize = 0;
 pub(crate) const RESULT: usize = 1;
 
@@ -26,9 +26,9 @@ pub(crate) struct Chain {
 pub(crate) struct ChainPass {
     pub(crate) name: String,
     pub(crate) target: usize,
-    /// Whether the target is cleared first; else it is drawn over.
+    /// Whether the target is cleared first; otherwise it is preserved.
     pub(crate) clears: bool,
-    /// At least one and at most [`FAN_IN`].
+    /// Sampled textures, at least one and at most [`FAN_IN`].
     pub(crate) samples: Vec<usize>,
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn desc() -> TextureDesc {
 }
 
 impl Chain {
-    /// Makes a chain of `length` passes, always the same one.
+    /// Creates a chain of `length` passes, always the same one.
     pub(crate) fn new(length: usize) -> Self {
         let mut random = Random(0x9e37_79b9_7f4a_7c15);
         let mut chain = Self { textures: vec!["source".into(), "result".into()], passes: Vec::new() };
@@ -70,7 +70,7 @@ impl Chain {
     }
 
     /// Declares the chain's frame and gives each pass with its tokens to `draw`. `red` is part of every clear value.
-    /// `handles` is memory to work in.
+    /// `handles` is scratch memory.
     pub(crate) fn declare<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -108,7 +108,7 @@ impl Chain {
     }
 }
 
-/// What a pass samples; the first stands for those that are missing.
+/// Textures that a pass samples; missing ones are replaced by the first.
 pub(crate) type Tokens = [TextureToken; FAN_IN];
 
 /// The texture drawn last, and up to two others.

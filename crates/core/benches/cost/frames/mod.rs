@@ -1,4 +1,4 @@
-//! The frames that are measured. Their declarations allocate nothing of their own: names and lists are made once.
+//! The measured frames. Their declarations do not allocate: names and lists are created once.
 
 pub(crate) mod chain;
 pub(crate) mod real;
@@ -6,18 +6,18 @@ pub(crate) mod real;
 /// What differs from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Change {
-    /// Nothing: the plan of the frame before is found again.
+    /// Nothing: the plan of the previous frame is reused.
     Never,
-    /// One clear value, each time: no plan is ever found again.
+    /// One clear value, in every frame: no plan is reused.
     Always,
-    /// One clear value, back and forth: one of the last two plans is found again.
+    /// One clear value, alternating: one of the last two plans is reused.
     Alternating,
 }
 
 impl Change {
     pub(crate) const ALL: [Self; 3] = [Self::Never, Self::Always, Self::Alternating];
 
-    /// The red of the clear value in frame `number`, 0 to 1.
+    /// Returns the red of the clear value in frame `number`, 0 to 1.
     pub(crate) fn red(self, number: u32) -> f64 {
         match self {
             Self::Never => 0.5,

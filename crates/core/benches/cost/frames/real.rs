@@ -19,7 +19,7 @@ const DRAWS: [&str; CASCADES + 1] = ["draws", "draws in 0", "draws in 1", "draws
 const HI_Z: [&str; 6] = ["mip 0", "mip 1", "mip 2", "mip 3", "mip 4", "mip 5"];
 const BLACK: Contents = Contents::Clear(shadowgraph_core::ClearValue::Color([0.0; 4]));
 
-/// What most passes read.
+/// Resources that most passes read.
 struct Scene {
     view: Buffer,
     settings: Buffer,
@@ -112,7 +112,7 @@ fn scene<'f>(frame: &mut Frame<'f>, bytes: &'f [u8]) -> Scene {
 }
 
 impl Scene {
-    /// What an indirect draw of the view `index` reads.
+    /// Reads the arguments of an indirect draw of the view `index`.
     fn geometry(&self, pass: &mut Pass<'_, '_, Rendering>, index: usize) {
         pass.uniform_buffer(&self.view);
         pass.storage_buffer(&self.instances);
@@ -205,7 +205,7 @@ fn surfaces(frame: &mut Frame<'_>, scene: &Scene, red: f64) -> Surfaces {
     Surfaces { albedo, normals, roughness, velocity, depth }
 }
 
-/// The nearest depth of ever larger squares, mip by mip.
+/// A depth pyramid: the nearest depth, mip by mip.
 fn hi_z(frame: &mut Frame<'_>, scene: &Scene, depth: &Texture) -> Texture {
     let desc = TextureDesc { mip_levels: HI_Z.len() as u32, ..half(Format::R32Float) };
     let mut pyramid = frame.create_texture("pyramid", desc);
@@ -365,7 +365,7 @@ fn motion_blur(frame: &mut Frame<'_>, scene: &Scene, surfaces: &Surfaces, color:
     scene.filter(frame, "blur", &inputs, screen(Format::Rgba16Float))
 }
 
-/// Halves the picture six times, then adds it up from the smallest.
+/// Downsamples the image six times, then upsamples and adds from the smallest.
 fn bloom(frame: &mut Frame<'_>, scene: &Scene, color: &Texture) -> Texture {
     let mut shrunk = color.clone();
     let mut size = (WIDTH, HEIGHT);

@@ -1,4 +1,4 @@
-//! Mistakes in a frame: each error names the pass, the resource and the way out.
+//! Errors of a frame: each names the pass, the resource and a fix.
 
 use super::helpers::{BLACK, color, filter, plan};
 use crate::compiled::resolve;
@@ -26,9 +26,9 @@ fn a_read_through_a_stale_handle_names_the_writer() {
 fn two_writers_of_one_version_are_refused() {
     let mut frame = Frame::new();
     let mut a = color(&mut frame, "a");
-    let mut twin = a.clone();
+    let mut clone = a.clone();
     frame.render_pass("first").color(&mut a, BLACK);
-    frame.render_pass("second").color(&mut twin, BLACK);
+    frame.render_pass("second").color(&mut clone, BLACK);
     let text = message(frame);
     assert!(
         text.contains("`second` writes version 0 of `a`, which `first` has already overwritten"),

@@ -4,7 +4,7 @@ use super::helpers::{BLACK, color, draw, filter, pass, plan};
 use crate::{DependencyKind, Frame, Plan};
 use petgraph::algo::{has_path_connecting, is_cyclic_directed};
 
-/// draw -> a -> b, and `far` off on its own.
+/// draw -> a -> b, and an independent `far`.
 fn frame() -> Plan {
     let mut frame = Frame::new();
     let (mut source, mut other) = (color(&mut frame, "source"), color(&mut frame, "other"));

@@ -32,7 +32,7 @@ pub(super) fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Textu
     to
 }
 
-/// Draws into a texture, on its own.
+/// Draws into a texture in a separate pass.
 pub(super) fn draw(frame: &mut Frame<'_>, name: &str, to: &mut Texture, contents: Contents) -> PassId {
     let mut pass = frame.render_pass(name);
     pass.color(to, contents);

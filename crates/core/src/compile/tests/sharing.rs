@@ -1,4 +1,4 @@
-//! Slots: who takes turns in them.
+//! Sharing of slots.
 
 use super::helpers::{BLACK, FAR, color, depth, draw, filter, look, plan};
 use crate::{

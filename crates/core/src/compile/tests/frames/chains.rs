@@ -3,7 +3,7 @@
 use super::{AccessSpec, PassSpec, ResourceSpec, Source, Spec, SubresourceSpec};
 use crate::{Access, Contents, Format, Origin, PassKind, ResourceDesc, TextureDesc};
 
-/// Makes a frame of as many compute passes. Each fills a texture of its own, of very different sizes, from a
+/// Creates a frame of this many compute passes. Each fills its own texture, of very different sizes, from a
 /// few of those before it. What nothing reads is exported.
 pub(in super::super) fn chain_from_bytes(bytes: &[u8], passes: usize) -> Spec {
     let mut source = Source::new(bytes);

@@ -29,7 +29,7 @@ pub(super) struct Generator<'b> {
     pub(super) defined: Vec<Cells>,
     /// The sizes that most textures of the frame have.
     pub(super) sizes: [(u32, u32); 2],
-    /// The formats of its textures: of colour, then of depth. Few, so that textures can take turns in a slot.
+    /// The formats of its textures: of colour, then of depth. Few, so that textures can share slots.
     pub(super) formats: [[Format; 2]; 2],
     /// The current pass, and what it has used.
     pub(super) pass: PassSpec,
@@ -39,7 +39,7 @@ pub(super) struct Generator<'b> {
 /// What a pass has touched.
 struct Touched {
     resource: usize,
-    /// With everything that wgpu cannot tell from it, beside another attachment and beside anything else.
+    /// Parts that wgpu tracks together with it, for another attachment and for other accesses.
     extents: [Cells; 2],
     written: bool,
     attached: bool,

@@ -1,4 +1,4 @@
-//! Mistakes that a caller can make in a frame.
+//! Changes that make a frame invalid.
 
 use crate::{
     BufferDesc, ClearValue, Contents, Format, Frame, Rect, Resize, Subresource, Texture, TextureDesc,
@@ -10,7 +10,7 @@ type InvalidChange = fn(&mut Frame<'static>);
 
 const BLACK: Contents = Contents::Clear(ClearValue::Color([0.0; 4]));
 
-/// Mistakes, with the code of the error for each.
+/// Invalid changes, with the code of the error for each.
 pub(in super::super) const INVALID_CHANGES: [(&str, InvalidChange); 26] = [
     ("SG0101", |frame| {
         let mut texture = written(frame);
@@ -25,9 +25,9 @@ pub(in super::super) const INVALID_CHANGES: [(&str, InvalidChange); 26] = [
     }),
     ("SG0102", |frame| {
         let mut texture = color(frame);
-        let mut twin = texture.clone();
+        let mut clone = texture.clone();
         frame.render_pass("first").color(&mut texture, BLACK);
-        frame.render_pass("bad").color(&mut twin, BLACK);
+        frame.render_pass("bad").color(&mut clone, BLACK);
     }),
     ("SG0103", |frame| {
         let other = color(&mut Frame::new());

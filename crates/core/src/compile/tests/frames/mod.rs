@@ -86,7 +86,7 @@ impl AccessSpec {
         self.contents.is_some()
     }
 
-    /// Whether it is an attachment with operations of its own.
+    /// Returns whether it is an attachment with load and store operations.
     pub(super) fn drawn(&self) -> bool {
         matches!(self.access, Access::Color(_) | Access::Depth)
     }

@@ -22,8 +22,12 @@ const FORMATS: [Format; 10] = [
 
 /// Declares a frame at random. Nothing but a panic is a fault here.
 pub(in super::super) fn random_calls_from_bytes(bytes: &[u8]) -> Frame<'static> {
-    let mut calls =
-        RandomCalls { source: Source::new(bytes), textures: Vec::new(), buffers: Vec::new(), passes: Vec::new() };
+    let mut calls = RandomCalls {
+        source: Source::new(bytes),
+        textures: Vec::new(),
+        buffers: Vec::new(),
+        passes: Vec::new(),
+    };
     let mut frame = Frame::new();
     while !calls.source.is_empty() {
         calls.call(&mut frame);

@@ -36,7 +36,7 @@ impl Live {
     }
 
     /// The resources that live in slots, with their spans.
-    pub(super) fn housed(&self, model: &Model<'_>) -> Vec<(usize, (usize, usize))> {
+    pub(super) fn assigned(&self, model: &Model<'_>) -> Vec<(usize, (usize, usize))> {
         let transient = |resource: &usize| model.spec.resources[*resource].origin == Origin::Transient;
         let resources = (0..self.spans.len()).filter(transient);
         resources.filter_map(|resource| Some((resource, self.spans[resource]?))).collect()

@@ -23,10 +23,10 @@ pub(in super::super) fn lower_bounds(model: &Model<'_>, names: &Names, plan: &Pl
             classes.push(class);
         }
     }
-    let housed = live.housed(model);
+    let assigned = live.assigned(model);
     let steps = live.steps.last().map_or(0, |last| last + 1);
     let bytes = |own: Class| {
-        let spans = housed.iter().filter(|(resource, _)| class(names.id(*resource)) == Some(own));
+        let spans = assigned.iter().filter(|(resource, _)| class(names.id(*resource)) == Some(own));
         let spans: Vec<(usize, usize)> = spans.map(|(_, span)| *span).collect();
         let at_once =
             |step: usize| spans.iter().filter(|(first, last)| (*first..=*last).contains(&step)).count();

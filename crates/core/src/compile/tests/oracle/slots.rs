@@ -6,21 +6,21 @@ use crate::{Plan, ResourceDesc};
 
 impl Oracle<'_> {
     pub(super) fn slots(&mut self, names: &Names, plan: &Plan, live: &Live) {
-        let housed = live.housed(&self.model);
+        let assigned = live.assigned(&self.model);
         for resource in 0..self.model.spec.resources.len() {
             let planned = plan.resource(names.id(resource));
             let span = live.spans[resource].map(|(first, last)| (first as u32, last as u32));
             self.expect(planned.steps == span, Rule::Slots, || {
                 format!("r{resource} is said to live in {:?}, not {span:?}", planned.steps)
             });
-            let lives = housed.iter().any(|&(other, _)| other == resource);
+            let lives = assigned.iter().any(|&(other, _)| other == resource);
             self.expect(planned.slot.is_some() == lives, Rule::Slots, || {
                 format!("r{resource} is in {:?}", planned.slot)
             });
         }
         for (index, slot) in plan.slots().enumerate() {
             let mut resources: Vec<usize> = slot.resources.iter().map(|&id| names.resource(id)).collect();
-            let listed = housed.iter().filter(|(resource, _)| {
+            let listed = assigned.iter().filter(|(resource, _)| {
                 plan.resource(names.id(*resource)).slot.is_some_and(|slot| slot.index() == index)
             });
             let mut expected: Vec<usize> = listed.map(|(resource, _)| *resource).collect();

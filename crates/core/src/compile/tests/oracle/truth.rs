@@ -1,4 +1,4 @@
-//! What every access must find: passes one by one as declared, each resource in memory of its own.
+//! Expected contents of every access: passes run one by one as declared, each resource in separate memory.
 
 use super::super::frames::Cells;
 use super::Model;

@@ -9,7 +9,7 @@ fn tile(index: u32) -> Subresource {
 
 const ATLAS: (u32, u32, Format) = (2048, 2048, Format::Depth32Float);
 
-/// Tiles of an atlas that nothing else is in: one clear when the render pass begins does for all.
+/// Tiles of an atlas without other contents: one clear when the render pass begins clears all of them.
 #[test]
 fn atlas_tiles() {
     let mut frame = Frame::new();
@@ -27,7 +27,7 @@ fn atlas_tiles() {
     check("atlas_tiles", &plan(frame).to_text());
 }
 
-/// Tiles of an atlas whose others hold what earlier frames drew: the graph loads all, and draws the clears of the
+/// Tiles of an atlas whose other tiles have contents from earlier frames: the graph loads all, and draws the clears of the
 /// tiles, since a load operation would clear the others too.
 #[test]
 fn atlas_kept() {
@@ -42,7 +42,7 @@ fn atlas_kept() {
     check("atlas_kept", &format!("{}\n{why}", plan.to_text()));
 }
 
-/// Who reads one tile waits for the pass that draws it and for no other.
+/// A pass that reads one tile waits only for the pass that draws it.
 #[test]
 fn disjoint_regions() {
     let mut frame = Frame::new();
@@ -66,7 +66,7 @@ fn disjoint_regions() {
     check("disjoint_regions", &format!("{}\n{own}\n{other}", plan.to_text()));
 }
 
-/// The faces of a cube do not order each other, and each is an attachment of its own.
+/// The faces of a cube do not order each other, and each is a separate attachment.
 #[test]
 fn cube_layers() {
     let mut frame = Frame::new();
@@ -84,7 +84,7 @@ fn cube_layers() {
     check("cube_layers", &format!("{}\n{why}", plan.to_text()));
 }
 
-/// Each mip is made of the one above it, in one texture: reading a mip and writing another exclude nothing.
+/// Each mip is made of the one above it, in one texture: reading one mip while writing another is allowed.
 #[test]
 fn mip_chain() {
     let mut frame = Frame::new();
