@@ -100,7 +100,7 @@ impl Group {
         }
     }
 
-    /// Adds a pass to the open group, or opens another with it.
+    /// Adds a pass to the open group, or starts a new group.
     pub(super) fn add(&mut self, decl: &Declaration, pass: PassId, joins: bool) {
         self.passes = match self.passes {
             Some((first, _)) if joins => Some((first, pass)),
@@ -120,13 +120,14 @@ impl Group {
     }
 }
 
-/// What a pass draws into and tests against, in order of declaration.
+/// Returns the attachments of a pass without resolve targets, in order of declaration.
 fn attachments(decl: &Declaration, pass: PassId) -> impl Iterator<Item = &AccessDecl> {
-    let drawn = |a: &&AccessDecl| matches!(a.access, Access::Color(_) | Access::Depth | Access::DepthRead);
-    decl.accesses(pass).iter().filter(drawn)
+    let is_attached =
+        |a: &&AccessDecl| matches!(a.access, Access::Color(_) | Access::Depth | Access::DepthRead);
+    decl.accesses(pass).iter().filter(is_attached)
 }
 
-/// Whether two accesses attach the same mip, layer and aspects of one texture in the same way.
+/// Returns whether two accesses attach the same mip, layer and aspects of one texture in the same way.
 fn same_attachment(decl: &Declaration, a: &AccessDecl, b: &AccessDecl) -> bool {
     let whole = |access| decl.region(access).map_or(Region::ALL, |region| region.without_rect());
     let both_whole = || decl.region(a).is_none() && decl.region(b).is_none();

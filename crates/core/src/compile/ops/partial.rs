@@ -42,7 +42,7 @@ pub(super) fn ops(
     }
 }
 
-/// What needs some contents.
+/// The next use of some contents.
 enum Need {
     Pass(PassId),
     After(StoreReason),

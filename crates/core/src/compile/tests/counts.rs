@@ -6,7 +6,7 @@ use crate::{DependencyKind, LoadAction, MergeReason, Origin, PassKind, Plan, Sto
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// What 20,000 frames hold at least.
+/// Minimum counts in 20,000 frames.
 const FLOORS: [(&str, u64); 17] = [
     ("frames", 20_000),
     ("frames declared in another order", 10_000),
@@ -100,7 +100,7 @@ impl Counts {
         }
     }
 
-    /// Frames must be no trivial ones.
+    /// Checks that frames are not trivial.
     pub(super) fn assert_rich(&self) {
         for (name, least) in FLOORS {
             assert!(self.of(name) >= least, "only {} {name}", self.of(name));

@@ -8,12 +8,12 @@ use crate::{
 pub(super) const BLACK: Contents = Contents::Clear(ClearValue::Color([0.0; 4]));
 pub(super) const FAR: Contents = Contents::Clear(ClearValue::Depth(0.0));
 
-/// A colour texture of 64 x 64 texels, 16 KiB.
+/// Creates a colour texture of 64 x 64 texels, 16 KiB.
 pub(super) fn color(frame: &mut Frame<'_>, name: &str) -> Texture {
     frame.create_texture(name, TextureDesc::d2(64, 64, Format::Rgba8Unorm))
 }
 
-/// A depth texture of 64 x 64 texels.
+/// Creates a depth texture of 64 x 64 texels.
 pub(super) fn depth(frame: &mut Frame<'_>, name: &str) -> Texture {
     frame.create_texture(name, TextureDesc::d2(64, 64, Format::Depth32Float))
 }
@@ -23,7 +23,7 @@ pub(super) fn quarter(index: u32) -> Subresource {
     Subresource::FULL.rect(Rect::new(index % 2 * 32, index / 2 * 32, 32, 32))
 }
 
-/// Reads `from` and covers a new texture.
+/// Reads `from` and overwrites a new texture.
 pub(super) fn filter(frame: &mut Frame<'_>, name: &str, from: &Texture) -> Texture {
     let mut to = color(frame, name);
     let mut pass = frame.render_pass(name);
@@ -55,7 +55,7 @@ pub(super) fn pass(plan: &Plan, name: &str) -> PassId {
     plan.find_pass(name).unwrap()
 }
 
-/// The operations of a pass's access, counted from 0.
+/// Returns the operations of the access with this index.
 pub(super) fn ops(plan: &Plan, name: &str, access: usize) -> AttachmentOps {
     accesses(plan, name)[access].ops.unwrap()
 }
@@ -64,17 +64,17 @@ pub(super) fn accesses(plan: &Plan, name: &str) -> Vec<AccessPlan> {
     plan.accesses(pass(plan, name)).collect()
 }
 
-/// The names of the passes that run, in order.
+/// Returns the names of the passes that run, in order.
 pub(super) fn order(plan: &Plan) -> Vec<&str> {
     plan.order().iter().map(|&id| plan.pass(id).name).collect()
 }
 
-/// The names of the passes of each step.
+/// Returns the names of the passes of each step.
 pub(super) fn steps(plan: &Plan) -> Vec<Vec<&str>> {
     plan.steps().map(|step| step.passes.iter().map(|&id| plan.pass(id).name).collect()).collect()
 }
 
-/// Whether one pass has a dependency on another, by name.
+/// Returns whether one pass has a dependency on another, by name.
 pub(super) fn depends(plan: &Plan, after: &str, before: &str) -> bool {
     let (before, after) = (pass(plan, before), pass(plan, after));
     plan.dependencies().iter().any(|d| (d.before, d.after) == (before, after))

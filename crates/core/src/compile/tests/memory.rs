@@ -58,7 +58,7 @@ impl Ratios {
     }
 }
 
-/// Compares the order chosen for memory with every order there is, frame by frame.
+/// Compares the order chosen for memory with every possible order, frame by frame.
 fn compare(title: &str, frames: u64, make: impl Fn(u64) -> Spec) {
     let (mut all, mut matters) = (Ratios::default(), Ratios::default());
     for seed in 0..frames {
@@ -85,7 +85,7 @@ fn compare(title: &str, frames: u64, make: impl Fn(u64) -> Spec) {
     all.print(title);
     matters.print(&format!("{title} in which order matters"));
     assert!(matters.frames >= 500, "{}", matters.frames);
-    // The target is 1.03 for all frames. It is kept where it is hard: where order matters.
+    // The target is 1.03 for all frames; here it holds for those in which the order matters.
     assert!(matters.mean() <= 1.03, "{title}: {}", matters.mean());
 }
 

@@ -7,7 +7,7 @@ fn sized(frame: &mut Frame<'_>, name: &str, side: u32) -> Texture {
     frame.create_texture(name, TextureDesc::d2(side, side, Format::Rgba8Unorm))
 }
 
-/// Reads all of `from` in a pass that covers `to`.
+/// Reads all of `from` in a pass that overwrites `to`.
 fn combine(frame: &mut Frame<'_>, name: &str, from: &[&Texture], to: &mut Texture) {
     let mut pass = frame.compute_pass(name);
     for from in from {

@@ -39,7 +39,7 @@ fn check(spec: &Spec, counts: &Counts) -> Result<(), TestCaseError> {
         return Ok(());
     };
     counts.frame(spec, &plan);
-    // The text is long, and follows from the plan.
+    // The text is long, and determined by the plan.
     if counts.of("frames").is_multiple_of(16) {
         let again = compile(spec.build().0).unwrap();
         prop_assert_eq!(plan.to_json().unwrap(), again.to_json().unwrap());

@@ -3,7 +3,7 @@
 use super::frames::{PassSpec, Source, Spec};
 use super::oracle::Model;
 
-/// Declares passes in another order that keeps every hazard, so that the frame means the same.
+/// Declares passes in another order that keeps every hazard, so that the frame has the same meaning.
 pub(super) fn shuffled(spec: &Spec, source: &mut Source<'_>) -> Spec {
     let model = Model::new(spec);
     let mut left: Vec<usize> = (0..spec.passes.len()).collect();

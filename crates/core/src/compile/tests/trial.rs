@@ -4,7 +4,7 @@ use super::frames::Spec;
 use super::oracle::{Model, Truth, check_plan};
 use crate::Plan;
 
-/// Compiles a frame twice and checks the plan, and returns what is wrong; a frame that is refused, as it should be,
+/// Compiles a frame twice and checks the plan, and returns what is wrong; an invalid frame
 /// has no plan.
 pub(super) fn trial(spec: &Spec) -> Result<Option<Plan>, String> {
     let compile = || {

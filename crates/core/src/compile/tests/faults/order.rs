@@ -5,7 +5,7 @@ use crate::compile::tests::oracle::Rule;
 use crate::plan::{CullReason, Dependency, MergeReason};
 use crate::{DependencyKind, PassId};
 
-/// Whether other dependencies put one pass before the other, without this one.
+/// Returns whether other dependencies put one pass before the other, without this one.
 fn implied(work: &Work, without: usize) -> bool {
     let dependencies = &work.plan.dependencies;
     let Dependency { before, after, .. } = dependencies[without];

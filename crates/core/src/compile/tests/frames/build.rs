@@ -12,7 +12,7 @@ pub(in super::super) enum Handle {
     Buffer(Buffer),
 }
 
-/// What the builder calls the things of a spec.
+/// Ids of the builder for the items of a spec.
 #[derive(Default)]
 pub(in super::super) struct Names {
     pub(in super::super) handles: Vec<Option<Handle>>,
@@ -31,12 +31,12 @@ impl Handle {
 }
 
 impl Names {
-    /// What the plan calls a resource of the spec.
+    /// Returns the plan's id of a resource of the spec.
     pub(in super::super) fn id(&self, resource: usize) -> ResourceId {
         self.handles[resource].as_ref().map(Handle::id).unwrap_or_else(|| unreachable!("it is declared"))
     }
 
-    /// What the spec calls a resource of the plan. Uploads make theirs late, so the two count differently.
+    /// Returns the index in the spec of a resource of the plan. Uploads create theirs late, so the numbers differ.
     pub(in super::super) fn resource(&self, id: ResourceId) -> usize {
         self.resources[id.index()]
     }
@@ -50,7 +50,7 @@ impl Spec {
         (frame, names)
     }
 
-    /// Declares the frame in an empty one.
+    /// Declares the frame in an empty frame.
     pub(in super::super) fn build_in(&self, frame: &mut Frame<'static>) -> Names {
         let mut names = Names::default();
         frame.set_options(self.options);
@@ -102,7 +102,7 @@ impl Names {
                 self.handles.push(Some(Handle::Texture(history.previous)));
                 Some(Handle::Texture(history.current))
             }
-            // Made with its `Previous`.
+            // Created with its `Previous`.
             (Origin::Current { .. }, _) => return,
             (Origin::Previous { .. }, ResourceDesc::Buffer(_)) => unreachable!("histories are textures"),
         };
@@ -268,7 +268,7 @@ fn shade<K: ShaderPass>(
     }
 }
 
-/// Declares one transfer.
+/// Declares one copy.
 fn copy(
     pass: &mut Pass<'_, 'static, crate::Copying>,
     from: AccessSpec,

@@ -4,7 +4,7 @@ use super::SubresourceSpec;
 use crate::{Aspect, Format, ResourceDesc, TextureDesc};
 use wgpu_types::TextureDimension;
 
-/// Where a cell lies. Of a buffer, `x` counts 8 bytes each.
+/// The position of a cell. In a buffer, `x` counts units of 8 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in super::super) struct Cell {
     pub(in super::super) mip: u32,
@@ -14,10 +14,10 @@ pub(in super::super) struct Cell {
     pub(in super::super) y: u32,
 }
 
-/// Bytes of a buffer to a cell.
+/// Bytes of a cell of a buffer.
 pub(super) const UNIT: u64 = 8;
 
-/// Some of a resource's cells, of which it may have 256.
+/// A set of cells of a resource, which may have 256.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in super::super) struct Cells([u64; 4]);
 
@@ -125,7 +125,7 @@ impl SubresourceSpec {
         aspect && texel && bytes && within(self.mips, cell.mip) && within(self.layers, cell.layer)
     }
 
-    /// Which cells of a resource the part holds.
+    /// Returns the cells of the subresource.
     pub(in super::super) fn cells(&self, cells: &[Cell]) -> Cells {
         let mut held = Cells::default();
         for (index, _) in cells.iter().enumerate().filter(|(_, cell)| self.holds(cell)) {

@@ -8,12 +8,12 @@ use super::resources::{COLORS, DEPTHS};
 use super::{AccessSpec, PassSpec, ResourceSpec, Source, Spec, SubresourceSpec};
 use crate::{Access, Contents, Format, Options, OrderPolicy, Origin, PassKind, ResourceDesc};
 
-/// Makes a frame of up to 20 passes.
+/// Generates a frame of up to 20 passes.
 pub(in super::super) fn frame_from_bytes(bytes: &[u8]) -> Spec {
     Generator::new(bytes, true).frame(20)
 }
 
-/// Makes a valid frame of up to `passes` passes.
+/// Generates a valid frame of up to `passes` passes.
 pub(in super::super) fn small_frame_from_bytes(bytes: &[u8], passes: usize) -> Spec {
     Generator::new(bytes, false).frame(passes)
 }
@@ -24,19 +24,19 @@ pub(super) struct Generator<'b> {
     pub(super) spec: Spec,
     /// Whether accesses may read undefined contents.
     wild: bool,
-    /// By resource.
+    /// Defined cells of each resource.
     pub(super) cells: Vec<Vec<Cell>>,
     pub(super) defined: Vec<Cells>,
-    /// The sizes that most textures of the frame have.
+    /// Sizes of most textures of the frame.
     pub(super) sizes: [(u32, u32); 2],
-    /// The formats of its textures: of colour, then of depth. Few, so that textures can share slots.
+    /// Formats of its textures: colour, then depth. Few, so that textures can share slots.
     pub(super) formats: [[Format; 2]; 2],
     /// The current pass, and what it has used.
     pub(super) pass: PassSpec,
     touched: Vec<Touched>,
 }
 
-/// What a pass has touched.
+/// The accesses of a pass so far.
 struct Touched {
     resource: usize,
     /// Parts that wgpu tracks together with it, for another attachment and for other accesses.
@@ -97,7 +97,7 @@ impl<'b> Generator<'b> {
         self.touched.clear();
     }
 
-    /// Adds the pass to the frame, if it has anything in it.
+    /// Adds the pass to the frame, unless it is empty.
     pub(super) fn end(&mut self) {
         let mut pass = std::mem::replace(&mut self.pass, PassSpec::new(PassKind::Render));
         if pass.accesses.is_empty() {
@@ -126,7 +126,7 @@ impl<'b> Generator<'b> {
         }
     }
 
-    /// What of a resource a pass of this kind cannot touch in two ways: wgpu knows no tiles and no bytes
+    /// Returns the part of a resource that a pass of this kind cannot use in two ways: wgpu does not track tiles or bytes
     /// within one pass, and slices of a volume only as attachments.
     fn extents(&self, resource: usize, subresource: SubresourceSpec) -> [Cells; 2] {
         let [beside_attachments, beside_others] = match (self.pass.kind, self.spec.desc(resource)) {

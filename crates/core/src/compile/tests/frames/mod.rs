@@ -27,7 +27,7 @@ use crate::{
 };
 use wgpu_types::TextureDimension;
 
-/// All that a frame declares.
+/// The declarations of a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Spec {
     pub(super) options: Options,
@@ -42,7 +42,7 @@ pub(super) struct Spec {
 pub(super) struct ResourceSpec {
     pub(super) desc: ResourceDesc,
     pub(super) origin: Origin,
-    /// Made and filled by an upload.
+    /// Created and filled by an upload.
     pub(super) uploaded: bool,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct ResourceSpec {
 pub(super) struct PassSpec {
     pub(super) kind: PassKind,
     pub(super) keep: bool,
-    /// How many nodes are around it.
+    /// Number of nodes around it.
     pub(super) nodes: usize,
     /// Explicit orders, as indices in the list of passes.
     pub(super) after: Vec<usize>,
@@ -61,12 +61,12 @@ pub(super) struct PassSpec {
 pub(super) struct AccessSpec {
     pub(super) resource: usize,
     pub(super) access: Access,
-    /// `None` reads.
+    /// Contents of a write; `None` for a read.
     pub(super) contents: Option<Contents>,
     pub(super) subresource: SubresourceSpec,
 }
 
-/// What [`Subresource`] says; `None` is all there is.
+/// The fields of a [`Subresource`]; `None` stands for all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct SubresourceSpec {
     pub(super) mips: Option<(u32, u32)>,
@@ -102,7 +102,7 @@ impl PassSpec {
         Self { kind, keep: false, nodes: 0, after: Vec::new(), accesses: Vec::new() }
     }
 
-    /// Whether it is the pass of an upload, which the builder adds itself.
+    /// Returns whether it is the pass of an upload, which the builder adds itself.
     pub(super) fn uploads(&self) -> bool {
         self.kind == PassKind::Copy && self.accesses.len() == 1
     }
@@ -136,7 +136,7 @@ impl SubresourceSpec {
         Self { rect: None, aspect: Aspect::All, ..self.with_all_slices(desc) }
     }
 
-    /// What a discarded attachment takes with it: of a volume every slice of the mip.
+    /// Returns what a discarded attachment discards: for a volume every slice of the mip.
     pub(super) fn with_all_slices(self, desc: &TextureDesc) -> Self {
         let volume = desc.dimension == TextureDimension::D3;
         if volume { Self { layers: None, ..self } } else { self }
@@ -153,7 +153,7 @@ impl Spec {
         &self.resources[resource].desc
     }
 
-    /// The same frame with textures as many times as wide and high, and the same parts.
+    /// Returns the same frame with textures scaled in width and height, and the same subresources.
     pub(super) fn scaled(&self, factor: u32) -> Self {
         let mut scaled = self.clone();
         for resource in &mut scaled.resources {
@@ -169,7 +169,7 @@ impl Spec {
         self.exports.contains(&resource)
     }
 
-    /// Whether the contents are needed after the frame.
+    /// Returns whether the contents are needed after the frame.
     pub(super) fn outlives(&self, resource: usize) -> bool {
         let origin = self.resources[resource].origin;
         self.is_exported(resource) || matches!(origin, Origin::Imported { .. } | Origin::Current { .. })

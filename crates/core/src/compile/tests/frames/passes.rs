@@ -100,7 +100,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A texture that has a mip of this size, or a new one.
+    /// Returns a texture that has a mip of this size, or a new one.
     fn target(&mut self, size: (u32, u32), samples: u32, depth: bool) -> Target {
         let count = self.spec.resources.len();
         if count > 0 && self.source.chance(144) {
@@ -144,7 +144,7 @@ impl Generator<'_> {
         if access == Access::Depth && self.source.chance(80) && self.is_defined(target.resource, subresource)
         {
             self.touch(target.resource, Access::DepthRead, None, subresource);
-            // What is only tested may be sampled too.
+            // Read-only depth may be sampled too.
             if self.source.chance(64) {
                 self.touch(target.resource, Access::Sampled, None, subresource);
             }
@@ -164,7 +164,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What becomes of the contents of an attachment: preserved in `preserve` of 256 cases, if it can be.
+    /// Returns the contents of an attachment: preserved in `preserve` of 256 cases, if it can be.
     fn contents(
         &mut self,
         resource: usize,
@@ -192,7 +192,7 @@ impl Generator<'_> {
         self.texture_desc(resource).map_or((1, 1), |desc| mip_size(&desc, mip))
     }
 
-    /// Reads something that is there, of late most often.
+    /// Reads an existing resource, most often a recent one.
     fn read(&mut self) {
         let count = self.spec.resources.len();
         for _ in 0..4 {
@@ -234,7 +234,7 @@ impl Generator<'_> {
         !is_depth(desc.format) && desc.samples == 1
     }
 
-    /// Something to write other than by drawing: a texture, a buffer, or new.
+    /// Returns a resource to write other than by drawing: a texture, a buffer, or a new one.
     fn written(&mut self, fits: impl Fn(&Self, usize) -> bool) -> usize {
         let count = self.spec.resources.len();
         if count > 0 && self.source.chance(128) {
@@ -264,7 +264,7 @@ impl Generator<'_> {
         self.write(resource, Access::CopyTarget);
     }
 
-    /// Covers or preserves a part of a resource.
+    /// Overwrites or preserves a part of a resource.
     fn write(&mut self, resource: usize, access: Access) {
         let subresource =
             if self.source.chance(112) { self.any_part(resource) } else { SubresourceSpec::default() };
@@ -276,7 +276,7 @@ impl Generator<'_> {
         self.touch(resource, access, Some(contents), subresource);
     }
 
-    /// The mip and layer that the pass has touched last.
+    /// Returns the mip and layer that the pass has used last.
     fn target_beside(&self, last: AccessSpec) -> Option<Target> {
         let desc = self.texture_desc(last.resource)?;
         let previous = matches!(self.spec.resources[last.resource].origin, Origin::Previous { .. });

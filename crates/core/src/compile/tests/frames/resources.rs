@@ -28,7 +28,7 @@ impl Generator<'_> {
         self.formats[usize::from(depth)][usize::from(second)]
     }
 
-    /// A new texture of this size, with mips, layers or slices now and then.
+    /// Creates a texture of this size, with mips, layers or slices now and then.
     pub(super) fn new_texture(&mut self, (width, height): (u32, u32), depth: bool, samples: u32) -> usize {
         let format = self.format(depth);
         let mut desc = TextureDesc { samples, ..TextureDesc::d2(width, height, format) };
@@ -79,13 +79,13 @@ impl Generator<'_> {
         }
     }
 
-    /// One of the two sizes of the frame, most often the first.
+    /// Returns one of the two sizes of the frame, most often the first.
     pub(super) fn size(&mut self) -> (u32, u32) {
         let second = self.source.chance(48);
         self.sizes[usize::from(second)]
     }
 
-    /// A part of a resource to read, or to write other than by drawing.
+    /// Returns a part of a resource to read, or to write other than by drawing.
     pub(super) fn any_part(&mut self, resource: usize) -> SubresourceSpec {
         match *self.spec.desc(resource) {
             ResourceDesc::Buffer(desc) => {
@@ -109,7 +109,7 @@ impl Generator<'_> {
         let mips = self.range(desc.mip_levels);
         let single = mips.map_or(desc.mip_levels == 1, |(start, end)| end - start == 1);
         let mip = mips.map_or(0, |(start, _)| start);
-        // Slices of a 3D texture get fewer from mip to mip.
+        // The number of slices of a 3D texture halves from mip to mip.
         let layered = single || desc.dimension != TextureDimension::D3;
         let layers = if layered { self.range(layers(desc, mip)) } else { None };
         let aspect = self.aspect(desc.format);
@@ -117,7 +117,7 @@ impl Generator<'_> {
         SubresourceSpec { mips, layers, aspect, rect, bytes: None }
     }
 
-    /// All of `count`, said or not, or one, or some.
+    /// Returns all of `count`, explicitly or not, or one, or some.
     fn range(&mut self, count: u32) -> Option<(u32, u32)> {
         let some = if count == 1 { 14 } else { 8 };
         match self.source.below(16) {
@@ -143,7 +143,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A quarter, a half, or any rectangle of a mip; most often none.
+    /// Returns a quarter, a half, or any rectangle of a mip; most often none.
     pub(super) fn rect(&mut self, (width, height): (u32, u32)) -> Option<Rect> {
         let half = |side: u32| side.div_ceil(2);
         let kind = self.source.below(16);

@@ -1,6 +1,6 @@
 //! Decisions from bytes.
 
-/// Reads one byte for each decision. Past the end every byte is zero, and zero decides for little.
+/// Reads one byte for each decision. After the end every byte is zero, which stands for simple decisions.
 pub(in super::super) struct Source<'b> {
     bytes: &'b [u8],
     at: usize,
@@ -15,14 +15,14 @@ impl<'b> Source<'b> {
         self.at >= self.bytes.len()
     }
 
-    /// A number below `count`, which is 1 to 256.
+    /// Returns a number below `count`, which is 1 to 256.
     pub(in super::super) fn below(&mut self, count: usize) -> usize {
         let byte = self.bytes.get(self.at).copied().unwrap_or(0);
         self.at += 1;
         usize::from(byte) * count.max(1) / 256
     }
 
-    /// True for `of` of 256 bytes, and never for zero.
+    /// Returns true for `of` of 256 bytes, and never for zero.
     pub(in super::super) fn chance(&mut self, of: usize) -> bool {
         self.below(256) + of >= 256
     }

@@ -25,7 +25,7 @@ impl Generator<'_> {
         self.end();
     }
 
-    /// Copies a part of something that is there.
+    /// Copies a part of an existing resource.
     fn copy(&mut self) {
         let count = self.spec.resources.len();
         if count == 0 {

@@ -32,7 +32,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether the order lists every pass that is not culled once, and the steps are the order in runs.
+    /// Returns whether the order lists every pass that is not culled once, and the steps are the order in runs.
     pub(super) fn permutation(&mut self, plan: &Plan) -> bool {
         let mut expected: Vec<_> =
             plan.passes().filter(|(_, pass)| pass.culled.is_none()).map(|(id, _)| id).collect();

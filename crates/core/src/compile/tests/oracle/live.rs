@@ -5,13 +5,13 @@ use crate::{Origin, Plan};
 
 /// The passes that run.
 pub(in super::super) struct Live {
-    /// In order, as places in the spec.
+    /// Passes in order, as indices in the spec.
     pub(in super::super) order: Vec<usize>,
     /// Position of each pass in the order.
     pub(in super::super) places: Vec<Option<usize>>,
-    /// By place in the order.
+    /// Step of each position in the order.
     pub(in super::super) steps: Vec<usize>,
-    /// By resource: first and last step that it must hold its contents in.
+    /// First and last step in which each resource must keep its contents.
     pub(in super::super) spans: Vec<Option<(usize, usize)>>,
 }
 
@@ -35,7 +35,7 @@ impl Live {
         Self { order, places, steps, spans }
     }
 
-    /// The resources that live in slots, with their spans.
+    /// Returns the resources in slots, with their spans.
     pub(super) fn assigned(&self, model: &Model<'_>) -> Vec<(usize, (usize, usize))> {
         let transient = |resource: &usize| model.spec.resources[*resource].origin == Origin::Transient;
         let resources = (0..self.spans.len()).filter(transient);

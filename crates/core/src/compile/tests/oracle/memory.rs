@@ -4,10 +4,10 @@ use super::super::frames::{Names, Spec};
 use super::{Live, Model};
 use crate::{Origin, Plan, ResourceDesc, ResourceId, TextureUsages};
 
-/// What may share a slot: the shape of the slot, and whether it is for storage or never leaves a render pass.
+/// Resources of the same class can share a slot: its description, and whether it is for storage or transient.
 type Class = (ResourceDesc, bool, bool);
 
-/// For each class the bytes of its slots, and the most bytes that live at once in the plan's order.
+/// Returns for each class the bytes of its slots, and the peak of live bytes in the plan's order.
 pub(in super::super) fn lower_bounds(model: &Model<'_>, names: &Names, plan: &Plan) -> Vec<(u64, u64)> {
     let live = Live::new(model, plan);
     let slots: Vec<_> = plan.slots().collect();
@@ -37,7 +37,7 @@ pub(in super::super) fn lower_bounds(model: &Model<'_>, names: &Names, plan: &Pl
     classes.iter().map(|&own| bytes(own)).collect()
 }
 
-/// The most bytes of transient resources that live at once, if passes run one by one in this order.
+/// Returns the peak of bytes of live transient resources if passes run one by one in this order.
 pub(in super::super) fn peak_of(spec: &Spec, order: &[usize]) -> u64 {
     let touches =
         |pass: usize, resource: usize| spec.passes[pass].accesses.iter().any(|a| a.resource == resource);

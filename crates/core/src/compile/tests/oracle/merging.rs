@@ -54,7 +54,7 @@ impl Oracle<'_> {
         attachments(a).eq(attachments(b))
     }
 
-    /// Whether wgpu's tracking within one render pass would refuse the two together, or the second could not
+    /// Returns whether wgpu's tracking within one render pass would refuse the two together, or the second could not
     /// see what the first did: one writes what the other touches, and not both draw into it.
     fn hazard(&self, a: usize, b: usize) -> bool {
         let clash = |first: &AccessSpec, second: &AccessSpec| {

@@ -22,14 +22,14 @@ pub(super) use truth::Truth;
 use super::frames::{AccessSpec, Cell, Cells, Names, Spec, cells_of};
 use crate::{PassId, Plan, ResourceDesc};
 
-/// Which rule a plan breaks.
+/// The rules of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
     /// The plan contains what was declared.
     Declared,
     /// The order is a permutation of the passes that run.
     Permutation,
-    /// Conflicting accesses keep their order, and so do passes ordered by name.
+    /// Conflicting accesses keep their order, and so do passes with an explicit order.
     Hazard,
     /// The listed dependencies are true, and imply every hazard.
     Dependencies,
@@ -37,23 +37,23 @@ pub(super) enum Rule {
     Culling,
     /// Passes share a render pass only where no hazard forbids it.
     Merging,
-    /// Every access finds the contents that it was promised.
+    /// Every access finds its expected contents.
     Contents,
     /// Resources that outlive the frame have the written contents.
     Survival,
-    /// Nothing is loaded or stored for nothing.
+    /// There is no unnecessary load or store.
     Waste,
-    /// Resources in a slot do not live at once, and the slot fits them.
+    /// Lifetimes of resources in a slot do not overlap, and the slot fits them.
     Slots,
-    /// Usages are those that accesses need.
+    /// Usages are exactly those that accesses need.
     Usages,
-    /// Memory of a render pass's own is legal, and used where it is.
+    /// Transient attachments are valid, and used wherever they are.
     TransientAttachment,
     /// Reasons are true.
     Reasons,
 }
 
-/// How a plan breaks a rule.
+/// A broken rule.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Breach {
     pub(super) rule: Rule,
@@ -69,7 +69,7 @@ pub(super) fn check_plan(spec: &Spec, names: &Names, plan: &Plan) -> Vec<Breach>
     }
     let truth = Truth::new(&oracle.model);
     oracle.culling(&truth, plan);
-    // What follows reads the order, so it must be one.
+    // The following checks need a valid order.
     if !oracle.permutation(plan) {
         return oracle.breaches;
     }
@@ -85,14 +85,14 @@ pub(super) fn check_plan(spec: &Spec, names: &Names, plan: &Plan) -> Vec<Breach>
     oracle.breaches
 }
 
-/// A spec with the cells of everything.
+/// A spec with all of its cells.
 pub(super) struct Model<'s> {
     pub(super) spec: &'s Spec,
-    /// By resource.
+    /// Cells of each resource.
     pub(super) cells: Vec<Vec<Cell>>,
-    /// By pass and access.
+    /// Cells of each access, by pass.
     parts: Vec<Vec<Cells>>,
-    /// By pass: every pass before it that it must run after.
+    /// Passes that must run before each pass.
     before: Vec<Vec<bool>>,
 }
 
@@ -119,12 +119,12 @@ impl<'s> Model<'s> {
         accesses.map(move |(index, access)| (index, access, self.parts[pass][index]))
     }
 
-    /// What an attachment loads and stores: all of its mip and layer, of the aspects that it has.
+    /// Returns what an attachment loads and stores: all of its mip and layer, of the aspects that it has.
     fn attachment(&self, access: &AccessSpec) -> Cells {
         access.subresource.without_rect().cells(&self.cells[access.resource])
     }
 
-    /// What is lost with an attachment that is discarded: of a volume every slice.
+    /// Returns what a discarded attachment loses: for a volume every slice.
     fn discarded(&self, access: &AccessSpec) -> Cells {
         let whole = access.subresource.without_rect();
         let whole = match self.spec.desc(access.resource) {
@@ -144,7 +144,7 @@ impl<'s> Model<'s> {
         }
     }
 
-    /// Whether the later of two passes must run after the earlier.
+    /// Returns whether the later of two passes must run after the earlier.
     pub(super) fn ordered(&self, earlier: usize, later: usize) -> bool {
         self.before[later][earlier]
     }
@@ -180,12 +180,12 @@ impl Oracle<'_> {
     }
 }
 
-/// The plan's ids as places in the spec.
+/// Ids of the plan as indices in the spec.
 pub(super) fn spec_pass(id: PassId) -> usize {
     id.index()
 }
 
-/// Whether an access is to all of its resource.
+/// Returns whether an access is to all of its resource.
 pub(super) fn part_is_whole(spec: &Spec, access: &AccessSpec) -> bool {
     let cells = cells_of(spec.desc(access.resource));
     access.subresource.cells(&cells) == Cells::first(cells.len())

@@ -32,7 +32,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// For each pass, every pass that dependencies put before it.
+    /// Returns for each pass every pass that must run before it by dependencies.
     fn reachable(&self, plan: &Plan) -> Vec<Vec<usize>> {
         let mut reached: Vec<Vec<usize>> = vec![Vec::new(); self.model.spec.passes.len()];
         for later in 0..reached.len() {
@@ -48,7 +48,7 @@ impl Oracle<'_> {
         reached
     }
 
-    /// Whether the two passes have the hazard that the dependency names.
+    /// Returns whether the two passes have the hazard that the dependency names.
     fn is_true(&self, names: &Names, dependency: &Dependency) -> bool {
         let (before, after) = (spec_pass(dependency.before), spec_pass(dependency.after));
         let Some(resource) = dependency.resource else {

@@ -5,12 +5,12 @@ use super::truth::{Stamp, Truth, initial};
 use super::{Live, Oracle, Rule, spec_pass};
 use crate::{Aspect, AttachmentOps, ClearValue, Contents, LoadAction, Plan, ResourceDesc, StoreAction};
 
-/// What a cell of a slot holds.
+/// The contents of a cell of a slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Content {
-    /// Nothing one may rely on.
+    /// Undefined contents.
     Garbage,
-    /// What a cell of this resource holds.
+    /// The contents of a cell of this resource.
     Of(usize, Stamp),
     /// A clear value, as its bits.
     Cleared([u64; 4]),
@@ -25,7 +25,7 @@ struct Replay<'p> {
     truth: &'p Truth,
     /// The memory of each slot, then of each resource that has its own.
     memory: Vec<Vec<Content>>,
-    /// By resource: which memory it lives in.
+    /// Memory of each resource.
     homes: Vec<usize>,
     /// Expected contents of the cells of each resource.
     stamps: Vec<Vec<Stamp>>,
@@ -180,7 +180,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Stores an attachment, or forgets it.
+    /// Stores an attachment, or discards it.
     fn end(&mut self, replay: &mut Replay<'_>, place: usize, access: &AccessSpec, ops: &AttachmentOps) {
         let (resource, whole) = (access.resource, self.model.attachment(access));
         if ops.store == StoreAction::Continue {

@@ -4,13 +4,13 @@ use super::super::frames::Cells;
 use super::Model;
 use crate::Origin;
 
-/// What a cell holds.
+/// The contents of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Stamp {
     Undefined,
-    /// What was there when the frame began.
+    /// Contents from before the frame.
     Initial,
-    /// What this access of this pass left.
+    /// Contents written by this access of this pass.
     Written(usize, usize),
 }
 
@@ -22,7 +22,7 @@ pub(in super::super) enum Invalid {
 }
 
 impl Invalid {
-    /// The code of the error for it.
+    /// Code of its error.
     pub(in super::super) fn code(self) -> &'static str {
         match self {
             Self::Read => "SG0201",
@@ -31,7 +31,7 @@ impl Invalid {
     }
 }
 
-/// What happens in the order of declaration.
+/// The contents when passes run in the order of declaration.
 pub(in super::super) struct Truth {
     /// Contents of each cell before the pass, for each pass and access that needs them.
     pub(super) needs: Vec<Vec<Vec<(usize, Stamp)>>>,

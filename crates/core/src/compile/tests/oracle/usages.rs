@@ -89,7 +89,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether nothing of the texture is ever in memory: wgpu's rules for transient attachments.
+    /// Returns whether nothing of the texture is ever in memory: wgpu's rules for transient attachments.
     fn may_be_transient(&self, plan: &Plan, live: &Live, resource: usize) -> bool {
         let spec = self.model.spec;
         let ResourceDesc::Texture(desc) = spec.desc(resource) else { return false };
@@ -100,7 +100,7 @@ impl Oracle<'_> {
         let transient = spec.resources[resource].origin == Origin::Transient && !spec.is_exported(resource);
         let mut drawn = live.order.iter().all(|&pass| {
             self.model.accesses(pass).filter(|(_, a, _)| a.resource == resource).all(|(_, access, _)| {
-                // An aspect that is not touched would be read-only, and that is not allowed.
+                // An unused aspect would be read-only, which is not allowed.
                 let all_aspects = self.model.attachment(access) == self.model.whole(resource);
                 spec.passes[pass].kind == PassKind::Render && access.drawn() && all_aspects
             })

@@ -23,7 +23,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether this is a reason to keep a pass out of the step before it.
+    /// Returns whether this is a reason to keep a pass out of the step before it.
     fn is_apart(&self, facts: &Facts<'_>, before: &[usize], own: usize, reason: MergeReason) -> bool {
         let kind = |pass: usize| self.model.spec.passes[pass].kind;
         let (first, last) = (before[0], before[before.len() - 1]);

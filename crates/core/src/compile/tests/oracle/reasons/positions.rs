@@ -37,7 +37,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether everything that must run before the pass has run.
+    /// Returns whether everything that must run before the pass has run.
     fn ready(&self, order: &[usize], place: usize, pass: usize) -> bool {
         order[place..].iter().all(|&other| other >= pass || !self.model.ordered(other, pass))
     }
