@@ -80,7 +80,7 @@ impl Connections<'_, '_> {
         connection: Option<&Connection>,
     ) -> PipelineError {
         let (name, input) = (&node.entry.name.value, port.name);
-        if let Some((location, outputs)) = connection {
+        if let Some((location, outputs)) = connection.filter(|(_, outputs)| !outputs.is_empty()) {
             let outputs: Vec<&str> = outputs.iter().map(|output| output.value.as_str()).collect();
             return location.error(format!(
                 "required input `{input}` of `{name}` is not connected: `{}` is disabled with these parameters; add another output to the list",
