@@ -1,7 +1,7 @@
-//! What shadows cost: culling, lists of draws, draws saved, and the three pipelines as overdraw grows.
+//! The cost of shadows: culling, draw lists, saved draws, and three pipelines with growing overdraw.
 //!
-//! `cargo bench --workspace --profile dev --bench shadows [-- SCENE.glb]`; the scene is for the draws saved, by default the
-//! demo scene. The profile is that of the tests: dependencies optimised, ours a little; `--profile release` builds anew.
+//! `cargo bench --workspace --profile dev --bench shadows [-- SCENE.glb]`; the scene for the saved draws is by default
+//! the demo scene. The profile is that of the tests, with optimised dependencies; `--profile release` builds everything again.
 #![allow(missing_docs, clippy::print_stdout, reason = "it prints what it measures")]
 
 use std::time::{Duration, Instant};
@@ -22,9 +22,9 @@ use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// How often each thing is timed; medians are printed.
+/// Repetitions of each measurement; medians are printed.
 const ROUNDS: usize = 21;
-/// How many frames of each pipeline are timed, in turn.
+/// Measured frames of each pipeline, in turn.
 const FRAMES: usize = 9;
 const BOXES: usize = 100_000;
 const CITY_M: f64 = 2000.0;
@@ -37,7 +37,7 @@ fn main() -> Result<(), Failure> {
     overdraw()
 }
 
-/// The casters of four cascades and sixteen spot lights, by the tree and by testing each against each.
+/// Culls the casters of four cascades and sixteen spot lights with the tree and with brute force.
 fn culling(boxes: &[Aabb]) -> Result<(), Failure> {
     let (tree, volumes) = (CullTree::new(boxes), shadow_volumes()?);
     let mut found = [vec![Vec::new(); volumes.len()], vec![Vec::new(); volumes.len()]];
@@ -64,14 +64,14 @@ fn culling(boxes: &[Aabb]) -> Result<(), Failure> {
     let faster = median(times.iter().map(|(each, tree)| each.as_secs_f64() / tree.as_secs_f64()));
     println!("culling {BOXES} casters for 4 cascades and 16 spots: {hits} found, the same lists");
     println!(
-        "  each against each {:.1?}, tree {:.2?}: {faster:.0} times faster\n",
+        "  brute force {:.1?}, tree {:.2?}: {faster:.0} times faster\n",
         median(times.iter().map(|(each, _)| *each)),
         median(times.iter().map(|(_, tree)| *tree))
     );
     Ok(())
 }
 
-/// What a moving camera sees of many instances, as a list of draws.
+/// Culls many instances for a moving camera, and builds the draw list.
 fn lists(boxes: &[Aabb]) -> Result<(), Failure> {
     let (device, queue) = Gpu::noop().map(|gpu| (gpu.device, gpu.queue))?;
     let scene = GpuScene::new(&device, &queue, &city_scene(boxes), DVec3::ZERO)?;
@@ -94,15 +94,15 @@ fn lists(boxes: &[Aabb]) -> Result<(), Failure> {
     let measured: Vec<_> = (0..200).map(frame).collect();
     let seen = measured.iter().map(|(_, _, seen)| seen).sum::<usize>() / measured.len();
     let allocations: u64 = measured.iter().map(|(_, count, _)| count).sum();
-    println!("{BOXES} instances, {seen} seen by a moving camera: culling and list of draws");
+    println!("{BOXES} instances, {seen} visible to a moving camera: culling and draw list");
     println!(
-        "  {:.2?} a frame, {allocations} allocations in 200 frames\n",
+        "  {:.2?} per frame, {allocations} allocations in 200 frames\n",
         median(measured.iter().map(|m| m.0))
     );
     Ok(())
 }
 
-/// The draws of a scene's shadow maps, with and without leaving out what does not matter.
+/// Counts the draws of a scene's shadow maps, with and without culling casters that do not matter.
 fn draws(file: Option<String>) -> Result<(), Failure> {
     let scene = match &file {
         Some(file) => shadowgraph::scene::gltf::load(std::path::Path::new(file))?,
@@ -129,8 +129,8 @@ fn draws(file: Option<String>) -> Result<(), Failure> {
             (draws(CullSettings { unseen: true, covered: false })?, draws(CullSettings::default())?);
         let saved = |kept: usize| 100.0 - 100.0 * kept as f64 / all.max(1) as f64;
         println!(
-            "  camera {number}: {all} in reach, {seen} that matter to what is seen (-{:.0} %), {kept} without those that \
-             finer cascades serve (-{:.0} %)",
+            "  camera {number}: {all} in reach, {seen} that affect visible receivers (-{:.0} %), {kept} without those \
+             covered by finer cascades (-{:.0} %)",
             saved(seen),
             saved(kept)
         );
@@ -139,7 +139,7 @@ fn draws(file: Option<String>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A frame of each pipeline over layers that hide each other, the farthest drawn first.
+/// Measures a frame of each pipeline with layers that occlude each other, the farthest drawn first.
 fn overdraw() -> Result<(), Failure> {
     let gpu = Gpu::open(&AdapterChoice::Auto)?;
     println!("a frame at 640x360 by layers of overdraw, 5x5 filter, on {}", gpu.adapter.name);
@@ -164,7 +164,7 @@ fn overdraw() -> Result<(), Failure> {
             for (renderer, times) in renderers.iter_mut().zip(&mut times) {
                 let begin = Instant::now();
                 renderer.draw(&gpu, &options)?;
-                // The first frames make pipelines.
+                // The first frames create pipelines.
                 if round > 1 {
                     times.push(begin.elapsed());
                 }
@@ -208,7 +208,7 @@ fn shadow_volumes() -> Result<Vec<CullVolume>, Failure> {
     Ok(volumes)
 }
 
-/// A camera that flies through the city and sees about a tenth of it.
+/// Returns a camera that flies through the city and sees about a tenth of it.
 fn camera(frame: usize) -> Camera {
     let along = frame as f64 * 2.0;
     let eye = DVec3::new(along - 200.0, 30.0, 0.4 * along);
@@ -216,7 +216,7 @@ fn camera(frame: usize) -> Camera {
     Camera::look_at(eye, eye + DVec3::new(1.0, -0.1, 0.2), DVec3::Y, projection)
 }
 
-/// Buildings of 1 to 10 m and, as many, clutter of 0.1 to 1 m.
+/// Returns buildings of 1 to 10 m, and as many small objects of 0.1 to 1 m.
 fn city() -> Vec<Aabb> {
     let mut random = Random(7);
     let boxes = (0..BOXES).map(|number| {
@@ -228,7 +228,7 @@ fn city() -> Vec<Aabb> {
     boxes.collect()
 }
 
-/// An instance of a unit quad for each box, of eight materials.
+/// Returns a scene with an instance of a unit quad for each box, with eight materials.
 fn city_scene(boxes: &[Aabb]) -> Scene {
     let instance = |(number, bounds): (usize, &Aabb)| Instance {
         name: String::new(),
@@ -245,7 +245,7 @@ fn city_scene(boxes: &[Aabb]) -> Scene {
     }
 }
 
-/// Walls one behind the other that fill the picture, the farthest first, and posts before them.
+/// Returns a scene with walls that fill the image, the farthest first, and posts in front of them.
 fn layered(layers: usize) -> Scene {
     let wall = |layer: usize| Instance {
         name: String::new(),
@@ -286,7 +286,7 @@ fn layered(layers: usize) -> Scene {
     scene
 }
 
-/// The unit square at z = 0, seen from +Z.
+/// Returns the unit square at z = 0, facing +Z.
 fn quad() -> Mesh {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let vertex = |[x, y]: [f32; 2]| Vertex {
@@ -312,7 +312,7 @@ fn median<T: PartialOrd + Copy>(values: impl Iterator<Item = T>) -> T {
     values[values.len() / 2]
 }
 
-/// Numbers that look random, the same every time.
+/// Deterministic pseudo-random numbers.
 struct Random(u64);
 
 impl Random {
