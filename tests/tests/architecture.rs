@@ -1,4 +1,4 @@
-//! Holds what the design says of rooms: who may know whom, and which words a room must not use.
+//! Checks the layers of the design: which packages may depend on which, and which words a crate must not use.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use serde_json::Value;
@@ -19,7 +19,7 @@ const QUALITY: &str = "shadowgraph-quality";
 const CLI: &str = "shadowgraph-cli";
 
 /// The members that a member may depend on, dependencies of its tests and build scripts included.
-const ARROWS: [(&str, &[&str]); 13] = [
+const DEPENDENCIES: [(&str, &[&str]); 13] = [
     (CORE, &[]),
     (SHADERS, &[]),
     (SCENE, &[CORE, SHADERS]),
@@ -35,8 +35,8 @@ const ARROWS: [(&str, &[&str]); 13] = [
     ("xtask", &[]),
 ];
 
-/// What tests and examples of a member may use besides: it depends on nothing that depends on the member.
-const DEV_ARROWS: [(&str, &str); 1] = [(FACADE, SAMPLES)];
+/// Dependencies that only tests and examples of a member may use; none of them depends on the member.
+const DEV_DEPENDENCIES: [(&str, &str); 1] = [(FACADE, SAMPLES)];
 
 /// Members that are published, and so may not depend on the others.
 const PUBLISHED: [&str; 9] = [CORE, SHADERS, SCENE, SAMPLES, SHADOWS, LIGHTING, FACADE, QUALITY, CLI];
@@ -54,7 +54,7 @@ fn packages() -> BTreeMap<String, Value> {
 fn dependencies(package: &Value) -> Vec<String> {
     let of_development = |dependency: &&Value| {
         let names = (package["name"].as_str().unwrap(), dependency["name"].as_str().unwrap());
-        dependency["kind"] == "dev" && DEV_ARROWS.contains(&names)
+        dependency["kind"] == "dev" && DEV_DEPENDENCIES.contains(&names)
     };
     let list = package["dependencies"].as_array().unwrap().iter();
     let list = list.filter(|dependency| !of_development(dependency));
@@ -73,25 +73,25 @@ fn crates_below(member: &str) -> Vec<String> {
 }
 
 #[test]
-fn libraries_pull_no_command_line_and_no_window() {
+fn libraries_depend_on_no_command_line_and_no_window() {
     let program = ["clap", "indicatif", "tempfile", "egui", "winit"];
-    for (member, refused) in [(FACADE, program.as_slice()), (QUALITY, &["clap", "egui", "winit"])] {
+    for (member, forbidden) in [(FACADE, program.as_slice()), (QUALITY, &["clap", "egui", "winit"])] {
         let below = crates_below(member);
         assert!(below.contains(&"wgpu".to_owned()), "{below:?}");
-        let found: Vec<_> = below.iter().filter(|name| refused.contains(&name.as_str())).collect();
-        assert!(found.is_empty(), "{member} pulls {found:?}");
+        let found: Vec<_> = below.iter().filter(|name| forbidden.contains(&name.as_str())).collect();
+        assert!(found.is_empty(), "{member} depends on {found:?}");
     }
 }
 
 #[test]
-fn members_depend_only_on_the_rooms_to_their_left() {
+fn packages_depend_only_on_the_layers_below_them() {
     let packages = packages();
-    let arrows: BTreeMap<&str, &[&str]> = ARROWS.into_iter().collect();
-    assert!(packages.keys().map(String::as_str).eq(arrows.keys().copied()), "{:?}", packages.keys());
+    let rules: BTreeMap<&str, &[&str]> = DEPENDENCIES.into_iter().collect();
+    assert!(packages.keys().map(String::as_str).eq(rules.keys().copied()), "{:?}", packages.keys());
     for (name, package) in &packages {
         for dependency in dependencies(package).iter().filter(|dependency| packages.contains_key(*dependency))
         {
-            let allowed = arrows[name.as_str()];
+            let allowed = rules[name.as_str()];
             assert!(
                 allowed.contains(&dependency.as_str()),
                 "{name} must not depend on {dependency}, only on {allowed:?}"
@@ -109,7 +109,7 @@ fn only_the_crates_for_others_are_published() {
 }
 
 #[test]
-fn xtask_needs_nothing_but_the_standard_library() {
+fn xtask_uses_only_the_standard_library() {
     assert_eq!(dependencies(&packages()["xtask"]), Vec::<String>::new());
 }
 
@@ -126,15 +126,15 @@ fn the_graph_and_its_compiler_build_without_a_gpu_library() {
 }
 
 #[test]
-fn core_speaks_of_no_light_shadow_mesh_camera_or_window() {
+fn core_mentions_no_light_shadow_mesh_camera_or_window() {
     let words =
         ["light", "shadow", "mesh", "camera", "window", "lights", "shadows", "meshes", "cameras", "windows"];
-    refuse_words("crates/core/src", &words);
+    forbid_words("crates/core/src", &words);
 }
 
 #[test]
 fn the_compiler_does_not_touch_wgpu() {
-    refuse("crates/core/src/compile", |line| line.contains("wgpu::").then(|| "wgpu::".to_owned()));
+    forbid("crates/core/src/compile", |line| line.contains("wgpu::").then(|| "wgpu::".to_owned()));
 }
 
 #[test]
@@ -149,12 +149,12 @@ fn only_one_file_of_core_has_shader_text() {
 }
 
 #[test]
-fn scene_speaks_of_no_shadow_technique_and_no_lighting_model() {
+fn scene_mentions_no_shadow_technique_and_no_lighting_model() {
     let techniques =
         ["pcf", "pcss", "vsm", "evsm", "esm", "msm", "csm", "sdsm", "cascade", "cascades", "cascaded"];
     let models =
         ["ggx", "brdf", "bsdf", "lambert", "lambertian", "phong", "fresnel", "burley", "smith", "tonemap"];
-    refuse_words("crates/scene/src", &[techniques.as_slice(), models.as_slice()].concat());
+    forbid_words("crates/scene/src", &[techniques.as_slice(), models.as_slice()].concat());
 }
 
 #[test]
@@ -163,11 +163,11 @@ fn lighting_names_no_technique() {
         .kinds()
         .iter()
         .map(|kind| kind.name)
-        // A word of the language.
+        // An ordinary English word.
         .filter(|name| *name != "none")
         .collect();
     assert!(names.len() > 5);
-    refuse_words("crates/lighting/src", &names);
+    forbid_words("crates/lighting/src", &names);
     for file in ["lighting.wgsl", "forward.wgsl"] {
         let text = std::fs::read_to_string(repository().join("shaders/wgsl").join(file)).unwrap();
         assert_eq!(words(&text).iter().find(|word| names.contains(&word.as_str())), None, "{file}");
@@ -175,29 +175,29 @@ fn lighting_names_no_technique() {
 }
 
 #[test]
-fn shadows_know_nothing_of_gltf() {
-    refuse("crates/shadows/src", |line| line.to_lowercase().contains("gltf").then(|| "glTF".to_owned()));
+fn shadows_do_not_mention_gltf() {
+    forbid("crates/shadows/src", |line| line.to_lowercase().contains("gltf").then(|| "glTF".to_owned()));
 }
 
 #[test]
-fn nothing_is_left_for_later_in_the_source() {
+fn no_unfinished_code_is_left_in_the_source() {
     // In two parts, so that this file does not hold them itself.
     let marks = [concat!("todo", "!"), concat!("unimplemented", "!"), concat!("FIX", "ME")];
-    for folder in ["crates", "shaders", "examples", "tests", "xtask"] {
-        refuse(folder, |line| marks.iter().find(|mark| line.contains(**mark)).map(|mark| (*mark).to_owned()));
+    for dir in ["crates", "shaders", "examples", "tests", "xtask"] {
+        forbid(dir, |line| marks.iter().find(|mark| line.contains(**mark)).map(|mark| (*mark).to_owned()));
     }
 }
 
-fn refuse_words(folder: &str, refused: &[&str]) {
+fn forbid_words(dir: &str, forbidden: &[&str]) {
     // The method of slices is the standard library's word.
     let said = |line: &str| words(&line.replace(".windows(", "("));
-    refuse(folder, |line| said(line).into_iter().find(|word| refused.contains(&word.as_str())));
+    forbid(dir, |line| said(line).into_iter().find(|word| forbidden.contains(&word.as_str())));
 }
 
-/// Fails with every line of a folder's sources in which `find` finds something.
-fn refuse(folder: &str, find: impl Fn(&str) -> Option<String>) {
+/// Fails with every line of a directory's sources in which `find` finds something.
+fn forbid(dir: &str, find: impl Fn(&str) -> Option<String>) {
     let mut found = Vec::new();
-    for path in sources(folder, &["rs", "wgsl"]) {
+    for path in sources(dir, &["rs", "wgsl"]) {
         let text = std::fs::read_to_string(&path).unwrap();
         for (number, line) in text.lines().enumerate() {
             if let Some(what) = find(line) {
@@ -205,13 +205,13 @@ fn refuse(folder: &str, find: impl Fn(&str) -> Option<String>) {
             }
         }
     }
-    assert!(found.is_empty(), "{folder} must not say this:\n{}", found.join("\n"));
+    assert!(found.is_empty(), "{dir} must not contain this:\n{}", found.join("\n"));
 }
 
-/// Every source file under a folder of the repository, in order.
-fn sources(folder: &str, ends: &[&str]) -> Vec<PathBuf> {
-    fn collect(folder: &Path, ends: &[&str], found: &mut Vec<PathBuf>) {
-        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+/// Returns every source file under a directory of the repository, in order.
+fn sources(dir: &str, ends: &[&str]) -> Vec<PathBuf> {
+    fn collect(dir: &Path, ends: &[&str], found: &mut Vec<PathBuf>) {
+        for path in std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()) {
             if path.is_dir() {
                 collect(&path, ends, found);
             } else if path.extension().is_some_and(|end| ends.iter().any(|wanted| end == *wanted)) {
@@ -220,13 +220,13 @@ fn sources(folder: &str, ends: &[&str]) -> Vec<PathBuf> {
         }
     }
     let mut found = Vec::new();
-    collect(&repository().join(folder), ends, &mut found);
-    assert!(!found.is_empty(), "{folder} has no source");
+    collect(&repository().join(dir), ends, &mut found);
+    assert!(!found.is_empty(), "{dir} has no source");
     found.sort();
     found
 }
 
-/// The words of a line in small letters; `shadow_map` and `ShadowMap` are two words each.
+/// Returns the words of a line in lower case; `shadow_map` and `ShadowMap` are two words each.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before_was_small = false;
