@@ -3,7 +3,6 @@
 use shadowgraph_shaders::{compose, naga};
 
 use super::{TechniqueContext, TechniqueKind};
-use crate::ShadowSettings;
 use crate::technique::binding::STORAGE;
 use crate::technique::{ShadowTechnique, layout, shadow_layout};
 use crate::techniques::compute::{pipeline, shader};
@@ -31,7 +30,7 @@ pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
         if settings.name != kind.name {
             return Err(format!("its settings are named `{}`", settings.name));
         }
-        (settings.check)(&ShadowSettings::default()).map_err(|error| format!("default settings: {error}"))?;
+        (settings.check_defaults)().map_err(|error| format!("default settings: {error}"))?;
     }
     limits(&technique.binding_types())?;
     if technique.variant_count() == 0 {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::error::Error;
 use crate::rays::{GpuRayScene, RayScene};
-use crate::settings::{NamedSettings, Setting, SettingType, ShadowSettings, failed, json};
+use crate::settings::{NamedSettings, Setting, SettingType, ShadowSettings, failed, json, validate};
 use crate::technique::ShadowTechnique;
 use serde_json::Value;
 
@@ -39,6 +39,7 @@ type MakeTechnique = fn(&TechniqueContext<'_>) -> Result<Box<dyn ShadowTechnique
 pub(super) struct SettingsKind {
     pub(super) name: &'static str,
     pub(super) settings: fn() -> &'static [Setting],
+    pub(super) check_defaults: fn() -> Result<(), Error>,
     pub(super) check: fn(&ShadowSettings) -> Result<(), Error>,
     pub(super) json: fn(&ShadowSettings) -> Result<Value, Error>,
     pub(super) set_json: fn(&mut ShadowSettings, Value) -> Result<(), Error>,
@@ -49,6 +50,7 @@ impl SettingsKind {
         Self {
             name: T::NAME,
             settings: T::settings,
+            check_defaults: || validate(&T::default()),
             check: |settings| settings.techniques.get::<T>().map(drop),
             json: |settings| Ok(json(&settings.techniques.get::<T>()?)),
             set_json: |settings, value| {

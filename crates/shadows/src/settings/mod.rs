@@ -26,8 +26,8 @@ pub use describe::{Payload, Setting, SettingType, Variant, color, defaults};
 pub(crate) use describe::{fields_schema, refused};
 pub use file::settings_file;
 pub use lights::{LightRef, LightShadows};
-pub(crate) use technique::failed;
 pub use technique::{NamedSettings, TechniqueSettings};
+pub(crate) use technique::{failed, validate};
 
 use shadowgraph_scene::Light;
 

@@ -128,7 +128,7 @@ impl DescribeSettings for TechniqueSettings {
 }
 
 /// Checks every value; the path in an error begins with the technique.
-fn validate<T: NamedSettings>(settings: &T) -> Result<(), Error> {
+pub(crate) fn validate<T: NamedSettings>(settings: &T) -> Result<(), Error> {
     settings.validate().map_err(|error| error.inside(T::NAME).inside("techniques"))
 }
 
