@@ -108,8 +108,8 @@ fn moment_maps_have_no_dark_or_bright_specks_in_any_format() {
         let own = EvsmSettings {
             moments,
             precision,
-            away: exponents[0],
-            towards: exponents[1],
+            positive_exponent: exponents[0],
+            negative_exponent: exponents[1],
             ..EvsmSettings::default()
         };
         options.shadows.techniques.set(&own).unwrap();
