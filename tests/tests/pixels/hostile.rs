@@ -158,9 +158,9 @@ fn invalid_cameras_and_image_sizes_are_errors_that_name_the_field() {
         }
         let mut lost = options();
         lost.camera.world_from_view.translation = DVec3::NAN;
-        refused(&lost, "placement");
-        refused(&ViewOptions { size_px: [0, 0], ..options() }, "width over its height");
-        refused(&ViewOptions { size_px: [64, 0], ..options() }, "width over its height");
+        refused(&lost, "transform");
+        refused(&ViewOptions { size_px: [0, 0], ..options() }, "aspect ratio");
+        refused(&ViewOptions { size_px: [64, 0], ..options() }, "aspect ratio");
         refused(&ViewOptions { size_px: [1 << 20, 64], ..options() }, "max_texture_dimension_2d");
         // The next frame renders as before.
         assert!(renderer.draw(gpu, &options()).unwrap().image == good);
