@@ -107,7 +107,7 @@ pub enum Error {
     /// An imported resource lacks a usage.
     #[error(
         "SG0403: pass `{pass}` uses imported `{resource}` as {access}, but it was created without \
-         {needed}; add that usage when you create it"
+         {needed}; add that usage where you create it"
     )]
     ImportUsage { pass: String, resource: String, access: &'static str, needed: String },
     /// An import was declared without an object.
