@@ -266,7 +266,7 @@ fn what_one_copy_cannot_read_is_an_error_that_says_why() {
     let depth = |format| TextureDesc::d2(8, 8, format);
     let rect = Subresource::FULL.rect(Rect::new(1, 1, 2, 2));
     expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 mip levels are requested");
-    expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last one");
+    expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last mip");
     expect_error(color, Subresource::FULL.bytes(0..4), "no byte ranges");
     expect_error(color, Subresource::FULL.aspect(Aspect::Depth), "lacks that aspect");
     expect_error(TextureDesc { samples: 4, ..color }, Subresource::FULL, "resolve it");
