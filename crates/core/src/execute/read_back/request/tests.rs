@@ -268,7 +268,7 @@ fn what_one_copy_cannot_read_is_an_error_that_says_why() {
     expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL, "3 mip levels are requested");
     expect_error(TextureDesc { mip_levels: 3, ..color }, Subresource::FULL.mip(3), "past the last mip");
     expect_error(color, Subresource::FULL.bytes(0..4), "no byte ranges");
-    expect_error(color, Subresource::FULL.aspect(Aspect::Depth), "lacks that aspect");
+    expect_error(color, Subresource::FULL.aspect(Aspect::Depth), "does not have that aspect");
     expect_error(TextureDesc { samples: 4, ..color }, Subresource::FULL, "resolve it");
     expect_error(depth(Format::Depth32Float), rect, "copied whole");
     expect_error(depth(Format::Depth24Plus), Subresource::FULL, "use Depth32Float");
