@@ -11,7 +11,7 @@ use super::progress::Progress;
 use super::report;
 use shadowgraph::core::TimeSummary;
 use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
-use shadowgraph_quality::bench::{Comparison, FrameTime, Spread, compare, pass_times};
+use shadowgraph_quality::bench::{Comparison, FrameTime, Stats, compare, pass_times};
 
 /// Frames on a real GPU, of which each is waited for.
 const GPU_FRAMES: u32 = 20;
@@ -111,7 +111,7 @@ fn row(out: &mut String, name: &str, frames: &[FrameTime], step: Option<StepOf>)
 
 fn times(frames: &[FrameTime], step: Option<StepOf>) -> String {
     let Some(step) = step else { return columns("-", "") };
-    let spread = Spread::of(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
+    let spread = Stats::of(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
     columns(&format!("{:.1}", spread.median), &format!("{:.1}", spread.p95))
 }
 
@@ -119,8 +119,8 @@ fn columns(median: &str, p95: &str) -> String {
     format!("{median:>14}{p95:>14}")
 }
 
-fn ratio(spread: Spread) -> String {
-    let Spread { p5, p25, median, p75, p95 } = spread;
+fn ratio(spread: Stats) -> String {
+    let Stats { p5, p25, median, p75, p95 } = spread;
     format!("median {median:.2}, half of them {p25:.2} to {p75:.2}, nine in ten {p5:.2} to {p95:.2}")
 }
 

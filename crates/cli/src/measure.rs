@@ -12,9 +12,9 @@ use shadowgraph::options::{AdapterChoice, CameraChoice, OptionError, Size, SunCh
 use shadowgraph::output::{Pixels, write_png, write_text};
 use shadowgraph::scene::Camera;
 use shadowgraph::shadows::{Technique, Techniques};
-use shadowgraph_quality::report::{Bound, Bounds, CaseReport, PictureFiles, Report, page, table};
+use shadowgraph_quality::report::{Bound, Bounds, CaseReport, ImageFiles, Report, page, table};
 use shadowgraph_quality::{
-    Case, CasePictures, CaseSet, Measured, Subject, Task, Variant, VariantSet, automatic_views,
+    Case, CaseImages, CaseSet, Measured, MeasuredScene, Task, Variant, VariantSet, automatic_views,
     built_in_cases, measure,
 };
 
@@ -32,7 +32,7 @@ struct Plan {
 /// What is measured.
 enum Work {
     Cases { cases: Vec<Case>, folder: PathBuf },
-    Scene { subject: Box<Subject>, views_named: bool },
+    Scene { measured_scene: Box<MeasuredScene>, views_named: bool },
 }
 
 /// Measures, prints the table, writes the files, and checks the bounds.
@@ -50,9 +50,9 @@ pub(crate) fn measure_command(args: &MeasureArgs, registry: &shadowgraph::Regist
         variants: plan.task.variants.clone(),
         cases: Vec::new(),
     };
-    plan.work.each(args.quick, &mut |part, subject| {
-        progress.set(&subject.name, part);
-        measure(&gpu, subject, &plan.task, &mut |measured: Measured| {
+    plan.work.each(args.quick, &mut |part, measured_scene| {
+        progress.set(&measured_scene.name, part);
+        measure(&gpu, measured_scene, &plan.task, &mut |measured: Measured| {
             let Measured { report: mut case, pictures } = measured;
             if let (Some(output), Some(pictures)) = (&output, pictures) {
                 case.pictures = Some(output.pictures(report.cases.len(), &case, &pictures)?);
@@ -137,12 +137,12 @@ fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
         views = automatic_views(&scene, args.views as usize)?;
     }
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
-    let subject = Subject::new(name, scene, views)?;
-    if subject.lights.is_empty() {
+    let measured_scene = MeasuredScene::new(name, scene, views)?;
+    if measured_scene.lights.is_empty() {
         let message = format!("{}: no light of the scene casts shadows; see --sun", file.display());
         return Err(Failure { code: Failure::INPUT, message });
     }
-    Ok(Work::Scene { subject: Box::new(subject), views_named: !args.camera.is_empty() })
+    Ok(Work::Scene { measured_scene: Box::new(measured_scene), views_named: !args.camera.is_empty() })
 }
 
 impl Work {
@@ -151,29 +151,29 @@ impl Work {
     fn each(
         self,
         quick: bool,
-        work: &mut dyn FnMut(f32, &Subject) -> Result<(), Failure>,
+        work: &mut dyn FnMut(f32, &MeasuredScene) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let mut one = |part: f32, mut subject: Subject, light: usize, views_named: bool| {
+        let mut one = |part: f32, mut measured_scene: MeasuredScene, light: usize, views_named: bool| {
             if quick {
-                let last = subject.lights.len().saturating_sub(1);
-                subject.lights = subject.lights.split_off(light.min(last));
-                subject.lights.truncate(1);
+                let last = measured_scene.lights.len().saturating_sub(1);
+                measured_scene.lights = measured_scene.lights.split_off(light.min(last));
+                measured_scene.lights.truncate(1);
                 if !views_named {
-                    subject.views.truncate(1);
+                    measured_scene.views.truncate(1);
                 }
             }
-            work(part, &subject)
+            work(part, &measured_scene)
         };
         match self {
             // The first light is the sun of `--sun`.
-            Self::Scene { subject, views_named } => one(0.0, *subject, 0, views_named),
+            Self::Scene { measured_scene, views_named } => one(0.0, *measured_scene, 0, views_named),
             Self::Cases { cases, folder } => {
                 let count = cases.len() as f32;
                 let mut numbered = cases.iter().enumerate();
                 numbered.try_for_each(|(index, case)| {
                     // The second of a case's suns, which is neither low nor high in the built-in ones.
                     let light = usize::from(!case.sun_elevations_deg.is_empty());
-                    one(index as f32 / count, Subject::of_case(case, &folder)?, light, false)
+                    one(index as f32 / count, MeasuredScene::of_case(case, &folder)?, light, false)
                 })
             }
         }
@@ -263,8 +263,8 @@ impl Output {
         &self,
         index: usize,
         case: &CaseReport,
-        pictures: &CasePictures,
-    ) -> Result<PictureFiles, Failure> {
+        pictures: &CaseImages,
+    ) -> Result<ImageFiles, Failure> {
         let name =
             [&case.scene, &case.light, &case.view, &case.technique].map(|name| file_name(name)).join("-");
         let [width, height] = pictures.compared.size_px;
@@ -275,7 +275,7 @@ impl Output {
         };
         let grey =
             |values: &[f32]| values.iter().map(|value| (value * 255.0).round() as u8).collect::<Vec<_>>();
-        Ok(PictureFiles {
+        Ok(ImageFiles {
             picture: write("picture", Pixels::Rgba, &pictures.color.rgba8)?,
             truth: write("truth", Pixels::Grey, &grey(&pictures.compared.truth))?,
             visibility: write("visibility", Pixels::Grey, &grey(&pictures.compared.visibility))?,
@@ -323,11 +323,11 @@ mod tests {
         scene.add_light(Light { kind: point, ..sun.clone() });
         let views = vec![("front".to_owned(), scene.framing_camera(1.0))];
         scene.add_light(sun);
-        let subject = Box::new(Subject::new("scene", scene, views).unwrap());
+        let measured_scene = Box::new(MeasuredScene::new("scene", scene, views).unwrap());
         let mut seen = Vec::new();
-        let work = Work::Scene { subject, views_named: true };
-        let each = work.each(true, &mut |_, subject| {
-            seen.extend(subject.lights.iter().map(|light| light.name.clone()));
+        let work = Work::Scene { measured_scene, views_named: true };
+        let each = work.each(true, &mut |_, measured_scene| {
+            seen.extend(measured_scene.lights.iter().map(|light| light.name.clone()));
             Ok(())
         });
         assert!(each.is_ok());

@@ -1,10 +1,10 @@
-//! Truth between the centres of pixels.
+//! GroundTruth between the centres of pixels.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use shadowgraph_shadows::rays::{RayScene, ReceiverPoint, trace_hard};
 
 use super::Surfaces;
-use super::truth::{RayLight, mean};
+use super::ground_truth::{RayLight, mean};
 use shadowgraph::ViewOptions;
 
 /// How far around a pixel's centre truth is looked for, pixels.
@@ -45,7 +45,7 @@ impl<'a> Fine<'a> {
         truths.next().is_some_and(|first| truths.any(|truth| truth != first))
     }
 
-    /// Truth beside a pixel's centre; `None` where its plane is not seen.
+    /// GroundTruth beside a pixel's centre; `None` where its plane is not samples.
     fn truth(&self, pixel: usize, offset_px: DVec2) -> Option<f32> {
         let position = self.beside(pixel, offset_px)?.as_vec3();
         let geometric_normal = self.surfaces.normals[pixel];
@@ -60,12 +60,12 @@ impl<'a> Fine<'a> {
         let (x, y) = (pixel as u32 % width, pixel as u32 / width);
         let size = DVec2::new(f64::from(width), f64::from(height));
         let at = (DVec2::new(f64::from(x), f64::from(y)) + 0.5 + offset_px) / size;
-        let seen = |depth| {
+        let point_at = |depth| {
             let ndc = DVec3::new(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, depth);
             self.world_from_clip.project_point3(ndc) - self.origin_world
         };
         // Two points of the ray through the picture.
-        let (from, way) = (seen(1.0), seen(0.5) - seen(1.0));
+        let (from, way) = (point_at(1.0), point_at(0.5) - point_at(1.0));
         let (position, normal) =
             (self.surfaces.positions[pixel].as_dvec3(), self.surfaces.normals[pixel].as_dvec3());
         let along = (position - from).dot(normal) / way.dot(normal);

@@ -5,7 +5,7 @@ use super::motion::{FAR_OUT_M, camera_at, moved};
 use super::report::{Flicker, Motion};
 use shadowgraph_shadows::Technique;
 
-use super::{Ground, Instrument, Points, Probe, Question};
+use super::{Comparator, Points, Probe, Query, Reference};
 use shadowgraph::options::Aov;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
@@ -46,36 +46,36 @@ fn of_scene(
     far_out: bool,
 ) -> Result<Vec<Flicker>, Error> {
     let options = ViewOptions { size_px: FLICKER_SIZE_PX, ..options.clone() };
-    let ground = Instrument::new(gpu, renderer, light)?.ground(renderer, &options, 0)?;
-    let (probe, points) = (Probe::new(gpu, renderer)?, Points::new(gpu, &ground.surfaces));
-    let Some(distance_m) = median_depth_m(&ground) else { return Ok(Vec::new()) };
-    let truth = of_receivers(&ground, &ground.truth.hard);
-    let question = Question { light: light as u32, coarser: false };
+    let reference = Comparator::new(gpu, renderer, light)?.reference(renderer, &options, 0)?;
+    let (probe, points) = (Probe::new(gpu, renderer)?, Points::new(gpu, &reference.surfaces));
+    let Some(distance_m) = median_depth_m(&reference) else { return Ok(Vec::new()) };
+    let truth = of_receivers(&reference, &reference.truth.hard);
+    let query = Query { light: light as u32, coarser: false };
     let change = |motion| {
-        let seen = (0..frames).map(|frame| {
+        let samples = (0..frames).map(|frame| {
             let camera = camera_at(&options.camera, motion, frame, options.size_px[1], distance_m);
             let view = ViewOptions { camera, ..options.clone() };
-            let answers = probe.ask(gpu, renderer, &view, &points, question)?;
-            Ok(of_receivers(&ground, &answers.visibility))
+            let results = probe.ask(gpu, renderer, &view, &points, query)?;
+            Ok(of_receivers(&reference, &results.visibility))
         });
-        let seen = seen.collect::<Result<Vec<_>, Error>>()?;
+        let samples = samples.collect::<Result<Vec<_>, Error>>()?;
         // Neither the scene nor the light moves: the truth at a point of the world stays.
-        Ok(Flicker { motion, far_out, change: flicker(&seen, &vec![truth.clone(); seen.len()])? })
+        Ok(Flicker { motion, far_out, change: flicker(&samples, &vec![truth.clone(); samples.len()])? })
     };
     [Motion::Translate, Motion::Rotate, Motion::Zoom].into_iter().map(change).collect()
 }
 
-fn is_receiver(ground: &Ground, pixel: usize) -> bool {
-    ground.surfaces.is_drawn(pixel) && ground.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L
+fn is_receiver(reference: &Reference, pixel: usize) -> bool {
+    reference.surfaces.is_drawn(pixel) && reference.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L
 }
 
-fn of_receivers(ground: &Ground, values: &[f32]) -> Vec<f32> {
-    let receivers = values.iter().enumerate().filter(|(pixel, _)| is_receiver(ground, *pixel));
+fn of_receivers(reference: &Reference, values: &[f32]) -> Vec<f32> {
+    let receivers = values.iter().enumerate().filter(|(pixel, _)| is_receiver(reference, *pixel));
     receivers.map(|(_, value)| *value).collect()
 }
 
 /// Of all receivers; `None` if there are none.
-fn median_depth_m(ground: &Ground) -> Option<f64> {
-    let depths = of_receivers(ground, &ground.surfaces.view_depths_m);
+fn median_depth_m(reference: &Reference) -> Option<f64> {
+    let depths = of_receivers(reference, &reference.surfaces.view_depths_m);
     super::metrics::percentile(&depths, 50.0).map(f64::from)
 }

@@ -2,11 +2,13 @@
 
 pub mod bench;
 mod cases;
+mod comparator;
 mod counting;
 mod error;
 mod fine;
 mod flicker;
-mod instrument;
+mod ground_truth;
+mod measured_scene;
 pub mod metrics;
 mod motion;
 mod parallel;
@@ -15,27 +17,27 @@ mod probe;
 pub mod report;
 mod run;
 mod seam;
-mod subject;
 mod surfaces;
 mod texels;
-mod truth;
 mod variants;
 mod views;
 
 pub use cases::{Case, CaseSet, CaseView, SceneSource, built_in_cases};
+pub use comparator::{
+    Comparator, Compared, PUNCTUAL_LIGHT_RADIUS_M, Reference, SUN_ANGULAR_RADIUS, ViewErrors,
+};
 pub use error::Error;
 pub use fine::{FINE_POINTS, FINE_REACH_PX};
 pub use flicker::{FLICKER_SIZE_PX, measure_flicker};
-pub use instrument::{Compared, Ground, Instrument, LAMP_RADIUS_M, SUN_ANGULAR_RADIUS, ViewErrors};
+pub use ground_truth::{GroundTruth, PROBE_RAYS, RayLight};
+pub use measured_scene::{DEFAULT_VIEWS, MAX_LIGHTS, MeasuredLight, MeasuredScene};
 pub use motion::{FAR_OUT_M, STEP_PX, camera_at};
-pub use pictures::ViewPictures;
-pub use probe::{Answers, Points, Probe, Question};
-pub use run::{CasePictures, Measured, Task, measure};
+pub use pictures::ViewImages;
+pub use probe::{Points, Probe, Query, Results};
+pub use run::{CaseImages, Measured, Task, measure};
 pub use seam::measure_seam;
-pub use subject::{DEFAULT_VIEWS, MAX_LIGHTS, Subject, SubjectLight};
 pub use surfaces::{SurfaceReader, Surfaces};
 pub use texels::{NO_VIEW, Texels};
-pub use truth::{RayLight, SCOUTS, Truth};
 pub use variants::{Variant, VariantSet};
 pub use views::automatic_views;
 

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 use shadowgraph_scene::{Camera, LightKind, Projection, Scene};
 
-use super::instrument::pixel_m_at_1m;
+use super::comparator::pixel_m_at_1m;
 use super::report::Motion;
 
 /// How far what is seen moves over the picture from one frame to the next, pixels.

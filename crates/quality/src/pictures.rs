@@ -6,7 +6,7 @@ use super::metrics::Band;
 
 /// All that was looked at to find the errors, row by row from the top.
 #[derive(Clone, Debug)]
-pub struct ViewPictures {
+pub struct ViewImages {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
     /// What the technique says, 0 to 1.
@@ -19,7 +19,7 @@ pub struct ViewPictures {
     pub band: Band,
 }
 
-impl ViewPictures {
+impl ViewImages {
     /// Returns a picture of the errors, four bytes a pixel: grey is the visibility, red is dark but truly lit, blue lit
     /// but truly dark, both paler in the band; what does not count is dim.
     #[must_use]

@@ -9,8 +9,8 @@ use shadowgraph_lighting::{Geometry, ViewUniforms};
 use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
 
 use super::Surfaces;
+use super::comparator::pixel_m_at_1m;
 use super::counting::CountingCasters;
-use super::instrument::pixel_m_at_1m;
 use super::report::Cost;
 use shadowgraph::RenderView;
 use shadowgraph::SurfaceDrawer;
@@ -45,7 +45,7 @@ pub struct Points {
 
 /// What is asked.
 #[derive(Clone, Copy, Debug)]
-pub struct Question {
+pub struct Query {
     /// Of which light, by its place in the scene's list.
     pub light: u32,
     /// Whether the next coarser of the maps that cover a point is to answer, where there is one.
@@ -54,7 +54,7 @@ pub struct Question {
 
 /// What a technique says at points, and what that cost.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Answers {
+pub struct Results {
     /// The light that arrives at each point, 0 to 1; 0 where the picture had no surface.
     pub visibility: Vec<f32>,
     /// What the technique's passes cost.
@@ -131,8 +131,8 @@ impl Probe {
         renderer: &Renderer,
         options: &ViewOptions,
         points: &Points,
-        question: Question,
-    ) -> Result<Answers, Error> {
+        query: Query,
+    ) -> Result<Results, Error> {
         // Points may be beside the view, and are asked for in coarser cascades than they would be read from.
         let mut options = options.clone();
         options.shadows.cull = CullSettings::NONE;
@@ -140,7 +140,7 @@ impl Probe {
         let casters = CountingCasters::new(renderer.casters());
         let (mut graph, mut timer) = (renderer.graph(), Timer::new());
         let (bytes, plan) = gpu.checked(|| {
-            let asked = Asked { renderer, view: &view, casters: &casters, points, question };
+            let asked = Asked { renderer, view: &view, casters: &casters, points, query };
             self.record(gpu, &asked, &mut graph, &mut timer)
         })?;
         let visibility = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
@@ -150,7 +150,7 @@ impl Probe {
         let (draws, triangles) = casters.counted();
         let texture_bytes = texture_bytes(&plan);
         let cost = Cost { gpu_ms: gpu_ms.reduce(|a, b| a + b), texture_bytes, draws, triangles };
-        Ok(Answers { visibility, cost })
+        Ok(Results { visibility, cost })
     }
 
     fn record<'f>(
@@ -160,7 +160,7 @@ impl Probe {
         graph: &mut Graph,
         timer: &mut Timer,
     ) -> Result<(Vec<u8>, std::sync::Arc<Plan>), Error> {
-        let Asked { renderer, view, casters, points, question } = *asked;
+        let Asked { renderer, view, casters, points, query } = *asked;
         let options = view.options;
         let scene = &renderer.casters().scene;
         let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
@@ -186,16 +186,16 @@ impl Probe {
         let add = |frame: &mut Frame<'f>| add_shadows(renderer.technique(), frame, &inputs, screen.as_ref());
         let shadows = frame.node(TECHNIQUE, add)?;
 
-        let block = Question::block(question, pixel_m_at_1m(&options.camera, options.size_px[1]));
+        let block = Query::block(query, pixel_m_at_1m(&options.camera, options.size_px[1]));
         let block = frame.uniform(&block);
         let stored = frame.import_texture("points", &points.texture, true);
         let [width, height] = points.size;
-        let mut answers = frame.create_texture("answers", TextureDesc::d2(width, height, Format::R32Float));
+        let mut results = frame.create_texture("results", TextureDesc::d2(width, height, Format::R32Float));
         let mut pass = frame.compute_pass("probe");
         let shadows = shadows.read_in(&mut pass);
         let (eye, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let stored = pass.sample(&stored);
-        let target = pass.storage_texture_mut(&mut answers, Contents::Overwrite);
+        let target = pass.storage_texture_mut(&mut results, Contents::Overwrite);
         pass.body(move |ctx| {
             let eye = ctx.bind_group(&self.view_layout, &[Bind::Buffer(eye), Bind::Buffer(lights)])?;
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
@@ -208,7 +208,7 @@ impl Probe {
             ctx.pass.dispatch_workgroups(width.div_ceil(WORKGROUP), height.div_ceil(WORKGROUP), 1);
             Ok(())
         });
-        let request = frame.read_back_texture(&answers, Subresource::FULL);
+        let request = frame.read_back_texture(&results, Subresource::FULL);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let compiled = graph.compile(frame)?;
         let mut executed = compiled.execute_timed(graph, &gpu.device, &mut encoder, timer)?;
@@ -224,11 +224,11 @@ struct Asked<'f> {
     view: &'f RenderView<'f>,
     casters: &'f CountingCasters<'f>,
     points: &'f Points,
-    question: Question,
+    query: Query,
 }
 
-impl Question {
-    /// `Question` of `probe.wgsl`.
+impl Query {
+    /// `Query` of `probe.wgsl`.
     fn block(self, pixel_world: f32) -> [u8; 16] {
         let flags = if self.coarser { COARSER } else { 0 };
         bytemuck::cast([self.light, flags, pixel_world.to_bits(), 0])

@@ -4,8 +4,8 @@ use shadowgraph_shadows::{ShadowSettings, Technique};
 
 use super::report::{CaseReport, Flicker};
 use super::{
-    Compared, Ground, Instrument, Probe, Subject, SubjectLight, Variant, ViewPictures, measure_flicker,
-    measure_seam,
+    Comparator, Compared, MeasuredLight, MeasuredScene, Probe, Reference, Variant, ViewImages,
+    measure_flicker, measure_seam,
 };
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions};
@@ -41,16 +41,16 @@ pub struct Measured {
     /// The numbers, without pictures.
     pub report: CaseReport,
     /// The pictures, if they were wanted.
-    pub pictures: Option<CasePictures>,
+    pub pictures: Option<CaseImages>,
 }
 
 /// What was looked at.
 #[derive(Clone, Debug)]
-pub struct CasePictures {
+pub struct CaseImages {
     /// What the technique draws, in colour.
     pub color: RenderedImage,
     /// What was compared.
-    pub compared: ViewPictures,
+    pub compared: ViewImages,
 }
 
 /// Measures a scene. `measured` gets what is found as soon as it is, and what it returns ends the work if it is an error.
@@ -60,16 +60,16 @@ pub struct CasePictures {
 /// GPU, or what `measured` returns.
 pub fn measure<E: From<Error>>(
     gpu: &Gpu,
-    subject: &Subject,
+    measured_scene: &MeasuredScene,
     task: &Task,
     measured: &mut dyn FnMut(Measured) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut run = Run { gpu, subject, task, benches: Vec::new(), light: None };
-    for (light_index, light) in subject.lights.iter().enumerate() {
+    let mut run = Run { gpu, measured_scene, task, benches: Vec::new(), light: None };
+    for (light_index, light) in measured_scene.lights.iter().enumerate() {
         run.turn_to(light)?;
-        for view in 0..subject.views.len() {
+        for view in 0..measured_scene.views.len() {
             let flickers = task.flicker_everywhere
-                || (light_index, view) == (subject.lights.len().saturating_sub(1) / 2, 0);
+                || (light_index, view) == (measured_scene.lights.len().saturating_sub(1) / 2, 0);
             let frames = if flickers { task.flicker_frames } else { 0 };
             for found in run.view(light, view, frames)? {
                 measured(found)?;
@@ -81,11 +81,11 @@ pub fn measure<E: From<Error>>(
 
 struct Run<'a> {
     gpu: &'a Gpu,
-    subject: &'a Subject,
+    measured_scene: &'a MeasuredScene,
     task: &'a Task,
     benches: Vec<Bench>,
-    /// The light that the benches show, and its instrument.
-    light: Option<(usize, Instrument<'a>)>,
+    /// The light that the benches show, and its comparator.
+    light: Option<(usize, Comparator<'a>)>,
 }
 
 /// What draws with one technique.
@@ -99,12 +99,12 @@ struct Bench {
 
 impl<'a> Run<'a> {
     /// Prepares for a light. Pipelines are made for a light's place in the list, so suns in turn share them.
-    fn turn_to(&mut self, light: &SubjectLight) -> Result<(), Error> {
+    fn turn_to(&mut self, light: &MeasuredLight) -> Result<(), Error> {
         if self.light.as_ref().is_none_or(|(index, _)| *index != light.index) {
             let benches = self.task.techniques.iter().map(|&technique| self.bench(technique, light));
             self.benches = benches.collect::<Result<_, _>>()?;
             let Some(first) = self.benches.first() else { return Ok(()) };
-            self.light = Some((light.index, Instrument::new(self.gpu, &first.visibility, light.index)?));
+            self.light = Some((light.index, Comparator::new(self.gpu, &first.visibility, light.index)?));
         }
         for bench in &mut self.benches {
             bench.visibility.set_lights(light.all.clone())?;
@@ -115,11 +115,11 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn bench(&self, technique: Technique, light: &SubjectLight) -> Result<Bench, Error> {
-        let mut scene = self.subject.scene.clone();
+    fn bench(&self, technique: Technique, light: &MeasuredLight) -> Result<Bench, Error> {
+        let mut scene = self.measured_scene.scene.clone();
         scene.lights.clone_from(&light.all);
         let eye = self
-            .subject
+            .measured_scene
             .views
             .first()
             .map_or_else(|| scene.framing_camera(1.0), |(_, camera)| camera.clone());
@@ -130,8 +130,9 @@ impl<'a> Run<'a> {
         Ok(Bench { technique, visibility, color, probe })
     }
 
-    fn view(&mut self, light: &SubjectLight, view: usize, frames: u32) -> Result<Vec<Measured>, Error> {
-        let (Some((_, instrument)), Some((name, camera))) = (&mut self.light, self.subject.views.get(view))
+    fn view(&mut self, light: &MeasuredLight, view: usize, frames: u32) -> Result<Vec<Measured>, Error> {
+        let (Some((_, comparator)), Some((name, camera))) =
+            (&mut self.light, self.measured_scene.views.get(view))
         else {
             return Ok(Vec::new());
         };
@@ -139,19 +140,25 @@ impl<'a> Run<'a> {
         let options = |settings: &ShadowSettings| {
             let own = ViewOptions { camera: camera.clone(), size_px: *size_px, shadows: settings.clone() };
             match distance {
-                Some(distance) => own.with_shadow_distance(*distance, &self.subject.scene),
+                Some(distance) => own.with_shadow_distance(*distance, &self.measured_scene.scene),
                 None => own,
             }
         };
         let Some(first) = self.benches.first_mut() else { return Ok(Vec::new()) };
-        let ground = instrument.ground(&mut first.visibility, &options(settings), *soft_rays)?;
+        let reference = comparator.reference(&mut first.visibility, &options(settings), *soft_rays)?;
         let mut found = Vec::with_capacity(self.benches.len() * (1 + variants.len()));
         for bench in &mut self.benches {
             let named = variants.iter().map(|variant| (Some(&variant.name), &variant.settings));
             for (variant, settings) in std::iter::once((None, settings)).chain(named) {
-                let mut measured =
-                    bench.measure(self.gpu, instrument, &ground, &options(settings), light.index, frames)?;
-                measured.report.scene.clone_from(&self.subject.name);
+                let mut measured = bench.measure(
+                    self.gpu,
+                    comparator,
+                    &reference,
+                    &options(settings),
+                    light.index,
+                    frames,
+                )?;
+                measured.report.scene.clone_from(&self.measured_scene.name);
                 measured.report.light.clone_from(&light.name);
                 measured.report.view.clone_from(name);
                 if let Some(variant) = variant {
@@ -170,15 +177,15 @@ impl Bench {
     fn measure(
         &mut self,
         gpu: &Gpu,
-        instrument: &Instrument<'_>,
-        ground: &Ground,
+        comparator: &Comparator<'_>,
+        reference: &Reference,
         options: &ViewOptions,
         light: usize,
         frames: u32,
     ) -> Result<Measured, Error> {
         let Compared { errors, edges, pictures } =
-            instrument.compare(&mut self.visibility, options, ground)?;
-        let (seam, cost) = measure_seam(gpu, &self.visibility, &self.probe, options, ground, light)?;
+            comparator.compare(&mut self.visibility, options, reference)?;
+        let (seam, cost) = measure_seam(gpu, &self.visibility, &self.probe, options, reference, light)?;
         let report = CaseReport {
             scene: String::new(),
             light: String::new(),
@@ -212,9 +219,9 @@ impl Bench {
         &mut self,
         gpu: &Gpu,
         options: &ViewOptions,
-        compared: ViewPictures,
-    ) -> Result<Option<CasePictures>, Error> {
+        compared: ViewImages,
+    ) -> Result<Option<CaseImages>, Error> {
         let Some(renderer) = &mut self.color else { return Ok(None) };
-        Ok(Some(CasePictures { color: renderer.draw(gpu, options)?.image, compared }))
+        Ok(Some(CaseImages { color: renderer.draw(gpu, options)?.image, compared }))
     }
 }

@@ -1,10 +1,10 @@
 //! How much cascades differ where one ends and the next begins, and what they cost.
 
-use super::instrument::texels;
+use super::comparator::texels;
 use super::metrics::{RECEIVER_N_DOT_L, Summary, seam};
 use super::report::Cost;
 use super::texels::NO_VIEW;
-use super::{Ground, Points, Probe, Question};
+use super::{Points, Probe, Query, Reference};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 use crate::Error;
@@ -12,7 +12,7 @@ use crate::Error;
 /// So near to a pixel of the next cascade a pixel is at the border, pixels.
 const BORDER_PX: usize = 2;
 
-/// Asks a technique twice at the surfaces of a view, once with the next coarser cascade, and compares the answers along
+/// Asks a technique twice at the surfaces of a view, once with the next coarser cascade, and compares the results along
 /// the borders of cascades. Returns `None` where there is no such border, and what one frame cost.
 ///
 /// # Errors
@@ -22,20 +22,20 @@ pub fn measure_seam(
     renderer: &Renderer,
     probe: &Probe,
     options: &ViewOptions,
-    ground: &Ground,
+    reference: &Reference,
     light: usize,
 ) -> Result<(Option<Summary>, Cost), Error> {
-    let points = Points::new(gpu, &ground.surfaces);
+    let points = Points::new(gpu, &reference.surfaces);
     let ask = |coarser| {
-        let question = Question { light: light as u32, coarser };
-        probe.ask(gpu, renderer, options, &points, question)
+        let query = Query { light: light as u32, coarser };
+        probe.ask(gpu, renderer, options, &points, query)
     };
     // The first compiles shaders on some drivers; the times are those of the second.
     let (own, coarser) = (ask(false)?, ask(true)?);
     // Those of the ground are of other settings, if variants are compared.
     let origin_world = renderer.casters().scene.origin_world();
-    let views = texels(renderer, options, &ground.surfaces, light, origin_world)?.views;
-    let is_border = |pixel: &usize| is_border(ground, &views, *pixel);
+    let views = texels(renderer, options, &reference.surfaces, light, origin_world)?.views;
+    let is_border = |pixel: &usize| is_border(reference, &views, *pixel);
     let border: Vec<usize> = (0..own.visibility.len()).filter(is_border).collect();
     let at = |values: &[f32]| border.iter().map(|&pixel| values[pixel]).collect::<Vec<_>>();
     let difference = seam(&at(&own.visibility), &at(&coarser.visibility))?;
@@ -43,10 +43,10 @@ pub fn measure_seam(
 }
 
 /// Whether a receiver lies near to one that a coarser cascade shades.
-fn is_border(ground: &Ground, views: &[u32], pixel: usize) -> bool {
-    let [width, height] = ground.surfaces.size_px.map(|side| side as usize);
+fn is_border(reference: &Reference, views: &[u32], pixel: usize) -> bool {
+    let [width, height] = reference.surfaces.size_px.map(|side| side as usize);
     let own = views[pixel];
-    let counts = ground.surfaces.is_drawn(pixel) && ground.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L;
+    let counts = reference.surfaces.is_drawn(pixel) && reference.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L;
     if !counts || own == NO_VIEW {
         return false;
     }

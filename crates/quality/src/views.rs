@@ -94,14 +94,14 @@ impl Finder {
             let (sin, cos) = (TAU * f64::from(way) / f64::from(WAYS)).sin_cos();
             DVec3::new(cos, 0.0, sin)
         });
-        let seen: Vec<_> = ways.filter_map(|way| Some((way, self.look(eye, way)?))).collect();
-        let behind = seen.iter().filter(|(_, seen)| seen.from_behind).count();
-        let tight = seen.iter().any(|(_, seen)| seen.free_m < 0.3 * height_m);
-        if tight || behind * 4 > seen.len() {
+        let samples: Vec<_> = ways.filter_map(|way| Some((way, self.look(eye, way)?))).collect();
+        let behind = samples.iter().filter(|(_, samples)| samples.from_behind).count();
+        let tight = samples.iter().any(|(_, samples)| samples.free_m < 0.3 * height_m);
+        if tight || behind * 4 > samples.len() {
             return None;
         }
-        let fronts = seen.into_iter().filter(|(_, seen)| !seen.from_behind);
-        fronts.map(|(way, seen)| (way, seen.free_m)).max_by(|a, b| a.1.total_cmp(&b.1))
+        let fronts = samples.into_iter().filter(|(_, samples)| !samples.from_behind);
+        fronts.map(|(way, samples)| (way, samples.free_m)).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The next surface; `None`: there is none.

@@ -8,7 +8,7 @@ use shadowgraph::shadows::{BiasSettings, PCF, ShadowSettings, SplitScheme};
 use shadowgraph::{Renderer, ViewOptions};
 use shadowgraph_quality::report::Motion;
 use shadowgraph_quality::{
-    Instrument, Points, Probe, Question, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
+    Comparator, Points, Probe, Query, ViewErrors, built_in_cases, measure_flicker, measure_seam, metrics,
 };
 use shadowgraph_samples::test_scenes::test_scene;
 
@@ -21,8 +21,8 @@ fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
     scene.add_light(case.sun(30.0));
     let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
-    let mut instrument = Instrument::new(gpu, &renderer, 0).unwrap();
-    let compared = instrument.measure(&mut renderer, &options).unwrap();
+    let mut comparator = Comparator::new(gpu, &renderer, 0).unwrap();
+    let compared = comparator.measure(&mut renderer, &options).unwrap();
     assert_eq!(compared.pictures.errors_rgba8().len(), (SIZE_PX[0] * SIZE_PX[1] * 4) as usize);
     Some(compared.errors)
 }
@@ -37,9 +37,12 @@ fn the_shadow_of_a_cube_is_close_to_ground_truth() {
     let (outside, total) = (errors.misclassified.outside, errors.misclassified.total);
     assert!(total.receivers > 30_000, "{total:?}");
     assert_eq!((outside.acne, outside.leak), (0, 0), "{outside:?}");
-    assert!(total.wrong_percent < 0.1 && errors.mean_error.outside_percent < 0.05, "{errors:?}");
-    assert!(errors.lost_contacts.contacts > 100 && errors.lost_contacts.lost_percent < 5.0, "{errors:?}");
-    assert!(errors.detachment.cm.count > 20 && errors.detachment.cm.mean < 2.0, "{errors:?}");
+    assert!(total.misclassified_percent < 0.1 && errors.mean_error.outside_percent < 0.05, "{errors:?}");
+    assert!(
+        errors.missing_contacts.contacts > 100 && errors.missing_contacts.missing_percent < 5.0,
+        "{errors:?}"
+    );
+    assert!(errors.peter_panning.cm.count > 20 && errors.peter_panning.cm.mean < 2.0, "{errors:?}");
 }
 
 #[test]
@@ -70,9 +73,9 @@ fn a_large_bias_is_measured_as_peter_panning_and_missing_contacts() {
     };
     let Some(errors) = coarse(bias) else { return };
     let good = coarse(BiasSettings::default()).unwrap();
-    assert!(errors.detachment.cm.mean > 4.0 * good.detachment.cm.mean.max(1.0), "{errors:?} {good:?}");
+    assert!(errors.peter_panning.cm.mean > 4.0 * good.peter_panning.cm.mean.max(1.0), "{errors:?} {good:?}");
     assert!(
-        errors.lost_contacts.lost_percent > 2.0 * good.lost_contacts.lost_percent.max(5.0),
+        errors.missing_contacts.missing_percent > 2.0 * good.missing_contacts.missing_percent.max(5.0),
         "{errors:?} {good:?}"
     );
 }
@@ -91,12 +94,12 @@ fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<
     camera.world_from_view.translation += offset;
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
-    let mut instrument = Instrument::new(gpu, &renderer, 0).unwrap();
-    let ground = instrument.ground(&mut renderer, &options, 0).unwrap();
-    let (probe, points) = (Probe::new(gpu, &renderer).unwrap(), Points::new(gpu, &ground.surfaces));
-    let question = Question { light: 0, coarser: false };
-    let answers = probe.ask(gpu, &renderer, &options, &points, question).unwrap();
-    (answers.visibility, ground.truth.hard)
+    let mut comparator = Comparator::new(gpu, &renderer, 0).unwrap();
+    let reference = comparator.reference(&mut renderer, &options, 0).unwrap();
+    let (probe, points) = (Probe::new(gpu, &renderer).unwrap(), Points::new(gpu, &reference.surfaces));
+    let query = Query { light: 0, coarser: false };
+    let results = probe.ask(gpu, &renderer, &options, &points, query).unwrap();
+    (results.visibility, reference.truth.hard)
 }
 
 #[test]
@@ -134,9 +137,10 @@ fn cascades_of_different_resolution_are_measured_at_their_seam() {
     let seam = |shadows: ShadowSettings| {
         let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
         let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Visibility(0)).unwrap();
-        let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, &options, 0).unwrap();
+        let reference =
+            Comparator::new(gpu, &renderer, 0).unwrap().reference(&mut renderer, &options, 0).unwrap();
         let probe = Probe::new(gpu, &renderer).unwrap();
-        let (seam, cost) = measure_seam(gpu, &renderer, &probe, &options, &ground, 0).unwrap();
+        let (seam, cost) = measure_seam(gpu, &renderer, &probe, &options, &reference, 0).unwrap();
         assert!(cost.draws > 0 && cost.triangles > 500 && cost.texture_bytes >= 4096 * 2048 * 4, "{cost:?}");
         seam.unwrap()
     };

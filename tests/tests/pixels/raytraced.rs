@@ -7,7 +7,7 @@ use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene,
 use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
-use shadowgraph_quality::{RayLight, SurfaceReader, Surfaces, Truth, built_in_cases};
+use shadowgraph_quality::{GroundTruth, RayLight, SurfaceReader, Surfaces, built_in_cases};
 use shadowgraph_samples::test_scenes::test_scene;
 
 /// The mask and the image have 8 bits each.
@@ -49,13 +49,13 @@ impl Traced {
     }
 
     fn unlike_the_cpu(&self) -> (usize, usize) {
-        let truth = Truth::trace(&self.rays, &self.surfaces, &self.light, self.eye);
+        let truth = GroundTruth::trace(&self.rays, &self.surfaces, &self.light, self.eye);
         self.unlike(&truth.hard, &truth.n_dot_l)
     }
 
     /// Tests every triangle.
     fn unlike_brute_force(&self) -> (usize, usize) {
-        let n_dot_l = Truth::trace(&self.rays, &self.surfaces, &self.light, self.eye).n_dot_l;
+        let n_dot_l = GroundTruth::trace(&self.rays, &self.surfaces, &self.light, self.eye).n_dot_l;
         let truth = (0..n_dot_l.len()).map(|pixel| {
             let position = self.surfaces.positions[pixel];
             let receiver = ReceiverPoint {

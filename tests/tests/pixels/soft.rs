@@ -6,7 +6,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::shadows::{PCSS, PcssSettings};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
-use shadowgraph_quality::Instrument;
+use shadowgraph_quality::Comparator;
 
 /// Returns a plate above a floor, its edge above x = 0, under a light.
 fn plate(height_m: f64, light: Light) -> Scene {
@@ -37,9 +37,9 @@ fn fine() -> PcssSettings {
 fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
     let aov = Aov::Visibility(0);
     let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
-    let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, options, 0).unwrap();
+    let reference = Comparator::new(gpu, &renderer, 0).unwrap().reference(&mut renderer, options, 0).unwrap();
     let picture = renderer.draw(gpu, options).unwrap().image;
-    let pixels = ground.surfaces.positions.iter().zip(picture.rgba8.chunks_exact(4));
+    let pixels = reference.surfaces.positions.iter().zip(picture.rgba8.chunks_exact(4));
     let between = pixels.filter(|(_, rgba)| rgba[3] == 255 && (26..=229).contains(&rgba[0]));
     let mut between: Vec<f32> = between.map(|(position, _)| position.x).collect();
     between.sort_by(f32::total_cmp);

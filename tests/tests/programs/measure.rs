@@ -69,7 +69,7 @@ fn the_output_directory_gets_a_page_with_images_and_a_report() {
     let left: Vec<_> = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 3, "{left:?}");
     // `none` lights everything: all shadowed pixels are misclassified.
-    assert!(report.cases[1].errors.lost_contacts.lost_percent > 99.0);
+    assert!(report.cases[1].errors.missing_contacts.missing_percent > 99.0);
 }
 
 #[test]

@@ -7,12 +7,12 @@
 
 mod by_hand;
 mod objects;
-mod spread;
+mod stats;
 
 #[cfg(test)]
 mod tests;
 
-pub use spread::Spread;
+pub use stats::Stats;
 
 use std::time::{Duration, Instant};
 
@@ -78,19 +78,19 @@ pub struct Comparison {
 
 impl Comparison {
     /// Returns how many times as long as by hand the graph takes, frame by frame.
-    pub fn ratio(&self) -> Spread {
+    pub fn ratio(&self) -> Stats {
         self.ratio_less(|_| Duration::ZERO)
     }
 
     /// Returns the same with the planning of shadows taken off both sides.
-    pub fn ratio_without_planning(&self) -> Spread {
+    pub fn ratio_without_planning(&self) -> Stats {
         self.ratio_less(|by_hand| by_hand.plan)
     }
 
-    fn ratio_less(&self, of_both: impl Fn(&FrameTime) -> Duration) -> Spread {
+    fn ratio_less(&self, of_both: impl Fn(&FrameTime) -> Duration) -> Stats {
         let less = |time: &FrameTime, by_hand| time.total().saturating_sub(of_both(by_hand)).as_secs_f64();
         let ratio = |(graph, by_hand)| less(graph, by_hand) / less(by_hand, by_hand).max(f64::MIN_POSITIVE);
-        Spread::of(self.graph.iter().zip(&self.by_hand).map(ratio))
+        Stats::of(self.graph.iter().zip(&self.by_hand).map(ratio))
     }
 }
 

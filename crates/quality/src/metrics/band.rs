@@ -1,6 +1,6 @@
 //! The pixels at edges, where a shadow map can be wrong by its resolution alone.
 
-use super::Seen;
+use super::Samples;
 use super::distance::squared_distances;
 use super::surface::parted;
 
@@ -50,9 +50,9 @@ impl Band {
 /// band        # #|# #
 /// ```
 #[must_use]
-pub fn band(seen: &Seen<'_>) -> Band {
-    let distances = squared_distances(&at_edges(seen), seen.width);
-    let inside = distances.iter().zip(seen.images.texel_px).map(|(&squared_px, &texel_px)| {
+pub fn band(samples: &Samples<'_>) -> Band {
+    let distances = squared_distances(&at_edges(samples), samples.width);
+    let inside = distances.iter().zip(samples.images.texel_px).map(|(&squared_px, &texel_px)| {
         let reach_px = BAND_PX.max(BAND_TEXELS * texel_px) - 0.5;
         squared_px <= reach_px * reach_px
     });
@@ -60,28 +60,28 @@ pub fn band(seen: &Seen<'_>) -> Band {
 }
 
 /// Marks the pixels on both sides of each edge.
-fn at_edges(seen: &Seen<'_>) -> Vec<bool> {
-    let mut marked = vec![false; seen.len()];
+fn at_edges(samples: &Samples<'_>) -> Vec<bool> {
+    let mut marked = vec![false; samples.len()];
     let mut mark = |pixel: usize, next: usize| {
-        if is_edge(seen, pixel, next) {
+        if is_edge(samples, pixel, next) {
             marked[pixel] = true;
             marked[next] = true;
         }
     };
-    for y in 0..seen.height {
-        for pixel in y * seen.width..(y + 1) * seen.width {
-            if pixel + 1 < (y + 1) * seen.width {
+    for y in 0..samples.height {
+        for pixel in y * samples.width..(y + 1) * samples.width {
+            if pixel + 1 < (y + 1) * samples.width {
                 mark(pixel, pixel + 1);
             }
-            if y + 1 < seen.height {
-                mark(pixel, pixel + seen.width);
+            if y + 1 < samples.height {
+                mark(pixel, pixel + samples.width);
             }
         }
     }
     marked
 }
 
-fn is_edge(seen: &Seen<'_>, a: usize, b: usize) -> bool {
-    let truth_changes = seen.is_truly_dark(a) != seen.is_truly_dark(b);
-    (truth_changes && seen.is_receiver(a) && seen.is_receiver(b)) || parted(seen, a, b)
+fn is_edge(samples: &Samples<'_>, a: usize, b: usize) -> bool {
+    let truth_changes = samples.is_truly_dark(a) != samples.is_truly_dark(b);
+    (truth_changes && samples.is_receiver(a) && samples.is_receiver(b)) || parted(samples, a, b)
 }

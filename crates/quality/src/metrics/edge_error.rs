@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::Seen;
+use super::Samples;
 use super::surface::parted;
 
 /// The soft truths that are neither fully dark nor fully lit.
@@ -37,24 +37,24 @@ pub struct EdgeError {
 /// slanted edge is wider along a row but crossed by fewer, so every metre of edge weighs the same, and the
 /// slant drops out of the ratio.
 #[must_use]
-pub fn edge_error(seen: &Seen<'_>) -> Option<EdgeError> {
-    let soft_truth = seen.images.soft_truth?;
+pub fn edge_error(samples: &Samples<'_>) -> Option<EdgeError> {
+    let soft_truth = samples.images.soft_truth?;
     let mut result = EdgeError::default();
     let mut squared = 0.0;
-    for pixel in seen.receivers().filter(|&pixel| soft_truth[pixel] > PENUMBRA.start) {
+    for pixel in samples.receivers().filter(|&pixel| soft_truth[pixel] > PENUMBRA.start) {
         if soft_truth[pixel] < PENUMBRA.end {
             result.penumbra += 1;
-            squared += f64::from(seen.images.visibility[pixel] - soft_truth[pixel]).powi(2);
+            squared += f64::from(samples.images.visibility[pixel] - soft_truth[pixel]).powi(2);
         }
     }
     result.rmse = (squared / result.penumbra.max(1) as f64).sqrt();
     let mut widths_px = [0.0, 0.0];
-    let rows = (0..seen.height).map(|y| Vec::from_iter(y * seen.width..(y + 1) * seen.width));
-    let columns = (0..seen.width).map(|x| Vec::from_iter((x..seen.len()).step_by(seen.width)));
+    let rows = (0..samples.height).map(|y| Vec::from_iter(y * samples.width..(y + 1) * samples.width));
+    let columns = (0..samples.width).map(|x| Vec::from_iter((x..samples.len()).step_by(samples.width)));
     for line in rows.chain(columns) {
-        for run in line.chunk_by(|&a, &b| goes_on(seen, a, b)).filter(|run| seen.is_receiver(run[0])) {
+        for run in line.chunk_by(|&a, &b| goes_on(samples, a, b)).filter(|run| samples.is_receiver(run[0])) {
             let truth: Vec<f32> = run.iter().map(|&pixel| soft_truth[pixel]).collect();
-            let measured: Vec<f32> = run.iter().map(|&pixel| seen.images.visibility[pixel]).collect();
+            let measured: Vec<f32> = run.iter().map(|&pixel| samples.images.visibility[pixel]).collect();
             add_widths(&truth, &measured, &mut widths_px, &mut result);
         }
     }
@@ -62,8 +62,8 @@ pub fn edge_error(seen: &Seen<'_>) -> Option<EdgeError> {
     Some(result)
 }
 
-fn goes_on(seen: &Seen<'_>, a: usize, b: usize) -> bool {
-    seen.is_receiver(a) && seen.is_receiver(b) && !parted(seen, a, b)
+fn goes_on(samples: &Samples<'_>, a: usize, b: usize) -> bool {
+    samples.is_receiver(a) && samples.is_receiver(b) && !parted(samples, a, b)
 }
 
 /// Adds the true and the measured width at each crossing of a run.

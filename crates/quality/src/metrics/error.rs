@@ -14,7 +14,7 @@ pub enum MetricsError {
         /// How long it has to be.
         needs: usize,
     },
-    /// A number that would count as right or be left out without being seen.
+    /// A number that would count as right or be left out without being samples.
     #[error("`{list}` has a number at {index} that is not allowed; allowed: {allowed}")]
     Value {
         /// The name of the list.

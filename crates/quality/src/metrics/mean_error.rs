@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::statistics::mean;
-use super::{Band, Seen};
+use super::{Band, Samples};
 
 /// The mean of |visibility - truth| over receivers, with those in the band and without.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -16,10 +16,10 @@ pub struct MeanError {
 
 /// Measures the mean error against hard truth.
 #[must_use]
-pub fn mean_error(seen: &Seen<'_>, band: &Band) -> MeanError {
-    let outside = seen.receivers().filter(|&pixel| !band.contains(pixel));
+pub fn mean_error(samples: &Samples<'_>, band: &Band) -> MeanError {
+    let outside = samples.receivers().filter(|&pixel| !band.contains(pixel));
     MeanError {
-        outside_percent: 100.0 * mean(outside.map(|pixel| seen.error(pixel))),
-        total_percent: 100.0 * mean(seen.receivers().map(|pixel| seen.error(pixel))),
+        outside_percent: 100.0 * mean(outside.map(|pixel| samples.error(pixel))),
+        total_percent: 100.0 * mean(samples.receivers().map(|pixel| samples.error(pixel))),
     }
 }

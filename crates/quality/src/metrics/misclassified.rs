@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::statistics::percent;
-use super::{Band, RECEIVER_N_DOT_L, Seen};
+use super::{Band, RECEIVER_N_DOT_L, Samples};
 
 /// Where the bins of N·L begin; each ends where the next one begins, the last one at 1.
 pub const N_DOT_L_BINS: [f32; 4] = [RECEIVER_N_DOT_L, 0.1, 0.25, 0.5];
@@ -29,7 +29,8 @@ pub struct Wrong {
     /// How many are lit but truly dark.
     pub leak: usize,
     /// `wrong` in percent of `receivers`; 0 if there are none.
-    pub wrong_percent: f64,
+    #[serde(rename = "wrong_percent")]
+    pub misclassified_percent: f64,
     /// `acne` in percent of `receivers`; 0 if there are none.
     pub acne_percent: f64,
     /// `leak` in percent of `receivers`; 0 if there are none.
@@ -53,32 +54,32 @@ pub struct AcneBin {
 
 /// Counts wrong receivers, outside the band and in total.
 #[must_use]
-pub fn misclassified(seen: &Seen<'_>, band: &Band) -> Misclassified {
+pub fn misclassified(samples: &Samples<'_>, band: &Band) -> Misclassified {
     Misclassified {
-        outside: wrong(seen, seen.receivers().filter(|&pixel| !band.contains(pixel))),
-        total: wrong(seen, seen.receivers()),
+        outside: wrong(samples, samples.receivers().filter(|&pixel| !band.contains(pixel))),
+        total: wrong(samples, samples.receivers()),
     }
 }
 
-fn wrong(seen: &Seen<'_>, receivers: impl Iterator<Item = usize>) -> Wrong {
+fn wrong(samples: &Samples<'_>, receivers: impl Iterator<Item = usize>) -> Wrong {
     let mut counts = Wrong::default();
     for (bin, n_dot_l) in counts.acne_by_n_dot_l.iter_mut().zip(N_DOT_L_BINS) {
         bin.n_dot_l_above = n_dot_l;
     }
     for pixel in receivers {
-        let wrong = seen.is_wrong(pixel);
-        let acne = wrong && !seen.is_truly_dark(pixel);
+        let wrong = samples.is_wrong(pixel);
+        let acne = wrong && !samples.is_truly_dark(pixel);
         counts.receivers += 1;
         counts.wrong += usize::from(wrong);
         counts.acne += usize::from(acne);
-        let n_dot_l = seen.images.n_dot_l[pixel];
+        let n_dot_l = samples.images.n_dot_l[pixel];
         if let Some(bin) = counts.acne_by_n_dot_l.iter_mut().rfind(|bin| n_dot_l > bin.n_dot_l_above) {
             bin.receivers += 1;
             bin.acne += usize::from(acne);
         }
     }
     counts.leak = counts.wrong - counts.acne;
-    counts.wrong_percent = percent(counts.wrong, counts.receivers);
+    counts.misclassified_percent = percent(counts.wrong, counts.receivers);
     counts.acne_percent = percent(counts.acne, counts.receivers);
     counts.leak_percent = percent(counts.leak, counts.receivers);
     for bin in &mut counts.acne_by_n_dot_l {

@@ -1,6 +1,6 @@
 //! Compares measured shadows with ray-traced truth.
 //!
-//! [`Seen`] is one view of one light: what the camera sees, what a technique says of it, and the truth. Each
+//! [`Samples`] is one view of one light: what the camera sees, what a technique says of it, and the truth. Each
 //! metric is a pure function of it; [`flicker`] and [`seam`] are functions of visibilities at world points.
 //!
 //! Two words in all of them: a *receiver* is a pixel with something drawn and N·L above
@@ -12,30 +12,30 @@
 //! ```
 
 mod band;
-mod detachment;
 mod distance;
 mod edge_error;
 mod error;
 mod flicker;
-mod lost_contacts;
 mod mean_error;
 mod misclassified;
+mod missing_contacts;
+mod peter_panning;
+mod samples;
 mod seam;
-mod seen;
 mod statistics;
 mod surface;
 #[cfg(test)]
 mod tests;
 
 pub use band::{BAND_PX, BAND_TEXELS, Band, band};
-pub use detachment::{CONTACT_M, Detachment, detachment};
 pub use edge_error::{EdgeError, PENUMBRA, edge_error};
 pub use error::MetricsError;
 pub use flicker::flicker;
-pub use lost_contacts::{LostContacts, NEAR_BLOCKER_M, lost_contacts};
 pub use mean_error::{MeanError, mean_error};
 pub use misclassified::{AcneBin, Misclassified, N_DOT_L_BINS, Wrong, misclassified};
+pub use missing_contacts::{MissingContacts, NEAR_BLOCKER_M, missing_contacts};
+pub use peter_panning::{CONTACT_M, PeterPanning, peter_panning};
+pub use samples::{Images, RECEIVER_N_DOT_L, Samples, TowardsLight};
 pub use seam::seam;
-pub use seen::{Images, RECEIVER_N_DOT_L, Seen, TowardsLight};
 pub use statistics::{Summary, percentile};
 pub use surface::{CREASE_COS, STEP_PX};

@@ -1,6 +1,6 @@
 //! Which neighbouring pixels show the same piece of surface.
 
-use super::Seen;
+use super::Samples;
 
 /// The cosine of 10 degrees: where the normals of neighbours differ by more, there is a crease.
 pub const CREASE_COS: f32 = 0.984_807_8;
@@ -18,11 +18,11 @@ const NORMAL_ROUNDING: f32 = 1e-3;
 /// however far neighbours are apart. With d from one position to the other and normals a and b, it is where
 /// |a·d| or |b·d| is above `STEP_PX` times the side of a pixel at the nearer of the two depths, plus |d| (|a
 /// - b| + 0.001): a smooth bend from a to b explains |d| |a - b| / 2.
-pub(super) fn parted(seen: &Seen<'_>, a: usize, b: usize) -> bool {
-    if !seen.is_drawn(a) || !seen.is_drawn(b) {
-        return seen.is_drawn(a) != seen.is_drawn(b);
+pub(super) fn parted(samples: &Samples<'_>, a: usize, b: usize) -> bool {
+    if !samples.is_drawn(a) || !samples.is_drawn(b) {
+        return samples.is_drawn(a) != samples.is_drawn(b);
     }
-    let images = &seen.images;
+    let images = &samples.images;
     let (normal_a, normal_b) = (images.geometric_normals[a], images.geometric_normals[b]);
     if normal_a.dot(normal_b) < CREASE_COS {
         return true;

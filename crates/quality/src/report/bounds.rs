@@ -118,20 +118,22 @@ mod tests {
     #[test]
     fn a_report_within_its_bounds_breaks_none() {
         let report = fixture::report(&[("pcf", 1.0), ("pcf", 3.0)]);
-        let text = r#"(bounds: [(technique: "pcf", metric: "wrong_percent", mean: 2.0, worst: 3.0)])"#;
+        let text =
+            r#"(bounds: [(technique: "pcf", metric: "misclassified_percent", mean: 2.0, worst: 3.0)])"#;
         assert_eq!(bounds(text).unwrap().broken_by(&report), Vec::<String>::new());
     }
 
     #[test]
     fn what_got_worse_is_named_with_its_case() {
         let report = fixture::report(&[("pcf", 1.0), ("pcf", 3.0), ("other", 9.0)]);
-        let text = r#"(bounds: [(technique: "pcf", metric: "wrong_percent", mean: 1.9, worst: 2.9999)])"#;
+        let text =
+            r#"(bounds: [(technique: "pcf", metric: "misclassified_percent", mean: 1.9, worst: 2.9999)])"#;
         let broken = bounds(text).unwrap().broken_by(&report);
         assert_eq!(
             broken,
             [
-                "pcf wrong_percent: mean 2.000 is beyond the bound 1.9",
-                "pcf wrong_percent: worst 3 (tower, sun 15, view 1) is beyond the bound 2.9999",
+                "pcf misclassified_percent: mean 2.000 is beyond the bound 1.9",
+                "pcf misclassified_percent: worst 3 (tower, sun 15, view 1) is beyond the bound 2.9999",
             ]
         );
     }
@@ -142,8 +144,8 @@ mod tests {
         report.cases[0].seam = None;
         let text = r#"(bounds: [
             (technique: "pcf", metric: "seam", mean: 1),
-            (technique: "evsm", metric: "wrong_percent", worst: 1),
-            (technique: "pcf", metric: "wrong_percent", worst: 1),
+            (technique: "evsm", metric: "misclassified_percent", worst: 1),
+            (technique: "pcf", metric: "misclassified_percent", worst: 1),
         ])"#;
         let broken = bounds(text).unwrap().broken_by(&report);
         assert_eq!(broken.len(), 3, "{broken:?}");
@@ -154,7 +156,7 @@ mod tests {
     fn wrong_bounds_are_refused_in_one_line() {
         let error = bounds(r#"(bounds: [(technique: "pcf", metric: "blur", worst: 1)])"#).unwrap_err();
         assert!(
-            error.starts_with("my.ron:1:11: there is no metric `blur`; there is: wrong_percent, "),
+            error.starts_with("my.ron:1:11: there is no metric `blur`; there is: misclassified_percent, "),
             "{error}"
         );
         for (given, expected) in [

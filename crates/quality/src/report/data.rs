@@ -51,7 +51,7 @@ pub struct CaseReport {
     /// What its shadows cost.
     pub cost: Option<Cost>,
     /// The files of its pictures, if they were written.
-    pub pictures: Option<PictureFiles>,
+    pub pictures: Option<ImageFiles>,
 }
 
 /// How much shadows change during one motion of the camera.
@@ -91,7 +91,7 @@ pub struct Cost {
 
 /// Pictures of a case, as paths from the page's folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PictureFiles {
+pub struct ImageFiles {
     /// What the technique draws, in colour.
     pub picture: String,
     /// The ray-traced truth: white lit, black in shadow.

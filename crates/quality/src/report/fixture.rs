@@ -1,8 +1,10 @@
 //! Reports that tests are made of.
 
-use super::data::{CaseReport, Cost, Flicker, Motion, PictureFiles, Report};
+use super::data::{CaseReport, Cost, Flicker, ImageFiles, Motion, Report};
 use crate::ViewErrors;
-use crate::metrics::{Detachment, EdgeError, LostContacts, MeanError, Misclassified, N_DOT_L_BINS, Summary};
+use crate::metrics::{
+    EdgeError, MeanError, Misclassified, MissingContacts, N_DOT_L_BINS, PeterPanning, Summary,
+};
 use shadowgraph_shadows::ShadowSettings;
 
 /// A report of a case for each technique and percentage of wrong pixels, with all other values there too.
@@ -17,7 +19,7 @@ pub(super) fn report(cases: &[(&str, f64)]) -> Report {
     }
 }
 
-fn case(index: usize, technique: &str, wrong_percent: f64) -> CaseReport {
+fn case(index: usize, technique: &str, misclassified_percent: f64) -> CaseReport {
     let some = Summary { count: 10, mean: 0.5, p99: 0.75 };
     let flicker = |motion, far_out| Flicker { motion, far_out, change: some };
     CaseReport {
@@ -25,7 +27,7 @@ fn case(index: usize, technique: &str, wrong_percent: f64) -> CaseReport {
         light: "sun 15".into(),
         view: format!("view {index}"),
         technique: technique.into(),
-        errors: errors(wrong_percent, some),
+        errors: errors(misclassified_percent, some),
         edges: Some(EdgeError {
             penumbra: 9,
             rmse: 0.25,
@@ -36,7 +38,7 @@ fn case(index: usize, technique: &str, wrong_percent: f64) -> CaseReport {
         seam: Some(some),
         flicker: vec![flicker(Motion::Translate, true), flicker(Motion::Zoom, false)],
         cost: Some(Cost { gpu_ms: Some(1.25), texture_bytes: 64 << 20, draws: 20, triangles: 123_456 }),
-        pictures: Some(PictureFiles {
+        pictures: Some(ImageFiles {
             picture: format!("pictures/{index}/picture.png"),
             truth: format!("pictures/{index}/truth.png"),
             visibility: format!("pictures/{index}/visibility.png"),
@@ -45,16 +47,16 @@ fn case(index: usize, technique: &str, wrong_percent: f64) -> CaseReport {
     }
 }
 
-fn errors(wrong_percent: f64, some: Summary) -> ViewErrors {
+fn errors(misclassified_percent: f64, some: Summary) -> ViewErrors {
     let mut misclassified = Misclassified::default();
-    misclassified.outside.wrong_percent = wrong_percent;
+    misclassified.outside.misclassified_percent = misclassified_percent;
     for (bin, above) in misclassified.outside.acne_by_n_dot_l.iter_mut().zip(N_DOT_L_BINS) {
         bin.n_dot_l_above = above;
     }
     ViewErrors {
         misclassified,
         mean_error: MeanError::default(),
-        lost_contacts: LostContacts { contacts: 40, lost: 10, lost_percent: 25.0 },
-        detachment: Detachment { cm: some, texels: some, lost: 0 },
+        missing_contacts: MissingContacts { contacts: 40, missing: 10, missing_percent: 25.0 },
+        peter_panning: PeterPanning { cm: some, texels: some, lost: 0 },
     }
 }

@@ -19,11 +19,11 @@ pub struct Metric {
 /// All of them, in the order of tables. Of all, less is better, but of `edge_width_ratio`, where 1 is right.
 pub const METRICS: &[Metric] = &[
     Metric {
-        name: "wrong_percent",
+        name: "misclassified_percent",
         heading: ["wrong", "%"],
         about: "Receivers outside the band whose visibility is on the wrong side of one half, percent.",
         decimals: 3,
-        of: |case| Some(case.errors.misclassified.outside.wrong_percent),
+        of: |case| Some(case.errors.misclassified.outside.misclassified_percent),
     },
     Metric {
         name: "leak_percent",
@@ -40,11 +40,11 @@ pub const METRICS: &[Metric] = &[
         of: |case| Some(acne_pixels(case) as f64),
     },
     Metric {
-        name: "wrong_total_percent",
+        name: "misclassified_total_percent",
         heading: ["total", "%"],
         about: "Receivers on the wrong side of one half, those in the band too, percent.",
         decimals: 2,
-        of: |case| Some(case.errors.misclassified.total.wrong_percent),
+        of: |case| Some(case.errors.misclassified.total.misclassified_percent),
     },
     Metric {
         name: "mean_error_percent",
@@ -54,32 +54,32 @@ pub const METRICS: &[Metric] = &[
         of: |case| Some(case.errors.mean_error.outside_percent),
     },
     Metric {
-        name: "lost_contacts_percent",
-        heading: ["lost", "cont %"],
+        name: "missing_contacts_percent",
+        heading: ["missing", "cont %"],
         about: "Of truly dark receivers whose blocker is nearer than 25 cm, the lit ones, percent.",
         decimals: 1,
         of: |case| {
-            let lost = &case.errors.lost_contacts;
-            (lost.contacts > 0).then_some(lost.lost_percent)
+            let missing = &case.errors.missing_contacts;
+            (missing.contacts > 0).then_some(missing.missing_percent)
         },
     },
     Metric {
-        name: "detachment_texels",
+        name: "peter_panning_texels",
         heading: ["detach", "texels"],
         about: "Mean way from contacts to the first shadowed pixel, shadow texels.",
         decimals: 2,
         of: |case| {
-            let texels = &case.errors.detachment.texels;
+            let texels = &case.errors.peter_panning.texels;
             (texels.count > 0).then_some(texels.mean)
         },
     },
     Metric {
-        name: "detachment_cm",
+        name: "peter_panning_cm",
         heading: ["detach", "cm"],
         about: "Mean way from contacts to the first shadowed pixel, centimetres.",
         decimals: 2,
         of: |case| {
-            let cm = &case.errors.detachment.cm;
+            let cm = &case.errors.peter_panning.cm;
             (cm.count > 0).then_some(cm.mean)
         },
     },
@@ -149,9 +149,19 @@ pub const METRICS: &[Metric] = &[
     },
 ];
 
+/// Earlier names of metrics, which files of bounds may still use.
+const OLD_NAMES: [(&str, &str); 5] = [
+    ("wrong_percent", "misclassified_percent"),
+    ("wrong_total_percent", "misclassified_total_percent"),
+    ("lost_contacts_percent", "missing_contacts_percent"),
+    ("detachment_texels", "peter_panning_texels"),
+    ("detachment_cm", "peter_panning_cm"),
+];
+
 /// Returns a metric by its name.
 #[must_use]
 pub fn metric(name: &str) -> Option<&'static Metric> {
+    let name = OLD_NAMES.iter().find(|(old, _)| *old == name).map_or(name, |(_, name)| name);
     METRICS.iter().find(|metric| metric.name == name)
 }
 

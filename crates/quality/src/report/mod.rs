@@ -10,7 +10,7 @@ mod summary;
 mod table;
 
 pub use bounds::{Bound, Bounds};
-pub use data::{CaseReport, Cost, Flicker, Motion, PictureFiles, Report};
+pub use data::{CaseReport, Cost, Flicker, ImageFiles, Motion, Report};
 pub use metric::{METRICS, Metric, metric};
 pub use page::page;
 pub use summary::{Compared, compared, mean, measured, off, techniques, worst};

@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn the_first_of_several_worst_cases_is_named_and_only_those_of_the_technique_count() {
         let report = fixture::report(&[("other", 9.0), ("pcf", 1.0), ("pcf", 5.0), ("pcf", 5.0)]);
-        let (case, value) = worst(&report, "pcf", metric("wrong_percent").unwrap()).unwrap();
+        let (case, value) = worst(&report, "pcf", metric("misclassified_percent").unwrap()).unwrap();
         assert!(std::ptr::eq(case, &raw const report.cases[2]));
         assert_eq!(value, 5.0);
     }
@@ -141,7 +141,7 @@ mod tests {
         for (index, case) in report.cases.iter_mut().enumerate() {
             case.view = format!("view {}", index / 2);
         }
-        let wrong = metric("wrong_percent").unwrap();
+        let wrong = metric("misclassified_percent").unwrap();
         assert_eq!(compared(&report, "a", "pcf", wrong), Compared { cases: 3, better: 1, equal: 1 });
         report.cases.remove(0);
         assert_eq!(compared(&report, "a", "pcf", wrong), Compared { cases: 2, better: 0, equal: 1 });

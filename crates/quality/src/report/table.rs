@@ -17,10 +17,10 @@ const GAP: &str = "  ";
 
 /// The metrics that there is no room for.
 const ONLY_ON_THE_PAGE: &[&str] =
-    &["leak_percent", "detachment_cm", "edge_width_ratio", "flicker_zoom", "triangles"];
+    &["leak_percent", "peter_panning_cm", "edge_width_ratio", "flicker_zoom", "triangles"];
 
 /// The metrics whose worst cases are named.
-const WORST_CASES_OF: &[&str] = &["wrong_percent", "mean_error_percent", "lost_contacts_percent"];
+const WORST_CASES_OF: &[&str] = &["misclassified_percent", "mean_error_percent", "missing_contacts_percent"];
 
 /// Returns a report as a table for a terminal, at most 130 columns wide: a row for each case, the mean and the worst
 /// of each technique, and which cases are the worst. Long names are cut.
@@ -83,7 +83,8 @@ fn summary_rows(report: &Report, metrics: &[&Metric]) -> Vec<Row> {
 /// In how many cases techniques have fewer pixels on the wrong side than the first one; nothing where there is but one.
 fn comparison(report: &Report, technique_width: usize) -> String {
     let techniques = techniques(report);
-    let (Some((first, others)), Some(metric)) = (techniques.split_first(), metric("wrong_total_percent"))
+    let (Some((first, others)), Some(metric)) =
+        (techniques.split_first(), metric("misclassified_total_percent"))
     else {
         return String::new();
     };
@@ -207,7 +208,7 @@ mod tests {
     #[test]
     fn the_worst_cases_of_each_technique_are_named() {
         let text = table(&fixture::report(&[("a", 1.0), ("a", 3.0), ("b", 0.0), ("b", 2.0)]));
-        let worst: Vec<_> = text.lines().filter(|line| line.contains("wrong_percent")).collect();
+        let worst: Vec<_> = text.lines().filter(|line| line.contains("misclassified_percent")).collect();
         assert!(
             worst[0].starts_with("  a ") && worst[0].ends_with(" 3.000  tower, sun 15, view 1"),
             "{text}"
@@ -223,7 +224,7 @@ mod tests {
     fn techniques_are_compared_with_the_first() {
         let mut report = fixture::report(&[("a", 1.0), ("b", 1.0)]);
         report.cases[1].view = report.cases[0].view.clone();
-        report.cases[1].errors.misclassified.total.wrong_percent = -1.0;
+        report.cases[1].errors.misclassified.total.misclassified_percent = -1.0;
         let text = table(&report);
         assert!(text.contains("\nwrong_total_percent below that of a\n  b"), "{text}");
         assert!(text.contains("  in 1 of 1 cases, as high in 0\n"), "{text}");

@@ -7,7 +7,7 @@ use shadowgraph::Renderer;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, CasterMode, Material, Scene};
 use shadowgraph::shadows::{RAYTRACED, ShadowFilter};
-use shadowgraph_quality::{Instrument, Points, Probe, Question};
+use shadowgraph_quality::{Comparator, Points, Probe, Query};
 
 /// Returns a sheet of a material, 1.5 m above a floor, under a vertical sun. Its alpha is 0.6.
 fn sheet(change: impl FnOnce(&mut Material)) -> Scene {
@@ -63,14 +63,15 @@ fn row_24_dithered_shadows_are_stable_when_the_camera_moves() {
     });
     options.camera = crate::stage::camera(DVec3::new(0.0, 0.8, 3.5), DVec3::new(0.0, 0.0, 0.0));
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
-    let ground = Instrument::new(gpu, &renderer, 0).unwrap().ground(&mut renderer, &options, 0).unwrap();
-    let (points, probe) = (Points::new(gpu, &ground.surfaces), Probe::new(gpu, &renderer).unwrap());
-    let question = Question { light: 0, coarser: false };
+    let reference =
+        Comparator::new(gpu, &renderer, 0).unwrap().reference(&mut renderer, &options, 0).unwrap();
+    let (points, probe) = (Points::new(gpu, &reference.surfaces), Probe::new(gpu, &renderer).unwrap());
+    let query = Query { light: 0, coarser: false };
     let mut seen = Vec::new();
     for step in 0..6 {
         // Over several texels.
         options.camera.world_from_view.translation += DVec3::new(0.07, 0.0, 0.03) * f64::from(step);
-        seen.push(probe.ask(gpu, &renderer, &options, &points, question).unwrap().visibility);
+        seen.push(probe.ask(gpu, &renderer, &options, &points, query).unwrap().visibility);
     }
     let (dark, lit) =
         (seen[0].iter().filter(|v| **v < 0.1).count(), seen[0].iter().filter(|v| **v > 0.9).count());

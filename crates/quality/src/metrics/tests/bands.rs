@@ -11,9 +11,9 @@ use crate::metrics::*;
 /// The band by the faces that were hit, and by looking at every pixel within reach.
 fn by_faces(picture: &Picture) -> Vec<bool> {
     let [width, height] = picture.size;
-    let seen = picture.seen();
+    let samples = picture.seen();
     let apart = |a: usize, b: usize| {
-        let receivers = seen.is_receiver(a) && seen.is_receiver(b);
+        let receivers = samples.is_receiver(a) && samples.is_receiver(b);
         picture.faces[a] != picture.faces[b] || (receivers && picture.truth[a] != picture.truth[b])
     };
     let at_edge = |at: usize| {
@@ -107,10 +107,10 @@ fn truth_that_changes_where_a_surface_turns_from_the_light_is_no_edge() {
 fn a_large_picture_with_wide_bands_takes_well_under_a_second() {
     let mut picture = Picture::new([1280, 720], &grazing(), 1e3, true);
     picture.texel_px.fill(40.0 / 1.5);
-    let seen = picture.seen();
+    let samples = picture.seen();
     let time = |_| {
         let start = Instant::now();
-        assert!(band(&seen).count() > 50_000);
+        assert!(band(&samples).count() > 50_000);
         start.elapsed()
     };
     let times: Vec<Duration> = (0..5).map(time).collect();

@@ -23,8 +23,8 @@ fn a_shadow_moved_away_by_20_cm_is_detached_by_20_cm() {
         for by_m in [0.2, 0.1] {
             picture.visibility = moved_away(&picture, by_m);
             let all = picture.all();
-            let Detachment { cm, texels, lost } = all.detachment;
-            println!("{by_m} m: {:?}, {:?}", all.detachment, all.lost_contacts);
+            let PeterPanning { cm, texels, lost } = all.peter_panning;
+            println!("{by_m} m: {:?}, {:?}", all.peter_panning, all.missing_contacts);
             assert!(cm.count > 50, "{cm:?}");
             assert!((cm.mean - by_m * 100.0).abs() < pixel_cm / 4.0, "{cm:?}");
             assert!((cm.p99 - by_m * 100.0).abs() < pixel_cm, "{cm:?}");
@@ -33,7 +33,7 @@ fn a_shadow_moved_away_by_20_cm_is_detached_by_20_cm() {
             assert!(lost * 20 < cm.count, "{lost} of {}", cm.count);
             // Near blockers are within 25 cm along the ray, 21.6 cm along the floor.
             let share = by_m * 100.0 / (25.0 * 30.0_f64.to_radians().cos());
-            let lost_share = all.lost_contacts.lost_percent / 100.0;
+            let lost_share = all.missing_contacts.missing_percent / 100.0;
             assert!((lost_share - share).abs() < 0.08, "{lost_share} {share}");
         }
     }
@@ -45,10 +45,14 @@ fn a_shadow_that_is_missing_altogether_is_lost_with_its_length() {
         let mut picture = Picture::new([320, 180], &camera, 1e3, true);
         picture.visibility.fill(1.0);
         let all = picture.all();
-        assert_eq!(all.detachment.lost, all.detachment.cm.count);
-        assert_eq!(all.lost_contacts.lost_percent, 100.0);
+        assert_eq!(all.peter_panning.lost, all.peter_panning.cm.count);
+        assert_eq!(all.missing_contacts.missing_percent, 100.0);
         // 1 m high, the sun at 30 degrees: up to 173 cm, less from the shorter chords at the corners.
-        assert!(all.detachment.cm.mean > 60.0 && all.detachment.cm.p99 < 180.0, "{:?}", all.detachment);
+        assert!(
+            all.peter_panning.cm.mean > 60.0 && all.peter_panning.cm.p99 < 180.0,
+            "{:?}",
+            all.peter_panning
+        );
     }
 }
 
@@ -57,14 +61,14 @@ fn texels_count_only_where_their_size_is_known_and_widen_what_counts_as_contact(
     let mut picture = Picture::new([320, 180], &above(), 1e3, true);
     picture.visibility = moved_away(&picture, 0.2);
     picture.texel_m.fill(0.0);
-    let unknown = picture.all().detachment;
+    let unknown = picture.all().peter_panning;
     assert_eq!((unknown.texels, unknown.cm.count > 0), (Summary::default(), true));
     // At 40 cm away nothing touches, unless a texel is as wide.
     let away: Vec<f32> = picture.blockers_m.iter().map(|distance| distance + 0.3).collect();
     picture.blockers_m = away;
-    assert_eq!(picture.all().detachment.cm.count, 0);
+    assert_eq!(picture.all().peter_panning.cm.count, 0);
     picture.texel_m.fill(0.4);
-    assert!(picture.all().detachment.cm.count >= unknown.cm.count);
+    assert!(picture.all().peter_panning.cm.count >= unknown.cm.count);
 }
 
 #[test]
@@ -75,7 +79,7 @@ fn light_nearly_straight_from_above_detaches_nothing() {
         towards_light: TowardsLight::Everywhere(glam::Vec3::new(0.05, 1.0, 0.05).normalize()),
         ..picture.images()
     };
-    assert_eq!(detachment(&Seen::new(images).unwrap()).cm.count, 0);
+    assert_eq!(peter_panning(&Samples::new(images).unwrap()).cm.count, 0);
 }
 
 #[test]
@@ -84,7 +88,7 @@ fn directions_per_pixel_measure_like_one_for_all() {
     picture.visibility = moved_away(&picture, 0.2);
     let directions = vec![sun().as_vec3(); picture.truth.len()];
     let images = Images { towards_light: TowardsLight::PerPixel(&directions), ..picture.images() };
-    assert_eq!(detachment(&Seen::new(images).unwrap()), picture.all().detachment);
+    assert_eq!(peter_panning(&Samples::new(images).unwrap()), picture.all().peter_panning);
 }
 
 /// A bare floor from above, rows along the world's x. The sun is up and to the left, 3 pixels to 4. Columns
@@ -102,7 +106,7 @@ fn stripe() -> (Picture, f64) {
 
 /// How many contacts, the longest way in pixels, how many lost. The lowest rows leave the picture first.
 fn walked((picture, pixel_cm): (Picture, f64)) -> (usize, f64, usize) {
-    let Detachment { cm, lost, .. } = picture.all().detachment;
+    let PeterPanning { cm, lost, .. } = picture.all().peter_panning;
     (cm.count, (cm.p99 / pixel_cm * 1e3).round() / 1e3, lost)
 }
 

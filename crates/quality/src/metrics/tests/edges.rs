@@ -25,7 +25,10 @@ fn an_edge_blurred_to_twice_its_width_has_edge_error_and_nothing_else() {
     assert_eq!((edges.penumbra, edges.crossings, edges.unmeasured), (8 * 32, 32, 0));
     assert!((edges.rmse - 5.25_f64.sqrt() / 16.0).abs() < 1e-6, "{edges:?}");
     assert!((edges.width_ratio.unwrap() - 2.0).abs() < 1e-4, "{edges:?}");
-    assert_eq!((all.misclassified.total.wrong, all.lost_contacts.lost, all.detachment.lost), (0, 0, 0));
+    assert_eq!(
+        (all.misclassified.total.wrong, all.missing_contacts.missing, all.peter_panning.lost),
+        (0, 0, 0)
+    );
 }
 
 #[test]

@@ -18,10 +18,10 @@ fn salt(at: usize) -> bool {
 
 /// Every `n`th lit receiver outside the band gets this visibility. Returns how many that were.
 fn plant(picture: &mut Picture, visibility: f32, lit: bool, chosen: impl Fn(usize) -> bool) -> usize {
-    let seen = picture.seen();
-    let band = band(&seen);
-    let places: Vec<usize> = (0..seen.len())
-        .filter(|&at| seen.is_receiver(at) && !band.contains(at) && chosen(at))
+    let samples = picture.seen();
+    let band = band(&samples);
+    let places: Vec<usize> = (0..samples.len())
+        .filter(|&at| samples.is_receiver(at) && !band.contains(at) && chosen(at))
         .filter(|&at| (picture.truth[at] == 1.0) == lit)
         .collect();
     for &at in &places {
@@ -32,7 +32,7 @@ fn plant(picture: &mut Picture, visibility: f32, lit: bool, chosen: impl Fn(usiz
 
 fn no_contact_or_edge_fault(picture: &Picture) {
     let all = picture.all();
-    assert_eq!((all.lost_contacts.lost, all.detachment.lost, all.detachment.cm.p99), (0, 0, 0.0));
+    assert_eq!((all.missing_contacts.missing, all.peter_panning.lost, all.peter_panning.cm.p99), (0, 0, 0.0));
     let edges = all.edges.unwrap();
     assert_eq!((edges.rmse, edges.width_ratio), (0.0, Some(1.0)));
 }
@@ -75,14 +75,14 @@ fn faint_stripes_are_mean_error_and_no_pixel_is_misclassified() {
 #[test]
 fn a_shadow_that_begins_late_is_lost_contacts_and_leak_but_no_acne() {
     for mut picture in pictures() {
-        let seen = picture.seen();
-        let late: Vec<usize> = seen.receivers().filter(|&at| picture.blockers_m[at] < 0.15).collect();
+        let samples = picture.seen();
+        let late: Vec<usize> = samples.receivers().filter(|&at| picture.blockers_m[at] < 0.15).collect();
         late.iter().for_each(|&at| picture.visibility[at] = 1.0);
         let (all, late) = (picture.all(), late.len());
-        assert_eq!((all.lost_contacts.lost, all.misclassified.total.acne), (late, 0));
+        assert_eq!((all.missing_contacts.missing, all.misclassified.total.acne), (late, 0));
         assert_eq!(all.misclassified.total.leak, late);
         // 15 cm along a ray of 30 degrees are 13 cm along the floor.
-        assert!((all.detachment.cm.mean - 13.0).abs() < 3.0, "{:?}", all.detachment);
+        assert!((all.peter_panning.cm.mean - 13.0).abs() < 3.0, "{:?}", all.peter_panning);
     }
 }
 
@@ -91,6 +91,6 @@ fn only_contacts_with_a_blocker_nearer_than_25_cm_can_be_lost() {
     let mut picture = Picture::new([64, 48], &above(), 1e3, false).with_truth(|x, _| x >= 32);
     picture.blockers_m = picture.by_pixel(|x, _| if !(8..=40).contains(&x) { 0.24 } else { 0.25 });
     picture.visibility = picture.by_pixel(|x, _| f32::from(u8::from(!(2..20).contains(&x))));
-    let lost = lost_contacts(&picture.seen());
-    assert_eq!(lost, LostContacts { contacts: 8 * 48, lost: 2 * 48, lost_percent: 25.0 });
+    let missing = missing_contacts(&picture.seen());
+    assert_eq!(missing, MissingContacts { contacts: 8 * 48, missing: 2 * 48, missing_percent: 25.0 });
 }

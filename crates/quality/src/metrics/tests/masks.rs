@@ -22,9 +22,12 @@ fn truth_itself_gives_zeros_for_every_metric() {
         assert!(outside.receivers > 1000 && total.receivers > outside.receivers, "{all:?}");
         assert_eq!((outside.wrong, total.wrong, total.acne, total.leak), (0, 0, 0, 0));
         assert_eq!(all.mean_error, MeanError::default());
-        assert!(all.lost_contacts.contacts > 20 && all.lost_contacts.lost == 0, "{all:?}");
-        assert!(all.detachment.cm.count > 10, "{all:?}");
-        assert_eq!((all.detachment.cm.p99, all.detachment.texels.p99, all.detachment.lost), (0.0, 0.0, 0));
+        assert!(all.missing_contacts.contacts > 20 && all.missing_contacts.missing == 0, "{all:?}");
+        assert!(all.peter_panning.cm.count > 10, "{all:?}");
+        assert_eq!(
+            (all.peter_panning.cm.p99, all.peter_panning.texels.p99, all.peter_panning.lost),
+            (0.0, 0.0, 0)
+        );
         let edges = all.edges.unwrap();
         assert_eq!((edges.rmse, edges.width_ratio, edges.unmeasured), (0.0, Some(1.0), 0));
     }
@@ -38,7 +41,9 @@ fn truth_shifted_by_3_pixels_is_wrong_by_one_column_outside_the_band_of_2() {
         let (outside, total) = (all.misclassified.outside, all.misclassified.total);
         assert_eq!((total.receivers, total.acne, total.leak), (64 * 48, 3 * 48, 0));
         assert_eq!((outside.receivers, outside.acne, outside.leak), (60 * 48, 48, 0));
-        assert!(close(outside.acne_percent, 100.0 / 60.0) && close(total.wrong_percent, 300.0 / 64.0));
+        assert!(
+            close(outside.acne_percent, 100.0 / 60.0) && close(total.misclassified_percent, 300.0 / 64.0)
+        );
         assert!(close(all.mean_error.outside_percent, 100.0 / 60.0));
         // The other way it is a leak.
         picture.visibility = picture.by_pixel(|x, _| f32::from(u8::from(x >= 29)));
@@ -63,7 +68,10 @@ fn inverted_truth_is_wrong_everywhere() {
         picture.visibility = picture.truth.iter().map(|truth| 1.0 - truth).collect();
         let all = picture.all();
         let (outside, total) = (all.misclassified.outside, all.misclassified.total);
-        assert_eq!((total.wrong_percent, total.acne_percent, total.leak_percent), (100.0, 50.0, 50.0));
+        assert_eq!(
+            (total.misclassified_percent, total.acne_percent, total.leak_percent),
+            (100.0, 50.0, 50.0)
+        );
         assert_eq!((outside.acne, outside.leak), (30 * 48, 30 * 48));
         assert_eq!(all.mean_error, MeanError { outside_percent: 100.0, total_percent: 100.0 });
     }
@@ -126,8 +134,8 @@ fn a_picture_of_nothing_gives_zeros_and_no_nan() {
         picture.soft_truth = Some(picture.truth.clone());
         let all = picture.all();
         assert!(!format!("{all:?}").contains("NaN"));
-        assert_eq!((all.misclassified.total.receivers, all.lost_contacts.lost_percent), (0, 0.0));
+        assert_eq!((all.misclassified.total.receivers, all.missing_contacts.missing_percent), (0, 0.0));
         assert_eq!(all.edges.unwrap(), EdgeError::default());
-        assert_eq!(all.detachment, Detachment::default());
+        assert_eq!(all.peter_panning, PeterPanning::default());
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Camera {
 /// Where the box is that the pictures with one have: 1 m wide, on the floor.
 pub(super) const BOX: [DVec3; 2] = [DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 1.0, 0.5)];
 
-/// From straight above, far enough to the side that the box's shaded sides are seen, turned so that they are
+/// From straight above, far enough to the side that the box's shaded sides are samples, turned so that they are
 /// not along rows or columns.
 pub(super) fn above() -> Camera {
     let eye = DVec3::new(1.5, 6.0, 2.0);
@@ -135,19 +135,19 @@ impl Picture {
         }
     }
 
-    pub(super) fn seen(&self) -> Seen<'_> {
-        Seen::new(self.images()).unwrap()
+    pub(super) fn seen(&self) -> Samples<'_> {
+        Samples::new(self.images()).unwrap()
     }
 
     pub(super) fn all(&self) -> All {
-        let seen = self.seen();
-        let band = band(&seen);
+        let samples = self.seen();
+        let band = band(&samples);
         All {
-            misclassified: misclassified(&seen, &band),
-            mean_error: mean_error(&seen, &band),
-            lost_contacts: lost_contacts(&seen),
-            detachment: detachment(&seen),
-            edges: edge_error(&seen),
+            misclassified: misclassified(&samples, &band),
+            mean_error: mean_error(&samples, &band),
+            missing_contacts: missing_contacts(&samples),
+            peter_panning: peter_panning(&samples),
+            edges: edge_error(&samples),
         }
     }
 }
@@ -157,8 +157,8 @@ impl Picture {
 pub(super) struct All {
     pub(super) misclassified: Misclassified,
     pub(super) mean_error: MeanError,
-    pub(super) lost_contacts: LostContacts,
-    pub(super) detachment: Detachment,
+    pub(super) missing_contacts: MissingContacts,
+    pub(super) peter_panning: PeterPanning,
     pub(super) edges: Option<EdgeError>,
 }
 

@@ -30,8 +30,8 @@ fn flicker_is_the_mean_change_from_frame_to_frame() {
     frames[1][0] = 0.0;
     frames[2][1] = 0.75;
     frames[2][2] = 0.75;
-    let seen = flicker(&frames, &truths).unwrap();
-    assert_eq!((seen.count, seen.mean, seen.p99), (200, 2.5 / 200.0, 0.25));
+    let samples = flicker(&frames, &truths).unwrap();
+    assert_eq!((samples.count, samples.mean, samples.p99), (200, 2.5 / 200.0, 0.25));
 }
 
 #[test]

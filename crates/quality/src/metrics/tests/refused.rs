@@ -11,7 +11,7 @@ fn picture() -> Picture {
 fn a_picture_of_another_size_is_refused_by_name() {
     let mut short = picture();
     short.texel_px.pop();
-    let error = Seen::new(short.images()).unwrap_err();
+    let error = Samples::new(short.images()).unwrap_err();
     assert_eq!(error, MetricsError::Length { list: "texel_px", has: 143, needs: 144 });
     assert_eq!(error.to_string(), "`texel_px` has 143 entries; it needs 144");
 }
@@ -21,7 +21,7 @@ fn numbers_that_would_count_as_right_unseen_are_refused() {
     let refused = |change: &dyn Fn(&mut Picture)| {
         let mut picture = picture();
         change(&mut picture);
-        match Seen::new(picture.images()) {
+        match Samples::new(picture.images()) {
             Err(MetricsError::Value { list, index, .. }) => (list, index),
             other => panic!("{other:?}"),
         }
@@ -44,5 +44,5 @@ fn what_is_not_drawn_or_no_receiver_may_hold_anything() {
     picture.visibility[3] = f32::NAN;
     picture.n_dot_l[4] = 0.0;
     picture.visibility[4] = f32::NAN;
-    assert!(Seen::new(picture.images()).is_ok());
+    assert!(Samples::new(picture.images()).is_ok());
 }

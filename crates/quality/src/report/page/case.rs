@@ -33,7 +33,7 @@ fn pictures([width_px, height_px]: [u32; 2], case: &CaseReport) -> String {
     let says = format!("What {} says", case.technique);
     let pictures = [
         ("Picture", &files.picture),
-        ("Truth", &files.truth),
+        ("GroundTruth", &files.truth),
         (&says, &files.visibility),
         ("Difference", &files.difference),
     ];

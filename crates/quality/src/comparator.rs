@@ -7,12 +7,12 @@ use shadowgraph_shadows::rays::RayScene;
 use shadowgraph_shadows::{ShadowInputs, plan_shadows};
 
 use super::fine::Fine;
+use super::ground_truth::RayLight;
 use super::metrics::{
-    Band, Detachment, EdgeError, Images, LostContacts, MeanError, Misclassified, RECEIVER_N_DOT_L, Seen,
-    TowardsLight, band, detachment, edge_error, lost_contacts, mean_error, misclassified,
+    Band, EdgeError, Images, MeanError, Misclassified, MissingContacts, PeterPanning, RECEIVER_N_DOT_L,
+    Samples, TowardsLight, band, edge_error, mean_error, misclassified, missing_contacts, peter_panning,
 };
-use super::truth::RayLight;
-use super::{SurfaceReader, Surfaces, Texels, Truth, ViewPictures};
+use super::{GroundTruth, SurfaceReader, Surfaces, Texels, ViewImages};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 
 use crate::Error;
@@ -21,7 +21,7 @@ use crate::Error;
 pub const SUN_ANGULAR_RADIUS: f32 = 0.004_65;
 
 /// The radius of spot and point lights, metres: files say nothing of it.
-pub const LAMP_RADIUS_M: f32 = 0.05;
+pub const PUNCTUAL_LIGHT_RADIUS_M: f32 = 0.05;
 
 /// What a visibility of 8 bits can be off by.
 const NUMERIC_NOISE: f32 = 1.0 / 255.0;
@@ -34,21 +34,23 @@ pub struct ViewErrors {
     /// How far visibility is off on average.
     pub mean_error: MeanError,
     /// Shadow that is missing where things touch.
-    pub lost_contacts: LostContacts,
+    #[serde(rename = "lost_contacts")]
+    pub missing_contacts: MissingContacts,
     /// How far shadows begin from what casts them.
-    pub detachment: Detachment,
+    #[serde(rename = "detachment")]
+    pub peter_panning: PeterPanning,
 }
 
 /// What is known of a light in a view before any technique is asked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ground {
+pub struct Reference {
     /// What the view sees.
     pub surfaces: Surfaces,
     /// The light.
     pub light: RayLight,
-    /// Whether the light's centre is seen.
-    pub truth: Truth,
-    /// How much of the light is seen, 0 to 1, if that was asked for.
+    /// Whether the light's centre is samples.
+    pub truth: GroundTruth,
+    /// How much of the light is samples, 0 to 1, if that was asked for.
     pub soft: Option<Vec<f32>>,
     /// The texels of the shadow maps that the settings ask for. They decide how wide the band is, for every technique:
     /// all are judged by the same pixels.
@@ -63,11 +65,11 @@ pub struct Compared {
     /// How its edges differ from soft truth, if that is known.
     pub edges: Option<EdgeError>,
     /// What was looked at.
-    pub pictures: ViewPictures,
+    pub pictures: ViewImages,
 }
 
 /// Measures views of one scene.
-pub struct Instrument<'g> {
+pub struct Comparator<'g> {
     gpu: &'g Gpu,
     reader: SurfaceReader,
     light: usize,
@@ -75,7 +77,7 @@ pub struct Instrument<'g> {
     rays: Option<(DVec3, RayScene)>,
 }
 
-impl<'g> Instrument<'g> {
+impl<'g> Comparator<'g> {
     /// Prepares to measure `light` in views of renderers of one scene, whose pictures show that light's visibility.
     ///
     /// # Errors
@@ -89,31 +91,31 @@ impl<'g> Instrument<'g> {
     /// # Errors
     /// Settings out of range, a picture over the adapter's limits, or a failure of the GPU.
     pub fn measure(&mut self, renderer: &mut Renderer, options: &ViewOptions) -> Result<Compared, Error> {
-        let ground = self.ground(renderer, options, 0)?;
-        self.compare(renderer, options, &ground)
+        let reference = self.reference(renderer, options, 0)?;
+        self.compare(renderer, options, &reference)
     }
 
     /// Finds the truth of a view. Soft truth is found by `soft_rays` rays a pixel; 0: not at all.
     ///
     /// # Errors
     /// As [`measure`](Self::measure).
-    pub fn ground(
+    pub fn reference(
         &mut self,
         renderer: &mut Renderer,
         options: &ViewOptions,
         soft_rays: u32,
-    ) -> Result<Ground, Error> {
+    ) -> Result<Reference, Error> {
         let surfaces = self.reader.read(self.gpu, renderer, options)?;
         let origin_world = renderer.casters().scene.origin_world();
         let eye = (options.camera.position_world() - origin_world).as_vec3();
         let source = &renderer.scene().lights[self.light];
         let light = RayLight::new(source, light_size(source), origin_world);
         let rays = self.rays(renderer, origin_world)?;
-        let truth = Truth::trace(rays, &surfaces, &light, eye);
-        let soft =
-            (soft_rays > 0).then(|| Truth::trace_soft(rays, &surfaces, &light, eye, &truth.hard, soft_rays));
+        let truth = GroundTruth::trace(rays, &surfaces, &light, eye);
+        let soft = (soft_rays > 0)
+            .then(|| GroundTruth::trace_soft(rays, &surfaces, &light, eye, &truth.hard, soft_rays));
         let texels = texels(renderer, options, &surfaces, self.light, origin_world)?;
-        Ok(Ground { surfaces, light, truth, soft, texels })
+        Ok(Reference { surfaces, light, truth, soft, texels })
     }
 
     /// Draws what a renderer's technique says of a view, and compares it with the truth.
@@ -124,13 +126,13 @@ impl<'g> Instrument<'g> {
         &self,
         renderer: &mut Renderer,
         options: &ViewOptions,
-        ground: &Ground,
+        reference: &Reference,
     ) -> Result<Compared, Error> {
         let drawn = renderer.draw(self.gpu, options)?;
-        let Ground { surfaces, truth, soft, texels, .. } = ground;
+        let Reference { surfaces, truth, soft, texels, .. } = reference;
         let mut n_dot_l = truth.n_dot_l.clone();
         let visibility = visibility(&drawn.image.rgba8, &mut n_dot_l);
-        let seen = Seen::new(Images {
+        let samples = Samples::new(Images {
             size_px: options.size_px,
             pixel_m_at_1m: pixel_m_at_1m(&options.camera, options.size_px[1]),
             positions: &surfaces.positions,
@@ -145,18 +147,18 @@ impl<'g> Instrument<'g> {
             texel_m: &texels.side_m,
             towards_light: TowardsLight::PerPixel(&truth.towards_light),
         })?;
-        let mut band = band(&seen);
-        self.widen(&mut band, &visibility, options, ground, &n_dot_l);
+        let mut band = band(&samples);
+        self.widen(&mut band, &visibility, options, reference, &n_dot_l);
         let errors = ViewErrors {
-            misclassified: misclassified(&seen, &band),
-            mean_error: mean_error(&seen, &band),
-            lost_contacts: lost_contacts(&seen),
-            detachment: detachment(&seen),
+            misclassified: misclassified(&samples, &band),
+            mean_error: mean_error(&samples, &band),
+            missing_contacts: missing_contacts(&samples),
+            peter_panning: peter_panning(&samples),
         };
-        let edges = edge_error(&seen);
-        let receivers = (0..seen.len()).map(|pixel| seen.is_receiver(pixel)).collect();
+        let edges = edge_error(&samples);
+        let receivers = (0..samples.len()).map(|pixel| samples.is_receiver(pixel)).collect();
         let truth = truth.hard.clone();
-        let pictures = ViewPictures { size_px: options.size_px, receivers, band, visibility, truth };
+        let pictures = ViewImages { size_px: options.size_px, receivers, band, visibility, truth };
         Ok(Compared { errors, edges, pictures })
     }
 
@@ -167,14 +169,14 @@ impl<'g> Instrument<'g> {
         band: &mut Band,
         visibility: &[f32],
         options: &ViewOptions,
-        ground: &Ground,
+        reference: &Reference,
         n_dot_l: &[f32],
     ) {
         let Some((origin_world, rays)) = &self.rays else { return };
-        let fine = Fine::new(rays, &ground.light, &ground.surfaces, options, *origin_world);
+        let fine = Fine::new(rays, &reference.light, &reference.surfaces, options, *origin_world);
         for pixel in 0..visibility.len() {
-            let differs = (visibility[pixel] - ground.truth.hard[pixel]).abs() > NUMERIC_NOISE;
-            let counts = ground.surfaces.is_drawn(pixel) && n_dot_l[pixel] > RECEIVER_N_DOT_L;
+            let differs = (visibility[pixel] - reference.truth.hard[pixel]).abs() > NUMERIC_NOISE;
+            let counts = reference.surfaces.is_drawn(pixel) && n_dot_l[pixel] > RECEIVER_N_DOT_L;
             if differs && counts && !band.contains(pixel) && fine.changes_around(pixel) {
                 band.insert(pixel);
             }
@@ -196,7 +198,7 @@ impl<'g> Instrument<'g> {
 fn light_size(light: &Light) -> f32 {
     match light.kind {
         LightKind::Directional { .. } => SUN_ANGULAR_RADIUS,
-        LightKind::Spot { .. } | LightKind::Point { .. } => LAMP_RADIUS_M,
+        LightKind::Spot { .. } | LightKind::Point { .. } => PUNCTUAL_LIGHT_RADIUS_M,
     }
 }
 

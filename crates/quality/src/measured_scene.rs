@@ -17,20 +17,20 @@ pub const DEFAULT_VIEWS: usize = 4;
 
 /// A scene to measure.
 #[derive(Clone, Debug)]
-pub struct Subject {
+pub struct MeasuredScene {
     /// Its name in tables.
     pub name: String,
     /// The scene.
     pub scene: Scene,
     /// The lights that are measured, one after the other.
-    pub lights: Vec<SubjectLight>,
+    pub lights: Vec<MeasuredLight>,
     /// From where it is looked at, by name.
     pub views: Vec<(String, Camera)>,
 }
 
 /// A light that is measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SubjectLight {
+pub struct MeasuredLight {
     /// Its name in tables.
     pub name: String,
     /// All lights of the scene while this one is measured.
@@ -39,7 +39,7 @@ pub struct SubjectLight {
     pub index: usize,
 }
 
-impl Subject {
+impl MeasuredScene {
     /// Takes a scene with its own lights: of those that cast shadows the first [`MAX_LIGHTS`]. Without views, some are
     /// chosen.
     ///
@@ -47,7 +47,7 @@ impl Subject {
     /// If the scene's triangles cannot be traced, which views are chosen by.
     pub fn new(name: impl Into<String>, scene: Scene, views: Vec<(String, Camera)>) -> Result<Self, Error> {
         let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts_shadow);
-        let light = |(index, light): (usize, &Light)| SubjectLight {
+        let light = |(index, light): (usize, &Light)| MeasuredLight {
             name: format!("{} {index}", kind(light)),
             all: scene.lights.clone(),
             index,
@@ -87,20 +87,23 @@ impl Subject {
             };
             views = scene.cameras.iter().enumerate().map(named).collect();
         }
-        let mut subject = Self::new(case.name(), scene, views)?;
+        let mut measured_scene = Self::new(case.name(), scene, views)?;
         if !case.sun_elevations_deg.is_empty() {
-            subject.lights =
-                case.sun_elevations_deg.iter().map(|&elevation| subject.sun(case, elevation)).collect();
+            measured_scene.lights = case
+                .sun_elevations_deg
+                .iter()
+                .map(|&elevation| measured_scene.sun(case, elevation))
+                .collect();
         }
-        Ok(subject)
+        Ok(measured_scene)
     }
 
     /// The sun of a case in the place of the scene's own.
-    fn sun(&self, case: &Case, elevation_deg: f64) -> SubjectLight {
+    fn sun(&self, case: &Case, elevation_deg: f64) -> MeasuredLight {
         let is_directional = |light: &&Light| matches!(light.kind, LightKind::Directional { .. });
         let others = self.scene.lights.iter().filter(|light| !is_directional(light)).cloned();
         let all = std::iter::once(case.sun(elevation_deg)).chain(others).collect();
-        SubjectLight { name: format!("sun {elevation_deg}°"), all, index: 0 }
+        MeasuredLight { name: format!("sun {elevation_deg}°"), all, index: 0 }
     }
 }
 

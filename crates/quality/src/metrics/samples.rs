@@ -1,4 +1,4 @@
-//! One view of one light: what is seen, what was measured, and the truth.
+//! One view of one light: what is samples, what was measured, and the truth.
 
 use glam::Vec3;
 
@@ -53,13 +53,13 @@ pub struct Images<'a> {
 
 /// [`Images`] that fit together and hold no numbers that metrics would overlook.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
+pub struct Samples<'a> {
     pub(super) images: Images<'a>,
     pub(super) width: usize,
     pub(super) height: usize,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> Samples<'a> {
     /// Takes the pictures.
     ///
     /// # Errors
@@ -68,10 +68,10 @@ impl<'a> Seen<'a> {
     ///   light direction where something is drawn is not finite, or a length or depth is NaN or negative.
     pub fn new(images: Images<'a>) -> Result<Self, MetricsError> {
         let [width, height] = images.size_px.map(|side| side as usize);
-        let seen = Self { images, width, height };
-        seen.check_lengths()?;
-        seen.check_values()?;
-        Ok(seen)
+        let samples = Self { images, width, height };
+        samples.check_lengths()?;
+        samples.check_values()?;
+        Ok(samples)
     }
 
     /// How many pixels there are.

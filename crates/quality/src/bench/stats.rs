@@ -2,7 +2,7 @@
 
 /// Quantiles of samples; all 0 where there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spread {
+pub struct Stats {
     /// One in twenty is less.
     pub p5: f64,
     /// One in four is less.
@@ -15,11 +15,11 @@ pub struct Spread {
     pub p95: f64,
 }
 
-impl Spread {
+impl Stats {
     /// Finds the quantiles, each one of the samples.
     ///
     /// ```
-    /// let spread = shadowgraph_quality::bench::Spread::of((1..=101).map(f64::from));
+    /// let spread = shadowgraph_quality::bench::Stats::of((1..=101).map(f64::from));
     /// assert_eq!((spread.p5, spread.median, spread.p95), (6.0, 51.0, 96.0));
     /// ```
     pub fn of(samples: impl Iterator<Item = f64>) -> Self {

@@ -9,8 +9,8 @@ use super::parallel::rows;
 
 /// The truth about one light in a view, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
-    /// Whether the light's centre is seen: 1 lit, 0 in shadow; behind what is translucent the mean of the colours that pass. 0 also
+pub struct GroundTruth {
+    /// Whether the light's centre is samples: 1 lit, 0 in shadow; behind what is translucent the mean of the colours that pass. 0 also
     /// where nothing is drawn.
     pub hard: Vec<f32>,
     /// Metres to the nearest blocker; infinite where there is none.
@@ -23,7 +23,7 @@ pub struct Truth {
 }
 
 /// So many rays tell whether a pixel may be in a penumbra.
-pub const SCOUTS: u32 = 8;
+pub const PROBE_RAYS: u32 = 8;
 
 /// The light of a view, for rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +87,7 @@ fn receiver(surfaces: &Surfaces, pixel: usize, eye: Vec3) -> ReceiverPoint {
     }
 }
 
-impl Truth {
+impl GroundTruth {
     /// Follows a ray from each pixel to the light. `eye` is the camera, relative to the frame's origin.
     #[must_use]
     pub fn trace(scene: &RayScene, surfaces: &Surfaces, light: &RayLight, eye: Vec3) -> Self {
@@ -108,7 +108,7 @@ impl Truth {
         }
     }
 
-    /// Finds how much of the light each pixel sees, by `rays` rays over its disc. Where [`SCOUTS`] rays all say the
+    /// Finds how much of the light each pixel sees, by `rays` rays over its disc. Where [`PROBE_RAYS`] rays all say the
     /// same as hard truth, so does soft truth.
     #[must_use]
     pub fn trace_soft(
@@ -126,9 +126,9 @@ impl Truth {
                 return 0.0;
             }
             let receiver = receiver(surfaces, pixel, eye);
-            let seen = |rays| mean(trace_soft(scene, &light.shape, &receiver, rays));
-            let scouted = seen(SCOUTS);
-            if scouted == hard[pixel] { scouted } else { seen(rays) }
+            let visible_part = |rays| mean(trace_soft(scene, &light.shape, &receiver, rays));
+            let probed = visible_part(PROBE_RAYS);
+            if probed == hard[pixel] { probed } else { visible_part(rays) }
         })
     }
 }
