@@ -1,4 +1,4 @@
-//! `shadowgraph bench`: what a frame costs. Tables are at most 110 columns wide.
+//! `shadowgraph bench`: the cost of a frame. Tables are at most 110 columns wide.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -13,7 +13,7 @@ use shadowgraph::core::TimeSummary;
 use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::bench::{Comparison, FrameTime, Stats, compare, pass_times};
 
-/// Frames on a real GPU, of which each is waited for.
+/// Number of frames on a real GPU; each is waited for.
 const GPU_FRAMES: u32 = 20;
 
 /// Measures and prints, a table at a time.
@@ -21,9 +21,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     let input = commands::input(&args.draw, registry)?;
     let view = commands::view_options(&input);
     if cfg!(debug_assertions) {
-        console::warning(
-            "this program was built without full optimisation: measure with `cargo run --release`",
-        );
+        console::warning("debug build: measure with `cargo run --release`");
     }
     let noop = Gpu::noop()?;
     let gpu = match args.draw.names_adapter() {
@@ -35,7 +33,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     let comparison = match input.options.render_config() == RenderConfig::default() {
         true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
         false => {
-            "Only the pipeline forward with pcf and one sample is compared with passes encoded by hand.\n"
+            "Only the pipeline forward with pcf and one sample has hand-written passes to compare with.\n"
                 .into()
         }
     };
@@ -65,14 +63,14 @@ fn heading(args: &BenchArgs, input: &Input) -> String {
     )
 }
 
-/// One side's time of a step, or of several.
+/// Returns the time of one or several steps of a frame.
 type StepOf = fn(&FrameTime) -> Duration;
 
-/// The comparison as a table.
+/// Formats the comparison as a table.
 fn table(comparison: &Comparison) -> String {
     let steps: [(&str, Option<StepOf>, Option<StepOf>); 6] = [
-        ("plan the shadows", None, Some(|time| time.plan)),
-        ("declare, which plans the shadows too", Some(|time| time.declare), None),
+        ("plan shadows", None, Some(|time| time.plan)),
+        ("declare (includes planning shadows)", Some(|time| time.declare), None),
         ("compile", Some(|time| time.compile), None),
         ("record", Some(|time| time.record), Some(|time| time.record)),
         ("finish", Some(|time| time.finish), Some(|time| time.finish)),
@@ -88,20 +86,19 @@ fn table(comparison: &Comparison) -> String {
         "{:<40}{:^28}{:^28}",
         format!("{} frames each", comparison.graph.len()),
         "graph",
-        "by hand"
+        "hand-written"
     );
     let _ = writeln!(out, "  {:<38}{}{}", "microseconds", columns("median", "p95"), columns("median", "p95"));
-    for (name, graph, by_hand) in steps {
+    for (name, graph, hand_written) in steps {
         row(&mut out, name, &comparison.graph, graph);
-        out.push_str(&times(&comparison.by_hand, by_hand));
+        out.push_str(&times(&comparison.hand_written, hand_written));
         out.push('\n');
     }
     row(&mut out, "whole frame", &comparison.graph, Some(FrameTime::total));
-    out.push_str(&times(&comparison.by_hand, Some(FrameTime::total)));
-    let _ = writeln!(out, "\n  graph / by hand, frame by frame: {}", ratio(comparison.ratio()));
-    let _ =
-        writeln!(out, "  without planning the shadows:    {}", ratio(comparison.ratio_without_planning()));
-    out.push_str("  In neither: culling and sorting what the camera sees.\n");
+    out.push_str(&times(&comparison.hand_written, Some(FrameTime::total)));
+    let _ = writeln!(out, "\n  graph / hand-written, per pair: {}", ratio(comparison.ratio()));
+    let _ = writeln!(out, "  without planning shadows:       {}", ratio(comparison.ratio_without_planning()));
+    out.push_str("  Culling and sorting for the camera is not included.\n");
     out
 }
 
@@ -111,7 +108,7 @@ fn row(out: &mut String, name: &str, frames: &[FrameTime], step: Option<StepOf>)
 
 fn times(frames: &[FrameTime], step: Option<StepOf>) -> String {
     let Some(step) = step else { return columns("-", "") };
-    let spread = Stats::of(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
+    let spread = Stats::from_samples(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
     columns(&format!("{:.1}", spread.median), &format!("{:.1}", spread.p95))
 }
 
@@ -121,10 +118,12 @@ fn columns(median: &str, p95: &str) -> String {
 
 fn ratio(spread: Stats) -> String {
     let Stats { p5, p25, median, p75, p95 } = spread;
-    format!("median {median:.2}, half of them {p25:.2} to {p75:.2}, nine in ten {p5:.2} to {p95:.2}")
+    format!(
+        "median {median:.2}, interquartile range {p25:.2} to {p75:.2}, 5th to 95th percentile {p5:.2} to {p95:.2}"
+    )
 }
 
-/// The passes as a table. Their names hold the nodes they belong to.
+/// Formats the times of passes as a table. Names include the path of the node.
 fn pass_table(passes: &[TimeSummary]) -> String {
     let mut out = format!("  {:<66}{:>14}{:>14}\n", "pass", "CPU us", "GPU ms");
     let mut row = |name: &str, cpu_ms: f64, gpu_ms: Option<f64>, note: &str| {
@@ -136,7 +135,7 @@ fn pass_table(passes: &[TimeSummary]) -> String {
         row(&pass.pass, pass.cpu_ms.median, gpu_ms, &report::sharing(gpu_ms.is_some(), pass.shared_by));
     }
     let gpu_ms = passes.iter().filter_map(TimeSummary::gpu_share_ms).reduce(|a, b| a + b);
-    row("all", passes.iter().map(|pass| pass.cpu_ms.median).sum(), gpu_ms, "");
+    row("sum", passes.iter().map(|pass| pass.cpu_ms.median).sum(), gpu_ms, "");
     out
 }
 
@@ -150,11 +149,11 @@ mod tests {
     fn comparison(micros: u64) -> Comparison {
         let step = Duration::from_micros(micros);
         let none = Duration::ZERO;
-        let by_hand =
+        let hand_written =
             FrameTime { plan: step, declare: none, compile: none, record: step, finish: step, submit: step };
-        let graph = FrameTime { plan: none, declare: 3 * step, compile: step, ..by_hand };
+        let graph = FrameTime { plan: none, declare: 3 * step, compile: step, ..hand_written };
         let counts = Counts { passes: 5, uploads: 4, draws: 1_000_000 };
-        Comparison { counts, graph: vec![graph; 3], by_hand: vec![by_hand; 3] }
+        Comparison { counts, graph: vec![graph; 3], hand_written: vec![hand_written; 3] }
     }
 
     #[test]
@@ -167,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_are_told_in_order_with_their_sum() {
+    fn passes_are_listed_in_order_with_their_sum() {
         let spread = |ms: f64| TimeStats { median: ms, high: ms };
         let pass = |pass: &str, gpu_ms: Option<f64>, shared_by| TimeSummary {
             pass: pass.into(),
@@ -178,23 +177,23 @@ mod tests {
         };
         let text = pass_table(&[
             pass("shadows/atlas/clear", Some(1.5), 2),
-            pass("shadows/atlas/lamp", Some(1.5), 2),
-            pass("picture/tonemap", None, 1),
+            pass("shadows/atlas/light", Some(1.5), 2),
+            pass("output/tonemap", None, 1),
         ]);
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
         assert_eq!(rows[1], ["shadows/atlas/clear", "500.0", "1.500", "all", "2", "merged"]);
-        assert_eq!(rows[2], ["shadows/atlas/lamp", "500.0", "1.500", "all", "2", "merged"]);
-        assert_eq!(rows[3], ["picture/tonemap", "500.0", "-"]);
-        assert_eq!(rows[4], ["all", "1500.0", "1.500"]);
+        assert_eq!(rows[2], ["shadows/atlas/light", "500.0", "1.500", "all", "2", "merged"]);
+        assert_eq!(rows[3], ["output/tonemap", "500.0", "-"]);
+        assert_eq!(rows[4], ["sum", "1500.0", "1.500"]);
         assert!(text.lines().all(|line| line.len() <= 110), "{text}");
     }
 
     #[test]
-    fn the_ratio_is_told_with_and_without_planning() {
+    fn the_ratio_is_printed_with_and_without_planning() {
         let text = table(&comparison(100));
         // 7 steps to 4; without planning 6 to 3.
-        assert!(text.contains("frame by frame: median 1.75"), "{text}");
-        assert!(text.contains("shadows:    median 2.00"), "{text}");
+        assert!(text.contains("per pair: median 1.75"), "{text}");
+        assert!(text.contains("shadows:       median 2.00"), "{text}");
         assert!(text.lines().any(|line| line.contains("whole frame") && line.contains("700.0")), "{text}");
     }
 }

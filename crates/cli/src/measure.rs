@@ -1,4 +1,4 @@
-//! `shadowgraph measure`: how far shadows are from ray-traced truth.
+//! `shadowgraph measure`: compares shadows with ray-traced ground truth.
 
 use std::path::{Path, PathBuf};
 
@@ -18,10 +18,10 @@ use shadowgraph_quality::{
     built_in_cases, measure,
 };
 
-/// The folder of the pictures, in the output's folder.
-const PICTURES: &str = "pictures";
+/// Directory of the images in the output directory.
+const IMAGES: &str = "pictures";
 
-/// What the command line says.
+/// The parsed command line.
 struct Plan {
     task: Task,
     adapter: AdapterChoice,
@@ -29,7 +29,7 @@ struct Plan {
     bounds: Option<(PathBuf, Bounds)>,
 }
 
-/// What is measured.
+/// The scenes to measure.
 enum Work {
     Cases { cases: Vec<Case>, folder: PathBuf },
     Scene { measured_scene: Box<MeasuredScene>, views_named: bool },
@@ -53,9 +53,9 @@ pub(crate) fn measure_command(args: &MeasureArgs, registry: &shadowgraph::Regist
     plan.work.each(args.quick, &mut |part, measured_scene| {
         progress.set(&measured_scene.name, part);
         measure(&gpu, measured_scene, &plan.task, &mut |measured: Measured| {
-            let Measured { report: mut case, pictures } = measured;
-            if let (Some(output), Some(pictures)) = (&output, pictures) {
-                case.pictures = Some(output.pictures(report.cases.len(), &case, &pictures)?);
+            let Measured { report: mut case, images } = measured;
+            if let (Some(output), Some(images)) = (&output, images) {
+                case.images = Some(output.write_images(report.cases.len(), &case, &images)?);
             }
             report.cases.push(case);
             Ok(())
@@ -91,7 +91,7 @@ fn plan(args: &MeasureArgs, known: &Techniques) -> Result<Plan, Failure> {
         soft_rays,
         flicker_frames,
         flicker_everywhere: args.full,
-        pictures: args.output.is_some(),
+        images: args.output.is_some(),
     };
     let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
     let names: Vec<_> = task.techniques.iter().map(Technique::name).collect();
@@ -99,7 +99,7 @@ fn plan(args: &MeasureArgs, known: &Techniques) -> Result<Plan, Failure> {
     Ok(Plan { task, adapter, work: work(args, size)?, bounds })
 }
 
-/// What `--techniques` names; `all` is every technique, and every kind of collection of the default one.
+/// Returns the techniques of `--techniques`; `all` is every technique, and the default one with every modifier.
 fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, OptionError> {
     let mut chosen = Vec::new();
     for name in names {
@@ -139,15 +139,15 @@ fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let measured_scene = MeasuredScene::new(name, scene, views)?;
     if measured_scene.lights.is_empty() {
-        let message = format!("{}: no light of the scene casts shadows; see --sun", file.display());
+        let message = format!("{}: the scene has no light that casts shadows; see --sun", file.display());
         return Err(Failure { code: Failure::INPUT, message });
     }
     Ok(Work::Scene { measured_scene: Box::new(measured_scene), views_named: !args.camera.is_empty() })
 }
 
 impl Work {
-    /// Does something for each scene, with the part of all that is done before it. Quick work looks at one light of
-    /// each, and at one view unless the user named them.
+    /// Calls `work` for each scene, with the finished fraction of all scenes. If `quick`, only one light of each scene is
+    /// measured, and one view unless the user named them.
     fn each(
         self,
         quick: bool,
@@ -171,9 +171,9 @@ impl Work {
                 let count = cases.len() as f32;
                 let mut numbered = cases.iter().enumerate();
                 numbered.try_for_each(|(index, case)| {
-                    // The second of a case's suns, which is neither low nor high in the built-in ones.
+                    // The second sun of a case, which has a medium elevation in the built-in cases.
                     let light = usize::from(!case.sun_elevations_deg.is_empty());
-                    one(index as f32 / count, MeasuredScene::of_case(case, &folder)?, light, false)
+                    one(index as f32 / count, MeasuredScene::from_case(case, &folder)?, light, false)
                 })
             }
         }
@@ -224,19 +224,19 @@ fn read(option: &str, file: &Path) -> Result<String, Failure> {
 
 fn check(report: &Report, bounds: Option<&(PathBuf, Bounds)>) -> Result<(), Failure> {
     let Some((file, bounds)) = bounds else { return Ok(()) };
-    let broken = bounds.broken_by(report);
-    if broken.is_empty() {
+    let violations = bounds.violations(report);
+    if violations.is_empty() {
         let count = bounds.bounds.len();
         return console::print(&format!("\nwithin all {count} bounds of {}\n", file.display()));
     }
-    let message = format!("worse than {} allows: {}", file.display(), broken.join("; "));
+    let message = format!("violated bounds of {}: {}", file.display(), violations.join("; "));
     Err(Failure { code: Failure::INPUT, message })
 }
 
-/// The folder that is written. Pictures wait in a folder beside it until all is measured.
+/// The output directory. Images are written to a temporary directory in it until everything is measured.
 struct Output {
     folder: PathBuf,
-    waiting: tempfile::TempDir,
+    temporary: tempfile::TempDir,
 }
 
 impl Output {
@@ -246,54 +246,54 @@ impl Output {
             message: format!("-o {}: {reason}", folder.display()),
         };
         if folder.exists() && !folder.is_dir() {
-            return Err(failed("is a file; give the name of a folder".into()));
+            return Err(failed("is a file; expected a directory".into()));
         }
-        let pictures = folder.join(PICTURES);
-        if pictures.exists() && !pictures.is_dir() {
-            return Err(failed(format!("{PICTURES} in it is a file, not a folder")));
+        let images = folder.join(IMAGES);
+        if images.exists() && !images.is_dir() {
+            return Err(failed(format!("{IMAGES} in it is a file; expected a directory")));
         }
         let prepared = std::fs::create_dir_all(folder)
             .and_then(|()| tempfile::Builder::new().prefix(".shadowgraph-").tempdir_in(folder));
-        let waiting = prepared.map_err(|error| failed(format!("cannot be written: {error}")))?;
-        Ok(Self { folder: folder.to_owned(), waiting })
+        let temporary = prepared.map_err(|error| failed(format!("cannot be written: {error}")))?;
+        Ok(Self { folder: folder.to_owned(), temporary })
     }
 
-    /// Writes the pictures of a case, and returns where they will be.
-    fn pictures(
+    /// Writes the images of a case, and returns their final paths.
+    fn write_images(
         &self,
         index: usize,
         case: &CaseReport,
-        pictures: &CaseImages,
+        images: &CaseImages,
     ) -> Result<ImageFiles, Failure> {
         let name =
             [&case.scene, &case.light, &case.view, &case.technique].map(|name| file_name(name)).join("-");
-        let [width, height] = pictures.compared.size_px;
+        let [width, height] = images.compared.size_px;
         let write = |kind: &str, pixels: Pixels, bytes: &[u8]| {
             let file = format!("{index:03}-{name}-{kind}.png");
-            write_png(&self.waiting.path().join(&file), width, height, pixels, bytes)?;
-            Ok::<_, Failure>(format!("{PICTURES}/{file}"))
+            write_png(&self.temporary.path().join(&file), width, height, pixels, bytes)?;
+            Ok::<_, Failure>(format!("{IMAGES}/{file}"))
         };
         let grey =
             |values: &[f32]| values.iter().map(|value| (value * 255.0).round() as u8).collect::<Vec<_>>();
         Ok(ImageFiles {
-            picture: write("picture", Pixels::Rgba, &pictures.color.rgba8)?,
-            truth: write("truth", Pixels::Grey, &grey(&pictures.compared.truth))?,
-            visibility: write("visibility", Pixels::Grey, &grey(&pictures.compared.visibility))?,
-            difference: write("difference", Pixels::Rgba, &pictures.compared.errors_rgba8())?,
+            color: write("picture", Pixels::Rgba, &images.color.rgba8)?,
+            truth: write("truth", Pixels::Grey, &grey(&images.compared.truth))?,
+            visibility: write("visibility", Pixels::Grey, &grey(&images.compared.visibility))?,
+            difference: write("difference", Pixels::Rgba, &images.compared.errors_rgba8())?,
         })
     }
 
-    /// Puts everything in its place, and returns the page.
+    /// Moves everything to its final location, and returns the path of the page.
     fn finish(self, report: &Report) -> Result<PathBuf, Failure> {
         let failed = |error: std::io::Error| Failure {
             code: Failure::INPUT,
             message: format!("-o {}: cannot be written: {error}", self.folder.display()),
         };
-        let pictures = self.folder.join(PICTURES);
-        std::fs::create_dir_all(&pictures).map_err(failed)?;
-        for entry in std::fs::read_dir(self.waiting.path()).map_err(failed)? {
+        let images = self.folder.join(IMAGES);
+        std::fs::create_dir_all(&images).map_err(failed)?;
+        for entry in std::fs::read_dir(self.temporary.path()).map_err(failed)? {
             let entry = entry.map_err(failed)?;
-            std::fs::rename(entry.path(), pictures.join(entry.file_name())).map_err(failed)?;
+            std::fs::rename(entry.path(), images.join(entry.file_name())).map_err(failed)?;
         }
         let json = serde_json::to_string_pretty(report)?;
         write_text(&self.folder.join("report.json"), &json)?;
@@ -303,7 +303,7 @@ impl Output {
     }
 }
 
-/// What of a name can be part of a file's name anywhere.
+/// Returns a name with only those characters that every file system allows.
 fn file_name(name: &str) -> String {
     let kept = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
     kept.take(40).collect::<String>().trim_matches('_').to_owned()
@@ -316,7 +316,7 @@ mod tests {
     use shadowgraph::scene::{Light, LightKind, Scene};
 
     #[test]
-    fn quick_work_on_a_scene_looks_at_its_sun_whatever_other_lights_it_has() {
+    fn a_quick_measurement_of_a_scene_uses_its_sun() {
         let sun = shadowgraph::options::default_sun();
         let point = LightKind::Point { position_world: glam::DVec3::Y, range: None };
         let mut scene = Scene::default();
@@ -335,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_scenes_become_names_of_files() {
+    fn names_of_scenes_are_converted_to_file_names() {
         assert_eq!(file_name("sun 30°"), "sun_30");
         assert_eq!(file_name("../a/b"), "a_b");
         assert_eq!(file_name(&"x".repeat(90)).len(), 40);

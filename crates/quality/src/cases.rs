@@ -1,4 +1,4 @@
-//! What is measured: scenes, suns and views, as data.
+//! Measurement cases as data: scenes, suns and views.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use shadowgraph::ron_file;
 
 use crate::Error;
 
-/// Many cases: each scene under each of its suns from each of its views.
+/// A set of cases: each scene under each of its suns from each of its views.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseSet {
@@ -23,26 +23,26 @@ pub struct CaseSet {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// Where the scene comes from.
+    /// Source of the scene.
     pub scene: SceneSource,
-    /// Heights of the sun over the horizon, degrees, each above 0 and up to 90. Empty: the lights of the file.
+    /// Elevations of the sun above the horizon, degrees, each above 0 and up to 90. Empty: the lights of the file.
     #[serde(default)]
     pub sun_elevations_deg: Vec<f64>,
     /// Which way the sun's light goes over the reference, from east (+X) towards north (-Z), degrees.
     #[serde(default)]
     pub sun_heading_deg: f64,
-    /// From where it is looked at. Empty: the cameras of the file, else one that frames the scene.
+    /// Cameras. Empty: the cameras of the file, else one that frames the scene.
     #[serde(default)]
     pub views: Vec<CaseView>,
 }
 
-/// Where a scene comes from.
+/// Source of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SceneSource {
-    /// One of [`test_scenes::TEST_SCENES`].
+    /// A test scene, one of [`test_scenes::TEST_SCENES`].
     #[serde(alias = "Trial")]
     TestScene(String),
-    /// A glTF or GLB file; a relative path starts at the folder of the file of cases.
+    /// A glTF or GLB file; a relative path starts at the directory of the case file.
     File(PathBuf),
 }
 
@@ -50,13 +50,13 @@ pub enum SceneSource {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseView {
-    /// What it is called in tables.
+    /// Name in tables.
     pub name: String,
-    /// Where it is, metres.
+    /// Position, metres.
     pub eye: [f64; 3],
-    /// What it looks at, metres.
+    /// Point at the centre of the view, metres.
     pub target: [f64; 3],
-    /// The whole vertical angle, degrees, above 0 and below 180.
+    /// Vertical field of view, degrees, above 0 and below 180.
     #[serde(default = "default_fov_deg")]
     pub fov_deg: f64,
 }
@@ -76,7 +76,7 @@ impl CaseView {
 }
 
 impl Case {
-    /// Returns the sun at one of its heights.
+    /// Returns the sun at an elevation.
     #[must_use]
     pub fn sun(&self, elevation_deg: f64) -> Light {
         test_scenes::sun(elevation_deg, self.sun_heading_deg)
@@ -101,28 +101,26 @@ pub fn built_in_cases() -> Result<CaseSet, Error> {
 }
 
 impl CaseSet {
-    /// Reads cases from RON; `place` is what errors name.
+    /// Reads cases from RON; errors name the file `place`.
     ///
     /// # Errors
-    /// [`Error::Cases`] with line and column, or the value that is out of range and its range.
+    /// [`Error::File`] with line and column, or the value that is out of range and its range.
     pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
         let file = place.display().to_string();
         let set: Self = ron_file::parse_file(&file, text)?;
         if set.cases.is_empty() {
-            return Err(
-                ron_file::field_error(&file, text, "cases", "there is no case; give at least one").into()
-            );
+            return Err(ron_file::field_error(&file, text, "cases", "expected at least one case").into());
         }
         for (index, case) in set.cases.iter().enumerate() {
-            let wrong = |problem| ron_file::field_error(&file, text, &format!("cases.{index}"), problem);
-            case.check().map_err(wrong)?;
+            let error = |problem| ron_file::field_error(&file, text, &format!("cases.{index}"), problem);
+            case.check().map_err(error)?;
         }
         Ok(set)
     }
 }
 
 /// The largest coordinate of a view, metres.
-const FARTHEST_M: f64 = 1e9;
+const MAX_COORDINATE_M: f64 = 1e9;
 
 impl Case {
     fn check(&self) -> Result<(), String> {
@@ -135,35 +133,36 @@ impl Case {
                 test_scenes::TEST_SCENES.join(", ")
             ));
         }
-        let fits = |elevation: &f64| *elevation > 0.0 && *elevation <= 90.0;
-        if let Some(wrong) = self.sun_elevations_deg.iter().find(|elevation| !fits(elevation)) {
-            return Err(format!("{name}: sun_elevations_deg is {wrong}; give heights above 0 and up to 90"));
+        let in_range = |elevation: &f64| *elevation > 0.0 && *elevation <= 90.0;
+        if let Some(invalid) = self.sun_elevations_deg.iter().find(|elevation| !in_range(elevation)) {
+            return Err(format!(
+                "{name}: invalid value {invalid} in sun_elevations_deg; allowed: above 0, up to 90"
+            ));
         }
         if matches!(self.scene, SceneSource::TestScene(_))
             && (self.sun_elevations_deg.is_empty() || self.views.is_empty())
         {
             return Err(format!(
-                "{name}: a test scene has neither lights nor cameras; give sun_elevations_deg and views"
+                "{name}: a test scene has no lights or cameras; expected sun_elevations_deg and views"
             ));
         }
         for view in &self.views {
             let numbers = || view.eye.iter().chain(&view.target);
-            if let Some(wrong) = numbers().find(|value| !(-FARTHEST_M..=FARTHEST_M).contains(*value)) {
+            if let Some(invalid) =
+                numbers().find(|value| !(-MAX_COORDINATE_M..=MAX_COORDINATE_M).contains(*value))
+            {
                 return Err(format!(
-                    "{name}, view {}: eye and target have {wrong}; give coordinates from -1e9 to 1e9 m",
+                    "{name}, view {}: invalid coordinate {invalid} in eye or target; allowed: -1e9 to 1e9 m",
                     view.name
                 ));
             }
             if view.eye == view.target {
-                return Err(format!(
-                    "{name}, view {}: eye and target must be two different points",
-                    view.name
-                ));
+                return Err(format!("{name}, view {}: eye and target must be different points", view.name));
             }
             if !(view.fov_deg > 0.0 && view.fov_deg < 180.0) {
                 let fov = view.fov_deg;
                 return Err(format!(
-                    "{name}, view {}: fov_deg is {fov}; give one above 0 and below 180",
+                    "{name}, view {}: invalid value {fov} of fov_deg; allowed: above 0, below 180",
                     view.name
                 ));
             }
@@ -198,24 +197,27 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_case_is_refused_in_one_line_that_says_what_and_where() {
+    fn an_invalid_case_is_an_error_of_one_line_with_problem_and_location() {
         let text = r#"(cases: [(scene: TestScene("castle"))])"#;
         assert!(
             problem(text).contains("my.ron:1:10: unknown test scene `castle`; expected one of: cube, slats")
         );
         let text = r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [95], views: [])])"#;
-        assert!(problem(text).contains("cube: sun_elevations_deg is 95; give heights above 0 and up to 90"));
+        assert!(
+            problem(text)
+                .contains("cube: invalid value 95 in sun_elevations_deg; allowed: above 0, up to 90")
+        );
         let text = r#"(cases: [(scene: TestScene("cube"), suns: [])])"#;
         assert!(
             problem(text).contains("my.ron:1:37: ") && problem(text).contains("suns"),
             "{}",
             problem(text)
         );
-        assert!(problem("(cases: [])").contains("my.ron:1:9: there is no case"));
+        assert!(problem("(cases: [])").contains("my.ron:1:9: expected at least one case"));
         let view = r#"(name: "a", eye: (NaN, 1, 2), target: (0, 1, 2))"#;
         let text =
             format!(r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [30], views: [{view}])])"#);
-        assert!(problem(&text).contains("cube, view a: eye and target have NaN; give coordinates"));
+        assert!(problem(&text).contains("cube, view a: invalid coordinate NaN in eye or target"));
         let view = r#"(name: "a", eye: (0, 1, 2), target: (0, 1, 2))"#;
         let text =
             format!(r#"(cases: [(scene: TestScene("cube"), sun_elevations_deg: [30], views: [{view}])])"#);

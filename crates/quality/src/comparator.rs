@@ -1,4 +1,4 @@
-//! One light in one view: what a technique says, the truth, and how they differ.
+//! Compares the shadows of one light in one view with ground truth.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -6,66 +6,66 @@ use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 use shadowgraph_shadows::rays::RayScene;
 use shadowgraph_shadows::{ShadowInputs, plan_shadows};
 
-use super::fine::Fine;
 use super::ground_truth::RayLight;
 use super::metrics::{
     Band, EdgeError, Images, MeanError, Misclassified, MissingContacts, PeterPanning, RECEIVER_N_DOT_L,
     Samples, TowardsLight, band, edge_error, mean_error, misclassified, missing_contacts, peter_panning,
 };
+use super::subpixel::SubpixelReference;
 use super::{GroundTruth, SurfaceReader, Surfaces, Texels, ViewImages};
 use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
 
 use crate::Error;
 
-/// Half of the angle that the sun takes up in the sky, radians.
+/// Angular radius of the sun, radians.
 pub const SUN_ANGULAR_RADIUS: f32 = 0.004_65;
 
-/// The radius of spot and point lights, metres: files say nothing of it.
+/// Radius of spot and point lights, metres, which files do not contain.
 pub const PUNCTUAL_LIGHT_RADIUS_M: f32 = 0.05;
 
-/// What a visibility of 8 bits can be off by.
+/// Rounding error of a visibility of 8 bits.
 const NUMERIC_NOISE: f32 = 1.0 / 255.0;
 
-/// How a technique's shadows of one light differ from the truth in one view.
+/// Errors of a technique's shadows of one light in one view.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewErrors {
-    /// Pixels on the wrong side of one half.
+    /// Misclassified pixels.
     pub misclassified: Misclassified,
-    /// How far visibility is off on average.
+    /// Mean error of visibility.
     pub mean_error: MeanError,
-    /// Shadow that is missing where things touch.
+    /// Missing contact shadows.
     #[serde(rename = "lost_contacts")]
     pub missing_contacts: MissingContacts,
-    /// How far shadows begin from what casts them.
+    /// Peter-panning: distance between contacts and the beginning of shadows.
     #[serde(rename = "detachment")]
     pub peter_panning: PeterPanning,
 }
 
-/// What is known of a light in a view before any technique is asked.
+/// The reference of a light in a view, independent of the technique.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
-    /// What the view sees.
+    /// The visible surfaces.
     pub surfaces: Surfaces,
     /// The light.
     pub light: RayLight,
-    /// Whether the light's centre is samples.
+    /// Hard reference: visibility of the light's centre.
     pub truth: GroundTruth,
-    /// How much of the light is samples, 0 to 1, if that was asked for.
+    /// Soft reference: visible fraction of the light, 0 to 1, if requested.
     pub soft: Option<Vec<f32>>,
-    /// The texels of the shadow maps that the settings ask for. They decide how wide the band is, for every technique:
-    /// all are judged by the same pixels.
+    /// The texels of the shadow maps according to the settings. They determine the width of the band, so all
+    /// techniques are measured on the same pixels.
     pub texels: Texels,
 }
 
 /// A technique's errors in a view.
 #[derive(Clone, Debug)]
-pub struct Compared {
-    /// How its shadows differ from hard truth.
+pub struct ViewComparison {
+    /// Errors against the hard reference.
     pub errors: ViewErrors,
-    /// How its edges differ from soft truth, if that is known.
+    /// Errors of edges against the soft reference, if there is one.
     pub edges: Option<EdgeError>,
-    /// What was looked at.
-    pub pictures: ViewImages,
+    /// The compared images.
+    pub images: ViewImages,
 }
 
 /// Measures views of one scene.
@@ -78,7 +78,7 @@ pub struct Comparator<'g> {
 }
 
 impl<'g> Comparator<'g> {
-    /// Prepares to measure `light` in views of renderers of one scene, whose pictures show that light's visibility.
+    /// Prepares to measure `light` in views of renderers of one scene, whose output is the visibility of that light.
     ///
     /// # Errors
     /// A failure of the GPU.
@@ -86,16 +86,20 @@ impl<'g> Comparator<'g> {
         Ok(Self { gpu, reader: SurfaceReader::new(gpu, renderer)?, light, rays: None })
     }
 
-    /// Measures a view, without soft truth.
+    /// Measures a view, without a soft reference.
     ///
     /// # Errors
-    /// Settings out of range, a picture over the adapter's limits, or a failure of the GPU.
-    pub fn measure(&mut self, renderer: &mut Renderer, options: &ViewOptions) -> Result<Compared, Error> {
+    /// Settings out of range, an image over the adapter's limits, or a failure of the GPU.
+    pub fn measure(
+        &mut self,
+        renderer: &mut Renderer,
+        options: &ViewOptions,
+    ) -> Result<ViewComparison, Error> {
         let reference = self.reference(renderer, options, 0)?;
         self.compare(renderer, options, &reference)
     }
 
-    /// Finds the truth of a view. Soft truth is found by `soft_rays` rays a pixel; 0: not at all.
+    /// Computes the reference of a view. The soft reference takes `soft_rays` rays per pixel; with 0 there is none.
     ///
     /// # Errors
     /// As [`measure`](Self::measure).
@@ -118,7 +122,7 @@ impl<'g> Comparator<'g> {
         Ok(Reference { surfaces, light, truth, soft, texels })
     }
 
-    /// Draws what a renderer's technique says of a view, and compares it with the truth.
+    /// Renders a view with the renderer's technique, and compares it with the reference.
     ///
     /// # Errors
     /// As [`measure`](Self::measure).
@@ -127,7 +131,7 @@ impl<'g> Comparator<'g> {
         renderer: &mut Renderer,
         options: &ViewOptions,
         reference: &Reference,
-    ) -> Result<Compared, Error> {
+    ) -> Result<ViewComparison, Error> {
         let drawn = renderer.draw(self.gpu, options)?;
         let Reference { surfaces, truth, soft, texels, .. } = reference;
         let mut n_dot_l = truth.n_dot_l.clone();
@@ -143,12 +147,12 @@ impl<'g> Comparator<'g> {
             truth: &truth.hard,
             soft_truth: soft.as_deref(),
             blocker_distances_m: &truth.blocker_distances_m,
-            texel_px: &texels.reach_px,
+            texel_px: &texels.extent_px,
             texel_m: &texels.side_m,
             towards_light: TowardsLight::PerPixel(&truth.towards_light),
         })?;
         let mut band = band(&samples);
-        self.widen(&mut band, &visibility, options, reference, &n_dot_l);
+        self.widen_band(&mut band, &visibility, options, reference, &n_dot_l);
         let errors = ViewErrors {
             misclassified: misclassified(&samples, &band),
             mean_error: mean_error(&samples, &band),
@@ -158,13 +162,13 @@ impl<'g> Comparator<'g> {
         let edges = edge_error(&samples);
         let receivers = (0..samples.len()).map(|pixel| samples.is_receiver(pixel)).collect();
         let truth = truth.hard.clone();
-        let pictures = ViewImages { size_px: options.size_px, receivers, band, visibility, truth };
-        Ok(Compared { errors, edges, pictures })
+        let images = ViewImages { size_px: options.size_px, receivers, band, visibility, truth };
+        Ok(ViewComparison { errors, edges, images })
     }
 
-    /// Adds pixels that differ from the truth to the band if an edge runs past their centres, in a shadow that is
-    /// narrower than pixels are apart.
-    fn widen(
+    /// Adds pixels that differ from the reference to the band if there is an edge near their centres, as of a shadow
+    /// that is narrower than the distance of pixels.
+    fn widen_band(
         &self,
         band: &mut Band,
         visibility: &[f32],
@@ -173,7 +177,8 @@ impl<'g> Comparator<'g> {
         n_dot_l: &[f32],
     ) {
         let Some((origin_world, rays)) = &self.rays else { return };
-        let fine = Fine::new(rays, &reference.light, &reference.surfaces, options, *origin_world);
+        let fine =
+            SubpixelReference::new(rays, &reference.light, &reference.surfaces, options, *origin_world);
         for pixel in 0..visibility.len() {
             let differs = (visibility[pixel] - reference.truth.hard[pixel]).abs() > NUMERIC_NOISE;
             let counts = reference.surfaces.is_drawn(pixel) && n_dot_l[pixel] > RECEIVER_N_DOT_L;
@@ -183,7 +188,7 @@ impl<'g> Comparator<'g> {
         }
     }
 
-    /// The triangles relative to an origin.
+    /// Returns the triangles relative to an origin.
     fn rays(&mut self, renderer: &Renderer, origin_world: DVec3) -> Result<&RayScene, Error> {
         let kept = self.rays.take().filter(|(origin, _)| *origin == origin_world);
         let rays = match kept {
@@ -194,7 +199,7 @@ impl<'g> Comparator<'g> {
     }
 }
 
-/// How large a light is for soft truth: the sun's radius in radians, else that of a lamp in metres.
+/// Returns the size of a light for the soft reference: angular radius of the sun in radians, else radius in metres.
 fn light_size(light: &Light) -> f32 {
     match light.kind {
         LightKind::Directional { .. } => SUN_ANGULAR_RADIUS,
@@ -202,8 +207,8 @@ fn light_size(light: &Light) -> f32 {
     }
 }
 
-/// The grey of a picture of visibilities. Where a surface faces away by its shading normal it is not drawn, and does
-/// not count.
+/// Returns the grey values of a visibility image. Where the shading normal faces away nothing is drawn, and the pixel
+/// does not count.
 fn visibility(rgba8: &[u8], n_dot_l: &mut [f32]) -> Vec<f32> {
     let texels = rgba8.chunks_exact(4).zip(n_dot_l);
     texels
@@ -216,7 +221,7 @@ fn visibility(rgba8: &[u8], n_dot_l: &mut [f32]) -> Vec<f32> {
         .collect()
 }
 
-/// The texels of the maps that a view's settings ask for.
+/// Computes the texels of the maps according to a view's settings.
 pub(super) fn texels(
     renderer: &Renderer,
     options: &ViewOptions,
@@ -236,7 +241,7 @@ pub(super) fn texels(
     Ok(Texels::new(surfaces, &plan, light, options, origin_world))
 }
 
-/// The side of a pixel at a view depth of 1 m; of an orthographic camera, at every depth.
+/// Returns the size of a pixel at a view depth of 1 m, or at any depth for an orthographic camera.
 pub(super) fn pixel_m_at_1m(camera: &Camera, height_px: u32) -> f32 {
     let height_m = match camera.projection {
         Projection::Perspective { fov_y, .. } => 2.0 * (fov_y * 0.5).tan(),

@@ -1,4 +1,4 @@
-//! Counting what is drawn into shadow maps.
+//! Counts the draws of shadow casters.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -7,7 +7,7 @@ use shadowgraph_shadows::{CasterView, ShadowCasters};
 
 use shadowgraph::SceneCasters;
 
-/// A scene's casters that count their draws.
+/// Casters of a scene, with counters of their draws and triangles.
 pub(super) struct CountingCasters<'a> {
     casters: &'a SceneCasters,
     draws: AtomicU64,
@@ -19,8 +19,8 @@ impl<'a> CountingCasters<'a> {
         Self { casters, draws: AtomicU64::new(0), triangles: AtomicU64::new(0) }
     }
 
-    /// The draws and the triangles so far.
-    pub(super) fn counted(&self) -> (u64, u64) {
+    /// Returns the numbers of draws and triangles so far.
+    pub(super) fn counts(&self) -> (u64, u64) {
         (self.draws.load(Ordering::Relaxed), self.triangles.load(Ordering::Relaxed))
     }
 }

@@ -1,7 +1,7 @@
-//! How much a technique's shadows change while the camera moves.
+//! Flicker: change of a technique's shadows while the camera moves.
 
 use super::metrics::{RECEIVER_N_DOT_L, flicker};
-use super::motion::{FAR_OUT_M, camera_at, moved};
+use super::motion::{FAR_OFFSET_M, camera_for_frame, translated};
 use super::report::{Flicker, Motion};
 use shadowgraph_shadows::Technique;
 
@@ -11,11 +11,11 @@ use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 use crate::Error;
 
-/// The size of the picture whose surfaces are the points that are asked at, pixels.
+/// Size of the image whose surface points are evaluated, pixels.
 pub const FLICKER_SIZE_PX: [u32; 2] = [320, 180];
 
-/// Measures a technique's flicker in a view of a renderer's scene, for a light: all motions, at the place of the scene
-/// and ten kilometres away, each over `frames` frames.
+/// Measures a technique's flicker in a view of a renderer's scene, for a light: all motions, at the original
+/// location of the scene and ten kilometres away, each over `frames` frames.
 ///
 /// # Errors
 /// Settings out of range, or a failure of the GPU.
@@ -27,17 +27,17 @@ pub fn measure_flicker(
     light: usize,
     frames: u32,
 ) -> Result<Vec<Flicker>, Error> {
-    let mut found = of_scene(gpu, renderer, options, light, frames, false)?;
+    let mut flickers = measure_motions(gpu, renderer, options, light, frames, false)?;
     let mut far = options.clone();
-    far.camera.world_from_view.translation += FAR_OUT_M;
-    let scene = moved(renderer.scene(), FAR_OUT_M);
+    far.camera.world_from_view.translation += FAR_OFFSET_M;
+    let scene = translated(renderer.scene(), FAR_OFFSET_M);
     let aov = Aov::Visibility(light as u32);
     let mut renderer = Renderer::with_config(gpu, scene, &far.camera, aov, technique)?;
-    found.extend(of_scene(gpu, &mut renderer, &far, light, frames, true)?);
-    Ok(found)
+    flickers.extend(measure_motions(gpu, &mut renderer, &far, light, frames, true)?);
+    Ok(flickers)
 }
 
-fn of_scene(
+fn measure_motions(
     gpu: &Gpu,
     renderer: &mut Renderer,
     options: &ViewOptions,
@@ -49,18 +49,22 @@ fn of_scene(
     let reference = Comparator::new(gpu, renderer, light)?.reference(renderer, &options, 0)?;
     let (probe, points) = (Probe::new(gpu, renderer)?, Points::new(gpu, &reference.surfaces));
     let Some(distance_m) = median_depth_m(&reference) else { return Ok(Vec::new()) };
-    let truth = of_receivers(&reference, &reference.truth.hard);
+    let truth = receiver_values(&reference, &reference.truth.hard);
     let query = Query { light: light as u32, coarser: false };
     let change = |motion| {
-        let samples = (0..frames).map(|frame| {
-            let camera = camera_at(&options.camera, motion, frame, options.size_px[1], distance_m);
+        let visibilities = (0..frames).map(|frame| {
+            let camera = camera_for_frame(&options.camera, motion, frame, options.size_px[1], distance_m);
             let view = ViewOptions { camera, ..options.clone() };
-            let results = probe.ask(gpu, renderer, &view, &points, query)?;
-            Ok(of_receivers(&reference, &results.visibility))
+            let results = probe.evaluate(gpu, renderer, &view, &points, query)?;
+            Ok(receiver_values(&reference, &results.visibility))
         });
-        let samples = samples.collect::<Result<Vec<_>, Error>>()?;
-        // Neither the scene nor the light moves: the truth at a point of the world stays.
-        Ok(Flicker { motion, far_out, change: flicker(&samples, &vec![truth.clone(); samples.len()])? })
+        let visibilities = visibilities.collect::<Result<Vec<_>, Error>>()?;
+        // Neither the scene nor the light moves, so the reference at a world point is constant.
+        Ok(Flicker {
+            motion,
+            far_out,
+            change: flicker(&visibilities, &vec![truth.clone(); visibilities.len()])?,
+        })
     };
     [Motion::Translate, Motion::Rotate, Motion::Zoom].into_iter().map(change).collect()
 }
@@ -69,13 +73,13 @@ fn is_receiver(reference: &Reference, pixel: usize) -> bool {
     reference.surfaces.is_drawn(pixel) && reference.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L
 }
 
-fn of_receivers(reference: &Reference, values: &[f32]) -> Vec<f32> {
+fn receiver_values(reference: &Reference, values: &[f32]) -> Vec<f32> {
     let receivers = values.iter().enumerate().filter(|(pixel, _)| is_receiver(reference, *pixel));
     receivers.map(|(_, value)| *value).collect()
 }
 
-/// Of all receivers; `None` if there are none.
+/// Returns the median view depth of receivers; `None` if there are none.
 fn median_depth_m(reference: &Reference) -> Option<f64> {
-    let depths = of_receivers(reference, &reference.surfaces.view_depths_m);
+    let depths = receiver_values(reference, &reference.surfaces.view_depths_m);
     super::metrics::percentile(&depths, 50.0).map(f64::from)
 }

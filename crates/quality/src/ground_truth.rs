@@ -1,43 +1,43 @@
-//! What a view's surfaces truly see of a light.
+//! Ray-traced ground truth of the visibility of a light at the surfaces of a view.
 
 use glam::{DVec3, Vec3};
 use shadowgraph_scene::{Light, LightKind};
 use shadowgraph_shadows::rays::{LightShape, RayScene, ReceiverPoint, trace_hard, trace_soft};
 
 use super::Surfaces;
-use super::parallel::rows;
+use super::parallel::map_pixels;
 
-/// The truth about one light in a view, row by row from the top.
+/// Ground truth of one light in a view, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundTruth {
-    /// Whether the light's centre is samples: 1 lit, 0 in shadow; behind what is translucent the mean of the colours that pass. 0 also
-    /// where nothing is drawn.
+    /// Visibility of the light's centre: 1 lit, 0 in shadow; behind translucent surfaces the mean of the transmitted
+    /// colour channels; 0 where there is no geometry.
     pub hard: Vec<f32>,
-    /// Metres to the nearest blocker; infinite where there is none.
+    /// Distances to the nearest blocker, metres; infinite if there is none.
     pub blocker_distances_m: Vec<f32>,
-    /// The cosine between the geometric normal and the way to the light; 0 where nothing is drawn, and outside of a
-    /// spot light's cone or of a light's range.
+    /// Cosine between the geometric normal and the direction to the light; 0 where there is no geometry, and outside
+    /// a spot light's cone or a light's range.
     pub n_dot_l: Vec<f32>,
-    /// The unit way to the light; up where nothing is drawn.
+    /// Unit directions to the light; up where there is no geometry.
     pub towards_light: Vec<Vec3>,
 }
 
-/// So many rays tell whether a pixel may be in a penumbra.
+/// Number of rays that determine whether a pixel can be in a penumbra.
 pub const PROBE_RAYS: u32 = 8;
 
 /// The light of a view, for rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayLight {
-    /// Its shape.
+    /// Shape of the light.
     pub shape: LightShape,
-    /// The axis of a spot light's cone and the cosine of its half angle.
+    /// Axis of a spot light's cone and the cosine of its half angle.
     cone: Option<(Vec3, f32)>,
     range_m: f32,
 }
 
 impl RayLight {
-    /// Makes the light relative to `origin_world`. `size` is its radius: in radians for a directional light (half of
-    /// the angle that it takes up in the sky), else in metres.
+    /// Creates the light relative to `origin_world`. `size` is its radius: in radians for a directional light (its
+    /// angular radius), else in metres.
     #[must_use]
     pub fn new(light: &Light, size: f32, origin_world: DVec3) -> Self {
         let point = |position_world: DVec3| LightShape::Point {
@@ -61,7 +61,7 @@ impl RayLight {
         }
     }
 
-    /// The unit way to the light from a position that it reaches.
+    /// Returns the unit direction to the light from a position; `None` if the light does not reach it.
     fn direction_from(&self, position: Vec3) -> Option<Vec3> {
         let center = match self.shape {
             LightShape::Directional { to_light, .. } => return Some(to_light),
@@ -73,7 +73,7 @@ impl RayLight {
     }
 }
 
-/// The mean of the colours, as `probe.wgsl` has it.
+/// Returns the mean of the colour channels, as in `probe.wgsl`.
 pub(super) fn mean(visibility: Vec3) -> f32 {
     visibility.element_sum() / 3.0
 }
@@ -88,11 +88,11 @@ fn receiver(surfaces: &Surfaces, pixel: usize, eye: Vec3) -> ReceiverPoint {
 }
 
 impl GroundTruth {
-    /// Follows a ray from each pixel to the light. `eye` is the camera, relative to the frame's origin.
+    /// Traces a ray from each pixel to the light. `eye` is the camera, relative to the frame's origin.
     #[must_use]
     pub fn trace(scene: &RayScene, surfaces: &Surfaces, light: &RayLight, eye: Vec3) -> Self {
         let dark = (0.0, f32::INFINITY, 0.0, Vec3::Y);
-        let pixels = rows(surfaces.size_px, |pixel| {
+        let pixels = map_pixels(surfaces.size_px, |pixel| {
             let to_light =
                 light.direction_from(surfaces.positions[pixel]).filter(|_| surfaces.is_drawn(pixel));
             let Some(to_light) = to_light else { return dark };
@@ -108,8 +108,8 @@ impl GroundTruth {
         }
     }
 
-    /// Finds how much of the light each pixel sees, by `rays` rays over its disc. Where [`PROBE_RAYS`] rays all say the
-    /// same as hard truth, so does soft truth.
+    /// Returns the fraction of the light that is visible from each pixel, by `rays` rays over its disc. Where
+    /// [`PROBE_RAYS`] rays all agree with the hard reference, no more are traced.
     #[must_use]
     pub fn trace_soft(
         scene: &RayScene,
@@ -119,16 +119,16 @@ impl GroundTruth {
         hard: &[f32],
         rays: u32,
     ) -> Vec<f32> {
-        rows(surfaces.size_px, |pixel| {
+        map_pixels(surfaces.size_px, |pixel| {
             let reached =
                 surfaces.is_drawn(pixel) && light.direction_from(surfaces.positions[pixel]).is_some();
             if !reached {
                 return 0.0;
             }
             let receiver = receiver(surfaces, pixel, eye);
-            let visible_part = |rays| mean(trace_soft(scene, &light.shape, &receiver, rays));
-            let probed = visible_part(PROBE_RAYS);
-            if probed == hard[pixel] { probed } else { visible_part(rays) }
+            let visible_fraction = |rays| mean(trace_soft(scene, &light.shape, &receiver, rays));
+            let probed = visible_fraction(PROBE_RAYS);
+            if probed == hard[pixel] { probed } else { visible_fraction(rays) }
         })
     }
 }

@@ -1,22 +1,22 @@
-//! Measures what Shadowgraph draws: its shadows against ray-traced ground truth, and its cost against passes encoded by hand.
+//! Measures Shadowgraph: its shadows against ray-traced ground truth, and its cost against hand-written passes.
 
 pub mod bench;
 mod cases;
 mod comparator;
 mod counting;
 mod error;
-mod fine;
 mod flicker;
 mod ground_truth;
+mod images;
 mod measured_scene;
 pub mod metrics;
 mod motion;
 mod parallel;
-mod pictures;
 mod probe;
 pub mod report;
 mod run;
 mod seam;
+mod subpixel;
 mod surfaces;
 mod texels;
 mod variants;
@@ -24,18 +24,18 @@ mod views;
 
 pub use cases::{Case, CaseSet, CaseView, SceneSource, built_in_cases};
 pub use comparator::{
-    Comparator, Compared, PUNCTUAL_LIGHT_RADIUS_M, Reference, SUN_ANGULAR_RADIUS, ViewErrors,
+    Comparator, PUNCTUAL_LIGHT_RADIUS_M, Reference, SUN_ANGULAR_RADIUS, ViewComparison, ViewErrors,
 };
 pub use error::Error;
-pub use fine::{FINE_POINTS, FINE_REACH_PX};
 pub use flicker::{FLICKER_SIZE_PX, measure_flicker};
 pub use ground_truth::{GroundTruth, PROBE_RAYS, RayLight};
+pub use images::ViewImages;
 pub use measured_scene::{DEFAULT_VIEWS, MAX_LIGHTS, MeasuredLight, MeasuredScene};
-pub use motion::{FAR_OUT_M, STEP_PX, camera_at};
-pub use pictures::ViewImages;
+pub use motion::{FAR_OFFSET_M, STEP_PX, camera_for_frame};
 pub use probe::{Points, Probe, Query, Results};
 pub use run::{CaseImages, Measured, Task, measure};
 pub use seam::measure_seam;
+pub use subpixel::{SUBPIXEL_GRID, SUBPIXEL_RADIUS_PX};
 pub use surfaces::{SurfaceReader, Surfaces};
 pub use texels::{NO_VIEW, Texels};
 pub use variants::{Variant, VariantSet};

@@ -9,42 +9,42 @@ use super::views::automatic_views;
 use super::{Case, SceneSource};
 use crate::Error;
 
-/// The most lights of a file that are measured.
+/// Maximum number of lights of a file that are measured.
 pub const MAX_LIGHTS: usize = 4;
 
-/// So many views are chosen for a scene that names none.
+/// Number of views that are chosen automatically for a scene without views.
 pub const DEFAULT_VIEWS: usize = 4;
 
 /// A scene to measure.
 #[derive(Clone, Debug)]
 pub struct MeasuredScene {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: String,
     /// The scene.
     pub scene: Scene,
-    /// The lights that are measured, one after the other.
+    /// The lights to measure, one after the other.
     pub lights: Vec<MeasuredLight>,
-    /// From where it is looked at, by name.
+    /// The cameras, with their names.
     pub views: Vec<(String, Camera)>,
 }
 
 /// A light that is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredLight {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: String,
     /// All lights of the scene while this one is measured.
     pub all: Vec<Light>,
-    /// Its place among them.
+    /// Index of the measured light among them.
     pub index: usize,
 }
 
 impl MeasuredScene {
-    /// Takes a scene with its own lights: of those that cast shadows the first [`MAX_LIGHTS`]. Without views, some are
-    /// chosen.
+    /// Creates the measured scene with the scene's own lights: the first [`MAX_LIGHTS`] that cast shadows. If `views` is
+    /// empty, views are chosen automatically.
     ///
     /// # Errors
-    /// If the scene's triangles cannot be traced, which views are chosen by.
+    /// If the scene's triangles cannot be traced, which choosing views requires.
     pub fn new(name: impl Into<String>, scene: Scene, views: Vec<(String, Camera)>) -> Result<Self, Error> {
         let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts_shadow);
         let light = |(index, light): (usize, &Light)| MeasuredLight {
@@ -53,26 +53,26 @@ impl MeasuredScene {
             index,
         };
         let lights = casting.take(MAX_LIGHTS).map(light).collect();
-        Self { name: name.into(), scene, lights, views }.with_some_views(DEFAULT_VIEWS)
+        Self { name: name.into(), scene, lights, views }.with_default_views(DEFAULT_VIEWS)
     }
 
-    /// Chooses `count` views where there are none.
+    /// Chooses `count` views if there are none.
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    fn with_some_views(mut self, count: usize) -> Result<Self, Error> {
+    fn with_default_views(mut self, count: usize) -> Result<Self, Error> {
         if self.views.is_empty() {
             self.views = automatic_views(&self.scene, count)?;
         }
         Ok(self)
     }
 
-    /// Loads the scene of a case. Relative paths start at `folder`. Without suns in the case, and a light in the file,
-    /// there is a default sun.
+    /// Loads the scene of a case. Relative paths start at `folder`. If neither the case has suns nor the
+    /// file lights, a default sun is added.
     ///
     /// # Errors
-    /// If the file does not load.
-    pub fn of_case(case: &Case, folder: &Path) -> Result<Self, Error> {
+    /// If the file cannot be loaded.
+    pub fn from_case(case: &Case, folder: &Path) -> Result<Self, Error> {
         let mut scene = match &case.scene {
             SceneSource::TestScene(name) => test_scenes::test_scene(name).unwrap_or_default(),
             SceneSource::File(file) => gltf::load(&folder.join(file))?,
@@ -98,7 +98,7 @@ impl MeasuredScene {
         Ok(measured_scene)
     }
 
-    /// The sun of a case in the place of the scene's own.
+    /// Returns the sun of a case, which replaces the scene's own.
     fn sun(&self, case: &Case, elevation_deg: f64) -> MeasuredLight {
         let is_directional = |light: &&Light| matches!(light.kind, LightKind::Directional { .. });
         let others = self.scene.lights.iter().filter(|light| !is_directional(light)).cloned();

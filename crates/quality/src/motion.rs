@@ -6,31 +6,37 @@ use shadowgraph_scene::{Camera, LightKind, Projection, Scene};
 use super::comparator::pixel_m_at_1m;
 use super::report::Motion;
 
-/// How far what is seen moves over the picture from one frame to the next, pixels.
+/// Movement on screen from one frame to the next, pixels.
 pub const STEP_PX: f64 = 0.37;
 
 /// Ten kilometres, where f32 has steps of a millimetre.
-pub const FAR_OUT_M: DVec3 = DVec3::new(8_000.0, 0.0, 6_000.0);
+pub const FAR_OFFSET_M: DVec3 = DVec3::new(8_000.0, 0.0, 6_000.0);
 
-/// Returns the camera at a frame of a motion. `height_px` is the picture's height, `distance_m` how far away is what
-/// moves by [`STEP_PX`] when the camera translates.
+/// Returns the camera for a frame of a motion. `height_px` is the height of the image. Objects at the distance
+/// `distance_m` move by [`STEP_PX`] when the camera translates.
 #[must_use]
-pub fn camera_at(camera: &Camera, motion: Motion, frame: u32, height_px: u32, distance_m: f64) -> Camera {
+pub fn camera_for_frame(
+    camera: &Camera,
+    motion: Motion,
+    frame: u32,
+    height_px: u32,
+    distance_m: f64,
+) -> Camera {
     let pixels = STEP_PX * f64::from(frame);
     let pixel = f64::from(pixel_m_at_1m(camera, height_px));
     let (step, projection) = match motion {
         Motion::Translate => {
-            let way_m = match camera.projection {
+            let offset_m = match camera.projection {
                 Projection::Perspective { .. } => pixels * pixel * distance_m,
                 Projection::Orthographic { .. } => pixels * pixel,
             };
-            (DAffine3::from_translation(DVec3::new(0.8, 0.0, -0.6) * way_m), camera.projection)
+            (DAffine3::from_translation(DVec3::new(0.8, 0.0, -0.6) * offset_m), camera.projection)
         }
         Motion::Rotate => {
-            let turn = DAffine3::from_rotation_y(pixels * pixel * 0.9);
-            (turn * DAffine3::from_rotation_x(pixels * pixel * 0.4), camera.projection)
+            let yaw = DAffine3::from_rotation_y(pixels * pixel * 0.9);
+            (yaw * DAffine3::from_rotation_x(pixels * pixel * 0.4), camera.projection)
         }
-        // What is at the picture's upper edge moves by the step.
+        // The upper edge of the image moves by the step.
         Motion::Zoom => {
             let factor = (1.0 - STEP_PX / (0.5 * f64::from(height_px))).powi(frame as i32);
             (DAffine3::IDENTITY, zoomed(camera.projection, factor))
@@ -55,7 +61,7 @@ fn zoomed(projection: Projection, factor: f64) -> Projection {
 
 /// Returns a scene with all its instances and lights moved by `offset`; its cameras stay.
 #[must_use]
-pub(super) fn moved(scene: &Scene, offset: DVec3) -> Scene {
+pub(super) fn translated(scene: &Scene, offset: DVec3) -> Scene {
     let mut scene = scene.clone();
     for instance in &mut scene.instances {
         instance.world_from_local.translation += offset;
@@ -82,20 +88,20 @@ mod tests {
         Camera::look_at(DVec3::new(1.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, projection)
     }
 
-    /// Where a point is in a picture of 320x180, pixels.
+    /// Returns the position of a point in an image of 320x180, pixels.
     fn pixel(camera: &Camera, point: DVec3) -> DVec3 {
         let clip = camera.clip_from_view(320.0 / 180.0) * camera.view_from_world() * point.extend(1.0);
         clip.truncate() / clip.w * DVec3::new(160.0, 90.0, 0.0)
     }
 
     #[test]
-    fn every_motion_moves_what_is_seen_by_less_than_a_pixel_a_frame_but_moves_it() {
+    fn every_motion_moves_the_image_by_a_fraction_of_a_pixel_per_frame() {
         let camera = camera();
         let target = camera.position_world() + camera.forward_world() * 5.4;
-        // Off the middle, which zooming leaves where it is.
+        // Not the centre, because zooming does not move it.
         let point = target + DVec3::Y * 1.8;
         for motion in [Motion::Translate, Motion::Rotate, Motion::Zoom] {
-            let at = |frame| pixel(&camera_at(&camera, motion, frame, HEIGHT_PX, 5.4), point);
+            let at = |frame| pixel(&camera_for_frame(&camera, motion, frame, HEIGHT_PX, 5.4), point);
             for frame in 0..64 {
                 let step = at(frame).distance(at(frame + 1));
                 assert!((0.05..0.8).contains(&step), "{motion:?}, frame {frame}: {step} pixels");
@@ -104,9 +110,9 @@ mod tests {
     }
 
     #[test]
-    fn the_first_frame_is_the_camera_itself() {
+    fn the_first_frame_has_the_original_camera() {
         for motion in [Motion::Translate, Motion::Rotate, Motion::Zoom] {
-            let first = camera_at(&camera(), motion, 0, HEIGHT_PX, 5.0);
+            let first = camera_for_frame(&camera(), motion, 0, HEIGHT_PX, 5.0);
             assert!(first.world_from_view.abs_diff_eq(camera().world_from_view, 1e-12), "{motion:?}");
         }
     }

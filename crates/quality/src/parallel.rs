@@ -1,10 +1,10 @@
-//! Work on all pixels, on all cores.
+//! Maps pixels in parallel, on all cores.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// Returns what `pixel` gives for each pixel of a picture, row by row from the top.
-pub(super) fn rows<T: Send>([width, height]: [u32; 2], pixel: impl Fn(usize) -> T + Sync) -> Vec<T> {
+/// Returns the result of `pixel` for each pixel of an image, row by row from the top.
+pub(super) fn map_pixels<T: Send>([width, height]: [u32; 2], pixel: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let (width, height) = (width as usize, height as usize);
     let next = AtomicUsize::new(0);
     let work = || {
@@ -32,11 +32,11 @@ pub(super) fn rows<T: Send>([width, height]: [u32; 2], pixel: impl Fn(usize) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::rows;
+    use super::map_pixels;
 
     #[test]
-    fn every_pixel_is_asked_once_and_stands_in_its_place() {
-        assert_eq!(rows([37, 23], |pixel| pixel), (0..37 * 23).collect::<Vec<_>>());
-        assert!(rows([5, 0], |pixel| pixel).is_empty());
+    fn every_pixel_is_evaluated_once_and_results_are_in_order() {
+        assert_eq!(map_pixels([37, 23], |pixel| pixel), (0..37 * 23).collect::<Vec<_>>());
+        assert!(map_pixels([5, 0], |pixel| pixel).is_empty());
     }
 }

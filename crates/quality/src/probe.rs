@@ -1,4 +1,4 @@
-//! Asking a technique at stored points, whatever the camera sees.
+//! Asking a technique at point_texture points, whatever the camera sees.
 
 use std::borrow::Cow;
 
@@ -24,45 +24,45 @@ const COARSER: u32 = 8;
 /// The side of a workgroup of `probe.wgsl`, points.
 const WORKGROUP: u32 = 8;
 
-/// The node around all that the technique adds.
+/// The node around all passes of the technique.
 const TECHNIQUE: &str = "technique";
 
-/// Asks a renderer's technique by a compute pass, through the point function of the technique contract.
+/// Evaluates a renderer's technique in a compute pass, through the point function of the technique contract.
 pub struct Probe {
     view_layout: wgpu::BindGroupLayout,
     shadow_layout: wgpu::BindGroupLayout,
     points_layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
-    /// Where the technique reads them.
+    /// Draws the surface buffers, if the technique reads them.
     surfaces: Option<SurfaceDrawer>,
 }
 
-/// Points in the world to ask at, on the GPU.
+/// World points to evaluate, on the GPU.
 pub struct Points {
     texture: wgpu::Texture,
     size: [u32; 2],
 }
 
-/// What is asked.
+/// A query: which light, and which of its maps.
 #[derive(Clone, Copy, Debug)]
 pub struct Query {
-    /// Of which light, by its place in the scene's list.
+    /// Index of the light in the scene's list.
     pub light: u32,
-    /// Whether the next coarser of the maps that cover a point is to answer, where there is one.
+    /// Whether the next coarser of the maps that cover a point is used, if there is one.
     pub coarser: bool,
 }
 
-/// What a technique says at points, and what that cost.
+/// Visibility according to a technique at points, and its cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
-    /// The light that arrives at each point, 0 to 1; 0 where the picture had no surface.
+    /// Visibility at each point, 0 to 1; 0 where the image has no surface.
     pub visibility: Vec<f32>,
-    /// What the technique's passes cost.
+    /// Cost of the technique's passes.
     pub cost: Cost,
 }
 
 impl Points {
-    /// Uploads the surfaces of a picture. A renderer is to be asked before it moves to another origin.
+    /// Uploads the surfaces of an image. They are valid until the renderer moves to another origin.
     #[must_use]
     pub fn new(gpu: &Gpu, surfaces: &Surfaces) -> Self {
         let [width, height] = surfaces.size_px;
@@ -85,7 +85,7 @@ impl Points {
 }
 
 impl Probe {
-    /// Makes the pipeline for a renderer's technique.
+    /// Creates the pipeline for a renderer's technique.
     ///
     /// # Errors
     /// If the technique's WGSL does not compose, or a failure of the GPU.
@@ -100,7 +100,7 @@ impl Probe {
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
         let view_layout = layout(device, &[STORAGE, STORAGE]);
-        let points_layout = layout(device, &[UNIFORM, POINTS, ANSWERS]);
+        let points_layout = layout(device, &[UNIFORM, POINTS, RESULTS]);
         let shadow_layout = shadow_layout(device, renderer.technique());
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("probe"),
@@ -121,11 +121,11 @@ impl Probe {
         Ok(Self { view_layout, shadow_layout, points_layout, pipeline, surfaces })
     }
 
-    /// Draws the shadows of a view, and asks at all points.
+    /// Draws the shadows of a view, and evaluates them at all points.
     ///
     /// # Errors
     /// Settings out of range, or a failure of the GPU.
-    pub fn ask(
+    pub fn evaluate(
         &self,
         gpu: &Gpu,
         renderer: &Renderer,
@@ -133,48 +133,48 @@ impl Probe {
         points: &Points,
         query: Query,
     ) -> Result<Results, Error> {
-        // Points may be beside the view, and are asked for in coarser cascades than they would be read from.
+        // Points may be outside the view, and are evaluated in coarser cascades than usual.
         let mut options = options.clone();
         options.shadows.cull = CullSettings::NONE;
         let view = renderer.view(&options, None);
         let casters = CountingCasters::new(renderer.casters());
         let (mut graph, mut timer) = (renderer.graph(), Timer::new());
         let (bytes, plan) = gpu.checked(|| {
-            let asked = Asked { renderer, view: &view, casters: &casters, points, query };
-            self.record(gpu, &asked, &mut graph, &mut timer)
+            let inputs = ProbeInputs { renderer, view: &view, casters: &casters, points, query };
+            self.execute(gpu, &inputs, &mut graph, &mut timer)
         })?;
         let visibility = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
         let times = timer.read(&gpu.device, &gpu.queue)?;
-        let of_technique = times.iter().filter(|time| is_technique(&time.pass));
-        let gpu_ms = of_technique.filter_map(PassTime::gpu_share_ms);
-        let (draws, triangles) = casters.counted();
+        let technique_times = times.iter().filter(|time| is_technique(&time.pass));
+        let gpu_ms = technique_times.filter_map(PassTime::gpu_share_ms);
+        let (draws, triangles) = casters.counts();
         let texture_bytes = texture_bytes(&plan);
         let cost = Cost { gpu_ms: gpu_ms.reduce(|a, b| a + b), texture_bytes, draws, triangles };
         Ok(Results { visibility, cost })
     }
 
-    fn record<'f>(
+    fn execute<'f>(
         &'f self,
         gpu: &Gpu,
-        asked: &Asked<'f>,
+        inputs: &ProbeInputs<'f>,
         graph: &mut Graph,
         timer: &mut Timer,
     ) -> Result<(Vec<u8>, std::sync::Arc<Plan>), Error> {
-        let Asked { renderer, view, casters, points, query } = *asked;
+        let ProbeInputs { renderer, view, casters, points, query } = *inputs;
         let options = view.options;
         let scene = &renderer.casters().scene;
         let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
         let mut frame = graph.frame();
-        let records =
+        let uniforms =
             ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
-        let buffers = records.upload(&mut frame);
+        let buffers = uniforms.upload(&mut frame);
         let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-        let screen = self
+        let surface_buffers = self
             .surfaces
             .as_ref()
             .map(|drawer| drawer.surface_buffers_with_prepass(&mut frame, &buffers, geometry));
-        let screen = screen.transpose()?;
-        let inputs = ShadowInputs {
+        let surface_buffers = surface_buffers.transpose()?;
+        let shadow_inputs = ShadowInputs {
             view: 0,
             camera: &options.camera,
             aspect: options.aspect(),
@@ -183,26 +183,28 @@ impl Probe {
             origin_world,
             settings: &options.shadows,
         };
-        let add = |frame: &mut Frame<'f>| add_shadows(renderer.technique(), frame, &inputs, screen.as_ref());
+        let add = |frame: &mut Frame<'f>| {
+            add_shadows(renderer.technique(), frame, &shadow_inputs, surface_buffers.as_ref())
+        };
         let shadows = frame.node(TECHNIQUE, add)?;
 
-        let block = Query::block(query, pixel_m_at_1m(&options.camera, options.size_px[1]));
+        let block = Query::to_bytes(query, pixel_m_at_1m(&options.camera, options.size_px[1]));
         let block = frame.uniform(&block);
-        let stored = frame.import_texture("points", &points.texture, true);
+        let point_texture = frame.import_texture("points", &points.texture, true);
         let [width, height] = points.size;
         let mut results = frame.create_texture("results", TextureDesc::d2(width, height, Format::R32Float));
         let mut pass = frame.compute_pass("probe");
         let shadows = shadows.read_in(&mut pass);
         let (eye, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
-        let stored = pass.sample(&stored);
+        let point_texture = pass.sample(&point_texture);
         let target = pass.storage_texture_mut(&mut results, Contents::Overwrite);
         pass.body(move |ctx| {
             let eye = ctx.bind_group(&self.view_layout, &[Bind::Buffer(eye), Bind::Buffer(lights)])?;
             let shadows = shadows.bind_group(ctx, &self.shadow_layout)?;
-            let own = [Bind::Uniform(block), Bind::Texture(stored), Bind::Texture(target)];
-            let own = ctx.bind_group(&self.points_layout, &own)?;
+            let entries = [Bind::Uniform(block), Bind::Texture(point_texture), Bind::Texture(target)];
+            let point_group = ctx.bind_group(&self.points_layout, &entries)?;
             ctx.pass.set_pipeline(&self.pipeline);
-            for (index, group) in (0..).zip([&eye, &shadows, &own]) {
+            for (index, group) in (0..).zip([&eye, &shadows, &point_group]) {
                 ctx.pass.set_bind_group(index, group, &[]);
             }
             ctx.pass.dispatch_workgroups(width.div_ceil(WORKGROUP), height.div_ceil(WORKGROUP), 1);
@@ -213,13 +215,13 @@ impl Probe {
         let compiled = graph.compile(frame)?;
         let mut executed = compiled.execute_timed(graph, &gpu.device, &mut encoder, timer)?;
         gpu.queue.submit([encoder.finish()]);
-        let texels = executed.read_back(request).ok_or(Error::NothingRead)?;
+        let texels = executed.read_back(request).ok_or(Error::MissingReadback)?;
         Ok((texels.wait(&gpu.device)?, executed.shared_plan()))
     }
 }
 
 #[derive(Clone, Copy)]
-struct Asked<'f> {
+struct ProbeInputs<'f> {
     renderer: &'f Renderer,
     view: &'f RenderView<'f>,
     casters: &'f CountingCasters<'f>,
@@ -228,8 +230,8 @@ struct Asked<'f> {
 }
 
 impl Query {
-    /// `Query` of `probe.wgsl`.
-    fn block(self, pixel_world: f32) -> [u8; 16] {
+    /// Returns the bytes of `Query` of `probe.wgsl`.
+    fn to_bytes(self, pixel_world: f32) -> [u8; 16] {
         let flags = if self.coarser { COARSER } else { 0 };
         bytemuck::cast([self.light, flags, pixel_world.to_bits(), 0])
     }
@@ -239,7 +241,7 @@ fn is_technique(path: &str) -> bool {
     path.strip_prefix(TECHNIQUE).is_some_and(|rest| rest.starts_with('/'))
 }
 
-/// The textures that the technique's passes write, each once.
+/// Returns the size of the textures that the technique's passes write, each counted once.
 fn texture_bytes(plan: &Plan) -> u64 {
     let passes = plan.order().iter().filter(|&&pass| is_technique(&plan.pass_path(pass)));
     let written = passes.flat_map(|&pass| plan.accesses(pass)).filter(|access| access.contents.is_some());
@@ -262,7 +264,7 @@ const POINTS: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
-const ANSWERS: wgpu::BindingType = wgpu::BindingType::StorageTexture {
+const RESULTS: wgpu::BindingType = wgpu::BindingType::StorageTexture {
     access: wgpu::StorageTextureAccess::WriteOnly,
     format: Format::R32Float,
     view_dimension: wgpu::TextureViewDimension::D2,

@@ -1,10 +1,10 @@
-//! Measuring: every technique, with all settings, in every view of every light of a scene.
+//! Measures every technique, with all settings, in every view of every light of a scene.
 
 use shadowgraph_shadows::{ShadowSettings, Technique};
 
 use super::report::{CaseReport, Flicker};
 use super::{
-    Comparator, Compared, MeasuredLight, MeasuredScene, Probe, Reference, Variant, ViewImages,
+    Comparator, MeasuredLight, MeasuredScene, Probe, Reference, Variant, ViewComparison, ViewImages,
     measure_flicker, measure_seam,
 };
 use shadowgraph::options::{Aov, ShadowDistance};
@@ -12,67 +12,67 @@ use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions};
 
 use crate::Error;
 
-/// How a scene is measured.
+/// Options of a measurement.
 #[derive(Clone, Debug)]
 pub struct Task {
     /// The techniques, at least one.
     pub techniques: Vec<Technique>,
-    /// Width and height of the pictures, pixels.
+    /// Width and height of the images, pixels.
     pub size_px: [u32; 2],
     /// The shadow settings. Their maps decide which pixels count, for all variants too.
     pub settings: ShadowSettings,
-    /// Further settings, that every technique is measured with.
+    /// More settings that every technique is measured with.
     pub variants: Vec<Variant>,
-    /// How far shadows reach, instead of the settings' own distance.
+    /// Shadow distance, which overrides that of the settings.
     pub distance: Option<ShadowDistance>,
-    /// How many rays a pixel find soft truth; 0: there is none, and edges are not measured.
+    /// Rays per pixel of the soft reference; with 0 there is none, and edges are not measured.
     pub soft_rays: u32,
-    /// Over how many frames flicker is measured; 0: it is not.
+    /// Number of frames over which flicker is measured; with 0 it is not.
     pub flicker_frames: u32,
-    /// Whether flicker is measured in every view of every light, or in one.
+    /// Whether flicker is measured in every view of every light, or only in one.
     pub flicker_everywhere: bool,
-    /// Whether pictures are wanted.
-    pub pictures: bool,
+    /// Whether images are returned.
+    pub images: bool,
 }
 
-/// One technique with one variant of settings in one view of one light, as it was measured.
+/// Result of one technique with one variant of settings in one view of one light.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The numbers, without pictures.
+    /// The numbers, without images.
     pub report: CaseReport,
-    /// The pictures, if they were wanted.
-    pub pictures: Option<CaseImages>,
+    /// The images, if requested.
+    pub images: Option<CaseImages>,
 }
 
-/// What was looked at.
+/// The images of a case.
 #[derive(Clone, Debug)]
 pub struct CaseImages {
-    /// What the technique draws, in colour.
+    /// The rendered colour image.
     pub color: RenderedImage,
-    /// What was compared.
+    /// The compared images.
     pub compared: ViewImages,
 }
 
-/// Measures a scene. `measured` gets what is found as soon as it is, and what it returns ends the work if it is an error.
+/// Measures a scene. Each result is passed to `on_result` immediately; an error that it returns ends the measurement.
 ///
 /// # Errors
-/// Settings out of range, pictures over the adapter's limits, a scene that cannot be drawn or traced, a failure of the
-/// GPU, or what `measured` returns.
+/// Settings out of range, images over the adapter's limits, a scene that cannot be rendered or traced, a failure of the
+/// GPU, or the error of `on_result`.
 pub fn measure<E: From<Error>>(
     gpu: &Gpu,
     measured_scene: &MeasuredScene,
     task: &Task,
-    measured: &mut dyn FnMut(Measured) -> Result<(), E>,
+    on_result: &mut dyn FnMut(Measured) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut run = Run { gpu, measured_scene, task, benches: Vec::new(), light: None };
+    let mut run = Run { gpu, measured_scene, task, renderers: Vec::new(), light: None };
     for (light_index, light) in measured_scene.lights.iter().enumerate() {
-        run.turn_to(light)?;
+        run.select_light(light)?;
         for view in 0..measured_scene.views.len() {
-            let flickers = task.flicker_everywhere
+            let measures_flicker = task.flicker_everywhere
                 || (light_index, view) == (measured_scene.lights.len().saturating_sub(1) / 2, 0);
-            let frames = if flickers { task.flicker_frames } else { 0 };
-            for found in run.view(light, view, frames)? {
-                measured(found)?;
+            let frames = if measures_flicker { task.flicker_frames } else { 0 };
+            for result in run.view(light, view, frames)? {
+                on_result(result)?;
             }
         }
     }
@@ -83,39 +83,44 @@ struct Run<'a> {
     gpu: &'a Gpu,
     measured_scene: &'a MeasuredScene,
     task: &'a Task,
-    benches: Vec<Bench>,
-    /// The light that the benches show, and its comparator.
+    renderers: Vec<TechniqueRenderers>,
+    /// The light that the renderers show, and its comparator.
     light: Option<(usize, Comparator<'a>)>,
 }
 
-/// What draws with one technique.
-struct Bench {
+/// The renderers of one technique.
+struct TechniqueRenderers {
     technique: Technique,
-    /// The visibility of the light.
+    /// Renders the visibility of the light.
     visibility: Renderer,
     color: Option<Renderer>,
     probe: Probe,
 }
 
 impl<'a> Run<'a> {
-    /// Prepares for a light. Pipelines are made for a light's place in the list, so suns in turn share them.
-    fn turn_to(&mut self, light: &MeasuredLight) -> Result<(), Error> {
+    /// Prepares for a light. Pipelines depend on the index of the light only, so consecutive suns share them.
+    fn select_light(&mut self, light: &MeasuredLight) -> Result<(), Error> {
         if self.light.as_ref().is_none_or(|(index, _)| *index != light.index) {
-            let benches = self.task.techniques.iter().map(|&technique| self.bench(technique, light));
-            self.benches = benches.collect::<Result<_, _>>()?;
-            let Some(first) = self.benches.first() else { return Ok(()) };
+            let renderers =
+                self.task.techniques.iter().map(|&technique| self.renderers_for(technique, light));
+            self.renderers = renderers.collect::<Result<_, _>>()?;
+            let Some(first) = self.renderers.first() else { return Ok(()) };
             self.light = Some((light.index, Comparator::new(self.gpu, &first.visibility, light.index)?));
         }
-        for bench in &mut self.benches {
-            bench.visibility.set_lights(light.all.clone())?;
-            if let Some(color) = &mut bench.color {
+        for renderer_set in &mut self.renderers {
+            renderer_set.visibility.set_lights(light.all.clone())?;
+            if let Some(color) = &mut renderer_set.color {
                 color.set_lights(light.all.clone())?;
             }
         }
         Ok(())
     }
 
-    fn bench(&self, technique: Technique, light: &MeasuredLight) -> Result<Bench, Error> {
+    fn renderers_for(
+        &self,
+        technique: Technique,
+        light: &MeasuredLight,
+    ) -> Result<TechniqueRenderers, Error> {
         let mut scene = self.measured_scene.scene.clone();
         scene.lights.clone_from(&light.all);
         let eye = self
@@ -125,9 +130,9 @@ impl<'a> Run<'a> {
             .map_or_else(|| scene.framing_camera(1.0), |(_, camera)| camera.clone());
         let renderer = |aov| Renderer::with_config(self.gpu, scene.clone(), &eye, aov, technique);
         let visibility = renderer(Aov::Visibility(light.index as u32))?;
-        let color = self.task.pictures.then(|| renderer(Aov::Color)).transpose()?;
+        let color = self.task.images.then(|| renderer(Aov::Color)).transpose()?;
         let probe = Probe::new(self.gpu, &visibility)?;
-        Ok(Bench { technique, visibility, color, probe })
+        Ok(TechniqueRenderers { technique, visibility, color, probe })
     }
 
     fn view(&mut self, light: &MeasuredLight, view: usize, frames: u32) -> Result<Vec<Measured>, Error> {
@@ -138,19 +143,20 @@ impl<'a> Run<'a> {
         };
         let Task { size_px, settings, variants, distance, soft_rays, .. } = self.task;
         let options = |settings: &ShadowSettings| {
-            let own = ViewOptions { camera: camera.clone(), size_px: *size_px, shadows: settings.clone() };
+            let options =
+                ViewOptions { camera: camera.clone(), size_px: *size_px, shadows: settings.clone() };
             match distance {
-                Some(distance) => own.with_shadow_distance(*distance, &self.measured_scene.scene),
-                None => own,
+                Some(distance) => options.with_shadow_distance(*distance, &self.measured_scene.scene),
+                None => options,
             }
         };
-        let Some(first) = self.benches.first_mut() else { return Ok(Vec::new()) };
+        let Some(first) = self.renderers.first_mut() else { return Ok(Vec::new()) };
         let reference = comparator.reference(&mut first.visibility, &options(settings), *soft_rays)?;
-        let mut found = Vec::with_capacity(self.benches.len() * (1 + variants.len()));
-        for bench in &mut self.benches {
+        let mut results = Vec::with_capacity(self.renderers.len() * (1 + variants.len()));
+        for renderer_set in &mut self.renderers {
             let named = variants.iter().map(|variant| (Some(&variant.name), &variant.settings));
             for (variant, settings) in std::iter::once((None, settings)).chain(named) {
-                let mut measured = bench.measure(
+                let mut measured = renderer_set.measure(
                     self.gpu,
                     comparator,
                     &reference,
@@ -165,15 +171,15 @@ impl<'a> Run<'a> {
                     measured.report.technique.push_str(": ");
                     measured.report.technique.push_str(variant);
                 }
-                found.push(measured);
+                results.push(measured);
             }
         }
-        Ok(found)
+        Ok(results)
     }
 }
 
-impl Bench {
-    /// Measures a view. The report's names of scene, light and view are left empty.
+impl TechniqueRenderers {
+    /// Measures a view. The names of scene, light and view in the report are left empty.
     fn measure(
         &mut self,
         gpu: &Gpu,
@@ -183,7 +189,7 @@ impl Bench {
         light: usize,
         frames: u32,
     ) -> Result<Measured, Error> {
-        let Compared { errors, edges, pictures } =
+        let ViewComparison { errors, edges, images } =
             comparator.compare(&mut self.visibility, options, reference)?;
         let (seam, cost) = measure_seam(gpu, &self.visibility, &self.probe, options, reference, light)?;
         let report = CaseReport {
@@ -196,9 +202,9 @@ impl Bench {
             seam,
             flicker: self.flicker(gpu, options, light, frames)?,
             cost: Some(cost),
-            pictures: None,
+            images: None,
         };
-        Ok(Measured { report, pictures: self.pictures(gpu, options, pictures)? })
+        Ok(Measured { report, images: self.images(gpu, options, images)? })
     }
 
     fn flicker(
@@ -214,8 +220,8 @@ impl Bench {
         }
     }
 
-    /// Adds a colour picture to what was compared, if pictures are wanted.
-    fn pictures(
+    /// Adds a colour image to the compared images, if images are requested.
+    fn images(
         &mut self,
         gpu: &Gpu,
         options: &ViewOptions,

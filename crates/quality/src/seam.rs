@@ -1,4 +1,4 @@
-//! How much cascades differ where one ends and the next begins, and what they cost.
+//! Seams between cascades, and the cost of shadows.
 
 use super::comparator::texels;
 use super::metrics::{RECEIVER_N_DOT_L, Summary, seam};
@@ -9,7 +9,7 @@ use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 use crate::Error;
 
-/// So near to a pixel of the next cascade a pixel is at the border, pixels.
+/// Maximum distance to a pixel of the next cascade at which a pixel is at the border, pixels.
 const BORDER_PX: usize = 2;
 
 /// Asks a technique twice at the surfaces of a view, once with the next coarser cascade, and compares the results along
@@ -26,13 +26,13 @@ pub fn measure_seam(
     light: usize,
 ) -> Result<(Option<Summary>, Cost), Error> {
     let points = Points::new(gpu, &reference.surfaces);
-    let ask = |coarser| {
+    let evaluate = |coarser| {
         let query = Query { light: light as u32, coarser };
-        probe.ask(gpu, renderer, options, &points, query)
+        probe.evaluate(gpu, renderer, options, &points, query)
     };
-    // The first compiles shaders on some drivers; the times are those of the second.
-    let (own, coarser) = (ask(false)?, ask(true)?);
-    // Those of the ground are of other settings, if variants are compared.
+    // On some drivers the first evaluation compiles shaders, so the times are those of the second.
+    let (own, coarser) = (evaluate(false)?, evaluate(true)?);
+    // The views of the reference belong to other settings if variants are compared.
     let origin_world = renderer.casters().scene.origin_world();
     let views = texels(renderer, options, &reference.surfaces, light, origin_world)?.views;
     let is_border = |pixel: &usize| is_border(reference, &views, *pixel);
@@ -42,7 +42,7 @@ pub fn measure_seam(
     Ok(((difference.count > 0).then_some(difference), coarser.cost))
 }
 
-/// Whether a receiver lies near to one that a coarser cascade shades.
+/// Returns whether a pixel is a receiver near one that uses a coarser cascade.
 fn is_border(reference: &Reference, views: &[u32], pixel: usize) -> bool {
     let [width, height] = reference.surfaces.size_px.map(|side| side as usize);
     let own = views[pixel];

@@ -1,4 +1,4 @@
-//! What a view sees: where the surface is in each pixel, and which way it faces.
+//! The visible surfaces of a view: position and normal of each pixel.
 
 use glam::{Vec2, Vec3};
 use shadowgraph_core::Subresource;
@@ -14,13 +14,13 @@ use crate::Error;
 pub struct Surfaces {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
-    /// Where the surface is, metres relative to the frame's origin; zero where nothing is drawn.
+    /// Positions, metres relative to the frame's origin; zero where there is no geometry.
     pub positions: Vec<Vec3>,
-    /// Of the triangle itself, towards the viewer, unit length, right to 0.06 degrees; zero where nothing is drawn.
+    /// Geometric normals, facing the viewer, unit length, accurate to 0.06 degrees; zero where there is no geometry.
     pub normals: Vec<Vec3>,
-    /// Metres in front of the camera; 0 where nothing is drawn.
+    /// View depths, metres; 0 where there is no geometry.
     pub view_depths_m: Vec<f32>,
-    /// As `shadowgraph::surface` of the shaders says.
+    /// The texels, encoded as in `shadowgraph::surface` of the shaders.
     texels: Vec<u8>,
 }
 
@@ -30,7 +30,7 @@ pub struct SurfaceReader {
 }
 
 impl SurfaceReader {
-    /// Makes the pipelines for a renderer's scene.
+    /// Creates the pipelines for a renderer's scene.
     ///
     /// # Errors
     /// A failure of the GPU.
@@ -39,10 +39,10 @@ impl SurfaceReader {
         gpu.checked(|| Ok(Self { drawer: SurfaceDrawer::new(&gpu.device, layouts)? }))
     }
 
-    /// Draws the surfaces of a view, those of all that is not blended, and reads them back.
+    /// Draws the surfaces of a view, without blended geometry, and reads them back.
     ///
     /// # Errors
-    /// A picture over the adapter's limits, or a failure of the GPU.
+    /// An image over the adapter's limits, or a failure of the GPU.
     pub fn read(&self, gpu: &Gpu, renderer: &mut Renderer, options: &ViewOptions) -> Result<Surfaces, Error> {
         renderer.move_origin(gpu, options)?;
         let view = renderer.view(options, None);
@@ -65,7 +65,7 @@ impl SurfaceReader {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;
             gpu.queue.submit([encoder.finish()]);
-            let texels = executed.read_back(request).ok_or(Error::NothingRead)?;
+            let texels = executed.read_back(request).ok_or(Error::MissingReadback)?;
             Ok(texels.wait(&gpu.device)?)
         })?;
         Ok(Surfaces::decode(bytes, options, renderer))
@@ -99,19 +99,19 @@ impl Surfaces {
         surfaces
     }
 
-    /// The picture as it was read back.
+    /// Returns the texels as they were read back.
     pub(super) fn texels(&self) -> &[u8] {
         &self.texels
     }
 
-    /// Whether anything is drawn in a pixel.
+    /// Returns whether a pixel has geometry.
     #[must_use]
     pub fn is_drawn(&self, pixel: usize) -> bool {
         self.view_depths_m.get(pixel).is_some_and(|depth| *depth > 0.0)
     }
 }
 
-/// Unfolds a packed normal; `None` for 0, where nothing is drawn.
+/// Decodes a packed normal; `None` for 0, where there is no geometry.
 fn normal(packed: f32) -> Option<Vec3> {
     let packed = (packed as u32).checked_sub(1)?;
     let flat = Vec2::new((packed / 4096) as f32, (packed % 4096) as f32) / 4095.0 * 2.0 - 1.0;
@@ -126,7 +126,7 @@ mod tests {
     use super::normal;
     use glam::Vec3;
 
-    /// As the shader packs.
+    /// Packs a normal as the shader does.
     fn packed(n: Vec3) -> f32 {
         let flat = n.truncate() / (n.x.abs() + n.y.abs() + n.z.abs());
         let sign = |v: f32| if v >= 0.0 { 1.0 } else { -1.0 };
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn packed_normals_come_back_to_six_hundredths_of_a_degree() {
+    fn packed_normals_are_decoded_to_six_hundredths_of_a_degree() {
         assert_eq!(normal(0.0), None);
         for i in 0..5_000 {
             let (turn, height) = (i as f32 * 2.399_963, i as f32 / 2_500.0 - 0.999_8);

@@ -1,4 +1,4 @@
-//! How large the shadow texels are that shade each pixel.
+//! Size of the shadow texels of each pixel.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use shadowgraph_shadows::{SELECT_DEPTH, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowPlan, ShadowView};
@@ -6,23 +6,22 @@ use shadowgraph_shadows::{SELECT_DEPTH, SELECT_MAP, SELECT_SPHERE, ShadowLight, 
 use super::Surfaces;
 use shadowgraph::ViewOptions;
 
-/// The texels that shade each pixel, row by row from the top.
+/// The shadow texels of each pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels {
-    /// The side of a texel, metres, square to the light; 0 where no map covers the surface.
+    /// Size of a texel perpendicular to the light, metres; 0 where no map covers the surface.
     pub side_m: Vec<f32>,
-    /// How many pixels a texel reaches over at most, where its light falls onto the surface; 0 likewise.
-    pub reach_px: Vec<f32>,
-    /// Which of the light's views it is, from 0, the finest; [`NO_VIEW`] likewise.
+    /// Largest extent on screen of a texel projected onto the surface, pixels; 0 likewise.
+    pub extent_px: Vec<f32>,
+    /// Index of the light's view, from 0, the finest; [`NO_VIEW`] likewise.
     pub views: Vec<u32>,
 }
 
-/// In [`Texels::views`]: no map covers the surface.
+/// Value of [`Texels::views`] where no map covers the surface.
 pub const NO_VIEW: u32 = u32::MAX;
 
 impl Texels {
-    /// Finds the texels of one light's maps. `origin_world` is what the plan's and the surfaces' positions are relative
-    /// to.
+    /// Computes the texels of one light's maps. `origin_world` is the origin of the positions of plan and surfaces.
     #[must_use]
     pub fn new(
         surfaces: &Surfaces,
@@ -39,29 +38,32 @@ impl Texels {
         let camera = &options.camera;
         let clip_from_position =
             camera.clip_from_view(options.aspect()) * camera.view_from_world() * from_origin;
-        let screen = Screen { clip_from_position, size_px: DVec2::from(options.size_px.map(f64::from)) };
-        let selected = Selected::new(plan.lights.get(light), options, origin_world);
+        let screen =
+            ScreenProjection { clip_from_position, size_px: DVec2::from(options.size_px.map(f64::from)) };
+        let selection = ViewSelection::new(plan.lights.get(light), options, origin_world);
         let pixels = surfaces.positions.iter().zip(&surfaces.normals);
-        let mut texels = Self { side_m: Vec::new(), reach_px: Vec::new(), views: Vec::new() };
+        let mut texels = Self { side_m: Vec::new(), extent_px: Vec::new(), views: Vec::new() };
         for (position, normal) in pixels {
-            let candidates = (0..).zip(views).filter(|(_, view)| selected.may_be(view, *position));
-            let mut found = candidates.filter_map(|(index, view)| Some((index, side_m(view, *position)?)));
-            let found = found.next();
-            let (view, side_m, reach_px) = match found {
+            let candidates = (0..).zip(views).filter(|(_, view)| selection.allows(view, *position));
+            let mut candidate =
+                candidates.filter_map(|(index, view)| Some((index, side_m(view, *position)?)));
+            let candidate = candidate.next();
+            let (view, side_m, extent_px) = match candidate {
                 Some((view, (side_m, to_light))) if *normal != Vec3::ZERO => {
-                    (view, side_m, screen.reach_px(*position, *normal, to_light, side_m))
+                    (view, side_m, screen.extent_px(*position, *normal, to_light, side_m))
                 }
                 _ => (NO_VIEW, 0.0, 0.0),
             };
             texels.views.push(view);
             texels.side_m.push(side_m);
-            texels.reach_px.push(reach_px);
+            texels.extent_px.push(extent_px);
         }
         texels
     }
 }
 
-/// The side of a view's texels at a position, and the unit way to the light; `None` if it does not cover it.
+/// Returns the size of a view's texels at a position and the unit direction to the light; `None` if it does not cover
+/// the position.
 fn side_m(view: &ShadowView, position: Vec3) -> Option<(f32, Vec3)> {
     let map = view.map_from_world * position.extend(1.0);
     let inside = |uv: glam::Vec2| uv.cmpge(view.uv_min).all() && uv.cmple(view.uv_max).all();
@@ -70,19 +72,19 @@ fn side_m(view: &ShadowView, position: Vec3) -> Option<(f32, Vec3)> {
     covered.then_some((view.texel_world * map.w, to_light.normalize_or(Vec3::Y)))
 }
 
-/// How a light's views are chosen, as far as it is not by what covers a point.
-struct Selected {
+/// Selection of a light's views by other criteria than coverage.
+struct ViewSelection {
     select: u32,
     view_from_position: DMat4,
 }
 
-impl Selected {
+impl ViewSelection {
     fn new(light: Option<&ShadowLight>, options: &ViewOptions, origin_world: DVec3) -> Self {
         let view_from_position = options.camera.view_from_world() * DMat4::from_translation(origin_world);
         Self { select: light.map_or(SELECT_MAP, |light| light.select), view_from_position }
     }
 
-    fn may_be(&self, view: &ShadowView, position: Vec3) -> bool {
+    fn allows(&self, view: &ShadowView, position: Vec3) -> bool {
         match self.select {
             SELECT_SPHERE => position.distance(view.center) < view.radius,
             SELECT_DEPTH => {
@@ -93,30 +95,30 @@ impl Selected {
     }
 }
 
-struct Screen {
+struct ScreenProjection {
     clip_from_position: DMat4,
     size_px: DVec2,
 }
 
-impl Screen {
+impl ScreenProjection {
     fn pixel(&self, position: DVec3) -> Option<DVec2> {
         let clip = self.clip_from_position * position.extend(1.0);
         let ndc = clip.truncate().truncate() / clip.w;
         (clip.w > 1e-9).then_some(ndc * self.size_px * DVec2::new(0.5, -0.5))
     }
 
-    /// The farther of the pixels that the two axes of a texel come to lie at, if they are cast onto the surface.
-    fn reach_px(&self, position: Vec3, normal: Vec3, to_light: Vec3, side_m: f32) -> f32 {
+    /// Returns the larger extent on screen of the two axes of a texel, projected along the light onto the surface.
+    fn extent_px(&self, position: Vec3, normal: Vec3, to_light: Vec3, side_m: f32) -> f32 {
         let (position, normal, to_light) = (position.as_dvec3(), normal.as_dvec3(), to_light.as_dvec3());
-        // Towards the edge of the lit side a texel is drawn out without end.
+        // Towards the terminator the projected texel grows without limit.
         let facing = normal.dot(to_light).max(0.02);
         let Some(here) = self.pixel(position) else { return 0.0 };
         let (across, along) = to_light.any_orthonormal_pair();
-        let reach = [across, along].map(|axis| {
+        let extent = [across, along].map(|axis| {
             let on_surface = (axis - to_light * (axis.dot(normal) / facing)) * f64::from(side_m);
             self.pixel(position + on_surface).map_or(0.0, |there| there.distance(here))
         });
-        reach[0].max(reach[1]) as f32
+        extent[0].max(extent[1]) as f32
     }
 }
 
@@ -126,7 +128,7 @@ mod tests {
     use super::*;
 
     /// A camera 10 m over the ground that looks straight down and sees 20 m of it in 100 pixels.
-    fn screen() -> Screen {
+    fn screen() -> ScreenProjection {
         let projection = DMat4::from_cols_array_2d(&[
             [1.0, 0.0, 0.0, 0.0],
             [0.0, 1.0, 0.0, 0.0],
@@ -139,20 +141,20 @@ mod tests {
             DVec3::Y.extend(-10.0),
             DVec3::ZERO.extend(1.0),
         );
-        Screen { clip_from_position: projection * view, size_px: DVec2::splat(100.0) }
+        ScreenProjection { clip_from_position: projection * view, size_px: DVec2::splat(100.0) }
     }
 
     #[test]
-    fn under_a_steep_light_a_texel_reaches_as_far_as_its_side() {
-        let reach = screen().reach_px(Vec3::ZERO, Vec3::Y, Vec3::Y, 0.4);
-        assert!((reach - 2.0).abs() < 1e-3, "{reach}");
+    fn under_a_steep_light_the_extent_of_a_texel_is_its_size() {
+        let extent = screen().extent_px(Vec3::ZERO, Vec3::Y, Vec3::Y, 0.4);
+        assert!((extent - 2.0).abs() < 1e-3, "{extent}");
     }
 
     #[test]
-    fn a_low_light_draws_its_texels_out() {
+    fn a_low_light_stretches_its_texels() {
         let low = Vec3::new(30f32.to_radians().cos(), 30f32.to_radians().sin(), 0.0);
-        let reach = screen().reach_px(Vec3::ZERO, Vec3::Y, low, 0.4);
-        // The axis in the plane of incidence is cast over twice its length; which axes are taken, is open.
-        assert!((2.0..=4.01).contains(&reach) && reach > 2.5, "{reach}");
+        let extent = screen().extent_px(Vec3::ZERO, Vec3::Y, low, 0.4);
+        // The axis in the plane of incidence is stretched to twice its length; the choice of axes is arbitrary.
+        assert!((2.0..=4.01).contains(&extent) && extent > 2.5, "{extent}");
     }
 }

@@ -1,4 +1,4 @@
-//! Settings that are compared with each other.
+//! Variants of shadow settings, to compare.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,9 +15,9 @@ use crate::Error;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// What it is called in tables, after the technique.
+    /// Name in tables, after that of the technique.
     pub name: String,
-    /// The settings. What a file leaves out has its default value.
+    /// The settings. Fields that a file leaves out have their default values.
     pub settings: ShadowSettings,
 }
 
@@ -25,32 +25,30 @@ pub struct Variant {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VariantSet {
-    /// At least one; each has a name of its own.
+    /// The variants: at least one, with unique names.
     pub variants: Vec<Variant>,
 }
 
 impl VariantSet {
-    /// Reads variants from RON; `place` is what errors name.
+    /// Reads variants from RON; errors name the file `place`.
     ///
     /// # Errors
-    /// [`Error::Cases`] with line and column, or the variant and what is wrong with it.
+    /// [`Error::File`] with line and column, or the variant and its error.
     pub fn parse(text: &str, place: &Path, techniques: &Techniques) -> Result<Self, Error> {
         let file = place.display().to_string();
-        let wrong = |path: &str, problem: &str| ron_file::field_error(&file, text, path, problem);
+        let error = |path: &str, problem: &str| ron_file::field_error(&file, text, path, problem);
         let set: Self = ron_file::parse_file(&file, text)?;
         if set.variants.is_empty() {
-            return Err(wrong("variants", "there is no variant; give at least one").into());
+            return Err(error("variants", "expected at least one variant").into());
         }
         let mut names = BTreeSet::new();
         for (index, Variant { name, settings }) in set.variants.iter().enumerate() {
             let at = format!("variants.{index}.name");
             if name.trim().is_empty() {
-                return Err(wrong(&at, "a variant has no name; give it one, for the tables").into());
+                return Err(error(&at, "the name of a variant must not be empty").into());
             }
             if !names.insert(name) {
-                return Err(
-                    wrong(&at, &format!("there are two variants `{name}`; call one otherwise")).into()
-                );
+                return Err(error(&at, &format!("duplicate variant name `{name}`")).into());
             }
             let parents = format!("variants.{index}.settings.");
             let checked = techniques.check(settings);
@@ -70,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_variant_leaves_out_has_its_default_value() {
+    fn fields_that_a_variant_leaves_out_have_default_values() {
         let text = r#"(variants: [(name: "one cascade", settings: (cascades: (count: 1)))])"#;
         let set = VariantSet::parse(text, Path::new("mine.ron"), &Techniques::built_in()).unwrap();
         let mut one = ShadowSettings::default();
@@ -91,13 +89,16 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_one_line_that_names_file_and_variant() {
+    fn errors_are_one_line_with_file_and_variant() {
         for (text, part) in [
-            ("(variants: [])", "mine.ron:1:12: there is no variant"),
-            (r#"(variants: [(name: " ", settings: ())])"#, "mine.ron:1:20: a variant has no name"),
+            ("(variants: [])", "mine.ron:1:12: expected at least one variant"),
+            (
+                r#"(variants: [(name: " ", settings: ())])"#,
+                "mine.ron:1:20: the name of a variant must not be empty",
+            ),
             (
                 r#"(variants: [(name: "a", settings: ()), (name: "a", settings: ())])"#,
-                "mine.ron:1:47: there are two variants `a`",
+                "mine.ron:1:47: duplicate variant name `a`",
             ),
             (r#"(variants: [(name: "a", settings: (distance_m: 0.0))])"#, ":48: invalid value: `distance_m`"),
             (r#"(variants: [(name: "a", settings: (distance: 1.0))])"#, "distance"),

@@ -1,4 +1,4 @@
-//! Choosing views of a scene that names none.
+//! Chooses views of a scene automatically.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,26 +10,26 @@ use shadowgraph::ray_scene;
 
 use crate::Error;
 
-/// The height of a person's eyes, metres.
-const EYE_M: f64 = 1.7;
+/// Height of a person's eyes, metres.
+const EYE_HEIGHT_M: f64 = 1.7;
 
-/// The most that eyes are above the floor, in parts of the scene's height: scenes can be of any scale.
-const EYE_PART: f64 = 0.15;
+/// Maximum eye height as a fraction of the scene's height, because scenes can have any scale.
+const MAX_EYE_HEIGHT_FRACTION: f64 = 0.15;
 
-/// So many places are tried for each view among things.
-const TRIES: u32 = 256;
+/// Number of candidate positions for each view inside the scene.
+const CANDIDATES: u32 = 256;
 
-/// So many ways are looked from a place.
-const WAYS: u32 = 16;
+/// Number of directions that are tried at each position.
+const DIRECTIONS: u32 = 16;
 
-/// The vertical angle of lenses, radians.
+/// Vertical field of view, radians.
 const FOV_Y: f64 = 0.9;
 
-/// The picture's width over its height that views from outside are made for.
+/// Aspect ratio for which views from outside frame the scene.
 const ASPECT: f64 = 16.0 / 9.0;
 
-/// Chooses views: in turn one from outside that frames the scene, and one at eye height over a floor that looks where
-/// there is room. Always the same ones for a scene. Where no such floor is found, all are from outside.
+/// Chooses views: alternately from outside, framing the scene, and at eye height above a floor, in the most open
+/// direction. The result is deterministic. If no such floor is found, all views are from outside.
 ///
 /// # Errors
 /// If the scene's triangles cannot be traced.
@@ -39,7 +39,7 @@ pub fn automatic_views(scene: &Scene, count: usize) -> Result<Vec<(String, Camer
     let finder = Finder { rays: ray_scene(scene, origin_world)?, origin_world, bounds };
     let mut views = Vec::with_capacity(count);
     for index in 0..count as u32 {
-        let inside = (index % 2 == 1).then(|| finder.inside(index * TRIES)).flatten();
+        let inside = (index % 2 == 1).then(|| finder.inside(index * CANDIDATES)).flatten();
         views.push(match inside {
             Some(camera) => (format!("inside {}", index + 1), camera),
             None => (format!("outside {}", index + 1), outside(&bounds, index)),
@@ -48,7 +48,7 @@ pub fn automatic_views(scene: &Scene, count: usize) -> Result<Vec<(String, Camer
     Ok(views)
 }
 
-/// Turns the camera that frames the scene around the scene's middle.
+/// Returns the camera that frames the scene, rotated around the scene's centre.
 fn outside(bounds: &Aabb, index: u32) -> Camera {
     let framing = Camera::framing(bounds, ASPECT);
     if bounds.is_empty() {
@@ -67,58 +67,59 @@ struct Finder {
 }
 
 impl Finder {
-    /// A camera over a floor, the best of [`TRIES`] places of a sequence that begins at `seed`.
+    /// Returns the best camera above a floor among [`CANDIDATES`] positions of a sequence that begins at `seed`.
     fn inside(&self, seed: u32) -> Option<Camera> {
         let size = self.bounds.max - self.bounds.min;
-        let height_m = EYE_M.min(size.y * EYE_PART);
-        let tried = (seed + 1..=seed + TRIES).filter_map(|index| {
-            let place = self.bounds.min + size * halton(index);
-            let down = self.look(place, DVec3::NEG_Y)?;
-            let floor = place - DVec3::Y * down.free_m;
+        let height_m = EYE_HEIGHT_M.min(size.y * MAX_EYE_HEIGHT_FRACTION);
+        let tried = (seed + 1..=seed + CANDIDATES).filter_map(|index| {
+            let candidate = self.bounds.min + size * halton(index);
+            let down = self.cast(candidate, DVec3::NEG_Y)?;
+            let floor = candidate - DVec3::Y * down.distance_m;
             let eye = floor + DVec3::Y * height_m;
-            let above = self.look(floor + DVec3::Y * height_m * 0.01, DVec3::Y);
-            let (way, room_m) = self.widest(eye, height_m)?;
-            // Not inside of things or under their floor, and not in front of a wall.
-            let stands = !down.from_behind && above.is_none_or(|above| above.free_m > 1.5 * height_m);
-            (stands && room_m > 4.0 * height_m).then_some((eye, way, room_m))
+            let above = self.cast(floor + DVec3::Y * height_m * 0.01, DVec3::Y);
+            let (direction, clearance_m) = self.most_open_direction(eye, height_m)?;
+            // Not inside objects or below their floor, and not in front of a wall.
+            let is_free = !down.from_behind && above.is_none_or(|above| above.distance_m > 1.5 * height_m);
+            (is_free && clearance_m > 4.0 * height_m).then_some((eye, direction, clearance_m))
         });
-        let (eye, way, _) = tried.max_by(|a, b| a.2.total_cmp(&b.2))?;
+        let (eye, direction, _) = tried.max_by(|a, b| a.2.total_cmp(&b.2))?;
         let projection = Projection::Perspective { fov_y: FOV_Y, near: (height_m * 0.1).min(0.1), far: None };
-        Some(Camera::look_at(eye, eye + way - DVec3::Y * 0.15, DVec3::Y, projection))
+        Some(Camera::look_at(eye, eye + direction - DVec3::Y * 0.15, DVec3::Y, projection))
     }
 
-    /// The level way with the most room to something that is seen from its front, and how much room there is; `None` if
-    /// it is tight on any side, or if many things are seen from behind: then the eye is inside of them.
-    fn widest(&self, eye: DVec3, height_m: f64) -> Option<(DVec3, f64)> {
-        let ways = (0..WAYS).map(|way| {
-            let (sin, cos) = (TAU * f64::from(way) / f64::from(WAYS)).sin_cos();
+    /// Returns the horizontal direction with the largest distance to a front face, and the distance; `None` if any side is
+    /// too close, or if many faces are seen from behind, which means that the eye is inside an object.
+    fn most_open_direction(&self, eye: DVec3, height_m: f64) -> Option<(DVec3, f64)> {
+        let directions = (0..DIRECTIONS).map(|direction| {
+            let (sin, cos) = (TAU * f64::from(direction) / f64::from(DIRECTIONS)).sin_cos();
             DVec3::new(cos, 0.0, sin)
         });
-        let samples: Vec<_> = ways.filter_map(|way| Some((way, self.look(eye, way)?))).collect();
-        let behind = samples.iter().filter(|(_, samples)| samples.from_behind).count();
-        let tight = samples.iter().any(|(_, samples)| samples.free_m < 0.3 * height_m);
-        if tight || behind * 4 > samples.len() {
+        let hits: Vec<_> =
+            directions.filter_map(|direction| Some((direction, self.cast(eye, direction)?))).collect();
+        let behind = hits.iter().filter(|(_, hit)| hit.from_behind).count();
+        let tight = hits.iter().any(|(_, hit)| hit.distance_m < 0.3 * height_m);
+        if tight || behind * 4 > hits.len() {
             return None;
         }
-        let fronts = samples.into_iter().filter(|(_, samples)| !samples.from_behind);
-        fronts.map(|(way, samples)| (way, samples.free_m)).max_by(|a, b| a.1.total_cmp(&b.1))
+        let fronts = hits.into_iter().filter(|(_, hit)| !hit.from_behind);
+        fronts.map(|(direction, hit)| (direction, hit.distance_m)).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The next surface; `None`: there is none.
-    fn look(&self, from: DVec3, way: DVec3) -> Option<Look> {
+    /// Returns the nearest surface along a ray; `None` if there is none.
+    fn cast(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
         let origin: Vec3 = (from - self.origin_world).as_vec3();
-        let ray = Ray::new(origin, way.as_vec3(), 0.0, f32::INFINITY);
-        let (free_m, triangle) = self.rays.nearest_triangle(&ray)?;
+        let ray = Ray::new(origin, direction.as_vec3(), 0.0, f32::INFINITY);
+        let (distance_m, triangle) = self.rays.nearest_triangle(&ray)?;
         let [a, b, c] = self.rays.triangles().get(triangle)?.corners();
-        let from_behind = (b - a).cross(c - a).dot(way.as_vec3()) > 0.0;
-        Some(Look { free_m: f64::from(free_m), from_behind })
+        let from_behind = (b - a).cross(c - a).dot(direction.as_vec3()) > 0.0;
+        Some(Hit { distance_m: f64::from(distance_m), from_behind })
     }
 }
 
-/// What is seen along a way.
-struct Look {
-    /// How far away it is, metres.
-    free_m: f64,
+/// Nearest surface along a ray.
+struct Hit {
+    /// Distance, metres.
+    distance_m: f64,
     from_behind: bool,
 }
 
@@ -143,7 +144,7 @@ mod tests {
     use shadowgraph_samples::test_scenes::test_scene;
 
     #[test]
-    fn every_second_view_stands_on_a_floor_and_all_are_different() {
+    fn every_second_view_is_above_a_floor_and_all_are_different() {
         let scene = test_scene("interior").unwrap();
         let views = automatic_views(&scene, 6).unwrap();
         let inside: Vec<_> = views.iter().filter(|(name, _)| name.starts_with("inside")).collect();
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_of_nothing_has_views_too() {
+    fn an_empty_scene_has_views_too() {
         assert_eq!(automatic_views(&Scene::default(), 2).unwrap().len(), 2);
     }
 }

@@ -23,7 +23,7 @@ fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
     let mut comparator = Comparator::new(gpu, &renderer, 0).unwrap();
     let compared = comparator.measure(&mut renderer, &options).unwrap();
-    assert_eq!(compared.pictures.errors_rgba8().len(), (SIZE_PX[0] * SIZE_PX[1] * 4) as usize);
+    assert_eq!(compared.images.errors_rgba8().len(), (SIZE_PX[0] * SIZE_PX[1] * 4) as usize);
     Some(compared.errors)
 }
 
@@ -98,7 +98,7 @@ fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<
     let reference = comparator.reference(&mut renderer, &options, 0).unwrap();
     let (probe, points) = (Probe::new(gpu, &renderer).unwrap(), Points::new(gpu, &reference.surfaces));
     let query = Query { light: 0, coarser: false };
-    let results = probe.ask(gpu, &renderer, &options, &points, query).unwrap();
+    let results = probe.evaluate(gpu, &renderer, &options, &points, query).unwrap();
     (results.visibility, reference.truth.hard)
 }
 

@@ -60,8 +60,8 @@ fn the_output_directory_gets_a_page_with_images_and_a_report() {
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("a &lt;view&gt;") && !page.contains("a <view>"));
     for case in &report.cases {
-        let files = case.pictures.as_ref().unwrap();
-        for file in [&files.picture, &files.truth, &files.visibility, &files.difference] {
+        let files = case.images.as_ref().unwrap();
+        for file in [&files.color, &files.truth, &files.visibility, &files.difference] {
             assert_eq!(image::image_dimensions(out.join(file)).unwrap(), (160, 90), "{file}");
             assert!(page.contains(file.as_str()), "{file}");
         }
@@ -130,7 +130,7 @@ fn a_result_beyond_its_bound_is_named_and_the_exit_code_is_1() {
     let Some(output) = measure(&arguments) else { return };
     assert_eq!(output.status.code(), Some(1));
     let error = text(&output.stderr);
-    let expected = "allows: pcf texture_mib: worst 64.0 (cube, sun 40°, a <view>) is beyond the bound 1";
+    let expected = "bounds.ron: pcf texture_mib: worst 64.0 (cube, sun 40°, a <view>) exceeds the bound 1";
     assert!(error.trim_end().ends_with(expected) && error.trim_end().lines().count() == 1, "{error}");
 }
 
@@ -151,19 +151,19 @@ fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
     let cases = file("cases.ron", r#"(cases: [(scene: TestScene("castle"))])"#);
     for (arguments, code, expected) in [
         (vec!["--techniques", "pcf,soft"], 1, "--techniques: unknown technique `soft`"),
-        (vec!["--check", &bounds], 1, "there is no metric `blur`"),
+        (vec!["--check", &bounds], 1, "unknown metric `blur`"),
         (vec!["--check", &other], 1, "`evsm` is not among --techniques: pcf"),
         (
             vec!["--check", &two, "--variants", &variants],
             1,
             "`pcf: two` is not among --techniques: pcf; --variants: a, b",
         ),
-        (vec!["--variants", &twice], 1, "there are two variants `a`"),
+        (vec!["--variants", &twice], 1, "duplicate variant name `a`"),
         (vec!["--cases", &cases], 1, "unknown test scene `castle`"),
         (vec!["--cases", &cases, "--sun", "none"], 2, "--sun"),
         (vec!["--cases", "no/such.ron"], 1, "no/such.ron: cannot be read"),
         (vec!["no/such.glb"], 1, "no/such.glb"),
-        (vec!["-o", &cases], 1, "is a file; give the name of a folder"),
+        (vec!["-o", &cases], 1, "is a file; expected a directory"),
         (vec!["--views", "0", "x.glb"], 2, "--views"),
         (vec!["--quick", "--full"], 2, "--full"),
     ] {

@@ -1,11 +1,11 @@
-//! What a frame costs: the graph beside the same passes encoded by hand, and the time of each pass.
+//! Cost of a frame: the graph compared with the same passes written by hand, and the time of each pass.
 //!
-//! Both sides draw the same view of the same scene with the same pipelines into the same target. In neither is the
-//! culling and sorting of what the camera sees, which is done once. In both is the planning of the shadows (fitting
-//! their views, culling their casters): it is the same code, the hand-written side measures it, and
-//! [`Comparison::ratio_without_planning`] leaves it out.
+//! Both sides draw the same view of the same scene with the same pipelines into the same target. Culling and sorting for
+//! the camera is done once and not measured. Both sides plan the shadows (fit their views, cull their casters) with the
+//! same code; the hand-written side measures it, and
+//! [`Comparison::ratio_without_planning`] subtracts it.
 
-mod by_hand;
+mod hand_written;
 mod objects;
 mod stats;
 
@@ -18,28 +18,28 @@ use std::time::{Duration, Instant};
 
 use shadowgraph_core::{Format, Graph, PassTime, TimeHistory, TimeSummary, Timer};
 
-use self::by_hand::ByHand;
+use self::hand_written::HandWritten;
 use shadowgraph::RenderView;
 use shadowgraph::options::Aov;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 use crate::Error;
 
-/// What is drawn into, as a window's surface would be.
+/// Format of the target, that of a typical window surface.
 const TARGET_FORMAT: Format = Format::Bgra8UnormSrgb;
 
 /// CPU time of the steps of one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameTime {
-    /// Planning the shadows, with the camera's and the lights' records. By hand only: the graph's nodes do it while
-    /// they are declared.
+    /// Planning the shadows, and the uniforms of camera and lights. Hand-written frames only: the graph's nodes do it
+    /// during declaration.
     pub plan: Duration,
     /// Declaring passes and resources, shadow planning included. The graph only.
     pub declare: Duration,
-    /// Making the plan, or finding it again: the frames of a comparison are equal, so only the first, which is not
-    /// measured, makes one. The graph only.
+    /// Compiling the plan, or looking it up: the frames of a comparison are equal, so only the first, which is not
+    /// measured, compiles one. The graph only.
     pub compile: Duration,
-    /// Recording all passes; by hand, writing the buffers too.
+    /// Recording all passes; in hand-written frames also writing the buffers.
     pub record: Duration,
     /// Finishing the encoder.
     pub finish: Duration,
@@ -54,7 +54,7 @@ impl FrameTime {
     }
 }
 
-/// What a frame consists of.
+/// Contents of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Render passes of the encoder: passes of a frame that are merged count as one.
@@ -65,37 +65,41 @@ pub struct Counts {
     pub draws: usize,
 }
 
-/// The CPU cost of frames, side by side. The lists are as long as each other.
+/// CPU cost of both kinds of frames. The lists have the same length.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What each frame consists of, counted where it is encoded by hand.
+    /// Contents of each frame, counted in the hand-written one.
     pub counts: Counts,
-    /// Through the graph.
+    /// Frames through the graph.
     pub graph: Vec<FrameTime>,
-    /// By hand, each right before or after the one of the graph.
-    pub by_hand: Vec<FrameTime>,
+    /// Hand-written frames, each directly before or after that of the graph.
+    pub hand_written: Vec<FrameTime>,
 }
 
 impl Comparison {
-    /// Returns how many times as long as by hand the graph takes, frame by frame.
+    /// Returns the time of the graph divided by that of the hand-written frame, per pair.
     pub fn ratio(&self) -> Stats {
         self.ratio_less(|_| Duration::ZERO)
     }
 
-    /// Returns the same with the planning of shadows taken off both sides.
+    /// Returns the same ratio with the planning of shadows subtracted from both sides.
     pub fn ratio_without_planning(&self) -> Stats {
-        self.ratio_less(|by_hand| by_hand.plan)
+        self.ratio_less(|hand_written| hand_written.plan)
     }
 
-    fn ratio_less(&self, of_both: impl Fn(&FrameTime) -> Duration) -> Stats {
-        let less = |time: &FrameTime, by_hand| time.total().saturating_sub(of_both(by_hand)).as_secs_f64();
-        let ratio = |(graph, by_hand)| less(graph, by_hand) / less(by_hand, by_hand).max(f64::MIN_POSITIVE);
-        Stats::of(self.graph.iter().zip(&self.by_hand).map(ratio))
+    fn ratio_less(&self, deduction: impl Fn(&FrameTime) -> Duration) -> Stats {
+        let less = |time: &FrameTime, hand_written| {
+            time.total().saturating_sub(deduction(hand_written)).as_secs_f64()
+        };
+        let ratio = |(graph, hand_written)| {
+            less(graph, hand_written) / less(hand_written, hand_written).max(f64::MIN_POSITIVE)
+        };
+        Stats::from_samples(self.graph.iter().zip(&self.hand_written).map(ratio))
     }
 }
 
-/// Measures `pairs` frames through the graph and as many by hand, after a tenth as many to warm up. Which of a
-/// pair is first alternates. The time is that of the CPU: on [`Gpu::noop`] there is no other.
+/// Measures `pairs` frames through the graph and as many hand-written ones, after a tenth as many to warm up. The order
+/// within a pair alternates. Times are CPU times, best measured on [`Gpu::noop`].
 ///
 /// # Errors
 /// Settings out of range, a target over the device's limits, or an output that is not `Aov::Color`.
@@ -105,7 +109,7 @@ pub fn compare(
     options: &ViewOptions,
     pairs: u32,
 ) -> Result<Comparison, Error> {
-    only_color(renderer)?;
+    require_color(renderer)?;
     gpu.checked(|| compare_unchecked(gpu, renderer, options, pairs))
 }
 
@@ -119,20 +123,21 @@ fn compare_unchecked(
     renderer.move_origin(gpu, options)?;
     let renderer = &*renderer;
     let view = renderer.view(options, Some(&target));
-    let by_hand = ByHand::new(gpu, renderer, &view, &target)?;
+    let hand_written = HandWritten::new(gpu, renderer, &view, &target)?;
     let mut graph = Graph::new();
-    let mut comparison = Comparison { counts: by_hand.counts(), graph: Vec::new(), by_hand: Vec::new() };
+    let mut comparison =
+        Comparison { counts: hand_written.counts(), graph: Vec::new(), hand_written: Vec::new() };
     for pair in 0..pairs / 10 + 1 + pairs {
-        let (through, hand) = if pair % 2 == 0 {
-            let through = through_graph(gpu, renderer, &view, &mut graph)?;
-            (through, by_hand.frame(gpu)?)
+        let (graph_time, hand_time) = if pair % 2 == 0 {
+            let graph_time = graph_frame(gpu, renderer, &view, &mut graph)?;
+            (graph_time, hand_written.frame(gpu)?)
         } else {
-            let hand = by_hand.frame(gpu)?;
-            (through_graph(gpu, renderer, &view, &mut graph)?, hand)
+            let hand_time = hand_written.frame(gpu)?;
+            (graph_frame(gpu, renderer, &view, &mut graph)?, hand_time)
         };
         if pair > pairs / 10 {
-            comparison.graph.push(through);
-            comparison.by_hand.push(hand);
+            comparison.graph.push(graph_time);
+            comparison.hand_written.push(hand_time);
         }
         idle(gpu)?;
     }
@@ -140,7 +145,7 @@ fn compare_unchecked(
 }
 
 /// Draws one frame as `Renderer::record` does, with a clock between its steps.
-fn through_graph(
+fn graph_frame(
     gpu: &Gpu,
     renderer: &Renderer,
     view: &RenderView<'_>,
@@ -158,12 +163,12 @@ fn through_graph(
     let commands = encoder.finish();
     let finish = clock.lap();
     gpu.queue.submit([commands]);
-    // To the graph's account: giving back what a frame is made of.
+    // Releasing the frame's resources counts as time of the graph.
     drop(executed);
     Ok(FrameTime { plan: Duration::ZERO, declare, compile, record, finish, submit: clock.lap() })
 }
 
-/// Measures each pass of `frames` frames: the CPU time of recording it, and its GPU time where the device can tell.
+/// Measures each pass of `frames` frames: the CPU time of recording it, and its GPU time if the device can measure it.
 ///
 /// # Errors
 /// As [`compare`], or when the GPU fails.
@@ -173,7 +178,7 @@ pub fn pass_times(
     options: &ViewOptions,
     frames: u32,
 ) -> Result<Vec<TimeSummary>, Error> {
-    only_color(renderer)?;
+    require_color(renderer)?;
     let target = target(&gpu.device, options.size_px)?;
     let mut frame = || -> Result<Vec<PassTime>, Error> {
         let mut timer = Timer::new();
@@ -183,7 +188,7 @@ pub fn pass_times(
         Ok(timer.read(&gpu.device, &gpu.queue)?)
     };
     gpu.checked(|| {
-        // A software driver compiles shaders at the first draw.
+        // Software drivers compile shaders at the first draw.
         frame()?;
         let mut history = TimeHistory::new(frames as usize);
         for _ in 0..frames.max(1) {
@@ -193,7 +198,7 @@ pub fn pass_times(
     })
 }
 
-fn only_color(renderer: &Renderer) -> Result<(), Error> {
+fn require_color(renderer: &Renderer) -> Result<(), Error> {
     if *renderer.aov() == Aov::Color { Ok(()) } else { Err(Error::BenchAov) }
 }
 
@@ -214,13 +219,13 @@ fn target(device: &wgpu::Device, [width, height]: [u32; 2]) -> Result<wgpu::Text
     }))
 }
 
-/// Lets wgpu give back what submitted work held, outside of what is measured.
+/// Lets wgpu release the resources of submitted work, outside the measured time.
 fn idle(gpu: &Gpu) -> Result<(), Error> {
     let polled = gpu.device.poll(wgpu::PollType::wait_indefinitely());
     polled.map(|_| ()).map_err(|error| shadowgraph::Error::Gpu(error.to_string()).into())
 }
 
-/// Times of one step after the other.
+/// Measures consecutive steps.
 struct Clock(Instant);
 
 impl Clock {
@@ -228,7 +233,7 @@ impl Clock {
         Self(Instant::now())
     }
 
-    /// The time since the last call.
+    /// Returns the time since the last call.
     fn lap(&mut self) -> Duration {
         let now = Instant::now();
         now - std::mem::replace(&mut self.0, now)

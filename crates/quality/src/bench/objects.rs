@@ -1,17 +1,17 @@
-//! The objects of wgpu that passes encoded by hand need.
+//! Helpers that create the wgpu objects of the hand-written passes.
 
 use std::num::NonZeroU64;
 
 use shadowgraph_core::Format;
 use wgpu::{BindingResource, BufferUsages, TextureUsages};
 
-/// A storage buffer that is written each frame.
+/// Creates a storage buffer that is written each frame.
 pub(super) fn buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
     device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
 }
 
-/// A texture to draw into, whole; `usage` is what else it is for.
+/// Creates a texture to draw into, with additional usages.
 pub(super) fn attachment(
     device: &wgpu::Device,
     [width, height]: [u32; 2],
@@ -31,7 +31,7 @@ pub(super) fn attachment(
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// The sampler that shadow maps are read with.
+/// Creates the comparison sampler of shadow maps.
 pub(super) fn comparison_sampler(device: &wgpu::Device) -> wgpu::Sampler {
     device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
@@ -41,12 +41,12 @@ pub(super) fn comparison_sampler(device: &wgpu::Device) -> wgpu::Sampler {
     })
 }
 
-/// The start of a buffer, to be bound at dynamic offsets.
+/// Returns the binding of a range of a buffer, used with dynamic offsets.
 pub(super) fn range(buffer: &wgpu::Buffer, bytes: u32) -> BindingResource<'_> {
     BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size: NonZeroU64::new(bytes.into()) })
 }
 
-/// A bind group of these, at bindings 0, 1, 2 and so on.
+/// Creates a bind group of the entries, at bindings 0, 1, 2 and so on.
 pub(super) fn group<'r>(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
@@ -58,7 +58,7 @@ pub(super) fn group<'r>(
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }
 
-/// Begins a pass: a colour target and what it is cleared to, a depth target and whether it is cleared and written
+/// Begins a pass: a colour target and its clear value, a depth target and whether it is cleared and written
 /// (else only tested).
 pub(super) fn begin<'e>(
     encoder: &'e mut wgpu::CommandEncoder,

@@ -1,28 +1,28 @@
-//! How samples are spread.
+//! Quantiles of samples.
 
-/// Quantiles of samples; all 0 where there is none.
+/// Quantiles of samples; all 0 if there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stats {
-    /// One in twenty is less.
+    /// 5th percentile.
     pub p5: f64,
-    /// One in four is less.
+    /// First quartile.
     pub p25: f64,
-    /// One in two is less.
+    /// Median.
     pub median: f64,
-    /// One in four is more.
+    /// Third quartile.
     pub p75: f64,
-    /// One in twenty is more.
+    /// 95th percentile.
     pub p95: f64,
 }
 
 impl Stats {
-    /// Finds the quantiles, each one of the samples.
+    /// Computes the quantiles, each by nearest rank.
     ///
     /// ```
-    /// let spread = shadowgraph_quality::bench::Stats::of((1..=101).map(f64::from));
+    /// let spread = shadowgraph_quality::bench::Stats::from_samples((1..=101).map(f64::from));
     /// assert_eq!((spread.p5, spread.median, spread.p95), (6.0, 51.0, 96.0));
     /// ```
-    pub fn of(samples: impl Iterator<Item = f64>) -> Self {
+    pub fn from_samples(samples: impl Iterator<Item = f64>) -> Self {
         let mut samples: Vec<f64> = samples.collect();
         samples.sort_by(f64::total_cmp);
         let quantile = |part: f64| {

@@ -24,7 +24,7 @@ fn demo(gpu: &Gpu) -> (Renderer, ViewOptions) {
     (Renderer::new(gpu, scene, &camera, Aov::Color).unwrap(), options)
 }
 
-/// The steps that draw: of each, the passes that share its render pass.
+/// Returns the passes that each render pass consists of.
 fn render_passes(plan: &Plan) -> Vec<Vec<&str>> {
     let steps = plan.steps().filter(|step| plan.pass(step.passes[0]).kind == PassKind::Render);
     steps.map(|step| step.passes.iter().map(|&id| plan.pass(id).name).collect()).collect()
@@ -35,7 +35,7 @@ fn uploads(plan: &Plan) -> usize {
 }
 
 #[test]
-fn by_hand_there_are_as_many_passes_and_uploads_as_in_the_plan() {
+fn the_hand_written_frame_has_as_many_passes_and_uploads_as_the_plan() {
     let gpu = Gpu::noop().unwrap();
     let (mut renderer, options) = demo(&gpu);
     let (plan, _) = renderer.plan(&options).unwrap();
@@ -54,7 +54,7 @@ fn by_hand_there_are_as_many_passes_and_uploads_as_in_the_plan() {
 }
 
 #[test]
-fn a_scene_without_shadows_has_two_passes_less_on_both_sides() {
+fn without_shadows_there_are_two_passes_fewer_on_both_sides() {
     let gpu = Gpu::noop().unwrap();
     let mut scene = demo_scene();
     scene.lights.iter_mut().for_each(|light| light.casts_shadow = false);
@@ -71,11 +71,11 @@ fn every_pair_is_measured_and_every_step_takes_time() {
     let gpu = Gpu::noop().unwrap();
     let (mut renderer, options) = demo(&gpu);
     let comparison = compare(&gpu, &mut renderer, &options, 12).unwrap();
-    assert_eq!((comparison.graph.len(), comparison.by_hand.len()), (12, 12));
+    assert_eq!((comparison.graph.len(), comparison.hand_written.len()), (12, 12));
     for time in &comparison.graph {
         assert!(time.plan.is_zero() && !time.declare.is_zero() && !time.compile.is_zero(), "{time:?}");
     }
-    for time in &comparison.by_hand {
+    for time in &comparison.hand_written {
         assert!(!time.plan.is_zero() && time.declare.is_zero() && !time.record.is_zero(), "{time:?}");
     }
     let (whole, graph_work) = (comparison.ratio(), comparison.ratio_without_planning());
@@ -83,7 +83,7 @@ fn every_pair_is_measured_and_every_step_takes_time() {
 }
 
 #[test]
-fn only_colours_are_measured() {
+fn only_the_output_color_is_measured() {
     let gpu = Gpu::noop().unwrap();
     let (renderer, options) = demo(&gpu);
     let camera = options.camera.clone();
@@ -92,14 +92,14 @@ fn only_colours_are_measured() {
 }
 
 #[test]
-fn pass_times_are_those_of_every_pass_in_order() {
+fn pass_times_list_every_pass_in_order() {
     let gpu = Gpu::noop().unwrap();
     let (mut renderer, options) = demo(&gpu);
     let times = pass_times(&gpu, &mut renderer, &options, 3).unwrap();
     let (plan, _) = renderer.plan(&options).unwrap();
     let paths: Vec<_> = plan.order().iter().map(|&id| plan.pass_path(id)).collect();
     assert_eq!(times.iter().map(|time| &time.pass).collect::<Vec<_>>(), paths.iter().collect::<Vec<_>>());
-    // The clears of the maps have no body: there is nothing of theirs to record.
+    // The clears of the maps have no body, so nothing is recorded.
     let bare = |time: &TimeSummary| time.pass.ends_with("/clear");
     assert_eq!(times.iter().filter(|time| bare(time)).count(), 2, "{times:?}");
     assert!(times.iter().all(|time| (time.cpu_ms.median > 0.0) != bare(time)), "{times:?}");
@@ -117,9 +117,9 @@ fn read(gpu: &Gpu, texture: &wgpu::Texture) -> RenderedImage {
     RenderedImage { size_px, rgba8: executed.read_back(request).unwrap().wait(&gpu.device).unwrap() }
 }
 
-/// The draws of both sides are the same: what is drawn is the same, to the bit.
+/// Both sides draw the same, so the images are identical.
 #[test]
-fn by_hand_the_picture_is_that_of_the_graph() {
+fn the_hand_written_image_equals_that_of_the_graph() {
     let gpu = match Gpu::open(&AdapterChoice::Cpu) {
         Ok(gpu) => gpu,
         Err(error) => return skip("bench_pictures", &error.to_string()),
@@ -132,16 +132,16 @@ fn by_hand_the_picture_is_that_of_the_graph() {
     let of_graph = read(&gpu, &target);
     let other = super::target(&gpu.device, options.size_px).unwrap();
     let view = renderer.view(&options, Some(&other));
-    ByHand::new(&gpu, &renderer, &view, &other).unwrap().frame(&gpu).unwrap();
-    let by_hand = read(&gpu, &other);
-    assert_eq!(of_graph, by_hand);
+    HandWritten::new(&gpu, &renderer, &view, &other).unwrap().frame(&gpu).unwrap();
+    let hand_written = read(&gpu, &other);
+    assert_eq!(of_graph, hand_written);
     let mut colors: Vec<_> = of_graph.rgba8.chunks_exact(4).collect();
     colors.sort_unstable();
     colors.dedup();
-    assert!(colors.len() > 100, "a picture of {} colours", colors.len());
+    assert!(colors.len() > 100, "a image of {} colours", colors.len());
 }
 
-/// As `CONTRIBUTING.md` has it.
+/// Reports a skip, as described in `CONTRIBUTING.md`.
 #[allow(clippy::print_stdout, reason = "the line is for whoever runs the test")]
 fn skip(id: &str, reason: &str) {
     let line = format!("SKIP {id}: {reason}\n");

@@ -1,4 +1,4 @@
-//! How far each pixel is from the nearest marked one.
+//! Distance of each pixel to the nearest marked pixel.
 
 /// Returns the squared distance from each pixel's centre to that of the nearest marked pixel, px², exactly;
 /// infinite if none is marked. Two passes, each linear in the number of pixels: straight up and down, then
@@ -14,7 +14,7 @@ pub(super) fn squared_distances(marked: &[bool], width: usize) -> Vec<f32> {
     squared
 }
 
-/// No marked pixel in the column.
+/// There is no marked pixel in the column.
 const NONE: u32 = u32::MAX;
 
 fn vertical_distances(marked: &[bool], width: usize) -> Vec<u32> {
@@ -28,7 +28,7 @@ fn vertical_distances(marked: &[bool], width: usize) -> Vec<u32> {
     distances
 }
 
-/// A column's parabola: squared distances to what is marked in it, lowest of all from `from` on.
+/// The parabola of a column: squared distances to its nearest marked pixel. It is the lowest one from `from` on.
 struct Parabola {
     x: f64,
     base: f64,

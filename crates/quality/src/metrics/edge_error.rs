@@ -1,34 +1,34 @@
-//! How well soft edges match.
+//! Errors of soft edges.
 
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
 use super::Samples;
-use super::surface::parted;
+use super::surface::is_disconnected;
 
-/// The soft truths that are neither fully dark nor fully lit.
+/// Range of the soft reference in penumbras, neither fully dark nor fully lit.
 pub const PENUMBRA: Range<f32> = 0.02..0.98;
 
-/// How visibility differs from soft truth in penumbras.
+/// Difference of visibility and soft reference in penumbras.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EdgeError {
-    /// How many receivers are in a penumbra.
+    /// Number of receivers in a penumbra.
     pub penumbra: usize,
     /// The root of the mean squared difference over them, 0 to 1; 0 if there are none.
     pub rmse: f64,
-    /// At how many crossings both widths were measured.
+    /// Number of crossings where both widths were measured.
     pub crossings: usize,
-    /// At how many crossings the truth has a width and the visibility has none.
+    /// Number of crossings where the reference has a width and the visibility has none.
     pub unmeasured: usize,
-    /// The measured 10-90 % widths added up, over the true ones: 1 is right, above 1 too soft. `None` without
+    /// Sum of the measured 10-90 % widths divided by that of the reference: 1 is ideal, above 1 too soft. `None` without
     /// crossings.
     pub width_ratio: Option<f64>,
 }
 
-/// Measures the edges, `None` if there is no soft truth.
+/// Measures the edges; `None` without a soft reference.
 ///
-/// Penumbras are receivers with soft truth in [`PENUMBRA`]. Widths are taken along the picture's rows and
+/// Penumbras are receivers with soft truth in [`PENUMBRA`]. Widths are taken along the image's rows and
 /// columns, each cut into runs of receivers on one piece of surface. At every place in a run where soft truth
 /// crosses 1/2, its width is the way between where it is 0.1 and 0.9 around there, linear between pixels. The
 /// measured width is that of the nearest crossing of visibility in the same direction in the run. There is no
@@ -52,7 +52,9 @@ pub fn edge_error(samples: &Samples<'_>) -> Option<EdgeError> {
     let rows = (0..samples.height).map(|y| Vec::from_iter(y * samples.width..(y + 1) * samples.width));
     let columns = (0..samples.width).map(|x| Vec::from_iter((x..samples.len()).step_by(samples.width)));
     for line in rows.chain(columns) {
-        for run in line.chunk_by(|&a, &b| goes_on(samples, a, b)).filter(|run| samples.is_receiver(run[0])) {
+        for run in
+            line.chunk_by(|&a, &b| continues_run(samples, a, b)).filter(|run| samples.is_receiver(run[0]))
+        {
             let truth: Vec<f32> = run.iter().map(|&pixel| soft_truth[pixel]).collect();
             let measured: Vec<f32> = run.iter().map(|&pixel| samples.images.visibility[pixel]).collect();
             add_widths(&truth, &measured, &mut widths_px, &mut result);
@@ -62,11 +64,11 @@ pub fn edge_error(samples: &Samples<'_>) -> Option<EdgeError> {
     Some(result)
 }
 
-fn goes_on(samples: &Samples<'_>, a: usize, b: usize) -> bool {
-    samples.is_receiver(a) && samples.is_receiver(b) && !parted(samples, a, b)
+fn continues_run(samples: &Samples<'_>, a: usize, b: usize) -> bool {
+    samples.is_receiver(a) && samples.is_receiver(b) && !is_disconnected(samples, a, b)
 }
 
-/// Adds the true and the measured width at each crossing of a run.
+/// Adds the reference and the measured width at each crossing of a run.
 fn add_widths(truth: &[f32], measured: &[f32], widths_px: &mut [f64; 2], result: &mut EdgeError) {
     for at in 0..truth.len().saturating_sub(1) {
         let Some(rising) = crosses(truth, at) else { continue };
@@ -83,40 +85,40 @@ fn add_widths(truth: &[f32], measured: &[f32], widths_px: &mut [f64; 2], result:
     }
 }
 
-/// Whether 1/2 is crossed upwards (or downwards) between a place and the next one.
+/// Returns whether values cross 1/2 upwards (or downwards) between an index and the next; `None` if neither.
 fn crosses(values: &[f32], at: usize) -> Option<bool> {
     let [low, high] = [values[at] < 0.5, values[at + 1] < 0.5];
     (low != high).then_some(low)
 }
 
 fn nearest_crossing(values: &[f32], at: usize, rising: bool) -> Option<usize> {
-    let is_it = |at: &usize| crosses(values, *at) == Some(rising);
-    let ahead = (at..values.len() - 1).find(is_it);
-    let behind = (0..at).rev().find(is_it);
+    let matches = |at: &usize| crosses(values, *at) == Some(rising);
+    let ahead = (at..values.len() - 1).find(matches);
+    let behind = (0..at).rev().find(matches);
     match (ahead, behind) {
         (Some(ahead), Some(behind)) => Some(if ahead - at <= at - behind { ahead } else { behind }),
         (ahead, behind) => ahead.or(behind),
     }
 }
 
-/// The 10-90 % width of the transition that crosses 1/2 between a place and the next one.
+/// Returns the 10-90 % width of the transition that crosses 1/2 between an index and the next.
 fn width_px(values: &[f32], at: usize, rising: bool) -> Option<f32> {
     let (before, after) = values.split_at(at + 1);
     let (before, after) = (before.iter().rev().copied(), after.iter().copied());
     let (first, second) = (values[at], values[at + 1]);
     // Both ways lead away from one half: upwards as it is, downwards mirrored at 1/2.
     let [up, down] = if rising {
-        [climb(first, after), climb(1.0 - second, before.map(|value| 1.0 - value))]
+        [rise_px(first, after), rise_px(1.0 - second, before.map(|value| 1.0 - value))]
     } else {
-        [climb(second, before), climb(1.0 - first, after.map(|value| 1.0 - value))]
+        [rise_px(second, before), rise_px(1.0 - first, after.map(|value| 1.0 - value))]
     };
     // Both begin at the other one's first pixel, so the pixel between is in both.
     Some(up? + down? - 1.0)
 }
 
-/// The way, in pixels from the pixel that has `from`, until values reach 0.9 without falling below 1/4
-/// before.
-fn climb(from: f32, values: impl Iterator<Item = f32>) -> Option<f32> {
+/// Returns the distance in pixels, from the pixel with the value `from`, to where values reach 0.9; `None` if they
+/// fall below 1/4 before.
+fn rise_px(from: f32, values: impl Iterator<Item = f32>) -> Option<f32> {
     let mut last = from;
     for (steps, value) in values.enumerate() {
         if value >= 0.9 {

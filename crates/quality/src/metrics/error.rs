@@ -1,27 +1,27 @@
-//! What can be wrong with the pictures and lists to compare.
+//! Errors of the images and lists to compare.
 
-/// Why something cannot be measured.
+/// Error of invalid input to a metric.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MetricsError {
-    /// A list is not as long as those it belongs to.
-    #[error("`{list}` has {has} entries; it needs {needs}")]
+    /// A list has the wrong length.
+    #[error("`{list}` has {has} entries; expected {needs}")]
     Length {
-        /// Its name.
+        /// Name of the list.
         list: &'static str,
-        /// How long it is.
+        /// Its length.
         has: usize,
-        /// How long it has to be.
+        /// The expected length.
         needs: usize,
     },
-    /// A number that would count as right or be left out without being samples.
-    #[error("`{list}` has a number at {index} that is not allowed; allowed: {allowed}")]
+    /// A number is out of range or not finite.
+    #[error("invalid value at index {index} of `{list}`; allowed: {allowed}")]
     Value {
-        /// The name of the list.
+        /// Name of the list.
         list: &'static str,
-        /// Its place in the list; for lists of frames, in its frame.
+        /// Index in the list; for lists of frames, in the frame.
         index: usize,
-        /// The numbers it can be.
+        /// Allowed values.
         allowed: &'static str,
     },
 }
@@ -32,7 +32,7 @@ pub(super) fn check_length(list: &'static str, has: usize, needs: usize) -> Resu
 }
 
 /// Checks that every value is from 0 to 1.
-pub(super) fn check_shares(list: &'static str, values: &[f32]) -> Result<(), MetricsError> {
+pub(super) fn check_fractions(list: &'static str, values: &[f32]) -> Result<(), MetricsError> {
     match values.iter().position(|value| !(0.0..=1.0).contains(value)) {
         Some(index) => Err(MetricsError::Value { list, index, allowed: "0 to 1" }),
         None => Ok(()),

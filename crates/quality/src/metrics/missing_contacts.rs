@@ -1,19 +1,19 @@
-//! How much shadow is missing right where things touch.
+//! Missing contact shadows.
 
 use serde::{Deserialize, Serialize};
 
 use super::Samples;
 use super::statistics::percent;
 
-/// Blockers nearer than this are near, metres.
+/// Maximum distance of near blockers, metres.
 pub const NEAR_BLOCKER_M: f32 = 0.25;
 
-/// Truly dark receivers with a near blocker, and how many of them are lit.
+/// Receivers that should be dark because of a near blocker, and how many of them are lit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MissingContacts {
-    /// How many there are: truly dark, the nearest blocker nearer than [`NEAR_BLOCKER_M`].
+    /// Number of contacts: receivers that should be dark, with a blocker nearer than [`NEAR_BLOCKER_M`].
     pub contacts: usize,
-    /// How many of them are lit: visibility above 1/2.
+    /// Number of contacts that are lit: visibility above 1/2.
     #[serde(rename = "lost")]
     pub missing: usize,
     /// `missing` in percent of `contacts`; 0 if there are none.
@@ -21,13 +21,13 @@ pub struct MissingContacts {
     pub missing_percent: f64,
 }
 
-/// Counts missing contacts, in the band and outside of it: contacts are where edges are.
+/// Counts missing contacts, inside and outside the band, because contacts are at edges.
 #[must_use]
 pub fn missing_contacts(samples: &Samples<'_>) -> MissingContacts {
     let near = |pixel: &usize| samples.images.blocker_distances_m[*pixel] < NEAR_BLOCKER_M;
-    let contacts = samples.receivers().filter(|&pixel| samples.is_truly_dark(pixel)).filter(near);
+    let contacts = samples.receivers().filter(|&pixel| samples.should_be_dark(pixel)).filter(near);
     let (contacts, missing) = contacts.fold((0, 0), |(contacts, missing), pixel| {
-        (contacts + 1, missing + usize::from(samples.is_wrong(pixel)))
+        (contacts + 1, missing + usize::from(samples.is_misclassified(pixel)))
     });
     MissingContacts { contacts, missing, missing_percent: percent(missing, contacts) }
 }

@@ -1,10 +1,10 @@
-//! Compares measured shadows with ray-traced truth.
+//! Compares measured shadows with ray-traced ground truth.
 //!
-//! [`Samples`] is one view of one light: what the camera sees, what a technique says of it, and the truth. Each
-//! metric is a pure function of it; [`flicker`] and [`seam`] are functions of visibilities at world points.
+//! [`Samples`] are one view of one light: the visible surfaces, the visibility of a technique, and the reference. Each
+//! metric is a pure function of them; [`flicker`] and [`seam`] are functions of visibilities at world points.
 //!
-//! Two words in all of them: a *receiver* is a pixel with something drawn and N·L above
-//! [`RECEIVER_N_DOT_L`]. A pixel is *wrong* where visibility and hard truth differ by more than 1/2.
+//! A *receiver* is a pixel with geometry and N·L above [`RECEIVER_N_DOT_L`]. It is *misclassified* if visibility and
+//! hard reference differ by more than 1/2.
 //!
 //! ```
 //! use shadowgraph_quality::metrics::percentile;
@@ -32,7 +32,7 @@ pub use edge_error::{EdgeError, PENUMBRA, edge_error};
 pub use error::MetricsError;
 pub use flicker::flicker;
 pub use mean_error::{MeanError, mean_error};
-pub use misclassified::{AcneBin, Misclassified, N_DOT_L_BINS, Wrong, misclassified};
+pub use misclassified::{AcneBin, Misclassified, MisclassifiedCounts, N_DOT_L_BINS, misclassified};
 pub use missing_contacts::{MissingContacts, NEAR_BLOCKER_M, missing_contacts};
 pub use peter_panning::{CONTACT_M, PeterPanning, peter_panning};
 pub use samples::{Images, RECEIVER_N_DOT_L, Samples, TowardsLight};

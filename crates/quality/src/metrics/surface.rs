@@ -1,24 +1,24 @@
-//! Which neighbouring pixels show the same piece of surface.
+//! Connectivity of neighbouring pixels.
 
 use super::Samples;
 
-/// The cosine of 10 degrees: where the normals of neighbours differ by more, there is a crease.
+/// Cosine of 10 degrees: a crease is where the normals of neighbours differ by more.
 pub const CREASE_COS: f32 = 0.984_807_8;
 
-/// How far off the other's tangent plane, in pixels, a neighbour is beyond a silhouette.
+/// Distance from the other's tangent plane, in pixels, above which there is a silhouette between neighbours.
 pub const STEP_PX: f32 = 0.5;
 
-/// The rounding of stored normals, radians.
+/// Rounding error of stored normals, radians.
 const NORMAL_ROUNDING: f32 = 1e-3;
 
-/// Whether two pixels, neighbours or nearly, show different pieces of surface: only one is drawn, or there is
-/// a crease or a silhouette between them.
+/// Returns whether two nearby pixels are on different surfaces: only one has geometry, or there is a crease or a
+/// silhouette between them.
 ///
-/// A silhouette is a step off the tangent plane, not one in depth: a plane seen at a grazing angle is none
-/// however far neighbours are apart. With d from one position to the other and normals a and b, it is where
+/// A silhouette is a step off the tangent plane, not one in depth: a plane seen at a grazing angle has none,
+/// however far apart neighbours are. With d from one position to the other and normals a and b, it is where
 /// |a·d| or |b·d| is above `STEP_PX` times the side of a pixel at the nearer of the two depths, plus |d| (|a
 /// - b| + 0.001): a smooth bend from a to b explains |d| |a - b| / 2.
-pub(super) fn parted(samples: &Samples<'_>, a: usize, b: usize) -> bool {
+pub(super) fn is_disconnected(samples: &Samples<'_>, a: usize, b: usize) -> bool {
     if !samples.is_drawn(a) || !samples.is_drawn(b) {
         return samples.is_drawn(a) != samples.is_drawn(b);
     }

@@ -1,4 +1,4 @@
-//! Bounds that a report is checked against.
+//! Upper bounds that a report is checked against.
 
 use std::path::Path;
 
@@ -6,54 +6,54 @@ use serde::{Deserialize, Serialize};
 
 use super::data::Report;
 use super::metric::{METRICS, Metric, metric};
-use super::summary::{mean, off, shown, worst};
+use super::summary::{deviation, format_value, mean, worst};
 use shadowgraph::ron_file;
 
 use crate::Error;
 
-/// What the numbers of a report may be at most.
+/// Upper bounds of the numbers of a report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bounds {
-    /// In any order.
+    /// The bounds, in any order.
     pub bounds: Vec<Bound>,
 }
 
-/// The bound of a technique's metric.
+/// Bound of one metric of one technique.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bound {
-    /// The technique's name.
+    /// Name of the technique.
     pub technique: String,
-    /// The metric's name, one of [`METRICS`].
+    /// Name of the metric, one of [`METRICS`].
     pub metric: String,
-    /// The most that the mean over all cases may be.
+    /// Maximum of the mean over all cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean: Option<f64>,
-    /// The most that any case may be.
+    /// Maximum of every case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<f64>,
 }
 
 impl Bounds {
-    /// Reads bounds from RON; `place` is what errors name.
+    /// Reads bounds from RON; errors name the file `place`.
     ///
     /// # Errors
-    /// [`Error::Cases`] with line and column, or the metric that there is not.
+    /// [`Error::File`] with line and column, or the unknown metric.
     pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
         let file = place.display().to_string();
         let bounds: Self = ron_file::parse_file(&file, text)?;
         for (index, bound) in bounds.bounds.iter().enumerate() {
-            let wrong = |problem| ron_file::field_error(&file, text, &format!("bounds.{index}"), problem);
-            bound.check().map_err(wrong)?;
+            let error = |problem| ron_file::field_error(&file, text, &format!("bounds.{index}"), problem);
+            bound.check().map_err(error)?;
         }
         Ok(bounds)
     }
 
-    /// Returns a sentence for each number of a report that is beyond its bound, or that is missing.
+    /// Returns a line for each number of a report that exceeds its bound or is missing.
     #[must_use]
-    pub fn broken_by(&self, report: &Report) -> Vec<String> {
-        self.bounds.iter().flat_map(|bound| bound.broken_by(report)).collect()
+    pub fn violations(&self, report: &Report) -> Vec<String> {
+        self.bounds.iter().flat_map(|bound| bound.violations(report)).collect()
     }
 }
 
@@ -61,26 +61,26 @@ impl Bound {
     fn check(&self) -> Result<(), String> {
         if metric(&self.metric).is_none() {
             let known: Vec<_> = METRICS.iter().map(|metric| metric.name).collect();
-            return Err(format!("there is no metric `{}`; there is: {}", self.metric, known.join(", ")));
+            return Err(format!("unknown metric `{}`; expected one of: {}", self.metric, known.join(", ")));
         }
         let given = [("mean", self.mean), ("worst", self.worst)];
-        let wrong = given
+        let invalid = given
             .into_iter()
             .find(|(_, bound)| bound.is_some_and(|bound| !(0.0..=f64::MAX).contains(&bound)));
-        match wrong {
+        match invalid {
             Some((what, bound)) => {
                 let bound = bound.unwrap_or_default();
                 let name = format!("{} {}", self.technique, self.metric);
-                Err(format!("{name}: {what} is {bound}; give a number of 0 or above"))
+                Err(format!("{name}: invalid value {bound} of {what}; allowed: 0 and above"))
             }
             None if self.mean.is_none() && self.worst.is_none() => {
-                Err(format!("{} {}: give mean, worst or both", self.technique, self.metric))
+                Err(format!("{} {}: expected mean, worst or both", self.technique, self.metric))
             }
             None => Ok(()),
         }
     }
 
-    fn broken_by(&self, report: &Report) -> Vec<String> {
+    fn violations(&self, report: &Report) -> Vec<String> {
         let Some(metric) = metric(&self.metric) else { return Vec::new() };
         let name = format!("{} {}", self.technique, self.metric);
         let (mean, worst) = (mean(report, &self.technique, metric), worst(report, &self.technique, metric));
@@ -88,21 +88,28 @@ impl Bound {
             return vec![format!("{name}: no case of the report has a value")];
         };
         let place = format!(" ({}, {}, {})", case.scene, case.light, case.view);
-        let of_mean = beyond(metric, "mean", mean, self.mean, "");
-        let of_worst = beyond(metric, "worst", worst, self.worst, &place);
+        let of_mean = describe_violation(metric, "mean", mean, self.mean, "");
+        let of_worst = describe_violation(metric, "worst", worst, self.worst, &place);
         [of_mean, of_worst].into_iter().flatten().map(|what| format!("{name}: {what}")).collect()
     }
 }
 
-/// Says so if a value is beyond its bound; a value that is no number is.
-fn beyond(metric: &Metric, what: &str, value: f64, bound: Option<f64>, place: &str) -> Option<String> {
-    let bound = bound.filter(|&bound| off(metric, value).total_cmp(&off(metric, bound)).is_gt())?;
-    // As many digits as tell the two apart.
-    let shown_value = match shown(metric, Some(value)) {
-        text if text == shown(metric, Some(bound)) => value.to_string(),
+/// Describes a value that exceeds its bound or is NaN; `None` if it is within.
+fn describe_violation(
+    metric: &Metric,
+    what: &str,
+    value: f64,
+    bound: Option<f64>,
+    place: &str,
+) -> Option<String> {
+    let bound =
+        bound.filter(|&bound| deviation(metric, value).total_cmp(&deviation(metric, bound)).is_gt())?;
+    // Enough digits to distinguish the two.
+    let formatted = match format_value(metric, Some(value)) {
+        text if text == format_value(metric, Some(bound)) => value.to_string(),
         text => text,
     };
-    Some(format!("{what} {shown_value}{place} is beyond the bound {bound}"))
+    Some(format!("{what} {formatted}{place} exceeds the bound {bound}"))
 }
 
 #[cfg(test)]
@@ -116,30 +123,30 @@ mod tests {
     }
 
     #[test]
-    fn a_report_within_its_bounds_breaks_none() {
+    fn a_report_within_its_bounds_has_no_violations() {
         let report = fixture::report(&[("pcf", 1.0), ("pcf", 3.0)]);
         let text =
             r#"(bounds: [(technique: "pcf", metric: "misclassified_percent", mean: 2.0, worst: 3.0)])"#;
-        assert_eq!(bounds(text).unwrap().broken_by(&report), Vec::<String>::new());
+        assert_eq!(bounds(text).unwrap().violations(&report), Vec::<String>::new());
     }
 
     #[test]
-    fn what_got_worse_is_named_with_its_case() {
+    fn a_violation_names_the_worst_case() {
         let report = fixture::report(&[("pcf", 1.0), ("pcf", 3.0), ("other", 9.0)]);
         let text =
             r#"(bounds: [(technique: "pcf", metric: "misclassified_percent", mean: 1.9, worst: 2.9999)])"#;
-        let broken = bounds(text).unwrap().broken_by(&report);
+        let violations = bounds(text).unwrap().violations(&report);
         assert_eq!(
-            broken,
+            violations,
             [
-                "pcf misclassified_percent: mean 2.000 is beyond the bound 1.9",
-                "pcf misclassified_percent: worst 3 (tower, sun 15, view 1) is beyond the bound 2.9999",
+                "pcf misclassified_percent: mean 2.000 exceeds the bound 1.9",
+                "pcf misclassified_percent: worst 3 (tower, sun 15, view 1) exceeds the bound 2.9999",
             ]
         );
     }
 
     #[test]
-    fn a_number_that_is_missing_or_none_breaks_its_bound() {
+    fn a_missing_value_or_nan_violates_its_bound() {
         let mut report = fixture::report(&[("pcf", f64::NAN)]);
         report.cases[0].seam = None;
         let text = r#"(bounds: [
@@ -147,22 +154,22 @@ mod tests {
             (technique: "evsm", metric: "misclassified_percent", worst: 1),
             (technique: "pcf", metric: "misclassified_percent", worst: 1),
         ])"#;
-        let broken = bounds(text).unwrap().broken_by(&report);
-        assert_eq!(broken.len(), 3, "{broken:?}");
-        assert_eq!(broken[0], "pcf seam: no case of the report has a value");
+        let violations = bounds(text).unwrap().violations(&report);
+        assert_eq!(violations.len(), 3, "{violations:?}");
+        assert_eq!(violations[0], "pcf seam: no case of the report has a value");
     }
 
     #[test]
-    fn wrong_bounds_are_refused_in_one_line() {
+    fn invalid_bounds_are_errors_of_one_line() {
         let error = bounds(r#"(bounds: [(technique: "pcf", metric: "blur", worst: 1)])"#).unwrap_err();
         assert!(
-            error.starts_with("my.ron:1:11: there is no metric `blur`; there is: misclassified_percent, "),
+            error.starts_with("my.ron:1:11: unknown metric `blur`; expected one of: misclassified_percent, "),
             "{error}"
         );
         for (given, expected) in [
-            ("worst: NaN", "pcf seam: worst is NaN; give a number of 0 or above"),
-            ("mean: -1", "pcf seam: mean is -1; give"),
-            ("", "pcf seam: give mean, worst or both"),
+            ("worst: NaN", "pcf seam: invalid value NaN of worst; allowed: 0 and above"),
+            ("mean: -1", "pcf seam: invalid value -1 of mean"),
+            ("", "pcf seam: expected mean, worst or both"),
         ] {
             let text = format!(r#"(bounds: [(technique: "pcf", metric: "seam", {given})])"#);
             let error = bounds(&text).unwrap_err();

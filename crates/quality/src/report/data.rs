@@ -1,4 +1,4 @@
-//! What a measurement found, as data.
+//! Results of a measurement as data.
 
 use serde::{Deserialize, Serialize};
 use shadowgraph_shadows::ShadowSettings;
@@ -6,26 +6,26 @@ use shadowgraph_shadows::ShadowSettings;
 use crate::metrics::{EdgeError, Summary};
 use crate::{Variant, ViewErrors};
 
-/// Everything that was measured: what its table, its page and its check against bounds are made of.
+/// Results of a measurement, from which the table, the page and the check against bounds are made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// The version of this form: [`Report::VERSION`].
+    /// Version of the format: [`Report::VERSION`].
     pub version: u32,
-    /// What drew.
+    /// Name of the adapter.
     pub adapter: String,
-    /// Width and height of the pictures, pixels.
+    /// Width and height of the images, pixels.
     pub size_px: [u32; 2],
-    /// The shadow settings that all techniques got.
+    /// The shadow settings of all techniques.
     pub settings: ShadowSettings,
-    /// Further settings that they got.
+    /// More settings that were measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variants: Vec<Variant>,
-    /// One for each technique, with each settings, in each view of each light.
+    /// A case for each technique and settings in each view of each light.
     pub cases: Vec<CaseReport>,
 }
 
 impl Report {
-    /// The version of the form that this crate writes.
+    /// Version of the format that this crate writes.
     pub const VERSION: u32 = 1;
 }
 
@@ -34,34 +34,35 @@ impl Report {
 pub struct CaseReport {
     /// The scene's name.
     pub scene: String,
-    /// The light: a sun by its height, other lights by kind and number.
+    /// The light: a sun by its elevation, other lights by kind and index.
     pub light: String,
     /// The view's name.
     pub view: String,
     /// The technique's name; with a variant of settings `NAME: VARIANT`.
     pub technique: String,
-    /// How its shadows differ from hard truth.
+    /// Errors against the hard reference.
     pub errors: ViewErrors,
-    /// How its edges differ from soft truth, if that was traced.
+    /// Errors of edges against the soft reference, if it was traced.
     pub edges: Option<EdgeError>,
-    /// How much its cascades differ along their borders, if it has any.
+    /// Difference of cascades along their borders, if there are any.
     pub seam: Option<Summary>,
-    /// How much its shadows change while the camera moves, if that was measured.
+    /// Change of shadows while the camera moves, if measured.
     pub flicker: Vec<Flicker>,
-    /// What its shadows cost.
+    /// Cost of the shadows.
     pub cost: Option<Cost>,
-    /// The files of its pictures, if they were written.
-    pub pictures: Option<ImageFiles>,
+    /// The image files, if written.
+    #[serde(rename = "pictures")]
+    pub images: Option<ImageFiles>,
 }
 
-/// How much shadows change during one motion of the camera.
+/// Change of shadows during one motion of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Flicker {
-    /// How the camera moves.
+    /// Motion of the camera.
     pub motion: Motion,
     /// Whether the scene was moved 10 km away from the world's origin.
     pub far_out: bool,
-    /// The change of visibility from frame to frame, 0 to 1.
+    /// Change of visibility from frame to frame, 0 to 1.
     pub change: Summary,
 }
 
@@ -72,32 +73,33 @@ pub enum Motion {
     Translate,
     /// Around its own axes.
     Rotate,
-    /// The angle of its lens.
+    /// Field of view.
     Zoom,
 }
 
-/// What the shadows of a frame cost.
+/// Cost of the shadows of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
-    /// The GPU's time for the shadow passes, milliseconds, where the adapter can measure it.
+    /// GPU time of the shadow passes, milliseconds, if the adapter can measure it.
     pub gpu_ms: Option<f64>,
-    /// The bytes of all textures that the technique's passes write.
+    /// Size of all textures that the technique's passes write, bytes.
     pub texture_bytes: u64,
-    /// How many draws of casters there are.
+    /// Number of draws of casters.
     pub draws: u64,
-    /// How many triangles they have.
+    /// Number of triangles of casters.
     pub triangles: u64,
 }
 
-/// Pictures of a case, as paths from the page's folder.
+/// Image files of a case, as paths relative to the page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImageFiles {
-    /// What the technique draws, in colour.
-    pub picture: String,
-    /// The ray-traced truth: white lit, black in shadow.
+    /// The rendered colour image.
+    #[serde(rename = "picture")]
+    pub color: String,
+    /// The ray-traced reference: white lit, black in shadow.
     pub truth: String,
-    /// What the technique says: the same, with grey between.
+    /// The visibility of the technique, 0 black to 1 white.
     pub visibility: String,
-    /// How the two differ.
+    /// The difference of the two.
     pub difference: String,
 }

@@ -1,4 +1,4 @@
-//! Reports that tests are made of.
+//! Reports for tests.
 
 use super::data::{CaseReport, Cost, Flicker, ImageFiles, Motion, Report};
 use crate::ViewErrors;
@@ -7,7 +7,7 @@ use crate::metrics::{
 };
 use shadowgraph_shadows::ShadowSettings;
 
-/// A report of a case for each technique and percentage of wrong pixels, with all other values there too.
+/// Returns a report with a case for each technique and percentage of misclassified pixels, with all other values present.
 pub(super) fn report(cases: &[(&str, f64)]) -> Report {
     Report {
         version: Report::VERSION,
@@ -38,8 +38,8 @@ fn case(index: usize, technique: &str, misclassified_percent: f64) -> CaseReport
         seam: Some(some),
         flicker: vec![flicker(Motion::Translate, true), flicker(Motion::Zoom, false)],
         cost: Some(Cost { gpu_ms: Some(1.25), texture_bytes: 64 << 20, draws: 20, triangles: 123_456 }),
-        pictures: Some(ImageFiles {
-            picture: format!("pictures/{index}/picture.png"),
+        images: Some(ImageFiles {
+            color: format!("pictures/{index}/picture.png"),
             truth: format!("pictures/{index}/truth.png"),
             visibility: format!("pictures/{index}/visibility.png"),
             difference: format!("pictures/{index}/difference.png"),
@@ -57,6 +57,6 @@ fn errors(misclassified_percent: f64, some: Summary) -> ViewErrors {
         misclassified,
         mean_error: MeanError::default(),
         missing_contacts: MissingContacts { contacts: 40, missing: 10, missing_percent: 25.0 },
-        peter_panning: PeterPanning { cm: some, texels: some, lost: 0 },
+        peter_panning: PeterPanning { cm: some, texels: some, missing: 0 },
     }
 }

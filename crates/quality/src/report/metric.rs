@@ -1,151 +1,151 @@
-//! The numbers of a case that tables show and bounds hold, by name.
+//! The metrics of a case that tables show and bounds limit.
 
 use super::data::{CaseReport, Flicker, Motion};
 
 /// A number of a case.
 pub struct Metric {
-    /// What bounds and tools call it.
+    /// Name in bounds files.
     pub name: &'static str,
-    /// Its column's heading, two short lines.
+    /// Heading of the column, two short lines.
     pub heading: [&'static str; 2],
-    /// What it is, in a sentence.
-    pub about: &'static str,
-    /// How many decimals tables give it.
+    /// Description in one sentence.
+    pub description: &'static str,
+    /// Number of decimals in tables.
     pub decimals: usize,
-    /// Its value, if it was measured.
-    pub of: fn(&CaseReport) -> Option<f64>,
+    /// Returns the value of a case, if measured.
+    pub value: fn(&CaseReport) -> Option<f64>,
 }
 
-/// All of them, in the order of tables. Of all, less is better, but of `edge_width_ratio`, where 1 is right.
+/// All metrics, in the order of tables. Lower is better, except for `edge_width_ratio`, whose best value is 1.
 pub const METRICS: &[Metric] = &[
     Metric {
         name: "misclassified_percent",
-        heading: ["wrong", "%"],
-        about: "Receivers outside the band whose visibility is on the wrong side of one half, percent.",
+        heading: ["misclas-", "sified %"],
+        description: "Misclassified receivers outside the band, percent.",
         decimals: 3,
-        of: |case| Some(case.errors.misclassified.outside.misclassified_percent),
+        value: |case| Some(case.errors.misclassified.outside.misclassified_percent),
     },
     Metric {
         name: "leak_percent",
         heading: ["leak", "%"],
-        about: "Receivers outside the band that are lit but truly dark, percent.",
+        description: "Receivers outside the band that are lit but should be dark, percent.",
         decimals: 3,
-        of: |case| Some(case.errors.misclassified.outside.leak_percent),
+        value: |case| Some(case.errors.misclassified.outside.leak_percent),
     },
     Metric {
         name: "acne_pixels",
         heading: ["acne", "px"],
-        about: "Receivers outside the band with N·L above 0.1 that are dark but truly lit.",
+        description: "Receivers outside the band with N·L above 0.1 that are dark but should be lit.",
         decimals: 0,
-        of: |case| Some(acne_pixels(case) as f64),
+        value: |case| Some(acne_pixels(case) as f64),
     },
     Metric {
         name: "misclassified_total_percent",
-        heading: ["total", "%"],
-        about: "Receivers on the wrong side of one half, those in the band too, percent.",
+        heading: ["misclas.", "total %"],
+        description: "Misclassified receivers including the band, percent.",
         decimals: 2,
-        of: |case| Some(case.errors.misclassified.total.misclassified_percent),
+        value: |case| Some(case.errors.misclassified.total.misclassified_percent),
     },
     Metric {
         name: "mean_error_percent",
-        heading: ["mean", "err %"],
-        about: "Mean difference of visibility and truth over receivers outside the band, percent.",
+        heading: ["mean", "error %"],
+        description: "Mean difference of visibility and reference over receivers outside the band, percent.",
         decimals: 3,
-        of: |case| Some(case.errors.mean_error.outside_percent),
+        value: |case| Some(case.errors.mean_error.outside_percent),
     },
     Metric {
         name: "missing_contacts_percent",
-        heading: ["missing", "cont %"],
-        about: "Of truly dark receivers whose blocker is nearer than 25 cm, the lit ones, percent.",
+        heading: ["missing", "cont. %"],
+        description: "Lit receivers among those that should be dark and whose blocker is nearer than 25 cm, percent.",
         decimals: 1,
-        of: |case| {
+        value: |case| {
             let missing = &case.errors.missing_contacts;
             (missing.contacts > 0).then_some(missing.missing_percent)
         },
     },
     Metric {
         name: "peter_panning_texels",
-        heading: ["detach", "texels"],
-        about: "Mean way from contacts to the first shadowed pixel, shadow texels.",
+        heading: ["peter-p.", "texels"],
+        description: "Mean distance from contacts to the first shadowed pixel, shadow texels.",
         decimals: 2,
-        of: |case| {
+        value: |case| {
             let texels = &case.errors.peter_panning.texels;
             (texels.count > 0).then_some(texels.mean)
         },
     },
     Metric {
         name: "peter_panning_cm",
-        heading: ["detach", "cm"],
-        about: "Mean way from contacts to the first shadowed pixel, centimetres.",
+        heading: ["peter-p.", "cm"],
+        description: "Mean distance from contacts to the first shadowed pixel, centimetres.",
         decimals: 2,
-        of: |case| {
+        value: |case| {
             let cm = &case.errors.peter_panning.cm;
             (cm.count > 0).then_some(cm.mean)
         },
     },
     Metric {
         name: "edge_rmse",
-        heading: ["edge", "rmse"],
-        about: "Root mean square difference of visibility and soft truth inside penumbras, 0 to 1.",
+        heading: ["edge", "RMSE"],
+        description: "Root mean square difference of visibility and soft reference in penumbras, 0 to 1.",
         decimals: 2,
-        of: |case| case.edges.filter(|edges| edges.penumbra > 0).map(|edges| edges.rmse),
+        value: |case| case.edges.filter(|edges| edges.penumbra > 0).map(|edges| edges.rmse),
     },
     Metric {
         name: "edge_width_ratio",
         heading: ["edge", "width"],
-        about: "10-90 % width of edges over that of soft truth: 1 is right, above 1 too soft.",
+        description: "10-90 % width of edges divided by that of the soft reference: 1 is ideal, above 1 too soft.",
         decimals: 1,
-        of: |case| case.edges.and_then(|edges| edges.width_ratio),
+        value: |case| case.edges.and_then(|edges| edges.width_ratio),
     },
     Metric {
         name: "seam",
         heading: ["seam", "mean"],
-        about: "Mean difference of two cascades at points along their border, 0 to 1.",
+        description: "Mean difference of two cascades at points along their border, 0 to 1.",
         decimals: 3,
-        of: |case| case.seam.map(|seam| seam.mean),
+        value: |case| case.seam.map(|seam| seam.mean),
     },
     Metric {
         name: "flicker",
         heading: ["flicker", "p99"],
-        about: "99th percentile of the change of visibility from frame to frame while the camera moves and turns, \
+        description: "99th percentile of the change of visibility from frame to frame while the camera moves and turns, \
                 0 to 1; the worst motion, at the origin and 10 km away.",
         decimals: 3,
-        of: |case| worst(case.flicker.iter().filter(|flicker| flicker.motion != Motion::Zoom)),
+        value: |case| worst(case.flicker.iter().filter(|flicker| flicker.motion != Motion::Zoom)),
     },
     Metric {
         name: "flicker_zoom",
         heading: ["zoom", "p99"],
-        about: "The same while the camera zooms.",
+        description: "99th percentile of the change of visibility while the camera zooms, 0 to 1.",
         decimals: 3,
-        of: |case| worst(case.flicker.iter().filter(|flicker| flicker.motion == Motion::Zoom)),
+        value: |case| worst(case.flicker.iter().filter(|flicker| flicker.motion == Motion::Zoom)),
     },
     Metric {
         name: "gpu_ms",
         heading: ["GPU", "ms"],
-        about: "The GPU's time for the shadow passes, milliseconds.",
+        description: "GPU time of the shadow passes, milliseconds.",
         decimals: 2,
-        of: |case| case.cost.and_then(|cost| cost.gpu_ms),
+        value: |case| case.cost.and_then(|cost| cost.gpu_ms),
     },
     Metric {
         name: "texture_mib",
         heading: ["maps", "MiB"],
-        about: "All textures that the technique's passes write, MiB.",
+        description: "Size of all textures that the technique's passes write, MiB.",
         decimals: 1,
-        of: |case| case.cost.map(|cost| cost.texture_bytes as f64 / f64::from(1 << 20)),
+        value: |case| case.cost.map(|cost| cost.texture_bytes as f64 / f64::from(1 << 20)),
     },
     Metric {
         name: "draws",
         heading: ["caster", "draws"],
-        about: "Draws of casters in a frame.",
+        description: "Draws of casters per frame.",
         decimals: 0,
-        of: |case| case.cost.map(|cost| cost.draws as f64),
+        value: |case| case.cost.map(|cost| cost.draws as f64),
     },
     Metric {
         name: "triangles",
         heading: ["tri-", "angles"],
-        about: "Triangles of casters drawn in a frame.",
+        description: "Triangles of casters drawn per frame.",
         decimals: 0,
-        of: |case| case.cost.map(|cost| cost.triangles as f64),
+        value: |case| case.cost.map(|cost| cost.triangles as f64),
     },
 ];
 

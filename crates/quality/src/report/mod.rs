@@ -1,4 +1,4 @@
-//! What a measurement found: data, a table, a page, and bounds that it is checked against.
+//! Results of a measurement: data, a table, a page, and bounds to check them.
 
 mod bounds;
 mod data;
@@ -13,5 +13,5 @@ pub use bounds::{Bound, Bounds};
 pub use data::{CaseReport, Cost, Flicker, ImageFiles, Motion, Report};
 pub use metric::{METRICS, Metric, metric};
 pub use page::page;
-pub use summary::{Compared, compared, mean, measured, off, techniques, worst};
+pub use summary::{CaseComparison, compare_cases, deviation, mean, metrics_with_values, techniques, worst};
 pub use table::table;

@@ -16,7 +16,7 @@ document.querySelectorAll(".needs-script").forEach((element) => { element.hidden
   const compare = (a, b, isNumber, sign) => {
     if (!isNumber) return sign * byName(a, b);
     const [x, y] = [parseFloat(a), parseFloat(b)];
-    // What has no value is last either way.
+    // Rows without a value are last in both orders.
     if (isNaN(x) || isNaN(y)) return isNaN(x) - isNaN(y);
     return sign * (x - y);
   };
@@ -24,7 +24,7 @@ document.querySelectorAll(".needs-script").forEach((element) => { element.hidden
   const sort = (column) => {
     const heading = headings[column];
     const isNumber = heading.classList.contains("n");
-    // Of numbers the worst come first; a third click brings the first order back.
+    // The worst numbers come first; a third click restores the original order.
     const orders = isNumber ? ["descending", "ascending"] : ["ascending", "descending"];
     const order = orders[orders.indexOf(heading.getAttribute("aria-sort")) + 1];
     headings.forEach((other) => other.removeAttribute("aria-sort"));
@@ -46,11 +46,11 @@ document.querySelectorAll(".needs-script").forEach((element) => { element.hidden
 
   headings.forEach((heading, column) => heading.firstElementChild.addEventListener("click", () => sort(column)));
   filter.addEventListener("input", show);
-  // A browser may keep the words of the last visit.
+  // Browsers may restore the filter of the last visit.
   show();
 }
 
-// The dialog: one picture of a case at a time, all in the same place.
+// The dialog: one image of a case at a time, all in the same position.
 {
   const dialog = document.getElementById("large");
   const stage = dialog.querySelector(".stage");
@@ -66,9 +66,9 @@ document.querySelectorAll(".needs-script").forEach((element) => { element.hidden
   };
 
   const open = (link) => {
-    const links = [...link.closest(".pictures").querySelectorAll("a")];
+    const links = [...link.closest(".images").querySelectorAll("a")];
     captions = links.map((other) => other.firstElementChild.alt);
-    // All are loaded at once, so that a flip shows no gap.
+    // All are loaded at once, so that flipping does not flicker.
     stage.replaceChildren(...links.map((other) => {
       const image = new Image();
       image.src = other.href;
@@ -81,7 +81,7 @@ document.querySelectorAll(".needs-script").forEach((element) => { element.hidden
   };
 
   document.addEventListener("click", (event) => {
-    const link = event.target.closest(".pictures a");
+    const link = event.target.closest(".images a");
     if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
     open(link);

@@ -1,4 +1,4 @@
-//! A report as one page: numbers to sort and filter, and pictures to flip through.
+//! A report as one page: numbers to sort and filter, and images to flip through.
 
 mod case;
 mod cases;
@@ -7,28 +7,28 @@ mod summary;
 #[cfg(test)]
 mod tests;
 
-use html::escaped;
+use html::escape;
 
 use super::data::Report;
-use super::summary::{measured, techniques};
+use super::summary::{metrics_with_values, techniques};
 
-/// Returns a report as an HTML page, which needs nothing else but the pictures that the report names, relative to
-/// the page's folder and with `/` between folders. The same report gives the same page.
+/// Returns a report as an HTML page, which refers only to the image files of the report, by paths relative to the
+/// page with `/` as separator. The same report gives the same page.
 #[must_use]
 pub fn page(report: &Report) -> String {
-    let metrics = measured(report);
+    let metrics = metrics_with_values(report);
     let techniques = techniques(report);
     let [width_px, height_px] = report.size_px;
     let settings = serde_json::to_string_pretty(&report.settings).unwrap_or_else(|error| error.to_string());
     format!(
         include_str!("page.html"),
         style = include_str!("page.css"),
-        cases = counted(report.cases.len(), "case"),
-        techniques = counted(techniques.len(), "technique"),
+        cases = count_label(report.cases.len(), "case"),
+        techniques = count_label(techniques.len(), "technique"),
         width_px = width_px,
         height_px = height_px,
-        adapter = escaped(&report.adapter),
-        settings = escaped(&settings),
+        adapter = escape(&report.adapter),
+        settings = escape(&settings),
         summary_groups = "<colgroup span=\"2\"></colgroup>".repeat(techniques.len()),
         summary_names = summary::names(&techniques),
         summary_columns = summary::COLUMNS.repeat(techniques.len()),
@@ -40,6 +40,6 @@ pub fn page(report: &Report) -> String {
     )
 }
 
-fn counted(count: usize, what: &str) -> String {
+fn count_label(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,4 +1,4 @@
-//! What all cases of a technique come to.
+//! Aggregates all cases of a technique.
 
 use std::cmp::Ordering;
 
@@ -19,11 +19,11 @@ pub fn techniques(report: &Report) -> Vec<&str> {
 
 /// Returns the metrics for which some case has a value, in the order of [`METRICS`].
 #[must_use]
-pub fn measured(report: &Report) -> Vec<&'static Metric> {
-    METRICS.iter().filter(|metric| report.cases.iter().any(|case| (metric.of)(case).is_some())).collect()
+pub fn metrics_with_values(report: &Report) -> Vec<&'static Metric> {
+    METRICS.iter().filter(|metric| report.cases.iter().any(|case| (metric.value)(case).is_some())).collect()
 }
 
-/// Returns the mean over those cases of a technique that have a value, `None` if none has one.
+/// Returns the mean over the cases of a technique that have a value; `None` if there are none.
 #[must_use]
 pub fn mean(report: &Report, technique: &str, metric: &Metric) -> Option<f64> {
     let add = |(sum, count): (f64, u32), (_, value)| (sum + value, count + 1);
@@ -31,53 +31,54 @@ pub fn mean(report: &Report, technique: &str, metric: &Metric) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// Returns a technique's worst case, by [`off`], and its value: the first one of several, `None` if no case has a
+/// Returns a technique's worst case, by [`deviation`], and its value: the first one of several, `None` if no case has a
 /// value. Of all metrics but `edge_width_ratio` it is the one with the highest value.
 #[must_use]
 pub fn worst<'r>(report: &'r Report, technique: &str, metric: &Metric) -> Option<(&'r CaseReport, f64)> {
-    let off = |(_, value): &(_, f64)| off(metric, *value);
-    values(report, technique, metric).reduce(|a, b| if off(&b).total_cmp(&off(&a)).is_gt() { b } else { a })
+    let deviation = |(_, value): &(_, f64)| deviation(metric, *value);
+    values(report, technique, metric)
+        .reduce(|a, b| if deviation(&b).total_cmp(&deviation(&a)).is_gt() { b } else { a })
 }
 
-/// Returns how far a value is from right, which is 0; more is worse. Of `edge_width_ratio`, twice as wide is as far
-/// as half as wide; of all other metrics it is the value.
+/// Returns how far a value is from the ideal one, 0; higher is worse. For `edge_width_ratio`, twice the width counts as
+/// much as half the width; for all other metrics it is the value.
 #[must_use]
-pub fn off(metric: &Metric, value: f64) -> f64 {
+pub fn deviation(metric: &Metric, value: f64) -> f64 {
     if metric.name == "edge_width_ratio" { value.max(value.recip()) - 1.0 } else { value }
 }
 
-/// How a technique's cases compare with another one's.
+/// Comparison of a technique's cases with those of another one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Compared {
-    /// How many cases both have a value in.
+pub struct CaseComparison {
+    /// Number of cases in which both have a value.
     pub cases: usize,
-    /// In how many of them the technique is less [`off`].
+    /// Number of cases in which the technique has the lower [`deviation`].
     pub better: usize,
-    /// In how many of them both are as far off.
+    /// Number of cases in which both have the same.
     pub equal: usize,
 }
 
-/// Compares a technique's values with another one's, case by case.
+/// Compares the values of two techniques, case by case.
 #[must_use]
-pub fn compared(report: &Report, technique: &str, other: &str, metric: &Metric) -> Compared {
+pub fn compare_cases(report: &Report, technique: &str, other: &str, metric: &Metric) -> CaseComparison {
     let place = |case: &CaseReport| [&case.scene, &case.light, &case.view].map(String::clone);
     let others: Vec<_> = values(report, other, metric).map(|(case, value)| (place(case), value)).collect();
-    let mut compared = Compared::default();
+    let mut comparison = CaseComparison::default();
     for (case, value) in values(report, technique, metric) {
         let at = place(case);
         let Some((_, other)) = others.iter().find(|(place, _)| *place == at) else { continue };
-        compared.cases += 1;
-        match off(metric, value).total_cmp(&off(metric, *other)) {
-            Ordering::Less => compared.better += 1,
-            Ordering::Equal => compared.equal += 1,
+        comparison.cases += 1;
+        match deviation(metric, value).total_cmp(&deviation(metric, *other)) {
+            Ordering::Less => comparison.better += 1,
+            Ordering::Equal => comparison.equal += 1,
             Ordering::Greater => {}
         }
     }
-    compared
+    comparison
 }
 
-/// A value with its metric's decimals, a dash if there is none.
-pub(super) fn shown(metric: &Metric, value: Option<f64>) -> String {
+/// Formats a value with the decimals of its metric, a dash if there is none.
+pub(super) fn format_value(metric: &Metric, value: Option<f64>) -> String {
     value.map_or("-".into(), |value| format!("{value:.*}", metric.decimals))
 }
 
@@ -87,7 +88,7 @@ fn values<'r>(
     metric: &Metric,
 ) -> impl Iterator<Item = (&'r CaseReport, f64)> {
     let cases = report.cases.iter().filter(move |case| case.technique == technique);
-    cases.filter_map(|case| Some((case, (metric.of)(case)?)))
+    cases.filter_map(|case| Some((case, (metric.value)(case)?)))
 }
 
 #[cfg(test)]
@@ -116,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_of_several_worst_cases_is_named_and_only_those_of_the_technique_count() {
+    fn the_first_of_several_worst_cases_of_the_technique_is_returned() {
         let report = fixture::report(&[("other", 9.0), ("pcf", 1.0), ("pcf", 5.0), ("pcf", 5.0)]);
         let (case, value) = worst(&report, "pcf", metric("misclassified_percent").unwrap()).unwrap();
         assert!(std::ptr::eq(case, &raw const report.cases[2]));
@@ -130,7 +131,7 @@ mod tests {
             case.edges.as_mut().unwrap().width_ratio = Some(ratio);
         }
         let width = metric("edge_width_ratio").unwrap();
-        assert_eq!(off(width, 2.0), off(width, 0.5));
+        assert_eq!(deviation(width, 2.0), deviation(width, 0.5));
         assert_eq!(worst(&report, "pcf", width).unwrap().1, 0.25);
     }
 
@@ -142,10 +143,16 @@ mod tests {
             case.view = format!("view {}", index / 2);
         }
         let wrong = metric("misclassified_percent").unwrap();
-        assert_eq!(compared(&report, "a", "pcf", wrong), Compared { cases: 3, better: 1, equal: 1 });
+        assert_eq!(
+            compare_cases(&report, "a", "pcf", wrong),
+            CaseComparison { cases: 3, better: 1, equal: 1 }
+        );
         report.cases.remove(0);
-        assert_eq!(compared(&report, "a", "pcf", wrong), Compared { cases: 2, better: 0, equal: 1 });
-        assert_eq!(compared(&report, "none", "pcf", wrong), Compared::default());
+        assert_eq!(
+            compare_cases(&report, "a", "pcf", wrong),
+            CaseComparison { cases: 2, better: 0, equal: 1 }
+        );
+        assert_eq!(compare_cases(&report, "none", "pcf", wrong), CaseComparison::default());
     }
 
     #[test]
@@ -153,7 +160,7 @@ mod tests {
         let mut report = fixture::report(&[("pcf", 1.0), ("pcf", 1.0)]);
         report.cases.iter_mut().for_each(|case| case.seam = None);
         report.cases[0].cost = None;
-        let names: Vec<_> = measured(&report).iter().map(|metric| metric.name).collect();
+        let names: Vec<_> = metrics_with_values(&report).iter().map(|metric| metric.name).collect();
         assert!(!names.contains(&"seam") && names.contains(&"texture_mib"), "{names:?}");
     }
 }

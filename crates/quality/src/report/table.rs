@@ -4,26 +4,28 @@ use std::fmt::Write as _;
 
 use super::data::{CaseReport, Report};
 use super::metric::{Metric, metric};
-use super::summary::{Compared, compared, mean, measured, off, shown, techniques, worst};
+use super::summary::{
+    CaseComparison, compare_cases, deviation, format_value, mean, metrics_with_values, techniques, worst,
+};
 
-/// The columns of the terminal.
+/// Maximum width of the table, columns.
 const WIDTH: usize = 130;
 
-/// Names are not cut below this.
+/// Minimum width of names.
 const NAME_WIDTH: usize = 4;
 
-/// What is between two columns.
+/// Separator of columns.
 const GAP: &str = "  ";
 
-/// The metrics that there is no room for.
-const ONLY_ON_THE_PAGE: &[&str] =
+/// Metrics that are left out for lack of space.
+const PAGE_ONLY: &[&str] =
     &["leak_percent", "peter_panning_cm", "edge_width_ratio", "flicker_zoom", "triangles"];
 
-/// The metrics whose worst cases are named.
+/// Metrics whose worst cases are listed.
 const WORST_CASES_OF: &[&str] = &["misclassified_percent", "mean_error_percent", "missing_contacts_percent"];
 
 /// Returns a report as a table for a terminal, at most 130 columns wide: a row for each case, the mean and the worst
-/// of each technique, and which cases are the worst. Long names are cut.
+/// value of each technique, and the worst cases. Long names are truncated.
 #[must_use]
 pub fn table(report: &Report) -> String {
     let [width_px, height_px] = report.size_px;
@@ -34,21 +36,21 @@ pub fn table(report: &Report) -> String {
     if count == 0 {
         return out;
     }
-    let mut metrics = measured(report);
-    metrics.retain(|metric| !ONLY_ON_THE_PAGE.contains(&metric.name));
+    let mut metrics = metrics_with_values(report);
+    metrics.retain(|metric| !PAGE_ONLY.contains(&metric.name));
     let cases = report.cases.iter().map(|case| case_row(case, &metrics)).collect();
-    let parts: [Vec<Row>; 3] = [heading(&metrics), cases, summary_rows(report, &metrics)];
-    let widths = Widths::of(&parts);
-    for (index, part) in parts.iter().enumerate() {
+    let sections: [Vec<Row>; 3] = [heading(&metrics), cases, summary_rows(report, &metrics)];
+    let widths = Widths::new(&sections);
+    for (index, section) in sections.iter().enumerate() {
         out.push_str(if index == 1 { "" } else { "\n" });
-        for row in part {
+        for row in section {
             widths.write(&mut out, row);
         }
     }
     out + &comparison(report, widths.names[3]) + "\nworst cases\n" + &worst_cases(report, widths.names[3])
 }
 
-/// A line of the table: scene, light, view and technique, and the numbers.
+/// A row of the table: scene, light, view and technique, and the numbers.
 struct Row {
     names: [String; 4],
     numbers: Vec<String>,
@@ -64,14 +66,14 @@ fn heading(metrics: &[&Metric]) -> Vec<Row> {
 
 fn case_row(case: &CaseReport, metrics: &[&Metric]) -> Row {
     let names = [&case.scene, &case.light, &case.view, &case.technique].map(|name| clean(name));
-    Row { names, numbers: metrics.iter().map(|metric| shown(metric, (metric.of)(case))).collect() }
+    Row { names, numbers: metrics.iter().map(|metric| format_value(metric, (metric.value)(case))).collect() }
 }
 
-/// The mean and the worst of each technique.
+/// Returns the mean and the worst values of each technique.
 fn summary_rows(report: &Report, metrics: &[&Metric]) -> Vec<Row> {
     let row = |label: &str, technique: &str, of: &dyn Fn(&Metric) -> Option<f64>| Row {
         names: [label.into(), String::new(), String::new(), clean(technique)],
-        numbers: metrics.iter().map(|metric| shown(metric, of(metric))).collect(),
+        numbers: metrics.iter().map(|metric| format_value(metric, of(metric))).collect(),
     };
     let both = |technique| {
         let mean = row("mean", technique, &|metric| mean(report, technique, metric));
@@ -80,7 +82,7 @@ fn summary_rows(report: &Report, metrics: &[&Metric]) -> Vec<Row> {
     techniques(report).into_iter().flat_map(both).collect()
 }
 
-/// In how many cases techniques have fewer pixels on the wrong side than the first one; nothing where there is but one.
+/// Compares the misclassified pixels of all techniques with those of the first; empty if there is only one technique.
 fn comparison(report: &Report, technique_width: usize) -> String {
     let techniques = techniques(report);
     let (Some((first, others)), Some(metric)) =
@@ -92,11 +94,11 @@ fn comparison(report: &Report, technique_width: usize) -> String {
         return String::new();
     }
     let name = |technique: &str| cut(&clean(technique), technique_width);
-    let mut out = format!("\n{} below that of {}\n", metric.name, name(first));
+    let mut out = format!("\n{} lower than {}\n", metric.name, name(first));
     for technique in others {
-        let Compared { cases, better, equal } = compared(report, technique, first, metric);
+        let CaseComparison { cases, better, equal } = compare_cases(report, technique, first, metric);
         let name = name(technique);
-        let _ = writeln!(out, "  {name:<technique_width$}  in {better} of {cases} cases, as high in {equal}");
+        let _ = writeln!(out, "  {name:<technique_width$}  in {better} of {cases} cases, equal in {equal}");
     }
     out
 }
@@ -106,12 +108,12 @@ fn worst_cases(report: &Report, technique_width: usize) -> String {
     for technique in techniques(report) {
         for metric in WORST_CASES_OF.iter().filter_map(|name| metric(name)) {
             let Some((case, value)) = worst(report, technique, metric) else { continue };
-            let place = match off(metric, value) > 0.0 {
+            let place = match deviation(metric, value) > 0.0 {
                 true => clean(&format!("{}, {}, {}", case.scene, case.light, case.view)),
                 false => "all cases".into(),
             };
             let name = cut(&clean(technique), technique_width);
-            let value = shown(metric, Some(value));
+            let value = format_value(metric, Some(value));
             let line = format!("  {name:<technique_width$}  {:<22}{value:>8}  {place}", metric.name);
             let _ = writeln!(out, "{}", cut(&line, WIDTH));
         }
@@ -119,16 +121,16 @@ fn worst_cases(report: &Report, technique_width: usize) -> String {
     out
 }
 
-/// How wide the columns are.
+/// Widths of the columns.
 struct Widths {
     names: [usize; 4],
     numbers: Vec<usize>,
 }
 
 impl Widths {
-    /// As wide as the widest cell; then the widest column of names is cut until all fit.
-    fn of(parts: &[Vec<Row>]) -> Self {
-        let rows = || parts.iter().flatten();
+    /// Fits columns to their widest cell, then shortens the widest column of names until the table fits.
+    fn new(sections: &[Vec<Row>]) -> Self {
+        let rows = || sections.iter().flatten();
         let widest = |cell: &dyn Fn(&Row) -> usize| rows().map(cell).max().unwrap_or(0);
         let count = rows().map(|row| row.numbers.len()).max().unwrap_or(0);
         let mut names = [0, 1, 2, 3].map(|column| widest(&|row| chars(&row.names[column])));
@@ -164,7 +166,7 @@ fn cut(text: &str, width: usize) -> String {
     }
 }
 
-/// Names in a file may hold line ends and terminal codes.
+/// Replaces control characters: names in a file may contain line breaks and terminal codes.
 fn clean(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
@@ -176,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_aligned_and_at_most_130_wide_and_long_names_are_cut() {
+    fn columns_are_aligned_and_at_most_130_wide_and_long_names_are_truncated() {
         let mut report = fixture::report(&[("pcf", 1.0), ("a-technique-with-a-name", 100.0), ("pcf", 0.1)]);
         report.adapter = "an adapter ".repeat(20);
         report.cases[0].scene = "x".repeat(60);
@@ -206,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worst_cases_of_each_technique_are_named() {
+    fn the_worst_cases_of_each_technique_are_listed() {
         let text = table(&fixture::report(&[("a", 1.0), ("a", 3.0), ("b", 0.0), ("b", 2.0)]));
         let worst: Vec<_> = text.lines().filter(|line| line.contains("misclassified_percent")).collect();
         assert!(
@@ -226,9 +228,9 @@ mod tests {
         report.cases[1].view = report.cases[0].view.clone();
         report.cases[1].errors.misclassified.total.misclassified_percent = -1.0;
         let text = table(&report);
-        assert!(text.contains("\nwrong_total_percent below that of a\n  b"), "{text}");
-        assert!(text.contains("  in 1 of 1 cases, as high in 0\n"), "{text}");
-        assert!(!table(&fixture::report(&[("a", 1.0)])).contains("below that of"));
+        assert!(text.contains("\nwrong_total_percent lower than a\n  b"), "{text}");
+        assert!(text.contains("  in 1 of 1 cases, equal in 0\n"), "{text}");
+        assert!(!table(&fixture::report(&[("a", 1.0)])).contains("lower than"));
     }
 
     #[test]
@@ -240,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_line_tells_size_adapter_and_number_of_cases() {
+    fn the_first_line_has_size_adapter_and_number_of_cases() {
         let mut report = fixture::report(&[("pcf", 1.0)]);
         assert_eq!(table(&report).lines().next(), Some("640x360 pixels, llvmpipe, 1 case"));
         report.cases.clear();

@@ -71,7 +71,7 @@ fn row_24_dithered_shadows_are_stable_when_the_camera_moves() {
     for step in 0..6 {
         // Over several texels.
         options.camera.world_from_view.translation += DVec3::new(0.07, 0.0, 0.03) * f64::from(step);
-        seen.push(probe.ask(gpu, &renderer, &options, &points, query).unwrap().visibility);
+        seen.push(probe.evaluate(gpu, &renderer, &options, &points, query).unwrap().visibility);
     }
     let (dark, lit) =
         (seen[0].iter().filter(|v| **v < 0.1).count(), seen[0].iter().filter(|v| **v > 0.9).count());

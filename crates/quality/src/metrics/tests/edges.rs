@@ -1,6 +1,6 @@
 //! Soft edges with widths that are known.
 
-use super::picture::{Picture, above, grazing};
+use super::test_image::{TestImage, above, grazing};
 use crate::metrics::EdgeError;
 
 /// A ramp from 0 to 1 around an edge at x = 32 + `slant` * y, `width_px` wide across along a row.
@@ -9,12 +9,12 @@ fn ramp(x: usize, y: usize, slant: f32, width_px: f32) -> f32 {
     (0.5 + offset / width_px).clamp(0.0, 1.0)
 }
 
-fn ramps(slant: f32, true_px: f32, measured_px: f32) -> Picture {
-    let mut picture = Picture::new([80, 32], &above(), 1e3, false);
-    picture.soft_truth = Some(picture.by_pixel(|x, y| ramp(x, y, slant, true_px)));
-    picture.truth = picture.by_pixel(|x, y| ramp(x, y, slant, true_px).round());
-    picture.visibility = picture.by_pixel(|x, y| ramp(x, y, slant, measured_px));
-    picture
+fn ramps(slant: f32, true_px: f32, measured_px: f32) -> TestImage {
+    let mut image = TestImage::new([80, 32], &above(), 1e3, false);
+    image.soft_truth = Some(image.by_pixel(|x, y| ramp(x, y, slant, true_px)));
+    image.truth = image.by_pixel(|x, y| ramp(x, y, slant, true_px).round());
+    image.visibility = image.by_pixel(|x, y| ramp(x, y, slant, measured_px));
+    image
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn an_edge_blurred_to_twice_its_width_has_edge_error_and_nothing_else() {
     assert!((edges.rmse - 5.25_f64.sqrt() / 16.0).abs() < 1e-6, "{edges:?}");
     assert!((edges.width_ratio.unwrap() - 2.0).abs() < 1e-4, "{edges:?}");
     assert_eq!(
-        (all.misclassified.total.wrong, all.missing_contacts.missing, all.peter_panning.lost),
+        (all.misclassified.total.misclassified, all.missing_contacts.missing, all.peter_panning.missing),
         (0, 0, 0)
     );
 }
@@ -35,12 +35,12 @@ fn an_edge_blurred_to_twice_its_width_has_edge_error_and_nothing_else() {
 fn widths_do_not_depend_on_the_slant_or_on_where_the_edge_is() {
     // The ends of a ramp fall between pixels, so a narrow one is measured a little too wide.
     for slant in [-0.7, 0.3, 0.9] {
-        let mut picture = ramps(slant, 8.0, 4.0);
-        let ratio = picture.all().edges.unwrap().width_ratio.unwrap();
+        let mut image = ramps(slant, 8.0, 4.0);
+        let ratio = image.all().edges.unwrap().width_ratio.unwrap();
         assert!((ratio - 0.5).abs() < 0.02, "{slant}: {ratio}");
-        let moved = picture.by_pixel(|x, y| ramp(x + 3, y, slant, 4.0));
-        picture.visibility = moved;
-        let ratio = picture.all().edges.unwrap().width_ratio.unwrap();
+        let moved = image.by_pixel(|x, y| ramp(x + 3, y, slant, 4.0));
+        image.visibility = moved;
+        let ratio = image.all().edges.unwrap().width_ratio.unwrap();
         assert!((ratio - 0.5).abs() < 0.02, "{slant}, moved: {ratio}");
     }
 }
@@ -53,34 +53,34 @@ fn a_hard_edge_against_a_soft_one_is_eight_tenths_of_a_pixel_wide() {
 
 #[test]
 fn an_edge_that_is_not_there_is_unmeasured() {
-    let mut picture = ramps(0.0, 8.0, 8.0);
-    picture.visibility.fill(1.0);
-    let edges = picture.all().edges.unwrap();
+    let mut image = ramps(0.0, 8.0, 8.0);
+    image.visibility.fill(1.0);
+    let edges = image.all().edges.unwrap();
     assert_eq!((edges.crossings, edges.unmeasured, edges.width_ratio), (0, 32, None));
 }
 
 #[test]
 fn falling_edges_and_columns_are_measured_too() {
-    let mut picture = Picture::new([48, 64], &grazing(), 1e3, false);
+    let mut image = TestImage::new([48, 64], &grazing(), 1e3, false);
     // A dark stripe along the row from 20 to 44: one edge falls, one rises, down each column.
     let stripe = |y: usize, width: f32| ramp(y + 12, 0, 0.0, width).min(ramp(76 - y - 1, 0, 0.0, width));
-    picture.soft_truth = Some(picture.by_pixel(|_, y| 1.0 - stripe(y, 6.0)));
-    picture.visibility = picture.by_pixel(|_, y| 1.0 - stripe(y, 9.0));
-    let edges = picture.all().edges.unwrap();
+    image.soft_truth = Some(image.by_pixel(|_, y| 1.0 - stripe(y, 6.0)));
+    image.visibility = image.by_pixel(|_, y| 1.0 - stripe(y, 9.0));
+    let edges = image.all().edges.unwrap();
     assert_eq!((edges.crossings, edges.unmeasured), (2 * 48, 0));
     assert!((edges.width_ratio.unwrap() - 1.5).abs() < 1e-3, "{edges:?}");
 }
 
 #[test]
 fn without_soft_truth_there_is_no_edge_error() {
-    assert_eq!(Picture::new([8, 8], &above(), 1e3, false).all().edges, None);
+    assert_eq!(TestImage::new([8, 8], &above(), 1e3, false).all().edges, None);
 }
 
 /// Edge errors where the truth is a ramp of 8 pixels at 32 and visibility is what is given for each column.
 fn against(visibility: impl Fn(usize) -> f32) -> EdgeError {
-    let mut picture = ramps(0.0, 8.0, 8.0);
-    picture.visibility = picture.by_pixel(|x, _| visibility(x));
-    picture.all().edges.unwrap()
+    let mut image = ramps(0.0, 8.0, 8.0);
+    image.visibility = image.by_pixel(|x, _| visibility(x));
+    image.all().edges.unwrap()
 }
 
 #[test]
@@ -113,10 +113,10 @@ fn step(x: usize) -> f32 {
 
 #[test]
 fn a_penumbra_across_a_silhouette_has_no_width() {
-    let mut picture = ramps(0.0, 8.0, 8.0);
+    let mut image = ramps(0.0, 8.0, 8.0);
     for at in (0..80 * 32).filter(|at| at % 80 >= 34) {
-        picture.positions[at].y = 1.0;
+        image.positions[at].y = 1.0;
     }
-    let edges = picture.all().edges.unwrap();
+    let edges = image.all().edges.unwrap();
     assert_eq!((edges.crossings, edges.unmeasured, edges.penumbra), (0, 0, 8 * 32));
 }

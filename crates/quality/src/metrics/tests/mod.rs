@@ -5,6 +5,6 @@ mod detached;
 mod edges;
 mod faults;
 mod masks;
-mod picture;
 mod points;
 mod refused;
+mod test_image;

@@ -12,7 +12,7 @@ fn a_percentile_is_the_value_at_the_nearest_rank() {
     }
     assert_eq!(percentile(&[3.0, 1.0, 2.0], 99.0), Some(3.0));
     assert_eq!(percentile(&[], 99.0), None);
-    assert_eq!(Summary::of(&[]), Summary::default());
+    assert_eq!(Summary::new(&[]), Summary::default());
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn flicker_is_the_mean_change_from_frame_to_frame() {
 }
 
 #[test]
-fn points_whose_truth_changed_do_not_flicker_in_that_pair() {
+fn points_whose_truth_changes_do_not_count_in_that_pair_of_frames() {
     let frames = [vec![1.0, 1.0], vec![0.0, 1.0], vec![0.0, 0.5]];
     let truths = [vec![1.0, 1.0], vec![0.0, 1.0], vec![0.0, 1.0]];
     // The first point follows its truth; of the pairs left, one of three changes by a half.
@@ -43,7 +43,7 @@ fn points_whose_truth_changed_do_not_flicker_in_that_pair() {
 }
 
 #[test]
-fn flicker_of_no_frames_or_one_is_nothing() {
+fn flicker_of_fewer_than_two_frames_is_zero() {
     assert_eq!(flicker(&[], &[]), Ok(Summary::default()));
     assert_eq!(flicker(&[vec![1.0]], &[vec![1.0]]), Ok(Summary::default()));
 }
@@ -56,7 +56,7 @@ fn a_seam_is_how_far_two_cascades_disagree_at_the_same_points() {
 }
 
 #[test]
-fn lists_that_do_not_fit_and_numbers_out_of_range_are_refused() {
+fn lists_of_different_lengths_and_numbers_out_of_range_are_errors() {
     let short = flicker(&[vec![1.0; 2], vec![1.0]], &[vec![1.0; 2], vec![1.0; 2]]);
     assert_eq!(short, Err(MetricsError::Length { list: "frames", has: 1, needs: 2 }));
     let missing = flicker(&[vec![1.0]], &[]);
@@ -64,8 +64,5 @@ fn lists_that_do_not_fit_and_numbers_out_of_range_are_refused() {
     assert_eq!(seam(&[1.0], &[]), Err(MetricsError::Length { list: "farther", has: 0, needs: 1 }));
     let nan = seam(&[1.0, f32::NAN], &[1.0, 1.0]);
     assert_eq!(nan, Err(MetricsError::Value { list: "nearer", index: 1, allowed: "0 to 1" }));
-    assert_eq!(
-        nan.unwrap_err().to_string(),
-        "`nearer` has a number at 1 that is not allowed; allowed: 0 to 1"
-    );
+    assert_eq!(nan.unwrap_err().to_string(), "invalid value at index 1 of `nearer`; allowed: 0 to 1");
 }

@@ -1,24 +1,24 @@
-//! The section of each case: its pictures and all its numbers.
+//! The section of each case: its images and all its numbers.
 
 use super::super::data::{CaseReport, Flicker, Motion, Report};
 use super::super::metric::Metric;
-use super::super::summary::shown;
-use super::html::{case_id, case_name, escaped, label, link};
+use super::super::summary::format_value;
+use super::html::{case_id, case_name, encode_path, escape, label};
 
 pub(super) fn sections(report: &Report, metrics: &[&Metric]) -> String {
-    let section = |(index, case)| section(&case_id(index), case, &pictures(report.size_px, case), metrics);
+    let section = |(index, case)| section(&case_id(index), case, &images(report.size_px, case), metrics);
     report.cases.iter().enumerate().map(section).collect()
 }
 
-fn section(id: &str, case: &CaseReport, pictures: &str, metrics: &[&Metric]) -> String {
+fn section(id: &str, case: &CaseReport, images: &str, metrics: &[&Metric]) -> String {
     let numbers = metrics.iter().map(|metric| {
-        let (label, about) = (label(metric), escaped(metric.about));
-        let value = shown(metric, (metric.of)(case));
-        format!("<div title=\"{about}\"><dt>{label}</dt><dd>{value}</dd></div>\n")
+        let (label, description) = (label(metric), escape(metric.description));
+        let value = format_value(metric, (metric.value)(case));
+        format!("<div title=\"{description}\"><dt>{label}</dt><dd>{value}</dd></div>\n")
     });
     format!(
         "<section class=\"case\" id=\"{id}\" aria-labelledby=\"{id}-name\">\n<h3 id=\"{id}-name\">{}</h3>\n\
-         {pictures}<dl>\n{}</dl>\n<div class=\"tables\">\n{}{}</div>\n\
+         {images}<dl>\n{}</dl>\n<div class=\"tables\">\n{}{}</div>\n\
          <p><a href=\"#cases\">Back to all cases</a></p>\n</section>\n",
         case_name(case),
         numbers.collect::<String>(),
@@ -27,24 +27,24 @@ fn section(id: &str, case: &CaseReport, pictures: &str, metrics: &[&Metric]) -> 
     )
 }
 
-/// The four pictures; the script opens large what they link to.
-fn pictures([width_px, height_px]: [u32; 2], case: &CaseReport) -> String {
-    let Some(files) = &case.pictures else { return String::new() };
-    let says = format!("What {} says", case.technique);
-    let pictures = [
-        ("Picture", &files.picture),
-        ("GroundTruth", &files.truth),
-        (&says, &files.visibility),
+/// Returns the four images; the script shows the linked files enlarged.
+fn images([width_px, height_px]: [u32; 2], case: &CaseReport) -> String {
+    let Some(files) = &case.images else { return String::new() };
+    let visibility = format!("Visibility of {}", case.technique);
+    let images = [
+        ("Rendered", &files.color),
+        ("Reference", &files.truth),
+        (&visibility, &files.visibility),
         ("Difference", &files.difference),
     ];
-    let pictures = pictures.map(|(caption, file)| {
-        let (caption, name, file) = (escaped(caption), case_name(case), link(file));
+    let images = images.map(|(caption, file)| {
+        let (caption, name, file) = (escape(caption), case_name(case), encode_path(file));
         format!(
             "<figure><a href=\"{file}\"><img src=\"{file}\" alt=\"{caption}: {name}\" width=\"{width_px}\" \
              height=\"{height_px}\" loading=\"lazy\"></a><figcaption>{caption}</figcaption></figure>\n"
         )
     });
-    format!("<div class=\"pictures\">\n{}</div>\n", pictures.concat())
+    format!("<div class=\"images\">\n{}</div>\n", images.concat())
 }
 
 fn acne(case: &CaseReport) -> String {

@@ -4,7 +4,7 @@ use super::super::data::CaseReport;
 use super::super::metric::Metric;
 
 /// Text as it is safe between tags and in quoted attributes.
-pub(super) fn escaped(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -19,29 +19,29 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
-/// A path with `/` between folders as a link to it. A colon is no scheme.
-pub(super) fn link(path: &str) -> String {
+/// Percent-encodes a path with `/` as separator, including colons, so that it cannot have a scheme.
+pub(super) fn encode_path(path: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~".contains(&byte);
     let byte = |byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
     path.bytes().map(byte).collect()
 }
 
-/// What a case's section is linked by.
+/// Returns the id of the section of a case.
 pub(super) fn case_id(index: usize) -> String {
     format!("case-{}", index + 1)
 }
 
-/// A case's name, escaped.
+/// Returns the name of a case, escaped.
 pub(super) fn case_name(case: &CaseReport) -> String {
     let CaseReport { scene, light, view, technique, .. } = case;
-    escaped(&format!("{scene}, {light}, {view}, {technique}"))
+    escape(&format!("{scene}, {light}, {view}, {technique}"))
 }
 
-/// A metric's heading on one line, escaped.
+/// Returns the heading of a metric on one line, escaped.
 pub(super) fn label(metric: &Metric) -> String {
     let [first, second] = metric.heading;
     match first.strip_suffix('-') {
-        Some(first) => escaped(&format!("{first}{second}")),
-        None => escaped(format!("{first} {second}").trim_end()),
+        Some(first) => escape(&format!("{first}{second}")),
+        None => escape(format!("{first} {second}").trim_end()),
     }
 }

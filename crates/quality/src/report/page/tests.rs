@@ -1,13 +1,13 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 use super::super::fixture;
-use super::html::link;
+use super::html::encode_path;
 use super::*;
 
 fn report() -> Report {
     fixture::report(&[("pcf", 1.0), ("pcf", 4.0), ("pcss", 2.0)])
 }
 
-/// What stands between `from` and `to`, each time.
+/// Returns all substrings between `from` and `to`.
 fn all_between<'t>(text: &'t str, from: &str, to: &str) -> Vec<&'t str> {
     text.split(from).skip(1).filter_map(|rest| rest.split(to).next()).collect()
 }
@@ -44,7 +44,7 @@ fn hostile_names_are_escaped() {
     for name in [&mut case.scene, &mut case.light, &mut case.view, &mut case.technique, &mut report.adapter] {
         *name = hostile.into();
     }
-    case.pictures.as_mut().unwrap().truth = hostile.into();
+    case.images.as_mut().unwrap().truth = hostile.into();
     let page = page(&report);
     assert!(page.contains("&quot;distance_m&quot;: "), "{page}");
     let escaped = "&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;&quot;&#39;";
@@ -55,9 +55,9 @@ fn hostile_names_are_escaped() {
 
 #[test]
 fn paths_are_percent_encoded_and_name_no_scheme() {
-    assert_eq!(link("pictures/tower 15.png"), "pictures/tower%2015.png");
-    assert_eq!(link("a#b?c%d/é.png"), "a%23b%3Fc%25d/%C3%A9.png");
-    assert_eq!(link("javascript:alert"), "javascript%3Aalert");
+    assert_eq!(encode_path("pictures/tower 15.png"), "pictures/tower%2015.png");
+    assert_eq!(encode_path("a#b?c%d/é.png"), "a%23b%3Fc%25d/%C3%A9.png");
+    assert_eq!(encode_path("javascript:alert"), "javascript%3Aalert");
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn the_summary_links_to_the_worst_case() {
         page.contains(&format!("<td class=\"n\">2.500</td><td class=\"n\"><a href=\"#case-2\">{worst}")),
         "{page}"
     );
-    // Nothing leaks, so there is no worst case of it.
+    // There is no leak, so the worst value has no link.
     assert!(page.contains("<td class=\"n\">0.000</td><td class=\"n\">0.000</td>"), "{page}");
 }
 
@@ -80,18 +80,18 @@ fn cells_are_tinted_by_how_near_they_are_to_the_worst_of_their_column() {
     {
         assert!(page.contains(cell), "{cell}\n{page}");
     }
-    // Maps are as large in all cases.
+    // Maps have the same size in all cases.
     assert!(page.contains("<td class=\"n\">64.0</td>"), "{page}");
 }
 
 #[test]
-fn a_case_without_pictures_has_numbers_only() {
+fn a_case_without_images_has_only_numbers() {
     let mut report = report();
-    report.cases[0].pictures = None;
+    report.cases[0].images = None;
     let page = page(&report);
     let sections = all_between(&page, "<section class=\"case\"", "</section>");
     assert_eq!(sections.iter().map(|section| section.matches("<img").count()).collect::<Vec<_>>(), [0, 4, 4]);
-    assert!(sections[0].contains("<dt>wrong %</dt><dd>1.000</dd>"), "{}", sections[0]);
+    assert!(sections[0].contains("<dt>misclassified %</dt><dd>1.000</dd>"), "{}", sections[0]);
     assert!(sections[0].contains("<th scope=\"row\">0.5 to 1</th>"), "{}", sections[0]);
     assert!(sections[0].contains("<th scope=\"row\">translate, 10 km out</th>"), "{}", sections[0]);
 }

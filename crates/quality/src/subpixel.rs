@@ -1,4 +1,4 @@
-//! GroundTruth between the centres of pixels.
+//! Ground truth between the centres of pixels.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use shadowgraph_shadows::rays::{RayScene, ReceiverPoint, trace_hard};
@@ -7,14 +7,14 @@ use super::Surfaces;
 use super::ground_truth::{RayLight, mean};
 use shadowgraph::ViewOptions;
 
-/// How far around a pixel's centre truth is looked for, pixels.
-pub const FINE_REACH_PX: f64 = 1.0;
+/// Half the side of the grid around the centre of a pixel, pixels.
+pub const SUBPIXEL_RADIUS_PX: f64 = 1.0;
 
-/// So many points are looked at in each row and column around a pixel.
-pub const FINE_POINTS: u32 = 7;
+/// Number of points in each row and column of the grid.
+pub const SUBPIXEL_GRID: u32 = 7;
 
-/// Traces points between the centres of pixels: shadows can be narrower than pixels are apart.
-pub(super) struct Fine<'a> {
+/// Traces points between the centres of pixels, because shadows can be narrower than the distance of pixels.
+pub(super) struct SubpixelReference<'a> {
     rays: &'a RayScene,
     light: &'a RayLight,
     surfaces: &'a Surfaces,
@@ -23,7 +23,7 @@ pub(super) struct Fine<'a> {
     eye: Vec3,
 }
 
-impl<'a> Fine<'a> {
+impl<'a> SubpixelReference<'a> {
     pub(super) fn new(
         rays: &'a RayScene,
         light: &'a RayLight,
@@ -37,38 +37,39 @@ impl<'a> Fine<'a> {
         Self { rays, light, surfaces, origin_world, world_from_clip: clip_from_world.inverse(), eye }
     }
 
-    /// Whether truth changes within [`FINE_REACH_PX`] of a pixel's centre, on the plane of its surface.
+    /// Returns whether the reference changes within [`SUBPIXEL_RADIUS_PX`] of a pixel's centre, on its tangent plane.
     pub(super) fn changes_around(&self, pixel: usize) -> bool {
-        let steps = || (0..FINE_POINTS).map(|step| f64::from(step) / f64::from(FINE_POINTS - 1) * 2.0 - 1.0);
-        let offsets = steps().flat_map(|y| steps().map(move |x| DVec2::new(x, y) * FINE_REACH_PX));
-        let mut truths = offsets.filter_map(|offset| self.truth(pixel, offset));
-        truths.next().is_some_and(|first| truths.any(|truth| truth != first))
+        let steps =
+            || (0..SUBPIXEL_GRID).map(|step| f64::from(step) / f64::from(SUBPIXEL_GRID - 1) * 2.0 - 1.0);
+        let offsets = steps().flat_map(|y| steps().map(move |x| DVec2::new(x, y) * SUBPIXEL_RADIUS_PX));
+        let mut values = offsets.filter_map(|offset| self.truth(pixel, offset));
+        values.next().is_some_and(|first| values.any(|truth| truth != first))
     }
 
     /// GroundTruth beside a pixel's centre; `None` where its plane is not samples.
     fn truth(&self, pixel: usize, offset_px: DVec2) -> Option<f32> {
-        let position = self.beside(pixel, offset_px)?.as_vec3();
+        let position = self.surface_point(pixel, offset_px)?.as_vec3();
         let geometric_normal = self.surfaces.normals[pixel];
         let receiver =
             ReceiverPoint { position, geometric_normal, view_distance_m: position.distance(self.eye) };
         Some(mean(trace_hard(self.rays, &self.light.shape, &receiver, false).visibility))
     }
 
-    /// The point of a pixel's tangent plane that is seen beside its centre, relative to the frame's origin.
-    fn beside(&self, pixel: usize, offset_px: DVec2) -> Option<DVec3> {
+    /// Returns the point of a pixel's tangent plane at an offset from its centre, relative to the frame's origin.
+    fn surface_point(&self, pixel: usize, offset_px: DVec2) -> Option<DVec3> {
         let [width, height] = self.surfaces.size_px;
         let (x, y) = (pixel as u32 % width, pixel as u32 / width);
         let size = DVec2::new(f64::from(width), f64::from(height));
-        let at = (DVec2::new(f64::from(x), f64::from(y)) + 0.5 + offset_px) / size;
+        let uv = (DVec2::new(f64::from(x), f64::from(y)) + 0.5 + offset_px) / size;
         let point_at = |depth| {
-            let ndc = DVec3::new(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, depth);
+            let ndc = DVec3::new(uv.x * 2.0 - 1.0, 1.0 - uv.y * 2.0, depth);
             self.world_from_clip.project_point3(ndc) - self.origin_world
         };
-        // Two points of the ray through the picture.
-        let (from, way) = (point_at(1.0), point_at(0.5) - point_at(1.0));
+        // Two points on the ray through the image.
+        let (start, direction) = (point_at(1.0), point_at(0.5) - point_at(1.0));
         let (position, normal) =
             (self.surfaces.positions[pixel].as_dvec3(), self.surfaces.normals[pixel].as_dvec3());
-        let along = (position - from).dot(normal) / way.dot(normal);
-        (along.is_finite() && along > 0.0).then(|| from + way * along)
+        let distance = (position - start).dot(normal) / direction.dot(normal);
+        (distance.is_finite() && distance > 0.0).then(|| start + direction * distance)
     }
 }

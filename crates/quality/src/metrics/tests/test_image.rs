@@ -1,4 +1,4 @@
-//! Pictures made by intersecting camera rays with a floor and a box, with their analytic truth.
+//! Images made by intersecting camera rays with a floor and a box, with their analytic truth.
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -12,7 +12,7 @@ pub(super) struct Camera {
     pub(super) fov_y: f64,
 }
 
-/// Where the box is that the pictures with one have: 1 m wide, on the floor.
+/// Where the box is that the images with one have: 1 m wide, on the floor.
 pub(super) const BOX: [DVec3; 2] = [DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 1.0, 0.5)];
 
 /// From straight above, far enough to the side that the box's shaded sides are samples, turned so that they are
@@ -22,7 +22,7 @@ pub(super) fn above() -> Camera {
     Camera { eye, target: DVec3::new(1.5, 0.0, 2.0), up: DVec3::new(0.3, 0.0, -1.0), fov_y: 0.8 }
 }
 
-/// From eye height, 10 degrees down on average; the floor fills the picture.
+/// From eye height, 10 degrees down on average; the floor fills the image.
 pub(super) fn grazing() -> Camera {
     let eye = DVec3::new(2.0, 1.3, 6.0);
     Camera { eye, target: DVec3::new(0.4, 0.15, 0.0), up: DVec3::Y, fov_y: 0.3 }
@@ -33,7 +33,7 @@ pub(super) fn sun() -> DVec3 {
     DVec3::new(-0.6, 0.577, -0.8).normalize()
 }
 
-pub(super) struct Picture {
+pub(super) struct TestImage {
     pub(super) size: [usize; 2],
     pub(super) pixel_m_at_1m: f32,
     pub(super) positions: Vec<Vec3>,
@@ -51,14 +51,14 @@ pub(super) struct Picture {
     towards_light: Vec3,
 }
 
-impl Picture {
+impl TestImage {
     /// A floor up to `floor_m` from the origin, with [`BOX`] or without. Visibility is the truth.
     pub(super) fn new([width, height]: [usize; 2], camera: &Camera, floor_m: f64, with_box: bool) -> Self {
         let forward = (camera.target - camera.eye).normalize();
         let right = forward.cross(camera.up).normalize();
         let pixel = 2.0 * (camera.fov_y / 2.0).tan() / height as f64;
         let n = width * height;
-        let mut picture = Self {
+        let mut image = Self {
             size: [width, height],
             pixel_m_at_1m: pixel as f32,
             positions: vec![Vec3::ZERO; n],
@@ -78,10 +78,10 @@ impl Picture {
             let center = DVec2::new(width as f64, height as f64) / 2.0;
             let place = (DVec2::new((at % width) as f64, (at / width) as f64) + 0.5 - center) * pixel;
             let ray = forward + right * place.x - right.cross(forward) * place.y;
-            picture.hit(at, camera.eye, ray, floor_m, with_box);
+            image.hit(at, camera.eye, ray, floor_m, with_box);
         }
-        picture.visibility = picture.truth.clone();
-        picture
+        image.visibility = image.truth.clone();
+        image
     }
 
     fn hit(&mut self, at: usize, eye: DVec3, ray: DVec3, floor_m: f64, with_box: bool) {
@@ -112,7 +112,7 @@ impl Picture {
         self
     }
 
-    /// Returns a picture of what a function gives for each pixel.
+    /// Returns a image of what a function gives for each pixel.
     pub(super) fn by_pixel(&self, value: impl Fn(usize, usize) -> f32) -> Vec<f32> {
         (0..self.truth.len()).map(|at| value(at % self.size[0], at / self.size[0])).collect()
     }
@@ -131,7 +131,7 @@ impl Picture {
             blocker_distances_m: &self.blockers_m,
             texel_px: &self.texel_px,
             texel_m: &self.texel_m,
-            towards_light: TowardsLight::Everywhere(self.towards_light),
+            towards_light: TowardsLight::Uniform(self.towards_light),
         }
     }
 
@@ -152,7 +152,7 @@ impl Picture {
     }
 }
 
-/// Every metric of a picture.
+/// Every metric of a image.
 #[derive(Debug)]
 pub(super) struct All {
     pub(super) misclassified: Misclassified,

@@ -1,27 +1,27 @@
-//! What was looked at to find the errors of a view, and pictures of it for people.
+//! The images behind the errors of a view.
 
 use glam::Vec3;
 
 use super::metrics::Band;
 
-/// All that was looked at to find the errors, row by row from the top.
+/// The compared images of a view, row by row from the top.
 #[derive(Clone, Debug)]
 pub struct ViewImages {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
-    /// What the technique says, 0 to 1.
+    /// Visibility according to the technique, 0 to 1.
     pub visibility: Vec<f32>,
-    /// What is true, 0 or 1.
+    /// Hard reference, 0 or 1.
     pub truth: Vec<f32>,
-    /// Whether the pixel counts.
+    /// Whether each pixel is a receiver.
     pub receivers: Vec<bool>,
-    /// Pixels so near to edges that they are counted apart.
+    /// The band of pixels near edges, which are counted separately.
     pub band: Band,
 }
 
 impl ViewImages {
-    /// Returns a picture of the errors, four bytes a pixel: grey is the visibility, red is dark but truly lit, blue lit
-    /// but truly dark, both paler in the band; what does not count is dim.
+    /// Returns an image of the errors, four bytes per pixel: grey is the visibility, red is dark but should be lit,
+    /// blue is lit but should be dark, both paler in the band; pixels that are not receivers are dimmed.
     #[must_use]
     pub fn errors_rgba8(&self) -> Vec<u8> {
         (0..self.visibility.len()).flat_map(|pixel| self.color(pixel)).collect()

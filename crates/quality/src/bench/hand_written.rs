@@ -1,5 +1,5 @@
-//! The passes of `forward` without the graph, as one would write them for this very frame: every texture, view and
-//! bind group is made once, and a frame writes the buffers and encodes.
+//! The passes of `forward` without the graph, hand-written for exactly this frame: textures, views and bind groups are
+//! created once, and a frame only writes buffers and encodes.
 
 use std::sync::Arc;
 
@@ -22,14 +22,14 @@ use crate::Error;
 const DEPTH: Format = Format::Depth32Float;
 const VIEW_BYTES: u32 = size_of::<ShadowView>() as u32;
 
-/// What stays the same from frame to frame.
-pub(super) struct ByHand<'v> {
+/// Everything that stays the same from frame to frame.
+pub(super) struct HandWritten<'v> {
     renderer: &'v Renderer,
     view: &'v RenderView<'v>,
     counts: Counts,
     /// The view, the lights, the views of shadow maps, the lights' shadows.
     buffers: [wgpu::Buffer; 4],
-    /// The cascades and the atlas, where there is one.
+    /// The cascades and the atlas, if used.
     maps: [Option<wgpu::TextureView>; 2],
     depth: wgpu::TextureView,
     lit: wgpu::TextureView,
@@ -48,14 +48,14 @@ struct Groups {
     tonemap: wgpu::BindGroup,
 }
 
-/// What a frame needs of the CPU before anything is encoded.
-struct Records {
+/// CPU data of a frame, computed before encoding.
+struct FrameData {
     view: ViewUniforms,
     shadows: ShadowPlan,
 }
 
-impl<'v> ByHand<'v> {
-    /// Makes everything for frames of `view` in pictures of `target`.
+impl<'v> HandWritten<'v> {
+    /// Creates the resources of frames that draw `view` into `target`.
     pub(super) fn new(
         gpu: &Gpu,
         renderer: &'v Renderer,
@@ -63,8 +63,8 @@ impl<'v> ByHand<'v> {
         target: &wgpu::Texture,
     ) -> Result<Self, Error> {
         let device = &gpu.device;
-        let records = records(renderer, view)?;
-        let buffers = bytes(&records).map(|bytes| buffer(device, bytes.len() as u64));
+        let frame_data = frame_data(renderer, view)?;
+        let buffers = bytes(&frame_data).map(|bytes| buffer(device, bytes.len() as u64));
         let [width, height] = view.options.size_px;
         let depth = attachment(device, [width, height], DEPTH, TextureUsages::empty());
         let lit = attachment(device, [width, height], Format::Rgba16Float, TextureUsages::TEXTURE_BINDING);
@@ -75,15 +75,15 @@ impl<'v> ByHand<'v> {
             };
             plan.as_ref().map(map)
         };
-        let maps = [map(&records.shadows.cascades), map(&records.shadows.atlas)];
+        let maps = [map(&frame_data.shadows.cascades), map(&frame_data.shadows.atlas)];
         let (layouts, technique) = (renderer.casters().scene.layouts(), renderer.technique());
         let (format, output) = (Format::Rgba16Float, LitOutput::Light);
         let forward = Forward::new(device, layouts, technique, LitTarget { format, output, samples: 1 })?;
         let prepass = Prepass::new(device, layouts, 1)?;
         let tonemap = tonemap(device, target.format())?;
         Ok(Self {
-            counts: counts(&records, view),
-            pipelines: forward.pipelines(records.shadows.variant().index(), false)?,
+            counts: counts(&frame_data, view),
+            pipelines: forward.pipelines(frame_data.shadows.variant().index(), false)?,
             groups: Groups::new(device, (&forward, &prepass, &tonemap), &buffers, &maps, &lit),
             prepass,
             tonemap,
@@ -97,7 +97,7 @@ impl<'v> ByHand<'v> {
         })
     }
 
-    /// Returns what each frame consists of.
+    /// Returns the contents of each frame.
     pub(super) fn counts(&self) -> Counts {
         self.counts
     }
@@ -105,14 +105,14 @@ impl<'v> ByHand<'v> {
     /// Encodes and submits one frame.
     pub(super) fn frame(&self, gpu: &Gpu) -> Result<FrameTime, Error> {
         let mut clock = Clock::start();
-        let records = records(self.renderer, self.view)?;
+        let frame_data = frame_data(self.renderer, self.view)?;
         let plan = clock.lap();
-        for (buffer, bytes) in self.buffers.iter().zip(bytes(&records)) {
+        for (buffer, bytes) in self.buffers.iter().zip(bytes(&frame_data)) {
             gpu.queue.write_buffer(buffer, 0, &bytes);
         }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.encode(&mut encoder, &records.shadows);
-        drop(records);
+        self.encode(&mut encoder, &frame_data.shadows);
+        drop(frame_data);
         let record = clock.lap();
         let commands = encoder.finish();
         let finish = clock.lap();
@@ -189,12 +189,12 @@ impl Groups {
         lit: &wgpu::TextureView,
     ) -> Self {
         let depth_layout = prepass.pipelines().view_layout();
-        // wgpu fills it with zeros, which mean lit.
+        // wgpu clears it to zero, which means lit.
         let no_map = attachment(device, [1, 1], DEPTH, TextureUsages::TEXTURE_BINDING);
         let map = |map: &Option<wgpu::TextureView>| map.clone().unwrap_or_else(|| no_map.clone());
         let (cascades, atlas) = (map(&maps[0]), map(&maps[1]));
         let sampler = comparison_sampler(device);
-        // Nothing is tinted.
+        // There are no tinted shadows.
         let tints = attachment(device, [1; 2], TINT_FORMAT, TextureUsages::TEXTURE_BINDING);
         let tints = BindingResource::TextureView(&tints);
         let shadows = [
@@ -249,33 +249,33 @@ fn tonemap(device: &wgpu::Device, format: Format) -> Result<wgpu::RenderPipeline
     }))
 }
 
-fn records(renderer: &Renderer, view: &RenderView<'_>) -> Result<Records, Error> {
+fn frame_data(renderer: &Renderer, view: &RenderView<'_>) -> Result<FrameData, Error> {
     let options = view.options;
     let (camera, size_px, lights) = (&options.camera, options.size_px, &renderer.scene().lights);
     let (casters, settings) = (renderer.casters(), &options.shadows);
     let origin_world = casters.scene.origin_world();
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
     let inputs = ShadowInputs { view: 0, camera, aspect, lights, casters, origin_world, settings };
-    Ok(Records {
+    Ok(FrameData {
         view: ViewUniforms::new(camera, size_px, lights, origin_world, &view.ambient_light),
         shadows: plan_shadows(&inputs)?,
     })
 }
 
-/// The contents of the buffers, in their order.
-fn bytes(records: &Records) -> [Vec<u8>; 4] {
+/// Returns the contents of the buffers, in order.
+fn bytes(frame_data: &FrameData) -> [Vec<u8>; 4] {
     let none = [<GpuLight as bytemuck::Zeroable>::zeroed()];
-    let lights = if records.view.lights.is_empty() { &none } else { &records.view.lights[..] };
+    let lights = if frame_data.view.lights.is_empty() { &none } else { &frame_data.view.lights[..] };
     [
-        bytemuck::bytes_of(&records.view.view).to_vec(),
+        bytemuck::bytes_of(&frame_data.view.view).to_vec(),
         bytemuck::cast_slice(lights).to_vec(),
-        records.shadows.view_bytes(),
-        records.shadows.light_bytes(),
+        frame_data.shadows.view_bytes(),
+        frame_data.shadows.light_bytes(),
     ]
 }
 
-fn counts(records: &Records, view: &RenderView<'_>) -> Counts {
-    let maps = [&records.shadows.cascades, &records.shadows.atlas];
+fn counts(frame_data: &FrameData, view: &RenderView<'_>) -> Counts {
+    let maps = [&frame_data.shadows.cascades, &frame_data.shadows.atlas];
     let casters = maps.into_iter().flatten().flat_map(|map| &map.tiles).map(|tile| tile.casters.len());
     let draws = casters.sum::<usize>() + 2 * view.draws.solid.len() + view.draws.blend.len() + 1;
     Counts { passes: maps.into_iter().flatten().count() + 3, uploads: 4, draws }
