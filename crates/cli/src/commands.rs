@@ -1,4 +1,4 @@
-//! `shadowgraph render`, and what all drawing commands start from. One call per step.
+//! `shadowgraph render`, and the common steps of all drawing commands.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use shadowgraph::scene::gltf::Progress as LoadProgress;
 use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::{Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
 
-/// What every drawing command starts from.
+/// The input of every drawing command.
 pub(crate) struct Input {
     pub(crate) options: Options,
     pub(crate) scene: Scene,
@@ -32,7 +32,7 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let [width, height] = drawn.size_px;
     write_png(&args.output, width, height, pixels, &bytes)?;
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
-    console::print(&format!("wrote {file}: {width}x{height}, drawn by {adapter}\n"))?;
+    console::print(&format!("wrote {file}: {width}x{height}, rendered by {adapter}\n"))?;
     if drawn.timings {
         console::print(&report::times(&drawn.view.times, &gpu.adapter))?;
     }
@@ -46,7 +46,7 @@ pub(super) struct DrawnView {
     timings: bool,
 }
 
-/// Draws so many frames, and gives the last.
+/// Draws a number of frames, and returns the last.
 pub(super) fn draw(gpu: &Gpu, input: Input, frames: u32) -> Result<DrawnView, Failure> {
     let drawing = Progress::if_slow("drawing");
     let Options { aov, timings, .. } = input.options.clone();
@@ -66,12 +66,12 @@ pub(super) fn draw(gpu: &Gpu, input: Input, frames: u32) -> Result<DrawnView, Fa
     Ok(DrawnView { view: drawn, size_px: view.size_px, aov, timings })
 }
 
-/// Finds out before anything is drawn that a picture cannot be written.
+/// Checks before drawing that the output is a PNG file.
 fn check_output(file: &Path) -> Result<(), Failure> {
     let other = file.extension().filter(|extension| !extension.eq_ignore_ascii_case("png"));
     let reason = match other {
-        _ if file.is_dir() => "is a folder; give the name of a PNG file in it".into(),
-        Some(extension) => format!("pictures are PNG files, not {}", extension.to_string_lossy()),
+        _ if file.is_dir() => "is a directory; expected a PNG file".into(),
+        Some(extension) => format!("unsupported extension `{}`; expected png", extension.to_string_lossy()),
         None => return Ok(()),
     };
     Err(Failure { code: Failure::INPUT, message: format!("-o {}: {reason}", file.display()) })
@@ -80,7 +80,7 @@ fn check_output(file: &Path) -> Result<(), Failure> {
 /// Parses the options, loads the scene and applies the options to it.
 pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failure> {
     let options = args.options(registry)?;
-    // A texture that is asked for may be of a node that nothing else leads to.
+    // A requested texture may belong to a node that no output depends on.
     if !matches!(options.aov, Aov::Texture(_)) {
         options.pipeline.warnings().iter().for_each(|note| console::warning(&note.to_string()));
     }
@@ -94,19 +94,19 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     Ok(Input { options, scene, camera })
 }
 
-/// Loads a scene, the built-in one without a file.
+/// Loads a scene; without a file, the built-in one.
 pub(crate) fn load(file: Option<&Path>) -> Result<Scene, Failure> {
     match file {
         Some(file) => {
             let loading = Progress::now(&format!("loading {}", file.display()));
-            let told = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
-            Ok(shadowgraph::scene::gltf::load_with_progress(file, told)?)
+            let report = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
+            Ok(shadowgraph::scene::gltf::load_with_progress(file, report)?)
         }
         None => Ok(shadowgraph_samples::demo::demo_scene()),
     }
 }
 
-/// What the options say of the view.
+/// Returns the view according to the options.
 pub(crate) fn view_options(input: &Input) -> ViewOptions {
     let Options { size, settings, shadow_distance, .. } = &input.options;
     let size_px = [size.width_px, size.height_px];
@@ -114,9 +114,9 @@ pub(crate) fn view_options(input: &Input) -> ViewOptions {
         .with_shadow_distance(*shadow_distance, &input.scene)
 }
 
-/// What of a picture goes into the file.
-fn file_pixels(aov: &Aov, picture: RenderedImage) -> (Pixels, Vec<u8>) {
-    let pixels = picture.rgba8.chunks_exact(4);
+/// Returns the channels of an image that are written to the file.
+fn file_pixels(aov: &Aov, image: RenderedImage) -> (Pixels, Vec<u8>) {
+    let pixels = image.rgba8.chunks_exact(4);
     match aov {
         Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),
         _ => (Pixels::Rgb, pixels.flat_map(|p| [p[0], p[1], p[2]]).collect()),

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use std::io::{ErrorKind, Write};
 
-/// Prints to standard output. A reader that has gone (`| head`) is no failure.
+/// Prints to standard output. A closed pipe (`| head`) is not an error.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -15,25 +15,25 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Tells what went wrong, in one line.
+/// Prints an error in one line.
 pub(crate) fn error(message: &str) {
     line("error", message);
 }
 
-/// Tells what is not as the user may expect, in one line.
+/// Prints a warning in one line.
 pub(crate) fn warning(message: &str) {
     line("warning", message);
 }
 
 fn line(kind: &str, message: &str) {
-    // Nobody may be left to read it.
+    // Standard error may be closed.
     let _unread = writeln!(std::io::stderr(), "{kind}: {}", one_line(message));
 }
 
-/// Makes one line of any text: names in a file may hold line ends and terminal codes.
+/// Converts text to one line: names in a file may contain line breaks and terminal codes.
 pub(crate) fn one_line(text: &str) -> String {
-    let words = text.lines().map(str::trim).filter(|line| !line.is_empty());
-    let joined = words.collect::<Vec<_>>().join("; ").replace(":; ", ": ");
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let joined = lines.collect::<Vec<_>>().join("; ").replace(":; ", ": ");
     joined.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 

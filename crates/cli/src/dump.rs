@@ -13,7 +13,7 @@ use shadowgraph::inspect::lights;
 use shadowgraph::output::write_text;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderedFrame, Renderer};
 
-/// What pages are called, with the scene's file behind it.
+/// Title of pages, followed by the file of the scene.
 const TITLE: &str = "Shadowgraph frame";
 
 /// `shadowgraph dump`
@@ -47,7 +47,7 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
     })
 }
 
-/// The page about a frame, with pictures where there is something to draw with.
+/// Returns the page of a frame, with images if there is a GPU.
 fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
     let view = view_options(&input);
     let (aov, config) = (input.options.aov.clone(), input.options.render_config());
@@ -71,7 +71,7 @@ fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
         Ok(gpu) => gpu,
         Err(error) if args.names_adapter() || args.times() => return Err(Failure::no_device(error)),
         Err(error) => {
-            let missing = format!("there are no pictures and no times: {error}");
+            let missing = format!("no images and no times: {error}");
             console::warning(&missing);
             let (_, Planned { plan, unshadowed, .. }) = planned(args, input)?;
             let mut page = lights::page(&plan, &[], &scene_lights, &unshadowed);
@@ -83,20 +83,22 @@ fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
     let mut renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
     let inspected = renderer.inspect(&gpu, &view)?;
     let mut page = inspected.page(&scene_lights, &view);
-    page.notes.push(format!("Drawn by {}.", gpu.adapter.name));
+    page.notes.push(format!("Rendered by {}.", gpu.adapter.name));
     page.notes.extend(report::unshadowed(&inspected.frame.unshadowed));
     Ok(finish(page))
 }
 
-/// What differs between the frames of two files.
+/// Returns the differences between the frames of two files.
 fn diff(files: &[PathBuf], format: Format) -> Result<String, Failure> {
-    let [before, after] = files else { return Err(usage("--diff: takes two files")) };
+    let [before, after] = files else { return Err(usage("--diff: expected two files")) };
     let diff = read(before)?.diff(&read(after)?);
     match format {
         Format::Text => Ok(diff.to_text()),
         Format::Json => Ok(serde_json::to_string_pretty(&diff)? + "\n"),
         Format::Html => Ok(diff.to_html(&before.to_string_lossy(), &after.to_string_lossy())),
-        Format::Dot | Format::Mermaid | Format::Trace => Err(usage("--diff: is shown as text, json or html")),
+        Format::Dot | Format::Mermaid | Format::Trace => {
+            Err(usage("--diff: unsupported format; expected one of: text, json, html"))
+        }
     }
 }
 
@@ -118,17 +120,17 @@ pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Fai
     let input = input(&args.draw, registry)?;
     let pipeline = input.options.render_config().pipeline;
     let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input)?;
-    let told = match &args.before {
+    let explanation = match &args.before {
         Some(after) => plan.explain_order(&args.name, after),
         None => plan.explain(&args.name),
     };
-    console::print(&told.map_err(|error| match pipeline.is_disabled(&args.name) {
+    console::print(&explanation.map_err(|error| match pipeline.is_disabled(&args.name) {
         true => Failure { code: Failure::INPUT, message: disabled(&args.name, &pipeline) },
         false => error.into(),
     })?)?;
-    let asked = [Some(&args.name), args.before.as_ref()];
-    let is = |pass: &str, name: &str| pass == name || pass.rsplit('/').next() == Some(name);
-    times.retain(|time| asked.iter().flatten().any(|name| is(&time.pass, name)));
+    let names = [Some(&args.name), args.before.as_ref()];
+    let matches = |pass: &str, name: &str| pass == name || pass.rsplit('/').next() == Some(name);
+    times.retain(|time| names.iter().flatten().any(|name| matches(&time.pass, name)));
     if times.is_empty() {
         Ok(())
     } else {
@@ -138,10 +140,10 @@ pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Fai
 
 fn disabled(node: &str, pipeline: &Pipeline) -> String {
     let name = pipeline.name();
-    format!("the node `{node}` of {name} is disabled, as its `when` does not hold: see --set")
+    format!("the node `{node}` of {name} is disabled: its condition `when` is false; see --set")
 }
 
-/// A plan needs no GPU, but times do, and an adapter that is named is to be there.
+/// Plans a frame. That needs no GPU, unless times or an adapter are requested.
 fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;

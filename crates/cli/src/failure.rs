@@ -1,33 +1,33 @@
-//! How a command fails.
+//! Errors of commands.
 
 use shadowgraph::Error;
 use shadowgraph::options::OptionError;
 use shadowgraph_quality::Error as QualityError;
 
-/// One line for the user and the exit code.
+/// An error message of one line and the exit code.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Failure {
-    /// The exit code, one of the constants.
+    /// Exit code, one of the constants.
     pub(crate) code: u8,
-    /// What is wrong and where.
+    /// Problem and location.
     pub(crate) message: String,
 }
 
 impl Failure {
-    /// The input or a setting is wrong.
+    /// The input or a setting is invalid.
     pub(crate) const INPUT: u8 = 1;
-    /// The command line is not one.
+    /// The command line is invalid.
     pub(crate) const USAGE: u8 = 2;
-    /// There is nothing to draw with.
+    /// There is no usable adapter or display.
     pub(crate) const NO_ADAPTER: u8 = 3;
 
-    /// No device could be opened.
+    /// Creates the failure of a device that cannot be opened.
     pub(crate) fn no_device(error: shadowgraph::Error) -> Self {
         Self { code: Self::NO_ADAPTER, message: error.to_string() }
     }
 }
 
-/// Errors of the input, a setting or the output. Where an option is the cause, its name begins the message.
+/// Converts errors of the input, a setting or the output. If an option is the cause, the message begins with its name.
 impl<E: std::error::Error + 'static> From<E> for Failure {
     fn from(error: E) -> Self {
         let any: &(dyn std::error::Error + 'static) = &error;
@@ -42,7 +42,7 @@ impl<E: std::error::Error + 'static> From<E> for Failure {
     }
 }
 
-/// Returns the option whose value causes an error of a library.
+/// Returns the option whose value causes a library error.
 fn option_of(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
     let error = match error.downcast_ref() {
         Some(QualityError::BenchAov) => return Some("aov"),

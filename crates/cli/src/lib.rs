@@ -1,7 +1,7 @@
-//! The `shadowgraph` program, for those who add techniques and nodes of their own to it.
+//! The `shadowgraph` program, as a library for programs that add their own techniques and nodes.
 //!
-//! Exit codes: 0 done, 1 the input or a setting is wrong, 2 usage, 3 nothing to draw with: no usable adapter, or no display. Whatever is wrong
-//! is told in one line on standard error that starts with `error:`.
+//! Exit codes: 0 success, 1 invalid input or setting, 2 invalid command line, 3 no usable adapter or no display. An error is one line
+//! on standard error that starts with `error:`.
 
 mod args;
 mod bench;
@@ -24,7 +24,7 @@ use shadowgraph::Registry;
 use std::process::Command as Process;
 use std::process::ExitCode;
 
-/// Does what the command line says, with these techniques and nodes to choose from: the whole `main` of a program.
+/// Runs the command line with the techniques and nodes of `registry`: the whole `main` of a program.
 ///
 /// ```no_run
 /// use shadowgraph::Registry;
@@ -40,7 +40,7 @@ use std::process::ExitCode;
 /// ```
 pub fn run(registry: &Registry) -> ExitCode {
     #[cfg(unix)]
-    runtime_folder();
+    runtime_dir();
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, registry),
@@ -51,7 +51,7 @@ pub fn run(registry: &Registry) -> ExitCode {
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, registry),
         Ok(Cli { command: Some(Command::Nodes(args)) }) => nodes::nodes(&args, registry),
         Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, registry),
-        Err(usage) => return tell_usage(&usage),
+        Err(usage) => return print_usage_error(&usage),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -62,10 +62,10 @@ pub fn run(registry: &Registry) -> ExitCode {
     }
 }
 
-/// Without a runtime folder, as in a container, a library under some Vulkan drivers prints lines that begin with
-/// `error:` though nothing is wrong. Then the program starts once more, with one.
+/// Sets a runtime directory if there is none, as in a container, and restarts the program. Without one, a library that
+/// some Vulkan drivers use prints lines that begin with `error:` though nothing is wrong.
 #[cfg(unix)]
-fn runtime_folder() {
+fn runtime_dir() {
     use std::os::unix::process::CommandExt as _;
     const VARIABLE: &str = "XDG_RUNTIME_DIR";
     if std::env::var_os(VARIABLE).is_some() {
@@ -73,29 +73,29 @@ fn runtime_folder() {
     }
     if let Ok(program) = std::env::current_exe() {
         let arguments = std::env::args_os().skip(1);
-        // Returns only where it cannot be done, and then those lines do no harm.
+        // Returns only on failure, which does no harm.
         let _failed = Process::new(program).args(arguments).env(VARIABLE, std::env::temp_dir()).exec();
     }
 }
 
 /// Help and version go to standard output with code 0, wrong usage to standard error with code 2.
-fn tell_usage(usage: &clap::Error) -> ExitCode {
+fn print_usage_error(usage: &clap::Error) -> ExitCode {
     if usage.use_stderr() {
-        console::error(&wrong_usage(usage));
+        console::error(&usage_error(usage));
         return ExitCode::from(Failure::USAGE);
     }
-    // Nobody may be left to read it.
+    // Standard output may be closed.
     let _unread = usage.print();
     ExitCode::SUCCESS
 }
 
-/// What is wrong and what may be meant, without the paragraphs on how the command is used.
-fn wrong_usage(usage: &clap::Error) -> String {
-    let words = usage.render().to_string();
-    let wrong = ["\n\nUsage:", "\n\nFor more information"]
+/// Returns the error and a suggestion, without the paragraphs on usage.
+fn usage_error(usage: &clap::Error) -> String {
+    let text = usage.render().to_string();
+    let error = ["\n\nUsage:", "\n\nFor more information"]
         .into_iter()
-        .fold(&*words, |words, end| words.split(end).next().unwrap_or_default());
-    format!("{}\n--help tells all", wrong.trim_start_matches("error: "))
+        .fold(&*text, |text, end| text.split(end).next().unwrap_or_default());
+    format!("{}\nsee --help", error.trim_start_matches("error: "))
 }
 
 #[cfg(doctest)]
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wrong_usage_is_one_line_with_what_may_be_meant() {
+    fn a_usage_error_is_one_line_with_a_suggestion() {
         for (line, expected) in [
             ("rendr", "unrecognized subcommand 'rendr'; tip: a similar subcommand exists: 'render'"),
             ("render --sise 3", "unexpected argument '--sise' found; tip: a similar argument exists: "),
@@ -120,8 +120,8 @@ mod tests {
             ("bench --frames many", "invalid value 'many' for '--frames <N>': "),
         ] {
             let words = std::iter::once("shadowgraph").chain(line.split(' '));
-            let told = console::one_line(&wrong_usage(&Cli::try_parse_from(words).unwrap_err()));
-            assert!(told.starts_with(expected) && told.ends_with("; --help tells all"), "{told}");
+            let error = console::one_line(&usage_error(&Cli::try_parse_from(words).unwrap_err()));
+            assert!(error.starts_with(expected) && error.ends_with("; see --help"), "{error}");
         }
     }
 }

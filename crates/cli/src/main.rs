@@ -1,4 +1,4 @@
-//! The `shadowgraph` program: `shadowgraph --help` tells all.
+//! The `shadowgraph` program; see `shadowgraph --help`.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! Progress on a terminal: for loading, and for whatever takes longer than a second.
+//! Progress on a terminal, for loading and for everything that takes longer than a second.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -11,28 +11,28 @@ const WITHOUT_BAR: &str = "{spinner} {msg} {elapsed}";
 const WITH_BAR: &str = "{spinner} {msg} {wide_bar} {pos} %";
 const TICK: Duration = Duration::from_millis(100);
 
-/// A line on standard error that says what is being done, gone when this is dropped.
+/// A progress line on standard error, removed on drop.
 ///
-/// Where standard error is not a terminal nothing is ever shown.
+/// If standard error is not a terminal, nothing is shown.
 pub(crate) struct Progress {
     bar: ProgressBar,
     what: String,
-    /// Dropping the sender tells the thread to stop.
+    /// Dropping the sender stops the thread.
     waiting: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Progress {
-    /// Shows `what` at once.
+    /// Shows `what` immediately.
     pub(crate) fn now(what: &str) -> Progress {
         Self::after(Duration::ZERO, what)
     }
 
-    /// Shows `what` if it lasts longer than a second.
+    /// Shows `what` after one second.
     pub(crate) fn if_slow(what: &str) -> Progress {
         Self::after(Duration::from_secs(1), what)
     }
 
-    /// Says what is being done now and how far it is, 0 to 1.
+    /// Sets the current stage and the finished fraction, 0 to 1.
     pub(crate) fn set(&self, stage: &str, fraction: f32) {
         if self.bar.length().is_none() {
             self.bar.set_length(PARTS);

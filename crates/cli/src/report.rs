@@ -1,4 +1,4 @@
-//! What the program tells of a scene, a plan and its times. Tables are at most 110 columns wide.
+//! Text of a scene, a plan and its times. Tables are at most 110 columns wide.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -11,15 +11,15 @@ use shadowgraph::scene::Light;
 use shadowgraph::shadows::Unshadowed;
 use shadowgraph::wgpu::AdapterInfo;
 
-/// A frame that is told of.
+/// A planned frame.
 pub(crate) struct Planned {
     pub(crate) plan: Arc<Plan>,
-    /// Empty unless they were asked for.
+    /// Empty unless requested.
     pub(crate) times: Vec<PassTime>,
     pub(crate) unshadowed: Vec<Unshadowed>,
 }
 
-/// The plan as text, with the scene's lights.
+/// Formats the plan as text, with the scene's lights.
 pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
     let mut out = planned.plan.to_text();
     out.push_str("\nlights\n");
@@ -35,7 +35,7 @@ pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
     out
 }
 
-/// The plan as JSON, with the scene's lights.
+/// Formats the plan as JSON, with the scene's lights.
 pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failure> {
     let mut document: Value = serde_json::from_str(&planned.plan.to_json()?)?;
     let lights = lights.iter().enumerate().map(|(index, light)| {
@@ -57,7 +57,7 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
     Ok(text)
 }
 
-/// Which lights have no shadows and why, a sentence for each reason.
+/// Returns the lights without shadows, a sentence for each reason.
 pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
     for light in unshadowed {
@@ -74,7 +74,7 @@ pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
     reasons.into_iter().map(sentence).collect()
 }
 
-/// A table of times per pass, by node.
+/// Returns a table of times per pass, grouped by node.
 pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
     let mut out = format!(
         "times on {}\n  {:<40} {:>10} {:>10} {:>7} {:>11}\n",
@@ -104,7 +104,7 @@ pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
     out
 }
 
-/// What is to be known of a pass's GPU time: passes that were merged may have one time together.
+/// Returns a note if a GPU time is that of several merged passes.
 pub(crate) fn sharing(measured: bool, shared_by: u32) -> String {
     if measured && shared_by > 1 { format!("  all {shared_by} merged") } else { String::new() }
 }
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_that_merged_passes_share_is_said_to_be_so_and_counts_once() {
+    fn a_time_that_merged_passes_share_has_a_note_and_counts_once() {
         let time = |pass: &str, gpu_ms, shared_by| PassTime {
             pass: format!("map/{pass}"),
             node: "map".into(),

@@ -1,4 +1,4 @@
-//! What all drawing commands ask for, and what it comes to.
+//! The shared options of all drawing commands.
 
 use super::options::Options;
 use crate::failure::Failure;
@@ -15,42 +15,42 @@ use std::str::FromStr;
 /// The options that all drawing commands share.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct DrawArgs {
-    /// A glTF or GLB file; without it the built-in demo scene
+    /// A glTF or GLB file. Default: the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
     /// The pipeline: a built-in one by name (`nodes` lists them), or a .ron file
     #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
     pipeline: String,
-    /// A parameter of the pipeline; can be given several times
+    /// Set a parameter of the pipeline; can be repeated
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The shadow technique, one of those that `nodes` lists, such as pcf, or pcf+contact
+    /// The shadow technique (see `nodes`), such as pcf or pcf+contact
     #[arg(long, value_name = "NAME")]
     technique: Option<String>,
-    /// Samples a pixel while colours are drawn: 1 or 4
+    /// Samples per pixel of colour passes: 1 or 4
     #[arg(long, value_name = "N", default_value_t = 1)]
     samples: u32,
-    /// Shadow settings in RON
+    /// Shadow settings, a RON file
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
-    /// Size of the picture, pixels
+    /// Image size, pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", allow_hyphen_values = true)]
     size: String,
     /// A camera of the file by index or name, or "eye=X,Y,Z target=X,Y,Z fov_deg=F near=N far=F"
-    /// (fov_deg is vertical). Default: the file's first, else one that frames the scene
+    /// (fov_deg is vertical). Default: the first of the file, else one that frames the scene
     #[arg(long, value_name = "CAMERA")]
     camera: Option<String>,
-    /// "dir=X,Y,Z lux=L color=R,G,B" replaces the file's directional lights (dir = the way the light
-    /// travels); none removes them
+    /// "dir=X,Y,Z lux=L color=R,G,B" replaces the file's directional lights (dir: the direction
+    /// in which light travels); none removes them
     #[arg(long, value_name = "SUN")]
     sun: Option<String>,
-    /// How far shadows reach, metres. Default: what --settings says, else auto, as far as the scene is seen
+    /// Shadow distance, metres. Default: that of --settings, else auto, to the end of the visible scene
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     shadow_distance: Option<String>,
-    /// What the picture shows: color, visibility:N (light N), cascade, depth, normal, atlas, or a
-    /// texture of the graph by name
+    /// The output to show: color, visibility:N (of light N), cascade, depth, normal, atlas, or the name of a
+    /// texture of the graph
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
-    /// Which GPU; cpu insists on a software driver. Default: auto; for bench no GPU, only the CPU's share
+    /// The GPU; cpu forces a software adapter. Default: auto; bench: none, which measures the CPU only
     #[arg(long, value_name = "auto|NAME|cpu")]
     adapter: Option<String>,
     /// Print a table of CPU and GPU time per pass
@@ -59,21 +59,21 @@ pub(crate) struct DrawArgs {
 }
 
 impl DrawArgs {
-    /// Returns whether a GPU is asked for.
+    /// Returns whether an adapter is requested.
     pub(crate) fn names_adapter(&self) -> bool {
         self.adapter.is_some()
     }
 
-    /// Returns the file of settings, if there is one.
+    /// Returns the settings file, if given.
     #[cfg(feature = "view")]
     pub(crate) fn settings_file(&self) -> Option<&Path> {
         self.settings.as_deref()
     }
 
-    /// Checks that the scene has the lights that the settings name.
+    /// Checks that the lights that the settings name exist in the scene.
     ///
     /// # Errors
-    /// One line with the file, the place and the light.
+    /// One line with the file, the location and the light.
     pub(crate) fn check_lights(&self, settings: &ShadowSettings, scene: &Scene) -> Result<(), OptionError> {
         let wrong = settings.check_lights(&scene.lights).err();
         match (wrong, &self.settings) {
@@ -82,7 +82,7 @@ impl DrawArgs {
         }
     }
 
-    /// Returns whether times are asked for.
+    /// Returns whether times are requested.
     pub(crate) fn times(&self) -> bool {
         self.timings
     }
@@ -90,7 +90,7 @@ impl DrawArgs {
     /// Parses and checks every option.
     ///
     /// # Errors
-    /// One line with the option and what is wrong with its value.
+    /// One line with the option and the problem of its value.
     pub(crate) fn options(&self, registry: &Registry) -> Result<Options, Failure> {
         let techniques = &registry.techniques;
         let file = settings_file(self.settings.as_deref(), techniques)?;
@@ -117,12 +117,12 @@ impl DrawArgs {
     /// Reads and checks the pipeline.
     ///
     /// # Errors
-    /// One line with the place and what is wrong there.
+    /// One line with the location and the problem.
     pub(crate) fn pipeline(&self, registry: &Registry) -> Result<Pipeline, OptionError> {
         let parameters = self.set.iter().map(|text| parameter(text)).collect::<Result<_, _>>()?;
         let parameters = Parameters(parameters);
         let file = Path::new(&self.pipeline);
-        let is_file = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        let is_file = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         let pipeline = if is_file {
             Pipeline::load(file, &registry.nodes, &registry.techniques, &parameters)
         } else if BUILT_IN.contains(&self.pipeline.as_str()) {
@@ -135,15 +135,15 @@ impl DrawArgs {
         pipeline.map_err(|error| OptionError::new("pipeline", error.to_string()))
     }
 
-    /// Returns the pipeline's file, if it is one.
+    /// Returns the file of the pipeline, if it is not built in.
     #[cfg(feature = "view")]
     pub(crate) fn pipeline_file(&self) -> Option<&Path> {
         let file = Path::new(&self.pipeline);
-        file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron")).then_some(file)
+        file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron")).then_some(file)
     }
 }
 
-/// `name=value`, the value as a pipeline file has it; a text needs no quotes.
+/// Parses `name=value`, with the value as in a pipeline file; strings need no quotes.
 fn parameter(text: &str) -> Result<(String, serde_json::Value), OptionError> {
     let Some((name, value)) = text.split_once('=') else {
         return Err(OptionError::new("set", format!("invalid value `{text}`; expected NAME=VALUE")));
@@ -153,10 +153,10 @@ fn parameter(text: &str) -> Result<(String, serde_json::Value), OptionError> {
     Ok((name.to_owned(), value.unwrap_or_else(text)))
 }
 
-/// Reads `--settings`, if there are any.
+/// Reads the file of `--settings`, if given.
 ///
 /// # Errors
-/// One line with the file and what is wrong in it.
+/// One line with the file and the problem.
 pub(crate) fn settings_file(
     file: Option<&Path>,
     techniques: &Techniques,
@@ -164,10 +164,10 @@ pub(crate) fn settings_file(
     file.map_or_else(|| Ok(SettingsFile::default()), |file| SettingsFile::load(file, techniques))
 }
 
-/// Finds a technique that an option names.
+/// Returns the technique that an option names.
 ///
 /// # Errors
-/// One line with the option and the names there are.
+/// One line with the option and the known names.
 pub(crate) fn technique(
     option: &'static str,
     name: &str,
@@ -197,12 +197,12 @@ mod tests {
     }
 
     #[test]
-    fn no_option_at_all_means_the_defaults() {
+    fn without_options_the_defaults_apply() {
         assert_eq!(options("").unwrap(), Options::default());
     }
 
     #[test]
-    fn every_option_of_the_design_is_taken() {
+    fn every_option_of_the_design_is_accepted() {
         let line = "scene.glb;--pipeline;forward;--technique;pcf;--size;320x180;--camera;1;--sun;none;\
             --shadow-distance;80;--aov;visibility:1;--adapter;cpu;--timings;-o;a/b.png";
         let options = options(line).unwrap();
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_value_is_one_line_with_the_option() {
+    fn an_invalid_value_is_an_error_of_one_line_with_the_option() {
         for (line, start) in [
             ("--technique;soft", "--technique: unknown technique `soft`; expected one of: pcf, pcss, "),
             ("--pipeline;my.ron", "--pipeline: my.ron: cannot be read: "),
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn the_distance_of_the_settings_holds_unless_the_option_says_another() {
+    fn the_option_overrides_the_distance_of_the_settings() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("settings.ron");
         std::fs::write(&file, "(distance_m: 60.0)").unwrap();

@@ -15,9 +15,9 @@ The three most useful commands:
   shadowgraph render model.glb --aov visibility:0 -o out/shadow.png
   shadowgraph dump model.glb -o out/frame.html
 
-Without a SCENE the built-in demo scene is taken.";
+Without a SCENE, the built-in demo scene is used.";
 
-/// Draws scenes with shadows through a render graph, and shows the graph.
+/// Renders scenes with shadows through a render graph, and shows the graph.
 #[derive(Debug, Parser)]
 #[command(name = "shadowgraph", version, after_help = USEFUL)]
 pub(crate) struct Cli {
@@ -27,20 +27,20 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Draw a glTF or GLB file, or the built-in scene, to a PNG
+    /// Render a glTF or GLB file, or the built-in scene, to a PNG
     Render(RenderArgs),
-    /// Show the plan of a frame: passes, resources, and why each is as it is
+    /// Print the plan of a frame: its passes and resources, with reasons
     Dump(DumpArgs),
-    /// Say why a pass or a resource of a frame is as it is
+    /// Explain a pass or a resource of a frame: its order, merging, load ops, memory
     Explain(ExplainArgs),
-    /// List pipelines, kinds of nodes and techniques, or tell all about one of them
+    /// List pipelines, node kinds and techniques, or describe one of them
     Nodes(NodesArgs),
-    /// Look around a scene in a window, with every setting, the graph and its times beside it
+    /// Show a scene in a window, with its settings, the graph and its times
     #[cfg(feature = "view")]
     View(ViewArgs),
-    /// Measure a frame: the graph beside the same passes encoded by hand, and the time of each pass
+    /// Measure the cost of a frame: the graph compared with hand-written passes, and the time of each pass
     Bench(BenchArgs),
-    /// Measure shadows against ray-traced truth: a table, and with -o a page with pictures
+    /// Compare shadows with ray-traced ground truth: a table, and with -o a page with images
     Measure(MeasureArgs),
 }
 
@@ -49,11 +49,11 @@ pub(crate) enum Command {
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// How many frames are drawn; the last is the picture. One shows nothing of a node that mixes frames, such as taa
+    /// Number of frames; the last one is written. Nodes that accumulate frames, such as taa, need several
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) frames: u32,
-    /// The PNG; a missing folder is created
+    /// The PNG file; missing directories are created
     #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
     pub(crate) output: PathBuf,
 }
@@ -63,36 +63,37 @@ pub(crate) struct RenderArgs {
 pub(crate) struct DumpArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// The form of the dump. Default: that of the ending of --output (html, json, dot or mmd), text for txt and without one
+    /// Format of the dump. Default: by the extension of --output (html, json, dot or mmd), otherwise text
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Show what differs between two dumps in JSON, as text, json or html, instead of a frame
+    /// Compare two JSON dumps instead of rendering; the format is text, json or html
     #[arg(long, num_args = 2, value_names = ["A.json", "B.json"], conflicts_with = "DrawArgs")]
     pub(crate) diff: Option<Vec<PathBuf>>,
-    /// The file; a missing folder is created. Without it the dump goes to standard output
+    /// The output file; missing directories are created. Default: standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
 
 impl DumpArgs {
-    /// Returns the form that is asked for, by name or by the ending of the file.
+    /// Returns the format, given by name or by the extension of the file.
     ///
     /// # Errors
-    /// For an ending that names no form where none is asked for by name.
+    /// An unknown extension without a format by name.
     pub(crate) fn format(&self) -> Result<Format, OptionError> {
         if let Some(format) = self.format {
             return Ok(format);
         }
-        let ending = self.output.as_ref().and_then(|file| file.extension());
-        Ok(match ending.map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
+        let extension = self.output.as_ref().and_then(|file| file.extension());
+        Ok(match extension.map(|extension| extension.to_string_lossy().to_lowercase()).as_deref() {
             Some("html" | "htm") => Format::Html,
             Some("json") => Format::Json,
             Some("dot" | "gv") => Format::Dot,
             Some("mmd") => Format::Mermaid,
             Some("txt") | None => Format::Text,
             Some(other) => {
-                let reason =
-                    format!("`.{other}` is no form of a dump: txt, html, json, dot or mmd, or say --format");
+                let reason = format!(
+                    "unknown extension `.{other}`; expected one of: txt, html, json, dot, mmd; or give --format"
+                );
                 return Err(OptionError::new("output", reason));
             }
         })
@@ -105,8 +106,8 @@ impl DumpArgs {
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// A folder of WGSL files that take the place of the built-in ones of the same name, and are read again when they
-    /// are saved, such as shaders/wgsl of the checkout
+    /// A directory of WGSL files that replace the built-in ones of the same names and are reloaded when saved, such as
+    /// shaders/wgsl of a checkout
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
 }
@@ -114,9 +115,9 @@ pub(crate) struct ViewArgs {
 /// `shadowgraph nodes`
 #[derive(Debug, Args)]
 pub(crate) struct NodesArgs {
-    /// Describe one pipeline, kind of node or technique, or `settings`: its file, or its ports and settings with ranges
+    /// Describe a pipeline (its file), a node kind or a technique (its ports and settings), or `settings`
     pub(crate) name: Option<String>,
-    /// Print the JSON Schema of pipeline files for editors, with `settings` that of settings files
+    /// Print the JSON Schema of pipeline files, or with `settings` that of settings files
     #[arg(long)]
     pub(crate) schema: bool,
 }
@@ -124,9 +125,9 @@ pub(crate) struct NodesArgs {
 /// `shadowgraph explain`
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
-    /// A pass, by its name or with its nodes before it such as shadows/cascades/clear, or a resource likewise
+    /// A pass or a resource, by name or path, such as shadows/cascades/clear
     pub(crate) name: String,
-    /// Say why the pass NAME runs before this one
+    /// Explain why the pass NAME runs before this one
     #[arg(long, value_name = "PASS")]
     pub(crate) before: Option<String>,
     #[command(flatten)]
@@ -138,7 +139,7 @@ pub(crate) struct ExplainArgs {
 pub(crate) struct BenchArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// How many frames are measured on either side
+    /// Number of measured frames, of the graph and of hand-written passes each
     #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) frames: u32,
@@ -147,56 +148,56 @@ pub(crate) struct BenchArgs {
 /// `shadowgraph measure`
 #[derive(Debug, Args)]
 pub(crate) struct MeasureArgs {
-    /// A glTF or GLB file; without it the built-in cases
+    /// A glTF or GLB file. Default: the built-in cases
     #[arg(conflicts_with = "cases")]
     pub(crate) scene: Option<PathBuf>,
-    /// The shadow techniques, with commas between, or all: those that `nodes` lists
+    /// Shadow techniques (see `nodes`), separated by commas, or all
     #[arg(long, value_name = "A,B,...", value_delimiter = ',', default_value = "pcf")]
     pub(crate) techniques: Vec<String>,
-    /// Scenes, suns and views in RON
+    /// Scenes, suns and views, a RON file
     #[arg(long, value_name = "FILE")]
     pub(crate) cases: Option<PathBuf>,
-    /// How many views are chosen for the SCENE
+    /// Number of views that are chosen automatically for the SCENE
     #[arg(long, value_name = "N", default_value_t = 4, requires = "scene", allow_negative_numbers = true)]
     #[arg(conflicts_with = "cases")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) views: u32,
-    /// A view of the SCENE, as for render; can be given several times. Default: --views
+    /// A view of the SCENE, as for render; can be repeated. Default: --views
     #[arg(long, value_name = "CAMERA", requires = "scene", conflicts_with = "cases")]
     pub(crate) camera: Vec<String>,
-    /// The SCENE's sun, as for render
+    /// The sun of the SCENE, as for render
     #[arg(long, value_name = "SUN", requires = "scene", conflicts_with = "cases")]
     pub(crate) sun: Option<String>,
-    /// Shadow settings in RON
+    /// Shadow settings, a RON file
     #[arg(long, value_name = "FILE")]
     pub(crate) settings: Option<PathBuf>,
-    /// Further shadow settings in RON, each with a name, to compare with those of --settings
+    /// Named shadow settings to compare with those of --settings, a RON file
     #[arg(long, value_name = "FILE")]
     pub(crate) variants: Option<PathBuf>,
-    /// How far shadows reach, metres. Default: what the settings say, else 150
+    /// Shadow distance, metres. Default: that of the settings, else 150
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     pub(crate) shadow_distance: Option<String>,
-    /// Size of the pictures, pixels. Default: 1280x720, with --quick 640x360
+    /// Image size, pixels. Default: 1280x720, with --quick 640x360
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<String>,
-    /// Which GPU; cpu insists on a software driver. Default: auto
+    /// The GPU; cpu forces a software adapter. Default: auto
     #[arg(long, value_name = "auto|NAME|cpu")]
     pub(crate) adapter: Option<String>,
-    /// One light of each scene, and one view unless --camera names them
+    /// Measure one light of each scene, and one view unless --camera is given
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Flicker over 64 frames in every case, twice as many rays: half an hour without a GPU
+    /// Measure flicker over 64 frames in every case, with twice as many rays: half an hour without a GPU
     #[arg(long, conflicts_with = "quick")]
     pub(crate) full: bool,
-    /// The folder for report.html, report.json and the pictures; a missing one is created
+    /// The directory of report.html, report.json and the images; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Bounds in RON: what is beyond them is named, and the exit code is 1
+    /// Check the results against bounds, a RON file; violations are listed, and the exit code is 1
     #[arg(long, value_name = "FILE")]
     pub(crate) check: Option<PathBuf>,
 }
 
-/// The form of a dump.
+/// The format of a dump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// Aligned tables
@@ -205,11 +206,11 @@ pub(crate) enum Format {
     Json,
     /// Graphviz
     Dot,
-    /// Mermaid, for pages of documents
+    /// Mermaid, for Markdown documents
     Mermaid,
-    /// One page that opens in any browser
+    /// A self-contained web page
     Html,
-    /// Times of passes for chrome://tracing or ui.perfetto.dev
+    /// Trace of pass times for chrome://tracing or ui.perfetto.dev
     Trace,
 }
 
@@ -242,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn bench_takes_the_options_of_drawing_and_a_number_of_frames() {
+    fn bench_accepts_the_drawing_options_and_a_number_of_frames() {
         let args = bench("hall.glb --frames 20 --adapter cpu --size 64x36").unwrap();
         assert_eq!((args.frames, args.draw.names_adapter()), (20, true));
         let Ok(options) = args.draw.options(&Registry::built_in()) else { panic!("{args:?}") };
@@ -251,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn bench_refuses_no_frames_and_too_many() {
+    fn bench_rejects_zero_and_too_many_frames() {
         for line in ["--frames 0", "--frames 1000001", "--frames -1", "--frames many"] {
             assert!(bench(line).unwrap_err().contains("--frames"), "{line}");
         }
@@ -266,20 +267,20 @@ mod tests {
     }
 
     #[test]
-    fn the_form_of_a_dump_is_that_of_the_files_ending_unless_the_option_says_another() {
-        for (line, form) in [
+    fn the_format_of_a_dump_follows_the_extension_unless_given() {
+        for (line, expected) in [
             ("", Format::Text),
             ("-o frame", Format::Text),
             ("-o frame.TXT", Format::Text),
             ("-o a.b/frame.html", Format::Html),
             ("-o frame.log --format json", Format::Json),
         ] {
-            assert_eq!(format(line), Ok(form), "{line}");
+            assert_eq!(format(line), Ok(expected), "{line}");
         }
         let error = format("-o frame.htlm").unwrap_err();
         assert_eq!(
             error,
-            "--output: `.htlm` is no form of a dump: txt, html, json, dot or mmd, or say --format"
+            "--output: unknown extension `.htlm`; expected one of: txt, html, json, dot, mmd; or give --format"
         );
     }
 
