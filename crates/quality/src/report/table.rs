@@ -228,7 +228,7 @@ mod tests {
         report.cases[1].view = report.cases[0].view.clone();
         report.cases[1].errors.misclassified.total.misclassified_percent = -1.0;
         let text = table(&report);
-        assert!(text.contains("\nwrong_total_percent lower than a\n  b"), "{text}");
+        assert!(text.contains("\nmisclassified_total_percent lower than a\n  b"), "{text}");
         assert!(text.contains("  in 1 of 1 cases, equal in 0\n"), "{text}");
         assert!(!table(&fixture::report(&[("a", 1.0)])).contains("lower than"));
     }

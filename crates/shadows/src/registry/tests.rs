@@ -188,7 +188,7 @@ fn structs_with_another_layout_in_rust_are_an_error() {
         let records = vec![gpu_struct!(Mine { far, strength })];
         Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![UNIFORM], records }))
     });
-    assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, not 0"), "{error}");
+    assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, expected 0"), "{error}");
 }
 
 declare_settings! {
