@@ -18,7 +18,7 @@ pub enum Error {
     },
     /// [`ShadowSettings::lights`](crate::ShadowSettings::lights) refers to a light that does not exist.
     #[error(
-        "unknown light {light} in shadow setting `lights.light`; the scene has {count} lights, numbered from 0"
+        "unknown light {light} in shadow setting `lights.light`; lights in the scene: {count}, numbered from 0"
     )]
     UnknownLight {
         /// Index of the entry of `lights`.

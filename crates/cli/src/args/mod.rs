@@ -280,7 +280,7 @@ mod tests {
         let error = format("-o frame.htlm").unwrap_err();
         assert_eq!(
             error,
-            "--output: unknown extension `.htlm`; expected one of: txt, html, json, dot, mmd; or give --format"
+            "output: unknown extension `.htlm`; expected one of: txt, html, json, dot, mmd; or give --format"
         );
     }
 
