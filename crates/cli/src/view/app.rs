@@ -1,4 +1,4 @@
-//! The event loop's side of the window.
+//! The event handler of the window.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -8,7 +8,7 @@ use winit::event::WindowEvent;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::WindowId;
 
-use super::panel::Wish;
+use super::panel::Action;
 use super::screen::Screen;
 use super::stage::Stage;
 use crate::failure::Failure;
@@ -16,16 +16,16 @@ use shadowgraph::options::AdapterChoice;
 use shadowgraph::output::write_text;
 use shadowgraph::wgpu;
 
-/// Where dumps and settings are saved.
+/// Directory for saved dumps and settings.
 const FOLDER: &str = "out";
 
 pub(super) struct App {
     instance: wgpu::Instance,
     adapter: AdapterChoice,
-    /// How large the window is at first.
+    /// Initial size of the window.
     size_px: [u32; 2],
     stage: Stage,
-    /// There is no window before the event loop runs.
+    /// `None` until the event loop runs.
     screen: Option<Screen>,
     drawn: Instant,
     failure: Option<Failure>,
@@ -41,7 +41,7 @@ impl App {
         Self { instance, adapter, size_px, stage, screen: None, drawn: Instant::now(), failure: None }
     }
 
-    /// How the program ends once the window is gone.
+    /// Returns the result of the program after the window is closed.
     pub(super) fn end(self) -> Result<(), Failure> {
         self.failure.map_or(Ok(()), Err)
     }
@@ -68,24 +68,24 @@ impl App {
         self.stage.reload();
         let context = screen.input.egui_ctx();
         if !context.egui_wants_keyboard_input() {
-            let steer = context.input(super::panel::steer);
-            self.stage.fly.go(steer, seconds);
+            let input = context.input(super::panel::fly_input);
+            self.stage.fly.update(input, seconds);
         }
-        let wish = screen.draw(&mut self.stage)?;
-        screen.name(&self.stage);
+        let action = screen.draw(&mut self.stage)?;
+        screen.update_title(&self.stage);
         screen.window.request_redraw();
-        match wish {
-            Some(Wish::SaveDump { size_px }) => {
+        match action {
+            Some(Action::SaveDump { size_px }) => {
                 let page = self.stage.page(&screen.gpu, size_px)?;
                 self.save("frame.html", &page);
             }
-            Some(Wish::SaveSettings) => {
+            Some(Action::SaveSettings) => {
                 match ron::ser::to_string_pretty(&self.stage.settings, Default::default()) {
                     Ok(text) => self.save("settings.ron", &text),
-                    Err(error) => self.stage.refused = Some(error.to_string()),
+                    Err(error) => self.stage.file_error = Some(error.to_string()),
                 }
             }
-            Some(Wish::Open(file)) => self.stage.open(file.as_deref()),
+            Some(Action::Open(file)) => self.stage.open(file.as_deref()),
             None => {}
         }
         Ok(())
@@ -95,7 +95,7 @@ impl App {
         let file: PathBuf = Path::new(FOLDER).join(name);
         match write_text(&file, text) {
             Ok(()) => self.stage.note = format!("wrote {}", file.display()),
-            Err(error) => self.stage.refused = Some(error.to_string()),
+            Err(error) => self.stage.file_error = Some(error.to_string()),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `shadowgraph view`: the scene in a window, with a panel beside it.
+//! `shadowgraph view`: a scene in a window, with a panel next to it.
 
 mod app;
 mod fly;
@@ -39,9 +39,9 @@ pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> 
 
 fn check_folder(folder: &Path) -> Result<(), Failure> {
     let reason = match folder {
-        folder if !folder.is_dir() => "is not a folder",
+        folder if !folder.is_dir() => "is not a directory",
         folder if !shadowgraph::shaders::builtin_files().any(|file| folder.join(file).is_file()) => {
-            "holds no file of the name of a built-in shader, such as forward.wgsl"
+            "contains no file with the name of a built-in shader, such as forward.wgsl"
         }
         _ => return Ok(()),
     };
@@ -49,10 +49,10 @@ fn check_folder(folder: &Path) -> Result<(), Failure> {
 }
 
 fn no_display(error: &dyn std::fmt::Display) -> Failure {
-    let words = error.to_string().replace('\n', " ");
-    // Without the place in the window library's code.
-    let behind = words.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
-    let reason = behind.map_or(&*words, |(_, reason)| reason);
+    let text = error.to_string().replace('\n', " ");
+    // Without the location in the source of the window library.
+    let reason = text.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    let reason = reason.map_or(&*text, |(_, reason)| reason);
     Failure {
         code: Failure::NO_ADAPTER,
         message: format!("there is no display to open a window on: {reason}"),

@@ -1,4 +1,4 @@
-//! What is around the picture: choices, settings, the graph and its times.
+//! The panel next to the image: choices, settings, the graph and its times.
 
 mod edit;
 mod graph;
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use egui::load::SizedTexture;
 use egui::{ComboBox, Image, InputState, Key, ScrollArea, Sense, TextEdit, TextureId, Ui};
 
-use super::fly::Steer;
+use super::fly::FlyInput;
 use super::stage::Stage;
 use graph::GraphPanel;
 use settings::SettingsPanel;
@@ -19,24 +19,24 @@ use shadowgraph::options::Aov;
 use shadowgraph::pipelines::BUILT_IN;
 use shadowgraph::shadows::Technique;
 
-/// What is to be done after the frame.
+/// An action to perform after the frame.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Wish {
-    /// Show another scene; `None`: the built-in one.
+pub(super) enum Action {
+    /// Open a scene; `None`: the built-in one.
     Open(Option<PathBuf>),
-    /// Write a page about the frame, drawn in this size.
+    /// Write the page of a frame of this size.
     SaveDump { size_px: [u32; 2] },
     /// Write the settings to a file.
     SaveSettings,
 }
 
-/// How much room there is for the picture, and what the user wants.
+/// Size of the image, and the requested action.
 pub(super) struct Shown {
     pub(super) size_points: [f32; 2],
-    pub(super) wish: Option<Wish>,
+    pub(super) action: Option<Action>,
 }
 
-/// Which page of the panel is open. F1 to F3 open them too.
+/// Page of the panel. F1 to F3 open them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Page {
     #[default]
@@ -48,7 +48,7 @@ enum Page {
 #[derive(Default)]
 pub(super) struct Panel {
     page: Page,
-    /// The scene's file, as it is typed.
+    /// The file of the scene, as typed.
     file: String,
     settings: SettingsPanel,
     graph: GraphPanel,
@@ -61,16 +61,16 @@ const PAGES: [(Page, Key, &str); 3] = [
 ];
 
 impl Panel {
-    /// Lays the window out; `picture` is what was drawn last.
+    /// Lays out the window; `image_id` is the last image.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         stage: &mut Stage,
-        picture: Option<TextureId>,
+        image_id: Option<TextureId>,
         adapter: &str,
     ) -> Shown {
         self.keys(ui, stage);
-        let mut wish = None;
+        let mut action = None;
         let panel = egui::Panel::right("panel").default_size(400.0).size_range(200.0..=560.0);
         panel.show(ui, |ui| {
             ui.horizontal(|ui| {
@@ -79,28 +79,28 @@ impl Panel {
                 }
             });
             ui.separator();
-            if let Some(refused) = &stage.refused {
-                ui.colored_label(ui.visuals().error_fg_color, refused);
+            if let Some(error) = &stage.file_error {
+                ui.colored_label(ui.visuals().error_fg_color, error);
                 ui.separator();
             }
             if let Some(error) = &stage.error {
                 ui.colored_label(ui.visuals().error_fg_color, error);
-                ui.weak("The picture is the last good one.");
+                ui.weak("The image is that of the last valid frame.");
                 ui.separator();
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match self.page {
                 Page::Scene => {
                     ui.weak(adapter);
-                    wish = self.open(ui).or(scene(ui, stage));
+                    action = self.open(ui).or(scene(ui, stage));
                 }
-                Page::Settings => wish = self.settings.show(ui, stage),
+                Page::Settings => action = self.settings.show(ui, stage),
                 Page::Graph => self.graph.show(ui, stage),
             });
         });
         let frame = egui::Frame::NONE;
         let size_points = egui::CentralPanel::default().frame(frame).show(ui, |ui| {
             let size = ui.available_size();
-            if let Some(id) = picture {
+            if let Some(id) = image_id {
                 let image = Image::new(SizedTexture::new(id, size)).sense(Sense::click_and_drag());
                 let response = ui.add(image);
                 if response.dragged() {
@@ -108,7 +108,7 @@ impl Panel {
                     stage.fly.turn(moved.x.into(), moved.y.into());
                 }
                 if response.clicked() {
-                    // Keys fly again.
+                    // Keys control the camera again.
                     ui.ctx().memory_mut(|memory| memory.stop_text_input());
                 }
             }
@@ -116,31 +116,31 @@ impl Panel {
         });
         let size_points = size_points.inner;
         let scale = ui.ctx().pixels_per_point();
-        let wish = wish.map(|wish| match wish {
-            Wish::SaveDump { .. } => {
-                Wish::SaveDump { size_px: size_points.map(|p| (p * scale).max(1.0) as u32) }
+        let action = action.map(|action| match action {
+            Action::SaveDump { .. } => {
+                Action::SaveDump { size_px: size_points.map(|p| (p * scale).max(1.0) as u32) }
             }
-            Wish::SaveSettings | Wish::Open(_) => wish,
+            Action::SaveSettings | Action::Open(_) => action,
         });
-        Shown { size_points, wish }
+        Shown { size_points, action }
     }
 
     /// Another scene, by the name of its file.
-    fn open(&mut self, ui: &mut Ui) -> Option<Wish> {
-        let mut wish = None;
+    fn open(&mut self, ui: &mut Ui) -> Option<Action> {
+        let mut action = None;
         ui.horizontal(|ui| {
             let hint =
                 TextEdit::singleline(&mut self.file).hint_text("a glTF or GLB file").desired_width(200.0);
             let typed = ui.add(hint);
             let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if (ui.button("Open").clicked() || entered) && !self.file.is_empty() {
-                wish = Some(Wish::Open(Some(PathBuf::from(self.file.trim()))));
+                action = Some(Action::Open(Some(PathBuf::from(self.file.trim()))));
             }
             if ui.button("Built-in").clicked() {
-                wish = Some(Wish::Open(None));
+                action = Some(Action::Open(None));
             }
         });
-        wish
+        action
     }
 
     /// Keys that work while nothing is typed: pages, the next technique, freezing.
@@ -171,13 +171,13 @@ fn next_technique(stage: &mut Stage) {
     stage.technique = Technique::from(kinds[(at + 1) % kinds.len()]);
 }
 
-/// Which ways the keys steer.
-pub(in crate::view) fn steer(input: &InputState) -> Steer {
+/// Returns the movement that the pressed keys request.
+pub(in crate::view) fn fly_input(input: &InputState) -> FlyInput {
     let way = |there: [Key; 2], back: [Key; 2]| {
         let down = |keys: [Key; 2]| keys.into_iter().any(|key| input.key_down(key));
         f64::from(u8::from(down(there))) - f64::from(u8::from(down(back)))
     };
-    Steer {
+    FlyInput {
         right: way([Key::D, Key::ArrowRight], [Key::A, Key::ArrowLeft]),
         up: way([Key::E, Key::PageUp], [Key::Q, Key::PageDown]),
         ahead: way([Key::W, Key::ArrowUp], [Key::S, Key::ArrowDown]),
@@ -185,7 +185,7 @@ pub(in crate::view) fn steer(input: &InputState) -> Steer {
     }
 }
 
-fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
+fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
     ui.horizontal(|ui| {
         ui.label("Technique");
         technique(ui, stage);
@@ -203,11 +203,11 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
         });
     });
     ui.horizontal(|ui| {
-        ui.label("Shows");
-        shows(ui, stage);
+        ui.label("Output");
+        output_choice(ui, stage);
     });
     let mut frozen = stage.frozen;
-    if ui.checkbox(&mut frozen, "Shadows stay where the camera was (F)").changed() {
+    if ui.checkbox(&mut frozen, "Freeze the shadow camera (F)").changed() {
         stage.freeze(frozen);
     }
     ui.horizontal(|ui| {
@@ -216,12 +216,12 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
         ui.add(drag);
     });
     ui.separator();
-    let mut wish = None;
-    if ui.button("Save a page about this frame").clicked() {
-        wish = Some(Wish::SaveDump { size_px: [1, 1] });
+    let mut action = None;
+    if ui.button("Save the page of this frame").clicked() {
+        action = Some(Action::SaveDump { size_px: [1, 1] });
     }
     if ui.button("Save the settings").clicked() {
-        wish = Some(Wish::SaveSettings);
+        action = Some(Action::SaveSettings);
     }
     ui.label(&stage.note);
     ui.separator();
@@ -233,8 +233,8 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
         ui.monospace(format!("GPU {gpu_ms:.2} ms, the median of {} frames", stage.times.frames()));
     }
     ui.separator();
-    ui.weak("W A S D or arrows fly, E and Q up and down, Shift faster; drag to look around; T is the next technique.");
-    wish
+    ui.weak("W A S D or arrow keys move, E and Q up and down, Shift faster; drag to look around; T selects the next technique.");
+    action
 }
 
 fn technique(ui: &mut Ui, stage: &mut Stage) {
@@ -250,7 +250,7 @@ fn technique(ui: &mut Ui, stage: &mut Stage) {
 }
 
 /// Outputs, and every texture of the frame.
-fn shows(ui: &mut Ui, stage: &mut Stage) {
+fn output_choice(ui: &mut Ui, stage: &mut Stage) {
     let mut choices = vec![Aov::Color, Aov::Cascade, Aov::Depth, Aov::Normal, Aov::Atlas];
     choices.extend((0..stage.scene.lights.len().min(16)).map(|light| Aov::Visibility(light as u32)));
     if let Some(plan) = &stage.plan {

@@ -1,25 +1,25 @@
-//! Files that are looked at again when they are saved.
+//! Watches files for changes.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// How often files are looked at.
+/// Interval of checks.
 const EVERY: Duration = Duration::from_millis(300);
 
-/// Some files, and when they were last written.
+/// Files with their modification times.
 pub(super) struct Watched {
     files: Vec<(PathBuf, Option<SystemTime>)>,
     looked: Instant,
 }
 
 impl Watched {
-    /// Watches files, from how they are now.
+    /// Starts to watch files.
     pub(super) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
-        let files = files.into_iter().map(|file| (written(&file), file)).map(|(time, file)| (file, time));
+        let files = files.into_iter().map(|file| (modified(&file), file)).map(|(time, file)| (file, time));
         Self { files: files.collect(), looked: Instant::now() }
     }
 
-    /// Tells whether any of them was written since the last time.
+    /// Returns whether any file was written since the last call.
     pub(super) fn changed(&mut self) -> bool {
         if self.looked.elapsed() < EVERY {
             return false;
@@ -27,8 +27,8 @@ impl Watched {
         self.looked = Instant::now();
         let mut changed = false;
         for (file, before) in &mut self.files {
-            let now = written(file);
-            // A file that an editor is just replacing is not there for a moment.
+            let now = modified(file);
+            // A file that an editor replaces is missing for a moment.
             if now.is_some() && now != *before {
                 (*before, changed) = (now, true);
             }
@@ -37,7 +37,7 @@ impl Watched {
     }
 }
 
-fn written(file: &Path) -> Option<SystemTime> {
+fn modified(file: &Path) -> Option<SystemTime> {
     std::fs::metadata(file).and_then(|data| data.modified()).ok()
 }
 
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_is_written_is_told_once() {
+    fn a_written_file_is_reported_once() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.ron");
         std::fs::write(&file, "1").unwrap();
@@ -62,6 +62,6 @@ mod tests {
         assert!(look(&mut watched));
         assert!(!look(&mut watched));
         std::fs::remove_file(&file).unwrap();
-        assert!(!look(&mut watched), "a file that is gone is no change");
+        assert!(!look(&mut watched), "a removed file is not a change");
     }
 }

@@ -1,4 +1,4 @@
-//! The window: a surface, the panel's library, and the texture that the scene is drawn into.
+//! The window: a surface, egui, and the texture that the scene is drawn into.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
 use winit::window::{Window, WindowAttributes};
 
-use super::panel::{Panel, Shown, Wish};
+use super::panel::{Action, Panel, Shown};
 use super::stage::Stage;
 use shadowgraph::core::Format;
 use shadowgraph::options::AdapterChoice;
@@ -23,13 +23,13 @@ pub(super) struct Screen {
     pub(super) input: egui_winit::State,
     painter: egui_wgpu::Renderer,
     panel: Panel,
-    picture: Option<Picture>,
-    /// The window's title, which not every window system tells.
+    scene_texture: Option<SceneTexture>,
+    /// Title of the window, because not every window system returns it.
     title: String,
 }
 
-/// The texture that the scene is drawn into, as the panel's library knows it.
-struct Picture {
+/// The texture that the scene is drawn into, with its id in egui.
+struct SceneTexture {
     texture: wgpu::Texture,
     id: TextureId,
 }
@@ -41,7 +41,7 @@ impl Screen {
         adapter: &AdapterChoice,
         [width, height]: [u32; 2],
     ) -> Result<Self, Error> {
-        let refused = |error: &dyn std::fmt::Display| Error::Gpu(format!("no window can be opened: {error}"));
+        let refused = |error: &dyn std::fmt::Display| Error::Gpu(format!("cannot open a window: {error}"));
         let attributes = WindowAttributes::default().with_title("Shadowgraph");
         let attributes = attributes.with_inner_size(LogicalSize::new(width, height));
         let window = event_loop.create_window(attributes).map_err(|error| refused(&error))?;
@@ -50,9 +50,9 @@ impl Screen {
         let (gpu, adapter) = Gpu::for_surface(instance, &surface, adapter)?;
         let PhysicalSize { width, height } = window.inner_size();
         let config = surface.get_default_config(&adapter, width.max(1), height.max(1));
-        let mut config = config.ok_or_else(|| refused(&"the adapter cannot draw into it"))?;
+        let mut config = config.ok_or_else(|| refused(&"the adapter does not support its surface"))?;
         let formats = surface.get_capabilities(&adapter).formats;
-        // The panel's library draws colours as they are encoded.
+        // egui writes encoded colours.
         config.format = formats.iter().copied().find(|format| !format.is_srgb()).unwrap_or(config.format);
         config.present_mode = wgpu::PresentMode::Fifo;
         surface.configure(&gpu.device, &config);
@@ -61,8 +61,8 @@ impl Screen {
         let input =
             egui_winit::State::new(context, ViewportId::ROOT, &window, None, window.theme(), Some(limit));
         let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, RendererOptions::default());
-        let (panel, picture, title) = (Panel::default(), None, String::new());
-        Ok(Self { window, surface, config, gpu, input, painter, panel, picture, title })
+        let (panel, scene_texture, title) = (Panel::default(), None, String::new());
+        Ok(Self { window, surface, config, gpu, input, painter, panel, scene_texture, title })
     }
 
     pub(super) fn resize(&mut self, size: PhysicalSize<u32>) -> Result<(), Error> {
@@ -72,8 +72,8 @@ impl Screen {
         self.configure()
     }
 
-    /// Says in the title what is shown.
-    pub(super) fn name(&mut self, stage: &Stage) {
+    /// Updates the title of the window.
+    pub(super) fn update_title(&mut self, stage: &Stage) {
         let title = format!("Shadowgraph: {}, {}", stage.technique.name(), stage.pipeline.name());
         if self.title != title {
             self.window.set_title(&title);
@@ -81,19 +81,19 @@ impl Screen {
         }
     }
 
-    /// Draws the scene and the panel, and returns what the user wants beside them.
-    #[allow(clippy::iter_over_hash_type, reason = "textures are made and freed in any order")]
-    pub(super) fn draw(&mut self, stage: &mut Stage) -> Result<Option<Wish>, Error> {
+    /// Draws the scene and the panel, and returns the requested action.
+    #[allow(clippy::iter_over_hash_type, reason = "textures are created and freed in any order")]
+    pub(super) fn draw(&mut self, stage: &mut Stage) -> Result<Option<Action>, Error> {
         let raw = self.input.take_egui_input(&self.window);
         let context = self.input.egui_ctx().clone();
-        let (id, gpu) = (self.picture.as_ref().map(|picture| picture.id), &self.gpu);
+        let (id, gpu) = (self.scene_texture.as_ref().map(|scene_texture| scene_texture.id), &self.gpu);
         let (panel, mut shown) = (&mut self.panel, None);
         let output = context.run_ui(raw, |ui| shown = Some(panel.show(ui, stage, id, &gpu.adapter.name)));
         self.input.handle_platform_output(&self.window, output.platform_output);
         let scale = output.pixels_per_point;
         let shapes = context.tessellate(output.shapes, scale);
-        // The panel's library runs what it is given at least once.
-        let shown = shown.unwrap_or(Shown { size_points: [1.0; 2], wish: None });
+        // egui calls the closure at least once.
+        let shown = shown.unwrap_or(Shown { size_points: [1.0; 2], action: None });
         let size_px = shown.size_points.map(|points| ((points * scale) as u32).clamp(1, self.limit()));
         self.draw_scene(stage, size_px);
         let mut textures = output.textures_delta;
@@ -106,24 +106,24 @@ impl Screen {
         for id in &textures.free {
             self.painter.free_texture(id);
         }
-        // All is done: what is dropped undone is a panic of the panel's library.
+        // egui panics if unprocessed deltas are dropped.
         textures.clear();
         painted?;
-        Ok(shown.wish)
+        Ok(shown.action)
     }
 
     fn limit(&self) -> u32 {
         self.gpu.device.limits().max_texture_dimension_2d
     }
 
-    /// Draws the scene into a texture of that size, a new one where it is another.
+    /// Draws the scene into a texture of the given size, which is created again if the size has changed.
     fn draw_scene(&mut self, stage: &mut Stage, size_px: [u32; 2]) {
         let format = stage.format();
-        let fits = |picture: &Picture| {
-            [picture.texture.width(), picture.texture.height()] == size_px
-                && picture.texture.format() == format
+        let fits = |scene_texture: &SceneTexture| {
+            [scene_texture.texture.width(), scene_texture.texture.height()] == size_px
+                && scene_texture.texture.format() == format
         };
-        if !self.picture.as_ref().is_some_and(fits) {
+        if !self.scene_texture.as_ref().is_some_and(fits) {
             let texture = target(&self.gpu.device, size_px, format);
             let view = texture.create_view(&wgpu::TextureViewDescriptor {
                 format: Some(Format::Rgba8Unorm),
@@ -131,7 +131,7 @@ impl Screen {
                 ..Default::default()
             });
             let filter = wgpu::FilterMode::Linear;
-            let id = match &self.picture {
+            let id = match &self.scene_texture {
                 Some(old) => {
                     let (device, id) = (&self.gpu.device, old.id);
                     self.painter.update_egui_texture_from_wgpu_texture(device, &view, filter, id);
@@ -139,33 +139,34 @@ impl Screen {
                 }
                 None => self.painter.register_native_texture(&self.gpu.device, &view, filter),
             };
-            self.picture = Some(Picture { texture, id });
+            self.scene_texture = Some(SceneTexture { texture, id });
         }
-        if let Some(picture) = &self.picture {
-            stage.draw(&self.gpu, &picture.texture);
+        if let Some(scene_texture) = &self.scene_texture {
+            stage.draw(&self.gpu, &scene_texture.texture);
         }
     }
 
-    /// Fits the surface to the window. A window that was taken away can have none.
+    /// Configures the surface for the window, which fails if the window is lost.
     fn configure(&self) -> Result<(), Error> {
         let Self { gpu, surface, config, .. } = self;
         let configured = gpu.checked(|| -> Result<(), Error> {
             surface.configure(&gpu.device, config);
             Ok(())
         });
-        configured.map_err(gone)
+        configured.map_err(window_lost)
     }
 
     fn paint(&mut self, shapes: &[egui::ClippedPrimitive], scale: f32) -> Result<(), Error> {
         use wgpu::CurrentSurfaceTexture::{Lost, Outdated, Suboptimal, Success, Validation};
         let Self { gpu, surface, .. } = self;
-        let target = match gpu.checked(|| Ok::<_, Error>(surface.get_current_texture())).map_err(gone)? {
-            Success(texture) | Suboptimal(texture) => texture,
-            Outdated | Lost => return self.configure(),
-            Validation => return Err(gone("its surface is not valid any more")),
-            // Hidden or late: the next frame may do better.
-            _ => return Ok(()),
-        };
+        let target =
+            match gpu.checked(|| Ok::<_, Error>(surface.get_current_texture())).map_err(window_lost)? {
+                Success(texture) | Suboptimal(texture) => texture,
+                Outdated | Lost => return self.configure(),
+                Validation => return Err(window_lost("its surface is no longer valid")),
+                // Hidden or late: the next frame may do better.
+                _ => return Ok(()),
+            };
         let Self { gpu, painter, config, .. } = self;
         let (device, queue) = (&gpu.device, &gpu.queue);
         let size_in_pixels = [config.width, config.height];
@@ -192,13 +193,13 @@ impl Screen {
             queue.present(target);
             Ok(())
         });
-        painted.map_err(gone)
+        painted.map_err(window_lost)
     }
 }
 
-/// What a window that was taken away comes to.
-fn gone(reason: impl std::fmt::Display) -> Error {
-    Error::Gpu(format!("the window is gone: {reason}"))
+/// Creates the error of a lost window.
+fn window_lost(reason: impl std::fmt::Display) -> Error {
+    Error::Gpu(format!("the window was lost: {reason}"))
 }
 
 fn target(device: &wgpu::Device, [width, height]: [u32; 2], format: Format) -> wgpu::Texture {

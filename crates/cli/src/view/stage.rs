@@ -1,9 +1,9 @@
-//! What is shown: a scene, drawn by a renderer that is made anew when the method changes.
+//! The displayed scene, with a renderer that is created again when technique, pipeline or output change.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::fly::Fly;
+use super::fly::FlyCamera;
 use super::reload::Watched;
 use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load};
@@ -14,10 +14,10 @@ use shadowgraph::scene::Scene;
 use shadowgraph::shadows::{ShadowSettings, Technique};
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, wgpu};
 
-/// Frames that times are kept of.
+/// Number of frames in the history of times.
 const FRAMES: usize = 60;
 
-/// What the user has chosen, and what follows from it.
+/// The user's choices, and the state that follows from them.
 pub(super) struct Stage {
     pub(super) scene: Scene,
     pub(super) registry: Registry,
@@ -27,29 +27,29 @@ pub(super) struct Stage {
     samples: u32,
     pub(super) aov: Aov,
     pub(super) settings: ShadowSettings,
-    pub(super) fly: Fly,
-    /// Whether shadows stay those of the place where the camera was.
+    pub(super) fly: FlyCamera,
+    /// Whether the shadow camera is frozen.
     pub(super) frozen: bool,
     pub(super) times: TimeHistory,
-    /// The plan of the last good frame.
+    /// The plan of the last valid frame.
     pub(super) plan: Option<Arc<Plan>>,
-    /// Why the last frame is not the newest.
+    /// Error of the current frame, which keeps the last valid image.
     pub(super) error: Option<String>,
-    /// Why a file was not taken, until one is.
-    pub(super) refused: Option<String>,
-    /// What was done last.
+    /// Error of the last file that was loaded.
+    pub(super) file_error: Option<String>,
+    /// Message on the last action.
     pub(super) note: String,
     pub(super) settings_file: Option<PathBuf>,
     watched_settings: Watched,
     watched_pipeline: Watched,
     watched_shaders: Watched,
     renderer: Option<Renderer>,
-    /// What was asked for last, and why there is no renderer for it: it is not tried again for the same.
-    made: Option<(Asked, Result<(), String>)>,
+    /// The last requested renderer and the result, so that a failed one is not tried again.
+    created: Option<(RendererKey, Result<(), String>)>,
 }
 
-/// What a renderer is made for.
-type Asked = (Technique, Pipeline, Aov);
+/// Parameters of a renderer.
+type RendererKey = (Technique, Pipeline, Aov);
 
 impl Stage {
     pub(super) fn new(
@@ -58,13 +58,13 @@ impl Stage {
         registry: Registry,
         args: &ViewArgs,
     ) -> Result<Self, Failure> {
-        let reach_m = input.scene.bounds().radius();
+        let radius_m = input.scene.bounds().radius();
         let shaders = args.shaders.iter().flat_map(|folder| {
             shadowgraph::shaders::builtin_files().map(|file| folder.join(file)).collect::<Vec<_>>()
         });
         let settings_file = args.draw.settings_file().map(PathBuf::from);
         Ok(Self {
-            fly: Fly::new(input.camera, reach_m),
+            fly: FlyCamera::new(input.camera, radius_m),
             scene: input.scene,
             technique: input.options.render_config().technique(),
             registry,
@@ -77,49 +77,49 @@ impl Stage {
             times: TimeHistory::new(FRAMES),
             plan: None,
             error: None,
-            refused: None,
+            file_error: None,
             note: String::new(),
             watched_settings: Watched::new(settings_file.clone()),
             settings_file,
             watched_pipeline: Watched::new(args.draw.pipeline_file().map(PathBuf::from)),
             watched_shaders: Watched::new(shaders),
             renderer: None,
-            made: None,
+            created: None,
         })
     }
 
-    /// Shows another scene, from its first camera; the built-in one without a file. One that cannot be read changes nothing.
+    /// Opens a scene, or the built-in one without a file, at its first camera. A failure changes nothing.
     pub(super) fn open(&mut self, file: Option<&Path>) {
         let mut scene = match load(file) {
             Ok(scene) => scene,
-            Err(failure) => return self.refused = Some(failure.message),
+            Err(failure) => return self.file_error = Some(failure.message),
         };
         let name = file.map_or("the built-in scene".into(), |file| file.display().to_string());
         self.note = SunChoice::default().apply(&mut scene).unwrap_or(name);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
         let view = ViewOptions { camera: camera.clone(), size_px: [16, 9], shadows: self.settings.clone() };
         self.settings = view.with_shadow_distance(ShadowDistance::Auto, &scene).shadows;
-        self.fly = Fly::new(camera, scene.bounds().radius());
+        self.fly = FlyCamera::new(camera, scene.bounds().radius());
         (self.scene, self.aov, self.frozen) = (scene, Aov::default(), false);
-        (self.renderer, self.made, self.refused) = (None, None, None);
+        (self.renderer, self.created, self.file_error) = (None, None, None);
     }
 
-    /// Reads again what was saved since the last frame.
+    /// Reloads files that were saved since the last frame.
     pub(super) fn reload(&mut self) {
         if self.watched_shaders.changed() {
-            self.made = None;
-            self.note = "shaders were read again".into();
+            self.created = None;
+            self.note = "reloaded the shaders".into();
         }
         if self.watched_pipeline.changed() {
             match self.draw.pipeline(&self.registry) {
                 Ok(pipeline) => {
-                    (self.pipeline, self.refused) = (pipeline, None);
-                    self.note = format!("{} was read again", self.pipeline.name());
+                    (self.pipeline, self.file_error) = (pipeline, None);
+                    self.note = format!("reloaded {}", self.pipeline.name());
                     for warning in self.pipeline.warnings() {
                         self.note += &format!("; {warning}");
                     }
                 }
-                Err(error) => self.refused = Some(error.to_string()),
+                Err(error) => self.file_error = Some(error.to_string()),
             }
         }
         if self.watched_settings.changed()
@@ -127,15 +127,15 @@ impl Stage {
         {
             match SettingsFile::load(file, &self.registry.techniques) {
                 Ok(read) => {
-                    (self.settings, self.refused) = (read.settings, None);
-                    self.note = format!("{} was read again", file.display());
+                    (self.settings, self.file_error) = (read.settings, None);
+                    self.note = format!("reloaded {}", file.display());
                 }
-                Err(error) => self.refused = Some(error.to_string()),
+                Err(error) => self.file_error = Some(error.to_string()),
             }
         }
     }
 
-    /// Holds shadows where the camera is, or lets them follow it again.
+    /// Freezes the shadow camera, or lets it follow the camera again.
     pub(super) fn freeze(&mut self, frozen: bool) {
         self.frozen = frozen;
         let camera = frozen.then(|| self.fly.camera().clone());
@@ -144,12 +144,12 @@ impl Stage {
         }
     }
 
-    /// How the view is drawn now.
+    /// Returns the current view options.
     pub(super) fn options(&self, size_px: [u32; 2]) -> ViewOptions {
         ViewOptions { camera: self.fly.camera().clone(), size_px, shadows: self.settings.clone() }
     }
 
-    /// The format of the texture that is drawn into.
+    /// Returns the format of the target texture.
     pub(super) fn format(&self) -> Format {
         let depth = |name: &String| {
             let plan = self.plan.as_ref()?;
@@ -165,7 +165,7 @@ impl Stage {
         }
     }
 
-    /// Draws a frame into `target`. What goes wrong is kept as [`error`](Self::error), and the target stays as it was.
+    /// Draws a frame into `target`. An error is stored in [`error`](Self::error), and the target is unchanged.
     pub(super) fn draw(&mut self, gpu: &Gpu, target: &wgpu::Texture) {
         match self.try_draw(gpu, target) {
             Ok(()) => self.error = None,
@@ -174,7 +174,7 @@ impl Stage {
     }
 
     fn try_draw(&mut self, gpu: &Gpu, target: &wgpu::Texture) -> Result<(), shadowgraph::Error> {
-        self.make(gpu)?;
+        self.update_renderer(gpu)?;
         let options = self.options([target.width(), target.height()]);
         self.registry.techniques.check(&options.shadows)?;
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
@@ -190,26 +190,26 @@ impl Stage {
         Ok(())
     }
 
-    /// Makes the renderer for what is chosen. Where that fails the old one stays, and its picture.
-    fn make(&mut self, gpu: &Gpu) -> Result<(), shadowgraph::Error> {
-        let wanted = (self.technique, self.pipeline.clone(), self.aov.clone());
-        if let Some((_, made)) = self.made.as_ref().filter(|(asked, _)| *asked == wanted) {
-            return made.clone().map_err(shadowgraph::Error::Gpu);
+    /// Creates the renderer for the current choices. On failure the previous one stays, with its image.
+    fn update_renderer(&mut self, gpu: &Gpu) -> Result<(), shadowgraph::Error> {
+        let key = (self.technique, self.pipeline.clone(), self.aov.clone());
+        if let Some((_, created)) = self.created.as_ref().filter(|(last, _)| *last == key) {
+            return created.clone().map_err(shadowgraph::Error::Gpu);
         }
         let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
         let config = RenderConfig { technique, pipeline, samples: self.samples };
-        let made = gpu.checked(|| {
+        let created = gpu.checked(|| {
             Renderer::with_config(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), config)
         });
-        let failed = made.as_ref().err().map(ToString::to_string);
-        self.made = Some((wanted, failed.map_or(Ok(()), Err)));
-        let renderer = made?;
+        let failed = created.as_ref().err().map(ToString::to_string);
+        self.created = Some((key, failed.map_or(Ok(()), Err)));
+        let renderer = created?;
         let frozen = self.renderer.as_ref().and_then(|old| old.shadow_camera().cloned());
         self.renderer.insert(renderer).set_shadow_camera(frozen);
         Ok(())
     }
 
-    /// Returns the page about the frame as it is now.
+    /// Returns the page of the current frame.
     pub(super) fn page(&mut self, gpu: &Gpu, size_px: [u32; 2]) -> Result<String, shadowgraph::Error> {
         let options = self.options(size_px);
         let lights = self.scene.lights.clone();

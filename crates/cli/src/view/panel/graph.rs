@@ -1,4 +1,4 @@
-//! The passes of the frame with their times, and why each is as it is.
+//! The passes of the frame with their times and explanations.
 
 use egui::{CollapsingHeader, Grid, Ui};
 
@@ -7,7 +7,7 @@ use shadowgraph::core::{NodeId, PassId, Plan, TimeSummary};
 
 #[derive(Default)]
 pub(super) struct GraphPanel {
-    /// The path of the pass that is explained.
+    /// Path of the explained pass.
     chosen: Option<String>,
 }
 
@@ -22,8 +22,8 @@ impl GraphPanel {
             plan.slot_bytes() as f64 / 1_048_576.0
         ));
         let times = stage.times.summary();
-        // Times are in order of recording; the first frame of another plan has none yet.
-        let times = |place: usize| times.get(place).filter(|_| times.len() == plan.order().len());
+        // Times are in order of recording; the first frame of a new plan has none yet.
+        let times = |index: usize| times.get(index).filter(|_| times.len() == plan.order().len());
         let mut nodes: Vec<Option<NodeId>> = Vec::new();
         for &pass in plan.order() {
             let node = plan.pass(pass).node;
@@ -35,9 +35,9 @@ impl GraphPanel {
             let name = node.map_or("(no node)".into(), |node| plan.node_path(node));
             CollapsingHeader::new(&name).default_open(true).show(ui, |ui| {
                 Grid::new(&name).num_columns(3).striped(true).show(ui, |ui| {
-                    for (place, &pass) in plan.order().iter().enumerate() {
+                    for (index, &pass) in plan.order().iter().enumerate() {
                         if plan.pass(pass).node == node {
-                            self.row(ui, plan, pass, times(place));
+                            self.row(ui, plan, pass, times(index));
                         }
                     }
                 });
@@ -58,11 +58,13 @@ impl GraphPanel {
         let Some(time) = time else { return ui.end_row() };
         ui.monospace(format!("{:.3} ms CPU", time.cpu_ms.median));
         if let Some(gpu_ms) = time.gpu_ms {
-            let shared =
-                if time.shared_by > 1 { format!(", all {} merged", time.shared_by) } else { String::new() };
+            let shared = if time.shared_by > 1 {
+                format!(", shared by {} merged passes", time.shared_by)
+            } else {
+                String::new()
+            };
             let text = format!("{:.2} ms GPU{shared}", gpu_ms.median);
-            ui.monospace(text)
-                .on_hover_text(format!("one frame in twenty takes more than {:.2} ms", gpu_ms.high));
+            ui.monospace(text).on_hover_text(format!("95th percentile {:.2} ms", gpu_ms.high));
         }
         ui.end_row();
     }

@@ -4,7 +4,7 @@ use egui::{CollapsingHeader, Ui};
 use serde_json::Value;
 
 use super::super::stage::Stage;
-use super::Wish;
+use super::Action;
 use super::edit::edit;
 use shadowgraph::shadows::{ShadowSettings, TechniqueSettings, Techniques};
 
@@ -12,11 +12,11 @@ use shadowgraph::shadows::{ShadowSettings, TechniqueSettings, Techniques};
 pub(super) struct SettingsPanel;
 
 impl SettingsPanel {
-    pub(super) fn show(&mut self, ui: &mut Ui, stage: &mut Stage) -> Option<Wish> {
-        let mut wish = None;
+    pub(super) fn show(&mut self, ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
+        let mut action = None;
         ui.horizontal(|ui| {
             if ui.button("Save").clicked() {
-                wish = Some(Wish::SaveSettings);
+                action = Some(Action::SaveSettings);
             }
             if ui.button("Defaults").clicked() {
                 let distance_m = stage.settings.distance_m;
@@ -30,7 +30,7 @@ impl SettingsPanel {
             let used = stage.technique.name().split('+').any(|part| part == name);
             CollapsingHeader::new(name).default_open(used).show(ui, |ui| edit_technique(ui, stage, name));
         }
-        wish
+        action
     }
 }
 
