@@ -114,7 +114,7 @@ fn worst_cases(report: &Report, technique_width: usize) -> String {
             };
             let name = cut(&clean(technique), technique_width);
             let value = format_value(metric, Some(value));
-            let line = format!("  {name:<technique_width$}  {:<22}{value:>8}  {place}", metric.name);
+            let line = format!("  {name:<technique_width$}  {:<26}{value:>8}  {place}", metric.name);
             let _ = writeln!(out, "{}", cut(&line, WIDTH));
         }
     }
@@ -200,7 +200,7 @@ mod tests {
         let text = table(&report);
         let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         let rows: Vec<_> = text.lines().filter(|line| line.contains(" pcf ")).map(words).collect();
-        assert!(!text.contains("rmse"), "{text}");
+        assert!(!text.contains("RMSE"), "{text}");
         assert_eq!(rows[0][rows[0].len() - 3..], ["1.25", "64.0", "20"], "{text}");
         assert_eq!(rows[1][rows[1].len() - 3..], ["-", "-", "-"], "{text}");
         assert_eq!(rows[2][..3], ["mean", "pcf", "1.500"], "{text}");

@@ -92,7 +92,7 @@ fn directions_per_pixel_measure_like_one_for_all() {
 }
 
 /// A bare floor from above, rows along the world's x. The sun is up and to the left, 3 pixels to 4. Columns
-/// 10 to 19 are truly dark but measured as lit, with a blocker at hand; those before are no receivers.
+/// 10 to 19 should be dark but are measured as lit, with a near blocker; those before are no receivers.
 /// Returns the side of a pixel too.
 fn stripe() -> (TestImage, f64) {
     let camera = Camera { up: DVec3::NEG_Z, ..above() };
