@@ -73,7 +73,7 @@ pub use pipelines::Pipeline;
 pub use registry::Registry;
 pub use render_config::RenderConfig;
 pub use render_view::RenderView;
-pub use rendered::{RenderedFrame, RenderedImage};
+pub use rendered::{RenderedFrame, RenderedImage, shadow_ms};
 pub use renderer::Renderer;
 pub use renderer::aov::ViewOutput;
 pub use surfaces::SurfaceDrawer;

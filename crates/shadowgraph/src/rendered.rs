@@ -40,10 +40,15 @@ impl RenderedFrame {
     /// Returns the GPU time of the shadow passes, milliseconds: 0 without any. `None` if times were not measured, or the device
     /// does not support it. Shadow lookups are part of the lighting, unless they are computed in a screen-space mask.
     pub fn shadow_ms(&self) -> Option<f64> {
-        let is_shadow = |time: &&PassTime| time.pass.split('/').any(|part| part.ends_with("shadows"));
-        if self.times.is_empty() {
-            return None;
-        }
-        self.times.iter().filter(is_shadow).map(PassTime::gpu_share_ms).sum()
+        shadow_ms(&self.times)
     }
+}
+
+/// Returns the GPU time of the shadow passes among the passes of a frame, as [`RenderedFrame::shadow_ms`] does.
+pub fn shadow_ms(times: &[PassTime]) -> Option<f64> {
+    let is_shadow = |time: &&PassTime| time.pass.split('/').any(|part| part.ends_with("shadows"));
+    if times.is_empty() {
+        return None;
+    }
+    times.iter().filter(is_shadow).map(PassTime::gpu_share_ms).sum()
 }

@@ -110,6 +110,9 @@ pub(crate) struct ViewArgs {
     /// shaders/wgsl of a checkout
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
+    /// GPU time of the shadow passes, milliseconds: while they take longer, shadows get shorter and coarser
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub(crate) budget_ms: Option<f64>,
 }
 
 /// `shadowgraph nodes`

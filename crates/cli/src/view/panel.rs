@@ -210,6 +210,9 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
     if ui.checkbox(&mut frozen, "Freeze the shadow camera (F)").changed() {
         stage.freeze(frozen);
     }
+    if let Some(controller) = &stage.controller {
+        ui.label(format!("Shadow quality: level {} (0 is the best)", controller.level()));
+    }
     ui.horizontal(|ui| {
         ui.label("Speed");
         let drag = egui::DragValue::new(&mut stage.fly.speed).range(0.01..=1e4).speed(0.1).suffix(" m/s");

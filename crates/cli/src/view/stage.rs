@@ -9,10 +9,10 @@ use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load};
 use crate::failure::Failure;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
-use shadowgraph::options::{Aov, SettingsFile, ShadowDistance, SunChoice};
+use shadowgraph::options::{Aov, OptionError, SettingsFile, ShadowDistance, SunChoice};
 use shadowgraph::scene::Scene;
-use shadowgraph::shadows::{ShadowSettings, Technique};
-use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, wgpu};
+use shadowgraph::shadows::{BudgetConfig, QualityController, ShadowSettings, Technique};
+use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu};
 
 /// Number of frames in the history of times.
 const FRAMES: usize = 60;
@@ -27,6 +27,8 @@ pub(super) struct Stage {
     samples: u32,
     pub(super) aov: Aov,
     pub(super) settings: ShadowSettings,
+    /// Lowers the quality of shadows while they exceed a time budget.
+    pub(super) controller: Option<QualityController>,
     pub(super) fly: FlyCamera,
     /// Whether the shadow camera is frozen.
     pub(super) frozen: bool,
@@ -73,6 +75,7 @@ impl Stage {
             samples: input.options.samples,
             aov: input.options.aov,
             settings: view.shadows,
+            controller: args.budget_ms.map(controller).transpose()?,
             frozen: false,
             times: TimeHistory::new(FRAMES),
             plan: None,
@@ -144,9 +147,13 @@ impl Stage {
         }
     }
 
-    /// Returns the current view options.
+    /// Returns the current view options; the shadow settings are limited by the time budget.
     pub(super) fn options(&self, size_px: [u32; 2]) -> ViewOptions {
-        ViewOptions { camera: self.fly.camera().clone(), size_px, shadows: self.settings.clone() }
+        let shadows = match &self.controller {
+            Some(controller) => controller.apply(&self.settings),
+            None => self.settings.clone(),
+        };
+        ViewOptions { camera: self.fly.camera().clone(), size_px, shadows }
     }
 
     /// Returns the format of the target texture.
@@ -185,7 +192,11 @@ impl Stage {
             gpu.queue.submit([encoder.finish()]);
             Ok(executed.shared_plan())
         })?;
-        self.times.add(&timer.read(&gpu.device, &gpu.queue)?);
+        let times = timer.read(&gpu.device, &gpu.queue)?;
+        if let (Some(controller), Some(shadow_ms)) = (&mut self.controller, shadow_ms(&times)) {
+            controller.update(shadow_ms);
+        }
+        self.times.add(&times);
         self.plan = Some(plan);
         Ok(())
     }
@@ -215,5 +226,26 @@ impl Stage {
         let lights = self.scene.lights.clone();
         let Some(renderer) = &mut self.renderer else { return Ok(String::new()) };
         Ok(renderer.inspect(gpu, &options)?.page(&lights, &options).to_html())
+    }
+}
+
+/// Creates the controller of a time budget with the default levels.
+fn controller(budget_ms: f64) -> Result<QualityController, OptionError> {
+    let config = BudgetConfig { budget_ms, ..BudgetConfig::default() };
+    QualityController::new(config).map_err(|error| OptionError::new("budget_ms", error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn a_budget_is_a_number_of_milliseconds_in_a_range() {
+        assert_eq!(controller(2.0).unwrap().level(), 0);
+        for budget_ms in [0.0, -1.0, f64::NAN, 2e3] {
+            let error = controller(budget_ms).unwrap_err().to_string();
+            assert!(error.contains("budget_ms") && error.contains("0.001 to 1000"), "{error}");
+        }
     }
 }
