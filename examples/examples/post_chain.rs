@@ -26,7 +26,7 @@ const BLUR: &str = "
         var sum = vec4f(0.0);
         for (var i = -12; i <= 12; i++) {
             let weight = exp(-f32(i * i) / 60.0);
-            let texel = cdisc(vec2i(position.xy) + along * i, vec2i(0), last);
+            let texel = clamp(vec2i(position.xy) + along * i, vec2i(0), last);
             sum += vec4f(textureLoad(source, texel, 0).rgb, 1.0) * weight;
         }
         return vec4f(sum.rgb / sum.a, 1.0);
