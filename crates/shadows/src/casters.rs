@@ -2,8 +2,6 @@
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
-use crate::plan::TileKind;
-
 /// The shadow casters of a scene. Implement it for your own scene.
 ///
 /// Casters are identified by numbers of the implementer's choice. All coordinates are
@@ -96,6 +94,17 @@ pub struct CasterView {
     /// The width of a texel in the world, metres; for spot and point lights at 1 m along the tile's axis. Smaller details
     /// cast no visible shadow.
     pub texel_world: f32,
+}
+
+/// The kind of a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TileKind {
+    /// The only tile of its light.
+    Whole,
+    /// A cascade, counted from 0, the nearest to the camera.
+    Cascade(u32),
+    /// A cube face of a point light: 0 +X, 1 -X, 2 +Y, 3 -Y, 4 +Z, 5 -Z.
+    Face(u32),
 }
 
 /// Returns the layout of bind group 0 of pipelines that draw casters: at binding 0 a storage buffer, read by vertices

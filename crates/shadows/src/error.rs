@@ -1,7 +1,5 @@
 //! Errors of planning and of techniques.
 
-use crate::settings::Setting;
-
 /// Errors of shadows.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -81,11 +79,6 @@ pub enum Error {
 }
 
 impl Error {
-    /// Returns the error that a setting has a value that it does not allow.
-    pub fn invalid(setting: &Setting, value: impl ToString) -> Self {
-        Self::Setting { field: setting.name.to_owned(), value: value.to_string(), allowed: setting.allowed() }
-    }
-
     /// Returns the error with the name of the struct that the field is in before its path.
     #[must_use]
     pub fn inside(self, parent: &str) -> Self {

@@ -22,10 +22,10 @@ mod cascades;
 mod casters;
 mod cull;
 mod error;
-mod filter;
 mod light_params;
 mod maps;
 mod ortho;
+mod pcf_variant;
 mod plan;
 mod planner;
 pub mod rays;
@@ -43,13 +43,16 @@ pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atla
 pub use basis::light_from_world;
 pub use budget::{BudgetConfig, QualityController, QualityLevel};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
-pub use casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TINT_FORMAT, caster_view_layout};
+pub use casters::{
+    CasterPass, CasterTarget, CasterView, ShadowCasters, TINT_FORMAT, TileKind, caster_view_layout,
+};
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use error::Error;
-pub use filter::{ShadowFilter, filter_taps};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::OrthoFit;
-pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TileKind, TilePlan, plan_shadows, plan_shadows_after};
+pub use pcf_variant::PcfVariant;
+pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePlan};
+pub use planner::{plan_shadows, plan_shadows_after};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,
     TechniqueModifier, Techniques,
@@ -59,18 +62,17 @@ pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
     CascadeSettings, CullSettings, DepthFormat, DescribeSettings, LightRef, LightShadows, MAX_CASCADE_LIGHTS,
-    MAX_CASCADES, NamedSettings, NormalBias, Payload, Setting, SettingType, SettingValue, ShadowSettings,
-    SplitScheme, TechniqueSettings, Variant, color, defaults, settings_file,
+    MAX_CASCADES, NamedSettings, NormalBias, Payload, Setting, SettingType, SettingValue, ShadowFilter,
+    ShadowSettings, SplitScheme, TechniqueSettings, Variant, color, defaults, filter_taps, settings_file,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{
-    GpuStruct, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens, SurfaceBuffers, add_shadows,
-    binding, shadow_layout,
+    GpuStruct, MAX_MASK_LAYERS, ShadowBinding, ShadowOutputs, ShadowTechnique, ShadowTokens, SurfaceBuffers,
+    add_shadows, binding, masked_lights, shadow_layout,
 };
 pub use techniques::{
-    ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, MAX_MASK_LAYERS, Msm, MsmSettings,
-    NoShadows, Pcf, PcfVariant, Pcss, PcssSettings, Raytraced, RaytracedSettings, ScreenSettings,
-    ScreenShadows, Sdsm, SdsmSettings, masked_lights,
+    ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss,
+    PcssSettings, Raytraced, RaytracedSettings, ScreenSettings, ScreenShadows, Sdsm, SdsmSettings,
 };
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,

@@ -1,11 +1,7 @@
 //! The parameters of one light's shadows: the settings of its map, and the light's own.
 
-use shadowgraph_scene::Light;
-
-use crate::error::Error;
-use crate::filter::ShadowFilter;
 use crate::requirements::Requirements;
-use crate::settings::{BiasSettings, LightRef, LightShadows, NormalBias, ShadowSettings};
+use crate::settings::{BiasSettings, LightShadows, NormalBias, ShadowFilter, ShadowSettings};
 
 /// The parameters of one light's shadows.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,31 +90,6 @@ impl LightShadowParams {
     pub(crate) fn margin_px(&self, bias_scale: f32) -> f64 {
         f64::from(self.kernel_radius_texels + self.normal_texels() * bias_scale.max(1.0)) + 1.0
     }
-}
-
-/// Returns the individual settings of each light of the scene, `None` for lights without.
-///
-/// # Errors
-/// If a light of the settings does not exist, or has two entries.
-pub(crate) fn of_lights<'s>(
-    settings: &'s ShadowSettings,
-    lights: &[Light],
-) -> Result<Vec<Option<&'s LightShadows>>, Error> {
-    let mut by_light = vec![None; lights.len()];
-    for (entry, own) in settings.lights.iter().enumerate() {
-        let index = match &own.light {
-            LightRef::Index(index) => Some(*index as usize),
-            LightRef::Name(name) => lights.iter().position(|light| light.name.as_ref() == Some(name)),
-        };
-        let slot = index.and_then(|index| Some((index, by_light.get_mut(index)?)));
-        let Some((light, slot)) = slot else {
-            return Err(Error::UnknownLight { entry, light: own.light.to_string(), count: lights.len() });
-        };
-        if slot.replace(own).is_some() {
-            return Err(Error::DuplicateLight { entry, light });
-        }
-    }
-    Ok(by_light)
 }
 
 /// Returns the largest requirements of any light's settings.

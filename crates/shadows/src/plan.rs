@@ -1,19 +1,17 @@
 //! The plan of a frame's shadows: the maps, their tiles, the casters of each tile, and the structs
-//! that shaders read. Pure: no device.
+//! that shaders read.
 
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Light};
 
 use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
-use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters};
-use crate::error::Error;
+use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TileKind};
 use crate::light_params::settings_requirements;
-use crate::planner::Planner;
+use crate::pcf_variant::PcfVariant;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
 use crate::settings::{DepthFormat, ShadowSettings};
-use crate::techniques::PcfVariant;
 use crate::views::{ShadowLight, ShadowView};
 
 /// The inputs of a shadow plan.
@@ -108,81 +106,6 @@ impl TilePlan {
             texel_world: view.texel_world,
         }
     }
-}
-
-/// The kind of a tile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TileKind {
-    /// The only tile of its light.
-    Whole,
-    /// A cascade, counted from 0, the nearest to the camera.
-    Cascade(u32),
-    /// A cube face of a point light: 0 +X, 1 -X, 2 +Y, 3 -Y, 4 +Z, 5 -Z.
-    Face(u32),
-}
-
-/// Plans the shadows of a frame.
-///
-/// ```
-/// use glam::{DVec3, Vec3};
-/// use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
-/// use shadowgraph_shadows::{CasterView, ShadowCasters, ShadowInputs, ShadowSettings, plan_shadows};
-///
-/// struct OneBox(Aabb);
-/// impl ShadowCasters for OneBox {
-///     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
-///         casters.extend(volume.intersects(&self.0).then_some(0));
-///     }
-///     fn bounds(&self) -> Aabb {
-///         self.0
-///     }
-///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 { 0 }
-/// }
-///
-/// let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
-/// let camera = Camera::look_at(DVec3::new(0.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, projection);
-/// let sun = Light {
-///     name: None,
-///     kind: LightKind::Directional { direction: DVec3::new(0.5, -1.0, 0.2) },
-///     color: Vec3::ONE,
-///     intensity: 100_000.0,
-///     casts_shadow: true,
-/// };
-/// let plan = plan_shadows(&ShadowInputs {
-///     view: 0,
-///     camera: &camera,
-///     aspect: 16.0 / 9.0,
-///     lights: &[sun],
-///     casters: &OneBox(Aabb { min: DVec3::splat(-1.0), max: DVec3::ONE }),
-///     origin_world: origin_near(camera.position_world()),
-///     settings: &ShadowSettings::default(),
-/// })?;
-/// assert_eq!(plan.cascades.map(|map| map.size_px), Some([4096, 4096]));
-/// assert_eq!(plan.lights[0].view_count, 4);
-/// assert!(plan.atlas.is_none());
-/// # Ok::<(), shadowgraph_shadows::Error>(())
-/// ```
-///
-/// # Errors
-///
-/// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for an invalid
-/// view. Lights that cannot have shadows are not an error: see [`ShadowPlan::unshadowed`].
-pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
-    plan_shadows_after(inputs, None, &Requirements::NONE)
-}
-
-/// Plans the shadows of a frame that follows another one: lights keep the size and the position of their tiles
-/// ([`ShadowPlan::atlas_allocation`]) where possible. `requirements` are the technique's, beyond those of the settings' filters.
-///
-/// # Errors
-///
-/// As [`plan_shadows`].
-pub fn plan_shadows_after(
-    inputs: &ShadowInputs<'_>,
-    previous: Option<&AtlasAllocation>,
-    requirements: &Requirements,
-) -> Result<ShadowPlan, Error> {
-    Ok(Planner::new(inputs, previous, requirements)?.plan())
 }
 
 impl ShadowPlan {

@@ -1,4 +1,4 @@
-//! Construction of a [`ShadowPlan`].
+//! Construction of a [`ShadowPlan`]: pure, no device.
 
 mod atlas;
 mod cascades;
@@ -11,7 +11,7 @@ use culling::VisibleReceivers;
 use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
 use crate::error::Error;
-use crate::light_params::{self, LightShadowParams};
+use crate::light_params::LightShadowParams;
 use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::requirements::Requirements;
 use crate::select::{Candidate, ShadowRange, Shape, candidate};
@@ -19,8 +19,72 @@ use crate::select::{Unshadowed, UnshadowedReason};
 use crate::settings::LightShadows;
 use crate::views::{ShadowLight, TilePlacement};
 
+/// Plans the shadows of a frame.
+///
+/// ```
+/// use glam::{DVec3, Vec3};
+/// use shadowgraph_scene::{Aabb, Camera, CullVolume, Light, LightKind, Projection, origin_near};
+/// use shadowgraph_shadows::{CasterView, ShadowCasters, ShadowInputs, ShadowSettings, plan_shadows};
+///
+/// struct OneBox(Aabb);
+/// impl ShadowCasters for OneBox {
+///     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
+///         casters.extend(volume.intersects(&self.0).then_some(0));
+///     }
+///     fn bounds(&self) -> Aabb {
+///         self.0
+///     }
+///     fn draw(&self, _: &mut wgpu::RenderPass<'_>, _: &CasterView, _: &[u32]) -> u32 { 0 }
+/// }
+///
+/// let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
+/// let camera = Camera::look_at(DVec3::new(0.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, projection);
+/// let sun = Light {
+///     name: None,
+///     kind: LightKind::Directional { direction: DVec3::new(0.5, -1.0, 0.2) },
+///     color: Vec3::ONE,
+///     intensity: 100_000.0,
+///     casts_shadow: true,
+/// };
+/// let plan = plan_shadows(&ShadowInputs {
+///     view: 0,
+///     camera: &camera,
+///     aspect: 16.0 / 9.0,
+///     lights: &[sun],
+///     casters: &OneBox(Aabb { min: DVec3::splat(-1.0), max: DVec3::ONE }),
+///     origin_world: origin_near(camera.position_world()),
+///     settings: &ShadowSettings::default(),
+/// })?;
+/// assert_eq!(plan.cascades.map(|map| map.size_px), Some([4096, 4096]));
+/// assert_eq!(plan.lights[0].view_count, 4);
+/// assert!(plan.atlas.is_none());
+/// # Ok::<(), shadowgraph_shadows::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// [`Error::Setting`] for a setting out of range, [`Error::Camera`] for an invalid
+/// view. Lights that cannot have shadows are not an error: see [`ShadowPlan::unshadowed`].
+pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
+    plan_shadows_after(inputs, None, &Requirements::NONE)
+}
+
+/// Plans the shadows of a frame that follows another one: lights keep the size and the position of their tiles
+/// ([`ShadowPlan::atlas_allocation`]) where possible. `requirements` are the technique's, beyond those of the settings' filters.
+///
+/// # Errors
+///
+/// As [`plan_shadows`].
+pub fn plan_shadows_after(
+    inputs: &ShadowInputs<'_>,
+    previous: Option<&AtlasAllocation>,
+    requirements: &Requirements,
+) -> Result<ShadowPlan, Error> {
+    Ok(Planner::new(inputs, previous, requirements)?.plan())
+}
+
 /// A plan under construction.
-pub(crate) struct Planner<'a> {
+struct Planner<'a> {
     inputs: ShadowInputs<'a>,
     range: ShadowRange<'a>,
     visible: VisibleReceivers,
@@ -35,14 +99,14 @@ pub(crate) struct Planner<'a> {
 
 impl<'a> Planner<'a> {
     /// Validates the inputs.
-    pub(crate) fn new(
+    fn new(
         inputs: &ShadowInputs<'a>,
         previous: Option<&'a AtlasAllocation>,
         requirements: &Requirements,
     ) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
         settings.validate()?;
-        let own = light_params::of_lights(settings, inputs.lights)?;
+        let own = settings.individual_settings(inputs.lights)?;
         camera.check(aspect)?;
         let distance_m = f64::from(settings.distance_m);
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
@@ -56,7 +120,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Builds the plan.
-    pub(crate) fn plan(mut self) -> ShadowPlan {
+    fn plan(mut self) -> ShadowPlan {
         let mut candidates = self.candidates();
         candidates.sort_by(Candidate::order);
         let (count, lights) = (self.inputs.settings.cascades.count, self.inputs.settings.cascades.lights);

@@ -7,8 +7,8 @@ use shadowgraph_core::{Bind, Contents, Format, Frame, Pass, Rendering, Subresour
 use super::cache::{CachedMap, TileKey};
 use super::{DrawnMap, ShadowMaps, Views};
 use crate::atlas::TileRect;
-use crate::casters::{CasterPass, ShadowCasters, TINT_FORMAT};
-use crate::plan::{MapPlan, TileKind, TilePlan};
+use crate::casters::{CasterPass, ShadowCasters, TINT_FORMAT, TileKind};
+use crate::plan::{MapPlan, TilePlan};
 use crate::views::ShadowView;
 
 /// Size of a view, bytes: also the step of its dynamic offset.

@@ -14,12 +14,13 @@ use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
 use crate::casters::{TINT_FORMAT, caster_view_layout};
 use crate::error::Error;
-use crate::plan::{ShadowInputs, ShadowPlan, plan_shadows_after};
+use crate::pcf_variant::PcfVariant;
+use crate::plan::{ShadowInputs, ShadowPlan};
+use crate::planner::plan_shadows_after;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE};
 use crate::technique::{ShadowBinding, ShadowOutputs};
-use crate::techniques::PcfVariant;
 use crate::views::ShadowView;
 
 /// The common part of techniques with shadow maps: it plans the maps of each frame, and draws casters into their tiles.

@@ -2,9 +2,9 @@
 
 use super::DepthFormat;
 use super::describe::refused;
+use super::filter::ShadowFilter;
 use crate::declare_settings;
 use crate::error::Error;
-use crate::filter::ShadowFilter;
 
 declare_settings! {
     /// The atlas: one map for spot and point lights and the directional lights that have no cascades.

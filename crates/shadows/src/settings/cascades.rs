@@ -2,9 +2,9 @@
 
 use super::DepthFormat;
 use super::describe::refused;
+use super::filter::ShadowFilter;
 use crate::declare_settings;
 use crate::error::Error;
-use crate::filter::ShadowFilter;
 
 declare_settings! {
     /// The cascades of the brightest directional lights that cast shadows.

@@ -336,6 +336,13 @@ impl Variant {
     }
 }
 
+impl Error {
+    /// Returns the error that a setting has a value that it does not allow.
+    pub fn invalid(setting: &Setting, value: impl ToString) -> Self {
+        Self::Setting { field: setting.name.to_owned(), value: value.to_string(), allowed: setting.allowed() }
+    }
+}
+
 /// Returns the error that a value is not what the setting at `path` allows. The last part of the path may be a variant with a value.
 pub(crate) fn refused(settings: &'static [Setting], path: &str, value: impl ToString) -> Error {
     let (mut known, mut found) = (settings, None);

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::declare::DescribeSettings;
 use super::describe::SettingType;
+use super::filter::ShadowFilter;
 use crate::declare_settings;
 use crate::error::Error;
-use crate::filter::ShadowFilter;
 
 declare_settings! {
     /// Settings of one light.

@@ -10,6 +10,7 @@ mod declare;
 mod depth;
 mod describe;
 mod file;
+mod filter;
 mod lights;
 mod technique;
 
@@ -25,6 +26,7 @@ pub use depth::DepthFormat;
 pub use describe::{Payload, Setting, SettingType, Variant, color, defaults};
 pub(crate) use describe::{fields_schema, refused};
 pub use file::settings_file;
+pub use filter::{ShadowFilter, filter_taps};
 pub use lights::{LightRef, LightShadows};
 pub use technique::{NamedSettings, TechniqueSettings};
 pub(crate) use technique::{failed, validate};
@@ -33,7 +35,6 @@ use shadowgraph_scene::Light;
 
 use crate::declare_settings;
 use crate::error::Error;
-use crate::light_params::of_lights;
 
 declare_settings! {
     /// All settings of shadows: those of the shadow maps, and those of single techniques. Files may leave out what they do
@@ -82,7 +83,29 @@ impl ShadowSettings {
     ///
     /// [`Error::UnknownLight`] or [`Error::DuplicateLight`], with the entry.
     pub fn check_lights(&self, lights: &[Light]) -> Result<(), Error> {
-        of_lights(self, lights).map(drop)
+        self.individual_settings(lights).map(drop)
+    }
+
+    /// Returns the individual settings of each light of the scene, `None` for lights without.
+    ///
+    /// # Errors
+    /// If a light of the settings does not exist, or has two entries.
+    pub(crate) fn individual_settings(&self, lights: &[Light]) -> Result<Vec<Option<&LightShadows>>, Error> {
+        let mut by_light = vec![None; lights.len()];
+        for (entry, own) in self.lights.iter().enumerate() {
+            let index = match &own.light {
+                LightRef::Index(index) => Some(*index as usize),
+                LightRef::Name(name) => lights.iter().position(|light| light.name.as_ref() == Some(name)),
+            };
+            let slot = index.and_then(|index| Some((index, by_light.get_mut(index)?)));
+            let Some((light, slot)) = slot else {
+                return Err(Error::UnknownLight { entry, light: own.light.to_string(), count: lights.len() });
+            };
+            if slot.replace(own).is_some() {
+                return Err(Error::DuplicateLight { entry, light });
+            }
+        }
+        Ok(by_light)
     }
 }
 

@@ -3,11 +3,11 @@
 use shadowgraph_core::{Frame, Texture, TextureDesc};
 use shadowgraph_scene::Light;
 
+use super::mask::{MASK_FORMAT, masked_lights};
 use super::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use crate::error::Error;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
-use crate::techniques::{MASK_FORMAT, masked_lights};
 
 /// Adds the passes of a technique to the frame, and validates its output. `buffers` must be `Some` for techniques that
 /// [read them](ShadowTechnique::reads_surface_buffers).

@@ -9,10 +9,7 @@ mod pcss;
 mod raytraced;
 mod screen;
 mod sdsm;
-mod variant;
 
-pub(crate) use mask::MASK_FORMAT;
-pub use mask::{MAX_MASK_LAYERS, masked_lights};
 pub use moments::{Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings};
 pub use none::NoShadows;
 pub use pcf::Pcf;
@@ -20,4 +17,3 @@ pub use pcss::{Pcss, PcssSettings};
 pub use raytraced::{Raytraced, RaytracedSettings};
 pub use screen::{ContactSettings, ScreenSettings, ScreenShadows};
 pub use sdsm::{Sdsm, SdsmSettings};
-pub use variant::PcfVariant;

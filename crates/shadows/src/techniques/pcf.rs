@@ -3,9 +3,9 @@
 use shadowgraph_core::{Buffer, Frame};
 use shadowgraph_shaders::{MAPPED, ModuleSource};
 
-use super::variant::PcfVariant;
 use crate::error::Error;
 use crate::maps::{ShadowMaps, comparison_sampler};
+use crate::pcf_variant::PcfVariant;
 use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::requirements::Requirements;
 use crate::technique::binding::COMPARISON_SAMPLER;

@@ -4,10 +4,10 @@ use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc, Uniform};
 use shadowgraph_scene::Light;
 use shadowgraph_shaders::compose;
 
-use super::{MASK, MASK_FORMAT, MAX_MASK_LAYERS, TARGET, WORKGROUP_PX, masked_lights};
+use super::{MASK, TARGET, WORKGROUP_PX};
 use crate::error::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{SurfaceBuffers, layout};
+use crate::technique::{MASK_FORMAT, MAX_MASK_LAYERS, SurfaceBuffers, layout, masked_lights};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 
 /// The layers of a mask.

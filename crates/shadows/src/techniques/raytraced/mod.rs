@@ -11,15 +11,15 @@ use wgpu::util::DeviceExt as _;
 
 use super::compute::{dispatch, pipeline, shader};
 use super::mask::pass::{Layers, MaskPass, mask_texture, workgroups};
-use super::mask::{MASK, TARGET, masked_lights, no_mask};
+use super::mask::{MASK, TARGET, no_mask};
 use crate::error::Error;
 use crate::plan::ShadowInputs;
 use crate::rays::GpuRayScene;
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
-use crate::technique::layout;
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{layout, masked_lights};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;

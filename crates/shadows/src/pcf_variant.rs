@@ -2,7 +2,7 @@
 
 use shadowgraph_shaders::ModuleSource;
 
-use crate::filter::ShadowFilter;
+use crate::settings::ShadowFilter;
 
 /// The filters of the shadowed lights of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
