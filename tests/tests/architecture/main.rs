@@ -1,6 +1,10 @@
 //! Checks the layers of the design: which packages may depend on which, and which words a crate must not use.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod cycles;
+mod imports;
+mod source;
+
 use serde_json::Value;
 use shadowgraph_tests::repository;
 use std::collections::BTreeMap;
