@@ -1,4 +1,4 @@
-//! What the examples share: a program that draws one or several images without a window, or frames in a window.
+//! Shared code of the examples: a program that draws one or several images without a window, or frames in a window.
 //!
 //! An example draws into a texture. Without arguments that texture is written to `out/NAME.png`; with `--window` each frame is shown.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "examples are programs")]
@@ -24,7 +24,7 @@ pub trait Example: Sized {
     const FRAMES: u32 = 1;
     /// Whether each frame is written to a file, and not only the last.
     const SEQUENCE: bool = false;
-    /// What the example's argument is; empty if it has none.
+    /// Description of the example's argument; empty if it has none.
     const ARGUMENT: &'static str = "";
 
     /// Creates the state that it keeps from frame to frame.

@@ -16,7 +16,7 @@ pub struct Limits {
     pub memory_bytes: u64,
 }
 
-/// How a program ended.
+/// Outcome of a program.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The exit code; `None` when a signal ended it.

@@ -4,7 +4,7 @@ use crate::child;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Which driver a command needs.
+/// Driver that a command needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Driver {
     /// Any driver.

@@ -4,7 +4,7 @@ use crate::apt;
 use crate::child;
 use crate::driver::{Driver, Missing};
 
-/// What a command needs on the machine.
+/// Requirements of a command on the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Need {
     /// A Vulkan driver of this kind.

@@ -13,6 +13,6 @@ fn hash(seed: u32) -> f32 {
     let around = uv - 0.5 + 0.06 * (vec2f(hash(seed), hash(seed + 1u)) - 0.5);
     let ring = abs(length(around) - 0.3);
     let inside = select(0.0, 1.0, ring < 0.06);
-    let lit = step(hash(seed + 2u), 0.15 + 0.7 * uv.x);
-    return vec4f(vec3f(0.9, 0.6, 0.2) * inside * lit + vec3f(0.05, 0.1, 0.2) * 2.0 * hash(seed + 3u), 1.0);
+    let is_lit = step(hash(seed + 2u), 0.15 + 0.7 * uv.x);
+    return vec4f(vec3f(0.9, 0.6, 0.2) * inside * is_lit + vec3f(0.05, 0.1, 0.2) * 2.0 * hash(seed + 3u), 1.0);
 }

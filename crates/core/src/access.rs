@@ -116,7 +116,7 @@ pub enum ClearValue {
     DepthStencil(f32, u32),
 }
 
-/// What a write does with the earlier contents.
+/// Effect of a write on the earlier contents.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Contents {
     /// The attachment is cleared before the pass draws. Attachments only.

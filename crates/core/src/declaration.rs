@@ -110,7 +110,7 @@ impl Origin {
     }
 }
 
-/// How passes are ordered.
+/// Order of passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum OrderPolicy {
     /// First continue the open render pass, then free the most memory, then keep the order of declaration.
@@ -122,10 +122,10 @@ pub enum OrderPolicy {
     Declared,
 }
 
-/// What the compiler may do with a frame.
+/// Optimizations that the compiler may apply to a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Options {
-    /// How passes are ordered.
+    /// Order of passes.
     pub order: OrderPolicy,
     /// Whether adjacent render passes with the same attachments are merged.
     pub merge: bool,
@@ -171,7 +171,7 @@ pub(crate) struct AccessDecl {
 
 pub(crate) const ALL_OF_RESOURCE: u32 = u32::MAX;
 
-/// What an access does with the contents.
+/// Effect of an access on the contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WriteMode {
     /// Only reads them.

@@ -149,7 +149,7 @@ pub enum Error {
     /// A wgpu validation error in what passes record, found by `Compiled::execute_checked`.
     #[error("SG0606: wgpu validation error in {passes}: {message}")]
     Validation { passes: String, message: String },
-    /// Out of device memory for a texture or buffer.
+    /// The device is out of memory for a texture or buffer.
     #[error(
         "SG0607: out of device memory for `{resource}` ({bytes} bytes); make it smaller, or release \
          something else (the graph has released what it had cached)"
@@ -163,7 +163,7 @@ pub enum Error {
     /// An unknown pass or resource name.
     #[error("SG0701: unknown pass or resource `{name}`{hint}")]
     UnknownName { name: String, hint: String },
-    /// A text that is not a dump of a plan, or a dump of another schema version.
+    /// A string that is not a dump of a plan, or a dump of another schema version.
     #[error("SG0702: not a valid dump: {problem}")]
     Dump { problem: String },
 }

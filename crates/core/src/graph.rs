@@ -120,7 +120,7 @@ impl Graph {
     }
 }
 
-/// What a frame knows about its graph.
+/// Data of a graph that its frames share.
 #[derive(Clone, Default)]
 pub(crate) struct PriorState {
     spare: Option<Spare>,

@@ -4,7 +4,7 @@ use crate::declaration::Declaration;
 use crate::desc::{Extent, TextureDesc};
 use crate::handle::{NodeId, ResourceId};
 
-/// What happens to a history when its size changes.
+/// Effect of a change of size on a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resize {
     /// The contents are dropped: `valid` is false for one frame.

@@ -21,13 +21,13 @@ use wgpu_types::{BufferUsages, TextureUsages};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     pub(crate) decl: Declaration,
-    /// Why each pass is culled, by pass.
+    /// Reason why each pass is culled, by pass.
     pub(crate) culled: Vec<Option<CullReason>>,
     /// The passes that run, in order.
     pub(crate) order: Vec<PassId>,
-    /// Why passes are at their positions, by position in the order.
+    /// Reasons why passes are at their positions, by position in the order.
     pub(crate) order_reasons: Vec<OrderReason>,
-    /// Why passes are merged or not, by position in the order.
+    /// Reasons why passes are merged or not, by position in the order.
     pub(crate) merge_reasons: Vec<MergeReason>,
     /// Ranges of the order that share a pass of the encoder.
     pub(crate) steps: Vec<(u32, u32)>,
@@ -79,7 +79,7 @@ pub struct PassPlan<'p> {
     pub kind: PassKind,
     /// Whether it is kept even if nothing needs what it writes.
     pub keep: bool,
-    /// Why the pass does not run; `None` if it runs.
+    /// Reason why the pass does not run; `None` if it runs.
     pub culled: Option<CullReason>,
     /// Copies of a copy pass.
     pub copies: &'p [CopyOp],
@@ -95,7 +95,7 @@ pub struct AccessPlan {
     pub subresource: Subresource,
     /// Kind of access.
     pub access: Access,
-    /// For writes: what happens to the earlier contents.
+    /// Effect of a write on the earlier contents.
     pub contents: Option<Contents>,
     /// Version that is read or overwritten; a write makes `version + 1`.
     pub version: u32,
@@ -131,7 +131,7 @@ pub enum LoadAction {
     Continue,
 }
 
-/// What happens to an attachment when the pass ends.
+/// Operation on an attachment when the pass ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum StoreAction {
     /// Written to memory.
@@ -201,7 +201,7 @@ pub struct Dependency {
     pub kind: DependencyKind,
 }
 
-/// Why two passes are ordered.
+/// Reason why two passes are ordered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum DependencyKind {
     /// The later one reads what the earlier one wrote.

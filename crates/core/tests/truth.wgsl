@@ -4,14 +4,14 @@ struct Params {
     constant: u32,
     textures: u32,
     buffers: u32,
-    // 1: what is there is mixed in, 0: it is overwritten.
+    // 1: the earlier value is mixed in, 0: it is overwritten.
     preserve: u32,
-    // Added to the place at which each texture, then each buffer, is read.
+    // Added to the index at which each texture, then each buffer, is read.
     shifts: array<vec4u, 2>,
     // Of the texels that a compute pass writes.
     origin: vec2u,
     size: vec2u,
-    // Texels in a row of what is drawn into.
+    // Texels in a row of the target.
     stride: u32,
 }
 
@@ -72,7 +72,7 @@ fn two_targets(@builtin(position) position: vec4f) -> Two {
     return Two(first, mixed(first, 1u));
 }
 
-// Writes a word for each texel beside the texel.
+// Writes a word for each texel, besides the texel.
 @fragment
 fn target_and_words(@builtin(position) position: vec4f) -> @location(0) u32 {
     let place = vec2u(position.xy);

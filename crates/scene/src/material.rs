@@ -25,7 +25,7 @@ pub struct Material {
     pub double_sided: bool,
     /// Whether the base colour is shown without lighting. The material casts shadows in either case.
     pub unlit: bool,
-    /// How it casts shadows; `None`: by its alpha mode, `On` for opaque, `Clip` for mask, `Tint` for blend.
+    /// Kind of shadow that it casts; `None`: by its alpha mode, `On` for opaque, `Clip` for mask, `Tint` for blend.
     pub casts: Option<CasterMode>,
     /// Whether it receives shadows.
     pub receives_shadows: bool,
@@ -78,7 +78,7 @@ impl Material {
     }
 }
 
-/// How a material casts shadows.
+/// Kind of shadow that a material casts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CasterMode {
     /// The whole surface casts a shadow, regardless of alpha.
@@ -133,7 +133,7 @@ impl TextureRef {
     }
 }
 
-/// How an image is filtered and wrapped.
+/// Filtering and wrapping of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Sampler {
     /// Wrapping beyond the left and right edges.

@@ -1,4 +1,4 @@
-//! What pipelines and nodes are built for.
+//! The device and configuration for which pipelines and nodes are built.
 
 use shadowgraph_lighting::LitTarget;
 use shadowgraph_scene::gpu::MaterialLayouts;
@@ -6,7 +6,7 @@ use shadowgraph_shadows::ShadowTechnique;
 
 use crate::error::Error;
 
-/// What a pipeline and its nodes are built for.
+/// The device and configuration for which a pipeline and its nodes are built.
 #[derive(Clone, Copy)]
 pub struct BuildContext<'b> {
     /// The device.

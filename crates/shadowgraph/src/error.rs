@@ -18,10 +18,10 @@ pub enum Error {
         /// The number of samples.
         samples: u32,
     },
-    /// There is no adapter that was asked for.
+    /// The requested adapter does not exist.
     #[error("no usable graphics adapter ({wanted}): {reason}")]
     NoAdapter {
-        /// The adapter that was asked for.
+        /// The requested adapter.
         wanted: String,
         /// The adapters that were found, and what to install.
         reason: String,
@@ -94,7 +94,7 @@ pub enum Error {
     NodeKind {
         /// The name of the kind.
         kind: &'static str,
-        /// What is wrong.
+        /// The problem.
         reason: String,
     },
     /// A kind of node that is not registered.
@@ -142,6 +142,6 @@ pub enum Error {
 pub struct PipelineError {
     /// The file, with line and column if it is one location in it.
     pub location: String,
-    /// What is wrong, and what is expected.
+    /// The problem, and what is expected.
     pub problem: String,
 }

@@ -1,10 +1,10 @@
-//! How images are rendered.
+//! Configuration of rendering.
 
 use shadowgraph_shadows::{Technique, TechniqueKind};
 
 use crate::pipelines::pipeline::Pipeline;
 
-/// How images are rendered.
+/// Configuration of rendering.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderConfig {
     /// The shadow technique; `None` for that of the pipeline, or `pcf` if it names none.

@@ -31,7 +31,7 @@ pub struct RenderView<'v> {
     pub technique: &'v dyn ShadowTechnique,
     /// The camera that shadows are fitted to.
     pub shadow_camera: &'v Camera,
-    /// What lit passes write.
+    /// Value that lit passes write.
     pub lit_output: LitOutput,
     /// The target of the colour image: a texture of the caller, as large as the view; `None` for a texture of the frame.
     pub target: Option<&'v wgpu::Texture>,

@@ -40,7 +40,7 @@ pub struct Renderer {
     aov: Aov,
     /// The camera that shadows are fitted to, if it is not that of the view.
     shadow_camera: Option<Camera>,
-    /// Behind a mutex because a frame borrows the renderer while the graph compiles and executes it.
+    /// Guarded by a mutex because a frame borrows the renderer while the graph compiles and executes it.
     graph: Mutex<Graph>,
 }
 

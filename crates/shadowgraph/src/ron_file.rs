@@ -15,7 +15,7 @@ use shadowgraph_core::did_you_mean;
 pub struct ParseError {
     /// `file:line:column`, or the file alone.
     pub location: String,
-    /// What is wrong, and what is allowed.
+    /// The problem, and what is allowed.
     pub problem: String,
 }
 
@@ -30,13 +30,13 @@ impl std::error::Error for ParseError {}
 /// Parses the text of a file; `Some` need not be written.
 ///
 /// # Errors
-/// What is wrong, and its location.
+/// The problem, and its location.
 pub fn parse_file<'t, T: Deserialize<'t>>(file: &str, text: &'t str) -> Result<T, ParseError> {
     parse_text(text)
         .map_err(|(offset, problem)| ParseError { location: location(file, text, offset), problem })
 }
 
-/// Parses a text.
+/// Parses a string.
 ///
 /// # Errors
 /// The offset of the error in bytes, and what is wrong.
@@ -232,7 +232,7 @@ fn problem(error: &ron::Error) -> String {
         E::UnexpectedChar('#') => "unexpected '#'; comments begin with //",
         E::UnexpectedChar('$') => "unexpected '$'; write a parameter in quotes, \"$name\"",
         E::UnexpectedChar(found) => return format!("unexpected {found:?}"),
-        E::ExceededRecursionLimit => "brackets are nested too deep",
+        E::ExceededRecursionLimit => "values are nested too deep",
         other => return other.to_string(),
     };
     problem.to_owned()

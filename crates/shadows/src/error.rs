@@ -48,7 +48,7 @@ pub enum Error {
     Technique {
         /// Its name.
         technique: String,
-        /// What is wrong.
+        /// The problem.
         reason: String,
     },
     /// The settings of a technique cannot be parsed.
@@ -59,7 +59,7 @@ pub enum Error {
     MalformedSettings {
         /// Its name.
         technique: String,
-        /// What is wrong, and the position in the text of its settings.
+        /// The problem, and the position in the text of its settings.
         reason: Box<ron::error::SpannedError>,
     },
     /// The name of a technique is unknown.

@@ -80,7 +80,7 @@ pub use views::{
     TilePlacement,
 };
 
-/// What `declare_settings!` expands to needs this.
+/// Used by the expansion of `declare_settings!`.
 #[doc(hidden)]
 pub mod __settings {
     pub use crate::settings::{Given, json};

@@ -74,7 +74,7 @@ pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
 ///
 /// # Errors
 ///
-/// As [`plan_shadows`].
+/// The errors of [`plan_shadows`].
 pub fn plan_shadows_after(
     inputs: &ShadowInputs<'_>,
     previous: Option<&AtlasAllocation>,

@@ -19,7 +19,7 @@ pub struct Unshadowed {
     pub reason: UnshadowedReason,
 }
 
-/// Why a light has no shadows in a frame.
+/// Reason why a light has no shadows in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UnshadowedReason {

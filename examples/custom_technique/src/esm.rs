@@ -52,7 +52,7 @@ impl ShadowTechnique for Esm {
     }
 
     fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
-        // MAPPED finds the tiles of a point and asks the filter, which is our file.
+        // MAPPED finds the tiles of a point and calls the filter, which is our file.
         vec![MAPPED, ModuleSource::new("esm.wgsl", include_str!("esm.wgsl"))]
     }
 

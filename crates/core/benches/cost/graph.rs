@@ -44,7 +44,7 @@ impl<'c> Declared<'c> {
             Source::Real => real::declare(&mut frame, &BYTES, red),
         }
         let start = Instant::now();
-        let compiled = black_box(self.graph.compile(frame).expect("the frame has no mistake"));
+        let compiled = black_box(self.graph.compile(frame).expect("the frame is valid"));
         let time = start.elapsed();
         drop(compiled);
         time
@@ -94,7 +94,7 @@ impl<'d> Whole<'d> {
                 Ok(())
             });
         });
-        let compiled = self.graph.compile(frame).expect("the frame has no mistake");
+        let compiled = self.graph.compile(frame).expect("the frame is valid");
         if self.threads > 1 {
             let executed = compiled.execute_on_threads(&mut self.graph, &drawing.device, self.threads);
             let (_, buffers) = executed.expect("the device has what the frame needs");

@@ -26,7 +26,7 @@ impl<'d> Hand<'d> {
         let mut frame = graph.frame();
         let handles: &mut Vec<Texture> = &mut Vec::new();
         chain.declare(&mut frame, handles, 0.0, |frame, texture| chain.import(frame, texture), |_, _, _| {});
-        let compiled = graph.compile(frame).expect("the frame has no mistake");
+        let compiled = graph.compile(frame).expect("the frame is valid");
         let plan = compiled.plan();
         let textures: Vec<wgpu::Texture> = plan.slots().map(|_| texture(&drawing.device)).collect();
         let physical: Vec<&wgpu::Texture> = plan

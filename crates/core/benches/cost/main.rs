@@ -45,14 +45,14 @@ fn single_figures(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(length as u64));
         for change in Change::ALL {
             let mut declared = Declared::new(Source::Chain(&chain), change);
-            let id = BenchmarkId::new(change.word(), length);
+            let id = BenchmarkId::new(change.name(), length);
             group.bench_function(id, |bencher| bencher.iter(|| declared.frame()));
         }
     }
     group.throughput(Throughput::Elements(frames::real::PASSES as u64));
     for change in Change::ALL {
         let mut declared = Declared::new(Source::Real, change);
-        let id = BenchmarkId::new(change.word(), "real");
+        let id = BenchmarkId::new(change.name(), "real");
         group.bench_function(id, |bencher| bencher.iter(|| declared.frame()));
     }
     group.finish();
@@ -79,7 +79,7 @@ fn declaring(table: &mut Table) {
         let measured = measure(Change::ALL.map(|change| declares(Source::Chain(&chain), change)));
         let targets = [Target::Micros(0.15), Target::Micros(1.0), Target::None];
         for ((change, measured), target) in Change::ALL.into_iter().zip(measured).zip(targets) {
-            let figure = format!("{length} passes, {}", change.word());
+            let figure = format!("{length} passes, {}", change.name());
             table.row(&figure, measured.seconds / length as f64, None, target);
         }
     }
@@ -100,13 +100,13 @@ fn real_frame(table: &mut Table) {
     let measured = measure(kinds.map(|change| compiles(Source::Real, change)));
     let targets = [Target::Micros(10.0), Target::Micros(60.0)];
     for ((change, measured), target) in kinds.into_iter().zip(measured).zip(targets) {
-        table.row(change.word(), measured.seconds, None, target);
+        table.row(change.name(), measured.seconds, None, target);
     }
     table.heading("declare and compile, 65 passes with 350 accesses");
     for (change, measured) in
         kinds.into_iter().zip(measure(kinds.map(|change| declares(Source::Real, change))))
     {
-        table.row(change.word(), measured.seconds, None, Target::None);
+        table.row(change.name(), measured.seconds, None, Target::None);
     }
 }
 

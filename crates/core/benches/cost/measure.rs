@@ -7,8 +7,8 @@ pub(crate) type Subject<'s> = Box<dyn FnMut() -> Duration + 's>;
 
 /// Number of rounds.
 const ROUNDS: usize = 151;
-/// Approximate duration of a subject in a round.
-const TURN: Duration = Duration::from_millis(2);
+/// Approximate duration of a sample.
+const SAMPLE_DURATION: Duration = Duration::from_millis(2);
 
 /// The measurement of a subject.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ pub(crate) fn measure<const N: usize>(mut subjects: [Subject<'_>; N]) -> [Measur
 fn frames(subject: &mut Subject<'_>) -> u32 {
     let start = Instant::now();
     let mut count = 0;
-    while start.elapsed() < TURN * 10 {
+    while start.elapsed() < SAMPLE_DURATION * 10 {
         subject();
         count += 1;
     }

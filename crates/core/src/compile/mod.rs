@@ -1,4 +1,4 @@
-//! From declarations to a plan, by small pure functions.
+//! Compiles declarations to a plan, by small pure functions.
 
 mod alias;
 #[cfg(feature = "gpu")]

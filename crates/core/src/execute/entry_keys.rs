@@ -31,7 +31,7 @@ pub(super) fn matches(key: &EntryKey, resources: &Resources<'_>, entry: &Bind<'_
     let recording = resources.recording;
     let same = |token: &Token, access: u32| token.frame == recording.frame && token.access == access;
     match (key, entry) {
-        // The layout tells the two kinds of texture entries apart.
+        // The layout distinguishes the two kinds of texture entries.
         (&EntryKey::Access(access), Bind::Texture(token) | Bind::TextureArray(token)) => {
             same(&token.0, access)
         }

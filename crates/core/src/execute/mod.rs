@@ -40,7 +40,7 @@ pub struct Executed {
     plan: Arc<Plan>,
     frame: u64,
     exports: Vec<(ResourceId, PhysicalResource)>,
-    /// By request; `None` once taken.
+    /// Results by request; `None` once taken.
     read_backs: Vec<Option<ReadBack>>,
 }
 

@@ -15,7 +15,7 @@ use crate::shader_pass::{self, ShaderPasses};
 use std::ops::Range;
 use std::time::Instant;
 
-/// What all passes of a frame share while they are recorded.
+/// State that all passes of a frame share while they are recorded.
 pub(crate) struct Recording<'a> {
     pub(super) plan: &'a Plan,
     pub(super) frame: u64,

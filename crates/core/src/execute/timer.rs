@@ -42,12 +42,12 @@ use std::time::Instant;
 pub struct Timer {
     plan: Option<Arc<Plan>>,
     passes: Vec<PassId>,
-    /// By pass: its index in `passes`, and how many passes share its render pass.
+    /// Index in `passes` of each pass, and how many passes share its render pass.
     positions: Vec<(u32, u32)>,
     begun: Option<Instant>,
-    /// By position: when the body began, in nanoseconds since `begun`, and how long it took.
+    /// Start of the body by position, in nanoseconds since `begun`, and its duration.
     cpu: Vec<(AtomicU64, AtomicU64)>,
-    /// By position: draw calls that bodies reported.
+    /// Draw calls that bodies reported, by position.
     draws: Vec<AtomicU32>,
     gpu: Option<TimestampQueries>,
     triangles: Option<TriangleQueries>,

@@ -23,7 +23,7 @@ pub(crate) struct RegionClear<'v> {
     /// Converted to the attachment's format like `wgpu::Color`, but a value between two representable ones may be rounded
     /// differently than by `LoadOp::Clear`.
     pub(crate) colors: &'v [Option<[f64; 4]>],
-    /// From 0 to 1.
+    /// Value from 0 to 1.
     pub(crate) depth: Option<f32>,
     pub(crate) stencil: Option<u32>,
     /// It must lie inside the attachments.

@@ -5,7 +5,7 @@ use crate::desc::{Format, TextureDesc};
 use std::collections::HashMap;
 use wgpu::{TextureDimension, TextureSampleType, TextureUsages};
 
-/// Why a texture cannot be resampled.
+/// Reason why a texture cannot be resampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ResampleError {
     /// No shader can write all of the format: it has a stencil aspect, is compressed or is not renderable.
@@ -116,7 +116,7 @@ pub(super) fn view(texture: &wgpu::Texture, mip: u32, layer: u32) -> wgpu::Textu
 
 struct Draw {
     pipeline: wgpu::RenderPipeline,
-    /// For filterable formats only.
+    /// `None` for formats that cannot be filtered.
     sampler: Option<wgpu::Sampler>,
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct CachedPipeline<P> {
 struct Entry<K, P> {
     stage: Arc<ProgrammableStage>,
     key: K,
-    /// For further pipelines of the same source.
+    /// Kept for further pipelines of the same source.
     module: wgpu::ShaderModule,
     cached: CachedPipeline<P>,
     used: u64,

@@ -14,7 +14,7 @@ type Text = Cow<'static, str>;
 /// A shader with its entry point and constants: what a pipeline is made of besides its targets.
 #[derive(Clone, Debug)]
 pub(crate) struct ProgrammableStage {
-    /// For labels and errors; stages that differ in nothing else are equivalent.
+    /// Name for labels and errors; stages that differ in nothing else are equivalent.
     pub(crate) name: Text,
     pub(super) source: Source,
     pub(super) entry_point: Option<Text>,

@@ -1,4 +1,4 @@
-//! What a pipeline draws into.
+//! Targets of a pipeline.
 
 use crate::desc::Format;
 use crate::device::MAX_COLOR_ATTACHMENTS;

@@ -4,7 +4,7 @@ use crate::declaration::PassKind;
 use crate::handle::{PassId, ResourceId};
 use serde::Serialize;
 
-/// Why a pass does not run.
+/// Reason why a pass does not run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum CullReason {
     /// It writes nothing and is not kept.
@@ -17,19 +17,19 @@ pub enum CullReason {
     Overwritten(ResourceId, PassId),
 }
 
-/// Why a pass is at its position in the order.
+/// Reason why a pass is at its position in the order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum OrderReason {
     /// The frame fixes the order of declaration.
     Fixed,
     /// It was the only pass whose dependencies had run.
     OnlyReady,
-    /// Of the ready passes, it continues the open render pass.
+    /// It is the ready pass that continues the open render pass.
     ContinuesRenderPass,
-    /// Of the ready passes, it leaves the least memory in use: this many bytes less than before it (more if the number
+    /// It is the ready pass that leaves the least memory in use: this many bytes less than before it (more if the number
     /// is negative).
     FreesMemory(i64),
-    /// Of the ready passes that are best for memory, it was declared first.
+    /// It was declared first of the ready passes that are best for memory.
     DeclaredFirst,
     /// The order of declaration, because choosing by memory would need more of it.
     DeclarationNeedsLess,
@@ -38,7 +38,7 @@ pub enum OrderReason {
     BackwardsNeedsLess,
 }
 
-/// Why a pass shares the render pass of the one before it, or why not.
+/// Reason why a pass shares the render pass of the one before it, or why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum MergeReason {
     /// It is the first pass of the frame.
@@ -63,7 +63,7 @@ pub enum MergeReason {
     Resolves(ResourceId),
 }
 
-/// Why an attachment is cleared or loaded.
+/// Reason why an attachment is cleared or loaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum LoadReason {
     /// The pass declares the clear.
@@ -85,7 +85,7 @@ pub enum LoadReason {
     Merged,
 }
 
-/// Why an attachment is stored or discarded.
+/// Reason why an attachment is stored or discarded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum StoreReason {
     /// This pass needs it.
@@ -104,7 +104,7 @@ pub enum StoreReason {
     Merged,
 }
 
-/// Why a resource is in its slot, or in none.
+/// Reason why a resource is in its slot, or in none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SlotReason {
     /// No pass that runs uses it.

@@ -109,7 +109,7 @@ impl PooledHistory {
     }
 }
 
-/// What a frame needs of a history.
+/// Requirements of a frame on a history.
 struct HistoryRequest<'p> {
     plan: &'p Plan,
     used: &'p HistoryUse,

@@ -1,4 +1,4 @@
-//! What a graph keeps on one device from frame to frame.
+//! Objects that a graph keeps on one device from frame to frame.
 
 mod bind_group_cache;
 mod histories;
@@ -31,7 +31,7 @@ use crate::pipeline::PipelineCache;
 use crate::plan::Plan;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// How long and how much a graph keeps beyond what a frame needs.
+/// Limits of what a graph keeps beyond what a frame needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PoolLimits {
     /// Frames that a texture, buffer, view, bind group or history may be idle before it is dropped.
@@ -62,7 +62,7 @@ pub(crate) struct Pool {
     caches: Mutex<Caches>,
 }
 
-/// What passes look up while they are recorded, possibly on several threads.
+/// Data that passes look up while they are recorded, possibly on several threads.
 #[derive(Default)]
 pub(crate) struct Caches {
     pub(crate) views: ViewCache,

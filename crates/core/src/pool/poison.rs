@@ -1,4 +1,4 @@
-//! What the pool keeps for the poison mode, which fills memory with conspicuous values.
+//! Objects that the pool keeps for the poison mode, which fills memory with conspicuous values.
 
 use crate::desc::ResourceDesc;
 use crate::plan::Slot;
@@ -10,7 +10,7 @@ const WORD: u32 = 0x7fcd_cdcd;
 const MIN_BYTES: u64 = 1 << 20;
 
 /// Returns the slot with the usages that filling it needs. Transient attachments cannot be filled: nothing outside their
-/// render pass sees them, and inside it a clear takes the fill's place.
+/// render pass sees them, and inside it a clear replaces the fill.
 pub(super) fn with_fill_usage(mut slot: Slot, features: wgpu::Features) -> Slot {
     match slot.desc {
         ResourceDesc::Buffer(_) => slot.buffer_usage |= BufferUsages::COPY_DST,

@@ -23,14 +23,14 @@ pub(crate) struct ResolvedPlan {
     /// The frame that used it last.
     pub(super) frame: u64,
     slots: Vec<SlotKey>,
-    /// By resource.
+    /// Physical slots by resource.
     pub(crate) objects: Vec<Option<PhysicalResource>>,
-    /// By access: the views of attachments in passes that run.
+    /// Views of attachments in passes that run, by access.
     pub(crate) views: Vec<Option<wgpu::TextureView>>,
     /// Accesses of attachments whose objects change from frame to frame.
     changing_attachments: Vec<u32>,
     labels: Labels,
-    /// From the second frame on.
+    /// Present from the second frame on.
     pub(crate) pass_groups: Option<PassGroups>,
 }
 
@@ -56,7 +56,7 @@ impl ResolvedPlan {
         let mut slots = Vec::with_capacity(plan.slots.len());
         let mut slot_objects = Vec::with_capacity(plan.slots.len());
         for (slot, described) in plan.slots.iter().zip(plan.slots()) {
-            let name = described.resources.first().map_or("", |&tenant| plan.decl.resource_name(tenant));
+            let name = described.resources.first().map_or("", |&resource| plan.decl.resource_name(resource));
             let slot = if pool.poison { with_fill_usage(*slot, device.features()) } else { *slot };
             let (key, object) = pool.slots.acquire(device, &slot, name, frame)?;
             slots.push(key);
@@ -169,7 +169,7 @@ fn check_colors(plan: &Plan, limits: &wgpu::Limits) -> Result<(), Error> {
 /// The paths of all passes in one string.
 struct Labels {
     text: String,
-    /// By pass.
+    /// Ends by pass.
     ends: Vec<u32>,
 }
 

@@ -4,7 +4,7 @@ use crate::subresource::{Aspect, Subresource};
 use rustc_hash::FxHashMap;
 use wgpu::{TextureAspect, TextureViewDescriptor, TextureViewDimension};
 
-/// How a view will be used.
+/// Intended use of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum ViewUsage {
     /// Bound to shaders: one aspect of a depth-stencil format, all selected layers of an array.

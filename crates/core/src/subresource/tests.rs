@@ -86,7 +86,7 @@ proptest! {
     }
 
     #[test]
-    fn sets_hold_what_their_cells_say(changes in prop::collection::vec(change(), 0..9), asked in region()) {
+    fn sets_hold_what_their_cells_say(changes in prop::collection::vec(change(), 0..9), query in region()) {
         let (mut set, mut expected) = (RegionSet::default(), [false; CELLS]);
         for change in &changes {
             match change {
@@ -105,10 +105,10 @@ proptest! {
             }
             prop_assert_eq!(cells_of(&set), expected);
         }
-        let wanted = cells(&asked);
+        let wanted = cells(&query);
         let common = both(&expected, &wanted, |a, b| a && b);
-        prop_assert_eq!(set.overlaps(&asked), common.contains(&true));
-        prop_assert_eq!(set.contains(&asked), common == wanted);
+        prop_assert_eq!(set.overlaps(&query), common.contains(&true));
+        prop_assert_eq!(set.contains(&query), common == wanted);
         prop_assert_eq!(set.is_empty(), !expected.contains(&true));
     }
 }
@@ -158,7 +158,7 @@ fn parts_that_a_resource_does_not_have_are_told() {
 }
 
 #[test]
-fn parts_have_words() {
+fn subresources_are_described() {
     assert_eq!(Subresource::FULL.to_string(), "all");
     assert_eq!(Subresource::FULL.mip(1).layers(2..4).to_string(), "mip 1, layers 2..4");
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Which resources share a physical texture.
+//! Aliasing of resources in a physical texture.
 
 use super::{BLACK, check, depth, draw, filter, hdr, plan};
 use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -49,7 +49,7 @@ fn storage_apart() {
     check("storage_apart", &plan(frame).to_text());
 }
 
-/// Of the ready passes, the one that frees memory runs first: one branch is finished before the other begins.
+/// The ready pass that frees memory runs first: one branch is finished before the other begins.
 #[test]
 fn order_chosen_for_memory() {
     let mut frame = Frame::new();

@@ -1,4 +1,4 @@
-//! Which passes share a render pass, and what prevents it.
+//! Merging of passes into a render pass, and what prevents it.
 
 use super::{BLACK, FAR, check, depth, filter, hdr, plan};
 use shadowgraph_core::{BufferDesc, Contents, Frame, Options};
@@ -39,7 +39,7 @@ fn refused_merge_reads() {
 }
 
 /// A pass that clears an attachment starts a render pass, since the clear is free there: here a cockpit that is
-/// drawn over the world with a depth buffer emptied for it.
+/// drawn over the world with a depth buffer cleared for it.
 #[test]
 fn refused_merge_clears() {
     let mut frame = Frame::new();

@@ -1,4 +1,4 @@
-//! What orders passes, and what does not.
+//! Causes of an order between passes, and what is none.
 
 use super::{BLACK, FAR, check, depth, draw, filter, hdr, plan};
 use shadowgraph_core::{Contents, Format, Frame, TextureDesc, TextureUsages};
@@ -87,7 +87,7 @@ fn order_chosen_for_merging() {
     check("order_chosen_for_merging", &plan(frame).to_text());
 }
 
-/// Why one pass runs before another: the shortest chain of dependencies.
+/// The reason why one pass runs before another: the shortest chain of dependencies.
 #[test]
 fn why_before() {
     let mut frame = Frame::new();

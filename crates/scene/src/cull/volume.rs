@@ -68,7 +68,7 @@ pub(crate) struct PreparedVolume<'a> {
     planes: &'a [Plane],
 }
 
-/// How a node's bounds lie relative to a volume.
+/// Position of a node's bounds relative to a volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Containment {
     /// No box in the node intersects the volume.

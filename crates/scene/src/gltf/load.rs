@@ -116,7 +116,7 @@ fn check_instance_count(document: &Document, nodes: &[SceneNode]) -> Result<(), 
 /// The meshes of the scene, and the mesh and material of each primitive of the file.
 struct Geometry {
     meshes: Vec<Mesh>,
-    /// For each mesh of the file: index of the scene's mesh and of its material, for each drawn primitive.
+    /// Index of the scene's mesh and of its material, for each drawn primitive of each mesh of the file.
     primitives: Vec<Vec<(usize, usize)>>,
 }
 

@@ -11,7 +11,7 @@ use crate::material::CasterMode;
 pub struct Draw {
     /// The key of the pipeline.
     pub key: MaterialKey,
-    /// How it casts a shadow.
+    /// Kind of shadow that it casts.
     pub casts: CasterMode,
     /// Index of the material.
     pub material: u32,

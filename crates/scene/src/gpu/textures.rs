@@ -12,7 +12,7 @@ const BYTES_IN_FLIGHT: usize = 64 << 20;
 /// The anisotropy of smooth filters.
 const ANISOTROPY: u16 = 4;
 
-/// How an image is read. An image that is read in two ways becomes two textures.
+/// Interpretation of an image. An image that is read in two ways becomes two textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Reading {
     pub(super) encoding: Encoding,

@@ -17,7 +17,7 @@ type BuildFn = fn(&BuildContext<'_>, &Settings) -> Result<Box<dyn AnyNode>, Erro
 pub struct NodeKind {
     /// The name in pipelines.
     pub name: &'static str,
-    /// What it does.
+    /// Describes the node in a phrase.
     pub about: &'static str,
     /// The inputs.
     pub inputs: &'static [Port],

@@ -57,7 +57,7 @@ use crate::render_view::RenderView;
 pub trait Node: Send + Sync + Sized + 'static {
     /// The name of the kind in pipelines.
     const NAME: &'static str;
-    /// What it does, in a phrase.
+    /// Describes the node in a phrase.
     const ABOUT: &'static str;
     /// The inputs.
     const INPUTS: &'static [Port];

@@ -38,7 +38,7 @@ impl PortKind {
 /// Whether a port is always connected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Presence {
-    /// An input that has to be connected; an output that is set in every frame.
+    /// An input that must be connected; an output that is set in every frame.
     #[default]
     Required,
     /// An input that may be left unconnected; an output that is not set in every frame.
@@ -54,7 +54,7 @@ pub struct Port {
     pub name: &'static str,
     /// The kind of value.
     pub kind: PortKind,
-    /// What the value is, in a phrase.
+    /// Describes the value in a phrase.
     pub about: &'static str,
     /// Format of a texture: of an output, or the only one that an input accepts; `None` for any.
     pub format: Option<Format>,

@@ -6,7 +6,7 @@
 pub struct OptionError {
     /// The name of the option, such as `shadow_distance`.
     pub option: &'static str,
-    /// What is wrong, and what is expected.
+    /// The problem, and what is expected.
     pub reason: String,
 }
 

@@ -1,4 +1,4 @@
-//! What goes into an allocation and what comes out of it.
+//! Inputs and results of an allocation.
 
 use std::cmp::Ordering;
 

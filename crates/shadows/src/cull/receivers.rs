@@ -34,7 +34,7 @@ impl ReceiverHull {
         let mut faces = SupportingPlanes::new(&corners, 0.0);
         for face in FACES {
             let [a, b, c, d] = face.map(|corner| corners[corner]);
-            // Diagonals are long even where a side has no length.
+            // Diagonals are long even where a side is zero.
             let (down, up) = (c - a, d - b);
             let across = down.cross(up);
             if across.length() > LINE * down.length() * up.length() {

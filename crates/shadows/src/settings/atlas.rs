@@ -14,7 +14,7 @@ declare_settings! {
         map_size_px: u32 = 2048, power_of_two 256..=8192, in "pixels";
         /// Division of the map among the lights.
         tiles: AtlasTiles = AtlasTiles::ByImportance { smallest_px: 64 };
-        /// Keeps tiles from frame to frame, and draws one again only when its light, its place or its casters change.
+        /// Keeps tiles from frame to frame, and draws one again only when its light, its position or its casters change.
         /// Casters that are not visible are then drawn too, as the next frame may see them.
         cache: bool = false;
         /// Format of the map.
@@ -33,7 +33,7 @@ declare_settings! {
         /// Up to 16 tiles of one size: the map is split 1, 2, 3 or 4 times each way, as the lights need.
         Even;
         /// Tiles of powers of two: the larger the part of the image that a light can fill, times its `importance`, the larger its tiles.
-        /// A light keeps size and place while its request changes little. If the map is too small, all tiles get smaller, and last
+        /// A light keeps its size and position while its request changes little. If the map is too small, all tiles get smaller, and last
         /// the least important lights get none.
         ByImportance {
             /// Width of the smallest tile.

@@ -13,7 +13,7 @@ declare_settings! {
         normal: NormalBias = NormalBias::Sine;
         /// Part of the depth change of `method` by which each lookup of the filter is moved towards the light.
         slope: f32 = 1.0, 0..=4, in "times the receiver's slope";
-        /// Depth change in every direction that lookups beside the middle allow for at least, only with `Plane`. It keeps the foot of a lit
+        /// Depth change in every direction that lookups away from the middle allow for at least, only with `Plane`. It keeps the foot of a lit
         /// wall from being darkened by the wall.
         min_slope: f32 = 0.5, 0..=4, in "texels of depth per texel";
         /// Steepest depth change that `slope` follows.

@@ -135,7 +135,7 @@ pub const MAX_CASCADES: u32 = 8;
 pub const MAX_CASCADE_LIGHTS: u32 = 4;
 
 impl CascadeSettings {
-    /// Returns the part of its length by which a slice reaches into the one before it: what is blended is covered by both.
+    /// Returns the part of its length by which a slice reaches into the one before it: both cover the part that is blended.
     #[must_use]
     pub fn slice_overlap(&self) -> f64 {
         f64::from(self.overlap.max(self.blend.fraction()))

@@ -2,7 +2,7 @@
 //!
 //! A setting is declared once: structs and enums by [`declare_settings!`](crate::declare_settings), settings of nodes as
 //! constants. The declaration is a static tree of [`Setting`]s. Validation, the text of errors, the command `nodes`, the tables of
-//! the documents, JSON schemas and the controls of the window all read that tree, so none of them states a range of its own.
+//! the documents, JSON schemas and the controls of the window all read that tree, so none of them repeats a range.
 //!
 //! It is here and not in `core`, which is a render graph and has no settings, and not in `shadowgraph`, which is above the
 //! techniques.
@@ -22,7 +22,7 @@ pub struct Setting {
     pub unit: &'static str,
     /// A condition that the type does not state; empty for none.
     pub note: &'static str,
-    /// What the setting does.
+    /// Description of the setting.
     pub about: &'static str,
 }
 
@@ -60,7 +60,7 @@ pub enum SettingType {
 pub struct Variant {
     /// The name in files.
     pub name: &'static str,
-    /// What it means.
+    /// Its meaning.
     pub about: &'static str,
     /// The values that it carries.
     pub payload: Payload,

@@ -43,7 +43,7 @@ fn write_fields(out: &mut String, settings: &[Setting], indent: usize) {
     }
 }
 
-/// What is allowed and what the setting does, in one line.
+/// Describes a setting in one line: what is allowed and what it does.
 fn comment(setting: &Setting) -> String {
     let about = first_sentence(setting.about);
     match setting.ty {

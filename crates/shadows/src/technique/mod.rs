@@ -90,6 +90,6 @@ pub struct SurfaceBuffers {
     /// Positions and normals of all visible surfaces that are not blended: `Rgba32Float`, in the encoding of
     /// `shadowgraph::surface`.
     pub surfaces: Texture,
-    /// Whether blended geometry is drawn over the surfaces.
+    /// Whether blended geometry is drawn after the surfaces.
     pub has_blended: bool,
 }

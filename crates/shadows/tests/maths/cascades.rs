@@ -143,8 +143,8 @@ proptest! {
         prop_assert!(volume.intersects(&small(receiver - direction * towards)));
         let beyond = center_world + direction * (2.0 * fit.half_extent_m() + towards);
         prop_assert!(!volume.intersects(&small(beyond)));
-        let beside = direction.any_orthonormal_vector() * (3.0 * fit.half_extent_m());
-        prop_assert!(!volume.intersects(&small(center_world + beside - direction * towards)));
+        let sideways = direction.any_orthonormal_vector() * (3.0 * fit.half_extent_m());
+        prop_assert!(!volume.intersects(&small(center_world + sideways - direction * towards)));
     }
 
     #[test]

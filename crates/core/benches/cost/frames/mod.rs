@@ -3,7 +3,7 @@
 pub(crate) mod chain;
 pub(crate) mod real;
 
-/// What differs from frame to frame.
+/// Differences from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Change {
     /// Nothing: the plan of the previous frame is reused.
@@ -26,7 +26,7 @@ impl Change {
         }
     }
 
-    pub(crate) fn word(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Never => "unchanged",
             Self::Always => "changed",

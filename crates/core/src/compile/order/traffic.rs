@@ -1,4 +1,4 @@
-//! Which passes use which of the resources that take memory.
+//! The passes that use each of the resources that take memory.
 
 use crate::compile::csr::Csr;
 use crate::declaration::{Declaration, Origin};

@@ -1,4 +1,4 @@
-//! What follows from contents: culling, loads and stores, usages, dependencies.
+//! Consequences of contents: culling, loads and stores, usages, dependencies.
 
 use super::helpers::{BLACK, FAR, accesses, color, depth, filter, look, ops, order, pass, plan};
 use crate::{

@@ -1,4 +1,4 @@
-//! What random frames hold, so that trivial ones do not count.
+//! Counts of what random frames contain, so that trivial ones do not count.
 
 use super::frames::Spec;
 use super::oracle::part_is_whole;
@@ -36,7 +36,7 @@ impl Counts {
         *self.0.borrow_mut().entry(name).or_default() += count as u64;
     }
 
-    pub(super) fn of(&self, name: &str) -> u64 {
+    pub(super) fn count(&self, name: &str) -> u64 {
         self.0.borrow().get(name).copied().unwrap_or(0)
     }
 
@@ -103,7 +103,7 @@ impl Counts {
     /// Checks that frames are not trivial.
     pub(super) fn assert_rich(&self) {
         for (name, least) in FLOORS {
-            assert!(self.of(name) >= least, "only {} {name}", self.of(name));
+            assert!(self.count(name) >= least, "only {} {name}", self.count(name));
         }
     }
 

@@ -11,7 +11,7 @@ use super::oracle::{Rule, check_plan};
 use super::random_bytes;
 use stages::{Stage, Work, compile};
 
-/// How often a fault could be planted in random frames, and how often one of `rules` was found broken.
+/// Number of times a fault could be planted in random frames, and number of times one of `rules` was found broken.
 struct Found {
     planted: usize,
     caught: usize,
@@ -49,13 +49,13 @@ fn search(rules: &[Rule], plant: impl Fn(Stage, &mut Work) -> Option<bool>) -> F
 }
 
 impl Found {
-    /// For faults that can do no harm in a frame: most are caught, or at least many.
+    /// Checks that most, or at least many, faults were caught, where a fault may do no harm in a frame.
     fn caught(self, least: usize) {
         let Self { planted, caught, missed } = self;
         assert!(caught >= least, "caught {caught} of {planted}: {}", missed.unwrap_or_default());
     }
 
-    /// For faults that always do harm.
+    /// Checks that every fault was caught, where faults always do harm.
     fn always_caught(self) {
         let Self { planted, caught, missed } = self;
         assert!(planted >= 20, "planted {planted} times only");

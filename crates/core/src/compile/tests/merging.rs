@@ -1,4 +1,4 @@
-//! Which passes share a render pass, and each reason why not.
+//! Merging of passes into a render pass, and each reason against it.
 
 use super::helpers::{BLACK, FAR, color, depth, draw, ops, pass, plan, quarter, steps};
 use crate::{

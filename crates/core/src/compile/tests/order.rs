@@ -1,4 +1,4 @@
-//! In which order passes run.
+//! Order of passes.
 
 use super::helpers::{BLACK, color, depends, draw, filter, look, order, pass, plan};
 use crate::{Contents, Format, Frame, Options, OrderPolicy, OrderReason, Plan, Texture, TextureDesc};

@@ -40,7 +40,7 @@ fn check(spec: &Spec, counts: &Counts) -> Result<(), TestCaseError> {
     };
     counts.frame(spec, &plan);
     // The text is long, and determined by the plan.
-    if counts.of("frames").is_multiple_of(16) {
+    if counts.count("frames").is_multiple_of(16) {
         let again = compile(spec.build().0).unwrap();
         prop_assert_eq!(plan.to_json().unwrap(), again.to_json().unwrap());
     }

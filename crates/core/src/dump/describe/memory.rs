@@ -1,4 +1,4 @@
-//! Why attachments are loaded, cleared, stored and discarded, and why resources share slots.
+//! Describes why attachments are loaded, cleared, stored and discarded, and why resources share slots.
 
 use super::clear;
 use crate::access::{Access, Contents};

@@ -1,4 +1,4 @@
-//! Why passes run or do not, where they are in the order, and which render pass they share.
+//! Describes why passes run or do not, where they are in the order, and which render pass they share.
 
 use super::{bytes, list, quoted};
 use crate::access::Access;

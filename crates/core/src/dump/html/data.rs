@@ -35,9 +35,9 @@ struct PassData<'p> {
     node: Option<u32>,
     kind: &'static str,
     keep: bool,
-    /// Why the pass does not run.
+    /// Reason why the pass does not run.
     culled: Option<String>,
-    /// Why the pass runs.
+    /// Reason why the pass runs.
     live: Option<String>,
     place: Option<PlaceData>,
     waits: Vec<String>,
@@ -91,7 +91,7 @@ struct ResourceData<'p> {
     usages: Vec<String>,
     steps: Option<(u32, u32)>,
     slot: Option<u32>,
-    /// Why the resource is in its slot, or in none.
+    /// Reason why the resource is in its slot, or in none.
     why: String,
 }
 

@@ -62,7 +62,7 @@ impl Compiled<'_> {
     /// aliased, and copies follow each pass. It needs memory for all versions of all textures. [`Executed::plan`] is the
     /// frame's own plan.
     ///
-    /// Where consecutive passes draw into separate rectangles, one snapshot shows them all, with the names of the passes.
+    /// One snapshot shows consecutive passes that draw into separate rectangles, with the names of the passes.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, HtmlPage, TextureDesc};

@@ -44,7 +44,7 @@ impl TexturePart {
 /// A copy of whole layers into a buffer.
 pub(super) struct TextureCopy {
     part: TexturePart,
-    /// In texels, rounded up to whole blocks.
+    /// Size in texels, rounded up to whole blocks.
     size: wgpu::Extent3d,
     row_bytes: u32,
     /// Rows of blocks in a layer.

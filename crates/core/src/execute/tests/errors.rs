@@ -89,7 +89,7 @@ fn a_body_of_any_kind_fails_with_the_name_of_its_pass_and_node() {
     }
 }
 
-/// How the second of two merged passes fails.
+/// Failure of the second of two merged passes.
 #[derive(Clone, Copy, Debug)]
 enum Fault {
     None,

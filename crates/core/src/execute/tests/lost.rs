@@ -15,7 +15,7 @@ fn square(graph: &Graph) -> (Frame<'static>, ReadBackRequest) {
     (frame, request)
 }
 
-/// When a device is destroyed.
+/// Moment at which a device is destroyed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Moment {
     BeforeTheEncoder,

@@ -1,4 +1,4 @@
-//! Which objects are kept from frame to frame, and which are dropped.
+//! Tests that objects are kept from frame to frame, or dropped.
 
 use super::gpu::{Gpu, NUMBERS, square};
 use crate::{Bind, Contents, Frame, Graph, PoolLimits, TextureExport};

@@ -1,4 +1,4 @@
-//! Which pipelines and bind groups are created, and how often.
+//! Tests that pipelines and bind groups are created as rarely as possible.
 
 use super::{Gpu, TEXT, cleared, fragment, kernel, texture};
 use crate::{Contents, Error, Executed, Format, Frame, FullscreenShader};

@@ -37,7 +37,7 @@ pub(super) type Pairs<T> = Vec<(Spanned<String>, Spanned<T>)>;
 /// An input and the outputs that it is connected to: the first whose node is enabled counts.
 pub(super) type Connection = (Spanned<String>, Vec<Spanned<String>>);
 
-/// When a node is enabled.
+/// Condition under which a node is enabled.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(super) enum Condition {
     /// The parameter is true.

@@ -1,4 +1,4 @@
-//! From a document to nodes in order, with the indices of the values at their ports.
+//! Resolves a document to nodes in order, with the indices of the values at their ports.
 
 use shadowgraph_core::did_you_mean;
 

@@ -22,7 +22,7 @@ fn any_change() -> impl Strategy<Value = Change> {
     ]
 }
 
-/// For each frame, the lights that change and how.
+/// The lights that change in each frame, and how.
 fn any_frames() -> impl Strategy<Value = Vec<Vec<(usize, Change)>>> {
     let frame = proptest::collection::vec((any::<usize>(), any_change()), 0..6);
     proptest::collection::vec(frame, 50)

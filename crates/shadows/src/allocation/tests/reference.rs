@@ -122,7 +122,7 @@ fn halvings_before(previous: Option<&AtlasAllocation>, owner: u32) -> u32 {
     before.map_or(0, |before| (before.requested_px / before.tile_px).trailing_zeros())
 }
 
-/// Of two owners that request the same size, the more important one is not the smaller one.
+/// The more important of two owners that request the same size is not the smaller one.
 fn check_rank(requests: &[TileRequest], got: &AtlasAllocation) {
     let entries: Vec<&TileAllocation> =
         requests.iter().filter_map(|request| got.for_owner(request.owner)).collect();

@@ -1,4 +1,4 @@
-//! From continuous requests to powers of two.
+//! Rounding of continuous requests to powers of two.
 
 use super::*;
 

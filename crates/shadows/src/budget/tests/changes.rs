@@ -82,8 +82,8 @@ proptest! {
         let mut since = 0;
         for frame in 0..past.times.len() {
             since += 1;
-            let judges = since >= LATENCY + WINDOW;
-            let over = judges && past.median(frame) > BUDGET_MS && past.level_before(frame) + 1 < costs.len();
+            let is_checked = since >= LATENCY + WINDOW;
+            let over = is_checked && past.median(frame) > BUDGET_MS && past.level_before(frame) + 1 < costs.len();
             prop_assert_eq!(past.was_lowered(frame), over, "frame {}", frame);
             since = if past.levels[frame] == past.level_before(frame) { since } else { 0 };
         }

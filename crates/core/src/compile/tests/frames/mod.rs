@@ -34,7 +34,7 @@ pub(super) struct Spec {
     /// `Previous` and `Current` of a history follow each other.
     pub(super) resources: Vec<ResourceSpec>,
     pub(super) passes: Vec<PassSpec>,
-    /// By resource.
+    /// Indices of exported resources.
     pub(super) exports: Vec<usize>,
 }
 

@@ -20,7 +20,7 @@ const FORMATS: [Format; 10] = [
     Format::NV12,
 ];
 
-/// Declares a frame at random. Nothing but a panic is a fault here.
+/// Declares a frame at random. Only a panic is a fault here.
 pub(in super::super) fn random_calls_from_bytes(bytes: &[u8]) -> Frame<'static> {
     let mut calls = RandomCalls {
         source: Source::new(bytes),

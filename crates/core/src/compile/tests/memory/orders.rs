@@ -6,11 +6,11 @@ use crate::compile::tests::oracle::Model;
 
 /// The orders of some passes that keep every hazard.
 pub(super) struct Orders {
-    /// As declared.
+    /// Passes as declared.
     pub(super) passes: Vec<usize>,
-    /// By place in `passes`, as bits: which must come before.
+    /// Predecessors by index in `passes`, as bits.
     before: Vec<usize>,
-    /// Of each transient resource: its bytes, its users as bits, and whether it is exported.
+    /// Bytes of each transient resource, its users as bits, and whether it is exported.
     resources: Vec<(u64, usize, bool)>,
 }
 

@@ -1,4 +1,4 @@
-//! When passes run and how long resources live, read off the plan's order.
+//! Positions of passes and lifetimes of resources, read off the plan's order.
 
 use super::{Model, spec_pass};
 use crate::{Origin, Plan};

@@ -1,4 +1,4 @@
-//! How much memory a frame must have.
+//! Memory that a frame must have.
 
 use super::super::frames::{Names, Spec};
 use super::{Live, Model};

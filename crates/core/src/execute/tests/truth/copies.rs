@@ -22,7 +22,7 @@ pub(super) struct Copies<'g> {
 struct Expected {
     graph: usize,
     what: String,
-    /// In words.
+    /// Start in words.
     start: usize,
     /// Texels in a row of a plane, each row at a multiple of [`ROW`].
     width: usize,

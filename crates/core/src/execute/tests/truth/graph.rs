@@ -45,7 +45,7 @@ pub(super) enum Role {
     Transient,
     /// Created by the caller; `true` if its contents are defined.
     Imported(bool),
-    /// Of the history with that index.
+    /// Last frame's contents of the history with that index.
     Previous(usize),
     Current(usize),
     /// A buffer that is first filled from the CPU.
@@ -113,7 +113,7 @@ pub(super) enum Pass {
     Draw {
         inputs: Inputs,
         targets: Vec<Target>,
-        /// Where it draws: everywhere, in its tile, or in less than that.
+        /// Region that it draws: everything, its tile, or less than that.
         area: Rect,
         /// Words written besides the texels, and whether the old contents are mixed in.
         words: Option<(Span, bool)>,

@@ -34,7 +34,7 @@ impl From<Option<u32>> for Word {
 /// The contents of all textures and buffers.
 #[derive(Clone)]
 pub(super) struct State {
-    /// By texture, then by layer and mip.
+    /// Contents by texture, then by layer and mip.
     textures: Vec<Vec<Vec<Word>>>,
     mips: Vec<u32>,
     buffers: Vec<Vec<Word>>,

@@ -24,7 +24,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Up to two textures and buffers that are known and that the pass does not write, most of them new.
+    /// Picks up to two textures and buffers that are known and that the pass does not write, most of them new.
     fn inputs(&mut self, planes: &[Plane], buffer: Option<usize>) -> Inputs {
         let Self { graph, state, random } = self;
         let mut inputs = Inputs { constant: random.word(), planes: Vec::new(), spans: Vec::new() };

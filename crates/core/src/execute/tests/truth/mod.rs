@@ -54,7 +54,7 @@ fn random_graphs_are_valid_on_a_device_with_default_limits() {
     }
 }
 
-/// How often the graphs contained the tested features.
+/// Number of graphs that contained each of the tested features.
 #[derive(Debug, Default)]
 struct Counts {
     passes: usize,

@@ -19,12 +19,12 @@ struct Variation {
     submission: Submission,
 }
 
-/// How a frame is recorded.
+/// Options for recording a frame.
 #[derive(Clone, Copy)]
 enum RecordMode {
     OneEncoder,
     Threads(usize),
-    /// With a capture.
+    /// The frame is captured.
     Capture,
 }
 
@@ -74,7 +74,7 @@ pub(super) struct Runner<'g> {
     pub(super) plans: Vec<Plan>,
 }
 
-/// Why graphs failed.
+/// Reasons why graphs failed.
 #[derive(Debug)]
 pub(super) struct Failure {
     pub(super) kind: Kind,

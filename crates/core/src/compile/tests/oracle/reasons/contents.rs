@@ -1,4 +1,4 @@
-//! Why attachments load and store.
+//! Reasons why attachments load and store.
 
 use super::super::super::frames::{AccessSpec, Cells};
 use super::super::{Oracle, spec_pass};

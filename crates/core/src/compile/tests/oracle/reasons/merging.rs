@@ -1,4 +1,4 @@
-//! Why passes share a render pass or do not.
+//! Reasons why passes share a render pass or do not.
 
 use super::super::super::frames::AccessSpec;
 use super::super::{Oracle, spec_pass};

@@ -8,7 +8,7 @@ use super::super::frames::Names;
 use super::{Live, Oracle, Rule, spec_pass};
 use crate::{CullReason, PassId, Plan, ResourceId, SlotReason};
 
-/// What the reasons are checked against.
+/// Facts that the reasons are checked against.
 struct Facts<'p> {
     plan: &'p Plan,
     names: &'p Names,
