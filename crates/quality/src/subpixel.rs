@@ -46,7 +46,7 @@ impl<'a> SubpixelReference<'a> {
         values.next().is_some_and(|first| values.any(|truth| truth != first))
     }
 
-    /// GroundTruth beside a pixel's centre; `None` where its plane is not samples.
+    /// Reference next to a pixel's centre; `None` where its plane is not sampled.
     fn truth(&self, pixel: usize, offset_px: DVec2) -> Option<f32> {
         let position = self.surface_point(pixel, offset_px)?.as_vec3();
         let geometric_normal = self.surfaces.normals[pixel];

@@ -1,8 +1,10 @@
-//! Checks the layers of the design: which packages may depend on which, and which words a crate must not use.
+//! Checks the layers of the design: which packages may depend on which, which words a crate must not use,
+//! and that no retired word is left.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod cycles;
 mod imports;
+mod retired_words;
 mod source;
 
 use serde_json::Value;

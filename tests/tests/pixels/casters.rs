@@ -1,4 +1,4 @@
-//! Which geometry casts a shadow.
+//! Tests which geometry casts a shadow.
 
 use crate::maps::draw_map;
 use crate::stage::{

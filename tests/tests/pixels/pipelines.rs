@@ -79,13 +79,13 @@ fn an_unconnected_optional_input_gets_a_placeholder() {
     let Some(gpu) = gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("plain.ron");
-    let fed = "inputs: {\"picture\": \"picture\", \"colors\": \"debug\"}";
+    let connected = "inputs: {\"picture\": \"picture\", \"colors\": \"debug\"}";
     let text = Pipeline::built_in_text("debug_cascades").unwrap();
-    assert!(text.contains(fed));
-    std::fs::write(&file, text.replace(fed, "inputs: {\"picture\": \"picture\"}")).unwrap();
+    assert!(text.contains(connected));
+    std::fs::write(&file, text.replace(connected, "inputs: {\"picture\": \"picture\"}")).unwrap();
     let Registry { nodes, techniques } = Registry::built_in();
     let plain = Pipeline::load(&file, &nodes, &techniques, &Parameters::default()).unwrap();
     let scene = demo_scene();
     let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [160, 90]);
-    assert!(differing(&draw(plain), &draw(Pipeline::forward())) == 0.0, "nothing is drawn over the image");
+    assert!(differing(&draw(plain), &draw(Pipeline::forward())) == 0.0, "the image is not overwritten");
 }

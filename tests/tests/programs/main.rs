@@ -1,4 +1,4 @@
-//! Tests that start built programs: `shadowgraph`, the examples, a browser. One test program, so that cargo is asked for them once.
+//! Tests that start built programs: `shadowgraph`, the examples, a browser. One test program, so that cargo builds them once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod bad_gltf;

@@ -40,7 +40,7 @@ fn by_faces(image: &TestImage) -> Vec<bool> {
 fn the_band_is_what_a_search_of_all_pixels_finds_at_faces_and_shadows() {
     for camera in [above(), grazing()] {
         let mut image = TestImage::new([128, 72], &camera, 1e3, true);
-        // A radius of its own for every pixel, some below 2 pixels.
+        // A different radius for every pixel, some below 2 pixels.
         image.texel_px = image.by_pixel(|x, y| ((x * 7 + y * 13) % 5) as f32 * 1.2);
         let found = band(&image.seen());
         let expected = by_faces(&image);

@@ -17,7 +17,7 @@ fn moved_away(image: &TestImage, by_m: f64) -> Vec<f32> {
 
 #[test]
 fn a_shadow_moved_away_by_20_cm_is_detached_by_20_cm() {
-    // The longest way of a step on the floor beside the box, rounded to pixels, cm.
+    // The longest way of a step on the floor next to the box, rounded to pixels, cm.
     for (camera, pixel_cm) in [(above(), 2.5), (grazing(), 4.5)] {
         let mut image = TestImage::new([640, 360], &camera, 1e3, true);
         for by_m in [0.2, 0.1] {
