@@ -28,7 +28,7 @@ pub struct Case {
     /// Elevations of the sun above the horizon, degrees, each above 0 and up to 90. Empty: the lights of the file.
     #[serde(default)]
     pub sun_elevations_deg: Vec<f64>,
-    /// Which way the sun's light goes over the reference, from east (+X) towards north (-Z), degrees.
+    /// Azimuth of the direction in which the sun's light travels, from east (+X) towards north (-Z), degrees.
     #[serde(default)]
     pub sun_heading_deg: f64,
     /// Cameras. Empty: the cameras of the file, else one that frames the scene.

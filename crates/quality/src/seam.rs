@@ -12,7 +12,7 @@ use crate::Error;
 /// Maximum distance to a pixel of the next cascade at which a pixel is at the border, pixels.
 const BORDER_PX: usize = 2;
 
-/// Asks a technique twice at the surfaces of a view, once with the next coarser cascade, and compares the results along
+/// Evaluates a technique twice at the surfaces of a view, once with the next coarser cascade, and compares the results along
 /// the borders of cascades. Returns `None` where there is no such border, and what one frame cost.
 ///
 /// # Errors

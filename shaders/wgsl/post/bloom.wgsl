@@ -37,13 +37,13 @@ fn fs_first(@location(0) uv: vec2f) -> @location(0) vec4f {
 }
 
 @fragment
-fn fs_halve(@location(0) uv: vec2f) -> @location(0) vec4f {
+fn fs_downsample(@location(0) uv: vec2f) -> @location(0) vec4f {
     return vec4f(downsampled(uv, false), 1.0);
 }
 
 // Half of the level's light, and half of a tent over nine taps of the next smaller level.
 @fragment
-fn fs_widen(@builtin(position) position: vec4f, @location(0) uv: vec2f) -> @location(0) vec4f {
+fn fs_upsample(@builtin(position) position: vec4f, @location(0) uv: vec2f) -> @location(0) vec4f {
     var sum = tap(uv, vec2f(0.0)) * 4.0;
     for (var i = 0; i < 4; i++) {
         let side = f32(i / 2 * 2 - 1);

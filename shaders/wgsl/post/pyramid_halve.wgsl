@@ -4,7 +4,7 @@
 // Depth is reversed: the farthest is the smallest. If a level has an odd size, its last texels belong to the last one of the
 // next level.
 @fragment
-fn fs_halve(@builtin(position) position: vec4f) -> @location(0) vec4f {
+fn fs_downsample(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let size = textureDimensions(finer);
     let first = vec2u(position.xy) * 2u;
     let last_of_next = max(size / 2u, vec2u(1u)) - 1u;

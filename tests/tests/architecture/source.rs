@@ -8,7 +8,7 @@ pub(crate) struct Mention {
     pub(crate) name: Option<String>,
 }
 
-/// What a source file names.
+/// Names in a source file.
 #[derive(Default)]
 pub(crate) struct Source {
     pub(crate) mentions: Vec<Mention>,

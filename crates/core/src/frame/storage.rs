@@ -13,7 +13,7 @@ pub(crate) struct Storage {
     pub(crate) errors: Vec<Error>,
 }
 
-/// What the executor needs besides the plan: bodies and bytes, which borrow, and the caller's objects.
+/// Inputs of the executor besides the plan: bodies and bytes, which borrow, and the caller's objects.
 #[derive(Default)]
 pub(crate) struct Work<'f> {
     pub(crate) uploads: Vec<Cow<'f, [u8]>>,

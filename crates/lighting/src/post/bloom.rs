@@ -25,8 +25,8 @@ impl Bloom {
         let shader = |entry| fullscreen(device, "post/bloom.wgsl", entry);
         Ok(Self {
             first_downsample: shader("fs_first")?,
-            downsample: shader("fs_halve")?,
-            upsample: shader("fs_widen")?,
+            downsample: shader("fs_downsample")?,
+            upsample: shader("fs_upsample")?,
             mix: fullscreen(device, "post/bloom_mix.wgsl", "fs_mix")?,
             linear: linear_sampler(device),
         })

@@ -20,7 +20,7 @@ impl DepthPyramid {
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self {
             copy: fullscreen(device, "post/pyramid.wgsl", "fs_begin")?,
-            downsample: fullscreen(device, "post/pyramid_halve.wgsl", "fs_halve")?,
+            downsample: fullscreen(device, "post/pyramid_halve.wgsl", "fs_downsample")?,
         })
     }
 

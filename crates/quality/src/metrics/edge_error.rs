@@ -106,7 +106,7 @@ fn width_px(values: &[f32], at: usize, rising: bool) -> Option<f32> {
     let (before, after) = values.split_at(at + 1);
     let (before, after) = (before.iter().rev().copied(), after.iter().copied());
     let (first, second) = (values[at], values[at + 1]);
-    // Both ways lead away from one half: upwards as it is, downwards mirrored at 1/2.
+    // Both ways lead away from one half: upwards unchanged, downwards mirrored at 1/2.
     let [up, down] = if rising {
         [rise_px(first, after), rise_px(1.0 - second, before.map(|value| 1.0 - value))]
     } else {

@@ -37,9 +37,9 @@ pub struct PeterPanning {
 /// by the positions of neighbours on the same surface, follows the light's direction projected on the
 /// contact's tangent plane; it is one pixel along the image's axis that it is closer to. The walk ends at
 /// the first pixel with visibility below 1/2. It is *missing* if it leaves the image or the surface (counting
-/// up to the last pixel on it), or comes to one that should be lit or is not a receiver (counting up to that one).
+/// up to the last pixel on it), or reaches one that should be lit or is not a receiver (counting up to that one).
 /// What counts is the way in the world along the projected direction, centre to centre, so less than a pixel
-/// is not samples.
+/// is not detected.
 #[must_use]
 pub fn peter_panning(samples: &Samples<'_>) -> PeterPanning {
     let (mut cm, mut texels, mut missing) = (Vec::new(), Vec::new(), 0);
@@ -118,7 +118,7 @@ impl Contact {
 }
 
 /// The step on screen, 1 along its longer axis, whose way in the world is nearest to a direction along the
-/// surface. `None` if there are no neighbours on the same surface to tell.
+/// surface. `None` if there are no neighbours on the same surface.
 fn step_along(samples: &Samples<'_>, pixel: usize, direction: Vec3) -> Option<DVec2> {
     let right = pixel_vector(samples, pixel, [1, 0])?.as_dvec3();
     let down = pixel_vector(samples, pixel, [0, 1])?.as_dvec3();

@@ -66,7 +66,7 @@ pub struct Flicker {
     pub change: Summary,
 }
 
-/// How the camera moves, by less than a pixel each frame.
+/// Motion of the camera, by less than a pixel each frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Motion {
     /// Sideways and forwards.

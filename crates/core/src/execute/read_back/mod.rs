@@ -22,7 +22,7 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-/// How often and how long [`ReadBack::wait`] waits for another thread that is submitting or polling.
+/// Number and length of the steps in which [`ReadBack::wait`] waits for another thread that is submitting or polling.
 const WAIT_STEPS: (u32, Duration) = (100, Duration::from_millis(10));
 
 /// Bytes of a texture or buffer on their way to the CPU: a future, or block with [`wait`](Self::wait).

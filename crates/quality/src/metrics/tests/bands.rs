@@ -1,4 +1,4 @@
-//! Where the band is, against what the faces of the scene say and a search of all pixels.
+//! Tests of the band, compared with the faces of the scene and a search of all pixels.
 
 use std::time::{Duration, Instant};
 

@@ -104,7 +104,7 @@ fn stripe() -> (TestImage, f64) {
     (image, pixel_cm)
 }
 
-/// How many contacts, the longest way in pixels, how many lost. The lowest rows leave the image first.
+/// Number of contacts, longest distance in pixels, number of missing ones. The lowest rows leave the image first.
 fn walked((image, pixel_cm): (TestImage, f64)) -> (usize, f64, usize) {
     let PeterPanning { cm, missing, .. } = image.all().peter_panning;
     (cm.count, (cm.p99 / pixel_cm * 1e3).round() / 1e3, missing)
@@ -115,7 +115,7 @@ fn a_walk_goes_along_the_light_until_it_is_dark_or_lost() {
     // A step is 0.75 right and 1 down. The first pixel right of column 19 is 10 right and 13 down; along
     // (0.6, 0.8) that is 6 + 10.4.
     assert_eq!(walked(stripe()), (48, 16.4, 48));
-    // Dark from column 13 on: 3 right and 4 down, 5 pixels. Only the last rows are lost: 44 to 47.
+    // Dark from column 13 on: 3 right and 4 down, 5 pixels. Only the last rows are missing: 44 to 47.
     let (mut image, pixel_cm) = stripe();
     image.visibility = image.by_pixel(|x, _| f32::from(u8::from(x < 13)));
     assert_eq!(walked((image, pixel_cm)), (48, 5.0, 4));

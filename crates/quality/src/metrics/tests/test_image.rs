@@ -12,23 +12,23 @@ pub(super) struct Camera {
     pub(super) fov_y: f64,
 }
 
-/// Where the box is that the images with one have: 1 m wide, on the floor.
+/// Corners of the box in images with a box: 1 m wide, on the floor.
 pub(super) const BOX: [DVec3; 2] = [DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 1.0, 0.5)];
 
-/// From straight above, far enough to the side that the box's shaded sides are samples, turned so that they are
+/// Camera that looks straight down, far enough to the side that the box's shaded sides are visible, turned so that they are
 /// not along rows or columns.
 pub(super) fn above() -> Camera {
     let eye = DVec3::new(1.5, 6.0, 2.0);
     Camera { eye, target: DVec3::new(1.5, 0.0, 2.0), up: DVec3::new(0.3, 0.0, -1.0), fov_y: 0.8 }
 }
 
-/// From eye height, 10 degrees down on average; the floor fills the image.
+/// Camera at eye height, 10 degrees down on average; the floor fills the image.
 pub(super) fn grazing() -> Camera {
     let eye = DVec3::new(2.0, 1.3, 6.0);
     Camera { eye, target: DVec3::new(0.4, 0.15, 0.0), up: DVec3::Y, fov_y: 0.3 }
 }
 
-/// Behind the box as seen from the cameras, 30 degrees high.
+/// Direction to the sun: behind the box as seen from the cameras, 30 degrees high.
 pub(super) fn sun() -> DVec3 {
     DVec3::new(-0.6, 0.577, -0.8).normalize()
 }
@@ -162,7 +162,7 @@ pub(super) struct All {
     pub(super) edges: Option<EdgeError>,
 }
 
-/// Where a ray enters the box from outside: along the ray, the face's normal, its number.
+/// Point where a ray enters the box from outside: distance along the ray, the face's normal, its number.
 fn enter_box(origin: DVec3, ray: DVec3) -> Option<(f64, DVec3, u8)> {
     let (a, b) = ((BOX[0] - origin) / ray, (BOX[1] - origin) / ray);
     let (enter, leave) = (a.min(b), a.max(b));

@@ -1,9 +1,9 @@
-//! What all parts of the page are written with.
+//! Escaping and elements that all parts of the page use.
 
 use super::super::data::CaseReport;
 use super::super::metric::Metric;
 
-/// Text as it is safe between tags and in quoted attributes.
+/// Escapes text for use between tags and in quoted attributes.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
