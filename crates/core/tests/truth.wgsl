@@ -28,19 +28,19 @@ fn mixed(state: u32, value: u32) -> u32 {
     return (product << 13u) | (product >> 19u);
 }
 
-fn texel(source: texture_2d<u32>, place: vec2u, shift: u32) -> u32 {
-    return textureLoad(source, (place + shift) % textureDimensions(source), 0).r;
+fn texel(source: texture_2d<u32>, coords: vec2u, shift: u32) -> u32 {
+    return textureLoad(source, (coords + shift) % textureDimensions(source), 0).r;
 }
 
-fn value(place: vec2u) -> u32 {
-    var state = mixed(params.constant, place.x + 4099u * place.y);
+fn value(coords: vec2u) -> u32 {
+    var state = mixed(params.constant, coords.x + 4099u * coords.y);
     if params.textures > 0u {
-        state = mixed(state, texel(texture_0, place, params.shifts[0].x));
+        state = mixed(state, texel(texture_0, coords, params.shifts[0].x));
     }
     if params.textures > 1u {
-        state = mixed(state, texel(texture_1, place, params.shifts[0].y));
+        state = mixed(state, texel(texture_1, coords, params.shifts[0].y));
     }
-    let word = place.x + 16u * place.y;
+    let word = coords.x + 16u * coords.y;
     if params.buffers > 0u {
         state = mixed(state, buffer_0[(word + params.shifts[1].x) % arrayLength(&buffer_0)]);
     }
@@ -75,9 +75,9 @@ fn two_targets(@builtin(position) position: vec4f) -> Two {
 // Writes a word for each texel, besides the texel.
 @fragment
 fn target_and_words(@builtin(position) position: vec4f) -> @location(0) u32 {
-    let place = vec2u(position.xy);
-    let state = value(place);
-    write_word(place.x + params.stride * place.y, mixed(state, 1u));
+    let coords = vec2u(position.xy);
+    let state = value(coords);
+    write_word(coords.x + params.stride * coords.y, mixed(state, 1u));
     return state;
 }
 
@@ -101,10 +101,10 @@ fn texels(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= params.size) {
         return;
     }
-    let place = params.origin + id.xy;
-    var state = value(place);
+    let coords = params.origin + id.xy;
+    var state = value(coords);
     if params.preserve == 1u {
-        state = mixed(textureLoad(out_texels, place).r, state);
+        state = mixed(textureLoad(out_texels, coords).r, state);
     }
-    textureStore(out_texels, place, vec4u(state, 0u, 0u, 0u));
+    textureStore(out_texels, coords, vec4u(state, 0u, 0u, 0u));
 }

@@ -15,10 +15,10 @@ pub(super) fn shuffled(spec: &Spec, source: &mut Source<'_>) -> Spec {
         order.push(next);
         left.retain(|&pass| pass != next);
     }
-    let place = |pass: &usize| order.iter().position(|other| other == pass).unwrap();
+    let position = |pass: &usize| order.iter().position(|other| other == pass).unwrap();
     let moved = |&pass: &usize| {
         let own = &spec.passes[pass];
-        PassSpec { after: own.after.iter().map(place).collect(), ..own.clone() }
+        PassSpec { after: own.after.iter().map(position).collect(), ..own.clone() }
     };
     Spec { passes: order.iter().map(moved).collect(), ..spec.clone() }
 }

@@ -73,9 +73,9 @@ fn a_superfluous_dependency() {
 fn two_dependent_passes_swapped() {
     let swap = |stage, work: &mut Work| {
         let dependency = (stage == Stage::Order).then(|| work.plan.dependencies.last().copied())?;
-        let place = |pass| work.plan.order.iter().position(|&other| other == pass);
-        let places = dependency.map(|d| (place(d.before), place(d.after)));
-        let Some((Some(before), Some(after))) = places else { return Some(false) };
+        let position = |pass| work.plan.order.iter().position(|&other| other == pass);
+        let positions = dependency.map(|d| (position(d.before), position(d.after)));
+        let Some((Some(before), Some(after))) = positions else { return Some(false) };
         work.plan.order.swap(before, after);
         Some(true)
     };
@@ -113,11 +113,13 @@ fn a_pass_that_runs_though_nothing_needs_it() {
 
 /// Joins the first two steps that were kept apart for such a reason.
 fn join(work: &mut Work, apart: impl Fn(MergeReason) -> bool) -> bool {
-    let Some(place) = work.plan.merge_reasons.iter().position(|&reason| apart(reason)) else { return false };
-    let step = work.plan.steps.iter().position(|step| step.0 as usize == place).unwrap_or_default();
+    let Some(position) = work.plan.merge_reasons.iter().position(|&reason| apart(reason)) else {
+        return false;
+    };
+    let step = work.plan.steps.iter().position(|step| step.0 as usize == position).unwrap_or_default();
     let (_, end) = work.plan.steps.remove(step);
     work.plan.steps[step - 1].1 = end;
-    work.plan.merge_reasons[place] = MergeReason::Merged;
+    work.plan.merge_reasons[position] = MergeReason::Merged;
     true
 }
 

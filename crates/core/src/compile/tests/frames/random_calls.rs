@@ -137,7 +137,7 @@ impl RandomCalls<'_> {
 
     fn call(&mut self, frame: &mut Frame<'static>) {
         let (index, mut texture) = self.texture(frame);
-        let (place, mut buffer) = self.buffer(frame);
+        let (position, mut buffer) = self.buffer(frame);
         let (subresource, contents) = (self.subresource(), self.contents());
         match self.source.below(12) {
             0..=4 => self.draw(frame, &mut texture, &buffer, subresource, contents),
@@ -163,7 +163,7 @@ impl RandomCalls<'_> {
         }
         // Now and then a handle is left behind.
         if !self.source.chance(16) {
-            (self.textures[index], self.buffers[place]) = (texture, buffer);
+            (self.textures[index], self.buffers[position]) = (texture, buffer);
         }
     }
 

@@ -20,15 +20,18 @@ impl Orders {
         passes.sort_unstable();
         let model = Model::new(spec);
         let bits = |holds: &dyn Fn(usize) -> bool| {
-            (0..passes.len()).filter(|&place| holds(place)).fold(0, |bits, place| bits | 1 << place)
+            (0..passes.len())
+                .filter(|&position| holds(position))
+                .fold(0, |bits, position| bits | 1 << position)
         };
         let before = (0..passes.len())
-            .map(|at| bits(&|place| place < at && model.ordered(passes[place], passes[at])))
+            .map(|at| bits(&|position| position < at && model.ordered(passes[position], passes[at])))
             .collect();
         let transient = |r: &usize| spec.resources[*r].origin == Origin::Transient;
         let resources = (0..spec.resources.len()).filter(transient).map(|resource| {
-            let touches =
-                |place: usize| spec.passes[passes[place]].accesses.iter().any(|a| a.resource == resource);
+            let touches = |position: usize| {
+                spec.passes[passes[position]].accesses.iter().any(|a| a.resource == resource)
+            };
             (spec.desc(resource).bytes(), bits(&touches), spec.is_exported(resource))
         });
         let resources = resources.collect();

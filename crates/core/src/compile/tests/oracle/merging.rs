@@ -9,7 +9,7 @@ impl Oracle<'_> {
         let last = live.steps.last().map_or(0, |last| last + 1);
         for step in 0..last {
             let group: Vec<usize> = (0..live.order.len())
-                .filter(|&place| live.steps[place] == step)
+                .filter(|&position| live.steps[position] == step)
                 .map(|at| live.order[at])
                 .collect();
             if group.len() > 1 {

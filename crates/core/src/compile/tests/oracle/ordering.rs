@@ -13,7 +13,7 @@ impl Oracle<'_> {
         for (at, &later) in declared.iter().enumerate() {
             for &earlier in &declared[..at] {
                 if self.model.ordered(earlier, later) {
-                    let kept = live.places[earlier] < live.places[later];
+                    let kept = live.positions[earlier] < live.positions[later];
                     self.expect(kept, Rule::Hazard, || format!("p{later} runs before p{earlier}"));
                     let known = reached[later].contains(&earlier);
                     self.expect(known, Rule::Dependencies, || {
@@ -25,8 +25,8 @@ impl Oracle<'_> {
         let fixed = plan.options().order == OrderPolicy::Declared;
         self.expect(!fixed || live.order == declared, Rule::Hazard, || format!("{:?}", live.order));
         for dependency in plan.dependencies() {
-            let places = [dependency.before, dependency.after].map(|id| live.places[spec_pass(id)]);
-            let ordered = places[0].is_some() && places[0] < places[1];
+            let positions = [dependency.before, dependency.after].map(|id| live.positions[spec_pass(id)]);
+            let ordered = positions[0].is_some() && positions[0] < positions[1];
             let holds = ordered && self.is_true(names, dependency);
             self.expect(holds, Rule::Dependencies, || format!("{dependency:?} is not so"));
         }

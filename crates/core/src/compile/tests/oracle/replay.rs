@@ -35,9 +35,9 @@ struct Replay<'p> {
 impl Oracle<'_> {
     pub(super) fn replay(&mut self, truth: &Truth, plan: &Plan, names: &Names, live: &Live) {
         let mut replay = self.memory(truth, plan, names, live);
-        for (place, &pass) in live.order.iter().enumerate() {
-            self.run(&mut replay, place, pass);
-            let ends = live.steps.get(place + 1) != Some(&live.steps[place]);
+        for (position, &pass) in live.order.iter().enumerate() {
+            self.run(&mut replay, position, pass);
+            let ends = live.steps.get(position + 1) != Some(&live.steps[position]);
             if ends {
                 let left = std::mem::take(&mut replay.open);
                 self.expect(left.is_empty(), Rule::Contents, || format!("{left:?} stay open after p{pass}"));
@@ -81,8 +81,8 @@ impl Oracle<'_> {
     }
 
     /// Begins the pass, lets it read, then write, and ends it.
-    fn run(&mut self, replay: &mut Replay<'_>, place: usize, pass: usize) {
-        let id = replay.plan.order()[place];
+    fn run(&mut self, replay: &mut Replay<'_>, position: usize, pass: usize) {
+        let id = replay.plan.order()[position];
         assert_eq!(spec_pass(id), pass);
         let ops: Vec<Option<AttachmentOps>> = replay.plan.accesses(id).map(|access| access.ops).collect();
         let accesses: Vec<_> = self.model.accesses(pass).map(|(_, access, cells)| (*access, cells)).collect();
@@ -91,7 +91,7 @@ impl Oracle<'_> {
                 format!("p{pass} has {ops:?} for {access:?}")
             });
             if let Some(ops) = ops {
-                self.begin(replay, place, access, cells, ops);
+                self.begin(replay, position, access, cells, ops);
             }
         }
         for (index, (access, cells)) in accesses.iter().enumerate() {
@@ -107,7 +107,7 @@ impl Oracle<'_> {
         }
         for ((access, _), ops) in accesses.iter().zip(&ops) {
             if let Some(ops) = ops {
-                self.end(replay, place, access, ops);
+                self.end(replay, position, access, ops);
             }
         }
     }
@@ -116,7 +116,7 @@ impl Oracle<'_> {
     fn begin(
         &mut self,
         replay: &mut Replay<'_>,
-        place: usize,
+        position: usize,
         access: &AccessSpec,
         subresource: &Cells,
         ops: &AttachmentOps,
@@ -125,7 +125,7 @@ impl Oracle<'_> {
         let open = replay.open.contains(&(resource, whole));
         let continues = ops.load == LoadAction::Continue;
         self.expect(open == continues, Rule::Contents, || {
-            format!("place {place} has {ops:?} for {access:?}")
+            format!("position {position} has {ops:?} for {access:?}")
         });
         if !open {
             replay.open.push((resource, whole));
@@ -133,8 +133,10 @@ impl Oracle<'_> {
         match ops.load {
             LoadAction::Clear(value) => self.fill(replay, resource, &whole, value),
             LoadAction::Load => {
-                let wanted = self.wanted(replay, resource, &whole, self.step_start(replay, place));
-                self.expect(wanted, Rule::Waste, || format!("place {place} loads r{resource} for nothing"));
+                let wanted = self.wanted(replay, resource, &whole, self.step_start(replay, position));
+                self.expect(wanted, Rule::Waste, || {
+                    format!("position {position} loads r{resource} for nothing")
+                });
             }
             LoadAction::Continue => {}
         }
@@ -143,9 +145,9 @@ impl Oracle<'_> {
         }
     }
 
-    fn step_start(&self, replay: &Replay<'_>, place: usize) -> usize {
-        let step = replay.live.steps[place];
-        replay.live.steps.iter().position(|&other| other == step).unwrap_or(place)
+    fn step_start(&self, replay: &Replay<'_>, position: usize) -> usize {
+        let step = replay.live.steps[position];
+        replay.live.steps.iter().position(|&other| other == step).unwrap_or(position)
     }
 
     fn fill(&self, replay: &mut Replay<'_>, resource: usize, cells: &Cells, value: ClearValue) {
@@ -181,7 +183,7 @@ impl Oracle<'_> {
     }
 
     /// Stores an attachment, or discards it.
-    fn end(&mut self, replay: &mut Replay<'_>, place: usize, access: &AccessSpec, ops: &AttachmentOps) {
+    fn end(&mut self, replay: &mut Replay<'_>, position: usize, access: &AccessSpec, ops: &AttachmentOps) {
         let (resource, whole) = (access.resource, self.model.attachment(access));
         if ops.store == StoreAction::Continue {
             return;
@@ -192,8 +194,10 @@ impl Oracle<'_> {
             let home = replay.homes[resource];
             together.iter().for_each(|cell| replay.memory[home][cell] = Content::Garbage);
         } else {
-            let wanted = self.wanted(replay, resource, &together, place + 1);
-            self.expect(wanted, Rule::Waste, || format!("place {place} stores r{resource} for nothing"));
+            let wanted = self.wanted(replay, resource, &together, position + 1);
+            self.expect(wanted, Rule::Waste, || {
+                format!("position {position} stores r{resource} for nothing")
+            });
         }
     }
 

@@ -6,13 +6,13 @@ use super::Facts;
 use crate::{AttachmentOps, Contents, LoadAction, LoadReason, Origin, PassId, StoreAction, StoreReason};
 
 impl Oracle<'_> {
-    pub(super) fn contents_reasons(&mut self, facts: &Facts<'_>, place: usize) {
-        let (id, pass) = (facts.plan.order()[place], facts.live.order[place]);
+    pub(super) fn contents_reasons(&mut self, facts: &Facts<'_>, position: usize) {
+        let (id, pass) = (facts.plan.order()[position], facts.live.order[position]);
         for (planned, access) in facts.plan.accesses(id).zip(&self.model.spec.passes[pass].accesses) {
             if let Some(ops) = planned.ops {
-                let load = self.load_reason(facts, place, access, &ops);
+                let load = self.load_reason(facts, position, access, &ops);
                 self.truth(load, id, (ops.load, ops.load_reason));
-                let store = self.store_reason(facts, place, access, &ops);
+                let store = self.store_reason(facts, position, access, &ops);
                 self.truth(store, id, (ops.store, ops.store_reason));
             }
         }
@@ -26,14 +26,20 @@ impl Oracle<'_> {
         (resource, cells): (usize, &Cells),
         how: impl Fn(&AccessSpec) -> bool,
     ) -> Option<usize> {
-        let place = facts.place(other)?;
+        let position = facts.position(other)?;
         let touches = |(_, access, own): (usize, &AccessSpec, Cells)| {
             access.resource == resource && own.overlaps(cells) && how(access)
         };
-        self.model.accesses(spec_pass(other)).any(touches).then_some(place)
+        self.model.accesses(spec_pass(other)).any(touches).then_some(position)
     }
 
-    fn load_reason(&self, facts: &Facts<'_>, place: usize, access: &AccessSpec, ops: &AttachmentOps) -> bool {
+    fn load_reason(
+        &self,
+        facts: &Facts<'_>,
+        position: usize,
+        access: &AccessSpec,
+        ops: &AttachmentOps,
+    ) -> bool {
         let attachment = self.model.attachment(access);
         let subresource = access.subresource.cells(&self.model.cells[access.resource]);
         let own = (access.resource, &subresource);
@@ -47,7 +53,7 @@ impl Oracle<'_> {
             }
             LoadReason::RestUnneeded => clears && subresource != attachment,
             LoadReason::Preserves(writer) => {
-                let written = self.at(facts, writer, own, |a| a.writes()).is_some_and(|at| at < place);
+                let written = self.at(facts, writer, own, |a| a.writes()).is_some_and(|at| at < position);
                 ops.load == LoadAction::Load && access.contents == Some(Contents::Preserve) && written
             }
             LoadReason::PreservesImport => {
@@ -56,7 +62,7 @@ impl Oracle<'_> {
             }
             LoadReason::RestNeededBy(pass) => {
                 let needs = self.at(facts, pass, (access.resource, &attachment), |a| a.needs());
-                ops.load == LoadAction::Load && needs.is_some_and(|at| at >= place)
+                ops.load == LoadAction::Load && needs.is_some_and(|at| at >= position)
             }
             LoadReason::RestOutlives => {
                 ops.load == LoadAction::Load
@@ -70,7 +76,7 @@ impl Oracle<'_> {
     fn store_reason(
         &self,
         facts: &Facts<'_>,
-        place: usize,
+        position: usize,
         access: &AccessSpec,
         ops: &AttachmentOps,
     ) -> bool {
@@ -81,14 +87,14 @@ impl Oracle<'_> {
         let (stores, discards) = (ops.store == StoreAction::Store, ops.store == StoreAction::Discard);
         match ops.store_reason {
             StoreReason::NeededBy(pass) => {
-                stores && self.at(facts, pass, own, |a| a.needs()).is_some_and(|at| at > place)
+                stores && self.at(facts, pass, own, |a| a.needs()).is_some_and(|at| at > position)
             }
             StoreReason::Exported => stores && exported,
             StoreReason::Imported => stores && matches!(resource.origin, Origin::Imported { .. }),
             StoreReason::History => stores && matches!(resource.origin, Origin::Current { .. }),
             StoreReason::OverwrittenBy(pass) => {
                 let overwrites = |a: &AccessSpec| a.writes() && !a.needs();
-                discards && self.at(facts, pass, own, overwrites).is_some_and(|at| at > place)
+                discards && self.at(facts, pass, own, overwrites).is_some_and(|at| at > position)
             }
             StoreReason::LastUse => discards && !exported,
             StoreReason::Merged => ops.store == StoreAction::Continue,

@@ -6,19 +6,19 @@ use super::Facts;
 use crate::{Access, Contents, MergeReason, PassId, PassKind};
 
 impl Oracle<'_> {
-    pub(super) fn merge_reasons(&mut self, facts: &Facts<'_>, place: usize) {
-        let id = facts.plan.order()[place];
+    pub(super) fn merge_reasons(&mut self, facts: &Facts<'_>, position: usize) {
+        let id = facts.plan.order()[position];
         let Some(reason) = facts.plan.merge_reason(id) else {
             return self.truth(false, id, "no merge reason");
         };
-        let step = facts.live.steps[place];
-        let merged = place > 0 && facts.live.steps[place - 1] == step;
+        let step = facts.live.steps[position];
+        let merged = position > 0 && facts.live.steps[position - 1] == step;
         self.truth(merged == (reason == MergeReason::Merged), id, reason);
-        self.truth((place == 0) == (reason == MergeReason::First), id, reason);
-        if place > 0 && !merged {
-            let before = (0..place).filter(|&other| facts.live.steps[other] + 1 == step);
+        self.truth((position == 0) == (reason == MergeReason::First), id, reason);
+        if position > 0 && !merged {
+            let before = (0..position).filter(|&other| facts.live.steps[other] + 1 == step);
             let before: Vec<usize> = before.map(|other| facts.live.order[other]).collect();
-            let holds = self.is_apart(facts, &before, facts.live.order[place], reason);
+            let holds = self.is_apart(facts, &before, facts.live.order[position], reason);
             self.truth(holds, id, reason);
         }
     }

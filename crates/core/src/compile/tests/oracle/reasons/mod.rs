@@ -21,8 +21,8 @@ impl Facts<'_> {
     }
 
     /// Returns the position of a pass that runs.
-    fn place(&self, id: PassId) -> Option<usize> {
-        self.live.places[spec_pass(id)]
+    fn position(&self, id: PassId) -> Option<usize> {
+        self.live.positions[spec_pass(id)]
     }
 }
 
@@ -31,9 +31,9 @@ impl Oracle<'_> {
         let facts = Facts { plan, names, live };
         self.cull_reasons(&facts);
         self.place_reasons(&facts);
-        for place in 0..live.order.len() {
-            self.merge_reasons(&facts, place);
-            self.contents_reasons(&facts, place);
+        for position in 0..live.order.len() {
+            self.merge_reasons(&facts, position);
+            self.contents_reasons(&facts, position);
         }
         self.slot_reasons(&facts);
     }
@@ -58,7 +58,7 @@ impl Oracle<'_> {
                 parts(own)
                     .any(|(_, _, cells)| parts(spec_pass(other)).any(|(_, _, more)| cells.overlaps(&more)))
             };
-            let culled = |other: PassId| facts.place(other).is_none();
+            let culled = |other: PassId| facts.position(other).is_none();
             let holds = match reason {
                 CullReason::WritesNothing => !self.model.spec.passes[own].accesses.iter().any(|a| a.writes()),
                 CullReason::Unread(r) => writes(r),

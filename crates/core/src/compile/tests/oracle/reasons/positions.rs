@@ -7,24 +7,24 @@ use crate::{MergeReason, OrderPolicy, OrderReason, Origin};
 impl Oracle<'_> {
     pub(super) fn place_reasons(&mut self, facts: &Facts<'_>) {
         let order = &facts.live.order;
-        for (place, &pass) in order.iter().enumerate() {
-            let id = facts.plan.order()[place];
+        for (position, &pass) in order.iter().enumerate() {
+            let id = facts.plan.order()[position];
             let Some(reason) = facts.plan.order_reason(id) else {
-                return self.truth(false, id, "no place reason");
+                return self.truth(false, id, "no order reason");
             };
             let ready: Vec<usize> =
-                order[place..].iter().copied().filter(|&p| self.ready(order, place, p)).collect();
-            let own = self.freed(order, place, pass);
+                order[position..].iter().copied().filter(|&p| self.ready(order, position, p)).collect();
+            let own = self.freed(order, position, pass);
             let others = || ready.iter().filter(|&&other| other != pass);
             let holds = match reason {
                 OrderReason::Fixed => facts.plan.options().order == OrderPolicy::Declared,
                 OrderReason::OnlyReady => ready == [pass],
                 OrderReason::ContinuesRenderPass => facts.plan.merge_reason(id) == Some(MergeReason::Merged),
                 OrderReason::FreesMemory(bytes) => {
-                    bytes == own && others().all(|&other| self.freed(order, place, other) < own)
+                    bytes == own && others().all(|&other| self.freed(order, position, other) < own)
                 }
                 OrderReason::DeclaredFirst => others().all(|&other| {
-                    let freed = self.freed(order, place, other);
+                    let freed = self.freed(order, position, other);
                     freed < own || freed == own && other > pass
                 }),
                 OrderReason::DeclarationNeedsLess => order.is_sorted(),
@@ -38,18 +38,18 @@ impl Oracle<'_> {
     }
 
     /// Returns whether everything that must run before the pass has run.
-    fn ready(&self, order: &[usize], place: usize, pass: usize) -> bool {
-        order[place..].iter().all(|&other| other >= pass || !self.model.ordered(other, pass))
+    fn ready(&self, order: &[usize], position: usize, pass: usize) -> bool {
+        order[position..].iter().all(|&other| other >= pass || !self.model.ordered(other, pass))
     }
 
     /// Bytes that are no longer in use after the pass, less those that it begins to use.
-    fn freed(&self, order: &[usize], place: usize, pass: usize) -> i64 {
+    fn freed(&self, order: &[usize], position: usize, pass: usize) -> i64 {
         let spec = self.model.spec;
         let touches = |pass: usize, resource: usize| self.does(pass, resource, |_| true);
         let change = |resource: usize| {
             let bytes = spec.desc(resource).bytes() as i64;
-            let new = !order[..place].iter().any(|&other| touches(other, resource));
-            let rest = order[place..].iter().any(|&other| other != pass && touches(other, resource));
+            let new = !order[..position].iter().any(|&other| touches(other, resource));
+            let rest = order[position..].iter().any(|&other| other != pass && touches(other, resource));
             let ends = !rest && !spec.is_exported(resource);
             i64::from(ends) * bytes - i64::from(new) * bytes
         };
