@@ -15,17 +15,17 @@ struct PassDocument<'p> {
 
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut place = vec![None; self.pass_count()];
+        let mut position = vec![None; self.pass_count()];
         for (index, pass) in self.order.iter().enumerate() {
-            place[pass.index()] = Some(index);
+            position[pass.index()] = Some(index);
         }
         let passes: Vec<_> = self
             .passes()
             .map(|(id, pass)| PassDocument {
                 pass,
                 accesses: self.accesses(id).collect(),
-                order: place[id.index()].map(|place| self.order_reasons[place]),
-                merge: place[id.index()].map(|place| self.merge_reasons[place]),
+                order: position[id.index()].map(|position| self.order_reasons[position]),
+                merge: position[id.index()].map(|position| self.merge_reasons[position]),
             })
             .collect();
         let mut plan = serializer.serialize_struct("Plan", 7)?;
