@@ -413,13 +413,12 @@ macro_rules! declare_settings {
                     let payload = variants.next().map(|variant| variant.payload);
                     let _used = &payload;
                     if let Self::$Variant
-                        $((value @ $crate::declare_settings!(@any $P)))?
+                        $(($crate::declare_settings!(@payload_name $P value)))?
                         $({ $($field),* })? = self
                     {
                         $(
-                            let _described = stringify!($P);
                             if let ::core::option::Option::Some($crate::Payload::Value(setting)) = payload {
-                                $crate::SettingValue::check(value, setting)?;
+                                $crate::SettingValue::check($crate::declare_settings!(@payload_name $P value), setting)?;
                             }
                         )?
                         $(
@@ -457,7 +456,8 @@ macro_rules! declare_settings {
         $crate::Payload::Fields(SETTINGS)
     }};
 
-    (@any $type:ident) => { _ };
+    // Repeats a name once for each payload.
+    (@payload_name $type:ident $name:ident) => { $name };
 
     (@type bool, $default:expr) => { $crate::SettingType::Toggle($default) };
     (@type u32, $default:expr, range $low:literal $high:literal) => {

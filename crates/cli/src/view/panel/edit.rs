@@ -70,12 +70,13 @@ impl Form<'_> {
                 ui.add(Label::new(RichText::new(setting.allowed()).weak()).truncate());
             }
             SettingType::Enum(_, variants) => self.variant(ui, variants, path, value),
-            SettingType::Optional(inner) if value.is_null() => {
-                if ui.small_button("set").clicked() {
+            SettingType::Optional(inner) => {
+                if !value.is_null() {
+                    self.leaf(ui, &Setting { ty: *inner, ..*setting }, path, value);
+                } else if ui.small_button("set").clicked() {
                     self.set(path, inner.default_value());
                 }
             }
-            SettingType::Optional(inner) => self.leaf(ui, &Setting { ty: *inner, ..*setting }, path, value),
             _ => {}
         }
     }
