@@ -32,7 +32,7 @@ const LIT: u32 = u32::MAX;
 /// the same surface. No other settings affect it.
 ///
 /// A compute pass traces the visible surfaces into a screen mask with a layer for each of the first
-/// [`MAX_MASK_LAYERS`](super::MAX_MASK_LAYERS) lights; blended surfaces and all other points are traced in the pass that shades them.
+/// [`MAX_MASK_LAYERS`](crate::MAX_MASK_LAYERS) lights; blended surfaces and all other points are traced in the pass that shades them.
 pub struct Raytraced {
     trace: Trace,
     denoise: MaskPass,
