@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
+use shadowgraph::inspect::{explain, explain_order, to_html};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut frame = Frame::new();
@@ -32,9 +33,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let plan = frame.compile()?.into_plan();
     for name in ["blur", "particles", "glow"] {
-        println!("{}", plan.explain(name)?);
+        println!("{}", explain(&plan, name)?);
     }
-    println!("{}", plan.explain_order("opaque", "tonemap")?);
+    println!("{}", explain_order(&plan, "opaque", "tonemap")?);
     std::fs::create_dir_all("out")?;
-    Ok(std::fs::write("out/explain.html", plan.to_html())?)
+    Ok(std::fs::write("out/explain.html", to_html(&plan))?)
 }

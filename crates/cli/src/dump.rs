@@ -8,8 +8,7 @@ use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, Planned};
-use shadowgraph::core::{Dump, HtmlPage, trace_json};
-use shadowgraph::inspect::lights;
+use shadowgraph::inspect::{self, Dump, HtmlPage, lights, trace_json};
 use shadowgraph::output::write_text;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderedFrame, Renderer};
 
@@ -42,7 +41,7 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
         Format::Json => report::json(&lights, &drawn)?,
         Format::Dot => drawn.plan.to_dot(),
         Format::Mermaid => drawn.plan.to_mermaid(),
-        Format::Html => drawn.plan.to_html(),
+        Format::Html => inspect::to_html(&drawn.plan),
         Format::Trace => trace_json(&drawn.times)?,
     })
 }
@@ -121,8 +120,8 @@ pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Fai
     let pipeline = input.options.render_config().pipeline;
     let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input)?;
     let explanation = match &args.before {
-        Some(after) => plan.explain_order(&args.name, after),
-        None => plan.explain(&args.name),
+        Some(after) => inspect::explain_order(&plan, &args.name, after),
+        None => inspect::explain(&plan, &args.name),
     };
     console::print(&explanation.map_err(|error| match pipeline.is_disabled(&args.name) {
         true => Failure { code: Failure::INPUT, message: disabled(&args.name, &pipeline) },

@@ -160,12 +160,6 @@ pub enum Error {
         "SG0608: the device is lost; create another one, and recreate the graph and everything else on it"
     )]
     DeviceLost,
-    /// An unknown pass or resource name.
-    #[error("SG0701: unknown pass or resource `{name}`{hint}")]
-    UnknownName { name: String, hint: String },
-    /// A string that is not a dump of a plan, or a dump of another schema version.
-    #[error("SG0702: not a valid dump: {problem}")]
-    Dump { problem: String },
 }
 
 impl Error {
@@ -207,13 +201,6 @@ impl Error {
             Self::Validation { .. } => "SG0606",
             Self::OutOfMemory { .. } => "SG0607",
             Self::DeviceLost => "SG0608",
-            Self::UnknownName { .. } => "SG0701",
-            Self::Dump { .. } => "SG0702",
         }
     }
 }
-
-/// Compiles and runs the examples of the page. Some need a device.
-#[cfg(all(doctest, feature = "gpu"))]
-#[doc = include_str!("../../../docs/errors.md")]
-struct ErrorsPage;

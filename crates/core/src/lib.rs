@@ -41,6 +41,7 @@
 
 mod access;
 mod builder;
+mod capture;
 mod compile;
 mod compiled;
 mod declaration;
@@ -73,15 +74,13 @@ mod times;
 
 pub use access::{Access, ClearValue, Contents};
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
+pub use capture::{SnapshotTile, TexelValues, Texels, TextureSnapshot};
 pub use compiled::Compiled;
 pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 #[cfg(feature = "gpu")]
 pub use device::device_is_lost;
-pub use dump::{
-    Diff, Difference, Drawing, Dump, HtmlPage, Outline, PageTable, SnapshotTile, Subject, TexelValues,
-    Texels, TextureSnapshot,
-};
+pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
@@ -110,7 +109,7 @@ pub use pool::PoolLimits;
 pub use shader_pass::{ShaderPassBuilder, UniformSource};
 pub use subresource::{Aspect, Rect, Subresource};
 pub use suggest::{closest_name, did_you_mean};
-pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary, trace_json};
+pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

@@ -97,6 +97,11 @@ impl Subresource {
         Self { rect: Some(rect), ..self }
     }
 
+    /// Returns the rectangle that it is narrowed to; `None` for the whole width and height.
+    pub fn bounds(&self) -> Option<Rect> {
+        self.rect
+    }
+
     /// Narrows to a range of a buffer, in bytes.
     pub fn bytes(self, bytes: Range<u64>) -> Self {
         Self { bytes: Some((bytes.start, bytes.end)), ..self }

@@ -1,9 +1,5 @@
 //! Times of passes, as plain data.
 
-mod trace;
-
-pub use trace::trace_json;
-
 use serde::Serialize;
 use std::collections::VecDeque;
 

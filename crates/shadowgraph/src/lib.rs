@@ -47,6 +47,7 @@ mod casters;
 mod debug_blit;
 mod error;
 mod gpu;
+#[cfg(feature = "inspect")]
 pub mod inspect;
 pub mod nodes;
 mod occluders;
@@ -95,7 +96,7 @@ mod readme {
     mod project {}
 }
 
-/// The pages of the book whose code is tested here; `docs/errors.md` is tested in the core.
+/// The pages of the book whose code is tested here; `docs/errors.md` is tested in `shadowgraph-inspect`.
 #[cfg(doctest)]
 mod book {
     #[doc = include_str!("../../../docs/graph.md")]

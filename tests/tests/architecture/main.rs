@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const CORE: &str = "shadowgraph-core";
+const INSPECT: &str = "shadowgraph-inspect";
 const SHADERS: &str = "shadowgraph-shaders";
 const SCENE: &str = "shadowgraph-scene";
 const SHADOWS: &str = "shadowgraph-shadows";
@@ -25,18 +26,19 @@ const QUALITY: &str = "shadowgraph-quality";
 const CLI: &str = "shadowgraph-cli";
 
 /// The members that a member may depend on, dependencies of its tests and build scripts included.
-const DEPENDENCIES: [(&str, &[&str]); 13] = [
+const DEPENDENCIES: [(&str, &[&str]); 14] = [
     (CORE, &[]),
+    (INSPECT, &[CORE]),
     (SHADERS, &[]),
     (SCENE, &[CORE, SHADERS]),
     (SAMPLES, &[SCENE]),
     (SHADOWS, &[CORE, SHADERS, SCENE]),
     (LIGHTING, &[CORE, SHADERS, SCENE, SHADOWS]),
-    (FACADE, &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING]),
-    (QUALITY, &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
-    (CLI, &[FACADE, SAMPLES, QUALITY]),
-    ("shadowgraph-examples", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
-    ("shadowgraph-tests", &[CORE, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES, QUALITY]),
+    (FACADE, &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING]),
+    (QUALITY, &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
+    (CLI, &[INSPECT, FACADE, SAMPLES, QUALITY]),
+    ("shadowgraph-examples", &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
+    ("shadowgraph-tests", &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES, QUALITY]),
     ("custom_technique", &[FACADE, CLI]),
     ("xtask", &[]),
 ];
@@ -45,7 +47,8 @@ const DEPENDENCIES: [(&str, &[&str]); 13] = [
 const DEV_DEPENDENCIES: [(&str, &str); 1] = [(FACADE, SAMPLES)];
 
 /// Members that are published, and so may not depend on the others.
-const PUBLISHED: [&str; 9] = [CORE, SHADERS, SCENE, SAMPLES, SHADOWS, LIGHTING, FACADE, QUALITY, CLI];
+const PUBLISHED: [&str; 10] =
+    [CORE, INSPECT, SHADERS, SCENE, SAMPLES, SHADOWS, LIGHTING, FACADE, QUALITY, CLI];
 
 fn packages() -> BTreeMap<String, Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -87,6 +90,15 @@ fn libraries_depend_on_no_command_line_and_no_window() {
         let found: Vec<_> = below.iter().filter(|name| forbidden.contains(&name.as_str())).collect();
         assert!(found.is_empty(), "{member} depends on {found:?}");
     }
+}
+
+#[test]
+fn inspecting_a_plan_needs_no_device_no_command_line_and_no_window() {
+    let below = crates_below(INSPECT);
+    assert!(below.contains(&CORE.to_owned()), "{below:?}");
+    let forbidden = ["wgpu", "clap", "indicatif", "tempfile", "egui", "winit"];
+    let found: Vec<_> = below.iter().filter(|name| forbidden.contains(&name.as_str())).collect();
+    assert!(found.is_empty(), "{INSPECT} depends on {found:?}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The plan as a Graphviz graph: a cluster for each node, a box for each pass, an edge for each dependency.
 
-use super::positions::Positions;
+use super::describe::Positions;
 use crate::handle::{NodeId, PassId};
 use crate::plan::{DependencyKind, Plan};
 use std::fmt::Write as _;

@@ -6,11 +6,11 @@ use crate::plan::Plan;
 use reasons::Reason;
 use serde::Serialize;
 
-/// Schema version. It increases when a field changes its meaning or is removed, not when one is added.
-pub(super) const SCHEMA: u32 = 3;
+/// Schema version of [`Plan::to_json`]. It increases when a field changes its meaning or is removed, not when one is added.
+pub const JSON_SCHEMA: u32 = 3;
 
 #[derive(Serialize)]
-pub(super) struct Document<'a> {
+struct Document<'a> {
     schema: u32,
     summary: Summary,
     plan: &'a Plan,
@@ -40,9 +40,9 @@ impl Plan {
         serde_json::to_string_pretty(&self.document())
     }
 
-    pub(super) fn document(&self) -> Document<'_> {
+    fn document(&self) -> Document<'_> {
         Document {
-            schema: SCHEMA,
+            schema: JSON_SCHEMA,
             summary: Summary {
                 passes: self.pass_count(),
                 culled: self.culled_count(),

@@ -1,6 +1,6 @@
 //! The plan as a Mermaid flowchart, which many sites render in documents.
 
-use super::positions::Positions;
+use super::describe::Positions;
 use crate::handle::NodeId;
 use crate::plan::{DependencyKind, Plan};
 use std::fmt::Write as _;

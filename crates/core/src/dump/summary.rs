@@ -5,7 +5,7 @@ use crate::plan::Plan;
 
 impl Plan {
     /// Counts passes, steps, resources and slots, and sums their memory.
-    pub(super) fn summary(&self) -> String {
+    pub fn summary(&self) -> String {
         let assigned = self.slots().map(|slot| slot.resources.len()).sum::<usize>();
         let outside = match self.resources().len() - assigned {
             0 => String::new(),

@@ -17,7 +17,7 @@ pub struct FailedFrame {
     /// The error, with the pass that it is in.
     #[source]
     pub error: Error,
-    /// The plan of the frame, to be inspected, for example with [`Plan::to_html`].
+    /// The plan of the frame, to be inspected, for example with [`Plan::to_text`].
     pub plan: Arc<Plan>,
 }
 
@@ -42,7 +42,7 @@ impl Compiled<'_> {
     /// frame.export_texture(&color);
     /// let failed = graph.compile(frame)?.execute_checked(&mut graph, &device, &queue).err().ok_or("it draws")?;
     /// assert!(failed.to_string().starts_with("SG0606: wgpu validation error in `draws without a pipeline`: "));
-    /// std::fs::write(std::env::temp_dir().join("failed_frame.html"), failed.plan.to_html())?;
+    /// println!("{}", failed.plan.to_text());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

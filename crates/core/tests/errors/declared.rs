@@ -2,7 +2,7 @@
 
 use super::{Failure, square};
 use shadowgraph_core::{
-    BufferDesc, ClearValue, Contents, Dump, Error, Format, Frame, Rect, Resize, Subresource, Texture,
+    BufferDesc, ClearValue, Contents, Error, Format, Frame, Rect, Resize, Subresource, Texture,
 };
 use shadowgraph_core::{TextureDesc, TextureUsages};
 
@@ -27,22 +27,10 @@ fn depth(frame: &mut Frame<'_>, name: &str) -> Texture {
 }
 
 pub(crate) fn failures() -> Vec<Failure> {
-    [handles(), contents(), attachments(), formats(), copies(), resources(), order(), dumps()]
+    [handles(), contents(), attachments(), formats(), copies(), resources(), order()]
         .into_iter()
         .flatten()
         .collect()
-}
-
-/// Errors of plans and dumps.
-fn dumps() -> Vec<Failure> {
-    let plan = Frame::new().compile().expect("an empty frame").into_plan();
-    let words = &["`draw`", "`dump` lists all names"];
-    let unknown = Failure { code: "SG0701", error: plan.explain("draw").expect_err("no pass"), words };
-    let old = Dump::from_json(r#"{"schema": 1}"#).expect_err("an old dump");
-    vec![
-        unknown,
-        Failure { code: "SG0702", error: old, words: &["schema version 1", "write the dump again"] },
-    ]
 }
 
 fn handles() -> Vec<Failure> {

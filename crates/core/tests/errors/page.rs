@@ -18,7 +18,9 @@ fn sections() -> Vec<(&'static str, &'static str, &'static str)> {
 
 #[test]
 fn every_code_has_one_section_in_order() {
-    let of_page: Vec<_> = sections().iter().map(|(code, ..)| *code).collect();
+    // The tests of `shadowgraph-inspect` compare SG07.
+    let of_core = |code: &&str| !code.starts_with("SG07");
+    let of_page: Vec<_> = sections().iter().map(|(code, ..)| *code).filter(of_core).collect();
     let mut of_source = codes();
     of_source.sort_unstable();
     assert_eq!(of_page, of_source);

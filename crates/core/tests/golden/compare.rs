@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-const ACCEPT: &str = "UPDATE_GOLDEN=1 cargo test -p shadowgraph-core --no-default-features --test golden";
+const ACCEPT: &str =
+    concat!("UPDATE_GOLDEN=1 cargo test -p ", env!("CARGO_PKG_NAME"), " --no-default-features --test golden");
 
 /// Checks `text` against `golden/NAME.txt`, or writes it there if `UPDATE_GOLDEN` is set.
 ///

@@ -17,24 +17,6 @@ fn reuse() {
     check("reuse", &plan(frame).to_text());
 }
 
-/// A resource that is read at the end occupies its slot until then.
-#[test]
-fn no_reuse_because_busy() {
-    let mut frame = Frame::new();
-    let scene = draw(&mut frame, "scene");
-    let across = filter(&mut frame, "blur across", &scene);
-    let glow = filter(&mut frame, "blur down", &across);
-    let mut picture = hdr(&mut frame, "picture");
-    let mut add = frame.render_pass("add glow");
-    add.sample(&scene);
-    add.sample(&glow);
-    add.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
-    let plan = plan(frame);
-    let why = plan.explain_resource(glow.id());
-    check("no_reuse_because_busy", &format!("{}\n{why}", plan.to_text()));
-}
-
 /// A storage texture does not share with attachments: storage usage can disable the compression of an attachment.
 #[test]
 fn storage_apart() {
@@ -68,25 +50,6 @@ fn order_chosen_for_memory() {
     join.color(&mut picture, Contents::Overwrite);
     frame.export_texture(&picture);
     check("order_chosen_for_memory", &plan(frame).to_text());
-}
-
-/// Samples that are resolved in the pass that draws them are transient: such attachments need no memory on tile-based
-/// GPUs.
-#[test]
-fn multisampling() {
-    let mut frame = Frame::new();
-    let four = |format| TextureDesc { samples: 4, ..TextureDesc::d2(1280, 720, format) };
-    let mut samples = frame.create_texture("samples", four(Format::Rgba8UnormSrgb));
-    let mut depth = frame.create_texture("depth", four(Format::Depth32Float));
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
-    let mut pass = frame.render_pass("draw");
-    pass.color(&mut samples, BLACK);
-    pass.resolve(&mut picture);
-    pass.depth(&mut depth, super::FAR);
-    let pass = pass.id();
-    frame.export_texture(&picture);
-    let plan = plan(frame);
-    check("multisampling", &format!("{}\n{}", plan.to_text(), plan.explain_pass(pass)));
 }
 
 /// A depth buffer that two merged passes share is transient too: they are one render pass.

@@ -1,26 +1,7 @@
 //! Merging of passes into a render pass, and what prevents it.
 
-use super::{BLACK, FAR, check, depth, filter, hdr, plan};
-use shadowgraph_core::{BufferDesc, Contents, Frame, Options};
-
-/// Adjacent passes with the same attachments become one render pass: one load, one store.
-#[test]
-fn merge() {
-    let mut frame = Frame::new();
-    let (mut scene, mut depth) = (hdr(&mut frame, "scene"), depth(&mut frame, "depth"));
-    frame.node("scene", |frame| {
-        for (name, first) in [("sky", true), ("opaque", false), ("glass", false)] {
-            let mut pass = frame.render_pass(name);
-            pass.color(&mut scene, if first { BLACK } else { Contents::Preserve });
-            pass.depth(&mut depth, if first { FAR } else { Contents::Preserve });
-        }
-    });
-    let picture = frame.node("post", |frame| filter(frame, "tonemap", &scene));
-    frame.export_texture(&picture);
-    let plan = plan(frame);
-    let why = plan.explain_pass(plan.find_pass("opaque").unwrap());
-    check("merge", &format!("{}\n{why}", plan.to_text()));
-}
+use super::{BLACK, FAR, check, depth, hdr, plan};
+use shadowgraph_core::{BufferDesc, Contents, Frame};
 
 /// A pass that reads what the render pass writes must wait for its end.
 #[test]
@@ -67,18 +48,4 @@ fn refused_merge_attachments() {
     pass.color(&mut scene, Contents::Preserve);
     frame.export_texture(&scene);
     check("refused_merge_attachments", &plan(frame).to_text());
-}
-
-/// The frame can disable merging, for instance to time each pass alone.
-#[test]
-fn merging_off() {
-    let mut frame = Frame::new();
-    frame.set_options(Options { merge: false, transient_attachments: false, ..Options::default() });
-    let mut scene = hdr(&mut frame, "scene");
-    frame.render_pass("sky").color(&mut scene, BLACK);
-    frame.render_pass("ground").color(&mut scene, Contents::Preserve);
-    frame.export_texture(&scene);
-    let plan = plan(frame);
-    let why = plan.explain_pass(plan.find_pass("ground").unwrap());
-    check("merging_off", &format!("{}\n{why}", plan.to_text()));
 }

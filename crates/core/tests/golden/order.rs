@@ -18,24 +18,6 @@ fn read_only_depth() {
     check("read_only_depth", &plan(frame).to_text());
 }
 
-/// Effects that the graph cannot see are kept by `keep` and ordered by `after`.
-#[test]
-fn explicit_after() {
-    let mut frame = Frame::new();
-    let mut start = frame.encoder_pass("start the video encoder");
-    start.keep();
-    let start = start.id();
-    let scene = draw(&mut frame, "scene");
-    let mut submit = frame.encoder_pass("hand over the picture");
-    submit.copy_source(&scene);
-    submit.after(start);
-    submit.keep();
-    let submit = submit.id();
-    let plan = plan(frame);
-    let why = plan.explain_why_before(start, submit);
-    check("explicit_after", &format!("{}\n{why}", plan.to_text()));
-}
-
 /// The same node declared for each view: names distinguish them, and the second view reuses the memory of the first.
 #[test]
 fn two_views() {
@@ -55,24 +37,6 @@ fn two_views() {
     check("two_views", &plan(frame).to_text());
 }
 
-/// A frame may fix its order: no pass moves, even if another order would merge passes or save memory.
-#[test]
-fn fixed_order() {
-    let mut frame = Frame::new();
-    frame.fix_order();
-    let mut scene = hdr(&mut frame, "scene");
-    frame.render_pass("sky").color(&mut scene, BLACK);
-    let shadow = draw(&mut frame, "shadow");
-    let mut pass = frame.render_pass("ground");
-    pass.color(&mut scene, Contents::Preserve);
-    let ground = pass.id();
-    frame.export_texture(&scene);
-    frame.export_texture(&shadow);
-    let plan = plan(frame);
-    let why = plan.explain_why_before(plan.find_pass("draw shadow").unwrap(), ground);
-    check("fixed_order", &format!("{}\n{why}", plan.to_text()));
-}
-
 /// The same frame with its order left open: the pass in between moves away, and the other two become one.
 #[test]
 fn order_chosen_for_merging() {
@@ -85,29 +49,4 @@ fn order_chosen_for_merging() {
     frame.export_texture(&scene);
     frame.export_texture(&shadow);
     check("order_chosen_for_merging", &plan(frame).to_text());
-}
-
-/// The reason why one pass runs before another: the shortest chain of dependencies.
-#[test]
-fn why_before() {
-    let mut frame = Frame::new();
-    let mut scene = draw(&mut frame, "scene");
-    let half = filter(&mut frame, "half", &scene);
-    let quarter = filter(&mut frame, "quarter", &half);
-    let mut add = frame.render_pass("add glow");
-    add.sample(&quarter);
-    add.color(&mut scene, Contents::Preserve);
-    frame.export_texture(&scene);
-    filter(&mut frame, "unread", &quarter);
-    let plan = plan(frame);
-    let why = |before: &str, after: &str| {
-        plan.explain_why_before(plan.find_pass(before).unwrap(), plan.find_pass(after).unwrap())
-    };
-    let questions = [
-        why("draw scene", "add glow"),
-        why("draw scene", "quarter"),
-        why("half", "draw scene"),
-        why("half", "unread"),
-    ];
-    check("why_before", &questions.join("\n"));
 }

@@ -1,7 +1,7 @@
 //! Cameras, cascades and shadow maps from above.
 
 use glam::{DVec2, DVec3, Vec3, Vec4};
-use shadowgraph_core::{Drawing, Outline};
+use shadowgraph_inspect::{Drawing, Outline};
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{NOT_A_CASCADE, ShadowView};
 

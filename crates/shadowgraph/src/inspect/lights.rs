@@ -1,6 +1,7 @@
 //! The table of a scene's lights.
 
-use shadowgraph_core::{HtmlPage, PageTable, PassTime, Plan};
+use shadowgraph_core::{PassTime, Plan};
+use shadowgraph_inspect::{HtmlPage, PageTable};
 use shadowgraph_scene::{Light, LightKind};
 use shadowgraph_shadows::Unshadowed;
 

@@ -1,13 +1,15 @@
-//! The contents of a frame: what its passes wrote, and how long they took.
+//! The contents of a frame: what its passes wrote, and how long they took; and all of `shadowgraph-inspect`, which shows them.
 
 mod above;
 pub mod lights;
 
-use shadowgraph_core::{Buffer, FrameCapture, HtmlPage, PendingCapture, TextureSnapshot, Timer};
+use shadowgraph_core::{Buffer, FrameCapture, PendingCapture, TextureSnapshot, Timer};
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowLight, ShadowView};
 
-use crate::error::Error;
+#[doc(no_inline)]
+pub use shadowgraph_inspect::*;
+
 use crate::gpu::Gpu;
 use crate::rendered::RenderedFrame;
 use crate::renderer::Renderer;
@@ -31,7 +33,7 @@ impl Renderer {
     ///
     /// # Errors
     /// As `draw`.
-    pub fn inspect(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<InspectedFrame, Error> {
+    pub fn inspect(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<InspectedFrame, crate::Error> {
         // Drivers may compile shaders at the first draw.
         self.draw(gpu, options)?;
         let frame = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;

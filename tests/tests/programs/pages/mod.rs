@@ -3,6 +3,7 @@
 mod frames;
 
 use serde_json::Value;
+use shadowgraph::inspect::to_html;
 use shadowgraph_tests::{on_path, program, skip};
 use std::fs;
 use std::path::Path;
@@ -83,7 +84,7 @@ fn the_page_of_the_demo_frame_shows_every_view_and_its_images() {
 
 #[test]
 fn the_page_of_a_frame_of_65_passes_opens_with_its_nodes_collapsed() {
-    let page = frames::real().unwrap().to_html();
+    let page = to_html(&frames::real().unwrap());
     assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
     keep(&page, "real");
     let Some(found) = used(&page) else { return };
@@ -95,7 +96,7 @@ fn the_page_of_a_frame_of_65_passes_opens_with_its_nodes_collapsed() {
 fn the_page_of_a_frame_of_500_passes_is_readable() {
     let plan = frames::large().unwrap();
     assert!(plan.pass_count() > 500 && plan.culled_count() > 50, "{}", plan.culled_count());
-    let page = plan.to_html();
+    let page = to_html(&plan);
     assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
     keep(&page, "large");
     let Some(found) = used(&page) else { return };

@@ -44,7 +44,9 @@ impl GraphPanel {
             });
         }
         self.culled(ui, plan);
-        if let Some(why) = self.chosen.as_ref().and_then(|path| plan.explain(path).ok()) {
+        if let Some(why) =
+            self.chosen.as_ref().and_then(|path| shadowgraph::inspect::explain(plan, path).ok())
+        {
             ui.separator();
             ui.label(why);
         }

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use wgpu_types::TextureDimension;
 
 /// Formats bytes in a suitable unit.
-pub(in crate::dump) fn bytes(bytes: u64) -> String {
+pub fn bytes(bytes: u64) -> String {
     match bytes {
         0..1_024 => format!("{bytes} B"),
         1_024..1_048_576 => format!("{:.1} KiB", bytes as f64 / 1_024.0),
@@ -19,7 +19,7 @@ pub(in crate::dump) fn bytes(bytes: u64) -> String {
 }
 
 /// Formats a shape: `1280x720 Rgba16Float`.
-pub(in crate::dump) fn shape(desc: &ResourceDesc) -> String {
+pub fn shape(desc: &ResourceDesc) -> String {
     let ResourceDesc::Texture(desc) = desc else { return "buffer".into() };
     let mut out = format!("{}x{}", desc.size.width, desc.size.height);
     let deep = desc.dimension == TextureDimension::D3;
@@ -60,7 +60,7 @@ fn short(flag: &str) -> String {
 }
 
 /// Formats the lifetime of a resource: `step 3`, `steps 0 to 2`.
-pub(in crate::dump) fn steps(resource: &ResourcePlan<'_>) -> String {
+pub fn steps(resource: &ResourcePlan<'_>) -> String {
     match resource.steps {
         None => "not used".into(),
         Some((first, last)) if first == last => format!("step {first}"),
@@ -85,12 +85,13 @@ fn number(value: f64) -> String {
     if matches!(text, "0" | "-0") && value != 0.0 { format!("{value:e}") } else { text.into() }
 }
 
-pub(in crate::dump) fn quoted(name: &str) -> String {
+/// Puts a name in backticks.
+pub fn quoted(name: &str) -> String {
     format!("`{name}`")
 }
 
 /// Lists the first name and as many others as fit: `` `a`, `b` and 3 more ``.
-pub(in crate::dump) fn list(names: &[String], columns: usize) -> String {
+pub fn list(names: &[String], columns: usize) -> String {
     let shown = |count: usize| {
         let mut words = names[..count].to_vec();
         if count < names.len() {
@@ -130,7 +131,7 @@ impl PassKind {
 
 impl Access {
     /// Returns a short label, with the index of a colour attachment.
-    pub(in crate::dump) fn label(self) -> String {
+    pub fn label(self) -> String {
         match self {
             Self::Color(index) => format!("color {index}"),
             Self::Resolve(index) => format!("resolve {index}"),
@@ -140,7 +141,7 @@ impl Access {
 }
 
 /// Returns the verb before a resource's name and the role after it.
-pub(in crate::dump) fn verb(access: Access) -> (&'static str, String) {
+pub fn verb(access: Access) -> (&'static str, String) {
     let (verb, role) = match access {
         Access::Color(index) => return ("draws into", format!(" as colour attachment {index}")),
         Access::Resolve(index) => return ("resolves into", format!(" from colour attachment {index}")),
@@ -161,7 +162,7 @@ pub(in crate::dump) fn verb(access: Access) -> (&'static str, String) {
 
 impl Plan {
     /// Returns the dependencies of a pass on earlier ones. All dependencies are in order of the later pass.
-    pub(in crate::dump) fn waits_for(&self, pass: PassId) -> &[Dependency] {
+    pub fn waits_for(&self, pass: PassId) -> &[Dependency] {
         let all = self.dependencies();
         let start = all.partition_point(|dependency| dependency.after < pass);
         let end = all.partition_point(|dependency| dependency.after <= pass);
@@ -210,7 +211,7 @@ impl Plan {
     }
 
     /// Describes where the contents of an access come from, or what happens to the old contents.
-    pub(in crate::dump) fn access_note(&self, pass: PassId, access: &AccessPlan, columns: usize) -> String {
+    pub fn access_note(&self, pass: PassId, access: &AccessPlan, columns: usize) -> String {
         let uploaded =
             |op: &CopyOp| matches!(op, CopyOp::Upload { target, .. } if *target == access.resource);
         match (access.access, access.contents) {

@@ -54,7 +54,7 @@ impl Plan {
     }
 
     /// Explains the load operation of an access, which may be to a part of the attachment.
-    pub(in crate::dump) fn explain_load(&self, access: &AccessPlan, ops: &AttachmentOps) -> (String, String) {
+    pub fn explain_load(&self, access: &AccessPlan, ops: &AttachmentOps) -> (String, String) {
         let (action, reason) = self.describe_load(ops);
         let in_part = access.region != access.region.without_rect();
         match ops.load_reason {
@@ -69,7 +69,7 @@ impl Plan {
     }
 
     /// Explains the store operation of an access, which may be resolved.
-    pub(in crate::dump) fn explain_store(
+    pub fn explain_store(
         &self,
         pass: PassId,
         access: &AccessPlan,
@@ -98,11 +98,7 @@ impl Plan {
     }
 
     /// Explains a clear that the graph draws before the pass because a load operation cannot do it.
-    pub(in crate::dump) fn explain_drawn_clear(
-        &self,
-        access: &AccessPlan,
-        ops: &AttachmentOps,
-    ) -> Option<(String, String)> {
+    pub fn explain_drawn_clear(&self, access: &AccessPlan, ops: &AttachmentOps) -> Option<(String, String)> {
         let Some(Contents::Clear(value)) = access.contents else { return None };
         let why = match ops.load {
             LoadAction::Continue => "the render pass has begun, so a load operation cannot clear",
@@ -123,7 +119,7 @@ impl Plan {
     }
 
     /// Explains the slot of a resource, with the kind of slot that it needs.
-    pub(in crate::dump) fn explain_slot(&self, id: ResourceId) -> String {
+    pub fn explain_slot(&self, id: ResourceId) -> String {
         let (slot, shape) = self.slot_kind(id);
         match self.resource(id).slot_reason {
             SlotReason::FirstOfClass => format!("the first {slot} of its {shape}"),

@@ -29,7 +29,7 @@ impl Plan {
     }
 
     /// Explains why a pass runs: which passes need what it writes.
-    pub(in crate::dump) fn explain_live(&self, pass: PassId) -> String {
+    pub fn explain_live(&self, pass: PassId) -> String {
         if self.pass(pass).keep {
             return "it is kept even if nothing needs what it writes".into();
         }
@@ -100,7 +100,7 @@ impl Plan {
     }
 
     /// Explains why one pass must follow another.
-    pub(in crate::dump) fn explain_dependency(&self, dependency: &Dependency) -> String {
+    pub fn explain_dependency(&self, dependency: &Dependency) -> String {
         let (before, after) = (self.pass_path(dependency.before), self.pass_path(dependency.after));
         let name = dependency.resource.map_or("", |resource| self.resource(resource).name);
         match dependency.kind {
@@ -141,7 +141,10 @@ impl Plan {
     }
 
     /// Explains the merge decision of the pass at `index` in the order, and names the attachment that differs.
-    pub(in crate::dump) fn explain_merge(&self, index: usize) -> String {
+    ///
+    /// # Panics
+    /// If fewer passes run.
+    pub fn explain_merge(&self, index: usize) -> String {
         let reason = self.merge_reasons[index];
         match (reason, index.checked_sub(1)) {
             (MergeReason::Attachments, Some(before)) => self

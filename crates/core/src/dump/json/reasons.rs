@@ -1,7 +1,7 @@
 //! A sentence for each decision.
 
 use crate::declaration::Origin;
-use crate::dump::positions::{Position, Positions};
+use crate::dump::describe::{Position, Positions};
 use crate::handle::{PassId, ResourceId};
 use crate::plan::{AccessPlan, Plan};
 use serde::Serialize;

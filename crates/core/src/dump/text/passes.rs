@@ -2,7 +2,7 @@
 
 use crate::declaration::PassKind;
 use crate::dump::describe::clip;
-use crate::dump::positions::{Position, Positions};
+use crate::dump::describe::{Position, Positions};
 use crate::handle::{NodeId, PassId};
 use crate::plan::{AccessPlan, LoadAction, MergeReason, Plan, StoreAction};
 use std::fmt::Write as _;

@@ -5,11 +5,11 @@ mod texels;
 use super::Executed;
 use super::read_back::{ReadBack, TexturePart};
 use super::record::{Recording, record};
+use crate::capture::{SnapshotTile, TextureSnapshot};
 use crate::compile::capturing;
 use crate::compiled::Compiled;
 use crate::declaration::AccessDecl;
 use crate::desc::{ResourceDesc, TextureDesc};
-use crate::dump::{SnapshotTile, TextureSnapshot};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
@@ -65,7 +65,7 @@ impl Compiled<'_> {
     /// One snapshot shows consecutive passes that draw into separate rectangles, with the names of the passes.
     ///
     /// ```
-    /// use shadowgraph_core::{Contents, Format, Graph, HtmlPage, TextureDesc};
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
     /// # use shadowgraph_core::wgpu;
     /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     /// let mut graph = Graph::new();
@@ -74,11 +74,10 @@ impl Compiled<'_> {
     /// frame.render_pass("clear").color(&mut color, Contents::clear_color([1.0; 4]));
     /// frame.export_texture(&color);
     /// let mut encoder = device.create_command_encoder(&Default::default());
-    /// let (executed, capture) = graph.compile(frame)?.execute_captured(&mut graph, &device, &mut encoder)?;
+    /// let (_executed, capture) = graph.compile(frame)?.execute_captured(&mut graph, &device, &mut encoder)?;
     /// queue.submit([encoder.finish()]);
-    /// let mut page = HtmlPage::new(executed.plan());
-    /// page.snapshots = capture.wait(&device)?.textures;
-    /// assert_eq!(page.snapshots.len(), 1);
+    /// let captured = capture.wait(&device)?;
+    /// assert_eq!(captured.textures.len(), 1);
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     ///

@@ -1,7 +1,7 @@
 //! Decoding texels of any format to numbers.
 
+use crate::capture::{TexelValues, Texels};
 use crate::desc::Format;
-use crate::dump::{TexelValues, Texels};
 use half::f16;
 
 /// Texels of a side that are kept at most.

@@ -1,7 +1,7 @@
 //! Captures of what passes write.
 
 use super::gpu::Gpu;
-use crate::dump::{TexelValues, TextureSnapshot};
+use crate::capture::{TexelValues, TextureSnapshot};
 use crate::test_device::valid;
 use crate::{Contents, Format, Frame, FrameCapture, Graph, Plan, Rect, Subresource, TextureDesc};
 

@@ -1,68 +1,13 @@
 //! Captured textures and plots of a page.
 
-use crate::desc::ResourceDesc;
-use crate::handle::{PassId, ResourceId};
-use crate::plan::Plan;
-use crate::subresource::{Rect, Subresource};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
+use shadowgraph_core::{PassId, Plan, Rect, ResourceDesc, ResourceId, TexelValues, Texels, TextureSnapshot};
 use std::io::Write as _;
 use wgpu_types::TextureSampleType;
-
-/// The contents of a subresource of a texture after one pass of the frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextureSnapshot {
-    /// The captured texture.
-    pub resource: ResourceId,
-    /// Version of the texture.
-    pub version: u32,
-    /// First version in the snapshot: `version`, or an earlier one if passes drew into adjacent rectangles.
-    pub since: u32,
-    /// Pass that wrote the version; `None` at the end of the frame.
-    pub pass: Option<PassId>,
-    /// Captured subresource: one layer of one mip.
-    pub subresource: Subresource,
-    /// Width and height of the subresource in texels.
-    pub full_px: [u32; 2],
-    /// Texels, or the reason why there are none.
-    pub texels: Result<Texels, String>,
-    /// Named rectangles.
-    pub tiles: Vec<SnapshotTile>,
-}
-
-/// Texels of a snapshot, possibly subsampled, in rows from the top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Texels {
-    /// Width and height, at least 1 each.
-    pub size_px: [u32; 2],
-    /// Number of channels, 1 to 4: red, green, blue, alpha.
-    pub channels: u32,
-    /// Whether the texels are depth: shown as greys over the range in use, with 0 black.
-    pub is_depth: bool,
-    /// `width * height * channels` values.
-    pub values: TexelValues,
-}
-
-/// Values of texels.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TexelValues {
-    /// Displayable values, 0 to 255.
-    Bytes(Vec<u8>),
-    /// Values of any range.
-    Floats(Vec<f32>),
-}
-
-/// A named rectangle of a snapshot.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SnapshotTile {
-    /// Rectangle in texels of the texture.
-    pub rect: Rect,
-    /// Name of the rectangle.
-    pub name: String,
-}
 
 /// A plot of named outlines on a plane, such as frusta seen from above.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -120,7 +65,7 @@ struct TileData<'p> {
 
 impl<'p> SnapshotData<'p> {
     pub(super) fn new(plan: &Plan, snapshot: &'p TextureSnapshot) -> Self {
-        let rect = snapshot.subresource.rect;
+        let rect = snapshot.subresource.bounds();
         let texels = snapshot.texels.as_ref();
         let [width, height] = texels.map_or([0, 0], |texels| texels.size_px);
         let (several, integers) = match plan.resource(snapshot.resource).desc {
@@ -150,23 +95,22 @@ impl<'p> SnapshotData<'p> {
             floats: texels.is_ok_and(|texels| matches!(texels.values, TexelValues::Floats(_))),
             integers,
             since: snapshot.since,
-            data: texels.map(Texels::to_base64).unwrap_or_default(),
+            data: texels.map(to_base64).unwrap_or_default(),
             tiles: snapshot.tiles.iter().map(|tile| TileData { rect: tile.rect, name: &tile.name }).collect(),
         }
     }
 }
 
-impl Texels {
-    fn to_base64(&self) -> String {
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-        // Writing into memory does not fail.
-        let _written = match &self.values {
-            TexelValues::Bytes(bytes) => encoder.write_all(bytes),
-            TexelValues::Floats(floats) => {
-                let bytes: Vec<u8> = floats.iter().flat_map(|value| value.to_le_bytes()).collect();
-                encoder.write_all(&bytes)
-            }
-        };
-        BASE64_STANDARD.encode(encoder.finish().unwrap_or_default())
-    }
+/// Returns the values, compressed by zlib, in base64.
+fn to_base64(texels: &Texels) -> String {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    // Writing into memory does not fail.
+    let _written = match &texels.values {
+        TexelValues::Bytes(bytes) => encoder.write_all(bytes),
+        TexelValues::Floats(floats) => {
+            let bytes: Vec<u8> = floats.iter().flat_map(|value| value.to_le_bytes()).collect();
+            encoder.write_all(&bytes)
+        }
+    };
+    BASE64_STANDARD.encode(encoder.finish().unwrap_or_default())
 }

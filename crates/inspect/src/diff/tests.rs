@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 use super::*;
-use crate::{Contents, Format, Frame, TextureDesc};
+use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
 
 fn plan(blur: bool) -> Plan {
     let mut frame = Frame::new();
@@ -26,7 +26,7 @@ fn plan(blur: bool) -> Plan {
 
 #[test]
 fn added_removed_and_changed_things_are_listed_by_name() {
-    let diff = plan(false).diff(&plan(true)).unwrap();
+    let diff = diff(&plan(false), &plan(true)).unwrap();
     let names = |subject| diff.about(subject).map(|d| &*d.name).collect::<Vec<_>>();
     assert_eq!(names(Subject::Node), ["post"]);
     assert_eq!(names(Subject::Pass), ["post/blur"]);
@@ -42,7 +42,7 @@ fn added_removed_and_changed_things_are_listed_by_name() {
 
 #[test]
 fn the_reverse_diff_swaps_before_and_after() {
-    let (there, back) = (plan(false).diff(&plan(true)).unwrap(), plan(true).diff(&plan(false)).unwrap());
+    let (there, back) = (diff(&plan(false), &plan(true)).unwrap(), diff(&plan(true), &plan(false)).unwrap());
     let turned = |diff: Diff| {
         let turn = |d: Difference| Difference { before: d.after, after: d.before, ..d };
         diff.differences.into_iter().map(turn).collect::<Vec<_>>()
@@ -52,7 +52,7 @@ fn the_reverse_diff_swaps_before_and_after() {
 
 #[test]
 fn a_frame_does_not_differ_from_itself() {
-    let diff = plan(true).diff(&plan(true)).unwrap();
+    let diff = diff(&plan(true), &plan(true)).unwrap();
     assert!(diff.is_empty() && diff.to_text().contains("do not differ"));
 }
 
@@ -67,7 +67,7 @@ fn things_of_the_same_name_differ_only_if_they_are_not_in_both_frames() {
         }
         frame.compile().unwrap().into_plan()
     };
-    let diff = two(64).diff(&two(32)).unwrap();
+    let diff = diff(&two(64), &two(32)).unwrap();
     let [half] = diff.about(Subject::Resource).collect::<Vec<_>>()[..] else { panic!("{diff:?}") };
     assert!(half.before.as_ref().is_some_and(|shape| shape.starts_with("64x64")), "{half:?}");
     assert!(half.after.as_ref().is_some_and(|shape| shape.starts_with("32x64")), "{half:?}");
@@ -80,13 +80,13 @@ fn names_are_escaped_in_the_page() {
         frame.compute_pass(name).keep();
         frame.compile().unwrap().into_plan()
     };
-    let page = named("<b>&").diff(&named("c")).unwrap().to_html("a < b", "c");
+    let page = diff(&named("<b>&"), &named("c")).unwrap().to_html("a < b", "c");
     assert!(page.contains("&lt;b&gt;&amp;") && page.contains("a &lt; b") && !page.contains("<b>&"), "{page}");
 }
 
 #[test]
 fn accesses_of_a_pass_are_compared() {
-    let diff = plan(false).diff(&plan(true)).unwrap();
+    let diff = diff(&plan(false), &plan(true)).unwrap();
     let access = |name: &str| diff.about(Subject::Access).find(|d| d.name == name).unwrap();
     assert_eq!(access("tonemap · scene").before.as_deref(), Some("sampled, version 1"));
     assert_eq!(access("tonemap · post/blurred").after.as_deref(), Some("sampled, version 1"));
@@ -98,7 +98,7 @@ fn accesses_of_a_pass_are_compared() {
 
 #[test]
 fn differences_only_in_numbers_are_counted_and_not_listed() {
-    let diff = plan(false).diff(&plan(true)).unwrap();
+    let diff = diff(&plan(false), &plan(true)).unwrap();
     let moved = diff.differences.iter().find(|d| d.name == "tonemap · placed").unwrap();
     assert!(moved.only_numbers && moved.before != moved.after, "{moved:?}");
     let text = diff.to_text();

@@ -1,14 +1,11 @@
 //! Facts of a dump, by name.
 
 use super::Subject;
-use crate::access::Access;
-use crate::dump::describe::bytes;
-use crate::dump::json::SCHEMA;
-use crate::error::Error;
-use crate::plan::Plan;
-use crate::subresource::Subresource;
+use crate::Error;
 use serde::Deserialize as _;
 use serde_json::Value;
+use shadowgraph_core::describe::bytes;
+use shadowgraph_core::{Access, JSON_SCHEMA, Plan, Subresource};
 use std::collections::BTreeMap;
 
 /// Facts by subject and name; several if several things have the name.
@@ -31,16 +28,15 @@ impl Dump {
     }
 
     pub(super) fn from_plan(plan: &Plan) -> Result<Self, Error> {
-        let dump = serde_json::to_value(plan.document()).map_err(|error| invalid_dump(&error.to_string()))?;
-        Self::from_value(&dump)
+        Self::from_json(&plan.to_json().map_err(|error| invalid_dump(&error.to_string()))?)
     }
 
     fn from_value(dump: &Value) -> Result<Self, Error> {
         match dump.get("schema").and_then(Value::as_u64) {
-            Some(schema) if schema == u64::from(SCHEMA) => {}
+            Some(schema) if schema == u64::from(JSON_SCHEMA) => {}
             Some(schema) => {
                 return Err(invalid_dump(&format!(
-                    "schema version {schema}, expected {SCHEMA}; write the dump again"
+                    "schema version {schema}, expected {JSON_SCHEMA}; write the dump again"
                 )));
             }
             None => return Err(invalid_dump("missing field `schema`")),

@@ -3,22 +3,26 @@
 use crate::handle::PassId;
 use crate::plan::Plan;
 
-/// Positions of all passes; `None` for culled passes.
-pub(super) struct Positions(Vec<Option<Position>>);
+/// Positions of all passes of a plan.
+#[derive(Clone, Debug)]
+pub struct Positions(Vec<Option<Position>>);
 
-#[derive(Clone, Copy)]
-pub(super) struct Position {
+/// Position of a pass in the order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Position {
     /// Index among all passes that run.
-    pub(super) order: usize,
-    pub(super) step: usize,
+    pub order: usize,
+    /// Index of its step.
+    pub step: usize,
     /// Index among the passes of the step.
-    pub(super) within: usize,
+    pub within: usize,
     /// Number of passes of the step.
-    pub(super) passes: usize,
+    pub passes: usize,
 }
 
 impl Positions {
-    pub(super) fn new(plan: &Plan) -> Self {
+    /// Finds the positions of all passes.
+    pub fn new(plan: &Plan) -> Self {
         let mut positions = vec![None; plan.pass_count()];
         let mut order = 0;
         for (step, passes) in plan.steps().enumerate() {
@@ -30,7 +34,11 @@ impl Positions {
         Self(positions)
     }
 
-    pub(super) fn get(&self, pass: PassId) -> Option<Position> {
+    /// Returns the position of a pass of the plan; `None` if the pass is culled.
+    ///
+    /// # Panics
+    /// If the id is out of range for the plan.
+    pub fn get(&self, pass: PassId) -> Option<Position> {
         self.0[pass.index()]
     }
 }

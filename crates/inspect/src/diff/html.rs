@@ -1,7 +1,7 @@
 //! Differences as an HTML page.
 
 use super::{Diff, Difference, Subject};
-use crate::dump::html::escape;
+use crate::html::escape;
 use std::fmt::Write as _;
 
 const STYLE: &str = include_str!("page.css");

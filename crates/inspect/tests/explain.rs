@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use shadowgraph_core::{Contents, Format, Frame, Plan, TextureDesc};
+use shadowgraph_inspect::{explain, explain_order};
 
 fn color() -> TextureDesc {
     TextureDesc::d2(64, 64, Format::Rgba16Float)
@@ -27,9 +28,9 @@ fn culled() -> Plan {
 #[test]
 fn a_wrongly_culled_pass_names_the_unread_resource() {
     let plan = culled();
-    let why = plan.explain("blur occlusion").unwrap();
+    let why = explain(&plan, "blur occlusion").unwrap();
     assert!(why.contains("does not run: nothing reads `occlusion`"), "{why}");
-    let read = plan.explain("light").unwrap();
+    let read = explain(&plan, "light").unwrap();
     assert!(read.contains("samples `raw occlusion`: from `occlusion`"), "{read}");
 }
 
@@ -46,7 +47,7 @@ fn a_refused_merge_names_the_attachment_that_differs() {
     decals.color(&mut lit, Contents::Preserve);
     decals.depth_read(&depth);
     frame.export_texture(&lit);
-    let why = frame.compile().unwrap().into_plan().explain("decals").unwrap();
+    let why = explain(&frame.compile().unwrap().into_plan(), "decals").unwrap();
     assert!(why.contains("not merged: it only tests against `depth`, which `opaque` writes"), "{why}");
 }
 
@@ -64,12 +65,12 @@ fn a_stale_read_names_the_version_and_its_writer() {
     frame.export_texture(&lit);
     frame.export_texture(&reflected);
     let plan = frame.compile().unwrap().into_plan();
-    let why = plan.explain("reflections").unwrap();
+    let why = explain(&plan, "reflections").unwrap();
     assert!(why.contains("samples `lit`: from `opaque`"), "{why}");
-    let versions = plan.explain("lit").unwrap();
+    let versions = explain(&plan, "lit").unwrap();
     assert!(versions.contains("version 1: `reflections` samples it"), "{versions}");
     assert!(versions.contains("version 2: `fog` draws into it"), "{versions}");
-    let order = plan.explain_order("reflections", "fog").unwrap();
+    let order = explain_order(&plan, "reflections", "fog").unwrap();
     assert!(order.contains("`fog` overwrites `lit`, which `reflections` reads"), "{order}");
 }
 
@@ -84,26 +85,26 @@ fn a_shared_name_is_explained_for_each_and_a_path_for_one() {
         });
     }
     let plan = frame.compile().unwrap().into_plan();
-    let both = plan.explain("clear").unwrap();
+    let both = explain(&plan, "clear").unwrap();
     assert!(both.contains("pass `left/clear`") && both.contains("pass `right/clear`"), "{both}");
-    let one = plan.explain("left/clear").unwrap();
+    let one = explain(&plan, "left/clear").unwrap();
     assert!(!one.contains("right/clear"), "{one}");
-    assert_eq!(plan.explain("target").unwrap().matches("/target`: 64x64").count(), 2);
-    let right = plan.explain("right/target").unwrap();
+    assert_eq!(explain(&plan, "target").unwrap().matches("/target`: 64x64").count(), 2);
+    let right = explain(&plan, "right/target").unwrap();
     assert!(right.contains("`right/clear`") && !right.contains("left"), "{right}");
 }
 
 #[test]
 fn an_unknown_name_is_an_error_with_a_suggestion() {
-    let error = culled().explain("blur oclusion").unwrap_err();
+    let error = explain(&culled(), "blur oclusion").unwrap_err();
     assert_eq!(error.code(), "SG0701");
     assert!(error.to_string().ends_with("did you mean `blur occlusion`?"), "{error}");
-    let error = culled().explain("Blur Occlusion").unwrap_err().to_string();
+    let error = explain(&culled(), "Blur Occlusion").unwrap_err().to_string();
     assert!(error.ends_with("did you mean `blur occlusion`?"), "{error}");
-    let error = culled().explain("?").unwrap_err().to_string();
+    let error = explain(&culled(), "?").unwrap_err().to_string();
     assert!(error.ends_with("`dump` lists all names"), "{error}");
-    assert!(culled().explain_order("light", "ligth").is_err());
-    let error = culled().explain_order("lit", "light").unwrap_err().to_string();
+    assert!(explain_order(&culled(), "light", "ligth").is_err());
+    let error = explain_order(&culled(), "lit", "light").unwrap_err().to_string();
     assert!(error.contains("it is a resource, and only passes have an order"), "{error}");
 }
 
@@ -114,6 +115,6 @@ fn the_name_of_a_node_leads_to_its_passes() {
         let mut target = frame.create_texture("target", color());
         frame.render_pass("blur").color(&mut target, Contents::clear_color([0.0; 4]));
     });
-    let error = frame.compile().unwrap().into_plan().explain("post").unwrap_err().to_string();
+    let error = explain(&frame.compile().unwrap().into_plan(), "post").unwrap_err().to_string();
     assert!(error.ends_with("`post`: it is a node with the passes `post/blur`"), "{error}");
 }

@@ -3,11 +3,11 @@
 mod facts;
 mod html;
 
-use crate::error::Error;
-use crate::plan::Plan;
+use crate::Error;
 pub use facts::Dump;
 use facts::Facts;
 use serde::Serialize;
+use shadowgraph_core::Plan;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -57,7 +57,8 @@ impl Dump {
     /// Compares this frame with another.
     ///
     /// ```
-    /// use shadowgraph_core::{Dump, Frame};
+    /// use shadowgraph_core::Frame;
+    /// use shadowgraph_inspect::Dump;
     /// let dump = Dump::from_json(&Frame::new().compile()?.plan().to_json()?)?;
     /// assert!(dump.diff(&dump).is_empty());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -154,29 +155,28 @@ fn without_numbers(text: &str) -> String {
     words.join(" ")
 }
 
-impl Plan {
-    /// Compares this frame with another.
-    ///
-    /// ```
-    /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
-    /// let plan = |width| {
-    ///     let mut frame = Frame::new();
-    ///     let mut scene = frame.create_texture("scene", TextureDesc::d2(width, 64, Format::Rgba16Float));
-    ///     frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
-    ///     frame.export_texture(&scene);
-    ///     frame.compile().map(|compiled| compiled.into_plan())
-    /// };
-    /// assert!(plan(64)?.diff(&plan(64)?)?.is_empty());
-    /// let diff = plan(64)?.diff(&plan(128)?)?;
-    /// assert!(diff.to_text().contains("scene"));
-    /// # Ok::<(), shadowgraph_core::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A plan causes none.
-    pub fn diff(&self, after: &Self) -> Result<Diff, Error> {
-        Ok(Dump::from_plan(self)?.diff(&Dump::from_plan(after)?))
-    }
+/// Compares two frames by their plans.
+///
+/// ```
+/// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
+/// use shadowgraph_inspect::diff;
+/// let plan = |width| {
+///     let mut frame = Frame::new();
+///     let mut scene = frame.create_texture("scene", TextureDesc::d2(width, 64, Format::Rgba16Float));
+///     frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
+///     frame.export_texture(&scene);
+///     frame.compile().map(|compiled| compiled.into_plan())
+/// };
+/// assert!(diff(&plan(64)?, &plan(64)?)?.is_empty());
+/// let wider = diff(&plan(64)?, &plan(128)?)?;
+/// assert!(wider.to_text().contains("scene"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A plan causes none.
+pub fn diff(before: &Plan, after: &Plan) -> Result<Diff, Error> {
+    Ok(Dump::from_plan(before)?.diff(&Dump::from_plan(after)?))
 }
 
 impl Subject {

@@ -5,6 +5,12 @@ mod order;
 mod pass;
 mod resource;
 
+pub use name::{explain, explain_order};
+pub use order::explain_why_before;
+pub use pass::explain_pass;
+pub use resource::explain_resource;
+pub(crate) use resource::{describe_origin, usages};
+
 use std::fmt::Write as _;
 
 /// Sentences below a heading, one for each line.

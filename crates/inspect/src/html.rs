@@ -3,12 +3,11 @@
 mod data;
 mod snapshot;
 
-pub use snapshot::{Drawing, Outline, SnapshotTile, TexelValues, Texels, TextureSnapshot};
+pub use snapshot::{Drawing, Outline};
 
-use crate::plan::Plan;
-use crate::times::PassTime;
 use data::FrameData;
 use serde::Serialize;
+use shadowgraph_core::{PassTime, Plan, TextureSnapshot};
 
 const PAGE: &str = include_str!("html/page/page.html");
 const STYLE: &str = include_str!("html/page/page.css");
@@ -27,30 +26,29 @@ const SCRIPT: &[&str] = &[
     include_str!("html/page/main.js"),
 ];
 
-impl Plan {
-    /// Returns the plan as one self-contained HTML page. It shows the graph, grouped by node; when each resource is in use;
-    /// which resources share memory; every pass; and every decision with its reason. [`HtmlPage`] adds times and the contents of
-    /// textures.
-    ///
-    /// ```
-    /// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
-    /// let mut frame = Frame::new();
-    /// let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
-    /// frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
-    /// frame.export_texture(&scene);
-    /// let page = frame.compile()?.plan().to_html();
-    /// assert!(page.starts_with("<!doctype html>") && page.contains("draw"));
-    /// # Ok::<(), shadowgraph_core::Error>(())
-    /// ```
-    pub fn to_html(&self) -> String {
-        HtmlPage::new(self).to_html()
-    }
+/// Returns the plan as one self-contained HTML page. It shows the graph, grouped by node; when each resource is in use;
+/// which resources share memory; every pass; and every decision with its reason. [`HtmlPage`] adds times and the contents of
+/// textures.
+///
+/// ```
+/// use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
+/// let mut frame = Frame::new();
+/// let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
+/// frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
+/// frame.export_texture(&scene);
+/// let page = shadowgraph_inspect::to_html(frame.compile()?.plan());
+/// assert!(page.starts_with("<!doctype html>") && page.contains("draw"));
+/// # Ok::<(), shadowgraph_core::Error>(())
+/// ```
+pub fn to_html(plan: &Plan) -> String {
+    HtmlPage::new(plan).to_html()
 }
 
 /// An HTML page about a frame: its plan, and optionally times, notes, tables, plots and captured textures.
 ///
 /// ```
-/// use shadowgraph_core::{Frame, HtmlPage, PageTable};
+/// use shadowgraph_core::Frame;
+/// use shadowgraph_inspect::{HtmlPage, PageTable};
 /// let compiled = Frame::new().compile()?;
 /// let mut page = HtmlPage::new(compiled.plan()).with_title("An empty frame");
 /// let (columns, rows) = (vec!["Name".into()], vec![vec!["hall.glb".into()]]);
@@ -96,7 +94,7 @@ impl<'p> HtmlPage<'p> {
         Self { title: title.into(), ..self }
     }
 
-    /// Adds the times of passes, in order of recording, as [`Timer::read`](crate::Timer::read) returns them.
+    /// Adds the times of passes, in order of recording, as `Timer::read` returns them.
     #[must_use]
     pub fn with_times(self, times: &'p [PassTime]) -> Self {
         Self { times, ..self }
@@ -120,7 +118,7 @@ impl<'p> HtmlPage<'p> {
 }
 
 /// Escapes text for HTML, in an element or in quotes.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -1,7 +1,7 @@
 //! Times in Chrome's trace format.
 
-use super::PassTime;
 use serde::Serialize;
+use shadowgraph_core::PassTime;
 
 #[derive(Serialize)]
 struct Trace<'t> {
@@ -49,7 +49,8 @@ const GPU: u32 = 2;
 /// one for the GPU. Passes that share a GPU time are one event with all of their names.
 ///
 /// ```
-/// use shadowgraph_core::{PassTime, trace_json};
+/// use shadowgraph_core::PassTime;
+/// use shadowgraph_inspect::trace_json;
 /// let time = PassTime { pass: "post/blur".into(), cpu_ms: 0.5, ..PassTime::default() };
 /// assert!(trace_json(&[time])?.contains("post/blur"));
 /// # Ok::<(), serde_json::Error>(())
