@@ -178,7 +178,7 @@ impl<K: ShaderPass> ShaderPassBuilder<'_, '_, K> {
 }
 
 impl ShaderPassBuilder<'_, '_, Rendering> {
-    /// Overwrites a target, or the part of it that [`on`](Self::on) selected, and ends the declaration.
+    /// Overwrites a target, or the part of it that [`subresource`](Self::subresource) selected, and ends the declaration.
     ///
     /// Every texel gets the value that the shader returns, without blending, and the old contents are not loaded. A shader
     /// that discards needs [`draw_over`](Self::draw_over).

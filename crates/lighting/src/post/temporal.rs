@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::shader::{fullscreen, linear_sampler};
 use crate::uniforms::ViewBuffers;
 
-/// Temporal anti-aliasing: sample positions are jittered in each frame ([`Jitter`](crate::Jitter)), and the result is blended with the
+/// Temporal anti-aliasing: sample positions are jittered in each frame ([`Jitter`](super::Jitter)), and the result is blended with the
 /// reprojected history (Karis, "High Quality Temporal Supersampling", 2014), clipped to the neighbourhood of the pixel (Salvi,
 /// "An Excursion in Temporal Supersampling", 2016). Reprojection follows the camera; moving objects rely on clipping alone.
 pub struct Temporal {
