@@ -118,9 +118,7 @@ fn columns(median: &str, p95: &str) -> String {
 
 fn ratio(spread: Stats) -> String {
     let Stats { p5, p25, median, p75, p95 } = spread;
-    format!(
-        "median {median:.2}, interquartile range {p25:.2} to {p75:.2}, 5th to 95th percentile {p5:.2} to {p95:.2}"
-    )
+    format!("median {median:.2}, quartiles {p25:.2} to {p75:.2}, 5th to 95th percentile {p5:.2} to {p95:.2}")
 }
 
 /// Formats the times of passes as a table. Names include the path of the node.
