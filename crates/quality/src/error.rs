@@ -21,22 +21,24 @@ pub enum Error {
     /// A view cannot be rendered.
     #[error(transparent)]
     Draw(#[from] shadowgraph::Error),
-    /// A frame cannot be compiled or recorded.
-    #[error(transparent)]
-    Graph(#[from] shadowgraph_core::Error),
-    /// A scene cannot be loaded or used.
-    #[error(transparent)]
-    Scene(#[from] shadowgraph_scene::Error),
-    /// A camera is invalid.
-    #[error(transparent)]
-    Camera(#[from] shadowgraph_scene::CameraError),
-    /// Shadows cannot be planned.
-    #[error(transparent)]
-    Shadows(#[from] shadowgraph_shadows::Error),
-    /// A lit pass cannot be created.
-    #[error(transparent)]
-    Lighting(#[from] shadowgraph_lighting::Error),
-    /// A shader cannot be composed.
-    #[error(transparent)]
-    Shader(#[from] shadowgraph_shaders::Error),
 }
+
+/// Errors of the crates below are those of [`shadowgraph::Error`], wherever they come from.
+macro_rules! from_lower_crate {
+    ($($error:ty),+) => {$(
+        impl From<$error> for Error {
+            fn from(error: $error) -> Self {
+                Self::Draw(error.into())
+            }
+        }
+    )+};
+}
+
+from_lower_crate!(
+    shadowgraph_core::Error,
+    shadowgraph_scene::Error,
+    shadowgraph_scene::CameraError,
+    shadowgraph_shadows::Error,
+    shadowgraph_lighting::Error,
+    shadowgraph_shaders::Error
+);
