@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::Samples;
-use super::surface::is_disconnected;
+use super::samples::{Samples, is_disconnected};
 
 /// Range of the soft reference in penumbras, neither fully dark nor fully lit.
 pub const PENUMBRA: Range<f32> = 0.02..0.98;

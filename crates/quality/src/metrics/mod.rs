@@ -12,30 +12,19 @@
 //! ```
 
 mod band;
-mod distance;
 mod edge_error;
-mod error;
-mod flicker;
-mod mean_error;
-mod misclassified;
-mod missing_contacts;
 mod peter_panning;
 mod samples;
-mod seam;
-mod statistics;
-mod surface;
+mod visibility;
+
 #[cfg(test)]
 mod tests;
 
 pub use band::{BAND_PX, BAND_TEXELS, Band, band};
 pub use edge_error::{EdgeError, PENUMBRA, edge_error};
-pub use error::MetricsError;
-pub use flicker::flicker;
-pub use mean_error::{MeanError, mean_error};
-pub use misclassified::{AcneBin, Misclassified, MisclassifiedCounts, N_DOT_L_BINS, misclassified};
-pub use missing_contacts::{MissingContacts, NEAR_BLOCKER_M, missing_contacts};
 pub use peter_panning::{CONTACT_M, PeterPanning, peter_panning};
-pub use samples::{Images, RECEIVER_N_DOT_L, Samples, TowardsLight};
-pub use seam::seam;
-pub use statistics::{Summary, percentile};
-pub use surface::{CREASE_COS, STEP_PX};
+pub use samples::{CREASE_COS, Images, MetricsError, RECEIVER_N_DOT_L, STEP_PX, Samples, TowardsLight};
+pub use visibility::{
+    AcneBin, MeanError, Misclassified, MisclassifiedCounts, MissingContacts, N_DOT_L_BINS, NEAR_BLOCKER_M,
+    Summary, flicker, mean_error, misclassified, missing_contacts, percentile, seam,
+};

@@ -3,8 +3,8 @@
 use glam::{DVec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-use super::surface::is_disconnected;
-use super::{Samples, Summary};
+use super::samples::{Samples, is_disconnected};
+use super::visibility::Summary;
 
 /// A receiver touches a blocker that is nearer than this, metres, or than a shadow texel.
 pub const CONTACT_M: f32 = 0.05;

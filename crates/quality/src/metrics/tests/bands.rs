@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use glam::DVec3;
 
 use super::test_image::{Camera, TestImage, above, grazing};
-use crate::metrics::distance::squared_distances;
+use crate::metrics::band::squared_distances;
 use crate::metrics::*;
 
 /// The band by the faces that were hit, and by looking at every pixel within reach.
