@@ -4,7 +4,6 @@ pub mod describe;
 mod dot;
 mod json;
 mod mermaid;
-mod summary;
 mod text;
 
 pub use json::JSON_SCHEMA;
