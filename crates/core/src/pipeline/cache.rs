@@ -1,9 +1,11 @@
 //! Pipelines by the shader and the targets that they are made of.
 
 use super::shader::{ProgrammableStage, Source};
-use super::targets::{DepthTarget, PipelineTargets};
+use crate::desc::Format;
+use crate::device::MAX_COLOR_ATTACHMENTS;
 use crate::error::Error;
 use crate::internal;
+use arrayvec::ArrayVec;
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -249,4 +251,19 @@ fn depth_state(depth: DepthTarget) -> wgpu::DepthStencilState {
         stencil: Default::default(),
         bias: Default::default(),
     }
+}
+
+/// The attachments that a render pipeline is made for.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct PipelineTargets {
+    pub(crate) colors: ArrayVec<(Format, Option<wgpu::BlendState>), MAX_COLOR_ATTACHMENTS>,
+    pub(crate) depth: Option<DepthTarget>,
+    pub(crate) samples: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct DepthTarget {
+    pub(crate) format: Format,
+    pub(crate) write: bool,
+    pub(crate) compare: wgpu::CompareFunction,
 }

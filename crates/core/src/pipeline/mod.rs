@@ -2,10 +2,8 @@
 
 mod cache;
 mod shader;
-mod targets;
 mod validation;
 
-pub(crate) use cache::PipelineCache;
+pub(crate) use cache::{DepthTarget, PipelineCache, PipelineTargets};
 pub(crate) use shader::ProgrammableStage;
 pub use shader::{ComputeShader, FullscreenShader};
-pub(crate) use targets::{DepthTarget, PipelineTargets};

@@ -1,7 +1,7 @@
 //! Declaring a pass in one line.
 
+use super::declaration::UniformSource;
 use super::declaration::{Binding, Command};
-use super::uniform_source::UniformSource;
 use crate::access::Contents;
 use crate::builder::{Compute, Pass, Rendering, ShaderPass};
 use crate::desc::TextureDesc;

@@ -3,7 +3,6 @@
 mod builder;
 mod declaration;
 mod record;
-mod uniform_source;
 mod warm;
 
 #[cfg(test)]
@@ -11,5 +10,5 @@ mod tests;
 
 pub use builder::ShaderPassBuilder;
 pub(crate) use declaration::ShaderPasses;
+pub use declaration::UniformSource;
 pub(crate) use record::{dispatch, draw};
-pub use uniform_source::UniformSource;
