@@ -8,8 +8,6 @@
 mod frames;
 #[path = "../../src/compile/tests/oracle/mod.rs"]
 mod oracle;
-#[path = "../../src/compile/tests/shuffle.rs"]
-mod shuffle;
 #[path = "../../src/compile/tests/trial.rs"]
 mod trial;
 
@@ -17,7 +15,7 @@ use shadowgraph_core::*;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let spec = frames::frame_from_bytes(bytes);
-    for spec in [shuffle::shuffled(&spec, &mut frames::Source::new(bytes)), spec] {
+    for spec in [trial::shuffled(&spec, &mut frames::Source::new(bytes)), spec] {
         if let Err(breach) = trial::trial(&spec) {
             panic!("{breach}\nfrom the bytes {bytes:?}");
         }

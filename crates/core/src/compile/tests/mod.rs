@@ -16,7 +16,6 @@ mod plans;
 mod random;
 mod regions;
 mod sharing;
-mod shuffle;
 mod trial;
 
 /// Bytes that look random, always the same ones for a seed.

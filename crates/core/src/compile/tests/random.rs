@@ -5,8 +5,7 @@ use super::frames::{
     INVALID_CHANGES, Source, Spec, frame_from_bytes, random_calls_from_bytes, small_frame_from_bytes,
 };
 use super::print;
-use super::shuffle::shuffled;
-use super::trial::trial;
+use super::trial::{shuffled, trial};
 use crate::{Error, Frame, Graph, Plan};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};

@@ -1,6 +1,7 @@
-//! One frame put to the test. Like `frames` and `oracle` it uses the crate's public names only.
+//! One frame put to the test, and the same frame declared in another order. Like `frames` and `oracle` it uses the crate's
+//! public names only.
 
-use super::frames::Spec;
+use super::frames::{PassSpec, Source, Spec};
 use super::oracle::{Model, Truth, check_plan};
 use crate::Plan;
 
@@ -27,4 +28,24 @@ pub(super) fn trial(spec: &Spec) -> Result<Option<Plan>, String> {
         ((Ok(_), _), Some(invalid)) => Err(format!("not refused: {invalid:?}\n{spec}")),
         ((Err(error), _), None) => Err(format!("refused: {error}\n{spec}")),
     }
+}
+
+/// Declares passes in another order that keeps every hazard, so that the frame has the same meaning.
+pub(super) fn shuffled(spec: &Spec, source: &mut Source<'_>) -> Spec {
+    let model = Model::new(spec);
+    let mut left: Vec<usize> = (0..spec.passes.len()).collect();
+    let mut order = Vec::new();
+    while !left.is_empty() {
+        let first = |&pass: &usize| left.iter().all(|&other| other >= pass || !model.ordered(other, pass));
+        let ready: Vec<usize> = left.iter().copied().filter(first).collect();
+        let next = source.pick(&ready);
+        order.push(next);
+        left.retain(|&pass| pass != next);
+    }
+    let position = |pass: &usize| order.iter().position(|other| other == pass).unwrap();
+    let moved = |&pass: &usize| {
+        let own = &spec.passes[pass];
+        PassSpec { after: own.after.iter().map(position).collect(), ..own.clone() }
+    };
+    Spec { passes: order.iter().map(moved).collect(), ..spec.clone() }
 }

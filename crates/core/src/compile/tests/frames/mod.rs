@@ -5,7 +5,6 @@
 mod build;
 mod cells;
 mod chains;
-mod display;
 mod generate;
 mod invalid;
 mod passes;
@@ -25,6 +24,7 @@ pub(super) use source::Source;
 use crate::{
     Access, Aspect, Contents, Options, Origin, PassKind, Rect, ResourceDesc, Subresource, TextureDesc,
 };
+use std::fmt::{Display, Formatter};
 use wgpu_types::TextureDimension;
 
 /// The declarations of a frame.
@@ -174,4 +174,40 @@ impl Spec {
         let origin = self.resources[resource].origin;
         self.is_exported(resource) || matches!(origin, Origin::Imported { .. } | Origin::Current { .. })
     }
+}
+
+/// Short text for failing tests.
+impl Display for Spec {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "{:?}", self.options)?;
+        for (index, resource) in self.resources.iter().enumerate() {
+            write!(f, "r{index}: {:?}, ", resource.origin)?;
+            match resource.desc {
+                ResourceDesc::Buffer(desc) => writeln!(f, "{} bytes", desc.bytes)?,
+                ResourceDesc::Texture(desc) => writeln!(
+                    f,
+                    "{:?} {}x{}x{} {:?}, {} mips, {} samples",
+                    desc.dimension,
+                    desc.size.width,
+                    desc.size.height,
+                    desc.size.depth_or_array_layers,
+                    desc.format,
+                    desc.mip_levels,
+                    desc.samples
+                )?,
+            }
+        }
+        self.passes.iter().enumerate().try_for_each(|(index, pass)| write_pass(f, index, pass))?;
+        writeln!(f, "exports {:?}", self.exports)
+    }
+}
+
+fn write_pass(f: &mut Formatter<'_>, index: usize, pass: &PassSpec) -> std::fmt::Result {
+    let keep = if pass.keep { ", kept" } else { "" };
+    writeln!(f, "p{index}: {:?}{keep}, after {:?}", pass.kind, pass.after)?;
+    for access in &pass.accesses {
+        let subresource = access.subresource.to_subresource().to_string();
+        writeln!(f, "    {:?} of r{}, {subresource}, {:?}", access.access, access.resource, access.contents)?;
+    }
+    Ok(())
 }
