@@ -16,7 +16,6 @@
 
 mod allocation;
 mod atlas;
-mod basis;
 mod budget;
 mod cascades;
 mod casters;
@@ -40,7 +39,6 @@ mod views;
 
 pub use allocation::{AtlasAllocation, AtlasConfig, TileAllocation, TileRequest, allocate_tiles};
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
-pub use basis::light_from_world;
 pub use budget::{BudgetConfig, QualityController, QualityLevel};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
 pub use casters::{
@@ -49,7 +47,7 @@ pub use casters::{
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use error::Error;
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
-pub use ortho::OrthoFit;
+pub use ortho::{OrthoFit, light_from_world};
 pub use pcf_variant::PcfVariant;
 pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePlan};
 pub use planner::{plan_shadows, plan_shadows_after};

@@ -1,4 +1,4 @@
-//! The box that a directional light's tile covers, fixed to whole texels of the world.
+//! The axes of light space, and the box in it that a directional light's tile covers, fixed to whole texels of the world.
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use shadowgraph_scene::{Aabb, BoundingSphere, ConvexVolume, Plane};
@@ -119,4 +119,27 @@ impl OrthoFit {
 fn round_up(value: f64, steps: f64) -> f64 {
     let step = value.log2().floor().exp2() / steps;
     (value / step).ceil() * step
+}
+
+/// Absolute cosine to the vertical above which a light's up axis is computed from the world's -Z instead of +Y.
+const STEEP: f64 = 0.999;
+
+/// Returns the rotation from world to light space: +Z towards the light, +Y as close to the world's up as possible
+/// (the world's -Z for lights from straight above or below). It depends only on the direction, so it
+/// is constant while the camera moves. `None` for a direction that is zero or not finite.
+///
+/// ```
+/// use glam::DVec3;
+/// use shadowgraph_shadows::light_from_world;
+/// let rotation = light_from_world(DVec3::NEG_Y).ok_or("no direction")?;
+/// assert_eq!(rotation * DVec3::Y, DVec3::Z);
+/// # Ok::<(), &str>(())
+/// ```
+#[must_use]
+pub fn light_from_world(direction: DVec3) -> Option<DMat3> {
+    let towards_light = -direction.try_normalize()?;
+    let up = if towards_light.y.abs() > STEEP { DVec3::NEG_Z } else { DVec3::Y };
+    let right = up.cross(towards_light).try_normalize()?;
+    // Rows of the result: a transposed matrix of the axes is its inverse, exactly.
+    Some(DMat3::from_cols(right, towards_light.cross(right), towards_light).transpose())
 }

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_4;
 use glam::{DMat3, DVec3, Vec3};
 use shadowgraph_scene::{Aabb, BoundingSphere, Camera, ConvexVolume, Light, LightKind, Plane};
 
-use crate::basis::light_from_world;
+use crate::ortho::light_from_world;
 use crate::settings::LightShadows;
 use crate::spot::SpotCone;
 

@@ -3,7 +3,7 @@
 use shadowgraph_core::{Frame, Texture, TextureDesc};
 use shadowgraph_scene::Light;
 
-use super::mask::{MASK_FORMAT, masked_lights};
+use super::outputs::{MASK_FORMAT, masked_lights};
 use super::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use crate::error::Error;
 use crate::plan::ShadowInputs;

@@ -3,7 +3,6 @@
 mod check;
 mod gpu_struct;
 mod layout;
-mod mask;
 mod outputs;
 
 pub(crate) use check::add_checked;
@@ -11,9 +10,8 @@ pub use check::add_shadows;
 pub use gpu_struct::GpuStruct;
 pub(crate) use layout::layout;
 pub use layout::{binding, shadow_layout};
-pub(crate) use mask::MASK_FORMAT;
-pub use mask::{MAX_MASK_LAYERS, masked_lights};
-pub use outputs::{ShadowBinding, ShadowOutputs, ShadowTokens};
+pub(crate) use outputs::MASK_FORMAT;
+pub use outputs::{MAX_MASK_LAYERS, ShadowBinding, ShadowOutputs, ShadowTokens, masked_lights};
 
 use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_shaders::ModuleSource;
