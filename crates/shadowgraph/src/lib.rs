@@ -61,7 +61,6 @@ mod rendered;
 mod renderer;
 pub mod ron_file;
 mod surfaces;
-mod techniques;
 mod view_options;
 
 pub use build_context::BuildContext;

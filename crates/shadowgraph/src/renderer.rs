@@ -13,19 +13,20 @@ use shadowgraph_core::{Graph, Plan};
 use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Light, Scene, origin_near};
-use shadowgraph_shadows::{ShadowTechnique, Unshadowed};
+use shadowgraph_shadows::rays::GpuRayScene;
+use shadowgraph_shadows::{ShadowTechnique, TechniqueContext, Unshadowed};
 
 use crate::build_context::BuildContext;
 use crate::casters::SceneCasters;
 use crate::debug_blit::DebugBlit;
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::occluders::ray_scene;
 use crate::options::aov::Aov;
 use crate::pipelines::instance::PipelineInstance;
 use crate::pipelines::pipeline::Pipeline;
 use crate::render_config::RenderConfig;
 use crate::render_view::RenderView;
-use crate::techniques;
 use crate::view_options::ViewOptions;
 
 /// Draws one scene with one configuration.
@@ -130,7 +131,7 @@ impl Renderer {
     ) -> Result<Self, Error> {
         let device = &gpu.device;
         let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique = techniques::create(&config, gpu, &scene, origin_world)?;
+        let technique = create_technique(&config, gpu, &scene, origin_world)?;
         let (lit_output, format) = lit_output(&aov, &scene.lights)?;
         let lit = LitTarget { format, output: lit_output, samples: config.samples };
         let layouts = uploaded.layouts();
@@ -247,7 +248,7 @@ impl Renderer {
         }
         self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
         // It may keep positions.
-        self.technique = techniques::create(&self.config, gpu, &self.scene, origin_world)?;
+        self.technique = create_technique(&self.config, gpu, &self.scene, origin_world)?;
         Ok(())
     }
 
@@ -255,6 +256,22 @@ impl Renderer {
     pub fn graph(&self) -> MutexGuard<'_, Graph> {
         self.graph.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Creates a technique for a scene whose GPU positions are relative to `origin_world`.
+fn create_technique(
+    config: &RenderConfig,
+    gpu: &Gpu,
+    scene: &Scene,
+    origin_world: DVec3,
+) -> Result<Box<dyn ShadowTechnique>, Error> {
+    let rays = || {
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        Ok(GpuRayScene::new(&ray_scene(scene, origin_world)?, limit)?)
+    };
+    let technique = config.technique();
+    let technique = if config.pipeline.has_screen_shadows() { technique.with_screen() } else { technique };
+    Ok(technique.make(&TechniqueContext::new(&gpu.device).with_rays(&rays))?)
 }
 
 #[cfg(test)]

@@ -3,17 +3,15 @@
 //! A pipeline file names nodes of [`Nodes`](crate::nodes::Nodes) and connects their outputs to inputs ([`Pipeline::load`]). A
 //! pipeline in Rust is a [`PipelineInstance`], such as `examples/custom_pipeline/script.rs`. Both give the same plans.
 
-pub(crate) mod built_in;
 pub(crate) mod file;
 pub(crate) mod instance;
 pub(crate) mod pipeline;
 
 pub use crate::error::PipelineError;
-pub use built_in::BUILT_IN;
 pub use file::parameters::Parameters;
 pub use file::schema::schema;
 pub use instance::{PipelineInstance, PipelineOutput};
-pub use pipeline::Pipeline;
+pub use pipeline::{BUILT_IN, Pipeline};
 
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use shadowgraph_core::did_you_mean;
 use shadowgraph_shadows::{Technique, Techniques};
 
-use super::built_in::{self, BUILT_IN};
 use super::file::PipelineFile;
 use super::file::parameters::Parameters;
 use super::instance::PipelineInstance;
@@ -16,6 +15,20 @@ use crate::build_context::BuildContext;
 use crate::error::{Error, PipelineError};
 use crate::nodes::registry::Nodes;
 use crate::options::error::OptionError;
+
+/// Names and files of the built-in pipelines, the default first.
+const FILES: &[(&str, &str)] = &[
+    ("forward", include_str!("../../pipelines/forward.ron")),
+    ("forward_plus", include_str!("../../pipelines/forward_plus.ron")),
+    ("deferred", include_str!("../../pipelines/deferred.ron")),
+    ("screen_shadows", include_str!("../../pipelines/screen_shadows.ron")),
+    ("minimal", include_str!("../../pipelines/minimal.ron")),
+    ("debug_cascades", include_str!("../../pipelines/debug_cascades.ron")),
+];
+
+/// The names of the built-in pipelines, the default first.
+pub const BUILT_IN: &[&str] =
+    &["forward", "forward_plus", "deferred", "screen_shadows", "minimal", "debug_cascades"];
 
 type BuildFn = dyn Fn(&BuildContext<'_>) -> Result<Box<dyn PipelineInstance>, Error> + Send + Sync;
 
@@ -75,7 +88,7 @@ impl Pipeline {
     /// # Errors
     /// For an unknown name, and for parameters that the pipeline does not have.
     pub fn built_in(name: &str, parameters: &Parameters) -> Result<Self, PipelineError> {
-        let Some((name, text)) = built_in::find(name) else {
+        let Some((name, text)) = find_built_in(name) else {
             let hint = did_you_mean(name, BUILT_IN.iter().copied());
             let problem = format!("unknown pipeline `{name}`{hint}");
             return Err(PipelineError { location: name.into(), problem });
@@ -86,7 +99,7 @@ impl Pipeline {
 
     /// Returns the text of a built-in pipeline's file, a start for your own.
     pub fn built_in_text(name: &str) -> Option<&'static str> {
-        built_in::find(name).map(|(_, text)| text)
+        find_built_in(name).map(|(_, text)| text)
     }
 
     /// Returns the default pipeline: a depth prepass, then one lit pass that looks shadows up per pixel.
@@ -213,4 +226,9 @@ impl FromStr for Pipeline {
         Self::built_in(name, &Parameters::default())
             .map_err(|error| OptionError::new("pipeline", error.problem))
     }
+}
+
+/// Returns the name and the text of a built-in pipeline.
+fn find_built_in(name: &str) -> Option<(&'static str, &'static str)> {
+    FILES.iter().find(|(known, _)| *known == name).copied()
 }
