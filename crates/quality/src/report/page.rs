@@ -1,9 +1,8 @@
 //! A report as one page: numbers to sort and filter, and images to flip through.
 
 mod case;
-mod cases;
 mod html;
-mod summary;
+mod tables;
 #[cfg(test)]
 mod tests;
 
@@ -30,11 +29,11 @@ pub fn page(report: &Report) -> String {
         adapter = escape(&report.adapter),
         settings = escape(&settings),
         summary_groups = "<colgroup span=\"2\"></colgroup>".repeat(techniques.len()),
-        summary_names = summary::names(&techniques),
-        summary_columns = summary::COLUMNS.repeat(techniques.len()),
-        summary_rows = summary::rows(report, &techniques, &metrics),
-        case_headings = cases::headings(&metrics),
-        case_rows = cases::rows(report, &metrics),
+        summary_names = tables::summary_names(&techniques),
+        summary_columns = tables::SUMMARY_COLUMNS.repeat(techniques.len()),
+        summary_rows = tables::summary_rows(report, &techniques, &metrics),
+        case_headings = tables::case_headings(&metrics),
+        case_rows = tables::case_rows(report, &metrics),
         sections = case::sections(report, &metrics),
         script = include_str!("page.js"),
     )
