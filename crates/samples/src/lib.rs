@@ -1,7 +1,8 @@
 //! The demo scene and the procedural test scenes, created in code.
 
 pub mod demo;
-mod primitives;
+mod mesh_builder;
+mod round;
 pub mod test_scenes;
 
 #[cfg(doctest)]

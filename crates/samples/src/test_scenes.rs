@@ -6,8 +6,8 @@ pub use stained_glass::stained_glass;
 
 use glam::{DAffine3, DVec2, DVec3, Vec3, Vec4};
 
-use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
-use crate::primitives::round::{lathe, sphere};
+use crate::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
+use crate::round::{lathe, sphere};
 use shadowgraph_scene::{Instance, Light, LightKind, Material, Scene};
 
 /// The names of all test scenes.

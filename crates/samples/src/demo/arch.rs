@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use crate::primitives::mesh_builder::{MeshBuilder, SurfacePoint, box_on_ground, cuboid};
-use crate::primitives::round::{bulge, lathe};
+use crate::mesh_builder::{MeshBuilder, SurfacePoint, box_on_ground, cuboid};
+use crate::round::{bulge, lathe};
 
 /// A wall along X with a round opening, centred in Z, with its spring line at y = 0. Lengths in metres.
 #[derive(Clone, Copy)]

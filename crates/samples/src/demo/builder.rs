@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 use super::textures;
-use crate::primitives::mesh_builder::MeshBuilder;
+use crate::mesh_builder::MeshBuilder;
 use shadowgraph_scene::{AlphaMode, Image, Instance, Material, Scene, TextureRef};
 
 /// A scene under construction, and its materials by name.

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use super::arch::{ArchBay, column};
 use super::builder::SceneBuilder;
-use crate::primitives::mesh_builder::{MeshBuilder, SurfacePoint, box_on_ground, cuboid};
+use crate::mesh_builder::{MeshBuilder, SurfacePoint, box_on_ground, cuboid};
 
 /// Height of the hall's floor above the court, metres.
 pub(super) const FLOOR: f64 = 0.9;

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::arch::ArchBay;
 use super::builder::SceneBuilder;
-use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
+use crate::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
 
 /// Adds all distant objects.
 pub(super) fn build(builder: &mut SceneBuilder) {

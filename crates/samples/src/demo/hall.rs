@@ -6,8 +6,8 @@ use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3};
 
 use super::builder::SceneBuilder;
 use super::court::{BACK_Z, FLOOR, FRONT_Z, HALL_BAY};
-use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
-use crate::primitives::round::{bulge, lathe, ring, sphere};
+use crate::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
+use crate::round::{bulge, lathe, ring, sphere};
 use shadowgraph_scene::{Light, LightKind};
 
 const PEDESTAL: f64 = 0.95;

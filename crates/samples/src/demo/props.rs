@@ -7,8 +7,8 @@ use glam::{DAffine3, DVec2, DVec3};
 use super::builder::SceneBuilder;
 use super::court::{FLOOR, FRONT_Z, HALL_BAY};
 use super::textures::FENCE_PANEL;
-use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground};
-use crate::primitives::round::{bulge, lathe, rope, sphere, tube};
+use crate::mesh_builder::{MeshBuilder, box_on_ground};
+use crate::round::{bulge, lathe, rope, sphere, tube};
 
 /// Contact point of the ball with the ground, and its radius, metres.
 pub(super) const BALL: (DVec3, f64) = (DVec3::new(2.9, 0.0, 2.6), 0.9);

@@ -3,8 +3,8 @@
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 use super::{ground, sun};
-use crate::primitives::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
-use crate::primitives::round::sphere;
+use crate::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
+use crate::round::sphere;
 use shadowgraph_scene::{
     AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Mesh, Projection, Scene, TextureRef,
 };

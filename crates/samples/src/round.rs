@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::mesh_builder::{MeshBuilder, SurfacePoint};
+use crate::mesh_builder::{MeshBuilder, SurfacePoint};
 
 /// Revolves a profile about the Y axis. Each run is a smooth line of (radius, height) points from bottom to top; runs meet
 /// in hard edges. The outside is to the right of the line, so a lid runs inwards.
