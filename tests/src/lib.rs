@@ -1,10 +1,46 @@
 //! Shared by the tests of the whole workspace: paths, skips, the built program.
 
-mod places;
 mod program;
-mod skip;
 pub mod watch;
 
-pub use places::{repository, shared};
 pub use program::{ProgramError, on_path, program};
-pub use skip::skip;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Returns the repository's root.
+#[must_use]
+pub fn repository() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// Returns a directory of the test material that is not in the repository, if this machine has it.
+///
+/// It is a subdirectory of the one that the variable `SHADOWGRAPH_SHARED` names, by default of `shared` next to
+/// the repository.
+#[must_use]
+pub fn shared(dir: &str) -> Option<PathBuf> {
+    let base = match std::env::var_os("SHADOWGRAPH_SHARED") {
+        Some(base) => PathBuf::from(base),
+        None => repository().parent()?.join("shared"),
+    };
+    Some(base.join(dir)).filter(|path| path.is_dir())
+}
+
+/// Records that a test cannot run here; the test returns right after.
+///
+/// The line `SKIP <id>: <reason>` goes to standard output and to the file that `SHADOWGRAPH_SKIP_LOG`
+/// names; `cargo xtask test` reads it and counts the test as skipped. `id` must be in `tests/skips.txt`.
+#[allow(clippy::print_stdout, reason = "the person who runs the test reads the line")]
+pub fn skip(id: &str, reason: &str) {
+    let line = format!("SKIP {id}: {}\n", reason.replace('\n', " "));
+    print!("{line}");
+    let Some(log) = std::env::var_os("SHADOWGRAPH_SKIP_LOG") else { return };
+    let file = std::fs::OpenOptions::new().append(true).create(true).open(&log);
+    // One write per line, so that lines of other threads and programs are not mixed in.
+    let written = file.and_then(|mut file| file.write_all(line.as_bytes()));
+    if let Err(error) = written {
+        println!("cannot write the skip to {}: {error}", log.to_string_lossy());
+    }
+}
