@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use naga_oil::compose::{
     comment_strip_iter::CommentReplaceExt, get_preprocessor_data, parse_imports::parse_imports,
 };
+use strsim::levenshtein;
 
 use crate::{
     Error, ModuleSource,
@@ -104,7 +105,7 @@ impl<'a> Library<'a> {
         let mut similar: Vec<&str> = self.0.keys().map(String::as_str).collect();
         // The name of an item must not count as a difference from its module.
         let parent = path.rsplit_once("::").map_or(path.as_str(), |(parent, _)| parent);
-        similar.sort_by_key(|known| edit_distance(known, &path).min(edit_distance(known, parent)));
+        similar.sort_by_key(|known| levenshtein(known, &path).min(levenshtein(known, parent)));
         similar.truncate(3);
         Error::UnknownImport { similar: similar.join(", "), file, line, path }
     }
@@ -169,22 +170,6 @@ fn open_braces(text: &str) -> usize {
     text.matches('{').count().saturating_sub(text.matches('}').count())
 }
 
-/// Returns the edit distance of two names.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, other) in b.iter().enumerate() {
-            let changed = diagonal + usize::from(letter != *other);
-            diagonal = row[j + 1];
-            row[j + 1] = changed.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
@@ -198,13 +183,5 @@ mod tests {
         let found: Vec<_> = imports(&file).unwrap().into_iter().map(|i| (i.path, i.line)).collect();
         let expected = [("a::b", 2), ("c::d", 3), ("c::f", 3)];
         assert_eq!(found, expected.map(|(path, line)| (path.to_owned(), line)));
-    }
-
-    #[test]
-    fn the_edit_distance_counts_letters() {
-        assert_eq!(edit_distance("view", "view"), 0);
-        assert_eq!(edit_distance("viewe", "view"), 1);
-        assert_eq!(edit_distance("veiw", "view"), 2);
-        assert_eq!(edit_distance("", "view"), 4);
     }
 }
