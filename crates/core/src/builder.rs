@@ -1,6 +1,8 @@
 //! Declaration of a pass. The kind of pass decides which accesses it can declare.
 
 use crate::access::{Access, Contents};
+#[cfg(feature = "gpu")]
+use crate::context::{Body, BodyResult, ComputeContext, EncoderContext, RenderContext};
 use crate::declaration::CopyOp;
 use crate::frame::Frame;
 use crate::handle::{Buffer, BufferToken, PassId, Texture, TextureToken};
@@ -270,3 +272,23 @@ impl Pass<'_, '_, Copying> {
         self
     }
 }
+
+#[cfg(feature = "gpu")]
+macro_rules! body {
+    ($kind:ident, $context:ident, $body:ident) => {
+        impl<'f> Pass<'_, 'f, $kind> {
+            /// Sets the function that records the pass. It runs when the frame is executed, unless the pass is culled. It
+            /// captures tokens and borrowed data by `move`; [`Resources::bind_group`](crate::Resources::bind_group) has an example.
+            pub fn body(self, body: impl for<'a> FnOnce(&mut $context<'a>) -> BodyResult + Send + 'f) {
+                self.frame.work.bodies[self.id.index()] = Body::$body(Box::new(body));
+            }
+        }
+    };
+}
+
+#[cfg(feature = "gpu")]
+body!(Rendering, RenderContext, Render);
+#[cfg(feature = "gpu")]
+body!(Compute, ComputeContext, Compute);
+#[cfg(feature = "gpu")]
+body!(Encoding, EncoderContext, Encoder);

@@ -1,12 +1,9 @@
-//! A compiled frame, and the resolution of tokens.
+//! A compiled frame.
 
+use crate::compile;
+use crate::error::Error;
 use crate::frame::Frame;
 use crate::plan::Plan;
-#[cfg(any(feature = "gpu", test))]
-use crate::{
-    error::Error,
-    handle::{PassId, ResourceId, Token},
-};
 use std::sync::Arc;
 
 /// A compiled frame: the plan, and the pass bodies to record.
@@ -39,18 +36,15 @@ impl<'f> Compiled<'f> {
     }
 }
 
-/// Returns the resource of a token used in `pass`: only tokens of that pass resolve.
-#[cfg(any(feature = "gpu", test))]
-pub(crate) fn resolve(plan: &Plan, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
-    if token.frame != frame {
-        return Err(Error::ForeignHandle { location: format!("pass `{}`", plan.pass_path(pass)) });
+impl<'f> Frame<'f> {
+    /// Compiles the declarations into a plan. [`Graph::compile`](crate::Graph::compile) does the same and reuses the
+    /// plan of an equal frame.
+    ///
+    /// # Errors
+    /// The first error of the declaration, in order of declaration.
+    pub fn compile(mut self) -> Result<Compiled<'f>, Error> {
+        self.check()?;
+        let plan = compile::compile(std::mem::take(&mut self.decl))?;
+        Ok(Compiled::new(Arc::new(plan), self))
     }
-    if token.pass != pass {
-        return Err(Error::Undeclared {
-            pass: plan.pass_path(pass),
-            resource: plan.resource(token.resource).name.into(),
-            declared_by: plan.pass_path(token.pass),
-        });
-    }
-    Ok(token.resource)
 }

@@ -5,14 +5,9 @@ mod plans;
 pub use plans::PlanCounts;
 
 use crate::compiled::Compiled;
-use crate::declaration::Declaration;
-use crate::desc::ResourceDesc;
 use crate::error::Error;
-use crate::frame::{Frame, Storage};
-use crate::handle::{NodeId, ResourceId};
-use crate::history::{PriorHistory, Resize};
+use crate::frame::{Frame, PriorState, Spare};
 use plans::Plans;
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// Everything that outlives a frame: plans, the memory of declarations, and for one device the physical textures and
 /// buffers, their views and bind groups, and histories.
@@ -38,8 +33,6 @@ pub struct Graph {
     #[cfg(feature = "gpu")]
     pub(crate) device: crate::pool::Pool,
 }
-
-type Spare = Arc<Mutex<Vec<Storage>>>;
 
 impl Graph {
     /// Creates an empty graph.
@@ -117,41 +110,5 @@ impl Graph {
     /// Returns how plans were obtained since the graph was created.
     pub fn plan_counts(&self) -> PlanCounts {
         self.plans.counts
-    }
-}
-
-/// Data of a graph that its frames share.
-#[derive(Clone, Default)]
-pub(crate) struct PriorState {
-    spare: Option<Spare>,
-    histories: Option<Arc<Vec<PriorHistory>>>,
-}
-
-impl PriorState {
-    pub(crate) fn take_storage(&mut self) -> Storage {
-        let spare = self.spare.as_ref();
-        let storage = spare.and_then(|spare| spare.lock().unwrap_or_else(PoisonError::into_inner).pop());
-        storage.unwrap_or_default()
-    }
-
-    /// Returns the memory of a frame to its graph.
-    pub(crate) fn give_back(&self, storage: Storage) {
-        if let Some(spare) = &self.spare {
-            spare.lock().unwrap_or_else(PoisonError::into_inner).push(storage);
-        }
-    }
-
-    pub(crate) fn history_valid(
-        &self,
-        decl: &Declaration,
-        view: Option<NodeId>,
-        current: ResourceId,
-        resize: Resize,
-    ) -> bool {
-        let ResourceDesc::Texture(desc) = decl.resource(current).desc else { return false };
-        self.histories
-            .iter()
-            .flat_map(|all| all.iter())
-            .any(|prior| prior.matches(decl, view, current) && prior.fits(&desc, resize))
     }
 }

@@ -106,3 +106,24 @@ impl Uniform {
         self.size
     }
 }
+
+/// One entry of a bind group; its index in the list is its binding number.
+#[cfg(feature = "gpu")]
+pub enum Bind<'a> {
+    /// The declared part of a texture: one layer as 2D, several as a 2D array.
+    Texture(TextureToken),
+    /// The declared part of a texture as a 2D array, even for one layer: for shaders that take any number of layers.
+    TextureArray(TextureToken),
+    /// The declared part of a buffer.
+    Buffer(BufferToken),
+    /// A range of a buffer, in bytes; with a dynamic offset, the range at offset 0.
+    BufferRange(BufferToken, std::ops::Range<u64>),
+    /// A uniform block of this frame.
+    Uniform(Uniform),
+    /// A sampler.
+    Sampler(&'a wgpu::Sampler),
+    /// A view of a texture that is not part of the graph.
+    ExternalView(&'a wgpu::TextureView),
+    /// A buffer that is not part of the graph.
+    ExternalBuffer(&'a wgpu::Buffer),
+}

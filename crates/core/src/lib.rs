@@ -44,6 +44,8 @@ mod builder;
 mod capture;
 mod compile;
 mod compiled;
+#[cfg(feature = "gpu")]
+mod context;
 mod declaration;
 mod desc;
 #[cfg(feature = "gpu")]
@@ -70,12 +72,16 @@ mod subresource;
 mod suggest;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
+#[cfg(feature = "gpu")]
+mod timer;
 mod times;
 
 pub use access::{Access, ClearValue, Contents};
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
 pub use capture::{SnapshotTile, TexelValues, Texels, TextureSnapshot};
 pub use compiled::Compiled;
+#[cfg(feature = "gpu")]
+pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
 pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 #[cfg(feature = "gpu")]
@@ -83,12 +89,11 @@ pub use device::device_is_lost;
 pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
-pub use execute::{
-    Bind, BodyResult, ComputeContext, EncoderContext, Executed, FailedFrame, FrameCapture, PendingCapture,
-    ReadBack, ReadBackRequest, RenderContext, Resources, Timer,
-};
+pub use execute::{Executed, FailedFrame, FrameCapture, PendingCapture, ReadBack, ReadBackRequest};
 pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};
+#[cfg(feature = "gpu")]
+pub use handle::Bind;
 pub use handle::{
     Buffer, BufferExport, BufferToken, NodeId, PassId, ResourceId, SlotId, Texture, TextureExport,
     TextureToken, Uniform,
@@ -109,6 +114,8 @@ pub use pool::PoolLimits;
 pub use shader_pass::{ShaderPassBuilder, UniformSource};
 pub use subresource::{Aspect, Rect, Subresource};
 pub use suggest::{closest_name, did_you_mean};
+#[cfg(feature = "gpu")]
+pub use timer::Timer;
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary};
 #[cfg(feature = "gpu")]
 pub use wgpu;

@@ -12,6 +12,10 @@ pub use reasons::{CullReason, LoadReason, MergeReason, OrderReason, SlotReason, 
 use crate::access::{Access, ClearValue, Contents};
 use crate::declaration::{AccessDecl, CopyOp, Declaration, Options, Origin, PassKind};
 use crate::desc::ResourceDesc;
+#[cfg(any(feature = "gpu", test))]
+use crate::error::Error;
+#[cfg(any(feature = "gpu", test))]
+use crate::handle::Token;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
 use crate::subresource::{Region, Subresource};
 use serde::Serialize;
@@ -388,5 +392,21 @@ impl Plan {
             slot.desc.bytes() * u64::from((slot.resources.1 - slot.resources.0).saturating_sub(1))
         };
         self.slots.iter().map(saved).sum()
+    }
+
+    /// Returns the resource of a token used in `pass`: only tokens of that pass resolve.
+    #[cfg(any(feature = "gpu", test))]
+    pub(crate) fn resolve(&self, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
+        if token.frame != frame {
+            return Err(Error::ForeignHandle { location: format!("pass `{}`", self.pass_path(pass)) });
+        }
+        if token.pass != pass {
+            return Err(Error::Undeclared {
+                pass: self.pass_path(pass),
+                resource: self.resource(token.resource).name.into(),
+                declared_by: self.pass_path(token.pass),
+            });
+        }
+        Ok(token.resource)
     }
 }

@@ -1,7 +1,7 @@
 //! The attachments of a plan, as wgpu takes them.
 
-use super::record::Recording;
 use crate::access::{Access, ClearValue};
+use crate::context::Recording;
 use crate::desc::{Format, ResourceDesc};
 use crate::device::MAX_COLOR_ATTACHMENTS;
 use crate::error::Error;

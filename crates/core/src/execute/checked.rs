@@ -1,9 +1,9 @@
 //! Recording step by step, so that a validation error of wgpu names its pass.
 
 use super::Executed;
-use super::context::Body;
 use super::record::prepare;
 use crate::compiled::Compiled;
+use crate::context::Body;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::PassId;

@@ -1,23 +1,14 @@
 //! Copies that the graph records itself: uploads and copy passes.
 
-use super::record::Recording;
 use crate::compile::copy_extent;
 use crate::compiled::Compiled;
+use crate::context::{Recording, Uploads};
 use crate::declaration::{AccessDecl, CopyOp};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::pool::{Pool, aligned_range};
 use crate::subresource::Aspect;
-
-/// The staged uploads of a frame, all in one buffer, from which they are copied in the order of the plan. Copying with the
-/// encoder instead of the queue keeps frames independent that are recorded before any is submitted.
-#[derive(Default)]
-pub(super) struct Uploads {
-    buffer: Option<wgpu::Buffer>,
-    /// Offset of each upload in bytes.
-    offsets: Vec<u64>,
-}
 
 /// Writes uniform blocks and uploads of passes that run into one staging chunk, and copies the uniforms from it. The
 /// chunk is free again when `last` has completed, or if there is only one encoder, `encoder`.

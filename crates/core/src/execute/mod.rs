@@ -1,31 +1,22 @@
 //! Recording a plan into the caller's encoders.
 
 mod attachments;
-mod bind;
 mod capture;
 mod checked;
-mod context;
 mod copies;
-mod entry_keys;
 mod import;
 mod poison;
 mod read_back;
 mod record;
 mod render;
 mod threads;
-mod timer;
 
 #[cfg(test)]
 mod tests;
 
-pub use bind::Bind;
 pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
-pub(crate) use context::Body;
-pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
-pub(crate) use read_back::ReadBackDecl;
 pub use read_back::{ReadBack, ReadBackRequest};
-pub use timer::Timer;
 
 use crate::compiled::Compiled;
 use crate::error::Error;
@@ -33,6 +24,7 @@ use crate::graph::Graph;
 use crate::handle::{BufferExport, ResourceId, TextureExport, Version};
 use crate::plan::Plan;
 use crate::pool::PhysicalResource;
+use crate::timer::Timer;
 use std::sync::Arc;
 
 /// An executed frame: its plan and its exports.

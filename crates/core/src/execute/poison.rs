@@ -1,8 +1,8 @@
 //! A debug mode: reused memory and discarded attachments are filled with conspicuous values, so that a read of contents
 //! that nobody wrote is visible immediately.
 
-use super::record::Recording;
 use crate::access::ClearValue;
+use crate::context::Recording;
 use crate::declaration::Origin;
 use crate::desc::{Format, ResourceDesc};
 use crate::handle::PassId;

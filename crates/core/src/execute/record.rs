@@ -1,34 +1,18 @@
 //! Recording the steps of a plan.
 
 use super::Executed;
-use super::context::{Body, ComputeContext, EncoderContext, Resources};
-use super::copies::{Uploads, record_copies, stage_uploads};
+use super::copies::{record_copies, stage_uploads};
 use super::read_back::ReadBack;
-use super::timer::Timer;
 use crate::compiled::Compiled;
+use crate::context::{Body, ComputeContext, EncoderContext, Recording, Resources, Uploads};
 use crate::declaration::PassKind;
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
-use crate::plan::Plan;
-use crate::pool::{PhysicalResource, Pool, ResolvedPlan};
-use crate::shader_pass::{self, ShaderPasses};
+use crate::pool::{Pool, ResolvedPlan};
+use crate::shader_pass;
+use crate::timer::Timer;
 use std::ops::Range;
 use std::time::Instant;
-
-/// State that all passes of a frame share while they are recorded.
-pub(crate) struct Recording<'a> {
-    pub(super) plan: &'a Plan,
-    pub(super) frame: u64,
-    pub(super) resolved: &'a ResolvedPlan,
-    pub(super) pool: &'a Pool,
-    pub(super) device: &'a wgpu::Device,
-    pub(super) uniforms: Option<&'a wgpu::Buffer>,
-    pub(super) uploads: &'a Uploads,
-    pub(super) timer: Option<&'a Timer>,
-    pub(super) shader_passes: &'a ShaderPasses,
-    /// Bind groups that the device supports.
-    pub(super) max_bind_groups: u32,
-}
 
 /// A frame whose physical objects are acquired and whose uploads are staged.
 pub(super) struct Prepared {
@@ -144,25 +128,6 @@ impl Prepared {
 }
 
 impl<'a> Recording<'a> {
-    pub(super) fn texture(&self, id: ResourceId) -> Result<&'a wgpu::Texture, Error> {
-        match &self.resolved.objects[id.index()] {
-            Some(PhysicalResource::Texture(texture)) => Ok(texture),
-            _ => Err(self.missing_import(id)),
-        }
-    }
-
-    pub(super) fn buffer(&self, id: ResourceId) -> Result<&'a wgpu::Buffer, Error> {
-        match &self.resolved.objects[id.index()] {
-            Some(PhysicalResource::Buffer(buffer)) => Ok(buffer),
-            _ => Err(self.missing_import(id)),
-        }
-    }
-
-    /// Returns the error of a resource without an object, which only an import can be.
-    pub(super) fn missing_import(&self, id: ResourceId) -> Error {
-        Error::NoImport { resource: self.plan.decl.resource_path(id) }
-    }
-
     /// Records some of the steps; `take` returns the body of each pass and is called in their order.
     pub(super) fn steps<'f>(
         &'a self,

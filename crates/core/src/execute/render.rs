@@ -1,9 +1,8 @@
 //! Recording a render step: one wgpu render pass for one pass of the frame, or for several that were merged.
 
 use super::attachments::{ColorAttachments, color_attachments, depth_attachment, targets};
-use super::context::{Body, RenderContext, Resources};
-use super::record::Recording;
 use crate::access::{Access, ClearValue, Contents};
+use crate::context::{Body, Recording, RenderContext, Resources};
 use crate::declaration::ALL_OF_RESOURCE;
 use crate::desc::Extent;
 use crate::error::Error;

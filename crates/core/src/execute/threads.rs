@@ -1,9 +1,9 @@
 //! Recording on several threads, one of which is the caller's.
 
 use super::Executed;
-use super::context::Body;
-use super::record::{Recording, prepare};
+use super::record::prepare;
 use crate::compiled::Compiled;
+use crate::context::{Body, Recording};
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::pool::Pool;

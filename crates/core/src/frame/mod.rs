@@ -6,23 +6,21 @@ mod resources;
 mod storage;
 
 pub use history::History;
-pub(crate) use storage::{Storage, Work};
+#[cfg(feature = "gpu")]
+pub(crate) use storage::ReadBackDecl;
+pub(crate) use storage::{PriorState, Spare, Storage, Work};
 
 use crate::access::{Access, Contents};
 use crate::builder::{Compute, Copying, Encoding, Pass, Rendering};
-use crate::compile;
-use crate::compiled::Compiled;
 use crate::declaration::{
     ALL_OF_RESOURCE, AccessDecl, Declaration, Options, PassDecl, PassKind, SubresourceDecl, WriteMode,
 };
 use crate::error::Error;
-use crate::graph::PriorState;
 use crate::handle::{NodeId, PassId, Token, Version};
 use crate::name::Name;
 use crate::subresource::Subresource;
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A frame: the passes and resources declared so far.
@@ -103,17 +101,6 @@ impl<'f> Frame<'f> {
         Pass::new(self, id)
     }
 
-    /// Compiles the declarations into a plan. [`Graph::compile`](crate::Graph::compile) does the same and reuses the
-    /// plan of an equal frame.
-    ///
-    /// # Errors
-    /// The first error of the declaration, in order of declaration.
-    pub fn compile(mut self) -> Result<Compiled<'f>, Error> {
-        self.check()?;
-        let plan = compile::compile(std::mem::take(&mut self.decl))?;
-        Ok(Compiled::new(Arc::new(plan), self))
-    }
-
     /// Returns the first error of the declaration.
     pub(crate) fn check(&mut self) -> Result<(), Error> {
         if self.errors.is_empty() { Ok(()) } else { Err(self.errors.swap_remove(0)) }
@@ -144,7 +131,7 @@ impl<'f> Frame<'f> {
             attachment: None,
         });
         #[cfg(feature = "gpu")]
-        self.work.bodies.push(crate::execute::Body::None);
+        self.work.bodies.push(crate::context::Body::None);
         id
     }
 

@@ -2,8 +2,14 @@
 
 use super::Frame;
 use crate::declaration::Declaration;
+use crate::desc::ResourceDesc;
 use crate::error::Error;
+use crate::handle::{NodeId, ResourceId};
+use crate::history::{PriorHistory, Resize};
+#[cfg(feature = "gpu")]
+use crate::subresource::Subresource;
 use std::borrow::Cow;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The memory of a finished frame.
 #[derive(Default)]
@@ -21,15 +27,23 @@ pub(crate) struct Work<'f> {
     pub(crate) uniforms: Vec<u8>,
     /// Body of each pass.
     #[cfg(feature = "gpu")]
-    pub(crate) bodies: Vec<crate::execute::Body<'f>>,
+    pub(crate) bodies: Vec<crate::context::Body<'f>>,
     /// Imported object of each resource.
     #[cfg(feature = "gpu")]
     pub(crate) imports: Vec<Option<crate::pool::PhysicalResource>>,
     pub(crate) histories: Vec<crate::history::HistoryUse>,
     #[cfg(feature = "gpu")]
-    pub(crate) read_backs: Vec<crate::execute::ReadBackDecl>,
+    pub(crate) read_backs: Vec<ReadBackDecl>,
     #[cfg(feature = "gpu")]
     pub(crate) shader_passes: crate::shader_pass::ShaderPasses,
+}
+
+/// A requested read-back: a copy at the end of the frame.
+#[cfg(feature = "gpu")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ReadBackDecl {
+    pub(crate) resource: ResourceId,
+    pub(crate) part: Subresource,
 }
 
 impl Work<'_> {
@@ -50,6 +64,45 @@ impl Work<'_> {
             #[cfg(feature = "gpu")]
             shader_passes: self.shader_passes.cleared(),
         }
+    }
+}
+
+/// The memory of finished frames of a graph.
+pub(crate) type Spare = Arc<Mutex<Vec<Storage>>>;
+
+/// Data of a graph that its frames share.
+#[derive(Clone, Default)]
+pub(crate) struct PriorState {
+    pub(crate) spare: Option<Spare>,
+    pub(crate) histories: Option<Arc<Vec<PriorHistory>>>,
+}
+
+impl PriorState {
+    pub(crate) fn take_storage(&mut self) -> Storage {
+        let spare = self.spare.as_ref();
+        let storage = spare.and_then(|spare| spare.lock().unwrap_or_else(PoisonError::into_inner).pop());
+        storage.unwrap_or_default()
+    }
+
+    /// Returns the memory of a frame to its graph.
+    pub(crate) fn give_back(&self, storage: Storage) {
+        if let Some(spare) = &self.spare {
+            spare.lock().unwrap_or_else(PoisonError::into_inner).push(storage);
+        }
+    }
+
+    pub(crate) fn history_valid(
+        &self,
+        decl: &Declaration,
+        view: Option<NodeId>,
+        current: ResourceId,
+        resize: Resize,
+    ) -> bool {
+        let ResourceDesc::Texture(desc) = decl.resource(current).desc else { return false };
+        self.histories
+            .iter()
+            .flat_map(|all| all.iter())
+            .any(|prior| prior.matches(decl, view, current) && prior.fits(&desc, resize))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Shader passes as a frame declares them: in flat arrays, so that declaring allocates nothing.
 
-use crate::execute::Bind;
-use crate::handle::{BufferToken, TextureToken, Uniform};
+use crate::handle::{Bind, BufferToken, TextureToken, Uniform};
 use crate::pipeline::{PipelineTargets, ProgrammableStage};
 use std::sync::Arc;
 

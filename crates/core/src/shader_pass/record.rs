@@ -1,8 +1,8 @@
 //! Recording shader passes.
 
 use super::declaration::{Command, ShaderPassDecl};
+use crate::context::{BodyResult, ComputeContext, RenderContext, Resources};
 use crate::error::Error;
-use crate::execute::{BodyResult, ComputeContext, RenderContext, Resources};
 use crate::handle::BufferToken;
 use crate::pool::check_limit;
 

@@ -1,7 +1,6 @@
 //! Errors of a frame: each names the pass, the resource and a fix.
 
 use super::helpers::{BLACK, color, filter, plan};
-use crate::compiled::resolve;
 use crate::{Contents, Error, Format, Frame, TextureDesc, TextureUsages};
 
 fn message(frame: Frame<'_>) -> String {
@@ -89,12 +88,12 @@ fn a_token_of_another_pass_does_not_resolve() {
     frame.export_texture(&a);
     let id = token.0.frame;
     let plan = plan(frame);
-    assert!(resolve(&plan, id, token.0.pass, token.0).is_ok());
-    let text = resolve(&plan, id, second, token.0).unwrap_err().to_string();
+    assert!(plan.resolve(id, token.0.pass, token.0).is_ok());
+    let text = plan.resolve(id, second, token.0).unwrap_err().to_string();
     assert!(text.contains("`second` uses `a` without declaring the access"), "{text}");
     assert!(text.contains("belongs to `first`"), "{text}");
     assert!(text.contains("declare the access on `second`"), "{text}");
-    assert!(matches!(resolve(&plan, id + 1, token.0.pass, token.0), Err(Error::ForeignHandle { .. })));
+    assert!(matches!(plan.resolve(id + 1, token.0.pass, token.0), Err(Error::ForeignHandle { .. })));
 }
 
 #[test]

@@ -4,10 +4,11 @@ mod texels;
 
 use super::Executed;
 use super::read_back::{ReadBack, TexturePart};
-use super::record::{Recording, record};
+use super::record::record;
 use crate::capture::{SnapshotTile, TextureSnapshot};
 use crate::compile::capturing;
 use crate::compiled::Compiled;
+use crate::context::Recording;
 use crate::declaration::AccessDecl;
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;

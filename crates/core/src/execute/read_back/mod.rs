@@ -7,7 +7,6 @@ mod source;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use request::ReadBackDecl;
 pub use request::ReadBackRequest;
 pub(super) use source::TexturePart;
 

@@ -5,11 +5,11 @@ mod tests;
 
 use super::ReadBack;
 use super::source::{self, TexturePart};
+use crate::context::Recording;
 use crate::declaration::Origin;
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
-use crate::execute::record::Recording;
-use crate::frame::Frame;
+use crate::frame::{Frame, ReadBackDecl};
 use crate::handle::{Buffer, ResourceId, Texture, Version};
 use crate::subresource::Subresource;
 use wgpu_types::{BufferUsages, TextureUsages};
@@ -20,13 +20,6 @@ pub struct ReadBackRequest {
     pub(crate) frame: u64,
     /// The index of the request in the frame.
     pub(crate) index: u32,
-}
-
-/// A copy at the end of the frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ReadBackDecl {
-    resource: ResourceId,
-    part: Subresource,
 }
 
 impl Frame<'_> {

@@ -1,9 +1,9 @@
 //! Bind groups from tokens.
 
-use super::context::Resources;
+use super::Resources;
 use super::entry_keys::{entry_key, matches};
 use crate::error::Error;
-use crate::handle::{BufferToken, TextureToken, Uniform};
+use crate::handle::{Bind, TextureToken};
 use crate::pipeline::ProgrammableStage;
 use crate::pool::{BoundResource, Caches, EntryKey, GroupKey, ViewUsage};
 use crate::subresource::Subresource;
@@ -11,26 +11,6 @@ use arrayvec::ArrayVec;
 use std::borrow::Borrow;
 use std::num::NonZeroU64;
 use std::ops::Range;
-
-/// One entry of a bind group; its index in the list is its binding number.
-pub enum Bind<'a> {
-    /// The declared part of a texture: one layer as 2D, several as a 2D array.
-    Texture(TextureToken),
-    /// The declared part of a texture as a 2D array, even for one layer: for shaders that take any number of layers.
-    TextureArray(TextureToken),
-    /// The declared part of a buffer.
-    Buffer(BufferToken),
-    /// A range of a buffer, in bytes; with a dynamic offset, the range at offset 0.
-    BufferRange(BufferToken, Range<u64>),
-    /// A uniform block of this frame.
-    Uniform(Uniform),
-    /// A sampler.
-    Sampler(&'a wgpu::Sampler),
-    /// A view of a texture that is not part of the graph.
-    ExternalView(&'a wgpu::TextureView),
-    /// A buffer that is not part of the graph.
-    ExternalBuffer(&'a wgpu::Buffer),
-}
 
 /// Entries that fit without allocating; most groups have fewer.
 const INLINE_ENTRIES: usize = 8;

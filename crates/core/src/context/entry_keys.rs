@@ -1,9 +1,8 @@
 //! Comparing bind group entries with those that a pass bound before.
 
-use super::bind::Bind;
-use super::context::Resources;
+use super::Resources;
 use crate::declaration::Origin;
-use crate::handle::Token;
+use crate::handle::{Bind, Token};
 use crate::pool::EntryKey;
 
 /// Returns the key of an entry; `None` for what may be another object in the next frame, or belongs to the caller, who may

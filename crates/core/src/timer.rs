@@ -80,7 +80,7 @@ impl Timer {
         Self::default()
     }
 
-    pub(super) fn begin(&mut self, device: &wgpu::Device, plan: &Arc<Plan>) {
+    pub(crate) fn begin(&mut self, device: &wgpu::Device, plan: &Arc<Plan>) {
         self.plan = Some(plan.clone());
         self.passes = plan.order().to_vec();
         self.positions = vec![(0, 1); plan.pass_count()];
@@ -103,7 +103,7 @@ impl Timer {
             .then(|| TriangleQueries::new(device, position));
     }
 
-    pub(super) fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
+    pub(crate) fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(gpu) = &self.gpu {
             let count = self.passes.len() as u32 * 2;
             gpu.results.resolve(encoder, &gpu.set, count);
@@ -113,17 +113,17 @@ impl Timer {
         }
     }
 
-    pub(super) fn draws(&self, pass: PassId, draws: u32) {
+    pub(crate) fn draws(&self, pass: PassId, draws: u32) {
         let (position, _) = self.positions[pass.index()];
         self.draws[position as usize].fetch_add(draws, Ordering::Relaxed);
     }
 
     /// Returns the query set that counts a render pass's triangles, and the index of the query.
-    pub(super) fn triangle_query(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
+    pub(crate) fn triangle_query(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
         Some((&self.triangles.as_ref()?.set, self.positions[pass.index()].0))
     }
 
-    pub(super) fn cpu(&self, pass: PassId, begin: Instant) {
+    pub(crate) fn cpu(&self, pass: PassId, begin: Instant) {
         let (position, _) = self.positions[pass.index()];
         let (begin_ns, duration_ns) = &self.cpu[position as usize];
         duration_ns.store(begin.elapsed().as_nanos() as u64, Ordering::Relaxed);
@@ -133,19 +133,19 @@ impl Timer {
 
     /// Returns the query set and the two queries around the render or compute pass that passes from `first` to `last` share;
     /// `None` if each pass has separate queries inside.
-    pub(super) fn step_queries(&self, first: PassId, last: PassId) -> Option<(&wgpu::QuerySet, u32, u32)> {
+    pub(crate) fn step_queries(&self, first: PassId, last: PassId) -> Option<(&wgpu::QuerySet, u32, u32)> {
         let gpu = self.gpu.as_ref().filter(|gpu| first == last || !gpu.inside_passes)?;
         let position = |pass: PassId| self.positions[pass.index()].0;
         Some((&gpu.set, position(first) * 2, position(last) * 2 + 1))
     }
 
     /// Returns the query set and the first of the two queries of a pass that shares a render pass with others.
-    pub(super) fn inside_queries(&self, pass: PassId, several: bool) -> Option<(&wgpu::QuerySet, u32)> {
+    pub(crate) fn inside_queries(&self, pass: PassId, several: bool) -> Option<(&wgpu::QuerySet, u32)> {
         let gpu = self.gpu.as_ref().filter(|gpu| several && gpu.inside_passes)?;
         Some((&gpu.set, self.positions[pass.index()].0 * 2))
     }
 
-    pub(super) fn encoder_queries(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
+    pub(crate) fn encoder_queries(&self, pass: PassId) -> Option<(&wgpu::QuerySet, u32)> {
         let gpu = self.gpu.as_ref().filter(|gpu| gpu.inside_encoders)?;
         Some((&gpu.set, self.positions[pass.index()].0 * 2))
     }

@@ -1,8 +1,11 @@
-//! The context of a pass body: the pass that it records and the resources that it declared.
+//! Pass bodies and their contexts: the pass that a body records and the resources that it declared.
 
-use super::record::Recording;
-use crate::builder::{Compute, Encoding, Pass, Rendering};
-use crate::compiled::resolve;
+mod bind;
+mod entry_keys;
+mod recording;
+
+pub(crate) use recording::{Recording, Uploads};
+
 use crate::desc::ResourceDesc;
 use crate::error::Error;
 use crate::handle::{BufferToken, PassId, ResourceId, TextureToken, Token, Uniform};
@@ -26,8 +29,8 @@ pub(crate) enum Body<'f> {
 
 /// The declared resources of one pass, and their bind groups.
 pub struct Resources<'a> {
-    pub(super) recording: &'a Recording<'a>,
-    pub(super) pass: PassId,
+    pub(crate) recording: &'a Recording<'a>,
+    pub(crate) pass: PassId,
 }
 
 impl<'a> Resources<'a> {
@@ -79,10 +82,10 @@ impl<'a> Resources<'a> {
     }
 
     fn resolve(&self, token: Token) -> Result<ResourceId, Error> {
-        resolve(self.recording.plan, self.recording.frame, self.pass, token)
+        self.recording.plan.resolve(self.recording.frame, self.pass, token)
     }
 
-    pub(super) fn part(&self, token: Token) -> Subresource {
+    pub(crate) fn part(&self, token: Token) -> Subresource {
         let decl = &self.recording.plan.decl;
         decl.accesses.get(token.access as usize).map_or(Subresource::FULL, |access| decl.subresource(access))
     }
@@ -96,7 +99,7 @@ impl<'a> Resources<'a> {
         start..end
     }
 
-    pub(super) fn uniforms(&self, uniform: &Uniform) -> Result<&'a wgpu::Buffer, Error> {
+    pub(crate) fn uniforms(&self, uniform: &Uniform) -> Result<&'a wgpu::Buffer, Error> {
         let same_frame = uniform.frame == self.recording.frame;
         self.recording.uniforms.filter(|_| same_frame).ok_or_else(|| Error::ForeignHandle {
             location: format!("pass `{}`", self.recording.plan.pass_path(self.pass)),
@@ -117,7 +120,7 @@ impl<'a> Resources<'a> {
 }
 
 macro_rules! context {
-    ($(#[$doc:meta])* $name:ident, $field:ident: $inner:ty, $field_doc:literal, $kind:ident, $body:ident) => {
+    ($(#[$doc:meta])* $name:ident, $field:ident: $inner:ty, $field_doc:literal) => {
         $(#[$doc])*
         pub struct $name<'a> {
             #[doc = $field_doc]
@@ -138,14 +141,6 @@ macro_rules! context {
                 &mut self.resources
             }
         }
-
-        impl<'f> Pass<'_, 'f, $kind> {
-            /// Sets the function that records the pass. It runs when the frame is executed, unless the pass is culled. It
-            /// captures tokens and borrowed data by `move`; [`Resources::bind_group`] has an example.
-            pub fn body(self, body: impl for<'a> FnOnce(&mut $name<'a>) -> BodyResult + Send + 'f) {
-                self.frame.work.bodies[self.id.index()] = Body::$body(Box::new(body));
-            }
-        }
     };
 }
 
@@ -155,13 +150,13 @@ context!(
     /// Every body starts from clean state, even when several passes were merged into one: no bind groups, viewport and
     /// scissor set to the whole attachment (or to the rectangle that the pass declares), stencil reference and blend
     /// constant 0. Set a pipeline before drawing.
-    RenderContext, pass: wgpu::RenderPass<'a>, "The open render pass.", Rendering, Render
+    RenderContext, pass: wgpu::RenderPass<'a>, "The open render pass."
 );
 context!(
     /// Recording a compute pass. Derefs to [`Resources`].
-    ComputeContext, pass: wgpu::ComputePass<'a>, "The open compute pass.", Compute, Compute
+    ComputeContext, pass: wgpu::ComputePass<'a>, "The open compute pass."
 );
 context!(
     /// Recording into the raw encoder. Derefs to [`Resources`].
-    EncoderContext, encoder: &'a mut wgpu::CommandEncoder, "The encoder.", Encoding, Encoder
+    EncoderContext, encoder: &'a mut wgpu::CommandEncoder, "The encoder."
 );
