@@ -1,6 +1,8 @@
 //! The graph: everything that outlives a frame.
 
 mod plans;
+#[cfg(feature = "gpu")]
+mod warm;
 
 pub use plans::PlanCounts;
 

@@ -77,6 +77,8 @@ mod timer;
 mod times;
 
 pub use access::{Access, ClearValue, Contents};
+#[cfg(feature = "gpu")]
+pub use builder::ShaderPassBuilder;
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
 pub use capture::{SnapshotTile, TexelValues, Texels, TextureSnapshot};
 pub use compiled::Compiled;
@@ -111,7 +113,7 @@ pub use plan::{
 #[cfg(feature = "gpu")]
 pub use pool::PoolLimits;
 #[cfg(feature = "gpu")]
-pub use shader_pass::{ShaderPassBuilder, UniformSource};
+pub use shader_pass::UniformSource;
 pub use subresource::{Aspect, Rect, Subresource};
 pub use suggest::{closest_name, did_you_mean};
 #[cfg(feature = "gpu")]

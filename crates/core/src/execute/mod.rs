@@ -9,6 +9,7 @@ mod poison;
 mod read_back;
 mod record;
 mod render;
+mod shader_pass;
 mod threads;
 
 #[cfg(test)]

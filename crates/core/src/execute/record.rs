@@ -3,13 +3,13 @@
 use super::Executed;
 use super::copies::{record_copies, stage_uploads};
 use super::read_back::ReadBack;
+use super::shader_pass;
 use crate::compiled::Compiled;
 use crate::context::{Body, ComputeContext, EncoderContext, Recording, Resources, Uploads};
 use crate::declaration::PassKind;
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::pool::{Pool, ResolvedPlan};
-use crate::shader_pass;
 use crate::timer::Timer;
 use std::ops::Range;
 use std::time::Instant;

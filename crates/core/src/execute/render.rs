@@ -1,6 +1,7 @@
 //! Recording a render step: one wgpu render pass for one pass of the frame, or for several that were merged.
 
 use super::attachments::{ColorAttachments, color_attachments, depth_attachment, targets};
+use super::shader_pass;
 use crate::access::{Access, ClearValue, Contents};
 use crate::context::{Body, Recording, RenderContext, Resources};
 use crate::declaration::ALL_OF_RESOURCE;
@@ -9,7 +10,6 @@ use crate::error::Error;
 use crate::handle::PassId;
 use crate::internal::{RegionClear, Targets};
 use crate::plan::{AccessPlan, AttachmentOps, LoadAction};
-use crate::shader_pass;
 use crate::subresource::{Aspect, Rect};
 
 impl<'a> Recording<'a> {

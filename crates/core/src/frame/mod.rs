@@ -11,7 +11,6 @@ pub(crate) use storage::ReadBackDecl;
 pub(crate) use storage::{PriorState, Spare, Storage, Work};
 
 use crate::access::{Access, Contents};
-use crate::builder::{Compute, Copying, Encoding, Pass, Rendering};
 use crate::declaration::{
     ALL_OF_RESOURCE, AccessDecl, Declaration, Options, PassDecl, PassKind, SubresourceDecl, WriteMode,
 };
@@ -77,30 +76,6 @@ impl<'f> Frame<'f> {
         self.decl.options.order = crate::declaration::OrderPolicy::Declared;
     }
 
-    /// Declares a pass that draws.
-    pub fn render_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Rendering> {
-        let id = self.add_pass(name, PassKind::Render);
-        Pass::new(self, id)
-    }
-
-    /// Declares a pass that dispatches compute work.
-    pub fn compute_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Compute> {
-        let id = self.add_pass(name, PassKind::Compute);
-        Pass::new(self, id)
-    }
-
-    /// Declares a pass that copies; the graph records the copies itself.
-    pub fn copy_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Copying> {
-        let id = self.add_pass(name, PassKind::Copy);
-        Pass::new(self, id)
-    }
-
-    /// Declares a pass that records into the raw encoder: the escape hatch for everything that the graph does not support.
-    pub fn encoder_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Encoding> {
-        let id = self.add_pass(name, PassKind::Encoder);
-        Pass::new(self, id)
-    }
-
     /// Returns the first error of the declaration.
     pub(crate) fn check(&mut self) -> Result<(), Error> {
         if self.errors.is_empty() { Ok(()) } else { Err(self.errors.swap_remove(0)) }
@@ -117,7 +92,8 @@ impl<'f> Frame<'f> {
         self.id
     }
 
-    fn add_pass(&mut self, name: impl Name, kind: PassKind) -> PassId {
+    /// Adds a pass without accesses.
+    pub(crate) fn add_pass(&mut self, name: impl Name, kind: PassKind) -> PassId {
         let id = PassId(self.decl.passes.len() as u32);
         let name = self.decl.names.push(name);
         let (accesses, copies) = (self.decl.accesses.len() as u32, self.decl.copies.len() as u32);

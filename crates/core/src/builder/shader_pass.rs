@@ -1,9 +1,7 @@
 //! Declaring a pass in one line.
 
-use super::declaration::UniformSource;
-use super::declaration::{Binding, Command};
+use super::{Compute, Pass, Rendering, ShaderPass};
 use crate::access::Contents;
-use crate::builder::{Compute, Pass, Rendering, ShaderPass};
 use crate::context::Body;
 use crate::desc::TextureDesc;
 use crate::error::Error;
@@ -11,6 +9,7 @@ use crate::frame::Frame;
 use crate::handle::{Buffer, BufferToken, PassId, Texture, TextureToken};
 use crate::name::Name;
 use crate::pipeline::{ComputeShader, DepthTarget, FullscreenShader, PipelineTargets, ProgrammableStage};
+use crate::shader_pass::{Binding, Command, UniformSource};
 use crate::subresource::{Aspect, Subresource};
 use std::sync::Arc;
 

@@ -1,13 +1,13 @@
 //! Recording shader passes.
 
-use super::declaration::{Command, ShaderPassDecl};
 use crate::context::{BodyResult, ComputeContext, RenderContext, Resources};
 use crate::error::Error;
 use crate::handle::BufferToken;
 use crate::pool::check_limit;
+use crate::shader_pass::{Command, ShaderPassDecl};
 
 /// Records a shader pass into an open render pass.
-pub(crate) fn draw(context: &mut RenderContext<'_>, index: u32) -> BodyResult {
+pub(super) fn draw(context: &mut RenderContext<'_>, index: u32) -> BodyResult {
     let resources = &context.resources;
     let Some(declared) = resources.shader_passes().get(index) else { return Ok(()) };
     let Command::Draw(targets) = &declared.command else { return Ok(()) };
@@ -24,7 +24,7 @@ pub(crate) fn draw(context: &mut RenderContext<'_>, index: u32) -> BodyResult {
 }
 
 /// Records a shader pass into an open compute pass.
-pub(crate) fn dispatch(context: &mut ComputeContext<'_>, index: u32) -> BodyResult {
+pub(super) fn dispatch(context: &mut ComputeContext<'_>, index: u32) -> BodyResult {
     let resources = &context.resources;
     let Some(declared) = resources.shader_passes().get(index) else { return Ok(()) };
     let cached = resources.caches().pipelines.compute(resources.device(), &declared.stage);

@@ -1,10 +1,10 @@
 //! Warming up pipelines before the first frame.
 
+use super::Graph;
 use crate::declaration::Origin;
 use crate::desc::TextureDesc;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::graph::Graph;
 use crate::pool::PhysicalResource;
 
 impl Graph {
