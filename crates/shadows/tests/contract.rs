@@ -144,7 +144,7 @@ fn invalid_settings_of_a_technique_are_an_error_with_their_path() {
         (
             "evsm",
             "(precision: Half, positive_exponent: 40.0)",
-            "`techniques.evsm.positive_exponent` is 40; allowed: 1 to 42, with Half to 5.54",
+            "`techniques.evsm.positive_exponent` is 40; allowed: 1 to 42, with Half up to 5.54",
         ),
         ("evsm", "(downscale: 3)", "`techniques.evsm.downscale` is 3; allowed: 1, 2 or 4"),
         (

@@ -24,14 +24,14 @@ pub const PCSS: TechniqueKind = TechniqueKind::new(
 /// `evsm`: [`Evsm`].
 pub const EVSM: TechniqueKind = TechniqueKind::new(
     "evsm",
-    "exponential variance shadow maps: filtered in advance, so wide filters cost no more",
+    "exponential variance shadow maps: filtered before the lookup, so wide filters cost no more",
     |context| Ok(Box::new(Evsm::new(context.device)?)),
 )
 .with_settings::<EvsmSettings>();
 
 /// `msm`: [`Msm`].
 pub const MSM: TechniqueKind =
-    TechniqueKind::new("msm", "moment shadow maps: as evsm, with 64 bits for each texel", |context| {
+    TechniqueKind::new("msm", "moment shadow maps: like evsm, with 64 bits per texel", |context| {
         Ok(Box::new(Msm::new(context.device)?))
     })
     .with_settings::<MsmSettings>();
@@ -47,7 +47,7 @@ pub const SDSM: TechniqueKind = TechniqueKind::new(
 /// `raytraced`: [`Raytraced`].
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
-    "rays through the scene's triangles, for hard or soft shadows: the reference for the others",
+    "ray-traced hard or soft shadows: the reference for the other techniques",
     |context| Ok(Box::new(Raytraced::new(context.device, &context.rays()?)?)),
 )
 .with_settings::<RaytracedSettings>();

@@ -46,12 +46,12 @@ struct ModifierKind {
 /// The modifiers, which follow a technique's name after `+`. Their names are those of their settings.
 const MODIFIERS: [ModifierKind; 2] = [
     ModifierKind {
-        summary: "shadows in screen space: evaluated into a mask before lighting, optionally blurred",
+        summary: "shadows in screen space: computed in a mask before lighting, optionally blurred",
         modifier: Modifier::Screen,
         settings: SettingsKind::new::<ScreenSettings>(),
     },
     ModifierKind {
-        summary: "shadows in screen space, and short contact shadows found by ray marching on screen",
+        summary: "shadows in screen space, and short contact shadows by ray marching in the depth buffer",
         modifier: Modifier::Contact,
         settings: SettingsKind::new::<ContactSettings>(),
     },

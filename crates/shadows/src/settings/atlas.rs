@@ -14,8 +14,8 @@ declare_settings! {
         map_size_px: u32 = 2048, power_of_two 256..=8192, in "pixels";
         /// Division of the map among the lights.
         tiles: AtlasTiles = AtlasTiles::ByImportance { smallest_px: 64 };
-        /// Keeps tiles from frame to frame, and draws one again only when its light, its position or its casters change.
-        /// Casters that are not visible are then drawn too, as the next frame may see them.
+        /// Keeps tiles from frame to frame, and draws a tile again only when its light, its location or its casters change.
+        /// Casters that `cull.unseen` would cull are then drawn too, because later frames may need them.
         cache: bool = false;
         /// Format of the map.
         depth: DepthFormat = DepthFormat::Depth32;
@@ -30,11 +30,11 @@ declare_settings! {
     /// Division of the atlas among its lights. A point light needs six tiles, others one.
     #[derive(Copy, Eq, Hash)]
     pub enum AtlasTiles {
-        /// Up to 16 tiles of one size: the map is split 1, 2, 3 or 4 times each way, as the lights need.
+        /// Up to 16 tiles of one size: the map has 1, 2, 3 or 4 tiles per side, as many as its lights need.
         Even;
-        /// Tiles of powers of two: the larger the part of the image that a light can fill, times its `importance`, the larger its tiles.
-        /// A light keeps its size and position while its request changes little. If the map is too small, all tiles get smaller, and last
-        /// the least important lights get none.
+        /// Tiles whose widths are powers of two, proportional to the part of the image that a light can fill and to its `importance`.
+        /// A light's tiles keep size and location while its request changes little. If the map is too small, all tiles get smaller; if that
+        /// does not suffice, the least important lights get none.
         ByImportance {
             /// Width of the smallest tile.
             smallest_px: u32 = 64, power_of_two 64..=1024, in "pixels", and "at most a quarter of the map";

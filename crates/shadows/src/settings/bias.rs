@@ -5,36 +5,36 @@ use crate::declare_settings;
 declare_settings! {
     /// The bias that keeps surfaces from shadowing themselves. Lengths are in shadow texels of the tile that is read.
     pub struct BiasSettings {
-        /// Depth change that lookups are biased by.
+        /// Depth slope that the bias follows.
         method: BiasMethod = BiasMethod::Plane;
-        /// Distance by which the point is moved along the triangle's normal before it is looked up; see `normal`.
+        /// Normal bias: distance by which the point is moved along the triangle's normal before the lookup, scaled as `normal` says.
         normal_texels: f32 = 0.25, 0..=4, in "texels";
         /// Scale of the bias along the normal.
         normal: NormalBias = NormalBias::Sine;
-        /// Part of the depth change of `method` by which each lookup of the filter is moved towards the light.
+        /// Factor of the depth slope of `method`; each tap of the filter is moved towards the light accordingly.
         slope: f32 = 1.0, 0..=4, in "times the receiver's slope";
-        /// Depth change in every direction that lookups away from the middle allow for at least, only with `Plane`. It keeps the foot of a lit
-        /// wall from being darkened by the wall.
+        /// Smallest depth slope, in all directions, that taps off the centre are biased for; only with `Plane`. It keeps a lit wall from
+        /// darkening the ground at its foot.
         min_slope: f32 = 0.5, 0..=4, in "texels of depth per texel";
-        /// Steepest depth change that `slope` follows.
+        /// Steepest depth slope that is followed.
         max_slope: f32 = 10.0, 1..=100, in "texels of depth per texel";
-        /// Distance by which every lookup is moved towards the light.
+        /// Constant bias: distance by which every tap is moved towards the light.
         depth_texels: f32 = 0.25, 0..=16, in "texels";
     }
 }
 
 declare_settings! {
-    /// The depth change that a lookup is biased by.
+    /// The depth slope that the bias follows.
     #[derive(Copy, Eq, Hash)]
     #[default(Plane)]
     pub enum BiasMethod {
-        /// That of the receiver's plane from the middle of the filter to each of its texels: at `slope` 1 a flat surface
+        /// The slope of the receiver plane, from the centre of the filter to each of its texels: with `slope: 1.0` a flat surface
         /// never shadows itself.
         Plane;
-        /// The steeper of the receiver's changes over one texel across and down, the same for the whole filter: slope-scale bias of
-        /// graphics hardware.
+        /// The larger of the receiver plane's depth changes over one texel across and one down, the same for the whole filter: the
+        /// slope-scale bias of graphics hardware.
         Slope;
-        /// The change of the stored depth around the point, the same for the whole filter: gradient shadow maps (Schueler,
+        /// The gradient of the stored depths around the point, the same for the whole filter: gradient shadow maps (Schueler,
         /// "Eliminating Surface Acne with Gradient Shadow Maps", ShaderX4, 2006).
         Gradient;
     }
@@ -47,7 +47,7 @@ declare_settings! {
     pub enum NormalBias {
         /// The sine of the angle between normal and light: surfaces that face the light need none.
         Sine;
-        /// The diagonal of a texel and the filter, whatever the angle: √2 (1 + the filter's radius in texels).
+        /// √2 (1 + the filter's radius in texels), whatever the angle: the diagonal of a texel times the width of the filter.
         Filter;
     }
 }

@@ -14,32 +14,33 @@ declare_settings! {
         count: u32 = 4, 0..=8;
         /// Lights that have cascades, the brightest first. Other directional lights have one tile of the atlas.
         lights: u32 = 1, 1..=4;
-        /// Width of the map that holds all cascades. It is split as often each way as its tiles need: twice for up to four.
+        /// Width of the map that holds all cascades. It is divided into as many tiles per side as needed: two for up to four
+        /// tiles.
         map_size_px: u32 = 4096, power_of_two 256..=8192, in "pixels";
-        /// Keeps the map from frame to frame, and draws a cascade again only when it, its light or its casters change:
-        /// while the camera stands still.
+        /// Keeps the map from frame to frame, and draws a cascade again only when it, its light or its casters change;
+        /// useful only while the camera does not move.
         cache: bool = false;
         /// Format of the map.
         depth: DepthFormat = DepthFormat::Depth32;
-        /// Ends of the cascades.
+        /// View depths at which the cascades end.
         split: SplitScheme = SplitScheme::Practical { lambda: 0.85 };
-        /// Part of its length by which a slice of the view reaches into the one before it.
-        overlap: f32 = 0.0, 0..=0.5, in "part of a slice's length";
+        /// Fraction of a slice's length by which it extends into the previous slice.
+        overlap: f32 = 0.0, 0..=0.5, in "fraction of the slice's length";
         /// Volume that a cascade's tile covers.
         fit: CascadeFitting = CascadeFitting::Stable;
-        /// Selection of the cascade of a point.
+        /// Rule that selects the cascade in which a point is looked up.
         select: CascadeSelection = CascadeSelection::Map;
         /// Transition from one cascade to the next.
         blend: CascadeBlend = CascadeBlend::Hard;
         /// Outer part of the last cascade over which its shadows fade out, in addition to the fade at the end of the shadow distance.
-        edge_fade: f32 = 0.0, 0..=1, in "outer part of the last cascade";
+        edge_fade: f32 = 0.0, 0..=1, in "fraction of the last cascade";
         /// Filter of shadow edges.
         filter: ShadowFilter = ShadowFilter::Tent5;
-        /// Width of the filter at the end of the shadow distance, as a part of its width at the camera.
-        far_filter: f32 = 1.0, 0.2..=1, in "part of the filter's width";
-        /// Distance towards the light by which the depth range is longer than the cascade needs. Casters beyond it are drawn at its end.
+        /// Width of the filter at the end of the shadow distance, as a fraction of its width at the camera.
+        far_filter: f32 = 1.0, 0.2..=1, in "fraction of the filter's width";
+        /// Distance by which the depth range is extended towards the light. Casters beyond the range are drawn at its near end.
         near_offset_m: f32 = 0.0, 0..=10000, in "metres";
-        /// Factors of the bias of each cascade; 1 for those that are left out.
+        /// Factor of the bias for each cascade; 1 for cascades that are left out.
         bias_scales: Vec<f32> = Vec::new(), 0..=16;
     }
 }
@@ -51,20 +52,20 @@ declare_settings! {
         /// Fixed ratios for the number of cascades: 0.25 for two, 0.1 and 0.35 for three, 0.067, 0.2 and 0.467 for four;
         /// equal lengths for others.
         Standard;
-        /// Ends of all cascades but the last, as parts of the way from the near plane to the shadow distance.
-        Ratios(Vec<f32> = vec![0.067, 0.2, 0.467], 0..=1, and "one fewer than cascades, above 0, rising, below 1");
-        /// Ends of all cascades but the last, as view depth. Ends beyond the shadow distance are moved before it.
-        Metres(Vec<f32> = vec![10.0, 30.0, 90.0], 0..=1000000, in "metres", and "one fewer than cascades, above 0, rising");
-        /// Ratio of the end of each cascade to the end of the one before it.
+        /// Ends of all cascades but the last, as fractions of the way from the near plane to the end of the last.
+        Ratios(Vec<f32> = vec![0.067, 0.2, 0.467], 0..=1, and "one fewer than cascades, above 0, increasing, below 1");
+        /// Ends of all cascades but the last, as view depths. Ends beyond that of the last are moved in front of it.
+        Metres(Vec<f32> = vec![10.0, 30.0, 90.0], 0..=1000000, in "metres", and "one fewer than cascades, above 0, increasing");
+        /// Ratio of the end of each cascade to that of the previous one.
         Factor(f32 = 3.0, 1.01..=100);
-        /// The first cascade has a fixed end, and the ratio of ends is the same for all others. In small scenes the first ends earlier, so
-        /// that each is at least twice the last.
+        /// The first cascade has a fixed end, and the ratio of successive ends is constant. In small scenes the first cascade ends
+        /// earlier, so that each end is at least twice as far as the previous one.
         Geometric {
             /// View depth at which the first cascade ends.
             first_m: f32 = 10.0, 0.001..=100000, in "metres";
         };
-        /// As `Geometric` from the near plane on: the texels are as large on screen everywhere, and the first cascades very
-        /// short.
+        /// As `Geometric`, starting at the near plane: texels have the same size on screen everywhere, and the first cascades are
+        /// very short.
         Logarithmic;
         /// Between equal lengths (`lambda` 0) and `Logarithmic` (`lambda` 1): Zhang et al., "Parallel-Split Shadow Maps for
         /// Large-scale Virtual Environments", 2006.
@@ -80,16 +81,16 @@ declare_settings! {
     #[derive(Copy, Eq, Hash)]
     #[default(Stable)]
     pub enum CascadeFitting {
-        /// The sphere around its slice of the view: of the same size wherever the camera looks, and moved in whole texels only, so
-        /// shadows do not shimmer.
+        /// The sphere around its slice of the view. Its size does not depend on the view direction, and it moves by whole texels
+        /// only, so shadows do not shimmer.
         Stable;
-        /// The box around its slice of the view in the light's axes: finer texels, which change as the camera turns.
+        /// The box around its slice of the view on the light's axes: texels are finer, but change as the camera turns.
         Tight;
     }
 }
 
 declare_settings! {
-    /// Selection of the cascade of a point.
+    /// The rule that selects the cascade in which a point is looked up.
     #[derive(Copy, Eq, Hash)]
     #[default(Map)]
     pub enum CascadeSelection {
@@ -109,16 +110,15 @@ declare_settings! {
     pub enum CascadeBlend {
         /// No blending.
         Hard;
-        /// Both cascades are read over this outer part of each cascade, and mixed.
-        Soft(f32 = 0.1, 0.001..=0.5, in "outer part of a cascade");
-        /// Over this outer part of each cascade, every pixel reads one of the two, by a pattern of noise: the
-        /// cost of one lookup.
-        Dither(f32 = 0.1, 0.001..=0.5, in "outer part of a cascade");
+        /// In this outer part of each cascade, both cascades are looked up and mixed.
+        Soft(f32 = 0.1, 0.001..=0.5, in "fraction of the cascade");
+        /// In this outer part of each cascade, noise selects one of the two cascades for each pixel, at the cost of one lookup.
+        Dither(f32 = 0.1, 0.001..=0.5, in "fraction of the cascade");
     }
 }
 
 impl CascadeBlend {
-    /// Returns the outer part of a cascade that is blended, 0 to 0.5.
+    /// Returns the outer fraction of a cascade that is blended, 0 to 0.5.
     #[must_use]
     pub fn fraction(self) -> f32 {
         match self {
@@ -135,7 +135,7 @@ pub const MAX_CASCADES: u32 = 8;
 pub const MAX_CASCADE_LIGHTS: u32 = 4;
 
 impl CascadeSettings {
-    /// Returns the part of its length by which a slice reaches into the one before it: both cover the part that is blended.
+    /// Returns the fraction of a slice's length by which it extends into the previous slice, at least the blended fraction.
     #[must_use]
     pub fn slice_overlap(&self) -> f64 {
         f64::from(self.overlap.max(self.blend.fraction()))
@@ -147,15 +147,15 @@ impl CascadeSettings {
             SplitScheme::Metres(ends) => (ends, f32::INFINITY, "split.Metres"),
             _ => return Ok(()),
         };
-        if rising(ends, self.count, below) {
+        if is_increasing(ends, self.count, below) {
             return Ok(());
         }
         Err(refused(Self::SETTINGS, name, format!("{ends:?} for {} cascades", self.count)))
     }
 }
 
-/// Whether there is an end for all cascades but the last, between 0 and `below`, each above the one before.
-fn rising(ends: &[f32], count: u32, below: f32) -> bool {
-    let rises = ends.windows(2).all(|pair| pair[0] < pair[1]);
-    ends.len() + 1 == count.max(1) as usize && rises && ends.iter().all(|end| *end > 0.0 && *end < below)
+/// Returns whether `ends` has an end for each cascade but the last, above 0 and below `below`, in increasing order.
+fn is_increasing(ends: &[f32], count: u32, below: f32) -> bool {
+    let increases = ends.windows(2).all(|pair| pair[0] < pair[1]);
+    ends.len() + 1 == count.max(1) as usize && increases && ends.iter().all(|end| *end > 0.0 && *end < below)
 }

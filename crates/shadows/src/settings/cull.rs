@@ -6,15 +6,15 @@ declare_settings! {
     /// Culling of casters. It never changes what is visible.
     #[derive(Eq)]
     pub struct CullSettings {
-        /// Leaves out casters that cannot darken anything that the camera sees within the shadow distance. Turn it off where
-        /// shadows are evaluated at points outside the view.
+        /// Culls casters that cannot darken any visible point within the shadow distance. Switch it off if shadows are evaluated at
+        /// points outside the view.
         unseen: bool = true;
-        /// Leaves a caster out of a cascade if finer cascades cover everything visible that it darkens.
+        /// Culls a caster from a cascade if finer cascades cover all visible points that it can darken.
         covered: bool = true;
     }
 }
 
 impl CullSettings {
-    /// Leaves out only casters that are outside a map.
+    /// Culls only casters that are outside a tile.
     pub const NONE: Self = Self { unseen: false, covered: false };
 }

@@ -15,9 +15,9 @@ declare_settings! {
         required light: LightRef;
         /// Whether the light casts shadows, if the scene allows it.
         casts: bool = true;
-        /// Darkness of its shadows: 0 none, 1 no light is left.
+        /// Darkness of the light's shadows: 0 for none, 1 for black.
         strength: f32 = 1.0, 0..=1;
-        /// Filter of its shadows' edges; `Tent2` is what is called hard elsewhere. None: as its map.
+        /// Filter of the light's shadow edges; `Tent2` is a hard filter. None: that of its map.
         filter: Option<ShadowFilter> = None;
         /// Constant bias. None: `bias.depth_texels`.
         depth_texels: Option<f32> = None, 0..=16, in "texels";
@@ -25,10 +25,10 @@ declare_settings! {
         slope: Option<f32> = None, 0..=4, in "times the receiver's slope";
         /// Normal bias. None: `bias.normal_texels`.
         normal_texels: Option<f32> = None, 0..=4, in "texels";
-        /// Near end of the depth range: of a spot or point light the distance from the light, at most half of its range; of a directional
-        /// light the distance in front of where it would begin otherwise. None: as its map.
+        /// Start of the depth range: for a spot or point light its distance from the light, at most half of the light's range; for a
+        /// directional light the distance by which the range is extended towards the light. None: that of its map.
         near_m: Option<f32> = None, 0.0001..=10000, in "metres";
-        /// Factor of the light's importance, which is its size on screen.
+        /// Factor of the light's importance: the part of the image that it can fill, or the brightness of a directional light.
         importance: f32 = 1.0, 0..=100;
     }
 }

@@ -37,8 +37,7 @@ use crate::declare_settings;
 use crate::error::Error;
 
 declare_settings! {
-    /// All settings of shadows: those of the shadow maps, and those of single techniques. Files may leave out what they do
-    /// not change.
+    /// All settings of shadows: those of the shadow maps, and those of single techniques. Files may leave out any field.
     ///
     /// ```
     /// use shadowgraph_shadows::ShadowSettings;
@@ -48,17 +47,17 @@ declare_settings! {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub struct ShadowSettings {
-        /// View depth up to which there are shadows, for every kind of light; at most the camera's far plane.
+        /// View depth at which the shadows of all lights end, at most the camera's far plane.
         distance_m: f32 = 150.0, 0.001..=1000000, in "metres";
-        /// Last part of the distance, over which shadows fade out.
-        fade_fraction: f32 = 0.1, 0.001..=1, in "part of the distance";
+        /// Last fraction of the distance, over which shadows fade out.
+        fade_fraction: f32 = 0.1, 0.001..=1, in "fraction of the distance";
         /// Cascades of the brightest directional lights.
         cascades: CascadeSettings = CascadeSettings::default();
         /// Map that holds all other lights.
         atlas: AtlasSettings = AtlasSettings::default();
         /// Bias that keeps surfaces from shadowing themselves.
         bias: BiasSettings = BiasSettings::default();
-        /// Settings of single techniques, by their names.
+        /// Settings of each technique, by name.
         techniques: TechniqueSettings = TechniqueSettings::default();
         /// Culling of casters.
         cull: CullSettings = CullSettings::default();

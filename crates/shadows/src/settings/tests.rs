@@ -143,7 +143,7 @@ fn allowed_values_are_described_with_units_and_conditions() {
     );
     assert_eq!(
         allowed(CascadeSettings::SETTINGS, "blend"),
-        "one of Hard, Soft(0.001 to 0.5 (outer part of a cascade)), Dither(0.001 to 0.5 (outer part of a cascade))"
+        "one of Hard, Soft(0.001 to 0.5 (fraction of the cascade)), Dither(0.001 to 0.5 (fraction of the cascade))"
     );
     assert_eq!(
         allowed(AtlasSettings::SETTINGS, "tiles"),

@@ -51,25 +51,25 @@ fn a_value_out_of_range_is_named_with_field_and_range() {
         ("(distance_m: NaN)", "invalid value: `distance_m` is NaN; allowed: 0.001 to 1000000 (metres)"),
         (
             "(fade_fraction: 1.5)",
-            "invalid value: `fade_fraction` is 1.5; allowed: 0.001 to 1 (part of the distance)",
+            "invalid value: `fade_fraction` is 1.5; allowed: 0.001 to 1 (fraction of the distance)",
         ),
         ("(cascades: (count: 9))", "invalid value: `cascades.count` is 9; allowed: 0 to 8"),
         ("(cascades: (lights: 0))", "invalid value: `cascades.lights` is 0; allowed: 1 to 4"),
         (
             "(cascades: (overlap: 0.6))",
-            "invalid value: `cascades.overlap` is 0.6; allowed: 0 to 0.5 (part of a slice's length)",
+            "invalid value: `cascades.overlap` is 0.6; allowed: 0 to 0.5 (fraction of the slice's length)",
         ),
         (
             "(cascades: (blend: Soft(0.7)))",
-            "invalid value: `cascades.blend` is 0.7; allowed: 0.001 to 0.5 (outer part of a cascade)",
+            "invalid value: `cascades.blend` is 0.7; allowed: 0.001 to 0.5 (fraction of the cascade)",
         ),
         (
             "(cascades: (edge_fade: -1.0))",
-            "invalid value: `cascades.edge_fade` is -1; allowed: 0 to 1 (outer part of the last cascade)",
+            "invalid value: `cascades.edge_fade` is -1; allowed: 0 to 1 (fraction of the last cascade)",
         ),
         (
             "(cascades: (far_filter: 0.0))",
-            "invalid value: `cascades.far_filter` is 0; allowed: 0.2 to 1 (part of the filter's width)",
+            "invalid value: `cascades.far_filter` is 0; allowed: 0.2 to 1 (fraction of the filter's width)",
         ),
         (
             "(cascades: (near_offset_m: inf))",
@@ -82,7 +82,7 @@ fn a_value_out_of_range_is_named_with_field_and_range() {
         (
             "(cascades: (split: Metres([10.0, 5.0, 20.0])))",
             "invalid value: `cascades.split` is [10.0, 5.0, 20.0] for 4 cascades; \
-             allowed: a list, each 0 to 1000000 (metres), one fewer than cascades, above 0, rising",
+             allowed: a list, each 0 to 1000000 (metres), one fewer than cascades, above 0, increasing",
         ),
         ("(cascades: (split: Factor(1.0)))", "invalid value: `cascades.split` is 1; allowed: 1.01 to 100"),
         (
@@ -116,7 +116,7 @@ fn a_value_out_of_range_is_named_with_field_and_range() {
         (
             "(cascades: (split: Ratios([0.2, 0.1, 0.5])))",
             "invalid value: `cascades.split` is [0.2, 0.1, 0.5] for 4 cascades; \
-             allowed: a list, each 0 to 1, one fewer than cascades, above 0, rising, below 1",
+             allowed: a list, each 0 to 1, one fewer than cascades, above 0, increasing, below 1",
         ),
         (
             "(cascades: (split: Practical(lambda: 2.0)))",

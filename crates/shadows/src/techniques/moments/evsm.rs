@@ -12,23 +12,23 @@ declare_settings! {
     /// Settings of the technique `evsm`.
     #[check(EvsmSettings::check)]
     pub struct EvsmSettings {
-        /// Moments that are stored.
+        /// Number of moments that are stored.
         moments: EvsmMoments = EvsmMoments::Four;
         /// Bits of each moment.
         precision: EvsmPrecision = EvsmPrecision::Full;
-        /// Positive exponent: the steeper depth is warped away from the light, the less light leaks where shadows overlap.
-        positive_exponent: f32 = 40.0, 1..=42, and "with Half to 5.54, as its square must fit", alias "away";
-        /// Negative exponent: warps depth towards the light.
-        negative_exponent: f32 = 5.0, 1..=42, and "with Half to 5.54, as its square must fit", alias "towards";
-        /// Part of the light in a shadow that counts as light bleeding and is removed; edges get darker by as much.
-        bleed: f32 = 0.2, 0..=0.95, in "part of the light";
-        /// Difference below which two depths count as one.
-        bias: f32 = 0.0001, 0..=0.1, in "part of the depth range";
-        /// Texels of the depth map for each texel of moments along each axis.
+        /// Exponent of the positive warp: the larger it is, the less light leaks where casters overlap.
+        positive_exponent: f32 = 40.0, 1..=42, and "with Half up to 5.54", alias "away";
+        /// Exponent of the negative warp, which reduces light leaking near casters.
+        negative_exponent: f32 = 5.0, 1..=42, and "with Half up to 5.54", alias "towards";
+        /// Light bleeding reduction: visibility up to this value becomes 0, and the rest is rescaled, which darkens edges.
+        bleed: f32 = 0.2, 0..=0.95, in "fraction of the light";
+        /// Difference below which two depths count as equal.
+        bias: f32 = 0.0001, 0..=0.1, in "fraction of the depth range";
+        /// Width of a texel of the moment map in texels of the depth map.
         downscale: u32 = 2, power_of_two 1..=4, in "texels";
-        /// Radius of the blur of edges in texels of moments.
+        /// Radius of the blur, in texels of the moment map.
         blur_texels: u32 = 0, 0..=4, in "texels", and "downscale x (blur_texels + 1.5 x 2^(mips - 1)) up to 24";
-        /// Sizes of the map of moments, each half of the one before: far surfaces read the smaller ones.
+        /// Mip levels of the moment map; distant surfaces read the smaller ones.
         mips: u32 = 2, 1..=3;
     }
 }

@@ -12,15 +12,15 @@ declare_settings! {
     /// Settings of the technique `msm`.
     #[check(MsmSettings::check)]
     pub struct MsmSettings {
-        /// Part of the light in a shadow that counts as light bleeding and is removed; edges get darker by as much.
-        bleed: f32 = 0.02, 0..=0.95, in "part of the light";
-        /// Weight of the moments that any depth could have: less, and rounding shows; more, and light leaks.
+        /// Light bleeding reduction: visibility up to this value becomes 0, and the rest is rescaled, which darkens edges.
+        bleed: f32 = 0.02, 0..=0.95, in "fraction of the light";
+        /// Bias of the moments against rounding errors: if it is too small, noise appears; if it is too large, light leaks.
         bias: f32 = 0.00006, 0.00001..=0.1;
-        /// Texels of the depth map for each texel of moments along each axis.
+        /// Width of a texel of the moment map in texels of the depth map.
         downscale: u32 = 2, power_of_two 1..=4, in "texels";
-        /// Radius of the blur of edges in texels of moments.
+        /// Radius of the blur, in texels of the moment map.
         blur_texels: u32 = 0, 0..=4, in "texels", and "downscale x (blur_texels + 1.5 x 2^(mips - 1)) up to 24";
-        /// Sizes of the map of moments, each half of the one before: far surfaces read the smaller ones.
+        /// Mip levels of the moment map; distant surfaces read the smaller ones.
         mips: u32 = 2, 1..=3;
     }
 }

@@ -6,14 +6,14 @@ use crate::settings::NamedSettings;
 declare_settings! {
     /// Settings of the technique `raytraced`.
     pub struct RaytracedSettings {
-        /// Rays of each pixel and light. One ray goes to the light's middle: edges are hard.
+        /// Rays per pixel and light. A single ray goes to the light's centre and gives hard edges.
         rays: u32 = 8, 1..=64;
-        /// Half of the angle that a directional light takes up in the sky; the sun's is 0.00465.
+        /// Angular radius of directional lights; the sun's is 0.00465.
         sun_radius_rad: f32 = 0.00465, 0..=0.2, in "radians";
         /// Radius of spot and point lights.
         light_radius_m: f32 = 0.05, 0..=10, in "metres", alias "lamp_radius_m";
-        /// Radius over which soft edges are averaged on the same surface. It removes the noise of edges that are many pixels wide, as of large
-        /// lights; narrow edges lose their shape.
+        /// Radius over which soft edges are averaged on the same surface. Averaging removes the noise of edges that are many pixels wide, as
+        /// those of large lights, but blurs narrow edges.
         denoise_px: u32 = 0, 0..=4, in "pixels";
     }
 }

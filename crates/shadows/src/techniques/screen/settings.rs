@@ -6,12 +6,12 @@ use crate::settings::NamedSettings;
 declare_settings! {
     /// Blur of a screen mask.
     pub struct ScreenSettings {
-        /// Radius of the blur in the world; 0 for none. Near surfaces are blurred over more pixels.
+        /// Radius of the blur in the world; 0 for no blur. Near surfaces are blurred over more pixels.
         blur_m: f32 = 0.0, 0..=10, in "metres";
-        /// Largest radius of the blur on screen.
+        /// Maximum radius of the blur on screen.
         blur_max_px: f32 = 8.0, 1..=32, in "pixels";
         /// Difference of view depth above which two surfaces are not blurred into each other.
-        depth_threshold: f32 = 0.02, 0.0001..=1, in "part of the view depth";
+        depth_threshold: f32 = 0.02, 0.0001..=1, in "fraction of the view depth";
     }
 }
 
@@ -24,7 +24,7 @@ declare_settings! {
     pub struct ContactSettings {
         /// Length of the rays.
         length_m: f32 = 0.2, 0.001..=10, in "metres";
-        /// Assumed thickness of visible surfaces: rays that pass farther behind one are lit.
+        /// Assumed thickness of visible surfaces: a ray that passes farther behind a surface is not blocked by it.
         thickness_m: f32 = 0.2, 0.001..=10, in "metres";
         /// Samples along each ray.
         steps: u32 = 16, 1..=64;

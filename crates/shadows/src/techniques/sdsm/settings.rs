@@ -6,10 +6,10 @@ use crate::settings::NamedSettings;
 declare_settings! {
     /// Settings of the technique `sdsm`.
     pub struct SdsmSettings {
-        /// Ends of the cascades in the visible range: 0 at equal distances, 1 at equal ratios.
+        /// Split of the visible depth range: 0 for cascades of equal length, 1 for ends at equal ratios.
         lambda: f32 = 1.0, 0..=1;
-        /// Exponent that makes nearer cascades shorter: cascade i of n ends at (i / n)^nearness of the range; 1 for no change. Most pixels show
-        /// near surfaces.
+        /// Exponent that makes near cascades shorter if it is above 1, because most pixels show near surfaces: cascade i of n ends at the
+        /// fraction (i / n)^nearness of the range.
         nearness: f32 = 1.4, 0.5..=4;
     }
 }
