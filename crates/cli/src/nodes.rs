@@ -83,8 +83,9 @@ fn technique(name: &str, techniques: &Techniques) -> String {
 }
 
 fn shared_settings() -> String {
-    let mut out =
-        String::from("settings of all techniques, by their path in a file of --settings, with defaults\n");
+    let mut out = String::from(
+        "settings that all techniques share, by their path in a settings file (--settings), with defaults\n",
+    );
     table(&mut out, "", ShadowSettings::settings());
     out
 }
@@ -109,16 +110,20 @@ fn all(registry: &Registry) -> String {
     for pipeline in BUILT_IN.iter().filter_map(|name| name.parse::<Pipeline>().ok()) {
         let _ = writeln!(out, "  {:<16}{}", pipeline.name(), pipeline.about());
     }
-    out.push_str("\nkinds of nodes; `nodes NAME` prints ports and settings of one\n");
+    out.push_str("\nnode kinds; `nodes NAME` prints the ports and settings of one\n");
     for kind in nodes.kinds() {
         let _ = writeln!(out, "  {:<16}{}", kind.name, kind.about);
     }
-    out.push_str("\ntechniques with the defaults of their settings; `nodes NAME` and `nodes settings` describe settings\n");
+    out.push_str(
+        "\ntechniques, with the defaults of their settings; `nodes NAME` describes the settings of one\n",
+    );
     for kind in techniques.kinds() {
         let _ = writeln!(out, "  {:<16}{}", kind.name, kind.summary);
         defaults(&mut out, kind.name, kind.settings());
     }
-    out.push_str("\nmodifiers of techniques, as in pcf+contact\n");
+    out.push_str(
+        "\nmodifiers of techniques, as in pcf+contact; `nodes contact` describes the settings of one\n",
+    );
     for modifier in Techniques::modifiers() {
         let _ = writeln!(out, "  {:<16}{}", format!("+{}", modifier.name), modifier.summary);
         defaults(&mut out, modifier.name, modifier.settings);

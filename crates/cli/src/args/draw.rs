@@ -17,7 +17,7 @@ use std::str::FromStr;
 pub(crate) struct DrawArgs {
     /// A glTF or GLB file. Default: the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
-    /// The pipeline: a built-in one by name (`nodes` lists them), or a .ron file
+    /// The pipeline: the name of a built-in one (see `nodes`), or a .ron file
     #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
     pipeline: String,
     /// Set a parameter of the pipeline; can be repeated
@@ -29,28 +29,28 @@ pub(crate) struct DrawArgs {
     /// Samples per pixel of colour passes: 1 or 4
     #[arg(long, value_name = "N", default_value_t = 1)]
     samples: u32,
-    /// Shadow settings, a RON file
+    /// A RON file with shadow settings (see `nodes settings`)
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
-    /// Image size, pixels
+    /// Image size in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", allow_hyphen_values = true)]
     size: String,
     /// A camera of the file by index or name, or "eye=X,Y,Z target=X,Y,Z fov_deg=F near=N far=F"
-    /// (fov_deg is vertical). Default: the first of the file, else one that frames the scene
+    /// (fov_deg is vertical). Default: the first camera of the file, else one that frames the scene
     #[arg(long, value_name = "CAMERA")]
     camera: Option<String>,
-    /// "dir=X,Y,Z lux=L color=R,G,B" replaces the file's directional lights (dir: the direction
-    /// in which light travels); none removes them
+    /// A sun that replaces the file's directional lights: "dir=X,Y,Z lux=L color=R,G,B", where dir is the direction
+    /// in which its light travels; or none for no directional lights
     #[arg(long, value_name = "SUN")]
     sun: Option<String>,
-    /// Shadow distance, metres. Default: that of --settings, else auto, to the end of the visible scene
+    /// Shadow distance in metres, or auto for the end of the visible scene. Default: that of --settings, else auto
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     shadow_distance: Option<String>,
-    /// The output to show: color, visibility:N (of light N), cascade, depth, normal, atlas, or the name of a
+    /// The image to output: color, visibility:N (of light N), cascade, depth, normal, atlas, or the name of a
     /// texture of the graph
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
-    /// The GPU; cpu forces a software adapter. Default: auto; bench: none, which measures the CPU only
+    /// The GPU by name; cpu forces a software adapter. Default: auto, but bench only measures the CPU by default
     #[arg(long, value_name = "auto|NAME|cpu")]
     adapter: Option<String>,
     /// Print a table of CPU and GPU time per pass

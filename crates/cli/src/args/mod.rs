@@ -27,18 +27,18 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Render a glTF or GLB file, or the built-in scene, to a PNG
+    /// Render a glTF or GLB file, or the built-in scene, to a PNG file
     Render(RenderArgs),
     /// Print the plan of a frame: its passes and resources, with reasons
     Dump(DumpArgs),
-    /// Explain a pass or a resource of a frame: its order, merging, load ops, memory
+    /// Explain the decisions about a pass or a resource of a frame: order, merging, load and store ops, memory
     Explain(ExplainArgs),
     /// List pipelines, node kinds and techniques, or describe one of them
     Nodes(NodesArgs),
     /// Show a scene in a window, with its settings, the graph and its times
     #[cfg(feature = "view")]
     View(ViewArgs),
-    /// Measure the cost of a frame: the graph compared with hand-written passes, and the time of each pass
+    /// Measure the cost of a frame: the time of each pass, and the graph compared with hand-written passes
     Bench(BenchArgs),
     /// Compare shadows with ray-traced ground truth: a table, and with -o a page with images
     Measure(MeasureArgs),
@@ -106,11 +106,11 @@ impl DumpArgs {
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// A directory of WGSL files that replace the built-in ones of the same names and are reloaded when saved, such as
-    /// shaders/wgsl of a checkout
+    /// A directory of WGSL files, such as shaders/wgsl of a checkout. They replace the built-in files of the same names and
+    /// are reloaded when saved
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
-    /// GPU time of the shadow passes, milliseconds: while they take longer, shadows get shorter and coarser
+    /// GPU time budget of the shadow passes in milliseconds; while they exceed it, shadow distance and resolution are lowered
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub(crate) budget_ms: Option<f64>,
 }
@@ -118,9 +118,9 @@ pub(crate) struct ViewArgs {
 /// `shadowgraph nodes`
 #[derive(Debug, Args)]
 pub(crate) struct NodesArgs {
-    /// Describe a pipeline (its file), a node kind or a technique (its ports and settings), or `settings`
+    /// A pipeline, a node kind or a technique to describe, or `settings` for the settings that all techniques share
     pub(crate) name: Option<String>,
-    /// Print the JSON Schema of pipeline files, or with `settings` that of settings files
+    /// Print the JSON Schema of pipeline files, or with the name `settings` that of settings files
     #[arg(long)]
     pub(crate) schema: bool,
 }
@@ -142,7 +142,7 @@ pub(crate) struct ExplainArgs {
 pub(crate) struct BenchArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// Number of measured frames, of the graph and of hand-written passes each
+    /// Number of frames to measure, of the graph and of hand-written passes each
     #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) frames: u32,
@@ -157,7 +157,7 @@ pub(crate) struct MeasureArgs {
     /// Shadow techniques (see `nodes`), separated by commas, or all
     #[arg(long, value_name = "A,B,...", value_delimiter = ',', default_value = "pcf")]
     pub(crate) techniques: Vec<String>,
-    /// Scenes, suns and views, a RON file
+    /// A RON file with scenes, suns and views
     #[arg(long, value_name = "FILE")]
     pub(crate) cases: Option<PathBuf>,
     /// Number of views that are chosen automatically for the SCENE
@@ -165,37 +165,37 @@ pub(crate) struct MeasureArgs {
     #[arg(conflicts_with = "cases")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) views: u32,
-    /// A view of the SCENE, as for render; can be repeated. Default: --views
+    /// A view of the SCENE, as for render; can be repeated. Default: views that are chosen automatically (see --views)
     #[arg(long, value_name = "CAMERA", requires = "scene", conflicts_with = "cases")]
     pub(crate) camera: Vec<String>,
     /// The sun of the SCENE, as for render
     #[arg(long, value_name = "SUN", requires = "scene", conflicts_with = "cases")]
     pub(crate) sun: Option<String>,
-    /// Shadow settings, a RON file
+    /// A RON file with shadow settings (see `nodes settings`)
     #[arg(long, value_name = "FILE")]
     pub(crate) settings: Option<PathBuf>,
-    /// Named shadow settings to compare with those of --settings, a RON file
+    /// A RON file with named shadow settings to compare with those of --settings
     #[arg(long, value_name = "FILE")]
     pub(crate) variants: Option<PathBuf>,
-    /// Shadow distance, metres. Default: that of the settings, else 150
+    /// Shadow distance in metres, or auto for the end of the visible scene. Default: that of --settings, else 150
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     pub(crate) shadow_distance: Option<String>,
-    /// Image size, pixels. Default: 1280x720, with --quick 640x360
+    /// Image size in pixels. Default: 1280x720, with --quick 640x360
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<String>,
-    /// The GPU; cpu forces a software adapter. Default: auto
+    /// The GPU by name; cpu forces a software adapter. Default: auto
     #[arg(long, value_name = "auto|NAME|cpu")]
     pub(crate) adapter: Option<String>,
     /// Measure one light of each scene, and one view unless --camera is given
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Measure flicker over 64 frames in every case, with twice as many rays: half an hour without a GPU
+    /// Measure flicker over 64 frames in every case, and use twice as many rays; takes half an hour without a GPU
     #[arg(long, conflicts_with = "quick")]
     pub(crate) full: bool,
-    /// The directory of report.html, report.json and the images; created if missing
+    /// The directory for report.html, report.json and the images; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Check the results against bounds, a RON file; violations are listed, and the exit code is 1
+    /// A RON file with bounds to check the results against; violations are listed, and the exit code is 1
     #[arg(long, value_name = "FILE")]
     pub(crate) check: Option<PathBuf>,
 }

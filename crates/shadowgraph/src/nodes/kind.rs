@@ -88,13 +88,14 @@ impl NodeKind {
                 let format = port.format.map_or(String::new(), |format| format!(" {format:?}"));
                 let presence = match port.presence {
                     Presence::Required => String::new(),
-                    Presence::Optional => ", optional".into(),
+                    Presence::Optional => ", optional".to_owned(),
                     Presence::Placeholder([red, green, blue, alpha]) => {
-                        format!(", ({red:?}, {green:?}, {blue:?}, {alpha:?}) if not connected")
+                        format!(", default ({red:?}, {green:?}, {blue:?}, {alpha:?})")
                     }
                 };
                 let (name, kind, about) = (port.name, port.kind.name(), port.about);
-                let _ = writeln!(out, "  {title:<7}  {name:<18} {kind}{format}: {about}{presence}");
+                let in_place = if port.in_place { ", overwritten in place" } else { "" };
+                let _ = writeln!(out, "  {title:<7}  {name:<18} {kind}{format}{presence}{in_place}: {about}");
             }
         }
         for setting in self.settings {

@@ -18,7 +18,7 @@ pub(super) struct Clusters {
 impl Node for Clusters {
     const NAME: &'static str = "clusters";
     const ABOUT: &'static str =
-        "assigns lights to clusters of the view, so that each pixel visits only the lights near it";
+        "assigns lights to clusters of the view frustum; pixels evaluate only the lights of their cluster";
     const INPUTS: &'static [Port] = &[Port::new("view", PortKind::View, "the camera and the lights")];
     const OUTPUTS: &'static [Port] =
         &[Port::new("view", PortKind::View, "the same with the clusters, for lighting nodes")];

@@ -18,7 +18,7 @@ pub(super) struct HiZ {
 impl Node for HiZ {
     const NAME: &'static str = "hi_z";
     const ABOUT: &'static str =
-        "builds a depth pyramid; each texel has the farthest depth of the four below it";
+        "builds a depth pyramid; each texel holds the farthest depth of the four below it";
     const INPUTS: &'static [Port] =
         &[Port::texture("depth", "reversed depth with one sample per pixel")
             .with_format(Format::Depth32Float)];

@@ -32,7 +32,7 @@ impl Node for Shadows {
         Setting::new(
             Self::TECHNIQUE,
             SettingType::Text(""),
-            "a technique by name; empty for that of the render configuration",
+            "the name of a technique; if empty, that of the render configuration",
         ),
         Setting::new(
             Self::SCREEN_SPACE,

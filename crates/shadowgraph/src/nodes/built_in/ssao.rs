@@ -26,11 +26,16 @@ impl Node for Ssao {
     ];
     const OUTPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the same with the occlusion, for lighting nodes"),
-        Port::texture("occlusion", "ambient visibility: 1 unoccluded").with_format(Format::R8Unorm),
+        Port::texture("occlusion", "ambient visibility: 1 where nothing occludes")
+            .with_format(Format::R8Unorm),
     ];
     const SETTINGS: &'static [Setting] = &[
-        Setting::new("radius_m", SettingType::Number(0.8, 0.01, 100.0), "radius in which geometry occludes")
-            .in_units("m"),
+        Setting::new(
+            "radius_m",
+            SettingType::Number(0.8, 0.01, 100.0),
+            "radius within which geometry occludes",
+        )
+        .in_units("m"),
         Setting::new("power", SettingType::Number(1.0, 0.1, 8.0), "exponent; values above 1 darken corners"),
         Setting::new("slices", SettingType::Integer(3, 1, 8), "directions in which the horizon is searched"),
         Setting::new("steps", SettingType::Integer(4, 1, 16), "steps per direction"),
