@@ -1,4 +1,4 @@
-//! Shows and compares compiled frames of [`shadowgraph_core`]: an HTML page ([`HtmlPage`]), the differences of two frames ([`diff`],
+//! Shows and compares compiled frames of [`shadowgraph_core`]: an HTML page ([`HtmlPage`]), the differences between two frames ([`diff`],
 //! [`Dump`]), explanations of passes and resources ([`explain`]) and times in Chrome's trace format ([`trace_json`]).
 //!
 //! The crate reads plans, captured textures and times. It draws nothing and needs no device.

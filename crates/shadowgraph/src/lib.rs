@@ -1,11 +1,11 @@
 //! A render-graph framework for wgpu whose shadow passes are nodes.
 //!
-//! - [`core`] is the graph: declare passes and what they read and write, compile, record. It knows nothing of
+//! - [`core`] is the graph: declare passes and what they read and write, compile, record. It has no concept of
 //!   scenes or shadows.
 //! - [`scene`] has cameras, lights, meshes and materials, and imports glTF.
 //! - [`shadows`] has the shadow techniques and their contract, [`lighting`] the passes that consume them.
 //! - This crate connects them: [`Renderer`] draws a scene with a pipeline of [`pipelines`], which is a file of nodes or a
-//!   script with one call per step.
+//!   script with one call per node.
 //!
 //! ```
 //! use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
@@ -18,7 +18,7 @@
 //! # Ok::<(), shadowgraph::core::Error>(())
 //! ```
 //!
-//! An image of a scene; `Gpu::open` opens a real device:
+//! This renders an image of a scene, on the device that [`Gpu::open`] opens:
 //!
 //! ```
 //! use shadowgraph::glam::DVec3;
