@@ -49,8 +49,8 @@ impl Example for ManyLights {
         let name = argument.unwrap_or("forward_plus");
         let config = RenderConfig::from(Pipeline::built_in(name, &Parameters::default())?);
         let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config)?;
-        // Drivers may compile shaders at the first draw.
-        renderer.draw(gpu, &options)?;
+        // Drivers may compile shaders at the first draw; a small one is enough for that.
+        renderer.draw(gpu, &ViewOptions { size_px: [16, 9], ..options.clone() })?;
         let drawn = renderer.draw_timed(gpu, &options, Some(&mut Timer::new()))?;
         let lighting = drawn.times.iter().filter(|time| !time.pass.starts_with("shadows/"));
         let milliseconds: Option<f64> = lighting.map(PassTime::gpu_share_ms).sum();

@@ -1,14 +1,14 @@
 //! Compares the shadow of a cube on a floor with its computed outline.
 
 use crate::stage::{
-    CUBE_MAX, CUBE_MIN, SIZE_PX, camera, cube_on_floor, draw, gpu, light, pixel_ray, ray_box, sun,
+    CUBE_MAX, CUBE_MIN, SIZE_PX, camera, cube_on_floor, draw, gpu, light, pixel_ray, plan, ray_box, sun,
     sun_direction, view,
 };
 use glam::{DVec2, DVec3, Vec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{LightKind, Scene, origin_near};
-use shadowgraph::shadows::{ShadowInputs, ShadowPlan, ShadowView, plan_shadows};
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::shadows::ShadowView;
+use shadowgraph::{Gpu, ViewOptions};
 
 /// The largest distance between the computed and the rendered outline, shadow texels.
 const OUTLINE_TEXELS: f64 = 1.5;
@@ -97,21 +97,6 @@ fn segment_distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance(a + (b - a) * along)
 }
 
-fn plan(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> ShadowPlan {
-    let renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
-    let casters = renderer.casters();
-    plan_shadows(&ShadowInputs {
-        view: 0,
-        camera: &options.camera,
-        aspect: f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]),
-        lights: &scene.lights,
-        casters,
-        origin_world: origin_near(options.camera.position_world()),
-        settings: &options.shadows,
-    })
-    .unwrap()
-}
-
 /// Returns the texel size at a position, metres, of the view that the shader samples: the first whose inner tile contains it.
 fn texel_at(views: &[ShadowView], position: Vec3) -> Option<f64> {
     views.iter().find_map(|view| {
@@ -142,7 +127,7 @@ fn examine(
     offset: DVec3,
     to_light: &dyn Fn(DVec3) -> DVec3,
 ) -> Report {
-    let views = plan(gpu, &scene, options).views;
+    let views = plan(&scene, options).views;
     let origin_world = origin_near(options.camera.position_world());
     let picture = draw(gpu, scene, Aov::Visibility(0), options).image;
     let mut report = Report::default();
@@ -239,7 +224,7 @@ fn the_outline_of_a_spot_lights_shadow_is_where_geometry_says() {
         };
         scene.add_light(light(kind, 1_000.0));
         let options = view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0);
-        let views = plan(gpu, &scene, &options).views;
+        let views = plan(&scene, &options).views;
         let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
         let (mut wrong, mut dark, mut acne) = (0, 0, 0);
         for (x, y) in (0..SIZE_PX[1]).flat_map(|y| (0..SIZE_PX[0]).map(move |x| (x, y))) {

@@ -2,12 +2,13 @@
 
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use shadowgraph::options::{AdapterChoice, Aov};
+use shadowgraph::scene::gpu::GpuScene;
 use shadowgraph::scene::{
-    AlphaMode, Camera, Instance, Light, LightKind, Material, Mesh, Projection, Scene, Vertex,
+    AlphaMode, Camera, Instance, Light, LightKind, Material, Mesh, Projection, Scene, Vertex, origin_near,
 };
-use shadowgraph::shadows::{RaytracedSettings, ShadowSettings};
-use shadowgraph::{Gpu, RenderedFrame, Renderer, ViewOptions};
-use std::sync::OnceLock;
+use shadowgraph::shadows::{PCF, RaytracedSettings, ShadowInputs, ShadowPlan, ShadowSettings, plan_shadows};
+use shadowgraph::{Gpu, RenderConfig, RenderedFrame, Renderer, SceneCasters, ViewOptions};
+use std::sync::{LazyLock, Mutex, OnceLock};
 
 pub(crate) const SIZE_PX: [u32; 2] = [320, 180];
 
@@ -120,8 +121,65 @@ pub(crate) fn view(camera: Camera, distance_m: f32) -> ViewOptions {
 }
 
 pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> RenderedFrame {
-    let mut renderer = Renderer::new(gpu, scene, &options.camera, aov).unwrap();
-    renderer.draw(gpu, options).unwrap()
+    draw_with(gpu, &scene, aov, options, PCF)
+}
+
+/// Draws an image that does not depend on frames before it. Renderers compile their shaders, so one that a test has created for the same
+/// objects, whatever their lights, is used again.
+pub(crate) fn draw_with(
+    gpu: &Gpu,
+    scene: &Scene,
+    aov: Aov,
+    options: &ViewOptions,
+    config: impl Into<RenderConfig>,
+) -> RenderedFrame {
+    /// Renderers that no test uses at the moment, the latest last.
+    static IDLE: Mutex<Vec<(RenderConfig, Renderer)>> = Mutex::new(Vec::new());
+    const MAX_IDLE: usize = 8;
+
+    let config = config.into();
+    let origin_world = origin_near(options.camera.position_world());
+    let fits = |(of, renderer): &(RenderConfig, Renderer)| {
+        *of == config
+            && *renderer.aov() == aov
+            && renderer.casters().scene.origin_world() == origin_world
+            && has_same_objects(renderer.scene(), scene)
+    };
+    let mut idle = IDLE.lock().unwrap();
+    let found = idle.iter().position(fits).map(|index| idle.remove(index).1);
+    drop(idle);
+    let mut renderer = found.unwrap_or_else(|| {
+        Renderer::with_config(gpu, scene.clone(), &options.camera, aov.clone(), config.clone()).unwrap()
+    });
+    renderer.set_lights(scene.lights.clone()).unwrap();
+    let drawn = renderer.draw(gpu, options).unwrap();
+    let mut idle = IDLE.lock().unwrap();
+    if idle.len() == MAX_IDLE {
+        idle.remove(0);
+    }
+    idle.push((config, renderer));
+    drawn
+}
+
+fn has_same_objects(a: &Scene, b: &Scene) -> bool {
+    (&a.meshes, &a.materials, &a.images, &a.instances) == (&b.meshes, &b.materials, &b.images, &b.instances)
+}
+
+/// Plans the shadows of a view, without a driver.
+pub(crate) fn plan(scene: &Scene, options: &ViewOptions) -> ShadowPlan {
+    static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::noop().unwrap());
+    let origin_world = origin_near(options.camera.position_world());
+    let uploaded = GpuScene::new(&GPU.device, &GPU.queue, scene, origin_world).unwrap();
+    plan_shadows(&ShadowInputs {
+        view: 0,
+        camera: &options.camera,
+        aspect: f64::from(options.size_px[0]) / f64::from(options.size_px[1]),
+        lights: &scene.lights,
+        casters: &SceneCasters::new(&GPU.device, uploaded).unwrap(),
+        origin_world,
+        settings: &options.shadows,
+    })
+    .unwrap()
 }
 
 /// Returns the origin and the direction of the ray through a pixel's centre, in world space.

@@ -13,14 +13,14 @@ mod points;
 mod screen;
 mod views;
 
-use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, cube_on_floor, floor_mesh, material, view};
+use crate::stage::{
+    add_instance, box_mesh, camera, cube_on_floor, draw_with, floor_mesh, hard, material, plan, view,
+};
 use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Camera, Light, LightKind, Scene};
-use shadowgraph::shadows::{
-    PCF, RAYTRACED, ShadowInputs, ShadowPlan, ShadowSettings, TechniqueKind, plan_shadows,
-};
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::shadows::{PCF, RAYTRACED, ShadowSettings, TechniqueKind};
+use shadowgraph::{Gpu, ViewOptions};
 
 /// The visibility of a light in each pixel, 255 lit; `None` in the background and where the surface faces away.
 type Greys = Vec<Option<u8>>;
@@ -33,8 +33,7 @@ fn greys_with(
     technique: TechniqueKind,
 ) -> Greys {
     let aov = Aov::Visibility(light);
-    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
-    let picture = renderer.draw(gpu, &crate::stage::hard(options)).unwrap().image;
+    let picture = draw_with(gpu, scene, aov, &hard(options), technique).image;
     picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 
@@ -60,21 +59,6 @@ fn count(greys: &Greys, is: impl Fn(u8) -> bool) -> usize {
 /// Counts the pixels in shadow, and those in penumbra.
 fn dark_and_between(greys: &Greys) -> (usize, usize) {
     (count(greys, |grey| grey < 3), count(greys, |grey| (3..253).contains(&grey)))
-}
-
-fn plan(scene: &Scene, options: &ViewOptions) -> ShadowPlan {
-    let gpu = Gpu::noop().unwrap();
-    let renderer = Renderer::new(&gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
-    plan_shadows(&ShadowInputs {
-        view: 0,
-        camera: &options.camera,
-        aspect: f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]),
-        lights: &scene.lights,
-        casters: renderer.casters(),
-        origin_world: renderer.casters().scene.origin_world(),
-        settings: &options.shadows,
-    })
-    .unwrap()
 }
 
 /// Returns a camera that looks down at the cube on its floor from 5 m away.

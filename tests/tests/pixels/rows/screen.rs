@@ -1,7 +1,7 @@
 //! Screen-space shadows.
 
 use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
-use crate::stage::{SIZE_PX, cube_on_floor, gpu, sun, sun_direction};
+use crate::stage::{SIZE_PX, cube_on_floor, draw_with, gpu, sun, sun_direction};
 use glam::DVec3;
 use shadowgraph::Pipeline;
 use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
@@ -14,8 +14,7 @@ use shadowgraph::shadows::{
 use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions, wgpu};
 
 fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> RenderedImage {
-    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, pipeline).unwrap();
-    renderer.draw(gpu, options).unwrap().image
+    draw_with(gpu, scene, aov, options, pipeline).image
 }
 
 fn screen_greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
