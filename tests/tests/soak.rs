@@ -1,4 +1,4 @@
-//! Many frames in which pipelines, techniques, sizes and lights change. `SHADOWGRAPH_SOAK` is their number, 120 by default,
+//! Many frames in which pipelines, techniques, sizes and lights change. `SHADOWGRAPH_SOAK` is their number, 60 by default,
 //! and `SHADOWGRAPH_SOAK_SEED` the seed. Many frames are split among processes: Mesa's software driver keeps the code of shaders whose
 //! pipelines were destroyed, about 100 MiB for each renderer, so one process for all would run out of memory.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
@@ -15,7 +15,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
 /// The default number of frames.
-const FRAMES: u32 = 120;
+const FRAMES: u32 = 60;
 
 /// The largest number of frames of one process.
 const SHARE: u32 = 120;
