@@ -1,4 +1,5 @@
-//! `cargo xtask soak`: long runs of two tests, which parse broken files of every kind and render frames of random pipelines.
+//! `cargo xtask soak`: long runs of the tests that check properties of random values, parse broken files of every kind, and render
+//! frames of random pipelines.
 
 use crate::child::{self, RuntimeDir};
 use crate::driver::Driver;
@@ -7,6 +8,9 @@ use std::process::ExitCode;
 
 /// The default number of frames.
 pub(crate) const FRAMES: u32 = 10_000;
+
+/// The number of cases of each property of random values.
+const CASES: u32 = 4_000;
 
 /// The number of broken files of each kind for every frame.
 const FILES: u32 = 20;
@@ -22,12 +26,13 @@ pub(crate) fn run(frames: u32) -> ExitCode {
     }
 }
 
-/// Returns whether both tests passed.
+/// Returns whether all tests passed.
 fn soak(frames: u32) -> Result<bool, String> {
     machine::prepare(Need::Driver(Driver::Software))?;
     let runtime = RuntimeDir::new();
     let files = FILES.saturating_mul(frames);
-    let tests: [(&[&str], &str, u32); 2] = [
+    let tests: [(&[&str], &str, u32); 3] = [
+        (&["--lib"], "PROPTEST_CASES", CASES),
         (&["--test", "damaged_files"], "SHADOWGRAPH_FUZZ", files),
         (&["--test", "soak"], "SHADOWGRAPH_SOAK", frames),
     ];

@@ -186,5 +186,7 @@ pub(crate) fn randoms() -> impl Strategy<Value = Random> {
     any::<u64>().prop_map(Random).no_shrink()
 }
 
-/// Number of cases of each property.
-pub(crate) const CASES: u32 = 4000;
+/// Returns the number of cases of each property; `PROPTEST_CASES` raises it.
+pub(crate) fn cases() -> u32 {
+    1000.max(ProptestConfig::default().cases)
+}

@@ -16,7 +16,7 @@ fn keeps_inclusions(shape: &impl ConvexShape, [outer, inner]: &[Aabb; 2]) -> Res
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig::with_cases(1000.max(ProptestConfig::default().cases)))]
 
     #[test]
     fn a_plane_decides_for_a_box_as_for_all_boxes_within(boxes in nested(), tangency in tangency()) {

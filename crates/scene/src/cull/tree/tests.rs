@@ -23,7 +23,7 @@ fn unit(x: f64) -> Aabb {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(ProptestConfig::with_cases(400.max(ProptestConfig::default().cases)))]
 
     #[test]
     fn a_query_finds_what_testing_each_box_finds(

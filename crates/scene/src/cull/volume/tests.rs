@@ -47,7 +47,7 @@ fn contains(volume: &CullVolume, point: DVec3) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig::with_cases(1000.max(ProptestConfig::default().cases)))]
 
     #[test]
     fn a_box_with_a_point_inside_all_shapes_is_never_rejected(

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use shadowgraph_scene::{Aabb, Camera, Projection};
 
-use super::super::random::{CASES, Random, View, randoms};
+use super::super::random::{Random, View, cases, randoms};
 use super::*;
 
 /// Returns a box of some shape around a point, often with the point on its boundary or without extent.
@@ -15,7 +15,7 @@ fn box_around(random: &mut Random, point: DVec3, size_m: f64) -> Aabb {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(CASES))]
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     #[test]
     fn the_visible_part_of_a_box_contains_its_visible_points(mut random in randoms()) {

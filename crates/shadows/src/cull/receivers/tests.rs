@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 use shadowgraph_scene::Projection;
 
-use super::super::random::{CASES, randoms};
+use super::super::random::{cases, randoms};
 use super::*;
 
 fn box_of(size: DVec3) -> ReceiverHull {
@@ -47,7 +47,7 @@ fn a_view_to_infinity_has_no_faces() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(CASES))]
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     #[test]
     fn faces_bound_the_view_tightly(mut random in randoms()) {

@@ -3,7 +3,7 @@
 use glam::DMat3;
 use proptest::prelude::*;
 
-use super::super::random::{CASES, Random, View, randoms};
+use super::super::random::{Random, View, cases, randoms};
 use super::super::{LightSpaceView, ReceiverHull};
 use super::*;
 
@@ -194,7 +194,7 @@ fn check(random: &mut Random, kind: Kind) -> Result<Counts, String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(CASES))]
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     #[test]
     fn no_receiver_misses_a_caster_that_is_redundant_by_boxes(mut random in randoms()) {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use shadowgraph_scene::{Aabb, Camera, ConvexVolume, Projection};
 
-use super::super::random::{CASES, Random, View, minimum, randoms};
+use super::super::random::{Random, View, cases, minimum, randoms};
 use super::super::{LightSpaceView, ReceiverHull};
 
 /// Returns the depth of the point inside the volume, metres: its least distance from a plane.
@@ -20,7 +20,7 @@ fn rounding_m(points: &[DVec3]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(CASES))]
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     #[test]
     fn casters_with_shadows_in_the_view_are_inside(mut random in randoms()) {
