@@ -123,6 +123,23 @@ pub enum Error {
         /// Expected offset in bytes.
         expected: usize,
     },
+    /// A field has another type.
+    #[error("field `{field}` of WGSL struct `{name}` is {}, expected `{expected}`", type_of(actual))]
+    FieldType {
+        /// The struct.
+        name: String,
+        /// The field.
+        field: String,
+        /// Its type in WGSL; empty if it is not a scalar of four bytes.
+        actual: String,
+        /// The expected type.
+        expected: String,
+    },
+}
+
+/// Returns a type in words.
+fn type_of(actual: &str) -> String {
+    if actual.is_empty() { "no scalar".to_owned() } else { format!("of type `{actual}`") }
 }
 
 /// Returns the source line on a separate line, if there is one.

@@ -11,6 +11,8 @@ pub struct Field {
     pub name: String,
     /// Its offset in the struct, in bytes.
     pub offset: usize,
+    /// Its type if it is a scalar of four bytes (`f32`, `i32` or `u32`), otherwise empty.
+    pub scalar: &'static str,
 }
 
 /// A WGSL struct's size and fields.
@@ -78,13 +80,34 @@ pub fn check(
         }
     }
     if let Some(extra) = layout.fields.iter().find(|f| !fields.iter().any(|(field, _)| *field == f.name)) {
-        let Field { name: field, offset } = extra.clone();
+        let Field { name: field, offset, .. } = extra.clone();
         return Err(Error::FieldUnexpected { name: name(), field, offset });
     }
     if layout.size != size {
         return Err(Error::StructSize { name: name(), actual: layout.size, expected: size });
     }
     Ok(())
+}
+
+/// Checks the types of scalars of a struct, `f32`, `i32` or `u32`. Fields that the struct lacks are ignored; [`check`] finds them.
+///
+/// # Errors
+///
+/// The struct is missing, or a field has another type.
+pub fn check_types(module: &naga::Module, struct_name: &str, fields: &[(&str, &str)]) -> Result<(), Error> {
+    let layout = struct_layout(module, struct_name)?;
+    let wrong = fields.iter().find_map(|(field, expected)| {
+        let actual = layout.fields.iter().find(|actual| actual.name == *field)?;
+        (actual.scalar != *expected).then_some((actual, *expected))
+    });
+    wrong.map_or(Ok(()), |(field, expected)| {
+        Err(Error::FieldType {
+            name: struct_name.to_owned(),
+            field: field.name.clone(),
+            actual: field.scalar.to_owned(),
+            expected: expected.to_owned(),
+        })
+    })
 }
 
 /// Returns every struct of the module with its name in the source.
@@ -95,11 +118,22 @@ fn structs(module: &naga::Module) -> Vec<(String, Layout)> {
             let fields = members.iter().map(|member| Field {
                 name: member.name.clone().unwrap_or_default(),
                 offset: member.offset as usize,
+                scalar: scalar(&module.types[member.ty].inner),
             });
             structs.push((plain_names(name), Layout { size: *span as usize, fields: fields.collect() }));
         }
     }
     structs
+}
+
+/// Returns the name of a scalar type of four bytes.
+fn scalar(ty: &TypeInner) -> &'static str {
+    match ty {
+        TypeInner::Scalar(naga::Scalar::F32) => "f32",
+        TypeInner::Scalar(naga::Scalar::I32) => "i32",
+        TypeInner::Scalar(naga::Scalar::U32) => "u32",
+        _ => "",
+    }
 }
 
 #[cfg(test)]
@@ -139,5 +173,14 @@ mod tests {
             check(&module, "One", 0, &[]).unwrap_err().to_string(),
             "expected one struct `One`, found 0; the module's structs: Two"
         );
+    }
+
+    #[test]
+    fn a_scalar_of_another_type_is_named() {
+        let module = two();
+        check_types(&module, "Two", &[("third", "f32"), ("second", "f32"), ("fourth", "u32")]).unwrap();
+        let error = |field| check_types(&module, "Two", &[(field, "u32")]).unwrap_err().to_string();
+        assert_eq!(error("third"), "field `third` of WGSL struct `Two` is of type `f32`, expected `u32`");
+        assert_eq!(error("first"), "field `first` of WGSL struct `Two` is no scalar, expected `u32`");
     }
 }

@@ -5,11 +5,11 @@
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::surface::unpack_normal
 
-// 16 bytes.
-struct Blur {
+// The settings of the modifier `screen`.
+struct ScreenSettings {
     // The blur radius in metres, and its limit in pixels.
-    radius_world: f32,
-    max_px: f32,
+    blur_m: f32,
+    blur_max_px: f32,
     // The distance of two surfaces, as a fraction of their view depth, above which they are not blurred together.
     depth_threshold: f32,
 }
@@ -17,7 +17,7 @@ struct Blur {
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
 @group(1) @binding(1) var collected: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
-@group(1) @binding(4) var<uniform> blur: Blur;
+@group(1) @binding(4) var<uniform> settings: ScreenSettings;
 
 const TAPS: u32 = 16u;
 // Points of the unit disc, each at least 0.49 from the others.
@@ -48,8 +48,8 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
     var count = 1.0;
     if any(normal != vec3f(0.0)) {
         let depth = view_depth_of(surface.xyz);
-        let radius_px = min(blur.radius_world * pixels_per_metre(depth), blur.max_px);
-        let max_distance = blur.depth_threshold * depth;
+        let radius_px = min(settings.blur_m * pixels_per_metre(depth), settings.blur_max_px);
+        let max_distance = settings.depth_threshold * depth;
         let pixel = vec2f(id.xy);
         let angle = 6.2831853 * pixel_noise(pixel);
         let rotation = mat2x2f(cos(angle), sin(angle), -sin(angle), cos(angle));

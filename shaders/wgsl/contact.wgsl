@@ -6,12 +6,12 @@
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::layers::MaskLayers
 
-// 16 bytes.
-struct Contact {
+// The settings of the modifier `contact`.
+struct ContactSettings {
     // Length of the march.
-    length_world: f32,
+    length_m: f32,
     // Assumed thickness of surfaces: rays that pass farther behind them are not occluded.
-    thickness_world: f32,
+    thickness_m: f32,
     steps: u32,
 }
 
@@ -19,7 +19,7 @@ struct Contact {
 @group(1) @binding(1) var collected: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
 @group(1) @binding(3) var<uniform> layers: MaskLayers;
-@group(1) @binding(4) var<uniform> contact: Contact;
+@group(1) @binding(4) var<uniform> settings: ContactSettings;
 
 // The last fraction of the march, over which contact shadows fade out in favour of the maps.
 const FADE: f32 = 0.25;
@@ -29,7 +29,7 @@ const MIN_HEIGHT: f32 = 0.0005;
 // 1: not occluded.
 fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) -> f32 {
     var to_light = -lights[light].direction;
-    var length_world = contact.length_world;
+    var length_world = settings.length_m;
     if lights[light].kind != LIGHT_DIRECTIONAL {
         let offset = lights[light].position - position;
         let distance = length(offset);
@@ -43,8 +43,8 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
     let height = MIN_HEIGHT * view_depth_of(position);
     // Jitter: neighbouring pixels sample different steps.
     let noise = pixel_noise(vec2f(pixel));
-    for (var step = 0u; step < contact.steps; step++) {
-        let fraction = (f32(step) + 0.5 + 0.5 * noise) / f32(contact.steps);
+    for (var step = 0u; step < settings.steps; step++) {
+        let fraction = (f32(step) + 0.5 + 0.5 * noise) / f32(settings.steps);
         let point = position + to_light * (fraction * length_world);
         let clip = view.clip_from_world * vec4f(point, 1.0);
         if clip.w <= 0.0 {
@@ -61,7 +61,7 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
         // Only what rises above the surface's plane can occlude it.
         let is_above = dot(other.xyz - position, normal) > height;
         let behind = view_depth_of(point) - view_depth_of(other.xyz);
-        if is_above && behind > 0.0 && behind < contact.thickness_world {
+        if is_above && behind > 0.0 && behind < settings.thickness_m {
             return saturate((fraction - 1.0) / FADE + 1.0);
         }
     }

@@ -2,12 +2,12 @@
 // additional rays. Pixels whose rays all agree are outside penumbrae: they are unchanged and not averaged in.
 #import shadowgraph::view::view_depth_of
 #import shadowgraph::surface::unpack_normal
+#import shadowgraph::shadows::raytraced_settings::RaytracedSettings
 
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
 @group(1) @binding(1) var collected: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
-// x: pixels to either side.
-@group(1) @binding(4) var<uniform> radius_px: vec4u;
+@group(1) @binding(4) var<uniform> settings: RaytracedSettings;
 
 // The distance from a surface's plane, as a fraction of its view depth, above which samples belong to another surface.
 const MAX_PLANE_DISTANCE: f32 = 0.002;
@@ -25,7 +25,7 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
     var count = 1.0;
     if any(normal != vec3f(0.0)) && any(sum > vec3f(0.0)) && any(sum < vec3f(1.0)) {
         let max_distance = MAX_PLANE_DISTANCE * view_depth_of(surface.xyz);
-        let radius = i32(radius_px.x);
+        let radius = i32(settings.denoise_px);
         for (var y = -radius; y <= radius; y++) {
             for (var x = -radius; x <= radius; x++) {
                 let at = pixel + vec2i(x, y);

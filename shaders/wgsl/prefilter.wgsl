@@ -1,13 +1,13 @@
 // Converts a depth map to a moment map: averages moments over a texel and blurs them with a separable tent; then downsamples
 // the result repeatedly. Tiles are never mixed.
 #import shadowgraph::shadows::types::ShadowView
-#import shadowgraph::shadows::moment_params::{MomentParams, linear_depth}
-#import shadowgraph::shadows::encoding::{moments_of, packed, unpacked}
+#import shadowgraph::shadows::linear_depth::linear_depth
+#import shadowgraph::shadows::encoding::{MomentSettings, moments_of, packed, unpacked}
 
 @group(0) @binding(0) var<storage, read> shadow_views: array<ShadowView>;
 // The views of the map's tiles.
 @group(0) @binding(1) var<storage, read> tiles: array<u32>;
-@group(0) @binding(2) var<uniform> params: MomentParams;
+@group(0) @binding(2) var<uniform> settings: MomentSettings;
 
 @group(1) @binding(0) var depth_map: texture_depth_2d;
 @group(1) @binding(1) var halfway: texture_storage_2d<rgba32float, write>;
@@ -23,7 +23,7 @@ const NO_TILE: u32 = 0xffffffffu;
 // The index of the tile of a texel.
 fn tile_at(texel: vec2u) -> u32 {
     for (var i = 0u; i < arrayLength(&tiles); i++) {
-        let rect = shadow_views[tiles[i]].tile_px / params.downscale;
+        let rect = shadow_views[tiles[i]].tile_px / settings.downscale;
         // Left of or above the tile the difference wraps to a large number.
         if all(texel - rect.xy < rect.zw) {
             return i;
@@ -34,20 +34,20 @@ fn tile_at(texel: vec2u) -> u32 {
 
 // The weight of a texel at an offset from the centre.
 fn tent(offset: i32) -> f32 {
-    let width = f32(params.radius + 1u);
+    let width = f32(settings.blur_texels + 1u);
     return (width - abs(f32(offset))) / (width * width);
 }
 
 // The mean of the moments of all depths that a texel covers.
 fn resolved(shadow_view: ShadowView, texel: vec2u) -> vec4f {
     var sum = vec4f(0.0);
-    for (var y = 0u; y < params.downscale; y++) {
-        for (var x = 0u; x < params.downscale; x++) {
-            let depth = textureLoad(depth_map, texel * params.downscale + vec2u(x, y), 0);
-            sum += moments_of(params, linear_depth(shadow_view, depth));
+    for (var y = 0u; y < settings.downscale; y++) {
+        for (var x = 0u; x < settings.downscale; x++) {
+            let depth = textureLoad(depth_map, texel * settings.downscale + vec2u(x, y), 0);
+            sum += moments_of(settings, linear_depth(shadow_view, depth));
         }
     }
-    return sum / f32(params.downscale * params.downscale);
+    return sum / f32(settings.downscale * settings.downscale);
 }
 
 @compute @workgroup_size(8, 8)
@@ -58,7 +58,7 @@ fn cs_resolve(@builtin(global_invocation_id) id: vec3u) {
     let tile = tile_at(id.xy);
     if tile == NO_TILE {
         // Outside all tiles the depth is the farthest.
-        textureStore(halfway, id.xy, moments_of(params, 1.0));
+        textureStore(halfway, id.xy, moments_of(settings, 1.0));
         return;
     }
     textureStore(halfway, id.xy, resolved(shadow_views[tiles[tile]], id.xy));
@@ -70,7 +70,7 @@ fn ends(texel: vec2u, axis: u32) -> vec2i {
     if tile == NO_TILE {
         return vec2i(i32(texel[axis]));
     }
-    let rect = vec4i(shadow_views[tiles[tile]].tile_px / params.downscale);
+    let rect = vec4i(shadow_views[tiles[tile]].tile_px / settings.downscale);
     return vec2i(rect[axis], rect[axis] + rect[axis + 2u] - 1);
 }
 
@@ -81,7 +81,7 @@ fn cs_across(@builtin(global_invocation_id) id: vec3u) {
     }
     let ends = ends(id.xy, 0u);
     var sum = vec4f(0.0);
-    for (var offset = -i32(params.radius); offset <= i32(params.radius); offset++) {
+    for (var offset = -i32(settings.blur_texels); offset <= i32(settings.blur_texels); offset++) {
         let x = clamp(i32(id.x) + offset, ends.x, ends.y);
         sum += tent(offset) * textureLoad(blurred, vec2u(u32(x), id.y), 0);
     }
@@ -95,7 +95,7 @@ fn cs_down(@builtin(global_invocation_id) id: vec3u) {
     }
     let ends = ends(id.xy, 1u);
     var sum = vec4f(0.0);
-    for (var offset = -i32(params.radius); offset <= i32(params.radius); offset++) {
+    for (var offset = -i32(settings.blur_texels); offset <= i32(settings.blur_texels); offset++) {
         let y = clamp(i32(id.y) + offset, ends.x, ends.y);
         sum += tent(offset) * textureLoad(blurred, vec2u(id.x, u32(y)), 0);
     }

@@ -3,8 +3,12 @@
 #import shadowgraph::view::{view, view_depth_of}
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, NOT_A_CASCADE}
 
-// 40 bytes.
+// The settings, and what the frame adds.
 struct Fit {
+    // 0: uniform splits, 1: logarithmic splits.
+    lambda: f32,
+    // Above 1 nearer cascades are shorter.
+    nearness: f32,
     // Number of views; those of cascades come first.
     views: u32,
     // Number of cascades of each light that has any. The last cascade covers the whole view and is not fitted: the farthest
@@ -12,14 +16,11 @@ struct Fit {
     cascades: u32,
     // Number of lights with cascades.
     lights: u32,
-    // 0: uniform splits, 1: logarithmic splits.
-    lambda: f32,
-    map_size_px: vec2f,
+    map_width_px: f32,
+    map_height_px: f32,
     // View depths where shadows begin and end, metres.
     nearest: f32,
     farthest: f32,
-    // Above 1 nearer cascades are shorter.
-    nearness: f32,
 }
 
 // Bounds of the surfaces in a cascade, on the light's axes; floats are encoded as integers of the same order.
@@ -164,7 +165,7 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
     let center = 0.5 * (highest + lowest);
 
     let tile = vec4f(old.tile_px);
-    let border = old.uv_min.x * fit.map_size_px.x - tile.x;
+    let border = old.uv_min.x * fit.map_width_px - tile.x;
     var margin = 2.0 + border;
     for (var light = 0u; light < arrayLength(&shadow_lights); light++) {
         let first = shadow_lights[light].first_view;
@@ -184,8 +185,8 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
     let y = vec4f(axes[1], -snapped.y * texel) / extent;
     let z = vec4f(axes[2], -far) / range;
     result.clip_from_world = transpose(mat4x4f(x, y, z, vec4f(0.0, 0.0, 0.0, 1.0)));
-    let u = (0.5 * tile.z * x + vec4f(0.0, 0.0, 0.0, tile.x + 0.5 * tile.z)) / fit.map_size_px.x;
-    let v = (-0.5 * tile.w * y + vec4f(0.0, 0.0, 0.0, tile.y + 0.5 * tile.w)) / fit.map_size_px.y;
+    let u = (0.5 * tile.z * x + vec4f(0.0, 0.0, 0.0, tile.x + 0.5 * tile.z)) / fit.map_width_px;
+    let v = (-0.5 * tile.w * y + vec4f(0.0, 0.0, 0.0, tile.y + 0.5 * tile.w)) / fit.map_height_px;
     result.map_from_world = transpose(mat4x4f(u, v, z, vec4f(0.0, 0.0, 0.0, 1.0)));
     result.center = axes * vec3f(snapped * texel, center.z);
     result.radius = length(half);

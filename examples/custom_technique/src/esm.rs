@@ -1,13 +1,12 @@
 //! Exponential shadow maps, after Annen et al. (2008): visibility falls off exponentially with the distance behind the occluder, so edges
 //! are smooth even with few texels.
 
-use bytemuck::{Pod, Zeroable};
 use shadowgraph::core::Frame;
 use shadowgraph::shaders::{MAPPED, ModuleSource};
 use shadowgraph::shadows::binding::UNIFORM;
 use shadowgraph::shadows::{
-    Error, GpuStruct, NamedSettings, Requirements, ShadowBinding, ShadowInputs, ShadowMaps, ShadowOutputs,
-    ShadowTechnique, SurfaceBuffers, TechniqueKind, declare_settings, gpu_struct,
+    Error, GpuData, GpuStruct, NamedSettings, Requirements, ShadowBinding, ShadowInputs, ShadowMaps,
+    ShadowOutputs, ShadowTechnique, SurfaceBuffers, TechniqueKind, declare_settings, gpu_struct,
 };
 
 /// The technique for the registry: a name, a description, a constructor, and the settings.
@@ -29,11 +28,11 @@ impl NamedSettings for EsmSettings {
     const NAME: &'static str = "esm";
 }
 
-/// `Falloff` of `esm.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Falloff {
-    per_metre: f32,
+gpu_struct! {
+    /// `Falloff` of `esm.wgsl`.
+    struct Falloff {
+        per_metre: f32,
+    }
 }
 
 /// Shadow maps of the library with our own filter.
@@ -61,7 +60,7 @@ impl ShadowTechnique for Esm {
     }
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
-        vec![gpu_struct!(Falloff { per_metre })]
+        vec![GpuStruct::new::<Falloff>("Falloff")]
     }
 
     fn add_to<'f>(
@@ -75,7 +74,7 @@ impl ShadowTechnique for Esm {
         let maps = frame.node("esm", |frame| self.maps.add_to(frame, inputs, requirements))?;
         let falloff = Falloff { per_metre: 1.0 / settings.falloff_m };
         let mut bindings = maps.bindings();
-        bindings.push(ShadowBinding::Uniform(frame.uniform(bytemuck::bytes_of(&falloff))));
+        bindings.push(ShadowBinding::Uniform(frame.uniform(&falloff.bytes())));
         Ok(maps.outputs(bindings))
     }
 }

@@ -2,17 +2,32 @@
 // one that grows towards it (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008; Annen et al., "Exponential Shadow Maps",
 // 2008). Chebyshev's inequality bounds the fraction of the filter that is farther away than the point.
 #define_import_path shadowgraph::shadows::encoding
-#import shadowgraph::shadows::moment_params::MomentParams
 #import shadowgraph::shadows::evsm_layout::{FOUR, HALF}
 
-// `depth`: 0 nearest to the light, 1 farthest.
-fn warped(params: MomentParams, depth: f32) -> vec2f {
-    let centred = 2.0 * saturate(depth) - 1.0;
-    return vec2f(exp(params.exponents.x * centred), -exp(-params.exponents.y * centred));
+// The settings of the technique.
+struct MomentSettings {
+    // Exponents of the warps away from the light and towards it.
+    positive_exponent: f32,
+    negative_exponent: f32,
+    // The fraction of visibility that is treated as light bleeding.
+    bleed: f32,
+    // The difference of depths that count as equal, as a fraction of the tile's range.
+    bias: f32,
+    // Depth texels per moment texel along each axis.
+    downscale: u32,
+    // Blur radius in moment texels.
+    blur_texels: u32,
+    mips: u32,
 }
 
-fn moments_of(params: MomentParams, depth: f32) -> vec4f {
-    let warp = warped(params, depth);
+// `depth`: 0 nearest to the light, 1 farthest.
+fn warped(settings: MomentSettings, depth: f32) -> vec2f {
+    let centred = 2.0 * saturate(depth) - 1.0;
+    return vec2f(exp(settings.positive_exponent * centred), -exp(-settings.negative_exponent * centred));
+}
+
+fn moments_of(settings: MomentSettings, depth: f32) -> vec4f {
+    let warp = warped(settings, depth);
     return vec4f(warp, warp * warp).xzyw;
 }
 
@@ -43,14 +58,15 @@ fn chebyshev(moments: vec2f, depth: f32, min_variance: f32, bleed: f32) -> f32 {
     return saturate((bound - bleed) / (1.0 - bleed));
 }
 
-fn visibility_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
-    let warp = warped(params, depth);
+fn visibility_of(settings: MomentSettings, moments: vec4f, depth: f32) -> f32 {
+    let warp = warped(settings, depth);
     // Depths this close count as equal, on the curve of each warp.
-    let close = params.bias * params.exponents * warp;
+    let exponents = vec2f(settings.positive_exponent, settings.negative_exponent);
+    let close = settings.bias * exponents * warp;
     let min_variances = close * close;
-    let visibility = chebyshev(moments.xy, warp.x, min_variances.x, params.bleed);
+    let visibility = chebyshev(moments.xy, warp.x, min_variances.x, settings.bleed);
     if FOUR {
-        return min(visibility, chebyshev(moments.zw, warp.y, min_variances.y, params.bleed));
+        return min(visibility, chebyshev(moments.zw, warp.y, min_variances.y, settings.bleed));
     }
     return visibility;
 }

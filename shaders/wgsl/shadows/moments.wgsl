@@ -2,15 +2,15 @@
 // shadowgraph::shadows::encoding defines the moments and the visibility that they give.
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
-#import shadowgraph::shadows::encoding::{unpacked, visibility_of}
+#import shadowgraph::shadows::encoding::{MomentSettings, unpacked, visibility_of}
+#import shadowgraph::shadows::linear_depth::linear_depth
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::moment_params::{MomentParams, linear_depth}
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
 @group(1) @binding(8) var cascade_moments: texture_2d<u32>;
 @group(1) @binding(9) var atlas_moments: texture_2d<u32>;
-@group(1) @binding(10) var<uniform> params: MomentParams;
+@group(1) @binding(10) var<uniform> settings: MomentSettings;
 
 fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
     if map == MAP_CASCADES {
@@ -45,7 +45,7 @@ fn texels_per_pixel_at(shadow_view: ShadowView, receiver: Receiver) -> f32 {
     if shadow_view.light.w != 0.0 {
         distance = length(shadow_view.light.xyz - receiver.position);
     }
-    let texel_world = shadow_view.texel_world * distance * f32(params.downscale);
+    let texel_world = shadow_view.texel_world * distance * f32(settings.downscale);
     let pixel_world = sqrt(length(receiver.ddx_position) * length(receiver.ddy_position));
     return pixel_world / max(texel_world, 1e-9);
 }
@@ -54,16 +54,16 @@ fn texels_per_pixel_at(shadow_view: ShadowView, receiver: Receiver) -> f32 {
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let texels_per_pixel = texels_per_pixel_at(shadow_view, receiver);
-    let level = select(0.0, min(log2(texels_per_pixel), f32(params.mips - 1u)), texels_per_pixel > 1.0);
+    let level = select(0.0, min(log2(texels_per_pixel), f32(settings.mips - 1u)), texels_per_pixel > 1.0);
     let mip = u32(level);
     var moments = bilinear(light.map, lookup.uv, mip);
     if level > f32(mip) {
         moments = mix(moments, bilinear(light.map, lookup.uv, mip + 1u), level - f32(mip));
     }
     // Bias by a quarter of the filter radius for the receiver's plane and for the foot of lit walls; tent filters need more.
-    let bias_texels = 0.25 * f32(params.downscale * (params.radius + 1u)) * exp2(level);
+    let bias_texels = 0.25 * f32(settings.downscale * (settings.blur_texels + 1u)) * exp2(level);
     let slope = lookup.plane.slope;
     let rise = bias_texels * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
     let depth = min(lookup.plane.depth + rise, 1.0);
-    return visibility_of(params, moments, linear_depth(shadow_view, depth));
+    return visibility_of(settings, moments, linear_depth(shadow_view, depth));
 }

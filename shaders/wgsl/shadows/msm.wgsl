@@ -1,10 +1,22 @@
 // The moments of the technique `msm`: the first four powers of depth, in 16 bits each (Peters and Klein, "Moment Shadow Mapping",
 // 2015). The sharpest bound that four moments allow gives the fraction of the filter that is farther away than the point.
 #define_import_path shadowgraph::shadows::encoding
-#import shadowgraph::shadows::moment_params::MomentParams
+
+// The settings of the technique.
+struct MomentSettings {
+    // The fraction of visibility that is treated as light bleeding.
+    bleed: f32,
+    // The weight of the moments of an arbitrary depth.
+    bias: f32,
+    // Depth texels per moment texel along each axis.
+    downscale: u32,
+    // Blur radius in moment texels.
+    blur_texels: u32,
+    mips: u32,
+}
 
 // `depth`: 0 nearest to the light, 1 farthest.
-fn moments_of(params: MomentParams, depth: f32) -> vec4f {
+fn moments_of(settings: MomentSettings, depth: f32) -> vec4f {
     let z = saturate(depth);
     let square = z * z;
     return vec4f(z, square, square * z, square * square);
@@ -39,9 +51,9 @@ fn unpacked(texel: vec4u) -> vec4f {
 const EPSILON: f32 = 1e-12;
 
 // The paper's algorithm 4, *Hamburger four moment shadow mapping*.
-fn visibility_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
+fn visibility_of(settings: MomentSettings, moments: vec4f, depth: f32) -> f32 {
     // Biases the moments against rounding errors, towards moments that are always valid.
-    let b = mix(moments, vec4f(0.5), params.bias);
+    let b = mix(moments, vec4f(0.5), settings.bias);
     // The Cholesky factors of the moments' matrix.
     let l32_d22 = b.z - b.x * b.y;
     let d22 = b.y - b.x * b.x;
@@ -70,5 +82,5 @@ fn visibility_of(params: MomentParams, moments: vec4f, depth: f32) -> f32 {
     } else if z1 < depth {
         blocked = (depth * z2 - b.x * (depth + z2) + b.y) / max((z2 - z1) * (depth - z1), EPSILON);
     }
-    return saturate(1.0 - blocked / (1.0 - params.bleed));
+    return saturate(1.0 - blocked / (1.0 - settings.bleed));
 }

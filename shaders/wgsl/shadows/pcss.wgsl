@@ -9,21 +9,20 @@
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
-// 20 bytes.
-struct SoftLights {
-    // Directional lights: the tangent of the angular radius.
-    sun_radius: f32,
-    // Spot and point lights: the radius in metres.
-    punctual_radius: f32,
-    // The largest filter radius.
-    max_texels: f32,
+// The settings, and what follows from them.
+struct Pcss {
+    sun_radius_rad: f32,
+    light_radius_m: f32,
+    max_radius_texels: f32,
     blocker_taps: u32,
     filter_taps: u32,
+    // The tangent of sun_radius_rad.
+    sun_tangent: f32,
 }
 
 // Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
 @group(1) @binding(8) var shadow_sampler: sampler_comparison;
-@group(1) @binding(9) var<uniform> soft_lights: SoftLights;
+@group(1) @binding(9) var<uniform> pcss: Pcss;
 
 const GOLDEN_ANGLE: f32 = 2.39996323;
 const TAU: f32 = 6.28318531;
@@ -46,11 +45,11 @@ fn axis_distance(shadow_view: ShadowView, depth: f32) -> f32 {
 fn penumbra_texels(shadow_view: ShadowView, point: f32, blocker: f32) -> f32 {
     if shadow_view.light.w == 0.0 {
         let distance_m = (blocker - point) * shadow_view.depth_range_m;
-        return soft_lights.sun_radius * distance_m / shadow_view.texel_world;
+        return pcss.sun_tangent * distance_m / shadow_view.texel_world;
     }
     let near_m = axis_distance(shadow_view, blocker);
     let far_m = axis_distance(shadow_view, point);
-    return soft_lights.punctual_radius * (far_m - near_m) / (near_m * far_m * shadow_view.texel_world);
+    return pcss.light_radius_m * (far_m - near_m) / (near_m * far_m * shadow_view.texel_world);
 }
 
 // The reference depth of a tap at an offset in texels: the nearest of the texels that it reads.
@@ -68,11 +67,11 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let rotation = TAU * pixel_noise(receiver.pixel);
 
     // Blocker search: the mean depth of the blockers.
-    let widest = clamp(penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, soft_lights.max_texels);
+    let widest = clamp(penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, pcss.max_radius_texels);
     var blockers = 0.0;
     var depths = 0.0;
-    for (var i = 0u; i < soft_lights.blocker_taps; i++) {
-        let tap = widest * spiral(i, soft_lights.blocker_taps, rotation);
+    for (var i = 0u; i < pcss.blocker_taps; i++) {
+        let tap = widest * spiral(i, pcss.blocker_taps, rotation);
         let stored = stored_depth(light.map, vec2i(floor(at + tap)));
         if stored > tap_depth(lookup, tap) {
             blockers += 1.0;
@@ -84,10 +83,10 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     }
 
     let penumbra = penumbra_texels(shadow_view, lookup.plane.depth, depths / blockers);
-    let radius = clamp(penumbra, MIN_TEXELS, soft_lights.max_texels);
+    let radius = clamp(penumbra, MIN_TEXELS, pcss.max_radius_texels);
     var visibility = 0.0;
-    for (var i = 0u; i < soft_lights.filter_taps; i++) {
-        let tap = radius * spiral(i, soft_lights.filter_taps, rotation);
+    for (var i = 0u; i < pcss.filter_taps; i++) {
+        let tap = radius * spiral(i, pcss.filter_taps, rotation);
         let uv = (at + tap) / size_px;
         let depth = tap_depth(lookup, tap);
         if in_cascades {
@@ -96,5 +95,5 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
             visibility += textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
         }
     }
-    return visibility / f32(soft_lights.filter_taps);
+    return visibility / f32(pcss.filter_taps);
 }

@@ -3,16 +3,14 @@
 #import shadowgraph::view::{view, lights, LIGHT_DIRECTIONAL}
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::rays::{ray_passed, ray_origin, RAY_FAR, RAY_WAY_TO_LIGHT}
+#import shadowgraph::shadows::raytraced_settings::RaytracedSettings
 
 struct Traced {
+    settings: RaytracedSettings,
+    // The tangent of settings.sun_radius_rad.
+    sun_tangent: f32,
     // The largest coordinate of the rays' scene.
     max_coordinate: f32,
-    // Number of rays: one goes to the light's centre, several cover its disc.
-    rays: u32,
-    // Directional lights: the tangent of the angular radius.
-    sun_radius: f32,
-    // Spot and point lights: the radius in metres.
-    punctual_radius: f32,
     // The layer of each light in the screen mask, TRACED_UNMASKED, or TRACED_LIT.
     layers: array<u32>,
 }
@@ -48,14 +46,14 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
         return vec3f(0.0);
     }
     let disc = perpendicular(to_center / distance);
-    let radius = select(traced.punctual_radius, traced.sun_radius, is_sun);
+    let radius = select(traced.settings.light_radius_m, traced.sun_tangent, is_sun);
     let rotation = TAU * pixel_noise(pixel);
     var visibility = vec3f(0.0);
-    for (var i = 0u; i < traced.rays; i++) {
+    for (var i = 0u; i < traced.settings.rays; i++) {
         var direction_to_sample = to_center;
-        if traced.rays > 1u {
+        if traced.settings.rays > 1u {
             let angle = f32(i) * GOLDEN_ANGLE + rotation;
-            let at = sqrt((f32(i) + 0.5) / f32(traced.rays)) * vec2f(cos(angle), sin(angle));
+            let at = sqrt((f32(i) + 0.5) / f32(traced.settings.rays)) * vec2f(cos(angle), sin(angle));
             direction_to_sample += radius * (disc * at);
         }
         let length = length(direction_to_sample);
@@ -64,5 +62,5 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
             visibility += ray_passed(origin, direction_to_sample / length, 0.0, end);
         }
     }
-    return visibility / f32(traced.rays);
+    return visibility / f32(traced.settings.rays);
 }

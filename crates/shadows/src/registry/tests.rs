@@ -179,13 +179,14 @@ fn more_bindings_than_a_lit_pass_leaves_are_an_error() {
 
 #[test]
 fn structs_with_another_layout_in_rust_are_an_error() {
-    #[repr(C)]
-    struct Mine {
-        far: f32,
-        strength: f32,
+    gpu_struct! {
+        struct Mine {
+            far: f32,
+            strength: f32,
+        }
     }
     let error = refused(|_| {
-        let records = vec![gpu_struct!(Mine { far, strength })];
+        let records = vec![GpuStruct::new::<Mine>("Mine")];
         Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![UNIFORM], records }))
     });
     assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, expected 0"), "{error}");

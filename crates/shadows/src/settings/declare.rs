@@ -17,6 +17,9 @@ pub trait DescribeSettings {
     /// [`Error::Setting`] names the first field that is out of its range, its value and the range.
     fn validate(&self) -> Result<(), Error>;
 
+    /// Appends the fields of a struct that are numbers or toggles, four bytes each, for a shader; nothing for other types.
+    fn write_scalars(&self, _bytes: &mut Vec<u8>) {}
+
     /// Returns the fields of a struct; empty for other types.
     #[must_use]
     fn settings() -> &'static [Setting] {
@@ -34,6 +37,9 @@ pub trait SettingValue {
     /// # Errors
     /// [`Error::Setting`] with the setting's name, the value and what is allowed.
     fn check(&self, setting: &Setting) -> Result<(), Error>;
+
+    /// Appends a number or a toggle, four bytes, for a shader; nothing for other types.
+    fn write_scalar(&self, _bytes: &mut Vec<u8>) {}
 }
 
 impl<T: DescribeSettings> SettingValue for T {
@@ -45,6 +51,10 @@ impl<T: DescribeSettings> SettingValue for T {
 impl SettingValue for bool {
     fn check(&self, _setting: &Setting) -> Result<(), Error> {
         Ok(())
+    }
+
+    fn write_scalar(&self, bytes: &mut Vec<u8>) {
+        u32::from(*self).write_scalar(bytes);
     }
 }
 
@@ -58,6 +68,10 @@ impl SettingValue for u32 {
         };
         if fits { Ok(()) } else { Err(Error::invalid(setting, self)) }
     }
+
+    fn write_scalar(&self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_ne_bytes());
+    }
 }
 
 impl SettingValue for f32 {
@@ -70,6 +84,10 @@ impl SettingValue for f32 {
             _ => Ok(()),
         }
     }
+
+    fn write_scalar(&self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_ne_bytes());
+    }
 }
 
 impl SettingValue for f64 {
@@ -80,6 +98,10 @@ impl SettingValue for f64 {
             }
             _ => Ok(()),
         }
+    }
+
+    fn write_scalar(&self, bytes: &mut Vec<u8>) {
+        (*self as f32).write_scalar(bytes);
     }
 }
 
@@ -236,6 +258,10 @@ macro_rules! declare_settings {
                 $($check(self)?;)?
                 ::core::result::Result::Ok(())
             }
+
+            fn write_scalars(&self, bytes: &mut ::std::vec::Vec<u8>) {
+                $($crate::SettingValue::write_scalar(&self.$field, bytes);)*
+            }
         }
     };
 
@@ -324,6 +350,10 @@ macro_rules! declare_settings {
                     $($crate::SettingValue::check(&self.$field, $field)?;)*
                 }
                 ::core::result::Result::Ok(())
+            }
+
+            fn write_scalars(&self, bytes: &mut ::std::vec::Vec<u8>) {
+                $($crate::SettingValue::write_scalar(&self.$field, bytes);)*
             }
         }
     };

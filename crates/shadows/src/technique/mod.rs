@@ -7,7 +7,7 @@ mod outputs;
 
 pub(crate) use check::add_checked;
 pub use check::add_shadows;
-pub use gpu_struct::GpuStruct;
+pub use gpu_struct::{GpuData, GpuField, GpuStruct};
 pub(crate) use layout::layout;
 pub use layout::{binding, shadow_layout};
 pub(crate) use outputs::MASK_FORMAT;

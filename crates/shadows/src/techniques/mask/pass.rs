@@ -7,7 +7,7 @@ use shadowgraph_shaders::compose;
 use super::{MASK, TARGET, WORKGROUP_PX};
 use crate::error::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{MASK_FORMAT, MAX_MASK_LAYERS, SurfaceBuffers, layout, masked_lights};
+use crate::technique::{GpuStruct, MASK_FORMAT, MAX_MASK_LAYERS, SurfaceBuffers, layout, masked_lights};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 
 /// The layers of a mask.
@@ -41,16 +41,17 @@ pub(in crate::techniques) struct MaskPass {
 }
 
 impl MaskPass {
-    /// Creates the pipeline for an entry point of a built-in file.
+    /// Creates the pipeline for an entry point of a built-in file. `own` is the struct of its uniform block.
     pub(in crate::techniques) fn new(
         device: &wgpu::Device,
         name: &'static str,
-        file: &str,
-        entry: &str,
+        (file, entry): (&str, &str),
+        own: &GpuStruct,
     ) -> Result<Self, Error> {
         let view_layout = layout(device, "view", &[STORAGE; 2]);
         let own_layout = layout(device, name, &[FLOAT_MAP, MASK, TARGET, UNIFORM, UNIFORM]);
         let module = compose(file, &[])?;
+        own.check(&module)?;
         let shader = shader(device, file, module);
         let pipeline = pipeline(device, &shader, entry, &[&view_layout, &own_layout]);
         Ok(Self { name, view_layout, layout: own_layout, pipeline })

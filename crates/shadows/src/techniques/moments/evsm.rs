@@ -3,7 +3,7 @@
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{EVSM, ModuleSource};
 
-use super::{MomentParams, Moments};
+use super::{MomentMap, Moments};
 use crate::declare_settings;
 use crate::error::Error;
 use crate::settings::{NamedSettings, refused};
@@ -65,7 +65,7 @@ impl EvsmSettings {
         if let (EvsmPrecision::Half, Some((field, exponent))) = (self.precision, too_large) {
             return Err(refused(Self::SETTINGS, field, exponent));
         }
-        self.params().check(Self::SETTINGS)
+        self.moment_map().check(Self::SETTINGS)
     }
 }
 
@@ -99,15 +99,7 @@ impl Moments for EvsmSettings {
         two + u32::from(self.precision == EvsmPrecision::Half)
     }
 
-    fn params(&self) -> MomentParams {
-        MomentParams {
-            exponents: [self.positive_exponent, self.negative_exponent],
-            bleed: self.bleed,
-            bias: self.bias,
-            downscale: self.downscale,
-            radius: self.blur_texels,
-            mips: self.mips,
-            unused: 0,
-        }
+    fn moment_map(&self) -> MomentMap {
+        MomentMap { downscale: self.downscale, blur_texels: self.blur_texels, mips: self.mips }
     }
 }

@@ -10,19 +10,17 @@ mod prefilter;
 pub use evsm::{EvsmMoments, EvsmPrecision, EvsmSettings};
 pub use msm::MsmSettings;
 
-use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_shaders::{MAPPED, MOMENTS, ModuleSource};
 
 use crate::error::Error;
-use crate::gpu_struct;
 use crate::light_params::settings_requirements;
 use crate::maps::ShadowMaps;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
 use crate::settings::{NamedSettings, Setting, refused};
-use crate::technique::GpuStruct;
 use crate::technique::binding::UNIFORM;
+use crate::technique::{GpuData, GpuStruct};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use prefilter::Prefilter;
 
@@ -53,39 +51,29 @@ pub trait Moments: NamedSettings {
     /// Returns the encoding that these settings select, below [`LAYOUTS`](Self::LAYOUTS).
     fn layout(&self) -> u32;
 
-    /// Returns the parameters that shaders read.
-    fn params(&self) -> MomentParams;
+    /// Returns the sizes of the map of moments.
+    fn moment_map(&self) -> MomentMap;
 }
 
-/// `MomentParams` of `moment_params.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct MomentParams {
-    /// Exponents of the warp away from the light and towards it; 0 without a warp.
-    pub exponents: [f32; 2],
-    /// Fraction of the light in a shadow that is treated as light leaking.
-    pub bleed: f32,
-    /// Depth difference that counts as zero, relative to the tile's range; or the weight that blends moments towards those of an
-    /// arbitrary depth.
-    pub bias: f32,
+/// The sizes of a map of moments, and its blur.
+#[derive(Clone, Copy, Debug)]
+pub struct MomentMap {
     /// Number of depth texels per moment texel along each axis.
     pub downscale: u32,
     /// Radius of the blur, texels of moments.
-    pub radius: u32,
+    pub blur_texels: u32,
     /// Number of mip levels.
     pub mips: u32,
-    /// Zero.
-    pub unused: u32,
 }
 
-impl MomentParams {
+impl MomentMap {
     /// Returns the radius around a point within which the depth map is read, texels.
     fn kernel_radius_texels(&self) -> f32 {
         let coarsest = 1 << (self.mips - 1);
-        self.downscale as f32 * (self.radius as f32 + 1.5 * coarsest as f32)
+        self.downscale as f32 * (self.blur_texels as f32 + 1.5 * coarsest as f32)
     }
 
-    /// Returns the requirements of a technique with these parameters.
+    /// Returns the requirements of a technique with such a map.
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Requirements {
         let base = settings_requirements(inputs.settings);
         Requirements {
@@ -97,7 +85,7 @@ impl MomentParams {
     /// Checks the width of the filter, which follows from several settings.
     fn check(&self, settings: &'static [Setting]) -> Result<(), Error> {
         match self.kernel_radius_texels() > 24.0 {
-            true => Err(refused(settings, "blur_texels", self.radius)),
+            true => Err(refused(settings, "blur_texels", self.blur_texels)),
             false => Ok(()),
         }
     }
@@ -120,7 +108,7 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn requirements(&self, inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
-        Ok(inputs.settings.techniques.get::<S>()?.params().requirements(inputs))
+        Ok(inputs.settings.techniques.get::<S>()?.moment_map().requirements(inputs))
     }
 
     fn variant_count(&self) -> u32 {
@@ -136,7 +124,7 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
-        vec![gpu_struct!(MomentParams { exponents, bleed, bias, downscale, radius, mips })]
+        vec![GpuStruct::new::<S>("MomentSettings")]
     }
 
     fn add_to<'f>(
@@ -147,12 +135,12 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
         _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
         let own: S = inputs.settings.techniques.get()?;
-        let (layout, params) = (own.layout(), own.params());
+        let (layout, sizes) = (own.layout(), own.moment_map());
         frame.node("shadows", |frame| {
             let maps = self.maps.add_to(frame, inputs, requirements)?;
-            let block = frame.uniform(bytemuck::bytes_of(&params));
+            let block = frame.uniform(&own.bytes());
             let mut moments =
-                |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, &params, block));
+                |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, sizes, block));
             let cascades = moments("cascade moments", &maps.cascades);
             let atlas = moments("atlas moments", &maps.atlas);
             let mut bindings = maps.bindings();

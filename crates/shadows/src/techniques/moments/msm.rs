@@ -3,7 +3,7 @@
 use shadowgraph_core::Format;
 use shadowgraph_shaders::{MSM, ModuleSource};
 
-use super::{MomentParams, Moments};
+use super::{MomentMap, Moments};
 use crate::declare_settings;
 use crate::error::Error;
 use crate::settings::NamedSettings;
@@ -27,7 +27,7 @@ declare_settings! {
 
 impl MsmSettings {
     fn check(&self) -> Result<(), Error> {
-        self.params().check(Self::SETTINGS)
+        self.moment_map().check(Self::SETTINGS)
     }
 }
 
@@ -50,15 +50,7 @@ impl Moments for MsmSettings {
         0
     }
 
-    fn params(&self) -> MomentParams {
-        MomentParams {
-            exponents: [0.0; 2],
-            bleed: self.bleed,
-            bias: self.bias,
-            downscale: self.downscale,
-            radius: self.blur_texels,
-            mips: self.mips,
-            unused: 0,
-        }
+    fn moment_map(&self) -> MomentMap {
+        MomentMap { downscale: self.downscale, blur_texels: self.blur_texels, mips: self.mips }
     }
 }

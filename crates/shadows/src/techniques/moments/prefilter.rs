@@ -3,7 +3,7 @@
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Subresource, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
 
-use super::{MomentParams, Moments};
+use super::{MomentMap, Moments};
 use crate::error::Error;
 use crate::maps::DrawnMap;
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
@@ -71,7 +71,7 @@ impl Prefilter {
         name: &'static str,
         map: &DrawnMap,
         views: &Buffer,
-        (encoding, params, block): (u32, &MomentParams, Uniform),
+        (encoding, sizes, block): (u32, MomentMap, Uniform),
     ) -> Texture {
         let (Some(encoding), Some(desc)) =
             (self.encodings.get(encoding as usize), frame.texture_desc(&map.texture))
@@ -81,7 +81,7 @@ impl Prefilter {
         if map.tiles.is_empty() {
             return frame.import_texture("no moments", &self.no_moments, true);
         }
-        let [width, height] = [desc.size.width, desc.size.height].map(|side| side / params.downscale);
+        let [width, height] = [desc.size.width, desc.size.height].map(|side| side / sizes.downscale);
         frame.node(name, |frame| {
             let tiles: Vec<u32> = map.tiles.iter().map(|(_, view)| *view).collect();
             let tiles = frame.upload_buffer("tiles", bytemuck::cast_slice(&tiles).to_vec());
@@ -92,10 +92,10 @@ impl Prefilter {
             let mut across = frame.create_texture("blurred across", unpacked);
             self.step(frame, ("across", &encoding.across), shared, (&resolved, 0), (&mut across, 0));
             let moments =
-                TextureDesc { mip_levels: params.mips, ..TextureDesc::d2(width, height, encoding.format) };
+                TextureDesc { mip_levels: sizes.mips, ..TextureDesc::d2(width, height, encoding.format) };
             let mut moments = frame.create_texture("moments", moments);
             self.step(frame, ("down", &encoding.down), shared, (&across, 0), (&mut moments, 0));
-            for mip in 1..params.mips {
+            for mip in 1..sizes.mips {
                 let finer = moments.clone();
                 self.step(frame, ("halve", &encoding.halve), shared, (&finer, mip - 1), (&mut moments, mip));
             }

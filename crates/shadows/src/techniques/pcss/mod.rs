@@ -7,7 +7,6 @@ mod settings;
 
 pub use settings::PcssSettings;
 
-use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::Frame;
 use shadowgraph_shaders::{MAPPED, ModuleSource, PCSS};
 
@@ -18,8 +17,8 @@ use crate::maps::{ShadowMaps, comparison_sampler};
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
-use crate::technique::GpuStruct;
 use crate::technique::binding::{COMPARISON_SAMPLER, UNIFORM};
+use crate::technique::{GpuData, GpuStruct};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 
 /// Soft shadows from the maps of [`Pcf`](crate::Pcf); see the module `shadows/pcss.wgsl`.
@@ -28,26 +27,11 @@ pub struct Pcss {
     sampler: wgpu::Sampler,
 }
 
-/// `SoftLights` of `pcss.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct SoftLights {
-    sun_radius: f32,
-    punctual_radius: f32,
-    max_texels: f32,
-    blocker_taps: u32,
-    filter_taps: u32,
-}
-
-impl SoftLights {
-    fn new(settings: &PcssSettings) -> Self {
-        Self {
-            sun_radius: settings.sun_radius_rad.tan(),
-            punctual_radius: settings.light_radius_m,
-            max_texels: settings.max_radius_texels,
-            blocker_taps: settings.blocker_taps,
-            filter_taps: settings.filter_taps,
-        }
+gpu_struct! {
+    /// `Pcss` of `pcss.wgsl`.
+    struct Block {
+        settings: PcssSettings,
+        sun_tangent: f32,
     }
 }
 
@@ -81,7 +65,7 @@ impl ShadowTechnique for Pcss {
     }
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
-        vec![gpu_struct!(SoftLights { sun_radius, punctual_radius, max_texels, blocker_taps, filter_taps })]
+        vec![GpuStruct::new::<Block>("Pcss")]
     }
 
     fn add_to<'f>(
@@ -91,11 +75,12 @@ impl ShadowTechnique for Pcss {
         requirements: &Requirements,
         _buffers: Option<&SurfaceBuffers>,
     ) -> Result<ShadowOutputs<'f>, Error> {
-        let own = inputs.settings.techniques.get()?;
+        let settings: PcssSettings = inputs.settings.techniques.get()?;
         let maps = frame.node("shadows", |frame| self.maps.add_to(frame, inputs, requirements))?;
-        let soft = frame.uniform(bytemuck::bytes_of(&SoftLights::new(&own)));
+        let block = Block { sun_tangent: settings.sun_radius_rad.tan(), settings };
+        let block = frame.uniform(&block.bytes());
         let mut bindings = maps.bindings();
-        bindings.extend([ShadowBinding::Sampler(&self.sampler), ShadowBinding::Uniform(soft)]);
+        bindings.extend([ShadowBinding::Sampler(&self.sampler), ShadowBinding::Uniform(block)]);
         Ok(maps.outputs(bindings))
     }
 }

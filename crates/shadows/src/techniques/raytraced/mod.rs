@@ -18,7 +18,7 @@ use crate::rays::GpuRayScene;
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{GpuData, GpuStruct, ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use crate::technique::{layout, masked_lights};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
@@ -65,7 +65,7 @@ impl Raytraced {
         };
         Ok(Self {
             trace: Trace::new(device, &scene.surfaces())?,
-            denoise: MaskPass::new(device, "denoise", "denoise.wgsl", "cs_denoise")?,
+            denoise: MaskPass::new(device, "denoise", ("denoise.wgsl", "cs_denoise"), &settings_struct())?,
             rays: scene.buffers().map(buffer),
             max_coordinate_m: scene.max_coordinate_m,
             surfaces: scene.surfaces(),
@@ -118,7 +118,7 @@ impl Raytraced {
         if settings.rays == 1 || settings.denoise_px == 0 {
             return Some(mask);
         }
-        let own = frame.uniform(bytemuck::bytes_of(&[settings.denoise_px, 0, 0, 0]));
+        let own = frame.uniform(&settings.bytes());
         Some(self.denoise.add_to(frame, buffers, &mask, layers, own))
     }
 }
@@ -143,6 +143,10 @@ impl ShadowTechnique for Raytraced {
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
         // `rays.wgsl`, `traced.wgsl`, `raytraced.wgsl`.
         vec![STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, STORAGE, MASK]
+    }
+
+    fn gpu_structs(&self) -> Vec<GpuStruct> {
+        vec![settings_struct()]
     }
 
     fn add_to<'f>(
@@ -170,6 +174,11 @@ impl ShadowTechnique for Raytraced {
     }
 }
 
+/// Returns the struct `RaytracedSettings` of `raytraced_settings.wgsl`.
+fn settings_struct() -> GpuStruct {
+    GpuStruct::new::<RaytracedSettings>("RaytracedSettings")
+}
+
 /// Returns the layer of each light of the scene, or [`UNMASKED`], or [`LIT`].
 fn mask_layers(lights: &[Light]) -> Vec<u32> {
     let without_layer = |light: &Light| if light.casts_shadow { UNMASKED } else { LIT };
@@ -184,9 +193,8 @@ fn mask_layers(lights: &[Light]) -> Vec<u32> {
 fn traced_bytes(max_coordinate_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8> {
     let none = [LIT];
     let layers = if layers.is_empty() { &none } else { layers };
-    let sizes = [settings.sun_radius_rad.tan(), settings.light_radius_m];
-    let header = [max_coordinate_m.to_bits(), settings.rays, sizes[0].to_bits(), sizes[1].to_bits()];
-    [bytemuck::bytes_of(&header), bytemuck::cast_slice(layers)].concat()
+    let frame = [settings.sun_radius_rad.tan(), max_coordinate_m];
+    [&settings.bytes(), bytemuck::cast_slice(&frame), bytemuck::cast_slice(layers)].concat()
 }
 
 impl Trace {
@@ -226,7 +234,10 @@ mod tests {
     fn the_struct_without_lights_is_not_empty() {
         let hard = RaytracedSettings::hard();
         let empty = traced_bytes(2.5, &hard, &[]);
-        assert_eq!((empty.len(), &empty[..4], &empty[16..]), (20, &2.5f32.to_le_bytes()[..], &[255; 4][..]));
-        assert_eq!(traced_bytes(0.0, &hard, &[0, 1]).len(), 24);
+        assert_eq!(
+            (empty.len(), &empty[20..24], &empty[24..]),
+            (28, &2.5f32.to_le_bytes()[..], &[255; 4][..])
+        );
+        assert_eq!(traced_bytes(0.0, &hard, &[0, 1]).len(), 32);
     }
 }

@@ -6,7 +6,7 @@ mod settings;
 
 pub use settings::{ContactSettings, ScreenSettings};
 
-use shadowgraph_core::{Frame, Texture, Uniform};
+use shadowgraph_core::{Frame, Texture};
 use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
 
 use super::mask::pass::{Layers, MaskPass};
@@ -15,8 +15,8 @@ use crate::error::Error;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
 use crate::settings::{NamedSettings, ShadowSettings};
-use crate::technique::GpuStruct;
 use crate::technique::binding::UNIFORM;
+use crate::technique::{GpuData, GpuStruct};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};
 use collect::Collect;
 
@@ -41,10 +41,11 @@ impl ScreenShadows {
     /// # Errors
     /// If a shader does not compose.
     pub fn new(device: &wgpu::Device, inner: Box<dyn ShadowTechnique>) -> Result<Self, Error> {
+        let settings = GpuStruct::new::<ScreenSettings>("ScreenSettings");
         Ok(Self {
             name: format!("{}+{}", inner.name(), ScreenSettings::NAME),
             collect: Collect::new(device, inner.as_ref())?,
-            blur: MaskPass::new(device, "blur", "blur.wgsl", "cs_blur")?,
+            blur: MaskPass::new(device, "blur", ("blur.wgsl", "cs_blur"), &settings)?,
             contact: None,
             no_mask: no_mask(device),
             inner,
@@ -58,7 +59,8 @@ impl ScreenShadows {
     /// If a shader does not compose.
     pub fn with_contact(device: &wgpu::Device, inner: Box<dyn ShadowTechnique>) -> Result<Self, Error> {
         let base = Self::new(device, inner)?;
-        let contact = MaskPass::new(device, "contact", "contact.wgsl", "cs_contact")?;
+        let settings = GpuStruct::new::<ContactSettings>("ContactSettings");
+        let contact = MaskPass::new(device, "contact", ("contact.wgsl", "cs_contact"), &settings)?;
         Ok(Self {
             name: format!("{}+{}", base.inner.name(), ContactSettings::NAME),
             contact: Some(contact),
@@ -82,17 +84,12 @@ impl ScreenShadows {
     ) -> Result<Texture, Error> {
         let blur: ScreenSettings = settings.techniques.get()?;
         if blur.blur_m > 0.0 {
-            let own = frame.uniform(bytemuck::cast_slice(&[
-                blur.blur_m,
-                blur.blur_max_px,
-                blur.depth_threshold,
-                0.0,
-            ]));
+            let own = frame.uniform(&blur.bytes());
             mask = self.blur.add_to(frame, buffers, &mask, layers, own);
         }
         if let Some(contact) = &self.contact {
             let settings: ContactSettings = settings.techniques.get()?;
-            let own = contact_block(frame, &settings);
+            let own = frame.uniform(&settings.bytes());
             mask = contact.add_to(frame, buffers, &mask, layers, own);
         }
         Ok(mask)
@@ -179,10 +176,4 @@ impl ShadowTechnique for ScreenShadows {
         }
         Ok(outputs)
     }
-}
-
-/// Uploads the struct `Contact` of `contact.wgsl`.
-fn contact_block(frame: &mut Frame<'_>, settings: &ContactSettings) -> Uniform {
-    let ContactSettings { length_m, thickness_m, steps } = *settings;
-    frame.uniform(bytemuck::cast_slice(&[length_m.to_bits(), thickness_m.to_bits(), steps, 0]))
 }

@@ -1,14 +1,14 @@
 //! The passes that fit cascades.
 
-use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Frame, Uniform};
 use shadowgraph_shaders::compose;
 
 use super::SdsmSettings;
 use crate::error::Error;
+use crate::gpu_struct;
 use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{SurfaceBuffers, layout};
+use crate::technique::{GpuData, SurfaceBuffers, layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 
 /// The side of a workgroup of the passes over the image, pixels.
@@ -24,19 +24,18 @@ const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
     min_binding_size: None,
 };
 
-/// `Fit` of `sdsm.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Fit {
-    views: u32,
-    cascades: u32,
-    lights: u32,
-    lambda: f32,
-    map_size_px: [f32; 2],
-    nearest: f32,
-    farthest: f32,
-    nearness: f32,
-    unused: u32,
+gpu_struct! {
+    /// `Fit` of `sdsm.wgsl`.
+    struct Fit {
+        settings: SdsmSettings,
+        views: u32,
+        cascades: u32,
+        lights: u32,
+        map_width_px: f32,
+        map_height_px: f32,
+        nearest: f32,
+        farthest: f32,
+    }
 }
 
 /// The passes and their bindings.
@@ -81,16 +80,16 @@ impl GpuFit {
         let Some(map) = plan.cascades.as_ref().filter(|_| count > 1) else {
             return views.clone();
         };
+        let [map_width_px, map_height_px] = map.size_px.map(|side| side as f32);
         let fit = Fit {
+            settings: own.clone(),
             views: plan.views.len() as u32,
             cascades: count,
             lights: map.tiles.len() as u32 / count,
-            lambda: own.lambda,
-            map_size_px: map.size_px.map(|side| side as f32),
+            map_width_px,
+            map_height_px,
             nearest: inputs.camera.near() as f32,
             farthest: plan.lights.iter().map(|light| light.fade_end_m).fold(0.0, f32::max),
-            nearness: own.nearness,
-            unused: 0,
         };
         // Minimum and maximum, initialized for atomic min and max.
         let no_depths = vec![[u32::MAX, 0]];
@@ -98,7 +97,7 @@ impl GpuFit {
         frame.node("fit cascades", |frame| {
             let depths = frame.upload_buffer("view depths", bytemuck::cast_slice(&no_depths).to_vec());
             let bounds = frame.upload_buffer("cascade bounds", bytemuck::cast_slice(&no_bounds).to_vec());
-            let block = frame.uniform(bytemuck::bytes_of(&fit));
+            let block = frame.uniform(&fit.bytes());
             let mut steps = Steps { buffers, views, lights, block, depths, bounds };
             let [width, height] = buffers.size_px.map(|side| side.div_ceil(WORKGROUP_PX));
             self.step(frame, &mut steps, ("depths", &self.depths), [width, height], None);
@@ -160,22 +159,11 @@ struct Steps<'s> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use shadowgraph_shaders::layout;
-    use std::mem::offset_of;
+    use crate::technique::GpuStruct;
 
     #[test]
     fn the_uniform_block_has_the_same_layout_in_wgsl_and_rust() {
         let module = compose("sdsm.wgsl", &[]).unwrap();
-        let fields = [
-            ("views", offset_of!(Fit, views)),
-            ("cascades", offset_of!(Fit, cascades)),
-            ("lights", offset_of!(Fit, lights)),
-            ("lambda", offset_of!(Fit, lambda)),
-            ("map_size_px", offset_of!(Fit, map_size_px)),
-            ("nearest", offset_of!(Fit, nearest)),
-            ("farthest", offset_of!(Fit, farthest)),
-            ("nearness", offset_of!(Fit, nearness)),
-        ];
-        layout::check(&module, "Fit", size_of::<Fit>(), &fields).unwrap();
+        GpuStruct::new::<Fit>("Fit").check(&module).unwrap();
     }
 }
