@@ -1,6 +1,6 @@
 //! Settings of shadows.
 //!
-//! Each setting is declared once, by [`declare_settings!`](crate::declare_settings); see `describe.rs` for what follows from that.
+//! Each setting is declared once, by [`declare_settings!`](crate::declare_settings); `describe` has what follows from that.
 
 mod atlas;
 mod bias;

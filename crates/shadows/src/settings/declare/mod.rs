@@ -1,4 +1,9 @@
-//! The declaration of structs and enums of settings, and their validation.
+//! The declaration of structs and enums of settings.
+
+mod check;
+mod setting;
+
+pub use check::SettingValue;
 
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
@@ -27,107 +32,6 @@ pub trait DescribeSettings {
             SettingType::Struct(fields) => fields,
             _ => &[],
         }
-    }
-}
-
-/// A value that [`declare_settings!`](crate::declare_settings) can check.
-pub trait SettingValue {
-    /// Checks the value of a setting.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] with the setting's name, the value and what is allowed.
-    fn check(&self, setting: &Setting) -> Result<(), Error>;
-
-    /// Appends a number or a toggle, four bytes, for a shader; nothing for other types.
-    fn write_scalar(&self, _bytes: &mut Vec<u8>) {}
-}
-
-impl<T: DescribeSettings> SettingValue for T {
-    fn check(&self, setting: &Setting) -> Result<(), Error> {
-        self.validate().map_err(|error| error.inside(setting.name))
-    }
-}
-
-impl SettingValue for bool {
-    fn check(&self, _setting: &Setting) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn write_scalar(&self, bytes: &mut Vec<u8>) {
-        u32::from(*self).write_scalar(bytes);
-    }
-}
-
-impl SettingValue for u32 {
-    fn check(&self, setting: &Setting) -> Result<(), Error> {
-        let value = i64::from(*self);
-        let fits = match setting.ty {
-            SettingType::Integer(_, low, high) => (low..=high).contains(&value),
-            SettingType::PowerOfTwo(_, low, high) => self.is_power_of_two() && (low..=high).contains(&value),
-            _ => true,
-        };
-        if fits { Ok(()) } else { Err(Error::invalid(setting, self)) }
-    }
-
-    fn write_scalar(&self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.to_ne_bytes());
-    }
-}
-
-impl SettingValue for f32 {
-    // In 32 bits, as 0.1 is above 0.1 in 64. NaN is refused.
-    fn check(&self, setting: &Setting) -> Result<(), Error> {
-        match setting.ty {
-            SettingType::Number(_, low, high) if !(low as f32..=high as f32).contains(self) => {
-                Err(Error::invalid(setting, self))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn write_scalar(&self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.to_ne_bytes());
-    }
-}
-
-impl SettingValue for f64 {
-    fn check(&self, setting: &Setting) -> Result<(), Error> {
-        match setting.ty {
-            SettingType::Number(_, low, high) if !(low..=high).contains(self) => {
-                Err(Error::invalid(setting, self))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn write_scalar(&self, bytes: &mut Vec<u8>) {
-        (*self as f32).write_scalar(bytes);
-    }
-}
-
-impl<T: SettingValue> SettingValue for Option<T> {
-    fn check(&self, setting: &Setting) -> Result<(), Error> {
-        let inner = match setting.ty {
-            SettingType::Optional(inner) => *inner,
-            other => other,
-        };
-        self.as_ref().map_or(Ok(()), |value| value.check(&Setting { ty: inner, ..*setting }))
-    }
-}
-
-impl<T: SettingValue> SettingValue for Vec<T> {
-    fn check(&self, setting: &Setting) -> Result<(), Error> {
-        let SettingType::List(_, item) = setting.ty else { return Ok(()) };
-        for (index, value) in self.iter().enumerate() {
-            let checked =
-                value.check(&Setting { name: "", ty: *item, unit: setting.unit, note: "", about: "" });
-            checked.map_err(|error| match item {
-                SettingType::Struct(_) => error.inside(&index.to_string()).inside(setting.name),
-                // What is wrong with a number is best said of the list.
-                _ => error.allowing(setting.allowed()).inside(setting.name),
-            })?;
-        }
-        Ok(())
     }
 }
 
@@ -241,7 +145,7 @@ macro_rules! declare_settings {
         impl $Name {
             /// Description of each field.
             $vis const SETTINGS: &'static [$crate::Setting] = &[$(
-                $crate::declare_settings!(
+                $crate::describe_setting!(
                     @setting stringify!($field), [$($doc)*], [$($unit)?], [$($note)?],
                     $T $(<$A>)?, $default $(, range $low $high)? $(, powers $least $most)?
                 ),
@@ -308,7 +212,7 @@ macro_rules! declare_settings {
                     note: "",
                     about: concat!($($key_doc,)*).trim_ascii(),
                 },
-                $($crate::declare_settings!(
+                $($crate::describe_setting!(
                     @setting stringify!($field), [$($doc)*], [$($unit)?], [$($note)?],
                     $T $(<$A>)?, $default $(, range $low $high)?
                 ),)*
@@ -421,7 +325,7 @@ macro_rules! declare_settings {
                 $crate::Variant {
                     name: stringify!($Variant),
                     about: concat!($($doc,)*).trim_ascii(),
-                    payload: $crate::declare_settings!(
+                    payload: $crate::describe_setting!(
                         @payload
                         $((@setting "", [], [$($unit)?], [$($note)?], $P $(<$B>)?, $payload $(, range $low $high)?))?
                         $({ $(
@@ -443,12 +347,12 @@ macro_rules! declare_settings {
                     let payload = variants.next().map(|variant| variant.payload);
                     let _used = &payload;
                     if let Self::$Variant
-                        $(($crate::declare_settings!(@payload_name $P value)))?
+                        $(($crate::describe_setting!(@payload_name $P value)))?
                         $({ $($field),* })? = self
                     {
                         $(
                             if let ::core::option::Option::Some($crate::Payload::Value(setting)) = payload {
-                                $crate::SettingValue::check($crate::declare_settings!(@payload_name $P value), setting)?;
+                                $crate::SettingValue::check($crate::describe_setting!(@payload_name $P value), setting)?;
                             }
                         )?
                         $(
@@ -464,66 +368,5 @@ macro_rules! declare_settings {
                 ::core::result::Result::Ok(())
             }
         }
-    };
-
-    (@setting $name:expr, [$($doc:literal)*], [$($unit:literal)?], [$($note:literal)?], $($ty:tt)+) => {
-        $crate::Setting {
-            name: $name,
-            ty: $crate::declare_settings!(@type $($ty)+),
-            unit: concat!($($unit)?),
-            note: concat!($($note)?),
-            about: concat!($($doc,)*).trim_ascii(),
-        }
-    };
-
-    (@payload) => { $crate::Payload::Empty };
-    (@payload ($($setting:tt)+)) => {{
-        const SETTING: &$crate::Setting = &$crate::declare_settings!($($setting)+);
-        $crate::Payload::Value(SETTING)
-    }};
-    (@payload { $(($($setting:tt)+))* }) => {{
-        const SETTINGS: &[$crate::Setting] = &[$($crate::declare_settings!($($setting)+),)*];
-        $crate::Payload::Fields(SETTINGS)
-    }};
-
-    // Repeats a name once for each payload.
-    (@payload_name $type:ident $name:ident) => { $name };
-
-    (@type bool, $default:expr) => { $crate::SettingType::Toggle($default) };
-    (@type u32, $default:expr, range $low:literal $high:literal) => {
-        $crate::SettingType::Integer($default as i64, $low, $high)
-    };
-    (@type u32, $default:expr, powers $low:literal $high:literal) => {
-        $crate::SettingType::PowerOfTwo($default as i64, $low, $high)
-    };
-    (@type f32, $default:expr, range $low:literal $high:literal) => {
-        $crate::SettingType::Number($default as f64, $low as f64, $high as f64)
-    };
-    (@type f64, $default:expr, range $low:literal $high:literal) => {
-        $crate::SettingType::Number($default as f64, $low as f64, $high as f64)
-    };
-    (@type Vec<f32>, $default:expr, range $low:literal $high:literal) => {
-        $crate::SettingType::List(
-            || { let value: Vec<f32> = $default; $crate::__settings::json(&value) },
-            &$crate::SettingType::Number($low as f64, $low as f64, $high as f64),
-        )
-    };
-    (@type Vec<$Item:ident>, $default:expr) => {
-        $crate::SettingType::List(
-            || { let value: Vec<$Item> = $default; $crate::__settings::json(&value) },
-            &<$Item as $crate::DescribeSettings>::TYPE,
-        )
-    };
-    (@type Option<f32>, $default:expr, range $low:literal $high:literal) => {
-        $crate::SettingType::Optional(&$crate::SettingType::Number($low as f64, $low as f64, $high as f64))
-    };
-    (@type Option<$Inner:ident>, $default:expr) => {
-        $crate::SettingType::Optional(&<$Inner as $crate::DescribeSettings>::TYPE)
-    };
-    (@type $Type:ident, $default:expr) => {
-        <$Type as $crate::DescribeSettings>::TYPE.with_default(|| $crate::__settings::json(&{
-            let value: $Type = $default;
-            value
-        }))
     };
 }
