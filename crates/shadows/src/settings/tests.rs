@@ -2,9 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 use proptest::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::*;
+use crate::budget::{BudgetConfig, QualityLevel};
 use crate::registry::Techniques;
 
 /// A struct of settings without its type: descriptions, defaults, and a check of JSON.
@@ -29,6 +32,20 @@ fn shared() -> Declared {
     }
 }
 
+fn declared_struct<S: DescribeSettings + Default + Serialize + DeserializeOwned>(
+    name: &'static str,
+) -> Declared {
+    Declared {
+        name,
+        settings: S::settings(),
+        defaults: json(&S::default()),
+        check: Box::new(|value| {
+            let read: S = serde_json::from_value(value).map_err(|error| error.to_string())?;
+            read.validate().map_err(|error| error.to_string())
+        }),
+    }
+}
+
 fn declared() -> Vec<Declared> {
     let techniques = Techniques::built_in();
     let names: Vec<&'static str> = techniques.with_settings().collect();
@@ -44,7 +61,8 @@ fn declared() -> Vec<Declared> {
             }),
         }
     });
-    std::iter::once(shared()).chain(of_techniques).collect()
+    let budget = [declared_struct::<BudgetConfig>("budget"), declared_struct::<QualityLevel>("level")];
+    std::iter::once(shared()).chain(of_techniques).chain(budget).collect()
 }
 
 /// All settings below these that are not structs, with their paths as JSON pointers.

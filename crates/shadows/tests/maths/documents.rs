@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use shadowgraph_shadows::{LightShadows, ShadowSettings, Techniques, settings_file};
+use shadowgraph_shadows::{
+    BudgetConfig, LightShadows, QualityLevel, ShadowSettings, Techniques, settings_file,
+};
 
 /// The files with all settings in `docs/shadows.md`, written from the descriptions.
 fn documented() -> String {
@@ -14,13 +16,19 @@ fn documented() -> String {
         let fields = settings_file(techniques.describe_settings(name), 3);
         own += &format!("        \"{name}\": (\n{fields}        ),\n");
     }
+    let [budget, levels] = BudgetConfig::SETTINGS else { panic!("{:?}", BudgetConfig::SETTINGS) };
+    let budget = settings_file(std::slice::from_ref(budget), 1);
+    let levels = format!("    levels: [ // {}\n", levels.allowed());
+    let level = settings_file(QualityLevel::SETTINGS, 3);
     format!(
         "Every field with its default. An empty struct, `()`, means the same.\n\n\
          ```ron\n(\n{all})\n```\n\n\
          In an entry of `lights`, every field but `light` can be left out:\n\n\
          ```ron\n(\n    lights: [\n        (\n{light}        ),\n    ],\n)\n```\n\n\
          The settings of techniques and modifiers, in `techniques`:\n\n\
-         ```ron\n(\n    techniques: {{\n{own}    }},\n)\n```\n"
+         ```ron\n(\n    techniques: {{\n{own}    }},\n)\n```\n\n\
+         A time budget (`BudgetConfig`, row 28), which code can read from RON:\n\n\
+         ```ron budget\n(\n{budget}{levels}        (\n{level}        ),\n    ],\n)\n```\n"
     )
 }
 

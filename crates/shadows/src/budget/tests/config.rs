@@ -35,20 +35,20 @@ fn values_out_of_range_are_rejected_by_name() {
     for scale in [0, 3, 16] {
         assert_eq!(
             rejected_field(|config| config.levels[7].map_scale = scale),
-            Some("levels.map_scale"),
+            Some("levels.7.map_scale"),
             "{scale}"
         );
     }
     for count in [0, 9] {
         assert_eq!(
             rejected_field(|config| config.levels[7].cascades = count),
-            Some("levels.cascades"),
+            Some("levels.7.cascades"),
             "{count}"
         );
     }
     for scale in [0.0, 0.049, 1.01, f32::NAN] {
         let field = rejected_field(|config| config.levels[7].distance_scale = scale);
-        assert_eq!(field, Some("levels.distance_scale"), "{scale}");
+        assert_eq!(field, Some("levels.7.distance_scale"), "{scale}");
     }
 }
 
