@@ -34,19 +34,19 @@ impl Node for Fog {
             SettingType::Color([1.0; 3]),
             "the fraction of light that is scattered and not absorbed",
         ),
-        Setting::new("density", SettingType::Number(0.01, 0.0, 10.0), "extinction").in_units("per m"),
+        Setting::new("density", SettingType::Number(0.01, 0.0, 10.0), "extinction").in_units("per metre"),
         Setting::new(
             "height_m",
             SettingType::Number(4.0, -1e5, 1e5),
             "the height up to which density is constant",
         )
-        .in_units("m"),
+        .in_units("metres"),
         Setting::new(
             "falloff",
             SettingType::Number(0.1, 0.0, 100.0),
             "exponential falloff of density above `height_m`",
         )
-        .in_units("per m"),
+        .in_units("per metre"),
         Setting::new(
             "anisotropy",
             SettingType::Number(0.4, -0.95, 0.95),
@@ -57,7 +57,7 @@ impl Node for Fog {
             SettingType::Number(80.0, 0.01, 1e6),
             "the distance that rays are marched",
         )
-        .in_units("m"),
+        .in_units("metres"),
         Setting::new("steps", SettingType::Integer(24, 1, 256), "ray-marching steps"),
     ];
 

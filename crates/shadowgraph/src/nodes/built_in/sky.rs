@@ -33,7 +33,7 @@ impl Node for Sky {
             SettingType::Number(0.012, 0.0, 0.5),
             "angular radius of the discs; the sun's is 0.00465",
         )
-        .in_units("rad"),
+        .in_units("radians"),
         Setting::new("haze", SettingType::Number(0.8, 0.0, 10.0), "extra brightness of the horizon"),
     ];
 

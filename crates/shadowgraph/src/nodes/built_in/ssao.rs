@@ -35,7 +35,7 @@ impl Node for Ssao {
             SettingType::Number(0.8, 0.01, 100.0),
             "radius within which geometry occludes",
         )
-        .in_units("m"),
+        .in_units("metres"),
         Setting::new("power", SettingType::Number(1.0, 0.1, 8.0), "exponent; values above 1 darken corners"),
         Setting::new("slices", SettingType::Integer(3, 1, 8), "directions in which the horizon is searched"),
         Setting::new("steps", SettingType::Integer(4, 1, 16), "steps per direction"),
