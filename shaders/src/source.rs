@@ -23,7 +23,7 @@ macro_rules! file {
     ($file:literal) => {
         ModuleSource {
             file: Cow::Borrowed($file),
-            source: Cow::Borrowed(include_str!(concat!("../wgsl/", $file))),
+            source: Cow::Borrowed(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/wgsl/", $file))),
         }
     };
 }
@@ -104,35 +104,8 @@ pub(crate) const MODULES: &[ModuleSource] = &[
 /// The built-in modules with the import path [`TECHNIQUE`], of which the caller passes one.
 pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED];
 
-/// The files with entry points.
-pub(crate) const ENTRIES: &[ModuleSource] = &[
-    file!("blur.wgsl"),
-    file!("check.wgsl"),
-    file!("clusters.wgsl"),
-    file!("collect.wgsl"),
-    file!("contact.wgsl"),
-    file!("deferred.wgsl"),
-    file!("denoise.wgsl"),
-    file!("depth.wgsl"),
-    file!("forward.wgsl"),
-    file!("gbuffer.wgsl"),
-    file!("post/bloom.wgsl"),
-    file!("post/bloom_mix.wgsl"),
-    file!("post/fog.wgsl"),
-    file!("post/fxaa.wgsl"),
-    file!("post/occlusion.wgsl"),
-    file!("post/occlusion_blur.wgsl"),
-    file!("post/overlay.wgsl"),
-    file!("post/pyramid.wgsl"),
-    file!("post/pyramid_halve.wgsl"),
-    file!("post/sky.wgsl"),
-    file!("post/temporal.wgsl"),
-    file!("probe.wgsl"),
-    file!("raytrace.wgsl"),
-    file!("sdsm.wgsl"),
-    file!("show.wgsl"),
-    file!("tonemap.wgsl"),
-];
+// The files with entry points, `ENTRIES`: `build.rs` lists all files that are not modules.
+include!(concat!(env!("OUT_DIR"), "/entries.rs"));
 
 /// The import path of every shadow technique's module.
 pub(crate) const TECHNIQUE: &str = "shadowgraph::technique";

@@ -105,13 +105,11 @@ fn a_missing_technique_is_an_error_that_lists_the_built_in_ones() {
 #[test]
 fn an_unknown_entry_file_is_an_error_that_lists_the_existing_ones() {
     let text = compose("foward.wgsl", &[]).unwrap_err().to_string();
-    assert_eq!(
-        text,
-        "unknown built-in entry file `foward.wgsl`; expected one of: blur.wgsl, check.wgsl, clusters.wgsl, collect.wgsl, contact.wgsl, deferred.wgsl, \
-         denoise.wgsl, depth.wgsl, forward.wgsl, gbuffer.wgsl, post/bloom.wgsl, post/bloom_mix.wgsl, post/fog.wgsl, \
-         post/fxaa.wgsl, post/occlusion.wgsl, post/occlusion_blur.wgsl, post/overlay.wgsl, post/pyramid.wgsl, post/pyramid_halve.wgsl, post/sky.wgsl, post/temporal.wgsl, probe.wgsl, \
-         raytrace.wgsl, sdsm.wgsl, show.wgsl, tonemap.wgsl"
-    );
+    let start =
+        "unknown built-in entry file `foward.wgsl`; expected one of: blur.wgsl, check.wgsl, clusters.wgsl, ";
+    assert!(text.starts_with(start), "{text}");
+    assert!(text.contains(", gbuffer.wgsl, post/bloom.wgsl, ") && text.ends_with(", tonemap.wgsl"), "{text}");
+    assert!(!text.contains("view.wgsl") && !text.contains("prefilter.wgsl"), "{text}");
     // A module is no entry file.
     assert!(compose("view.wgsl", &[]).is_err());
 }
