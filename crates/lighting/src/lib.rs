@@ -33,6 +33,7 @@ pub use exposure::{AmbientLight, KeyLight};
 pub use forward::{Forward, LitOutput, LitPipelines, LitTarget};
 pub use gbuffer::{GBuffer, GBufferPass};
 pub use prepass::{Geometry, Prepass};
+pub use shader::fullscreen as fullscreen_shader;
 pub use tonemap::Tonemap;
 pub use uniforms::{GpuLight, GpuView, ViewBuffers, ViewUniforms};
 

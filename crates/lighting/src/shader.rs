@@ -20,8 +20,11 @@ pub(crate) fn module(
     }))
 }
 
-/// Composes a built-in fullscreen shader with the fragment entry point `entry`.
-pub(crate) fn fullscreen(
+/// Composes a built-in file with the fragment entry point `entry` into a shader for fullscreen passes.
+///
+/// # Errors
+/// Never with the built-in WGSL.
+pub fn fullscreen(
     device: &wgpu::Device,
     file: &'static str,
     entry: &'static str,

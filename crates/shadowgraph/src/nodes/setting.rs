@@ -10,12 +10,15 @@ use crate::error::Error;
 pub struct Settings {
     kind: &'static str,
     values: Vec<(&'static str, Value)>,
+    scalars: Vec<u8>,
 }
 
 impl Settings {
     /// Creates settings from checked values.
-    pub(crate) fn new(kind: &'static str, values: Vec<(&'static str, Value)>) -> Self {
-        Self { kind, values }
+    pub(crate) fn new(kind: &'static str, values: Vec<(&'static Setting, Value)>) -> Self {
+        let scalars = values.iter().filter_map(|(setting, value)| scalar(setting, value)).flatten().collect();
+        let values = values.into_iter().map(|(setting, value)| (setting.name, value)).collect();
+        Self { kind, values, scalars }
     }
 
     fn get<'s, T>(&'s self, name: &str, read: impl FnOnce(&'s Value) -> Option<T>) -> Result<T, Error> {
@@ -24,6 +27,12 @@ impl Settings {
             kind: self.kind,
             reason: format!("it reads a setting `{name}` that it does not declare, or as another type"),
         })
+    }
+
+    /// Returns all integers, numbers and toggles in the order of their declaration, four bytes each: a struct of `i32`, `u32` and `f32`
+    /// in WGSL, where a toggle is a `u32`, 0 or 1.
+    pub fn scalars(&self) -> &[u8] {
+        &self.scalars
     }
 
     /// Returns the value of an [`SettingType::Toggle`].
@@ -64,5 +73,17 @@ impl Settings {
     /// As [`toggle`](Self::toggle).
     pub fn color(&self, name: &str) -> Result<[f32; 3], Error> {
         self.get(name, |value| shadowgraph_shadows::color(value).map(|color| color.map(|part| part as f32)))
+    }
+}
+
+/// Returns the bytes of a number or a toggle.
+fn scalar(setting: &Setting, value: &Value) -> Option<[u8; 4]> {
+    match setting.ty {
+        SettingType::Toggle(_) => Some(u32::from(value.as_bool()?).to_ne_bytes()),
+        SettingType::Integer(..) | SettingType::PowerOfTwo(..) => {
+            Some((value.as_i64()? as u32).to_ne_bytes())
+        }
+        SettingType::Number(..) => Some((value.as_f64()? as f32).to_ne_bytes()),
+        _ => None,
     }
 }

@@ -83,16 +83,16 @@ fn every_built_in_kind_is_valid_and_describes_everything() {
 
 #[test]
 fn values_out_of_range_or_of_another_type_are_errors_with_what_is_allowed() {
-    let check = |ty, value| Setting::new("n", ty, "").in_units("m").check(&value);
+    let check = |ty, value| Setting::new("n", ty, "").in_units("metres").check(&value);
     assert_eq!(check(SettingType::Toggle(true), json!(false)), Ok(()));
     assert!(check(SettingType::Toggle(true), json!(1)).unwrap_err().contains("true or false"));
     assert_eq!(check(SettingType::Number(0.5, 0.0, 1.0), json!(1)), Ok(()));
     let high = check(SettingType::Number(0.5, 0.0, 1.0), json!(1.5)).unwrap_err();
-    assert_eq!(high, "n is 1.5; allowed: 0 to 1 (m)");
+    assert_eq!(high, "n is 1.5; allowed: 0 to 1 (metres)");
     let text = check(SettingType::Number(0.5, 0.0, 1.0), json!("1")).unwrap_err();
-    assert_eq!(text, "n is \"1\"; allowed: a number, 0 to 1 (m)");
+    assert_eq!(text, "n is \"1\"; allowed: a number, 0 to 1 (metres)");
     let fraction = check(SettingType::Integer(1, 0, 4), json!(0.5)).unwrap_err();
-    assert_eq!(fraction, "n is 0.5; allowed: an integer, 0 to 4 (m)");
+    assert_eq!(fraction, "n is 0.5; allowed: an integer, 0 to 4 (metres)");
     assert!(check(SettingType::Choice("a", &["a", "b"]), json!("c")).unwrap_err().contains("one of a, b"));
     assert_eq!(check(SettingType::Text(""), json!("any")), Ok(()));
     assert_eq!(check(SettingType::Color([0.0; 3]), json!([1, 0.5, 0])), Ok(()));
@@ -103,9 +103,24 @@ fn values_out_of_range_or_of_another_type_are_errors_with_what_is_allowed() {
 
 #[test]
 fn reading_a_setting_that_is_not_declared_is_an_error_of_the_kind() {
-    let settings = Settings::new("mine", vec![("radius", json!(0.5))]);
+    const RADIUS: Setting = Setting::new("radius", SettingType::Number(0.5, 0.0, 1.0), "");
+    let settings = Settings::new("mine", vec![(&RADIUS, json!(0.5))]);
     assert_eq!(settings.number("radius").unwrap(), 0.5);
     for error in [settings.number("radios").unwrap_err(), settings.toggle("radius").unwrap_err()] {
         assert!(error.to_string().contains("invalid node kind `mine`"), "{error}");
     }
+}
+
+#[test]
+fn scalars_are_written_in_their_order() {
+    static SETTINGS: [Setting; 4] = [
+        Setting::new("on", SettingType::Toggle(false), ""),
+        Setting::new("curve", SettingType::Choice("a", &["a", "b"]), ""),
+        Setting::new("steps", SettingType::Integer(8, -9, 9), ""),
+        Setting::new("radius", SettingType::Number(0.5, 0.0, 9.0), ""),
+    ];
+    let values = [json!(true), json!("b"), json!(-1), json!(2)];
+    let settings = Settings::new("mine", SETTINGS.iter().zip(values).collect());
+    let expected = [1u32.to_ne_bytes(), u32::MAX.to_ne_bytes(), 2.0f32.to_ne_bytes()];
+    assert_eq!(settings.scalars(), expected.concat());
 }

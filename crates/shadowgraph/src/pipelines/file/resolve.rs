@@ -153,7 +153,7 @@ fn settings(
             let problem = format!("`{}`: {error}{}", entry.name.value, parameter.unwrap_or_default());
             return Err(given.error(problem));
         }
-        values.push((setting.name, value));
+        values.push((setting, value));
     }
     Ok(Settings::new(kind.name, values))
 }
