@@ -1,12 +1,12 @@
 //! Pipelines: each renders the same shadows, from files and from scripts, with built-in and custom nodes.
 
+use crate::scenes::{RealScene, real_scenes};
 use crate::stage::gpu;
-use shadowgraph::options::{Aov, ShadowDistance, SunChoice};
+use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::pipelines::{BUILT_IN, Parameters};
 use shadowgraph::scene::Scene;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
-use std::path::PathBuf;
 
 fn options(scene: &Scene, size_px: [u32; 2]) -> ViewOptions {
     let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
@@ -27,33 +27,17 @@ fn differing(a: &RenderedImage, b: &RenderedImage) -> f64 {
     differ as f64 / (a.rgba8.len() / 4) as f64
 }
 
-/// Returns the shared scenes; `None` where they are missing.
-fn scenes() -> Option<Vec<PathBuf>> {
-    let Some(dir) = shadowgraph_tests::shared("scenes") else {
-        shadowgraph_tests::skip("scenes", "the collection of real scenes is missing (SHADOWGRAPH_SHARED)");
-        return None;
-    };
-    let files = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path());
-    let is_scene = |file: &PathBuf| file.extension().is_some_and(|extension| extension == "glb");
-    let mut files: Vec<_> = files.filter(is_scene).collect();
-    files.sort();
-    Some(files)
-}
-
 #[test]
 fn forward_forward_plus_and_deferred_give_real_scenes_the_same_shadows() {
     let Some(gpu) = gpu() else { return };
-    let Some(files) = scenes() else { return };
-    for file in files {
-        let mut scene = shadowgraph::scene::gltf::load(&file).unwrap();
-        SunChoice::default().apply(&mut scene);
+    for RealScene { name: scene_name, scene, .. } in real_scenes().unwrap_or_default() {
         let visibility =
-            |pipeline: Pipeline| picture(gpu, &scene, Aov::Visibility(0), pipeline.into(), [256, 144]);
+            |pipeline: Pipeline| picture(gpu, scene, Aov::Visibility(0), pipeline.into(), [256, 144]);
         let forward = visibility(Pipeline::forward());
         for pipeline in [Pipeline::forward_plus(), Pipeline::deferred()] {
             let name = pipeline.name().to_owned();
             let share = differing(&forward, &visibility(pipeline));
-            assert!(share <= 0.001, "{}, {name}: {share}", file.display());
+            assert!(share <= 0.001, "{scene_name}, {name}: {share}");
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The technique `raytraced` on a GPU: equal to rays of the CPU and to a brute-force test of all triangles.
 
+use crate::scenes::{RealScene, real_scenes};
 use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
 use glam::{DVec3, Vec4};
-use shadowgraph::options::{Aov, SunChoice};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene, TextureRef};
 use shadowgraph::shadows::RAYTRACED;
 use shadowgraph::shadows::rays::{LightShape, RayScene, ReceiverPoint};
@@ -146,21 +147,8 @@ fn leaf_scene() -> Scene {
 #[test]
 fn in_every_real_scene_gpu_rays_match_cpu_rays() {
     let Some(gpu) = gpu() else { return };
-    let Some(dir) = shadowgraph_tests::shared("scenes") else {
-        return shadowgraph_tests::skip(
-            "raytraced_scenes",
-            "the collection of real scenes is missing (SHADOWGRAPH_SHARED)",
-        );
-    };
-    let mut files: Vec<_> = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|file| file.extension().is_some_and(|extension| extension == "glb"));
-    files.sort();
-    for file in files {
-        let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-        let mut scene = shadowgraph::scene::gltf::load(&file).unwrap();
-        SunChoice::default().apply(&mut scene);
-        let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
+    for RealScene { name, scene, camera } in real_scenes().unwrap_or_default() {
         let Some(casts) = scene.lights.iter().position(|light| light.casts_shadow) else { continue };
-        assert_agree(&name, traced(gpu, &scene, &camera, casts).unlike_the_cpu());
+        assert_agree(name, traced(gpu, scene, camera, casts).unlike_the_cpu());
     }
 }
