@@ -28,6 +28,12 @@ pub fn shared(dir: &str) -> Option<PathBuf> {
     Some(base.join(dir)).filter(|path| path.is_dir())
 }
 
+/// Returns the directory into which tests write images of the documents: `cargo xtask docs` sets it.
+#[must_use]
+pub fn images() -> Option<PathBuf> {
+    std::env::var_os("SHADOWGRAPH_IMAGES").map(PathBuf::from)
+}
+
 /// Records that a test cannot run here; the test returns right after.
 ///
 /// The line `SKIP <id>: <reason>` goes to standard output and to the file that `SHADOWGRAPH_SKIP_LOG`

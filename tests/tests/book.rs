@@ -1,6 +1,8 @@
 //! The book: every page is in it, its includes and links lead somewhere, and mdBook can read it.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
+use shadowgraph::options::SettingsFile;
+use shadowgraph::shadows::Techniques;
 use shadowgraph_tests::repository;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -79,20 +81,54 @@ fn no_link_of_the_documents_is_dead() {
     assert!(dead.is_empty(), "{}", dead.join("\n"));
 }
 
-#[test]
-fn every_image_of_the_documents_is_used() {
-    let texts: String = pages().iter().map(|page| prose(page)).collect();
-    let mut dirs = vec![repository().join("docs/images")];
+/// Returns the paths of all images, relative to `docs/images`.
+fn images() -> BTreeSet<String> {
+    let root = repository().join("docs/images");
+    let mut names = BTreeSet::new();
+    let mut dirs = vec![root.clone()];
     while let Some(dir) = dirs.pop() {
         for path in std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()) {
             if path.is_dir() {
                 dirs.push(path);
-                continue;
+            } else {
+                names.insert(path.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"));
             }
-            let name = path.strip_prefix(repository().join("docs")).unwrap().to_string_lossy().into_owned();
-            assert!(texts.contains(&format!("]({name})")), "{name} is in no page");
         }
     }
+    names
+}
+
+#[test]
+fn every_image_of_the_documents_is_used() {
+    let texts: String = pages().iter().map(|page| prose(page)).collect();
+    for name in images() {
+        assert!(texts.contains(&format!("](images/{name})")), "{name} is in no page");
+    }
+}
+
+#[test]
+fn every_image_of_the_documents_is_drawn_by_a_command() {
+    let list = std::fs::read_to_string(repository().join("xtask/images.txt")).unwrap();
+    let names = list.lines().filter(|line| !line.is_empty() && !line.starts_with(['#', ' ']));
+    let drawn: BTreeSet<String> =
+        names.map(|line| format!("{}.png", line.split(' ').next().unwrap())).collect();
+    assert_eq!(drawn, images(), "xtask/images.txt and docs/images");
+}
+
+#[test]
+fn the_settings_of_every_drawn_image_are_valid() {
+    let list = std::fs::read_to_string(repository().join("xtask/images.txt")).unwrap();
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let mut count = 0;
+    for line in list.lines().filter(|line| !line.starts_with('#')) {
+        let Some((_, settings)) = line.split_once(" settings ") else { continue };
+        let settings = settings.split_once(" -> ").map_or(settings, |(settings, _)| settings);
+        std::fs::write(file.path(), settings).unwrap();
+        let loaded = SettingsFile::load(file.path(), &Techniques::built_in());
+        assert!(loaded.is_ok(), "{line}: {:?}", loaded.err());
+        count += 1;
+    }
+    assert!(count > 40, "{count}");
 }
 
 /// Returns the targets of a page's `{{#include target}}`, the page's only preprocessor command.

@@ -9,8 +9,10 @@ mod child;
 mod demo;
 mod docs;
 mod driver;
+mod images;
 mod machine;
 mod members;
+mod recipes;
 mod report;
 mod soak;
 mod steps;
@@ -29,7 +31,7 @@ Shadowgraph's commands:
 
 Needed less often:
 
-  cargo xtask docs    render the images of the documents, and build the book (with mdbook) in out/book
+  cargo xtask docs    draw the images of the documents, and build the book (with mdbook) in out/book
   cargo xtask soak    parse a million broken files, and render 10000 frames of random pipelines, sizes,
                       techniques and lights; for another number of frames: cargo xtask soak 2000
 

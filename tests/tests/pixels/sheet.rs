@@ -43,7 +43,7 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
     for (row, (name, config)) in configs().into_iter().enumerate() {
-        let pictures = pictures(gpu, config.clone(), row == 0);
+        let pictures = pictures(gpu, config.clone(), CELL_PX, row == 0);
         if row == 0 {
             truth.clone_from(&pictures);
         }
@@ -61,18 +61,23 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
             }
         }
     }
-    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("contact_sheet.png");
+    let dir = shadowgraph_tests::images().unwrap_or_else(|| env!("CARGO_TARGET_TMPDIR").into());
+    let file = dir.join("contact_sheet.png");
     sheet.0.save(&file).unwrap();
     println!("wrote {}", file.display());
+    if let Some(dir) = shadowgraph_tests::images() {
+        let under_spots = pictures(gpu, PCF.into(), [640, 320], false).swap_remove(1);
+        RgbaImage::from_raw(640, 320, under_spots.rgba8).unwrap().save(dir.join("panels.png")).unwrap();
+    }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Renders an image for each mix of lights.
-fn pictures(gpu: &Gpu, config: RenderConfig, is_truth: bool) -> Vec<RenderedImage> {
+fn pictures(gpu: &Gpu, config: RenderConfig, size_px: [u32; 2], is_truth: bool) -> Vec<RenderedImage> {
     let mut scene = demo_scene();
     add_panels(&mut scene);
     let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
-    let options = ViewOptions { size_px: CELL_PX, ..view(camera, 80.0) };
+    let options = ViewOptions { size_px, ..view(camera, 80.0) };
     let mut options = if is_truth { hard(&options) } else { options };
     options.shadows.cascades.map_size_px = 2048;
     let own = scene.lights.clone();

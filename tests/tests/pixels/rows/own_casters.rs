@@ -3,6 +3,8 @@
 use crate::maps::{Map, draw_map};
 use crate::stage::{camera, gpu, sun};
 use glam::DVec3;
+use image::imageops::{FilterType, resize};
+use image::{GrayImage, Luma};
 use shadowgraph::scene::{Aabb, CullVolume};
 use shadowgraph::shadows::{
     CasterView, CullSettings, Pcf, ShadowCasters, ShadowSettings, TileKind, caster_view_layout,
@@ -113,11 +115,23 @@ fn covered(map: &Map) -> Vec<bool> {
     map.depth.iter().map(|depth| *depth > 0.0).collect()
 }
 
+/// Returns the covered texels of the first tile, white, as an image for the documents.
+fn first_tile(map: &Map) -> GrayImage {
+    let rect = map.plan.cascades.as_ref().unwrap().tiles[0].rect;
+    let white = |x: u32, y: u32| Luma([255 * u8::from(map.at(rect.x + x, rect.y + y) > 0.0)]);
+    resize(&GrayImage::from_fn(rect.width, rect.height, white), 400, 400, FilterType::Triangle)
+}
+
 #[test]
 fn row_39_custom_casters_animate_vertices_and_draw_instances() {
     let Some(gpu) = gpu() else { return };
     let (still, swayed) = (Reeds::new(&gpu.device, 0.0), Reeds::new(&gpu.device, 0.8));
-    let (still, swayed) = (covered(&map(&still).unwrap()), covered(&map(&swayed).unwrap()));
+    let (still, swayed) = (map(&still).unwrap(), map(&swayed).unwrap());
+    if let Some(dir) = shadowgraph_tests::images() {
+        first_tile(&still).save(dir.join("reeds-straight.png")).unwrap();
+        first_tile(&swayed).save(dir.join("reeds-bent.png")).unwrap();
+    }
+    let (still, swayed) = (covered(&still), covered(&swayed));
     let count = |covered: &[bool]| covered.iter().filter(|covered| **covered).count();
     assert!(count(&still) > 10_000 && count(&swayed) > 10_000);
     let moved = still.iter().zip(&swayed).filter(|(a, b)| a != b).count();
