@@ -1,6 +1,5 @@
-//! `shadowgraph bench`: the cost of a frame. Tables are at most 110 columns wide.
+//! `shadowgraph bench`: the cost of a frame.
 
-use std::fmt::Write as _;
 use std::time::Duration;
 
 use super::args::BenchArgs;
@@ -8,9 +7,10 @@ use super::commands::{self, Input};
 use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
-use super::report;
+use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
 use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{Comparison, FrameTime, Stats, compare, pass_times};
 
 /// Number of frames on a real GPU; each is waited for.
@@ -77,43 +77,36 @@ fn table(comparison: &Comparison) -> String {
         ("submit", Some(|time| time.submit), Some(|time| time.submit)),
     ];
     let counts = comparison.counts;
-    let mut out = format!(
+    let heading = format!(
         "CPU time of a frame of {} render passes, {} uploads and {} draws; wgpu's noop device, no driver\n",
         counts.passes, counts.uploads, counts.draws
     );
-    let _ = writeln!(
-        out,
-        "{:<40}{:^28}{:^28}",
-        format!("{} frames each", comparison.graph.len()),
-        "graph",
-        "hand-written"
-    );
-    let _ = writeln!(out, "  {:<38}{}{}", "microseconds", columns("median", "p95"), columns("median", "p95"));
-    for (name, graph, hand_written) in steps {
-        row(&mut out, name, &comparison.graph, graph);
-        out.push_str(&times(&comparison.hand_written, hand_written));
-        out.push('\n');
+    let count = format!("{} frames each", comparison.graph.len());
+    let mut rows = vec![
+        [&*count, "graph", "", "hand-written", ""].map(str::to_owned),
+        ["microseconds", "median", "p95", "median", "p95"].map(str::to_owned),
+    ];
+    let whole: (&str, Option<StepOf>, Option<StepOf>) =
+        ("whole frame", Some(FrameTime::total), Some(FrameTime::total));
+    for (name, graph, hand_written) in steps.into_iter().chain([whole]) {
+        let [graph_median, graph_p95] = times(&comparison.graph, graph);
+        let [median, p95] = times(&comparison.hand_written, hand_written);
+        rows.push([name.into(), graph_median, graph_p95, median, p95]);
     }
-    row(&mut out, "whole frame", &comparison.graph, Some(FrameTime::total));
-    out.push_str(&times(&comparison.hand_written, Some(FrameTime::total)));
-    let _ = writeln!(out, "\n  graph / hand-written, per pair: {}", ratio(comparison.ratio()));
-    let _ = writeln!(out, "  without planning shadows:       {}", ratio(comparison.ratio_without_planning()));
-    out.push_str("  Culling and sorting for the camera is not included.\n");
-    out
+    format!(
+        "{heading}{}\n  graph / hand-written, per pair: {}\n  without planning shadows:       {}\n  \
+         Culling and sorting for the camera is not included.\n",
+        TextTable { alignment: "lrrrr", indent: 2, width: COLUMNS }.format(rows),
+        ratio(comparison.ratio()),
+        ratio(comparison.ratio_without_planning())
+    )
 }
 
-fn row(out: &mut String, name: &str, frames: &[FrameTime], step: Option<StepOf>) {
-    let _ = write!(out, "  {name:<38}{}", times(frames, step));
-}
-
-fn times(frames: &[FrameTime], step: Option<StepOf>) -> String {
-    let Some(step) = step else { return columns("-", "") };
+/// Returns the median and the 95th percentile of a step, microseconds.
+fn times(frames: &[FrameTime], step: Option<StepOf>) -> [String; 2] {
+    let Some(step) = step else { return ["-".into(), String::new()] };
     let spread = Stats::from_samples(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
-    columns(&format!("{:.1}", spread.median), &format!("{:.1}", spread.p95))
-}
-
-fn columns(median: &str, p95: &str) -> String {
-    format!("{median:>14}{p95:>14}")
+    [spread.median, spread.p95].map(|micros| format!("{micros:.1}"))
 }
 
 fn ratio(spread: Stats) -> String {
@@ -123,18 +116,18 @@ fn ratio(spread: Stats) -> String {
 
 /// Formats the times of passes as a table. Names include the path of the node.
 fn pass_table(passes: &[TimeSummary]) -> String {
-    let mut out = format!("  {:<66}{:>14}{:>14}\n", "pass", "CPU us", "GPU ms");
-    let mut row = |name: &str, cpu_ms: f64, gpu_ms: Option<f64>, note: &str| {
+    let mut rows = vec![["pass", "CPU us", "GPU ms", ""].map(str::to_owned)];
+    let mut row = |name: &str, cpu_ms: f64, gpu_ms: Option<f64>, note: String| {
         let gpu = gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}"));
-        let _ = writeln!(out, "  {name:<66}{:>14.1}{gpu:>14}{note}", cpu_ms * 1e3);
+        rows.push([name.into(), format!("{:.1}", cpu_ms * 1e3), gpu, note]);
     };
     for pass in passes {
         let gpu_ms = pass.gpu_ms.map(|gpu_ms| gpu_ms.median);
-        row(&pass.pass, pass.cpu_ms.median, gpu_ms, &report::sharing(gpu_ms.is_some(), pass.shared_by));
+        row(&pass.pass, pass.cpu_ms.median, gpu_ms, report::sharing(gpu_ms.is_some(), pass.shared_by));
     }
     let gpu_ms = passes.iter().filter_map(TimeSummary::gpu_share_ms).reduce(|a, b| a + b);
-    row("sum", passes.iter().map(|pass| pass.cpu_ms.median).sum(), gpu_ms, "");
-    out
+    row("sum", passes.iter().map(|pass| pass.cpu_ms.median).sum(), gpu_ms, String::new());
+    TextTable { alignment: "lrrl", indent: 2, width: COLUMNS }.format(rows)
 }
 
 #[cfg(test)]

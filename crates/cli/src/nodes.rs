@@ -9,6 +9,7 @@ use shadowgraph::Registry;
 use shadowgraph::core::did_you_mean;
 use shadowgraph::pipelines::{BUILT_IN, Pipeline, schema};
 use shadowgraph::shadows::{DescribeSettings, Setting, SettingType, ShadowSettings, Techniques};
+use shadowgraph_quality::TextTable;
 
 /// Prints the overview, a description of one thing, or the JSON Schema of files.
 pub(crate) fn nodes(args: &NodesArgs, registry: &Registry) -> Result<(), Failure> {
@@ -73,7 +74,7 @@ fn technique(name: &str, techniques: &Techniques) -> String {
             },
         };
         let _ = writeln!(out, "technique {title}: {summary}");
-        table(&mut out, "", settings);
+        out += &settings_table(settings);
         if settings.is_empty() {
             out.push_str("  no settings\n");
         }
@@ -83,58 +84,64 @@ fn technique(name: &str, techniques: &Techniques) -> String {
 }
 
 fn shared_settings() -> String {
-    let mut out = String::from(
-        "settings that all techniques share, by their path in a settings file (--settings), with defaults\n",
-    );
-    table(&mut out, "", ShadowSettings::settings());
-    out
+    let heading =
+        "settings that all techniques share, by their path in a settings file (--settings), with defaults\n";
+    heading.to_owned() + &settings_table(ShadowSettings::settings())
 }
 
-/// Writes one line for each setting, with the path of its struct before its name.
-fn table(out: &mut String, parent: &str, settings: &[Setting]) {
+/// Returns one line for each setting.
+fn settings_table(settings: &[Setting]) -> String {
+    let mut rows = Vec::new();
+    add_settings(&mut rows, "", settings);
+    table("lll", rows)
+}
+
+/// Adds a row for each setting, with the path of its struct before its name.
+fn add_settings(rows: &mut Vec<[String; 3]>, parent: &str, settings: &[Setting]) {
     for setting in settings {
         let path = format!("{parent}{}", setting.name);
         match setting.ty {
-            SettingType::Struct(fields) => table(out, &format!("{path}."), fields),
-            SettingType::List(_, SettingType::Struct(fields)) => table(out, &format!("{path}[]."), fields),
-            _ => {
-                let _ = writeln!(out, "  setting  {path:<32} {}", setting.describe());
+            SettingType::Struct(fields) => add_settings(rows, &format!("{path}."), fields),
+            SettingType::List(_, SettingType::Struct(fields)) => {
+                add_settings(rows, &format!("{path}[]."), fields);
             }
+            _ => rows.push(["setting".into(), path, setting.describe()]),
         }
     }
 }
 
-fn all(registry: &Registry) -> String {
-    let Registry { techniques, nodes } = registry;
-    let mut out = String::from("pipelines; `nodes NAME` prints the file of one\n");
-    for pipeline in BUILT_IN.iter().filter_map(|name| name.parse::<Pipeline>().ok()) {
-        let _ = writeln!(out, "  {:<16}{}", pipeline.name(), pipeline.about());
-    }
-    out.push_str("\nnode kinds; `nodes NAME` prints the ports and settings of one\n");
-    for kind in nodes.kinds() {
-        let _ = writeln!(out, "  {:<16}{}", kind.name, kind.about);
-    }
-    out.push_str(
-        "\ntechniques, with the defaults of their settings; `nodes NAME` describes the settings of one\n",
-    );
-    for kind in techniques.kinds() {
-        let _ = writeln!(out, "  {:<16}{}", kind.name, kind.summary);
-        defaults(&mut out, kind.name, kind.settings());
-    }
-    out.push_str(
-        "\nmodifiers of techniques, as in pcf+contact; `nodes contact` describes the settings of one\n",
-    );
-    for modifier in Techniques::modifiers() {
-        let _ = writeln!(out, "  {:<16}{}", format!("+{}", modifier.name), modifier.summary);
-        defaults(&mut out, modifier.name, modifier.settings);
-    }
-    out
+/// Formats rows of names and descriptions, which may be long.
+fn table<const N: usize>(alignment: &str, rows: Vec<[String; N]>) -> String {
+    TextTable { alignment, indent: 2, width: usize::MAX }.format(rows)
 }
 
-/// Writes settings as the field `techniques` of a settings file has them.
-fn defaults(out: &mut String, name: &str, settings: &'static [Setting]) {
-    if !settings.is_empty() {
-        let ty = SettingType::Struct(settings);
-        let _ = writeln!(out, "  {:<16}\"{name}\": {}", "", ty.ron(&ty.default_value()));
-    }
+fn all(registry: &Registry) -> String {
+    let Registry { techniques, nodes } = registry;
+    let pipelines = BUILT_IN.iter().filter_map(|name| name.parse::<Pipeline>().ok());
+    let pipelines = pipelines.map(|pipeline| [pipeline.name().into(), pipeline.about().into()]);
+    let kinds = nodes.kinds().iter().map(|kind| [kind.name.into(), kind.about.into()]);
+    let of_techniques = techniques.kinds().iter().flat_map(|kind| {
+        let row = [kind.name.into(), kind.summary.into()];
+        [row].into_iter().chain(defaults(kind.name, kind.settings()))
+    });
+    let modifiers = Techniques::modifiers().flat_map(|modifier| {
+        let row = [format!("+{}", modifier.name), modifier.summary.into()];
+        [row].into_iter().chain(defaults(modifier.name, modifier.settings))
+    });
+    format!(
+        "pipelines; `nodes NAME` prints the file of one\n{}\n\
+         node kinds; `nodes NAME` prints the ports and settings of one\n{}\n\
+         techniques, with the defaults of their settings; `nodes NAME` describes the settings of one\n{}\n\
+         modifiers of techniques, as in pcf+contact; `nodes contact` describes the settings of one\n{}",
+        table("ll", pipelines.collect()),
+        table("ll", kinds.collect()),
+        table("ll", of_techniques.collect()),
+        table("ll", modifiers.collect()),
+    )
+}
+
+/// Returns settings as the field `techniques` of a settings file has them; `None` without settings.
+fn defaults(name: &str, settings: &'static [Setting]) -> Option<[String; 2]> {
+    let ty = SettingType::Struct(settings);
+    (!settings.is_empty()).then(|| [String::new(), format!("\"{name}\": {}", ty.ron(&ty.default_value()))])
 }

@@ -1,6 +1,5 @@
-//! Text of a scene, a plan and its times. Tables are at most 110 columns wide.
+//! Text of a scene, a plan and its times.
 
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 use super::failure::Failure;
@@ -10,6 +9,10 @@ use shadowgraph::inspect::lights::{kind, shadows, unit};
 use shadowgraph::scene::Light;
 use shadowgraph::shadows::Unshadowed;
 use shadowgraph::wgpu::AdapterInfo;
+use shadowgraph_quality::TextTable;
+
+/// Maximum length of the lines of tables.
+pub(crate) const COLUMNS: usize = 110;
 
 /// A planned frame.
 pub(crate) struct Planned {
@@ -26,13 +29,14 @@ pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
     if lights.is_empty() {
         out.push_str("  none\n");
     }
-    for (index, light) in lights.iter().enumerate() {
-        let name: String = light.name.as_deref().unwrap_or("-").chars().take(28).collect();
+    let row = |(index, light): (usize, &Light)| {
+        let name = light.name.as_deref().unwrap_or("-").chars().take(28).collect();
         let strength = format!("{:.1} {}", light.intensity, unit(light));
         let shadows = shadows(light, index, &planned.unshadowed);
-        let _ = writeln!(out, "  {index:>3}  {:<12} {name:<28} {strength:>14}  {shadows}", kind(light));
-    }
-    out
+        [index.to_string(), kind(light).into(), name, strength, shadows]
+    };
+    let rows = lights.iter().enumerate().map(row);
+    out + &TextTable { alignment: "rllrl", indent: 2, width: COLUMNS }.format(rows)
 }
 
 /// Formats the plan as JSON, with the scene's lights.
@@ -76,10 +80,7 @@ pub(crate) fn unshadowed(unshadowed: &[Unshadowed]) -> Vec<String> {
 
 /// Returns a table of times per pass, grouped by node.
 pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
-    let mut out = format!(
-        "times on {}\n  {:<40} {:>10} {:>10} {:>7} {:>11}\n",
-        adapter.name, "pass", "CPU ms", "GPU ms", "draws", "triangles"
-    );
+    let mut rows = vec![["pass", "CPU ms", "GPU ms", "draws", "triangles", ""].map(str::to_owned)];
     let mut nodes: Vec<&str> = Vec::new();
     for time in times {
         if !nodes.contains(&time.node.as_str()) {
@@ -87,30 +88,31 @@ pub(crate) fn times(times: &[PassTime], adapter: &AdapterInfo) -> String {
         }
     }
     for node in nodes {
-        let of_node = || times.iter().filter(|time| time.node == node);
-        let _ = writeln!(out, "  {}", if node.is_empty() { "(no node)" } else { node });
-        for time in of_node() {
-            let name = time.pass.rsplit('/').next().unwrap_or_default();
+        let heading = if node.is_empty() { "(no node)" } else { node };
+        rows.push([heading, "", "", "", "", ""].map(str::to_owned));
+        for time in times.iter().filter(|time| time.node == node) {
+            let name = format!("  {}", time.pass.rsplit('/').next().unwrap_or_default());
             let count = |number: Option<u64>| number.map_or("-".into(), |number| number.to_string());
+            let [cpu, gpu] = milliseconds(time.cpu_ms, time.gpu_ms);
             let (draws, triangles) = (count(time.draws.map(u64::from)), count(time.triangles));
-            let shared = sharing(time.gpu_ms.is_some(), time.shared_by);
-            let times = columns(time.cpu_ms, time.gpu_ms);
-            let _ = writeln!(out, "    {name:<38} {times} {draws:>7} {triangles:>11}{shared}");
+            rows.push([name, cpu, gpu, draws, triangles, sharing(time.gpu_ms.is_some(), time.shared_by)]);
         }
     }
     let cpu_ms = times.iter().map(|time| time.cpu_ms).sum();
     let gpu_ms = times.iter().filter_map(PassTime::gpu_share_ms).reduce(|a, b| a + b);
-    let _ = writeln!(out, "  {:<40} {}", "sum", columns(cpu_ms, gpu_ms));
-    out
+    let [cpu, gpu] = milliseconds(cpu_ms, gpu_ms);
+    rows.push(["sum".into(), cpu, gpu, String::new(), String::new(), String::new()]);
+    let table = TextTable { alignment: "lrrrrl", indent: 2, width: COLUMNS }.format(rows);
+    format!("times on {}\n{table}", adapter.name)
 }
 
 /// Returns a note if a GPU time is that of several merged passes.
 pub(crate) fn sharing(measured: bool, shared_by: u32) -> String {
-    if measured && shared_by > 1 { format!("  all {shared_by} merged") } else { String::new() }
+    if measured && shared_by > 1 { format!("all {shared_by} merged") } else { String::new() }
 }
 
-fn columns(cpu_ms: f64, gpu_ms: Option<f64>) -> String {
-    format!("{cpu_ms:>10.3} {:>10}", gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}")))
+fn milliseconds(cpu_ms: f64, gpu_ms: Option<f64>) -> [String; 2] {
+    [format!("{cpu_ms:.3}"), gpu_ms.map_or("-".into(), |ms| format!("{ms:.3}"))]
 }
 
 #[cfg(test)]
@@ -129,10 +131,9 @@ mod tests {
             ..PassTime::default()
         };
         let list = [time("a/x", "a", Some(2.0)), time("y", "", None), time("a/z", "a", Some(0.5))];
-        let table = columns(3.0, Some(2.5));
         let adapter = shadowgraph::Gpu::noop().unwrap().adapter;
         let text = times(&list, &adapter);
-        assert!(text.contains(&table), "{text}");
+        assert!(text.ends_with("\n  sum         3.000   2.500\n"), "{text}");
         let (a, z, none) = (text.find("  a\n"), text.find("    z"), text.find("(no node)"));
         assert!(a < z && z < none, "{text}");
     }
@@ -150,9 +151,9 @@ mod tests {
         let merged = ["clear", "first", "second"].map(|pass| time(pass, Some(6.0), 3));
         let list = [merged.as_slice(), &[time("alone", Some(0.5), 1), time("unknown", None, 3)]].concat();
         let text = times(&list, &shadowgraph::Gpu::noop().unwrap().adapter);
-        assert_eq!(text.matches("6.000       -           -  all 3 merged").count(), 3, "{text}");
+        assert_eq!(text.matches("6.000      -          -  all 3 merged").count(), 3, "{text}");
         assert_eq!(text.matches("merged").count(), 3, "{text}");
-        assert!(text.ends_with(&format!("{}\n", columns(5.0, Some(6.5)))), "{text}");
+        assert!(text.ends_with("\n  sum         5.000   6.500\n"), "{text}");
         assert!(text.lines().all(|line| line.len() <= 110), "{text}");
     }
 }

@@ -19,6 +19,7 @@ mod seam;
 mod subpixel;
 mod surfaces;
 mod texels;
+mod text_table;
 mod variants;
 mod views;
 
@@ -38,6 +39,7 @@ pub use seam::measure_seam;
 pub use subpixel::{SUBPIXEL_GRID, SUBPIXEL_RADIUS_PX};
 pub use surfaces::{SurfaceReader, Surfaces};
 pub use texels::{NO_VIEW, Texels};
+pub use text_table::TextTable;
 pub use variants::{Variant, VariantSet};
 pub use views::automatic_views;
 

@@ -1,21 +1,14 @@
 //! A report as a table for a terminal, at most 130 columns wide.
 
-use std::fmt::Write as _;
-
 use super::data::{CaseReport, Report};
 use super::metric::{Metric, metric};
 use super::summary::{
     CaseComparison, compare_cases, deviation, format_value, mean, metrics_with_values, techniques, worst,
 };
+use crate::text_table::TextTable;
 
 /// Maximum width of the table, columns.
 const WIDTH: usize = 130;
-
-/// Minimum width of names.
-const NAME_WIDTH: usize = 4;
-
-/// Separator of columns.
-const GAP: &str = "  ";
 
 /// Metrics that are left out for lack of space.
 const PAGE_ONLY: &[&str] =
@@ -32,58 +25,50 @@ pub fn table(report: &Report) -> String {
     let count = report.cases.len();
     let cases = if count == 1 { "case" } else { "cases" };
     let adapter = cut(&clean(&report.adapter), 90);
-    let mut out = format!("{width_px}x{height_px} pixels, {adapter}, {count} {cases}\n");
+    let out = format!("{width_px}x{height_px} pixels, {adapter}, {count} {cases}\n");
     if count == 0 {
         return out;
     }
     let mut metrics = metrics_with_values(report);
     metrics.retain(|metric| !PAGE_ONLY.contains(&metric.name));
-    let cases = report.cases.iter().map(|case| case_row(case, &metrics)).collect();
-    let sections: [Vec<Row>; 3] = [heading(&metrics), cases, summary_rows(report, &metrics)];
-    let widths = Widths::new(&sections);
-    for (index, section) in sections.iter().enumerate() {
-        out.push_str(if index == 1 { "" } else { "\n" });
-        for row in section {
-            widths.write(&mut out, row);
-        }
-    }
-    out + &comparison(report, widths.names[3]) + "\nworst cases\n" + &worst_cases(report, widths.names[3])
+    let alignment = "llll".to_owned() + &"r".repeat(metrics.len());
+    let cases = report.cases.iter().map(|case| case_row(case, &metrics));
+    let rows =
+        heading(&metrics).into_iter().chain(cases).chain([Vec::new()]).chain(summary_rows(report, &metrics));
+    let all = TextTable { alignment: &alignment, indent: 0, width: WIDTH }.format(rows);
+    out + "\n" + &all + &comparison(report) + "\nworst cases\n" + &worst_cases(report)
 }
 
-/// A row of the table: scene, light, view and technique, and the numbers.
-struct Row {
-    names: [String; 4],
-    numbers: Vec<String>,
+/// Returns a row: scene, light, view and technique, and the numbers.
+fn row(names: [&str; 4], numbers: impl Iterator<Item = String>) -> Vec<String> {
+    names.into_iter().map(clean).chain(numbers).collect()
 }
 
-fn heading(metrics: &[&Metric]) -> Vec<Row> {
-    let line = |names: [&str; 4], index: usize| Row {
-        names: names.map(str::to_owned),
-        numbers: metrics.iter().map(|metric| metric.heading[index].to_owned()).collect(),
-    };
-    vec![line([""; 4], 0), line(["scene", "light", "view", "technique"], 1)]
+fn heading(metrics: &[&Metric]) -> [Vec<String>; 2] {
+    let line = |index: usize| metrics.iter().map(move |metric| metric.heading[index].to_owned());
+    [row([""; 4], line(0)), row(["scene", "light", "view", "technique"], line(1))]
 }
 
-fn case_row(case: &CaseReport, metrics: &[&Metric]) -> Row {
-    let names = [&case.scene, &case.light, &case.view, &case.technique].map(|name| clean(name));
-    Row { names, numbers: metrics.iter().map(|metric| format_value(metric, (metric.value)(case))).collect() }
+fn case_row(case: &CaseReport, metrics: &[&Metric]) -> Vec<String> {
+    let numbers = metrics.iter().map(|metric| format_value(metric, (metric.value)(case)));
+    row([&case.scene, &case.light, &case.view, &case.technique], numbers)
 }
 
 /// Returns the mean and the worst values of each technique.
-fn summary_rows(report: &Report, metrics: &[&Metric]) -> Vec<Row> {
-    let row = |label: &str, technique: &str, of: &dyn Fn(&Metric) -> Option<f64>| Row {
-        names: [label.into(), String::new(), String::new(), clean(technique)],
-        numbers: metrics.iter().map(|metric| format_value(metric, of(metric))).collect(),
+fn summary_rows(report: &Report, metrics: &[&Metric]) -> Vec<Vec<String>> {
+    let values = |label: &str, technique: &str, of: &dyn Fn(&Metric) -> Option<f64>| {
+        row([label, "", "", technique], metrics.iter().map(|metric| format_value(metric, of(metric))))
     };
     let both = |technique| {
-        let mean = row("mean", technique, &|metric| mean(report, technique, metric));
-        [mean, row("worst", technique, &|metric| worst(report, technique, metric).map(|(_, value)| value))]
+        let mean = values("mean", technique, &|metric| mean(report, technique, metric));
+        let worst = |metric: &Metric| worst(report, technique, metric).map(|(_, value)| value);
+        [mean, values("worst", technique, &worst)]
     };
     techniques(report).into_iter().flat_map(both).collect()
 }
 
 /// Compares the misclassified pixels of all techniques with those of the first; empty if there is only one technique.
-fn comparison(report: &Report, technique_width: usize) -> String {
+fn comparison(report: &Report) -> String {
     let techniques = techniques(report);
     let (Some((first, others)), Some(metric)) =
         (techniques.split_first(), metric("misclassified_total_percent"))
@@ -93,18 +78,16 @@ fn comparison(report: &Report, technique_width: usize) -> String {
     if others.is_empty() {
         return String::new();
     }
-    let name = |technique: &str| cut(&clean(technique), technique_width);
-    let mut out = format!("\n{} lower than {}\n", metric.name, name(first));
-    for technique in others {
+    let compare = |technique: &&str| {
         let CaseComparison { cases, better, equal } = compare_cases(report, technique, first, metric);
-        let name = name(technique);
-        let _ = writeln!(out, "  {name:<technique_width$}  in {better} of {cases} cases, equal in {equal}");
-    }
-    out
+        [clean(technique), format!("in {better} of {cases} cases, equal in {equal}")]
+    };
+    let heading = format!("\n{} lower than {}\n", metric.name, cut(&clean(first), 90));
+    heading + &TextTable { alignment: "ll", indent: 2, width: WIDTH }.format(others.iter().map(compare))
 }
 
-fn worst_cases(report: &Report, technique_width: usize) -> String {
-    let mut out = String::new();
+fn worst_cases(report: &Report) -> String {
+    let mut rows = Vec::new();
     for technique in techniques(report) {
         for metric in WORST_CASES_OF.iter().filter_map(|name| metric(name)) {
             let Some((case, value)) = worst(report, technique, metric) else { continue };
@@ -112,55 +95,14 @@ fn worst_cases(report: &Report, technique_width: usize) -> String {
                 true => clean(&format!("{}, {}, {}", case.scene, case.light, case.view)),
                 false => "all cases".into(),
             };
-            let name = cut(&clean(technique), technique_width);
-            let value = format_value(metric, Some(value));
-            let line = format!("  {name:<technique_width$}  {:<26}{value:>8}  {place}", metric.name);
-            let _ = writeln!(out, "{}", cut(&line, WIDTH));
+            rows.push([clean(technique), metric.name.into(), format_value(metric, Some(value)), place]);
         }
     }
-    out
-}
-
-/// Widths of the columns.
-struct Widths {
-    names: [usize; 4],
-    numbers: Vec<usize>,
-}
-
-impl Widths {
-    /// Fits columns to their widest cell, then shortens the widest column of names until the table fits.
-    fn new(sections: &[Vec<Row>]) -> Self {
-        let rows = || sections.iter().flatten();
-        let widest = |cell: &dyn Fn(&Row) -> usize| rows().map(cell).max().unwrap_or(0);
-        let count = rows().map(|row| row.numbers.len()).max().unwrap_or(0);
-        let mut names = [0, 1, 2, 3].map(|column| widest(&|row| chars(&row.names[column])));
-        let numbers: Vec<_> = (0..count).map(|column| widest(&|row| chars(&row.numbers[column]))).collect();
-        let taken = numbers.iter().sum::<usize>() + GAP.len() * (names.len() + count - 1);
-        while names.iter().sum::<usize>() + taken > WIDTH {
-            match names.iter_mut().max() {
-                Some(widest) if *widest > NAME_WIDTH => *widest -= 1,
-                _ => break,
-            }
-        }
-        Self { names, numbers }
-    }
-
-    fn write(&self, out: &mut String, row: &Row) {
-        let names = row.names.iter().zip(&self.names);
-        let names = names.map(|(name, &width)| format!("{:<width$}", cut(name, width)));
-        let numbers =
-            row.numbers.iter().zip(&self.numbers).map(|(number, width)| format!("{number:>width$}"));
-        let cells: Vec<_> = names.chain(numbers).collect();
-        let _ = writeln!(out, "{}", cells.join(GAP).trim_end());
-    }
-}
-
-fn chars(text: &str) -> usize {
-    text.chars().count()
+    TextTable { alignment: "llrl", indent: 2, width: WIDTH }.format(rows)
 }
 
 fn cut(text: &str, width: usize) -> String {
-    match chars(text) > width {
+    match text.chars().count() > width {
         true => text.chars().take(width.saturating_sub(1)).chain(['\u{2026}']).collect(),
         false => text.to_owned(),
     }
@@ -184,10 +126,10 @@ mod tests {
         report.cases[0].scene = "x".repeat(60);
         report.cases[1].light = "y".repeat(60);
         let text = table(&report);
-        assert!(text.lines().all(|line| chars(line) <= WIDTH), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
         let lines: Vec<&str> = text.lines().skip(2).take_while(|line| !line.is_empty()).collect();
         assert_eq!(lines.len(), 2 + 3, "{text}");
-        assert!(lines.iter().all(|line| chars(line) == chars(lines[0])), "{text}");
+        assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()), "{text}");
         assert!(lines[2].contains("xx\u{2026}  sun 15 "), "{text}");
         assert!(lines[3].contains("yy\u{2026}  view 1 "), "{text}");
     }
