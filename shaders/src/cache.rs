@@ -1,6 +1,6 @@
 //! Composed modules, kept for the whole program: renderers compose the same files again and again.
 
-use crate::ModuleSource;
+use crate::source::ModuleSource;
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 

@@ -3,12 +3,12 @@
 use naga::valid::Capabilities;
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor};
 
-use crate::{
-    Error, ModuleSource, cache, folder,
-    imports::Library,
-    report::wgsl_error,
-    source::{ENTRIES, names},
-};
+use crate::cache;
+use crate::error::Error;
+use crate::folder;
+use crate::imports::Library;
+use crate::report::wgsl_error;
+use crate::source::{ENTRIES, ModuleSource, names};
 
 /// Composes a built-in entry file, such as `"forward.wgsl"`, with the modules that it imports. `extra` adds
 /// modules, such as the shadow technique's, or replaces built-in ones with the same import path.

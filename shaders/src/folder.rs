@@ -1,8 +1,7 @@
 //! A directory of WGSL files that replace the built-in ones, to edit them while a program runs.
 
-use crate::ModuleSource;
 use crate::imports::import_path;
-use crate::source::MODULES;
+use crate::source::{MODULES, ModuleSource};
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::{PoisonError, RwLock};

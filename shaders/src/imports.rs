@@ -7,10 +7,8 @@ use naga_oil::compose::{
 };
 use strsim::levenshtein;
 
-use crate::{
-    Error, ModuleSource,
-    source::{MODULES, TECHNIQUE, TECHNIQUES, names},
-};
+use crate::error::Error;
+use crate::source::{MODULES, ModuleSource, TECHNIQUE, TECHNIQUES, names};
 
 /// The modules that can be imported, by import path.
 pub(crate) struct Library<'a>(BTreeMap<String, &'a ModuleSource>);

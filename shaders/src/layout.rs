@@ -2,7 +2,8 @@
 
 use naga::TypeInner;
 
-use crate::{Error, report::plain_names};
+use crate::error::Error;
+use crate::report::plain_names;
 
 /// A member of a WGSL struct.
 #[derive(Debug, Clone, PartialEq, Eq)]

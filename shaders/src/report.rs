@@ -4,7 +4,9 @@ use std::error::Error as _;
 
 use naga_oil::compose::{Composer, ComposerError, ComposerErrorInner, ErrSource};
 
-use crate::{Error, ModuleSource, imports::Library};
+use crate::error::Error;
+use crate::imports::Library;
+use crate::source::ModuleSource;
 
 /// naga_oil stores the index of the module in the upper bits of source offsets.
 const OFFSET_BITS: u32 = 21;

@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 use shadowgraph_shadows::ShadowSettings;
 
+use crate::comparator::ViewErrors;
 use crate::metrics::{EdgeError, Summary};
-use crate::{Variant, ViewErrors};
+use crate::variants::Variant;
 
 /// Results of a measurement, from which the table, the page and the check against bounds are made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
