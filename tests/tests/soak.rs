@@ -102,13 +102,13 @@ fn pipeline(random: &mut Random) -> String {
         ));
         light = kind.into();
     }
-    nodes.push(format!("(name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"{light}.light\"}})"));
-    let mut picture = "picture";
+    nodes.push(format!("(name: \"tonemap\", kind: \"tonemap\", inputs: {{\"light\": \"{light}.light\"}})"));
+    let mut output = "tonemap";
     if random.flip() {
-        nodes.push("(name: \"smooth\", kind: \"fxaa\", inputs: {\"picture\": \"picture\"})".into());
-        picture = "smooth";
+        nodes.push("(name: \"smooth\", kind: \"fxaa\", inputs: {\"image\": \"tonemap\"})".into());
+        output = "smooth";
     }
-    format!("(nodes: [{}], outputs: {{\"picture\": \"{picture}\"}})", nodes.join(",\n"))
+    format!("(nodes: [{}], outputs: {{\"image\": \"{output}\"}})", nodes.join(",\n"))
 }
 
 /// Returns the memory of this process, MiB; `None` where it cannot be read.

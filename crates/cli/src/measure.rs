@@ -19,7 +19,7 @@ use shadowgraph_quality::{
 };
 
 /// Directory of the images in the output directory.
-const IMAGES: &str = "pictures";
+const IMAGES: &str = "images";
 
 /// The parsed command line.
 struct Plan {
@@ -276,7 +276,7 @@ impl Output {
         let grey =
             |values: &[f32]| values.iter().map(|value| (value * 255.0).round() as u8).collect::<Vec<_>>();
         Ok(ImageFiles {
-            color: write("picture", Pixels::Rgba, &images.color.rgba8)?,
+            color: write("image", Pixels::Rgba, &images.color.rgba8)?,
             truth: write("truth", Pixels::Grey, &grey(&images.compared.truth))?,
             visibility: write("visibility", Pixels::Grey, &grey(&images.compared.visibility))?,
             difference: write("difference", Pixels::Rgba, &images.compared.errors_rgba8())?,

@@ -63,13 +63,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             continue;
         }
         let both = TextureDesc::d2(2 * SIDE, SIDE, Format::Rgba8UnormSrgb);
-        let mut picture = frame.create_texture("picture", both);
-        frame
-            .fullscreen("side by side", &shaders.side_by_side)
-            .sample(&noisy)
-            .sample(&mean)
-            .draw(&mut picture);
-        let pixels = frame.read_back_texture(&picture, Subresource::FULL);
+        let mut image = frame.create_texture("image", both);
+        frame.fullscreen("side by side", &shaders.side_by_side).sample(&noisy).sample(&mean).draw(&mut image);
+        let pixels = frame.read_back_texture(&image, Subresource::FULL);
         let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
         queue.submit([encoder.finish()]);
         let pixels = executed.read_back(pixels).ok_or("nothing was read back")?.wait(&device)?;

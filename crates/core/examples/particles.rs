@@ -32,10 +32,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         pass.storage_mut(&mut particles, Contents::Preserve).dispatch(groups);
     }
 
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(SIDE, SIDE, Format::Rgba8UnormSrgb));
+    let mut image = frame.create_texture("image", TextureDesc::d2(SIDE, SIDE, Format::Rgba8UnormSrgb));
     let mut draw = frame.render_pass("draw");
     let particles = draw.storage_buffer(&particles);
-    draw.color(&mut picture, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
+    draw.color(&mut image, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
     draw.body(move |ctx| {
         let group = ctx.bind_group(&layout, &[Bind::Buffer(particles)])?;
         ctx.pass.set_pipeline(&pipeline);
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ctx.pass.draw(0..4, 0..PARTICLES);
         Ok(())
     });
-    let pixels = frame.read_back_texture(&picture, Subresource::FULL);
+    let pixels = frame.read_back_texture(&image, Subresource::FULL);
 
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

@@ -60,12 +60,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut frame = graph.frame();
     let mut scene = frame.create_texture("scene", TextureDesc::d2(WIDTH, HEIGHT, Format::Rgba16Float));
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(WIDTH, HEIGHT, Format::Rgba8UnormSrgb));
+    let mut image = frame.create_texture("image", TextureDesc::d2(WIDTH, HEIGHT, Format::Rgba8UnormSrgb));
     frame.fullscreen("points", &shaders.points).draw(&mut scene);
     let glow = glow(&mut frame, &shaders, &scene);
     let combine = frame.fullscreen("combine", &shaders.combine);
-    combine.sample(&scene).sample(&glow).sampler(&shaders.linear).draw(&mut picture);
-    let pixels = frame.read_back_texture(&picture, Subresource::FULL);
+    combine.sample(&scene).sample(&glow).sampler(&shaders.linear).draw(&mut image);
+    let pixels = frame.read_back_texture(&image, Subresource::FULL);
 
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut frame = graph.frame();
     let both = TextureDesc::d2(2 * SIDE, SIDE, Format::Rgba8UnormSrgb);
-    let mut picture = frame.create_texture("picture", both);
+    let mut image = frame.create_texture("image", both);
     let eyes = [("left", -0.3, [1.0, 0.9, 0.85, 1.0]), ("right", 0.3, [0.85, 0.9, 1.0, 1.0f32])];
     for (index, (name, eye_x, tint)) in eyes.into_iter().enumerate() {
         // Histories declared inside would belong to this view.
@@ -46,10 +46,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let half = Rect::new(index as u32 * SIDE, 0, SIDE, SIDE);
             let grade = frame.fullscreen("grade", &shaders.grade).sample(&color).sampler(&shaders.linear);
             let tint = tint.map(f32::to_le_bytes).concat();
-            grade.uniform(&tint[..]).subresource(Subresource::FULL.rect(half)).draw(&mut picture);
+            grade.uniform(&tint[..]).subresource(Subresource::FULL.rect(half)).draw(&mut image);
         });
     }
-    let pixels = frame.read_back_texture(&picture, Subresource::FULL);
+    let pixels = frame.read_back_texture(&image, Subresource::FULL);
 
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;

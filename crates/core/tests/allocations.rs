@@ -100,13 +100,13 @@ mod bodies {
     /// Passes that draw, read the result, and read that.
     fn three_passes(frame: &mut Frame<'_>) {
         let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
-        let mut picture = frame.create_texture("picture", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+        let mut image = frame.create_texture("image", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
         frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
         let mut pass = frame.render_pass("read");
         pass.sample(&scene);
-        pass.color(&mut picture, Contents::Overwrite);
-        frame.render_pass("go on").color(&mut picture, Contents::Preserve);
-        frame.export_texture(&picture);
+        pass.color(&mut image, Contents::Overwrite);
+        frame.render_pass("go on").color(&mut image, Contents::Preserve);
+        frame.export_texture(&image);
     }
 
     /// Returns the allocations of recording a frame in the steady state, including wgpu's.

@@ -217,8 +217,8 @@ fn conditions() {
         let nothing = frame.node("declares nothing", |_frame| 1);
         assert_eq!(nothing, 1);
         let glow = frame.or_placeholder(glow.as_ref(), Format::Rgba8Unorm, ClearValue::Color([0.0; 4]));
-        let picture = filter(&mut frame, "combine", &glow);
-        frame.export_texture(&picture);
+        let image = filter(&mut frame, "combine", &glow);
+        frame.export_texture(&image);
         let plan = plan(frame);
         assert_eq!(plan.nodes().len(), usize::from(on), "a node that declares nothing leaves nothing");
         assert_eq!(plan.order().len(), 2);
@@ -332,11 +332,11 @@ fn bind_groups() {
     );
     for strength in [0.5f32, 1.0] {
         let mut frame = graph.frame();
-        let (mut scene, mut picture) = (color(&mut frame, "scene"), color(&mut frame, "picture"));
+        let (mut scene, mut image) = (color(&mut frame, "scene"), color(&mut frame, "image"));
         frame.render_pass("draw").color(&mut scene, BLACK);
         let strength = [strength; 4].map(f32::to_le_bytes).concat();
-        frame.fullscreen("invert", &invert).sample(&scene).uniform(&strength[..]).draw(&mut picture);
-        frame.export_texture(&picture);
+        frame.fullscreen("invert", &invert).sample(&scene).uniform(&strength[..]).draw(&mut image);
+        frame.export_texture(&image);
         let compiled = graph.compile(frame).unwrap();
         run(&mut graph, compiled, &gpu);
     }

@@ -59,15 +59,15 @@ fn uploads() {
     let spheres = frame.upload_buffer("spheres", vec![0; 3_000]);
     frame.upload_buffer("unused", vec![0; 16]);
     let mut visible = frame.create_buffer("visible", BufferDesc::new(400));
-    let mut picture = hdr(&mut frame, "picture");
+    let mut image = hdr(&mut frame, "image");
     let mut cull = frame.compute_pass("cull spheres");
     cull.storage_buffer(&spheres);
     cull.storage_buffer_mut(&mut visible, Contents::Overwrite);
     let mut pass = frame.render_pass("draw spheres");
     pass.vertex_buffer(&spheres);
     pass.indirect_buffer(&visible);
-    pass.color(&mut picture, BLACK);
-    frame.export_texture(&picture);
+    pass.color(&mut image, BLACK);
+    frame.export_texture(&image);
     let plan = plan(frame);
     let why = explain_resource(&plan, spheres.id());
     check("uploads", &format!("{}\n{why}", plan.to_text()));
@@ -80,12 +80,12 @@ fn no_reuse_because_busy() {
     let scene = draw(&mut frame, "scene");
     let across = filter(&mut frame, "blur across", &scene);
     let glow = filter(&mut frame, "blur down", &across);
-    let mut picture = hdr(&mut frame, "picture");
+    let mut image = hdr(&mut frame, "image");
     let mut add = frame.render_pass("add glow");
     add.sample(&scene);
     add.sample(&glow);
-    add.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    add.color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
     let plan = plan(frame);
     let why = explain_resource(&plan, glow.id());
     check("no_reuse_because_busy", &format!("{}\n{why}", plan.to_text()));
@@ -99,13 +99,13 @@ fn multisampling() {
     let four = |format| TextureDesc { samples: 4, ..TextureDesc::d2(1280, 720, format) };
     let mut samples = frame.create_texture("samples", four(Format::Rgba8UnormSrgb));
     let mut depth = frame.create_texture("depth", four(Format::Depth32Float));
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
+    let mut image = frame.create_texture("image", TextureDesc::d2(1280, 720, Format::Rgba8UnormSrgb));
     let mut pass = frame.render_pass("draw");
     pass.color(&mut samples, BLACK);
-    pass.resolve(&mut picture);
+    pass.resolve(&mut image);
     pass.depth(&mut depth, FAR);
     let pass = pass.id();
-    frame.export_texture(&picture);
+    frame.export_texture(&image);
     let plan = plan(frame);
     check("multisampling", &format!("{}\n{}", plan.to_text(), explain_pass(&plan, pass)));
 }
@@ -122,8 +122,8 @@ fn merge() {
             pass.depth(&mut depth, if first { FAR } else { Contents::Preserve });
         }
     });
-    let picture = frame.node("post", |frame| filter(frame, "tonemap", &scene));
-    frame.export_texture(&picture);
+    let image = frame.node("post", |frame| filter(frame, "tonemap", &scene));
+    frame.export_texture(&image);
     let plan = plan(frame);
     let why = explain_pass(&plan, plan.find_pass("opaque").unwrap());
     check("merge", &format!("{}\n{why}", plan.to_text()));
@@ -151,7 +151,7 @@ fn explicit_after() {
     start.keep();
     let start = start.id();
     let scene = draw(&mut frame, "scene");
-    let mut submit = frame.encoder_pass("hand over the picture");
+    let mut submit = frame.encoder_pass("hand over the image");
     submit.copy_source(&scene);
     submit.after(start);
     submit.keep();

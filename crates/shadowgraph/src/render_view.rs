@@ -88,7 +88,7 @@ impl<'v> RenderView<'v> {
 
     /// Adds the node that tonemaps light into the view's image, for pipelines that end with it.
     pub fn add_tonemap(&self, frame: &mut Frame<'_>, tonemap: &Tonemap, light: &Texture) -> Texture {
-        frame.node("picture", |frame| {
+        frame.node("tonemap", |frame| {
             let mut image = self.target_texture(frame);
             tonemap.add_to(frame, light, &mut image);
             image
@@ -99,7 +99,7 @@ impl<'v> RenderView<'v> {
     pub fn target_texture(&self, frame: &mut Frame<'_>) -> Texture {
         match self.target {
             Some(texture) => frame.import_texture("target", texture, false),
-            None => frame.create_texture("picture", self.texture_desc(IMAGE_FORMAT)),
+            None => frame.create_texture("image", self.texture_desc(IMAGE_FORMAT)),
         }
     }
 }

@@ -129,10 +129,10 @@ fn examine(
 ) -> Report {
     let views = plan(&scene, options).views;
     let origin_world = origin_near(options.camera.position_world());
-    let picture = draw(gpu, scene, Aov::Visibility(0), options).image;
+    let image = draw(gpu, scene, Aov::Visibility(0), options).image;
     let mut report = Report::default();
     for (x, y) in (0..SIZE_PX[1]).flat_map(|y| (0..SIZE_PX[0]).map(move |x| (x, y))) {
-        let [grey, _, _, alpha] = picture.pixel(x, y).unwrap();
+        let [grey, _, _, alpha] = image.pixel(x, y).unwrap();
         let Some(hit) = hit(options, x, y, offset) else { continue };
         let to_light = to_light(hit.position).normalize();
         if hit.normal.dot(to_light) <= 0.1 {
@@ -225,10 +225,10 @@ fn the_outline_of_a_spot_lights_shadow_is_where_geometry_says() {
         scene.add_light(light(kind, 1_000.0));
         let options = view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0);
         let views = plan(&scene, &options).views;
-        let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
+        let image = draw(gpu, scene, Aov::Visibility(0), &options).image;
         let (mut wrong, mut dark, mut acne) = (0, 0, 0);
         for (x, y) in (0..SIZE_PX[1]).flat_map(|y| (0..SIZE_PX[0]).map(move |x| (x, y))) {
-            let [grey, _, _, alpha] = picture.pixel(x, y).unwrap();
+            let [grey, _, _, alpha] = image.pixel(x, y).unwrap();
             let Some(hit) = hit(&options, x, y, DVec3::ZERO) else { continue };
             let to_light = (position_world - hit.position).normalize();
             if alpha == 0
@@ -271,6 +271,6 @@ fn visibility_is_full_where_no_caster_is_in_range() {
     scene.add_light(sun(DVec3::new(0.2, -1.0, 0.1).normalize()));
     // Next to the cube and its shadow, looking away.
     let options = view(camera(DVec3::new(8.0, 1.0, 8.0), DVec3::new(12.0, 0.0, 12.0)), 5.0);
-    let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
-    assert!(picture.rgba8.chunks_exact(4).all(|p| p[3] == 0 || p[0] == 255));
+    let image = draw(gpu, scene, Aov::Visibility(0), &options).image;
+    assert!(image.rgba8.chunks_exact(4).all(|p| p[3] == 0 || p[0] == 255));
 }

@@ -15,7 +15,7 @@ fn cube() -> (Scene, ViewOptions) {
     (scene, view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0))
 }
 
-fn cube_picture(aov: Aov) -> Option<RenderedImage> {
+fn cube_image(aov: Aov) -> Option<RenderedImage> {
     let (scene, options) = cube();
     Some(draw(gpu()?, scene, aov, &options).image)
 }
@@ -26,26 +26,24 @@ const TOP: (u32, u32) = (160, 72);
 
 #[test]
 fn visibility_has_no_alpha_where_nothing_is_drawn_or_the_surface_faces_away() {
-    let Some(picture) = cube_picture(Aov::Visibility(0)) else { return };
-    assert_eq!(picture.pixel(SKY.0, SKY.1).unwrap()[3], 0);
-    assert_eq!(picture.pixel(TOP.0, TOP.1).unwrap(), [255; 4]);
-    let greys: HashSet<_> = picture.rgba8.chunks_exact(4).filter(|p| p[3] == 255).map(|p| p[0]).collect();
+    let Some(image) = cube_image(Aov::Visibility(0)) else { return };
+    assert_eq!(image.pixel(SKY.0, SKY.1).unwrap()[3], 0);
+    assert_eq!(image.pixel(TOP.0, TOP.1).unwrap(), [255; 4]);
+    let greys: HashSet<_> = image.rgba8.chunks_exact(4).filter(|p| p[3] == 255).map(|p| p[0]).collect();
     assert!(greys.contains(&0) && greys.contains(&255) && greys.len() > 10, "a filtered edge: {greys:?}");
-    assert!(
-        picture.rgba8.chunks_exact(4).all(|p| p[3] == 0 || (p[3] == 255 && p[0] == p[1] && p[1] == p[2]))
-    );
+    assert!(image.rgba8.chunks_exact(4).all(|p| p[3] == 0 || (p[3] == 255 && p[0] == p[1] && p[1] == p[2])));
 }
 
 #[test]
 fn normals_are_in_world_space() {
-    let Some(picture) = cube_picture(Aov::Normal) else { return };
-    assert_eq!(picture.pixel(TOP.0, TOP.1).unwrap()[..3], [128, 255, 128]);
+    let Some(image) = cube_image(Aov::Normal) else { return };
+    assert_eq!(image.pixel(TOP.0, TOP.1).unwrap()[..3], [128, 255, 128]);
 }
 
 #[test]
 fn depth_is_white_near_dark_far_and_black_in_the_background() {
-    let Some(picture) = cube_picture(Aov::Depth) else { return };
-    let grey = |(x, y): (u32, u32)| picture.pixel(x, y).unwrap()[0];
+    let Some(image) = cube_image(Aov::Depth) else { return };
+    let grey = |(x, y): (u32, u32)| image.pixel(x, y).unwrap()[0];
     assert_eq!(grey(SKY), 0);
     let (near, far) = (grey((160, 175)), grey((160, 20)));
     assert!(near > grey(TOP) && grey(TOP) > far && far > 0, "{near} {far}");
@@ -57,9 +55,9 @@ fn each_cascade_has_its_own_colour() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
     let options = view(camera(DVec3::new(0.0, 1.0, 18.0), DVec3::ZERO), 40.0);
-    let picture = draw(gpu, scene, Aov::Cascade, &options).image;
+    let image = draw(gpu, scene, Aov::Cascade, &options).image;
     let hue = |p: &[u8]| (p[0] > p[1], p[1] > p[2], p[0] > p[2]);
-    let hues: HashSet<_> = picture.rgba8.chunks_exact(4).filter(|p| p[0] != p[1]).map(hue).collect();
+    let hues: HashSet<_> = image.rgba8.chunks_exact(4).filter(|p| p[0] != p[1]).map(hue).collect();
     assert!(hues.len() >= 3, "{hues:?}");
 }
 
@@ -155,13 +153,9 @@ fn shadows_fade_out_at_the_shadow_distance() {
     );
     scene.add_light(sun(DVec3::NEG_Y));
     let options = view(camera(DVec3::new(0.0, 5.0, 18.0), DVec3::ZERO), 16.0);
-    let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
-    let column: Vec<u8> = (0..180)
-        .rev()
-        .map(|y| picture.pixel(160, y).unwrap())
-        .filter(|p| p[3] == 255)
-        .map(|p| p[0])
-        .collect();
+    let image = draw(gpu, scene, Aov::Visibility(0), &options).image;
+    let column: Vec<u8> =
+        (0..180).rev().map(|y| image.pixel(160, y).unwrap()).filter(|p| p[3] == 255).map(|p| p[0]).collect();
     assert_eq!((column[0], *column.last().unwrap()), (0, 255), "{column:?}");
     let between = column.iter().filter(|grey| (1..255).contains(*grey)).count();
     assert!(between >= 3, "{column:?}");

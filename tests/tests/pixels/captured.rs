@@ -29,8 +29,8 @@ fn a_captured_frame_has_the_plan_and_the_pixels_of_an_uncaptured_frame() {
         assert_eq!(inspected.frame.image, drawn.image, "{technique}");
         assert!(!inspected.frame.times.is_empty() && !inspected.textures.is_empty());
         // The captured texels, where all of them are kept.
-        let picture = drawn.plan.find_resource("picture").unwrap();
-        let captured = inspected.textures.iter().rfind(|shot| shot.resource == picture).unwrap();
+        let image = drawn.plan.find_resource("image").unwrap();
+        let captured = inspected.textures.iter().rfind(|shot| shot.resource == image).unwrap();
         let texels = captured.texels.as_ref().unwrap();
         assert_eq!(texels.size_px, drawn.image.size_px);
         assert_eq!(texels.values, TexelValues::Bytes(drawn.image.rgba8.clone()), "{technique}");

@@ -39,13 +39,13 @@ fn half_cut_sheet(alpha: AlphaMode) -> Scene {
 fn visibility(scene: Scene, at: DVec3) -> Option<u8> {
     let gpu = gpu()?;
     let options = view(camera(DVec3::new(0.0, 0.7, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
-    let picture = draw(gpu, scene, Aov::Visibility(0), &options).image;
+    let image = draw(gpu, scene, Aov::Visibility(0), &options).image;
     let clip = options.camera.clip_from_view(f64::from(SIZE_PX[0]) / f64::from(SIZE_PX[1]))
         * options.camera.view_from_world();
     let ndc = clip.project_point3(at);
     let x = ((ndc.x * 0.5 + 0.5) * f64::from(SIZE_PX[0])) as u32;
     let y = ((0.5 - ndc.y * 0.5) * f64::from(SIZE_PX[1])) as u32;
-    let [grey, _, _, alpha] = picture.pixel(x, y).unwrap();
+    let [grey, _, _, alpha] = image.pixel(x, y).unwrap();
     assert_eq!(alpha, 255, "the floor is visible at {x} {y}");
     Some(grey)
 }

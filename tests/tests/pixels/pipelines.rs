@@ -14,7 +14,7 @@ fn options(scene: &Scene, size_px: [u32; 2]) -> ViewOptions {
         .with_shadow_distance(ShadowDistance::Auto, scene)
 }
 
-fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, config: RenderConfig, size_px: [u32; 2]) -> RenderedImage {
+fn render(gpu: &Gpu, scene: &Scene, aov: Aov, config: RenderConfig, size_px: [u32; 2]) -> RenderedImage {
     let options = options(scene, size_px);
     let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, config).unwrap();
     renderer.draw(gpu, &options).unwrap().image
@@ -32,7 +32,7 @@ fn forward_forward_plus_and_deferred_give_real_scenes_the_same_shadows() {
     let Some(gpu) = gpu() else { return };
     for RealScene { name: scene_name, scene, .. } in real_scenes().unwrap_or_default() {
         let visibility =
-            |pipeline: Pipeline| picture(gpu, scene, Aov::Visibility(0), pipeline.into(), [256, 144]);
+            |pipeline: Pipeline| render(gpu, scene, Aov::Visibility(0), pipeline.into(), [256, 144]);
         let forward = visibility(Pipeline::forward());
         for pipeline in [Pipeline::forward_plus(), Pipeline::deferred()] {
             let name = pipeline.name().to_owned();
@@ -46,7 +46,7 @@ fn forward_forward_plus_and_deferred_give_real_scenes_the_same_shadows() {
 fn every_built_in_pipeline_renders_the_demo_scene_in_the_same_colours() {
     let Some(gpu) = gpu() else { return };
     let scene = demo_scene();
-    let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [320, 180]);
+    let draw = |pipeline: Pipeline| render(gpu, &scene, Aov::Color, pipeline.into(), [320, 180]);
     let forward = draw(Pipeline::forward());
     // All but the one that shows cascades.
     for name in BUILT_IN.iter().filter(|name| **name != "debug_cascades") {
@@ -63,13 +63,13 @@ fn an_unconnected_optional_input_gets_a_placeholder() {
     let Some(gpu) = gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("plain.ron");
-    let connected = "inputs: {\"picture\": \"picture\", \"colors\": \"debug\"}";
+    let connected = "inputs: {\"image\": \"tonemap\", \"colors\": \"debug\"}";
     let text = Pipeline::built_in_text("debug_cascades").unwrap();
     assert!(text.contains(connected));
-    std::fs::write(&file, text.replace(connected, "inputs: {\"picture\": \"picture\"}")).unwrap();
+    std::fs::write(&file, text.replace(connected, "inputs: {\"image\": \"tonemap\"}")).unwrap();
     let Registry { nodes, techniques } = Registry::built_in();
     let plain = Pipeline::load(&file, &nodes, &techniques, &Parameters::default()).unwrap();
     let scene = demo_scene();
-    let draw = |pipeline: Pipeline| picture(gpu, &scene, Aov::Color, pipeline.into(), [160, 90]);
+    let draw = |pipeline: Pipeline| render(gpu, &scene, Aov::Color, pipeline.into(), [160, 90]);
     assert!(differing(&draw(plain), &draw(Pipeline::forward())) == 0.0, "the image is not overwritten");
 }

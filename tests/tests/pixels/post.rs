@@ -8,8 +8,8 @@ use shadowgraph::pipelines::Parameters;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
 
-/// Returns `forward` with more nodes; `picture` is the node whose output is the image.
-fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
+/// Returns `forward` with more nodes; `output` is the node whose output is the image.
+fn pipeline(view: &str, lit: &str, more: &str, output: &str) -> Pipeline {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("post.ron");
     let text = format!(
@@ -19,7 +19,7 @@ fn pipeline(view: &str, lit: &str, more: &str, picture: &str) -> Pipeline {
             (name: \"shadows\", kind: \"shadows\", inputs: {{\"surfaces\": \"geometry\"}}),
             (name: \"lighting\", kind: \"forward\", inputs: {{{lit}, \"shadows\": \"shadows\", \"depth\": \"geometry\"}}),
             {more}
-        ], outputs: {{\"picture\": \"{picture}\"}})"
+        ], outputs: {{\"image\": \"{output}\"}})"
     );
     std::fs::write(&file, text).unwrap();
     let Registry { nodes, techniques } = Registry::built_in();
@@ -33,24 +33,24 @@ fn draw(gpu: &Gpu, pipeline: &Pipeline, aov: Aov, size_px: [u32; 2], frames: u32
     let scene = demo_scene();
     let options = ViewOptions { camera: scene.cameras[0].clone(), size_px, shadows: Default::default() };
     let mut renderer = Renderer::with_config(gpu, scene, &options.camera, aov, pipeline.clone()).unwrap();
-    let mut picture = renderer.draw(gpu, &options).unwrap().image;
+    let mut image = renderer.draw(gpu, &options).unwrap().image;
     for _ in 1..frames {
-        picture = renderer.draw(gpu, &options).unwrap().image;
+        image = renderer.draw(gpu, &options).unwrap().image;
     }
-    picture
+    image
 }
 
-fn mean(picture: &RenderedImage) -> f64 {
-    let values = picture.rgba8.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
-    values.map(|&value| f64::from(value)).sum::<f64>() / (picture.rgba8.len() / 4 * 3) as f64
+fn mean(image: &RenderedImage) -> f64 {
+    let values = image.rgba8.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
+    values.map(|&value| f64::from(value)).sum::<f64>() / (image.rgba8.len() / 4 * 3) as f64
 }
 
 /// Returns the difference between an image and one of four times its width and height, scaled down: root mean square of 255.
-fn error(picture: &RenderedImage, large: &RenderedImage) -> f64 {
-    let [width, height] = picture.size_px;
+fn error(image: &RenderedImage, large: &RenderedImage) -> f64 {
+    let [width, height] = image.size_px;
     let mut sum = 0.0;
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let own = picture.pixel(x, y).unwrap();
+        let own = image.pixel(x, y).unwrap();
         for (channel, value) in own.iter().enumerate().take(3) {
             let of = |at: u32| f64::from(large.pixel(4 * x + at % 4, 4 * y + at / 4).unwrap()[channel]);
             let smooth = (0..16).map(of).sum::<f64>() / 16.0;
@@ -61,15 +61,15 @@ fn error(picture: &RenderedImage, large: &RenderedImage) -> f64 {
 }
 
 #[test]
-fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
+fn anti_aliasing_brings_edges_nearer_to_an_image_of_many_samples() {
     let Some(gpu) = gpu() else { return };
     let tonemap =
-        |light: &str| format!("(name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"{light}\"}}),");
-    let plain = pipeline("", VIEW, &tonemap("lighting"), "picture");
-    let smooth = "(name: \"smooth\", kind: \"fxaa\", inputs: {\"picture\": \"picture\"})";
+        |light: &str| format!("(name: \"tonemap\", kind: \"tonemap\", inputs: {{\"light\": \"{light}\"}}),");
+    let plain = pipeline("", VIEW, &tonemap("lighting"), "tonemap");
+    let smooth = "(name: \"smooth\", kind: \"fxaa\", inputs: {\"image\": \"tonemap\"})";
     let fxaa = pipeline("", VIEW, &(tonemap("lighting") + smooth), "smooth");
     let mixed = "(name: \"mixed\", kind: \"taa\", inputs: {\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"}),";
-    let taa = pipeline("\"jitter\": true", VIEW, &(mixed.to_owned() + &tonemap("mixed")), "picture");
+    let taa = pipeline("\"jitter\": true", VIEW, &(mixed.to_owned() + &tonemap("mixed")), "tonemap");
     let large = draw(gpu, &plain, Aov::Color, [640, 360], 1);
     let of = |pipeline: &Pipeline, frames| error(&draw(gpu, pipeline, Aov::Color, [160, 90], frames), &large);
     let (without, with_fxaa, with_taa) = (of(&plain, 1), of(&fxaa, 1), of(&taa, 24));
@@ -83,7 +83,7 @@ fn anti_aliasing_brings_edges_nearer_to_a_picture_of_many_samples() {
 fn render_writes_the_last_of_the_requested_frames() {
     let Some(_gpu) = gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
-    let picture = |frames: &str, taa: &str| {
+    let render = |frames: &str, taa: &str| {
         let (file, pipeline) =
             (dir.path().join("p.png"), concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron"));
         let mut command = std::process::Command::new(shadowgraph_tests::program().unwrap());
@@ -102,8 +102,8 @@ fn render_writes_the_last_of_the_requested_frames() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         std::fs::read(file).unwrap()
     };
-    assert_ne!(picture("1", "taa=true"), picture("6", "taa=true"));
-    assert_eq!(picture("1", "taa=false"), picture("6", "taa=false"));
+    assert_ne!(render("1", "taa=true"), render("6", "taa=true"));
+    assert_eq!(render("1", "taa=false"), render("6", "taa=false"));
 }
 
 #[test]
@@ -112,17 +112,17 @@ fn bloom_spreads_light_and_conserves_energy() {
     let bloom = |strength: f32| {
         let more = format!(
             "(name: \"bloom\", kind: \"bloom\", inputs: {{\"light\": \"lighting\"}}, settings: {{\"strength\": {strength:.2}}}),
-             (name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"bloom\"}})"
+             (name: \"tonemap\", kind: \"tonemap\", inputs: {{\"light\": \"bloom\"}})"
         );
-        draw(gpu, &pipeline("", VIEW, &more, "picture"), Aov::Color, [160, 90], 1)
+        draw(gpu, &pipeline("", VIEW, &more, "tonemap"), Aov::Color, [160, 90], 1)
     };
     let (none, some, all) = (bloom(0.0), bloom(0.2), bloom(1.0));
     let plain = draw(gpu, &Pipeline::forward(), Aov::Color, [160, 90], 1);
     assert!(none == plain && some != plain);
     assert!((mean(&some) / mean(&plain) - 1.0).abs() < 0.05, "{} and {}", mean(&some), mean(&plain));
     // Only spread light: neighbours hardly differ.
-    let rough = |picture: &RenderedImage| {
-        let pairs = picture.rgba8.chunks_exact(4).zip(picture.rgba8.chunks_exact(4).skip(1));
+    let rough = |image: &RenderedImage| {
+        let pairs = image.rgba8.chunks_exact(4).zip(image.rgba8.chunks_exact(4).skip(1));
         pairs.map(|(a, b)| u64::from(a[1].abs_diff(b[1]))).sum::<u64>()
     };
     assert!(rough(&all) * 4 < rough(&plain), "{} and {}", rough(&all), rough(&plain));
@@ -132,8 +132,8 @@ fn bloom_spreads_light_and_conserves_energy() {
 fn corners_are_occluded_and_open_ground_is_not() {
     let Some(gpu) = gpu() else { return };
     let more = "(name: \"occlusion\", kind: \"ssao\", inputs: {\"view\": \"view\", \"depth\": \"geometry\"}),
-                (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"lighting\"})";
-    let pipeline = pipeline("", "\"view\": \"occlusion\"", more, "picture");
+                (name: \"tonemap\", kind: \"tonemap\", inputs: {\"light\": \"lighting\"})";
+    let pipeline = pipeline("", "\"view\": \"occlusion\"", more, "tonemap");
     let occlusion = draw(gpu, &pipeline, Aov::Texture("occlusion".into()), [640, 360], 1);
     let at = |x, y| occlusion.pixel(x, y).unwrap()[0];
     // Tiles in the open and the sky; below the sphere and between steps.
@@ -153,8 +153,8 @@ fn corners_are_occluded_and_open_ground_is_not() {
 fn the_sky_is_brighter_at_the_horizon_and_only_in_the_background() {
     let Some(gpu) = gpu() else { return };
     let more = "(name: \"sky\", kind: \"sky\", inputs: {\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"}),
-                (name: \"picture\", kind: \"tonemap\", inputs: {\"light\": \"sky\"})";
-    let with = draw(gpu, &pipeline("", VIEW, more, "picture"), Aov::Color, [320, 180], 1);
+                (name: \"tonemap\", kind: \"tonemap\", inputs: {\"light\": \"sky\"})";
+    let with = draw(gpu, &pipeline("", VIEW, more, "tonemap"), Aov::Color, [320, 180], 1);
     let without = draw(gpu, &Pipeline::forward(), Aov::Color, [320, 180], 1);
     let differ = |x, y| with.pixel(x, y) != without.pixel(x, y);
     let (high, low) = (with.pixel(30, 4).unwrap(), with.pixel(30, 44).unwrap());
@@ -169,10 +169,10 @@ fn fog_is_darker_inside_shadows() {
         let more = format!(
             "(name: \"fog\", kind: \"fog\", settings: {{{settings}}}, inputs: {{\"view\": \"view\", \"shadows\": \"shadows\", \
                 \"depth\": \"geometry\", \"light\": \"lighting\"}}),
-             (name: \"picture\", kind: \"tonemap\", inputs: {{\"light\": \"fog\"}})"
+             (name: \"tonemap\", kind: \"tonemap\", inputs: {{\"light\": \"fog\"}})"
         );
         let technique = Some(Registry::built_in().techniques.find(technique).unwrap());
-        let config = RenderConfig { technique, pipeline: pipeline("", VIEW, &more, "picture"), samples: 1 };
+        let config = RenderConfig { technique, pipeline: pipeline("", VIEW, &more, "tonemap"), samples: 1 };
         let scene = demo_scene();
         let options =
             ViewOptions { camera: scene.cameras[0].clone(), size_px: [160, 90], shadows: Default::default() };
@@ -184,9 +184,8 @@ fn fog_is_darker_inside_shadows() {
     let thin = "\"density\": 0.03, \"falloff\": 0.0, \"height_m\": 100.0, \"steps\": 48";
     let (with, without) = (fog("pcf", thin), fog("none", thin));
     // Above the walls there is only fog, with the towers' shadows in it.
-    let sky = |picture: &RenderedImage| {
-        picture.rgba8[..160 * 20 * 4].chunks_exact(4).map(|p| p[1]).collect::<Vec<_>>()
-    };
+    let sky =
+        |image: &RenderedImage| image.rgba8[..160 * 20 * 4].chunks_exact(4).map(|p| p[1]).collect::<Vec<_>>();
     let (with, without) = (sky(&with), sky(&without));
     let darker = with.iter().zip(&without).filter(|(a, b)| a < b).count();
     let brighter = with.iter().zip(&without).filter(|(a, b)| **a > **b + 1).count();

@@ -27,10 +27,10 @@ fn traced(gpu: &Gpu, scene: &Scene, camera: &Camera, light: usize) -> Traced {
     let options = ViewOptions { camera: camera.clone(), size_px: SIZE_PX, shadows: Default::default() };
     let aov = Aov::Visibility(light as u32);
     let mut renderer = Renderer::with_config(gpu, scene.clone(), camera, aov, RAYTRACED).unwrap();
-    let picture = renderer.draw(gpu, &crate::stage::hard(&options)).unwrap().image;
+    let image = renderer.draw(gpu, &crate::stage::hard(&options)).unwrap().image;
     let surfaces = SurfaceReader::new(gpu, &renderer).unwrap().read(gpu, &mut renderer, &options).unwrap();
     let origin_world = renderer.casters().scene.origin_world();
-    let drawn = picture.rgba8.chunks_exact(4);
+    let drawn = image.rgba8.chunks_exact(4);
     Traced {
         visibility: drawn.map(|texel| (texel[3] > 0).then_some(f32::from(texel[0]) / 255.0)).collect(),
         surfaces,

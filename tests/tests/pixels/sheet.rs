@@ -43,13 +43,13 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     let mut truth = Vec::new();
     let mut wrong = Vec::new();
     for (row, (name, config)) in configs().into_iter().enumerate() {
-        let pictures = pictures(gpu, config.clone(), CELL_PX, row == 0);
+        let images = images(gpu, config.clone(), CELL_PX, row == 0);
         if row == 0 {
-            truth.clone_from(&pictures);
+            truth.clone_from(&images);
         }
-        for (column, (picture, truth)) in pictures.iter().zip(&truth).enumerate() {
-            sheet.paste(picture, column, row);
-            let (darker, lighter) = differing(picture, truth);
+        for (column, (image, truth)) in images.iter().zip(&truth).enumerate() {
+            sheet.paste(image, column, row);
+            let (darker, lighter) = differing(image, truth);
             // Without shadows the image is too bright.
             let wrong_part = if config.technique() == NONE { darker } else { darker + lighter };
             let line = format!("{name}, {}: {darker:.4} darker, {lighter:.4} lighter", MIXES[column]);
@@ -66,14 +66,14 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
     sheet.0.save(&file).unwrap();
     println!("wrote {}", file.display());
     if let Some(dir) = shadowgraph_tests::images() {
-        let under_spots = pictures(gpu, PCF.into(), [640, 320], false).swap_remove(1);
+        let under_spots = images(gpu, PCF.into(), [640, 320], false).swap_remove(1);
         RgbaImage::from_raw(640, 320, under_spots.rgba8).unwrap().save(dir.join("panels.png")).unwrap();
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Renders an image for each mix of lights.
-fn pictures(gpu: &Gpu, config: RenderConfig, size_px: [u32; 2], is_truth: bool) -> Vec<RenderedImage> {
+fn images(gpu: &Gpu, config: RenderConfig, size_px: [u32; 2], is_truth: bool) -> Vec<RenderedImage> {
     let mut scene = demo_scene();
     add_panels(&mut scene);
     let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
@@ -82,11 +82,11 @@ fn pictures(gpu: &Gpu, config: RenderConfig, size_px: [u32; 2], is_truth: bool) 
     options.shadows.cascades.map_size_px = 2048;
     let own = scene.lights.clone();
     let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config).unwrap();
-    let mut picture = |mix: &&str| {
+    let mut render = |mix: &&str| {
         renderer.set_lights(lights(mix, &own)).unwrap();
         renderer.draw(gpu, &options).unwrap().image
     };
-    MIXES.iter().map(&mut picture).collect()
+    MIXES.iter().map(&mut render).collect()
 }
 
 /// Returns the lights of a mix; `own` are the demo scene's, the sun first.
@@ -154,9 +154,9 @@ fn add_panels(scene: &mut Scene) {
 }
 
 /// Returns the fractions of the pixels that are darker and lighter than the reference by more than a sixth of white.
-fn differing(picture: &RenderedImage, truth: &RenderedImage) -> (f64, f64) {
+fn differing(image: &RenderedImage, truth: &RenderedImage) -> (f64, f64) {
     let luma = |rgba: &[u8]| rgba[..3].iter().map(|&byte| i32::from(byte)).sum::<i32>() / 3;
-    let pairs = picture.rgba8.chunks_exact(4).zip(truth.rgba8.chunks_exact(4));
+    let pairs = image.rgba8.chunks_exact(4).zip(truth.rgba8.chunks_exact(4));
     let by: Vec<i32> = pairs.map(|(a, b)| luma(a) - luma(b)).collect();
     let part = |is: &dyn Fn(i32) -> bool| by.iter().filter(|by| is(**by)).count() as f64 / by.len() as f64;
     (part(&|by| by < -42), part(&|by| by > 42))
@@ -171,10 +171,10 @@ impl Sheet {
         Self(RgbaImage::from_pixel(width, height, Rgba([255; 4])))
     }
 
-    fn paste(&mut self, picture: &RenderedImage, column: usize, row: usize) {
+    fn paste(&mut self, image: &RenderedImage, column: usize, row: usize) {
         let [left, top] = [column as u32 * (CELL_PX[0] + GAP_PX), row as u32 * (CELL_PX[1] + GAP_PX)];
         for (x, y) in (0..CELL_PX[1]).flat_map(|y| (0..CELL_PX[0]).map(move |x| (x, y))) {
-            self.0.put_pixel(left + x, top + y, Rgba(picture.pixel(x, y).unwrap()));
+            self.0.put_pixel(left + x, top + y, Rgba(image.pixel(x, y).unwrap()));
         }
     }
 }

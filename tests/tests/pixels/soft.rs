@@ -38,8 +38,8 @@ fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
     let aov = Aov::Visibility(0);
     let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
     let reference = Comparator::new(gpu, &renderer, 0).unwrap().reference(&mut renderer, options, 0).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().image;
-    let pixels = reference.surfaces.positions.iter().zip(picture.rgba8.chunks_exact(4));
+    let image = renderer.draw(gpu, options).unwrap().image;
+    let pixels = reference.surfaces.positions.iter().zip(image.rgba8.chunks_exact(4));
     let between = pixels.filter(|(_, rgba)| rgba[3] == 255 && (26..=229).contains(&rgba[0]));
     let mut between: Vec<f32> = between.map(|(position, _)| position.x).collect();
     between.sort_by(f32::total_cmp);

@@ -22,8 +22,8 @@ fn greys(
 ) -> Vec<Option<u8>> {
     let mut renderer =
         Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), config).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().image;
-    picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
+    let image = renderer.draw(gpu, options).unwrap().image;
+    image.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 
 fn truth(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<Option<u8>> {

@@ -23,10 +23,10 @@ fn lit_by(light: usize) -> (Scene, ViewOptions) {
 fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -> Vec<Vec3> {
     let aov = Aov::Texture("shadow mask".into());
     let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().image;
+    let image = renderer.draw(gpu, options).unwrap().image;
     let color =
         |rgba: &[u8]| Vec3::from([rgba[0], rgba[1], rgba[2]].map(|byte| linear_from_srgb(byte) as f32));
-    picture.rgba8.chunks_exact(4).map(color).collect()
+    image.rgba8.chunks_exact(4).map(color).collect()
 }
 
 /// Returns which pixels show surfaces that face the light; the others do not count.
@@ -34,8 +34,8 @@ fn facing(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<bool> {
     let mut renderer =
         Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), Technique::from(NONE))
             .unwrap();
-    let picture = renderer.draw(gpu, options).unwrap().image;
-    picture.rgba8.chunks_exact(4).map(|rgba| rgba[3] == 255).collect()
+    let image = renderer.draw(gpu, options).unwrap().image;
+    image.rgba8.chunks_exact(4).map(|rgba| rgba[3] == 255).collect()
 }
 
 /// Returns the fraction of the pixels in which a colour differs by more than `by`.

@@ -51,9 +51,9 @@ fn cases(dir: &Path) -> Vec<PathBuf> {
 /// Runs one case; the error lists everything that is wrong with the result.
 fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
     let dir = tempfile::tempdir().unwrap();
-    let picture = dir.path().join("case.png");
+    let image = dir.path().join("case.png");
     let mut command = Command::new(program);
-    command.arg("render").arg(file).arg("-o").arg(&picture);
+    command.arg("render").arg(file).arg("-o").arg(&image);
     command.args(["--size", &format!("{}x{}", SIZE.0, SIZE.1), "--adapter", adapter()]);
     // Graphics libraries print warnings where a session has no such directory.
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
@@ -67,7 +67,7 @@ fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
         wrong.push("it panicked".to_owned());
     }
     match outcome.code {
-        Some(0) => wrong.extend(image_error(&picture, left, errors.len())),
+        Some(0) => wrong.extend(image_error(&image, left, errors.len())),
         Some(1) => wrong.extend(error_message_error(file, left, &errors)),
         code => wrong.push(format!("it ended with code {code:?}")),
     }
@@ -78,9 +78,9 @@ fn check(program: &Path, file: &Path) -> Result<Outcome, String> {
     }
 }
 
-fn image_error(picture: &Path, files: usize, errors: usize) -> Option<String> {
-    let size = image::image_dimensions(picture);
-    if size.as_ref().ok() != Some(&SIZE) || image::open(picture).is_err() {
+fn image_error(image: &Path, files: usize, errors: usize) -> Option<String> {
+    let size = image::image_dimensions(image);
+    if size.as_ref().ok() != Some(&SIZE) || image::open(image).is_err() {
         Some(format!("it succeeded, but its image is {size:?}"))
     } else if files != 1 || errors > 0 {
         Some(format!("it succeeded with {errors} error lines and {files} files"))

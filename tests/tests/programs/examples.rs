@@ -54,8 +54,8 @@ const IN_WINDOWS: [&str; 9] = [
     "custom_engine",
 ];
 
-fn pixel(picture: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {
-    picture.get_pixel(x, y).0
+fn pixel(image: &image::RgbaImage, x: u32, y: u32) -> [u8; 4] {
+    image.get_pixel(x, y).0
 }
 
 #[test]
@@ -64,44 +64,44 @@ fn every_small_example_runs_and_writes_its_image() {
         return skip("examples", "no graphics driver is installed");
     }
     let dir = tempfile::tempdir().unwrap();
-    let picture = |file: &str| image::open(dir.path().join("out").join(file)).unwrap().into_rgba8();
+    let read = |file: &str| image::open(dir.path().join("out").join(file)).unwrap().into_rgba8();
     let output_of = |name: &str, arguments: &[&str]| {
         let outcome = run(Command::new(example(name)).args(arguments).current_dir(dir.path()));
         assert_eq!(outcome.code, Some(0), "{name}: {}", outcome.stderr);
         outcome.stdout
     };
     output_of("minimal_graph", &[]);
-    let disc = picture("minimal_graph.png");
+    let disc = read("minimal_graph.png");
     assert!(pixel(&disc, 160, 90)[0] > 200 && pixel(&disc, 5, 5)[0] < 100);
 
     output_of("post_chain", &[]);
-    let lights = picture("post_chain.png");
+    let lights = read("post_chain.png");
     // In a light, in its bloom, between lights.
     let brightness = |x, y| pixel(&lights, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
     assert!(brightness(20, 20) > brightness(30, 20) && brightness(30, 20) > brightness(40, 40));
 
     let plan = output_of("compute_only", &[]);
     assert!(plan.contains("103 passes") && plan.contains(" slots"), "{plan}");
-    let alive = picture("compute_only.png").pixels().filter(|pixel| pixel.0[0] == 255).count();
+    let alive = read("compute_only.png").pixels().filter(|pixel| pixel.0[0] == 255).count();
     assert!((100..8_000).contains(&alive), "{alive} cells are alive");
 
     output_of("split_screen", &[]);
-    assert_eq!(picture("split_screen.png").dimensions(), (640, 360));
+    assert_eq!(read("split_screen.png").dimensions(), (640, 360));
 
     let lights = ["forward", "forward_plus"].map(|pipeline| {
         assert!(output_of("many_lights", &[pipeline]).starts_with(&format!("{pipeline}: ")));
-        picture("many_lights.png")
+        read("many_lights.png")
     });
     assert!(lights[0] == lights[1], "both pipelines render the same image");
 
     output_of("day_cycle", &["--frames", "12"]);
-    let day = [0, 11].map(|number| picture(&format!("day_cycle/{number:02}.png")));
+    let day = [0, 11].map(|number| read(&format!("day_cycle/{number:02}.png")));
     assert!(pixel(&day[1], 160, 150) != pixel(&day[0], 160, 150), "noon is not morning");
 
     // In the penumbra one frame is black or white, and many are grey.
     let [one, many] = [&["--frames", "1"][..], &[]].map(|arguments| {
         output_of("temporal", arguments);
-        picture("temporal.png").pixels().filter(|pixel| (40..215).contains(&pixel.0[0])).count()
+        read("temporal.png").pixels().filter(|pixel| (40..215).contains(&pixel.0[0])).count()
     });
     assert!(one == 0 && many > 2_000, "{one} and {many} grey pixels");
 
@@ -116,7 +116,7 @@ fn custom_pipeline_gives_equal_plans_and_images_from_a_file_and_from_a_script() 
         return skip("pipelines", "no graphics driver is installed");
     }
     let dir = tempfile::tempdir().unwrap();
-    let [picture, of_script] = ["file", "script"].map(|seen| {
+    let [of_file, of_script] = ["file", "script"].map(|seen| {
         let mut command = Command::new(example("custom_pipeline"));
         // From the second frame on, the pipeline has a history.
         let outcome = run(command.args([seen, "--frames", "3"]).current_dir(dir.path()));
@@ -125,10 +125,10 @@ fn custom_pipeline_gives_equal_plans_and_images_from_a_file_and_from_a_script() 
         assert_eq!(equal.count(), 3, "{}", outcome.stdout);
         image::open(dir.path().join("out/custom_pipeline.png")).unwrap().into_rgba8()
     });
-    assert!(picture == of_script, "both render the same image");
-    assert_eq!(picture.dimensions(), (640, 360));
+    assert!(of_file == of_script, "both render the same image");
+    assert_eq!(of_file.dimensions(), (640, 360));
     // The vignette darkens the sky in a corner.
-    let brightness = |x, y| pixel(&picture, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
+    let brightness = |x, y| pixel(&of_file, x, y)[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
     assert!(
         brightness(2, 2) * 4 < brightness(250, 40) * 3,
         "{} and {}",
@@ -149,8 +149,8 @@ fn custom_renders_into_the_texture_of_the_application_and_prints_the_plan() {
     ] {
         assert!(outcome.stdout.contains(line), "`{line}` is missing in:\n{}", outcome.stdout);
     }
-    let picture = image::open(dir.path().join("out/custom.png")).unwrap().into_rgba8();
-    assert_eq!(picture.dimensions(), (320, 180));
+    let image = image::open(dir.path().join("out/custom.png")).unwrap().into_rgba8();
+    assert_eq!(image.dimensions(), (320, 180));
     // The colours in the example's source as sRGB: the application's in the corners, rings under the lens.
     let (green, orange, blue) = ([0, 124, 63, 255], [255, 188, 0, 255], [0, 137, 255, 255]);
     for (x, y, expected) in [
@@ -163,8 +163,8 @@ fn custom_renders_into_the_texture_of_the_application_and_prints_the_plan() {
         (112, 90, blue),
         (160, 24, orange),
     ] {
-        let near = pixel(&picture, x, y).iter().zip(expected).all(|(is, to_be)| is.abs_diff(to_be) <= 2);
-        assert!(near, "at {x}, {y}: {:?} instead of {expected:?}", pixel(&picture, x, y));
+        let near = pixel(&image, x, y).iter().zip(expected).all(|(is, to_be)| is.abs_diff(to_be) <= 2);
+        assert!(near, "at {x}, {y}: {:?} instead of {expected:?}", pixel(&image, x, y));
     }
 }
 
@@ -217,9 +217,9 @@ fn a_custom_engine_gets_shadows_on_its_boxes() {
     let dir = tempfile::tempdir().unwrap();
     let outcome = run(Command::new(example("custom_engine")).current_dir(dir.path()));
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
-    let picture = image::open(dir.path().join("out/custom_engine.png")).unwrap().into_rgba8();
+    let image = image::open(dir.path().join("out/custom_engine.png")).unwrap().into_rgba8();
     // The lit ground, a step's shadow, and the sky.
-    let [lit, dark, sky] = [(560, 300), (270, 245), (20, 20)].map(|(x, y)| pixel(&picture, x, y));
+    let [lit, dark, sky] = [(560, 300), (270, 245), (20, 20)].map(|(x, y)| pixel(&image, x, y));
     assert!(lit[0] > 190 && dark[0] < 110 && sky[2] > sky[0] + 40, "{lit:?} {dark:?} {sky:?}");
 }
 
@@ -230,10 +230,10 @@ fn stained_glass_colours_the_floor_by_maps_and_by_rays() {
         let outcome = run(Command::new(example("stained_glass")).arg(technique).current_dir(dir.path()));
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         let file = dir.path().join("out/stained_glass.png");
-        let picture = image::open(file).unwrap().into_rgba8();
+        let image = image::open(file).unwrap().into_rgba8();
         // Behind the red, green and blue panes.
         for (channel, (x, y)) in [(370, 330), (400, 395), (520, 410)].into_iter().enumerate() {
-            let [red, green, blue, _] = pixel(&picture, x, y);
+            let [red, green, blue, _] = pixel(&image, x, y);
             let others = [red, green, blue].into_iter().enumerate().filter(|(other, _)| *other != channel);
             let most = others.map(|(_, value)| value).max().unwrap();
             assert!([red, green, blue][channel] > most + 15, "{technique}: {red} {green} {blue} at {x}, {y}");

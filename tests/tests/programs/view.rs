@@ -58,7 +58,7 @@ struct View {
     window: Window,
 }
 
-type Picture = image::RgbImage;
+type Screenshot = image::RgbImage;
 
 impl View {
     /// Starts the program on the demo scene and waits for its window.
@@ -112,21 +112,21 @@ impl View {
         text
     }
 
-    fn picture(&self) -> Picture {
+    fn screenshot(&self) -> Screenshot {
         let [width, height] = [640u16, 360];
         let image = self.x.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, !0).unwrap();
         let bytes = image.reply().unwrap().data;
         let rgb: Vec<u8> = bytes.chunks_exact(4).flat_map(|bgrx| [bgrx[2], bgrx[1], bgrx[0]]).collect();
-        Picture::from_raw(width.into(), height.into(), rgb).unwrap()
+        Screenshot::from_raw(width.into(), height.into(), rgb).unwrap()
     }
 
     /// Saves the screen as an image for a person to look at.
-    fn keep(&self, name: &str) -> Picture {
+    fn keep(&self, name: &str) -> Screenshot {
         let dir = repository().join("target/tmp/view");
         std::fs::create_dir_all(&dir).unwrap();
-        let picture = self.picture();
-        picture.save(dir.join(format!("{name}.png"))).unwrap();
-        picture
+        let screenshot = self.screenshot();
+        screenshot.save(dir.join(format!("{name}.png"))).unwrap();
+        screenshot
     }
 
     fn key(&self, keysym: u32, kind: u8) {
@@ -153,8 +153,8 @@ impl View {
     }
 
     /// Waits for a frame that differs.
-    fn wait_for_change(&mut self, before: &Picture) {
-        self.until("another frame", |view| changed(before, &view.picture()) > 0.02);
+    fn wait_for_change(&mut self, before: &Screenshot) {
+        self.until("another frame", |view| changed(before, &view.screenshot()) > 0.02);
     }
 
     /// Closes the window as the button of its title bar does, and returns how the program ended.
@@ -195,16 +195,16 @@ impl Drop for View {
 }
 
 /// Returns the fraction of pixels that clearly differ.
-fn changed(a: &Picture, b: &Picture) -> f64 {
+fn changed(a: &Screenshot, b: &Screenshot) -> f64 {
     let differs = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| a[c].abs_diff(b[c]) > 12);
     let count = a.pixels().zip(b.pixels()).filter(|&pair| differs(pair)).count();
     count as f64 / f64::from(a.width() * a.height())
 }
 
 /// Returns whether the scene is visible left of the panel.
-fn lit(picture: &Picture) -> bool {
+fn lit(screenshot: &Screenshot) -> bool {
     let bright =
-        picture.enumerate_pixels().filter(|(x, _, pixel)| *x < 150 && pixel.0.iter().all(|&c| c > 60));
+        screenshot.enumerate_pixels().filter(|(x, _, pixel)| *x < 150 && pixel.0.iter().all(|&c| c > 60));
     bright.count() > 150 * 360 / 5
 }
 
@@ -215,19 +215,19 @@ const F3: u32 = 0xffc0;
 fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     let Some(display) = Display::open() else { return };
     let mut view = View::start(&display, &[]);
-    let empty = Picture::new(640, 360);
-    view.until("the scene", |view| lit(&view.picture()));
+    let empty = Screenshot::new(640, 360);
+    view.until("the scene", |view| lit(&view.screenshot()));
     let first = view.keep("1 scene");
 
     // A frame may take long on a busy machine.
     view.key(u32::from('d'), KEY_PRESS_EVENT);
-    view.until("the camera to move", |view| changed(&first, &view.picture()) > 0.2);
+    view.until("the camera to move", |view| changed(&first, &view.screenshot()) > 0.2);
     view.key(u32::from('d'), KEY_RELEASE_EVENT);
     view.until("the camera to rest", |view| {
-        let before = view.picture();
+        let before = view.screenshot();
         std::thread::sleep(Duration::from_secs(1));
         // The times in the panel change.
-        changed(&before, &view.picture()) < 0.005
+        changed(&before, &view.screenshot()) < 0.005
     });
     let moved = view.keep("2 moved");
 
@@ -267,17 +267,17 @@ fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
     let good = std::fs::read_to_string(repository().join("shaders/wgsl/tonemap.wgsl")).unwrap();
     std::fs::write(&file, &good).unwrap();
     let mut view = View::start(&display, &["--shaders", dir.path().to_str().unwrap()]);
-    view.until("the scene", |view| lit(&view.picture()));
+    view.until("the scene", |view| lit(&view.screenshot()));
     std::thread::sleep(Duration::from_secs(2));
-    let before = view.picture();
-    let scene = |picture: &Picture| image::imageops::crop_imm(picture, 0, 0, 200, 360).to_image();
+    let before = view.screenshot();
+    let scene = |screenshot: &Screenshot| image::imageops::crop_imm(screenshot, 0, 0, 200, 360).to_image();
     std::fs::write(&file, good.replace("return", "return oops +")).unwrap();
     // The panel shows the error; the frame next to it stays.
     view.wait_for_change(&before);
     let broken = view.keep("6 shader error");
     assert!(changed(&scene(&before), &scene(&broken)) < 0.001, "the last good frame stays");
     std::fs::write(&file, good.replace("@fragment", "\n@fragment")).unwrap();
-    view.until("the error to be gone", |view| changed(&before, &view.picture()) < 0.02);
+    view.until("the error to be gone", |view| changed(&before, &view.screenshot()) < 0.02);
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
 }
@@ -289,9 +289,9 @@ fn a_saved_settings_file_is_reloaded_and_an_error_in_it_is_shown() {
     let file = dir.path().join("settings.ron");
     std::fs::write(&file, "(distance_m: 60.0)").unwrap();
     let mut view = View::start(&display, &["--settings", file.to_str().unwrap(), "--technique", "none"]);
-    view.until("the scene", |view| lit(&view.picture()));
+    view.until("the scene", |view| lit(&view.screenshot()));
     std::thread::sleep(Duration::from_secs(1));
-    let before = view.picture();
+    let before = view.screenshot();
     std::fs::write(&file, "(distance_m: 0.0)").unwrap();
     view.wait_for_change(&before);
     let shown = view.keep("7 settings error");

@@ -52,9 +52,9 @@ fn lost() -> Failure {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     device.destroy();
     failure_on(&device, "SG0608", &["device is lost", "create another one"], |frame| {
-        let mut picture = frame.create_texture("picture", square());
-        frame.render_pass("clear").color(&mut picture, Contents::clear_color([0.0; 4]));
-        frame.export_texture(&picture);
+        let mut image = frame.create_texture("image", square());
+        frame.render_pass("clear").color(&mut image, Contents::clear_color([0.0; 4]));
+        frame.export_texture(&image);
     })
 }
 
@@ -121,19 +121,19 @@ pub(crate) fn failures() -> Vec<Failure> {
         }),
         failure(
             "SG0605",
-            &["`picture` has the format Rgba8UnormSrgb", "STORAGE_BINDING", "such as Rgba8Unorm"],
+            &["`image` has the format Rgba8UnormSrgb", "STORAGE_BINDING", "such as Rgba8Unorm"],
             |frame| {
                 let desc = TextureDesc { format: Format::Rgba8UnormSrgb, ..square() };
-                let mut picture = frame.create_texture("picture", desc);
-                frame.compute_pass("draw").storage_texture_mut(&mut picture, Contents::Overwrite);
-                frame.export_texture(&picture);
+                let mut image = frame.create_texture("image", desc);
+                frame.compute_pass("draw").storage_texture_mut(&mut image, Contents::Overwrite);
+                frame.export_texture(&image);
             },
         ),
         failure("SG0604", &["shader `red`", "does not match its pass"], |frame| {
             let red = FullscreenShader::wgsl("red", "@fragment fn red() -> @location(0) vec4f { return 1; }");
-            let mut picture = frame.create_texture("picture", square());
-            frame.fullscreen("red", &red).draw(&mut picture);
-            frame.export_texture(&picture);
+            let mut image = frame.create_texture("image", square());
+            frame.fullscreen("red", &red).draw(&mut image);
+            frame.export_texture(&image);
         }),
     ];
     failures.extend(out_of_memory());

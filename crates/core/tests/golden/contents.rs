@@ -12,8 +12,8 @@ fn cull() {
     filter(&mut frame, "histogram overlay", &histogram);
     let mut stray = frame.compute_pass("stray");
     stray.sample(&scene);
-    let picture = filter(&mut frame, "tonemap", &scene);
-    frame.export_texture(&picture);
+    let image = filter(&mut frame, "tonemap", &scene);
+    frame.export_texture(&image);
     check("cull", &plan(frame).to_text());
 }
 
@@ -21,9 +21,9 @@ fn cull() {
 #[test]
 fn overwritten() {
     let mut frame = Frame::new();
-    let mut picture = draw(&mut frame, "picture");
-    frame.render_pass("title screen").color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    let mut image = draw(&mut frame, "image");
+    frame.render_pass("title screen").color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
     check("overwritten", &plan(frame).to_text());
 }
 
@@ -31,12 +31,12 @@ fn overwritten() {
 #[test]
 fn overwritten_in_parts() {
     let mut frame = Frame::new();
-    let mut picture = draw(&mut frame, "picture");
+    let mut image = draw(&mut frame, "image");
     for (name, x) in [("left half", 0), ("right half", 640)] {
         let half = Subresource::FULL.rect(Rect::new(x, 0, 640, 720));
-        frame.render_pass(name).subresource(half).color(&mut picture, Contents::Overwrite);
+        frame.render_pass(name).subresource(half).color(&mut image, Contents::Overwrite);
     }
-    frame.export_texture(&picture);
+    frame.export_texture(&image);
     check("overwritten_in_parts", &plan(frame).to_text());
 }
 
@@ -47,11 +47,11 @@ fn placeholder() {
     let scene = draw(&mut frame, "scene");
     let occlusion = frame.when(false, |frame| hdr(frame, "occlusion"));
     let occlusion = frame.or_placeholder(occlusion.as_ref(), Format::R8Unorm, ClearValue::Color([1.0; 4]));
-    let mut picture = hdr(&mut frame, "picture");
+    let mut image = hdr(&mut frame, "image");
     let mut pass = frame.render_pass("light");
     pass.sample(&scene);
     pass.sample(&occlusion);
-    pass.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    pass.color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
     check("placeholder", &plan(frame).to_text());
 }

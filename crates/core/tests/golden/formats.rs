@@ -17,17 +17,17 @@ fn frame() -> Frame<'static> {
             frame.render_pass(format_args!("light {light}")).subresource(tile).depth(&mut atlas, FAR);
         }
     });
-    let picture = frame.node("post", |frame| {
+    let image = frame.node("post", |frame| {
         let half = filter(frame, "half", &scene);
         filter(frame, "unused", &half);
-        let mut picture = hdr(frame, "picture");
+        let mut image = hdr(frame, "image");
         let mut last = frame.render_pass("last");
         last.sample(&half);
         last.sample(&atlas);
-        last.color(&mut picture, Contents::Overwrite);
-        picture
+        last.color(&mut image, Contents::Overwrite);
+        image
     });
-    frame.export_texture(&picture);
+    frame.export_texture(&image);
     frame
 }
 
@@ -83,9 +83,9 @@ fn the_dot_dump_clusters_nodes_and_marks_merged_and_culled_passes() {
 #[test]
 fn quotes_in_names_do_not_break_the_dot_dump() {
     let mut frame = Frame::new();
-    let mut picture = hdr(&mut frame, "a \"quoted\" \\ name");
-    frame.render_pass("draw \"it\"").color(&mut picture, BLACK);
-    frame.export_texture(&picture);
+    let mut image = hdr(&mut frame, "a \"quoted\" \\ name");
+    frame.render_pass("draw \"it\"").color(&mut image, BLACK);
+    frame.export_texture(&image);
     let dot = plan(frame).to_dot();
     assert!(dot.contains("label=\"draw \\\"it\\\"\\nrender"), "{dot}");
 }
@@ -94,13 +94,13 @@ fn quotes_in_names_do_not_break_the_dot_dump() {
 fn long_names_do_not_widen_the_text_dump() {
     let mut frame = Frame::new();
     let name = "a name that goes on ".repeat(20);
-    let mut picture = hdr(&mut frame, &name);
+    let mut image = hdr(&mut frame, &name);
     frame.node(&name, |frame| {
         let half = Subresource::FULL.rect(Rect::new(0, 0, 1280, 360));
-        frame.render_pass(&name).color(&mut picture, BLACK);
-        frame.render_pass(&name).subresource(half).color(&mut picture, BLACK);
+        frame.render_pass(&name).color(&mut image, BLACK);
+        frame.render_pass(&name).subresource(half).color(&mut image, BLACK);
     });
-    frame.export_texture(&picture);
+    frame.export_texture(&image);
     let text = plan(frame).to_text();
     assert!(text.lines().all(|line| line.chars().count() <= 110), "{text}");
     assert!(text.contains("… v2, 1280x360 at 0,0"), "the part is not cut: {text}");

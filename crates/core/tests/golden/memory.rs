@@ -8,12 +8,12 @@ use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
 fn reuse() {
     let mut frame = Frame::new();
     let scene = draw(&mut frame, "scene");
-    let picture = frame.node("post", |frame| {
+    let image = frame.node("post", |frame| {
         let across = filter(frame, "blur across", &scene);
         let down = filter(frame, "blur down", &across);
         filter(frame, "tonemap", &down)
     });
-    frame.export_texture(&picture);
+    frame.export_texture(&image);
     check("reuse", &plan(frame).to_text());
 }
 
@@ -42,13 +42,13 @@ fn order_chosen_for_memory() {
         frame.render_pass(format_args!("draw {side}")).color(large, BLACK);
     }
     let small = [(0, "left"), (1, "right")].map(|(index, side)| filter(&mut frame, side, &branches[index]));
-    let mut picture = hdr(&mut frame, "picture");
+    let mut image = hdr(&mut frame, "image");
     let mut join = frame.render_pass("join");
     for side in &small {
         join.sample(side);
     }
-    join.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    join.color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
     check("order_chosen_for_memory", &plan(frame).to_text());
 }
 
@@ -56,14 +56,14 @@ fn order_chosen_for_memory() {
 #[test]
 fn transient_across_merged_passes() {
     let mut frame = Frame::new();
-    let mut picture = hdr(&mut frame, "picture");
+    let mut image = hdr(&mut frame, "image");
     let mut depth = depth(&mut frame, "depth");
     let mut opaque = frame.render_pass("opaque");
-    opaque.color(&mut picture, BLACK);
+    opaque.color(&mut image, BLACK);
     opaque.depth(&mut depth, super::FAR);
     let mut glass = frame.render_pass("glass");
-    glass.color(&mut picture, Contents::Preserve);
+    glass.color(&mut image, Contents::Preserve);
     glass.depth(&mut depth, Contents::Preserve);
-    frame.export_texture(&picture);
+    frame.export_texture(&image);
     check("transient_across_merged_passes", &plan(frame).to_text());
 }

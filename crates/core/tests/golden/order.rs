@@ -28,9 +28,9 @@ fn two_views() {
     for (index, side) in ["left", "right"].into_iter().enumerate() {
         frame.view(side, |frame| {
             let scene = draw(frame, "scene");
-            let picture = filter(frame, "bloom", &scene);
+            let image = filter(frame, "bloom", &scene);
             let mut present = frame.render_pass("present");
-            present.sample(&picture);
+            present.sample(&image);
             present.color(&mut window, if index == 0 { BLACK } else { Contents::Preserve });
         });
     }

@@ -6,7 +6,7 @@ use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
 fn plan(blur: bool) -> Plan {
     let mut frame = Frame::new();
     let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
-    let mut picture = frame.create_texture("picture", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    let mut image = frame.create_texture("image", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
     frame.render_pass("draw").color(&mut scene, Contents::clear_color([0.0; 4]));
     if blur {
         frame.node("post", |frame| {
@@ -19,8 +19,8 @@ fn plan(blur: bool) -> Plan {
     }
     let mut tonemap = frame.render_pass("tonemap");
     tonemap.sample(&scene);
-    tonemap.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    tonemap.color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
     frame.compile().unwrap().into_plan()
 }
 

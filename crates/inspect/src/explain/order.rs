@@ -12,15 +12,15 @@ use shadowgraph_core::{Dependency, OrderReason, PassId, Plan};
 /// use shadowgraph_inspect::explain_why_before;
 /// let mut frame = Frame::new();
 /// let mut scene = frame.create_texture("scene", TextureDesc::d2(64, 64, Format::Rgba16Float));
-/// let mut picture = frame.create_texture("picture", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+/// let mut image = frame.create_texture("image", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
 /// let mut draw = frame.render_pass("draw");
 /// draw.color(&mut scene, Contents::clear_color([0.0; 4]));
 /// let draw = draw.id();
 /// let mut tonemap = frame.render_pass("tonemap");
 /// tonemap.sample(&scene);
-/// tonemap.color(&mut picture, Contents::Overwrite);
+/// tonemap.color(&mut image, Contents::Overwrite);
 /// let tonemap = tonemap.id();
-/// frame.export_texture(&picture);
+/// frame.export_texture(&image);
 /// let why = explain_why_before(frame.compile()?.plan(), draw, tonemap);
 /// assert!(why.contains("`tonemap` needs what `draw` wrote to `scene`"));
 /// # Ok::<(), shadowgraph_core::Error>(())

@@ -122,7 +122,7 @@ fn read(gpu: &Gpu, texture: &wgpu::Texture) -> RenderedImage {
 fn the_hand_written_image_equals_that_of_the_graph() {
     let gpu = match Gpu::open(&AdapterChoice::Cpu) {
         Ok(gpu) => gpu,
-        Err(error) => return skip("bench_pictures", &error.to_string()),
+        Err(error) => return skip("bench_images", &error.to_string()),
     };
     let (mut renderer, options) = demo(&gpu);
     let target = target(&gpu.device, options.size_px).unwrap();

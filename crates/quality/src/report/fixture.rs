@@ -39,10 +39,10 @@ fn case(index: usize, technique: &str, misclassified_percent: f64) -> CaseReport
         flicker: vec![flicker(Motion::Translate, true), flicker(Motion::Zoom, false)],
         cost: Some(Cost { gpu_ms: Some(1.25), texture_bytes: 64 << 20, draws: 20, triangles: 123_456 }),
         images: Some(ImageFiles {
-            color: format!("pictures/{index}/picture.png"),
-            truth: format!("pictures/{index}/truth.png"),
-            visibility: format!("pictures/{index}/visibility.png"),
-            difference: format!("pictures/{index}/difference.png"),
+            color: format!("images/{index}/image.png"),
+            truth: format!("images/{index}/truth.png"),
+            visibility: format!("images/{index}/visibility.png"),
+            difference: format!("images/{index}/difference.png"),
         }),
     }
 }

@@ -22,7 +22,7 @@ pub trait PipelineInstance: Send + Sync {
 
 /// The outputs of a pipeline for one view.
 pub struct PipelineOutput<'f> {
-    /// The finished image, as large as the view; a pipeline file calls it `picture`.
+    /// The finished image, as large as the view; a pipeline file calls it `image`.
     pub image: Texture,
     /// The output of lit passes, for AOVs that show it.
     pub light: Option<Texture>,

@@ -45,18 +45,18 @@ impl Renderer {
             Aov::Depth => {
                 let depth = output.depth.as_ref().ok_or_else(|| missing("depth"))?;
                 let buffers = buffers()?;
-                Ok(frame.node("picture", |frame| blit.depth(frame, buffers, depth, size_px)))
+                Ok(frame.node("image", |frame| blit.depth(frame, buffers, depth, size_px)))
             }
             Aov::Atlas => {
                 let maps: Vec<&Texture> = output.shadows.debug.iter().map(|(_, texture)| texture).collect();
                 let buffers = buffers()?;
-                Ok(frame.node("picture", |frame| blit.textures(frame, buffers, &maps, size_px)))
+                Ok(frame.node("image", |frame| blit.textures(frame, buffers, &maps, size_px)))
             }
             Aov::Texture(name) => {
                 let texture = frame.find_texture(name).ok_or_else(|| unknown_texture(frame, name))?;
                 check_displayable(frame, &texture, name)?;
                 let buffers = buffers()?;
-                Ok(frame.node("picture", |frame| blit.textures(frame, buffers, &[&texture], size_px)))
+                Ok(frame.node("image", |frame| blit.textures(frame, buffers, &[&texture], size_px)))
             }
         }
     }

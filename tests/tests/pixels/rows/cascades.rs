@@ -69,14 +69,14 @@ fn row_13_cascades_are_shown_in_colour() {
     let colours = |change: fn(&mut ShadowSettings)| {
         let options = pillar_view(change);
         let mut renderer = Renderer::new(gpu, pillars_in_sun(), &options.camera, Aov::Cascade).unwrap();
-        let picture: RenderedImage = renderer.draw(gpu, &options).unwrap().image;
+        let image: RenderedImage = renderer.draw(gpu, &options).unwrap().image;
         // Colours are shaded: they differ in the strongest channel and in the ratios of the others.
         let hue = |rgba: &[u8]| {
             let most = f32::from(*rgba[..3].iter().max().unwrap());
             [0, 1, 2].map(|i| (f32::from(rgba[i]) / most * 8.0).round() as u8)
         };
         let mut hues = std::collections::BTreeMap::<_, usize>::new();
-        for rgba in picture.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255) {
+        for rgba in image.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255) {
             *hues.entry(hue(rgba)).or_default() += 1;
         }
         // White has no cascade; a few pixels of other colours are where shadows fade.

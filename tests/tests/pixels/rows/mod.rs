@@ -33,8 +33,8 @@ fn greys_with(
     technique: TechniqueKind,
 ) -> Greys {
     let aov = Aov::Visibility(light);
-    let picture = draw_with(gpu, scene, aov, &hard(options), technique).image;
-    picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
+    let image = draw_with(gpu, scene, aov, &hard(options), technique).image;
+    image.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 
 fn greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {

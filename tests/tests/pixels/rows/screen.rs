@@ -13,13 +13,13 @@ use shadowgraph::shadows::{
 };
 use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions, wgpu};
 
-fn picture(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> RenderedImage {
+fn render(gpu: &Gpu, scene: &Scene, aov: Aov, options: &ViewOptions, pipeline: Pipeline) -> RenderedImage {
     draw_with(gpu, scene, aov, options, pipeline).image
 }
 
 fn screen_greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> Greys {
-    let picture = picture(gpu, scene, Aov::Visibility(light), options, Pipeline::screen_shadows());
-    picture.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
+    let image = render(gpu, scene, Aov::Visibility(light), options, Pipeline::screen_shadows());
+    image.rgba8.chunks_exact(4).map(|rgba| (rgba[3] == 255).then_some(rgba[0])).collect()
 }
 
 fn pillars_in_sun() -> Scene {
@@ -34,7 +34,7 @@ fn row_15_three_pipelines_render_the_same_image() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
     let [forward, screen, minimal] = [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()]
-        .map(|pipeline| picture(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
+        .map(|pipeline| render(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
     let differ = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| a.abs_diff(**b) > 3).count();
     let pixels = (SIZE_PX[0] * SIZE_PX[1]) as usize;
     assert_eq!(differ(&forward, &minimal), 0);
@@ -160,7 +160,7 @@ fn row_36_blended_geometry_receives_shadows() {
     scene.add_light(sun(sun_direction(40.0, 130.0)));
     let options = cube_view(|_| ());
     let [forward, screen] = [Pipeline::forward(), Pipeline::screen_shadows()]
-        .map(|pipeline| picture(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
+        .map(|pipeline| render(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
     let differ = forward.iter().zip(&screen).filter(|(a, b)| a.abs_diff(**b) > 3).count();
     assert!(differ < forward.len() / 1000, "{differ}");
 }

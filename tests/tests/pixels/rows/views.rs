@@ -75,16 +75,16 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
         };
         let mut together = make();
         for _ in 0..2 {
-            let pictures = together.draw_views(gpu, &[left.clone(), right.clone()]).unwrap();
-            for (picture, options) in pictures.iter().zip([&left, &right]) {
+            let images = together.draw_views(gpu, &[left.clone(), right.clone()]).unwrap();
+            for (image, options) in images.iter().zip([&left, &right]) {
                 let alone = make().draw(gpu, options).unwrap().image;
-                assert!(*picture == alone, "{pipeline:?}");
+                assert!(*image == alone, "{pipeline:?}");
                 assert!(
                     alone.rgba8.chunks_exact(4).filter(|rgba| rgba[0] == 0 && rgba[3] == 255).count() > 100
                 );
             }
             // The views differ.
-            assert_ne!(pictures[0].size_px, pictures[1].size_px);
+            assert_ne!(images[0].size_px, images[1].size_px);
         }
         let (first, second) = (together.draw_views(gpu, std::slice::from_ref(&left)).unwrap(), make());
         assert_eq!(first.len(), 1);

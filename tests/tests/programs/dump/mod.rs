@@ -81,7 +81,7 @@ fn explain_describes_a_pass_a_resource_and_an_order() {
     let (code, words, _) = explain(&["forward"]);
     assert_eq!(code, Some(0));
     assert!(
-        words.starts_with("render pass `lighting/forward`\n  runs: `picture/tonemap` needs `lit`"),
+        words.starts_with("render pass `lighting/forward`\n  runs: `tonemap/tonemap` needs `lit`"),
         "{words}"
     );
     assert!(explain(&["cascades"]).1.contains("cascades`: 4096x4096 Depth32Float, 64.0 MiB"));

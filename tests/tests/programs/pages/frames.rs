@@ -27,13 +27,13 @@ pub(crate) fn large() -> Result<Plan, Error> {
         let made = chain(&mut frame, run, 10, &last);
         last.push(made);
     }
-    let mut picture = frame.create_texture("picture", desc);
+    let mut image = frame.create_texture("image", desc);
     let mut pass = frame.render_pass("compose");
     for made in last.iter().step_by(3) {
         pass.sample(made);
     }
-    pass.color(&mut picture, Contents::Overwrite);
-    frame.export_texture(&picture);
+    pass.color(&mut image, Contents::Overwrite);
+    frame.export_texture(&image);
     Ok(frame.compile()?.into_plan())
 }
 

@@ -19,9 +19,9 @@ impl Node for Fxaa {
     const NAME: &'static str = "fxaa";
     const ABOUT: &'static str = "smooths edges of a tonemapped image";
     const INPUTS: &'static [Port] =
-        &[Port::texture("picture", "the tonemapped image").with_format(Format::Rgba8UnormSrgb)];
+        &[Port::texture("image", "the tonemapped image").with_format(Format::Rgba8UnormSrgb)];
     const OUTPUTS: &'static [Port] =
-        &[Port::texture("picture", "the same with smooth edges").with_format(Format::Rgba8UnormSrgb)];
+        &[Port::texture("image", "the same with smooth edges").with_format(Format::Rgba8UnormSrgb)];
 
     fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
         Ok(Self { pass: FxaaPass::new(context.device)? })
@@ -33,9 +33,9 @@ impl Node for Fxaa {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let mut target = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
-        self.pass.add_to(frame, &ports.texture("picture")?, &mut target);
-        ports.set("picture", target);
+        let mut target = ports.create("image", frame, view.texture_desc(Format::Rgba8UnormSrgb));
+        self.pass.add_to(frame, &ports.texture("image")?, &mut target);
+        ports.set("image", target);
         Ok(())
     }
 }

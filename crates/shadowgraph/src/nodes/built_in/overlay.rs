@@ -20,11 +20,11 @@ impl Node for Overlay {
     const NAME: &'static str = "overlay";
     const ABOUT: &'static str = "blends colours over a tonemapped image";
     const INPUTS: &'static [Port] = &[
-        Port::texture("picture", "the tonemapped image").with_format(Format::Rgba8UnormSrgb),
+        Port::texture("image", "the tonemapped image").with_format(Format::Rgba8UnormSrgb),
         Port::texture("colors", "sRGB colours with alpha").or_placeholder([0.0; 4]),
     ];
     const OUTPUTS: &'static [Port] =
-        &[Port::texture("picture", "the image with the colours").with_format(Format::Rgba8UnormSrgb)];
+        &[Port::texture("image", "the image with the colours").with_format(Format::Rgba8UnormSrgb)];
     const SETTINGS: &'static [Setting] =
         &[Setting::new("strength", SettingType::Number(0.5, 0.0, 1.0), "opacity of the colours")];
 
@@ -38,10 +38,10 @@ impl Node for Overlay {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let (image, colors) = (ports.texture("picture")?, ports.texture_or_placeholder("colors", frame)?);
-        let mut target = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
+        let (image, colors) = (ports.texture("image")?, ports.texture_or_placeholder("colors", frame)?);
+        let mut target = ports.create("image", frame, view.texture_desc(Format::Rgba8UnormSrgb));
         self.pass.add_to(frame, [&image, &colors], &mut target, self.strength);
-        ports.set("picture", target);
+        ports.set("image", target);
         Ok(())
     }
 }

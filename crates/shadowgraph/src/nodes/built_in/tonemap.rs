@@ -20,8 +20,9 @@ impl Node for Tonemap {
     const ABOUT: &'static str = "tonemaps light with a filmic curve";
     const INPUTS: &'static [Port] =
         &[Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float)];
-    const OUTPUTS: &'static [Port] = &[Port::texture("picture", "the tonemapped image, 8 bit per channel")
-        .with_format(Format::Rgba8UnormSrgb)];
+    const OUTPUTS: &'static [Port] =
+        &[Port::texture("image", "the tonemapped image, 8 bit per channel")
+            .with_format(Format::Rgba8UnormSrgb)];
 
     fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
         Ok(Self { pass: TonemapPass::new(context.device)? })
@@ -33,9 +34,9 @@ impl Node for Tonemap {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let mut image = ports.create("picture", frame, view.texture_desc(Format::Rgba8UnormSrgb));
+        let mut image = ports.create("image", frame, view.texture_desc(Format::Rgba8UnormSrgb));
         self.pass.add_to(frame, &ports.texture("light")?, &mut image);
-        ports.set("picture", image);
+        ports.set("image", image);
         Ok(())
     }
 }

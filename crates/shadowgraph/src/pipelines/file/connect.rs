@@ -10,7 +10,7 @@ use crate::error::PipelineError;
 use crate::nodes::port::{Port, PortKind, Presence};
 
 /// The outputs of a pipeline.
-const OUTPUTS: &[&str] = &["picture", "light", "depth"];
+pub(super) const OUTPUTS: &[&str] = &["image", "light", "depth"];
 
 /// The enabled nodes of a document, to look outputs up in.
 pub(super) struct Connections<'c, 'd> {
@@ -186,7 +186,7 @@ impl Connections<'_, '_> {
             found.push((*known, output));
         }
         if found.is_empty() {
-            let problem = "missing outputs: add outputs: {\"picture\": \"...\"} with the output of a node";
+            let problem = "missing outputs: add outputs: {\"image\": \"...\"} with the output of a node";
             return Err(PipelineError { location: file.into(), problem: problem.into() });
         }
         Ok(found)
@@ -204,10 +204,10 @@ impl Connections<'_, '_> {
             let found = port.kind.name();
             return Err(name.error(format!("`{known}` expects a texture, and `{output}` is a {found}")));
         }
-        match port.format.filter(|format| known == "picture" && !format.is_srgb()) {
+        match port.format.filter(|format| known == "image" && !format.is_srgb()) {
             None => Ok(()),
             Some(format) => Err(name.error(format!(
-                "`picture` expects an sRGB format, and `{output}` is {format:?}: add a `tonemap` node after it"
+                "`image` expects an sRGB format, and `{output}` is {format:?}: add a `tonemap` node after it"
             ))),
         }
     }

@@ -58,7 +58,7 @@ impl PipelineInstance for FileInstance {
         };
         let (light, depth) = (light.and_then(texture), depth.and_then(texture));
         let image: Texture = texture(*image)
-            .ok_or_else(|| Error::Unconnected { node: "the pipeline".into(), port: "picture".into() })?;
+            .ok_or_else(|| Error::Unconnected { node: "the pipeline".into(), port: "image".into() })?;
         let (mut buffers, mut shadows): (Option<ViewBuffers>, _) = (None, None);
         for value in values.into_iter().flatten() {
             match value {

@@ -7,6 +7,7 @@ mod instance;
 mod jitter;
 mod order;
 pub(crate) mod parameters;
+mod renamed;
 mod resolve;
 pub(crate) mod schema;
 mod source;
@@ -59,25 +60,26 @@ impl PipelineFile {
             location: name.clone(),
             problem: format!("cannot be read: {error}"),
         })?;
-        let document = Arc::new(Document::parse(&Arc::new(SourceText { name: name.clone(), text }))?);
+        let document = Document::parse(&Arc::new(SourceText { name: name.clone(), text }))?;
         Self::checked(&name, document, nodes, techniques, parameters)
     }
 
     /// Parses and checks a built-in file.
     pub(super) fn parse(name: &str, text: &str, parameters: &Parameters) -> Result<Self, PipelineError> {
         let source = Arc::new(SourceText { name: name.to_owned(), text: text.to_owned() });
-        let document = Arc::new(Document::parse(&source)?);
+        let document = Document::parse(&source)?;
         Self::checked(name, document, &Nodes::built_in(), &Techniques::built_in(), parameters)
     }
 
     /// Checks the file with its default parameters and with those that are set.
     fn checked(
         name: &str,
-        document: Arc<Document>,
+        document: Document,
         nodes: &Nodes,
         techniques: &Techniques,
         parameters: &Parameters,
     ) -> Result<Self, PipelineError> {
+        let document = Arc::new(document.with_current_names(nodes));
         document.check_parameters()?;
         Self::resolved(name, &document, nodes, techniques, &Parameters::default())?;
         // Any error that is left is due to the parameters.

@@ -50,8 +50,8 @@ impl Document {
         let order = order(&enabled, &inputs, &in_place)?;
         let outputs = connections.outputs(name, &in_place)?;
         let find = |wanted: &str| outputs.iter().find(|(name, _)| *name == wanted).map(|(_, output)| *output);
-        let Some(image) = find("picture") else {
-            let problem = "missing output `picture`: name the output of a node that is the finished image";
+        let Some(image) = find("image") else {
+            let problem = "missing output `image`: name the output of a node that is the finished image";
             return Err(PipelineError { location: name.into(), problem: problem.into() });
         };
         let value = |OutputRef { node, port }: OutputRef| enabled[node].first_value + port;

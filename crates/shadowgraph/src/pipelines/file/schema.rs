@@ -20,7 +20,7 @@ pub fn schema(nodes: &Nodes) -> Value {
             "nodes": { "type": "array", "items": { "anyOf": kinds } },
             "outputs": {
                 "type": "object",
-                "properties": { "picture": output(), "light": output(), "depth": output() },
+                "properties": { "image": output(), "light": output(), "depth": output() },
                 "additionalProperties": false,
             },
         },

@@ -74,6 +74,36 @@ fn a_file_is_valid_in_any_order_of_its_nodes() {
     assert!(load(&lines.join("\n")).is_ok());
 }
 
+#[test]
+fn a_file_with_former_names_of_ports_and_outputs_gives_the_same_pipeline() {
+    const DEBUG: &str = include_str!("../../../pipelines/debug_cascades.ron");
+    let with_fxaa = |port: &str| {
+        let smooth = format!(
+            "\n(name: \"smooth\", kind: \"fxaa\", inputs: {{\"{port}\": \"overlay.{port}\"}}),\n    ],"
+        );
+        DEBUG
+            .replace("\n    ],", &smooth)
+            .replace("\"image\": \"overlay\"", &format!("\"{port}\": \"smooth.{port}\""))
+    };
+    let former = with_fxaa("picture").replace("\"image\": \"tonemap\"", "\"picture\": \"tonemap.picture\"");
+    assert!(former.matches("picture").count() == 6 && !former.contains("\"image"), "{former}");
+    let connections = |text: &str| {
+        let resolved = PipelineFile::parse("mine", text, &Parameters::default()).unwrap().resolved;
+        let inputs = |node: &ResolvedNode| {
+            node.inputs.iter().map(|(port, value)| (port.name, *value)).collect::<Vec<_>>()
+        };
+        let nodes: Vec<_> = resolved.nodes.iter().map(|node| (node.name.clone(), inputs(node))).collect();
+        (nodes, resolved.image, resolved.image_output)
+    };
+    assert_eq!(connections(&former), connections(&with_fxaa("image")));
+    let both = changed(&[("outputs: {", "outputs: {\"picture\": \"tonemap\", ")]);
+    let error = load(&both).err().unwrap();
+    assert!(
+        error.contains("unknown output `picture` of a pipeline; expected one of: image, light"),
+        "{error}"
+    );
+}
+
 /// A file whose prepass and technique are parameters.
 fn switched() -> String {
     changed(&[
@@ -93,7 +123,7 @@ fn set(name: &str, value: serde_json::Value) -> Parameters {
 
 fn names(text: &str, parameters: &Parameters) -> (Vec<String>, Option<String>) {
     let source = Arc::new(SourceText { name: "switched".into(), text: text.into() });
-    let document = Arc::new(Document::parse(&source).unwrap());
+    let document = Document::parse(&source).unwrap();
     let (nodes, techniques) = (Nodes::built_in(), Techniques::built_in());
     let file = PipelineFile::checked("switched", document, &nodes, &techniques, parameters).unwrap();
     let nodes = file.resolved.nodes.iter().map(|node| node.name.clone()).collect();
@@ -102,8 +132,8 @@ fn names(text: &str, parameters: &Parameters) -> (Vec<String>, Option<String>) {
 
 #[test]
 fn parameters_choose_the_nodes_and_the_technique() {
-    let all = ["view", "geometry", "shadows", "lighting", "picture"];
-    let without = ["view", "shadows", "lighting", "picture"];
+    let all = ["view", "geometry", "shadows", "lighting", "tonemap"];
+    let without = ["view", "shadows", "lighting", "tonemap"];
     let with = |parameters: &Parameters| names(&switched(), parameters);
     assert_eq!(with(&Parameters::default()), (all.map(String::from).to_vec(), Some("pcf".into())));
     assert_eq!(with(&set("prepass", json!(false))).0, without);
@@ -135,7 +165,7 @@ fn what_is_overwritten_in_place_is_read_before_and_outputs_name_the_last_node() 
     };
     let with = |nodes: &str, light: &str| {
         changed(&[
-            ("(name: \"picture\"", &format!("{nodes}(name: \"picture\"")),
+            ("(name: \"tonemap\"", &format!("{nodes}(name: \"tonemap\"")),
             ("\"light\": \"lighting\", \"depth\"", &format!("\"light\": \"{light}\", \"depth\"")),
         ])
     };
@@ -164,8 +194,8 @@ fn an_error_due_to_a_parameter_names_it_and_a_disabled_node_is_known() {
     let text = changed(&[
         ("nodes: [", "parameters: {\"blur\": 0.1, \"on\": false},\n nodes: ["),
         (
-            "(name: \"picture\"",
-            "(name: \"glow\", kind: \"bloom\", when: On(\"on\"), inputs: {\"light\": \"lighting\"}, settings: {\"strength\": \"$blur\"}),\n(name: \"picture\"",
+            "(name: \"tonemap\"",
+            "(name: \"glow\", kind: \"bloom\", when: On(\"on\"), inputs: {\"light\": \"lighting\"}, settings: {\"strength\": \"$blur\"}),\n(name: \"tonemap\"",
         ),
         ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": [\"glow\", \"lighting\"]})"),
     ]);

@@ -14,11 +14,11 @@ fn warnings(text: &str) -> Vec<String> {
 #[test]
 fn nodes_that_no_output_depends_on_are_reported_with_their_locations() {
     let text = changed(&[(
-        "(name: \"picture\"",
+        "(name: \"tonemap\"",
         "(name: \"pyramid\", kind: \"hi_z\", inputs: {\"depth\": \"geometry\"}),
         (name: \"occlusion\", kind: \"ssao\", inputs: {\"view\": \"view\", \"depth\": \"geometry\"}),
         (name: \"clusters\", kind: \"clusters\", inputs: {\"view\": \"occlusion\"}),
-        (name: \"picture\"",
+        (name: \"tonemap\"",
     )]);
     let found = warnings(&text);
     let [pyramid, occlusion, clusters] = &found[..] else { panic!("{found:?}") };
@@ -41,9 +41,9 @@ fn a_node_that_is_used_with_other_parameters_or_is_disabled_is_not_reported() {
         ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": [\"glow.light\", \"lighting\"]})"),
         ("nodes: [", "parameters: {\"glow\": true}, nodes: ["),
         (
-            "(name: \"picture\"",
+            "(name: \"tonemap\"",
             "(name: \"glow\", kind: \"bloom\", when: On(\"glow\"), inputs: {\"light\": \"lighting\"}),
-        (name: \"picture\"",
+        (name: \"tonemap\"",
         ),
     ]);
     assert_eq!(warnings(&text), [""; 0]);
@@ -70,9 +70,9 @@ fn unused_parameters_are_reported() {
 #[test]
 fn temporal_anti_aliasing_without_jitter_is_reported_and_jitter_without_it() {
     const TAA: (&str, &str) = (
-        "(name: \"picture\"",
+        "(name: \"tonemap\"",
         "(name: \"temporal\", kind: \"taa\", inputs: {\"view\": \"view\", \"light\": \"lighting\", \"depth\": \"geometry\"}),
-        (name: \"picture\"",
+        (name: \"tonemap\"",
     );
     const USED: (&str, &str) = ("inputs: {\"light\": \"lighting\"})", "inputs: {\"light\": \"temporal\"})");
     const JITTER: (&str, &str) = ("kind: \"view\"", "kind: \"view\", settings: {\"jitter\": true}");
@@ -84,7 +84,7 @@ fn temporal_anti_aliasing_without_jitter_is_reported_and_jitter_without_it() {
         USED,
         (
             TAA.0,
-            "(name: \"clusters\", kind: \"clusters\", inputs: {\"view\": \"view\"}),\n(name: \"picture\"",
+            "(name: \"clusters\", kind: \"clusters\", inputs: {\"view\": \"view\"}),\n(name: \"tonemap\"",
         ),
         (TAA.0, &*TAA.1.replacen("\"view\": \"view\"", "\"view\": \"clusters\"", 1)),
         JITTER,
