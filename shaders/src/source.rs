@@ -52,7 +52,7 @@ pub const MSM: ModuleSource = file!("shadows/msm.wgsl");
 pub const PREFILTER: ModuleSource = file!("prefilter.wgsl");
 
 /// The technique `screen`: the visibility of another technique for all visible surfaces, in a screen mask. Its bindings follow
-/// those of the other technique, whose import path is `shadowgraph::collected`: replace `MASK` and `LAYERS` by their numbers.
+/// those of the other technique, whose import path is `shadowgraph::inner`: replace `MASK` and `LAYERS` by their numbers.
 pub const SCREEN: ModuleSource = file!("shadows/screen.wgsl");
 
 /// The technique `screen` if only its mask is needed; `MASK` and `LAYERS` are as in [`SCREEN`].

@@ -15,7 +15,7 @@ struct ScreenSettings {
 }
 
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
-@group(1) @binding(1) var collected: texture_2d_array<f32>;
+@group(1) @binding(1) var input_mask: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
 @group(1) @binding(4) var<uniform> settings: ScreenSettings;
 
@@ -44,7 +44,7 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, id.xy, 0);
     let normal = unpack_normal(surface.w);
-    var sum = textureLoad(collected, id.xy, id.z, 0).rgb;
+    var sum = textureLoad(input_mask, id.xy, id.z, 0).rgb;
     var count = 1.0;
     if any(normal != vec3f(0.0)) {
         let depth = view_depth_of(surface.xyz);
@@ -64,7 +64,7 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
             // Skip samples behind an edge, or on a surface that only intersects this one.
             let off_plane = abs(dot(other.xyz - surface.xyz, normal));
             if other.w >= 1.0 && abs(view_depth_of(other.xyz) - depth) < max_distance && off_plane < 0.5 * max_distance {
-                sum += textureLoad(collected, at, id.z, 0).rgb;
+                sum += textureLoad(input_mask, at, id.z, 0).rgb;
                 count += 1.0;
             }
         }

@@ -16,7 +16,7 @@ struct ContactSettings {
 }
 
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
-@group(1) @binding(1) var collected: texture_2d_array<f32>;
+@group(1) @binding(1) var input_mask: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
 @group(1) @binding(3) var<uniform> layers: MaskLayers;
 @group(1) @binding(4) var<uniform> settings: ContactSettings;
@@ -75,7 +75,7 @@ fn cs_contact(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, id.xy, 0);
     let normal = unpack_normal(surface.w);
-    var visibility = textureLoad(collected, id.xy, id.z, 0).rgb;
+    var visibility = textureLoad(input_mask, id.xy, id.z, 0).rgb;
     if any(normal != vec3f(0.0)) && any(visibility > vec3f(0.0)) {
         let light = layers.light[id.z / 4u][id.z % 4u];
         visibility = min(visibility, vec3f(contact_visibility(surface.xyz, normal, light, id.xy)));

@@ -5,7 +5,7 @@
 #import shadowgraph::shadows::raytraced_settings::RaytracedSettings
 
 @group(1) @binding(0) var surfaces: texture_2d<f32>;
-@group(1) @binding(1) var collected: texture_2d_array<f32>;
+@group(1) @binding(1) var input_mask: texture_2d_array<f32>;
 @group(1) @binding(2) var mask: texture_storage_2d_array<rgba8unorm, write>;
 @group(1) @binding(4) var<uniform> settings: RaytracedSettings;
 
@@ -21,7 +21,7 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, pixel, 0);
     let normal = unpack_normal(surface.w);
-    var sum = textureLoad(collected, pixel, id.z, 0).rgb;
+    var sum = textureLoad(input_mask, pixel, id.z, 0).rgb;
     var count = 1.0;
     if any(normal != vec3f(0.0)) && any(sum > vec3f(0.0)) && any(sum < vec3f(1.0)) {
         let max_distance = MAX_PLANE_DISTANCE * view_depth_of(surface.xyz);
@@ -33,7 +33,7 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
                     continue;
                 }
                 let other = textureLoad(surfaces, at, 0);
-                let visibility = textureLoad(collected, at, id.z, 0).rgb;
+                let visibility = textureLoad(input_mask, at, id.z, 0).rgb;
                 let is_edge = any(visibility > vec3f(0.0)) && any(visibility < vec3f(1.0));
                 if is_edge && other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < max_distance {
                     sum += visibility;

@@ -65,7 +65,7 @@ const RAY_STACK: u32 = 64u;
 const RAY_FAR: f32 = 3.0e38;
 const RAY_MISS: f32 = 3.4e38;
 // The fraction of the distance to a point light that its rays cover.
-const RAY_WAY_TO_LIGHT: f32 = 1.0 - 1.0 / 4096.0;
+const RAY_LIGHT_FRACTION: f32 = 1.0 - 1.0 / 4096.0;
 
 struct ShadowRay {
     origin: vec3f,

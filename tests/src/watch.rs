@@ -48,7 +48,7 @@ pub fn run(command: &mut Command, limits: Limits) -> io::Result<Outcome> {
         if let Some(status) = child.try_wait()? {
             break status;
         }
-        stopped = stopped.or(over(limits, start.elapsed(), peak_bytes));
+        stopped = stopped.or(exceeded(limits, start.elapsed(), peak_bytes));
         if stopped.is_some() {
             child.kill()?;
         }
@@ -64,7 +64,7 @@ pub fn run(command: &mut Command, limits: Limits) -> io::Result<Outcome> {
     })
 }
 
-fn over(limits: Limits, time: Duration, peak_bytes: u64) -> Option<&'static str> {
+fn exceeded(limits: Limits, time: Duration, peak_bytes: u64) -> Option<&'static str> {
     if time > limits.time {
         Some("it ran longer than the limit")
     } else if peak_bytes > limits.memory_bytes {

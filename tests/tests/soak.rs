@@ -55,7 +55,7 @@ fn pipeline(random: &mut Random) -> String {
         format!("(name: \"view\", kind: \"view\", settings: {{\"jitter\": {}}})", random.flip()),
         "(name: \"geometry\", kind: \"geometry\", inputs: {\"view\": \"view\"})".into(),
         format!(
-            "(name: \"shadows\", kind: \"shadows\", inputs: {{\"surfaces\": \"geometry\"}}, settings: {{\"collected\": {}}})",
+            "(name: \"shadows\", kind: \"shadows\", inputs: {{\"surfaces\": \"geometry\"}}, settings: {{\"screen_space\": {}}})",
             random.flip()
         ),
     ];

@@ -3,7 +3,7 @@
 /// An image of `docs/images` and how it is made.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Recipe {
-    /// The path in `docs/images`, without the ending.
+    /// The path in `docs/images`, without the extension.
     pub(crate) name: String,
     /// Options of `join_images`.
     pub(crate) options: Vec<String>,

@@ -105,12 +105,12 @@ fn table(comparison: &Comparison) -> String {
 /// Returns the median and the 95th percentile of a step, microseconds.
 fn times(frames: &[FrameTime], step: Option<StepOf>) -> [String; 2] {
     let Some(step) = step else { return ["-".into(), String::new()] };
-    let spread = Stats::from_samples(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
-    [spread.median, spread.p95].map(|micros| format!("{micros:.1}"))
+    let stats = Stats::from_samples(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
+    [stats.median, stats.p95].map(|micros| format!("{micros:.1}"))
 }
 
-fn ratio(spread: Stats) -> String {
-    let Stats { p5, p25, median, p75, p95 } = spread;
+fn ratio(stats: Stats) -> String {
+    let Stats { p5, p25, median, p75, p95 } = stats;
     format!("median {median:.2}, quartiles {p25:.2} to {p75:.2}, 5th to 95th percentile {p5:.2} to {p95:.2}")
 }
 
@@ -158,12 +158,12 @@ mod tests {
 
     #[test]
     fn passes_are_listed_in_order_with_their_sum() {
-        let spread = |ms: f64| TimeStats { median: ms, high: ms };
+        let stats = |ms: f64| TimeStats { median: ms, high: ms };
         let pass = |pass: &str, gpu_ms: Option<f64>, shared_by| TimeSummary {
             pass: pass.into(),
             node: String::new(),
-            cpu_ms: spread(0.5),
-            gpu_ms: gpu_ms.map(spread),
+            cpu_ms: stats(0.5),
+            gpu_ms: gpu_ms.map(stats),
             shared_by,
         };
         let text = pass_table(&[

@@ -16,7 +16,7 @@ const STEPS: u32 = 60;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (device, queue) = common::open()?;
     let shader = |entry| ComputeShader::wgsl(entry, include_str!("particles.wgsl")).entry_point(entry);
-    let (scatter, move_on) = (shader("scatter"), shader("move_on"));
+    let (scatter, advance) = (shader("scatter"), shader("advance"));
     let pipeline = pipeline(&device);
     let layout = pipeline.get_bind_group_layout(0);
 
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     frame.compute("scatter", &scatter).storage_mut(&mut particles, Contents::Overwrite).dispatch(groups);
     for step in 0..STEPS {
         // Each step reads the result of the previous one: `Preserve` declares this and orders them.
-        let pass = frame.compute(format_args!("step {step}"), &move_on);
+        let pass = frame.compute(format_args!("step {step}"), &advance);
         pass.storage_mut(&mut particles, Contents::Preserve).dispatch(groups);
     }
 

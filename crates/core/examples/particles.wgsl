@@ -15,7 +15,7 @@ fn hash(seed: u32) -> f32 {
     particles[id.x] = Particle(place, vec2f(0.0));
 }
 
-@compute @workgroup_size(64) fn move_on(@builtin(global_invocation_id) id: vec3u) {
+@compute @workgroup_size(64) fn advance(@builtin(global_invocation_id) id: vec3u) {
     var own = particles[id.x];
     var force = -0.4 * own.position;
     for (var i = 0u; i < 4u; i++) {

@@ -101,12 +101,12 @@ pub fn built_in_cases() -> Result<CaseSet, Error> {
 }
 
 impl CaseSet {
-    /// Reads cases from RON; errors name the file `place`.
+    /// Reads cases from RON; errors name `file`.
     ///
     /// # Errors
     /// [`Error::File`] with line and column, or the value that is out of range and its range.
-    pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
-        let file = place.display().to_string();
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        let file = file.display().to_string();
         let set: Self = ron_file::parse_file(&file, text)?;
         if set.cases.is_empty() {
             return Err(ron_file::field_error(&file, text, "cases", "expected at least one case").into());

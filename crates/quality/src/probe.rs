@@ -1,4 +1,4 @@
-//! Asking a technique at point_texture points, whatever the camera sees.
+//! Evaluates a technique at arbitrary points, independent of what the camera sees.
 
 use std::borrow::Cow;
 

@@ -51,14 +51,14 @@ impl SurfaceReader {
             let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
             let mut graph = renderer.graph();
             let mut frame = graph.frame();
-            let records = ViewUniforms::new(
+            let uniforms = ViewUniforms::new(
                 &options.camera,
                 options.size_px,
                 lights,
                 origin_world,
                 &view.ambient_light,
             );
-            let buffers = records.upload(&mut frame);
+            let buffers = uniforms.upload(&mut frame);
             let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
             let screen = self.drawer.surface_buffers_with_prepass(&mut frame, &buffers, geometry)?;
             let request = frame.read_back_texture(&screen.surfaces, Subresource::FULL);

@@ -30,12 +30,12 @@ pub struct VariantSet {
 }
 
 impl VariantSet {
-    /// Reads variants from RON; errors name the file `place`.
+    /// Reads variants from RON; errors name `file`.
     ///
     /// # Errors
     /// [`Error::File`] with line and column, or the variant and its error.
-    pub fn parse(text: &str, place: &Path, techniques: &Techniques) -> Result<Self, Error> {
-        let file = place.display().to_string();
+    pub fn parse(text: &str, file: &Path, techniques: &Techniques) -> Result<Self, Error> {
+        let file = file.display().to_string();
         let error = |path: &str, problem: &str| ron_file::field_error(&file, text, path, problem);
         let set: Self = ron_file::parse_file(&file, text)?;
         if set.variants.is_empty() {

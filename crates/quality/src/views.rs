@@ -153,9 +153,9 @@ mod tests {
             let height = camera.position_world().y;
             assert!((0.1..2.5).contains(&height), "{name} is {height} m high");
         }
-        let places: std::collections::BTreeSet<_> =
+        let eyes: std::collections::BTreeSet<_> =
             views.iter().map(|(_, camera)| camera.position_world().to_array().map(f64::to_bits)).collect();
-        assert_eq!(places.len(), 6);
+        assert_eq!(eyes.len(), 6);
         assert_eq!(automatic_views(&scene, 6).unwrap(), views);
     }
 

@@ -207,7 +207,7 @@ fn problem(error: &ron::Error) -> String {
         E::MissingStructField { field, .. } => return format!("missing field `{field}`"),
         E::DuplicateStructField { field, .. } => return format!("duplicate field `{field}`"),
         E::Eof => "unexpected end of the file; expected ), ], } or \"",
-        E::ExpectedComma => "expected a comma or a closing bracket",
+        E::ExpectedComma => "expected a comma or one of ) ] }",
         E::ExpectedMapColon => "expected a colon between a name and its value",
         E::ExpectedArray => "expected a list, such as [1, 2]",
         E::ExpectedArrayEnd => "expected ] at the end of the list",
@@ -227,7 +227,9 @@ fn problem(error: &ron::Error) -> String {
             "expected a name without quotes, such as count in (count: 4), On(\"bloom\"), or Tent5"
         }
         E::ExpectedDifferentStructName { .. } => "expected a struct in parentheses, such as (field: 1)",
-        E::TrailingCharacters => "unexpected text after the end of the value: is a bracket closed too early?",
+        E::TrailingCharacters => {
+            "unexpected text after the end of the value: is a parenthesis closed too early?"
+        }
         E::UnclosedBlockComment => "expected */ at the end of the comment",
         E::UnexpectedChar('#') => "unexpected '#'; comments begin with //",
         E::UnexpectedChar('$') => "unexpected '$'; write a parameter in quotes, \"$name\"",

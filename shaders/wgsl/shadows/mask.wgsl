@@ -1,4 +1,4 @@
-// The technique `screen` where everything lit is covered by the screen mask: it reads one texel, independent of the collected
+// The technique `screen` where everything lit is covered by the screen mask: it reads one texel, independent of the inner
 // technique.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver

@@ -1,9 +1,9 @@
-// The technique `screen`: visible surfaces read the screen mask that collect.wgsl has written; everything else evaluates the
-// collected technique.
+// The technique `screen`: visible surfaces read the screen mask that evaluate.wgsl has written; everything else evaluates the
+// inner technique.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN, RECEIVER_COARSER}
 #import shadowgraph::shadows::layers::{MaskLayers, mask_layer, UNMASKED}
-#import shadowgraph::collected
+#import shadowgraph::inner
 
 // One layer per light.
 @group(1) @binding(MASK) var shadow_mask: texture_2d_array<f32>;
@@ -17,9 +17,9 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
             return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;
         }
     }
-    return collected::shadow_visibility(light, receiver);
+    return inner::shadow_visibility(light, receiver);
 }
 
 fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
-    return collected::shadow_debug_color(light, receiver);
+    return inner::shadow_debug_color(light, receiver);
 }

@@ -2,7 +2,7 @@
 #define_import_path shadowgraph::shadows::traced
 #import shadowgraph::view::{view, lights, LIGHT_DIRECTIONAL}
 #import shadowgraph::noise::pixel_noise
-#import shadowgraph::rays::{ray_passed, ray_origin, RAY_FAR, RAY_WAY_TO_LIGHT}
+#import shadowgraph::rays::{ray_passed, ray_origin, RAY_FAR, RAY_LIGHT_FRACTION}
 #import shadowgraph::shadows::raytraced_settings::RaytracedSettings
 
 struct Traced {
@@ -57,7 +57,7 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
             direction_to_sample += radius * (disc * at);
         }
         let length = length(direction_to_sample);
-        let end = select(length * RAY_WAY_TO_LIGHT, RAY_FAR, is_sun);
+        let end = select(length * RAY_LIGHT_FRACTION, RAY_FAR, is_sun);
         if dot(geometric_normal, direction_to_sample) > 0.0 {
             visibility += ray_passed(origin, direction_to_sample / length, 0.0, end);
         }

@@ -50,6 +50,10 @@ impl Word {
         })
     }
 
+    fn is_phrase(&self) -> bool {
+        self.kind == "phrase"
+    }
+
     fn is_for(&self, path: &str) -> bool {
         let allowed = self.allowed.iter().any(|start| path.starts_with(start));
         !allowed && (self.kind != "wgsl" || path.ends_with(".wgsl"))
@@ -91,13 +95,22 @@ impl RetiredWords {
     /// Returns a line for each occurrence in a file: where it is, the word and what to say instead.
     fn find(&self, path: &str, text: &str) -> Vec<String> {
         let text = self.old_name.replace_all(text.as_bytes(), &b""[..]);
-        let others = self.set.matches(&text);
-        let others: Vec<_> = others.iter().map(|index| &self.others[index]).collect();
+        // Phrases are also found in names, whose words are joined by underscores.
+        let spaced: Vec<u8> = text.iter().map(|&byte| if byte == b'_' { b' ' } else { byte }).collect();
+        let [plain, phrases] = [&text[..], &spaced].map(|text| self.set.matches(text));
+        let others = self.others.iter().enumerate().filter(|(index, (word, _))| {
+            if word.is_phrase() { phrases.matched(*index) } else { plain.matched(*index) }
+        });
+        let others: Vec<_> = others.map(|(_, other)| other).collect();
         let mut found = Vec::new();
-        for (number, line) in text.split(|byte| *byte == b'\n').enumerate() {
+        let lines = text.split(|byte| *byte == b'\n').zip(spaced.split(|byte| *byte == b'\n'));
+        for (number, (line, spaced)) in lines.enumerate() {
             let names = line.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_');
             let names = names.filter_map(|name| self.identifiers.get(std::str::from_utf8(name).ok()?));
-            let others = others.iter().filter(|(_, regex)| regex.is_match(line)).map(|(word, _)| word);
+            let others = others
+                .iter()
+                .filter(|(word, regex)| regex.is_match(if word.is_phrase() { spaced } else { line }))
+                .map(|(word, _)| word);
             for word in names.chain(others).filter(|word| word.is_for(path)) {
                 let Word { kind, pattern, instead, .. } = word;
                 let line = String::from_utf8_lossy(line);
@@ -173,6 +186,7 @@ fn retired_words_are_found_where_they_are_not_allowed() {
         ("a.rs", "let lit = 1;", 0),
         ("a.wgsl", "let lit = 1;", 1),
         ("a.md", "they wait In a Ring; in a\nloop", 1),
+        ("a.rs", "fn they_wait_in_a_ring() {}", 1),
         ("a.md", "", 0),
     ] {
         assert_eq!(count(path, text), expected, "{path}: {text}");

@@ -16,7 +16,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    pub(crate) fn at(&self, x: u32, y: u32) -> f32 {
+    pub(crate) fn depth_at(&self, x: u32, y: u32) -> f32 {
         self.depth[(y * self.size_px[0] + x) as usize]
     }
 }

@@ -82,7 +82,7 @@ fn a_large_bias_is_measured_as_peter_panning_and_missing_contacts() {
 
 /// Evaluates the technique at the visible surfaces of the slats with the scene and the camera moved together: the same image
 /// over texels at other positions.
-fn asked_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<f32>) {
+fn visibility_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<f32>) {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
     let mut scene = test_scene("slats").unwrap();
@@ -108,7 +108,7 @@ fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not
     // Texels are fixed in the world. Moving the scene over them has the effect of cascades that follow the camera without
     // snapping to whole texels.
     let frames =
-        (0..4).map(|frame| asked_with_scene_at(gpu, DVec3::new(0.0017, 0.0, 0.0009) * f64::from(frame)));
+        (0..4).map(|frame| visibility_with_scene_at(gpu, DVec3::new(0.0017, 0.0, 0.0009) * f64::from(frame)));
     let (sliding, truths): (Vec<_>, Vec<_>) = frames.unzip();
     let sliding = metrics::flicker(&sliding, &truths).unwrap();
     assert!(sliding.p99 > 10.0 / 255.0, "{sliding:?}");

@@ -73,10 +73,10 @@ impl Traced {
 }
 
 /// Asserts that at most 0.01 % of the image's pixels differ.
-fn assert_agree(name: &str, (unlike, asked): (usize, usize)) {
-    println!("{name}: {unlike} of {asked} pixels differ");
+fn assert_agree(name: &str, (unlike, compared): (usize, usize)) {
+    println!("{name}: {unlike} of {compared} pixels differ");
     let most = (SIZE_PX[0] * SIZE_PX[1]) as usize / 10_000;
-    assert!(unlike <= most, "{name}: {unlike} of {asked} pixels differ; allowed are {most}");
+    assert!(unlike <= most, "{name}: {unlike} of {compared} pixels differ; allowed are {most}");
 }
 
 #[test]
@@ -86,9 +86,9 @@ fn in_every_test_scene_gpu_rays_match_cpu_rays_and_brute_force() {
         let mut scene = test_scene(&case.name()).unwrap();
         scene.add_light(case.sun(30.0));
         let traced = traced(gpu, &scene, &case.views[0].camera(), 0);
-        let (unlike, asked) = traced.unlike_the_cpu();
-        assert!(asked > 5_000, "{}: {asked} pixels", case.name());
-        assert_agree(&case.name(), (unlike, asked));
+        let (unlike, compared) = traced.unlike_the_cpu();
+        assert!(compared > 5_000, "{}: {compared} pixels", case.name());
+        assert_agree(&case.name(), (unlike, compared));
         if scene.triangle_count() < 1_000 {
             assert_agree(&format!("{}, by brute force", case.name()), traced.unlike_brute_force());
         }

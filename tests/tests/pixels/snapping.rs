@@ -35,8 +35,8 @@ fn compare(before: &Map, after: &Map, rect: TileRect, (dx, dy, dz): (i32, i32, f
             if to_x < 0 || to_y < 0 || to_x >= rect.width as i32 || to_y >= rect.height as i32 {
                 continue;
             }
-            let a = before.at(rect.x + x as u32, rect.y + y as u32);
-            let b = after.at(rect.x + to_x as u32, rect.y + to_y as u32);
+            let a = before.depth_at(rect.x + x as u32, rect.y + y as u32);
+            let b = after.depth_at(rect.x + to_x as u32, rect.y + to_y as u32);
             texels += 1;
             // Depth that is clamped to the near plane or beyond the far plane is not compared.
             let moved = a + dz;

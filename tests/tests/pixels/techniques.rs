@@ -50,12 +50,12 @@ fn screen_space_shadows_match_per_pixel_shadows_with_every_map_technique() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = demo();
     for kind in [PCF, PCSS, EVSM, MSM, SDSM] {
-        let asked = greys(gpu, &scene, &options, kind);
-        let collected = greys(gpu, &scene, &options, Technique::from(kind).with_screen());
-        let part = differing(&asked, &collected, 2);
+        let per_pixel = greys(gpu, &scene, &options, kind);
+        let screen_space = greys(gpu, &scene, &options, Technique::from(kind).with_screen());
+        let part = differing(&per_pixel, &screen_space, 2);
         println!("{}: {:.3} % of the pixels differ", kind.name, 100.0 * part);
         assert!(part < 0.001, "{}: {part}", kind.name);
-        assert!(asked.iter().flatten().any(|grey| *grey < 3), "{}", kind.name);
+        assert!(per_pixel.iter().flatten().any(|grey| *grey < 3), "{}", kind.name);
     }
 }
 

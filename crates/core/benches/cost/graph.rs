@@ -70,7 +70,7 @@ impl<'d> Whole<'d> {
     }
 
     /// Sets the draws of each pass and the number of recording threads.
-    pub(crate) fn with(self, draws: u32, threads: usize) -> Self {
+    pub(crate) fn with_draws(self, draws: u32, threads: usize) -> Self {
         Self { draws, threads, ..self }
     }
 

@@ -133,7 +133,7 @@ fn on_threads(table: &mut Table) {
     for draws in [1, 10, 100, 1_000] {
         table.heading(&format!("whole frame of 32 passes with {draws} draws each"));
         let subjects = [1, 2, 4].map(|threads| {
-            let mut whole = Whole::new(&drawing, &chain, Change::Never).with(draws, threads);
+            let mut whole = Whole::new(&drawing, &chain, Change::Never).with_draws(draws, threads);
             timed(move || whole.frame())
         });
         for (threads, measured) in [1, 2, 4].into_iter().zip(measure(subjects)) {

@@ -26,7 +26,7 @@ pub(crate) struct RegionClear<'v> {
     /// Value from 0 to 1.
     pub(crate) depth: Option<f32>,
     pub(crate) stencil: Option<u32>,
-    /// It must lie inside the attachments.
+    /// The rectangle to clear, inside the attachments.
     pub(crate) rect: Rect,
 }
 

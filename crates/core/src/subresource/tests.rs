@@ -131,7 +131,7 @@ fn the_whole_of_a_resource_is_no_part_however_it_is_said() {
 }
 
 #[test]
-fn parts_that_a_resource_does_not_have_are_told() {
+fn parts_that_a_resource_does_not_have_are_reported() {
     let texture =
         ResourceDesc::Texture(TextureDesc { mip_levels: 2, ..TextureDesc::d2(64, 64, Format::R8Unorm) });
     let buffer = ResourceDesc::Buffer(BufferDesc::new(64));

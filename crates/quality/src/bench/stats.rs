@@ -19,8 +19,8 @@ impl Stats {
     /// Computes the quantiles, each by nearest rank.
     ///
     /// ```
-    /// let spread = shadowgraph_quality::bench::Stats::from_samples((1..=101).map(f64::from));
-    /// assert_eq!((spread.p5, spread.median, spread.p95), (6.0, 51.0, 96.0));
+    /// let stats = shadowgraph_quality::bench::Stats::from_samples((1..=101).map(f64::from));
+    /// assert_eq!((stats.p5, stats.median, stats.p95), (6.0, 51.0, 96.0));
     /// ```
     pub fn from_samples(samples: impl Iterator<Item = f64>) -> Self {
         let mut samples: Vec<f64> = samples.collect();

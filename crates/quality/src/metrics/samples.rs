@@ -16,7 +16,7 @@ pub enum TowardsLight<'a> {
 
 /// Images to compare, all of the same size, row by row from the top.
 ///
-/// Of pixels without geometry only `view_depths_m` is read; visibility and truth are read at receivers only.
+/// Only `view_depths_m` is read of pixels without geometry; visibility and truth are read at receivers only.
 #[derive(Clone, Copy, Debug)]
 pub struct Images<'a> {
     /// Width and height, pixels.

@@ -36,12 +36,12 @@ pub struct Bound {
 }
 
 impl Bounds {
-    /// Reads bounds from RON; errors name the file `place`.
+    /// Reads bounds from RON; errors name `file`.
     ///
     /// # Errors
     /// [`Error::File`] with line and column, or the unknown metric.
-    pub fn parse(text: &str, place: &Path) -> Result<Self, Error> {
-        let file = place.display().to_string();
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        let file = file.display().to_string();
         let bounds: Self = ron_file::parse_file(&file, text)?;
         for (index, bound) in bounds.bounds.iter().enumerate() {
             let error = |problem| ron_file::field_error(&file, text, &format!("bounds.{index}"), problem);
@@ -87,9 +87,9 @@ impl Bound {
         let (Some(mean), Some((case, worst))) = (mean, worst) else {
             return vec![format!("{name}: no case of the report has a value")];
         };
-        let place = format!(" ({}, {}, {})", case.scene, case.light, case.view);
+        let location = format!(" ({}, {}, {})", case.scene, case.light, case.view);
         let of_mean = describe_violation(metric, "mean", mean, self.mean, "");
-        let of_worst = describe_violation(metric, "worst", worst, self.worst, &place);
+        let of_worst = describe_violation(metric, "worst", worst, self.worst, &location);
         [of_mean, of_worst].into_iter().flatten().map(|what| format!("{name}: {what}")).collect()
     }
 }
@@ -100,7 +100,7 @@ fn describe_violation(
     what: &str,
     value: f64,
     bound: Option<f64>,
-    place: &str,
+    location: &str,
 ) -> Option<String> {
     let bound =
         bound.filter(|&bound| deviation(metric, value).total_cmp(&deviation(metric, bound)).is_gt())?;
@@ -109,7 +109,7 @@ fn describe_violation(
         text if text == format_value(metric, Some(bound)) => value.to_string(),
         text => text,
     };
-    Some(format!("{what} {formatted}{place} exceeds the bound {bound}"))
+    Some(format!("{what} {formatted}{location} exceeds the bound {bound}"))
 }
 
 #[cfg(test)]

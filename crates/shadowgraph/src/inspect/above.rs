@@ -19,10 +19,10 @@ pub(super) fn from_above(
     let eye = options.camera.position_world() - origin;
     let flat = |point: DVec3| DVec2::new(point.x - eye.x, point.z - eye.z);
     let mut outlines = vec![Outline { name: "camera".into(), points: camera(options, flat, origin) }];
-    for (light, record) in inspected.lights.iter().enumerate() {
-        let first = record.first_view as usize;
-        let views = inspected.views.iter().skip(first).take(record.view_count as usize);
-        let several = record.view_count > 1;
+    for (light, range) in inspected.lights.iter().enumerate() {
+        let first = range.first_view as usize;
+        let views = inspected.views.iter().skip(first).take(range.view_count as usize);
+        let several = range.view_count > 1;
         for (number, view) in views.enumerate().filter(|(_, view)| view.radius > 0.0) {
             let name = name(light, lights, view, several.then_some(number));
             outlines

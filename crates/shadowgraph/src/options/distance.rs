@@ -10,7 +10,7 @@ const METRES: Range = Range::above(0.0, 1.0e6, "metres");
 /// The distance from the camera that the sun's shadows reach.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ShadowDistance {
-    /// As far as the visible part of the scene's bounds, at most the far plane.
+    /// The end of the visible part of the scene's bounds, at most the far plane.
     #[default]
     Auto,
     /// A distance in metres, above 0.

@@ -18,7 +18,7 @@ pub const DEFAULT_SUN_LUX: f32 = 20_000.0;
 /// The directional light of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SunChoice {
-    /// Those of the scene; a scene without any light gets [`default_sun`].
+    /// The lights of the scene; a scene without any light gets [`default_sun`].
     #[default]
     Scene,
     /// No directional light.

@@ -22,7 +22,7 @@ pub(super) enum Modifier {
     None,
     /// Shadows are evaluated in screen space, into a mask.
     Screen,
-    /// As `Screen`, with contact shadows added.
+    /// `Screen` with contact shadows.
     Contact,
 }
 

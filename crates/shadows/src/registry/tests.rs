@@ -16,14 +16,14 @@ const COLOR: &str = "fn shadow_debug_color(light: u32, receiver: Receiver) -> ve
 
 /// A technique whose declarations may be wrong.
 #[derive(Default)]
-struct Liar {
+struct TestTechnique {
     name: &'static str,
     wgsl: &'static str,
     types: Vec<wgpu::BindingType>,
-    records: Vec<GpuStruct>,
+    structs: Vec<GpuStruct>,
 }
 
-impl ShadowTechnique for Liar {
+impl ShadowTechnique for TestTechnique {
     fn name(&self) -> &str {
         self.name
     }
@@ -41,7 +41,7 @@ impl ShadowTechnique for Liar {
     }
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
-        self.records.clone()
+        self.structs.clone()
     }
 
     fn add_to<'f>(
@@ -87,7 +87,7 @@ fn every_built_in_technique_passes_registration() {
 fn a_technique_of_another_crate_is_found_by_its_name() {
     let mut techniques = Techniques::built_in();
     let mine = TechniqueKind::new("mine", "everything is lit", |_| {
-        Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() }))
+        Ok(Box::new(TestTechnique { name: "mine", wgsl: LIT, ..TestTechnique::default() }))
     });
     techniques.register(mine).unwrap();
     assert_eq!(techniques.find("mine").unwrap(), mine);
@@ -122,20 +122,23 @@ fn a_name_that_is_taken_or_has_other_characters_is_an_error() {
     for (name, part) in
         [("pcf", "taken"), ("screen", "taken"), ("Mine", "lower-case letters"), ("", "lower-case letters")]
     {
-        let kind = TechniqueKind::new(name, "", |_| Ok(Box::new(Liar { wgsl: LIT, ..Liar::default() })));
+        let kind = TechniqueKind::new(name, "", |_| {
+            Ok(Box::new(TestTechnique { wgsl: LIT, ..TestTechnique::default() }))
+        });
         assert!(refused_kind(kind).contains(part), "{name}");
     }
-    let other = refused(|_| Ok(Box::new(Liar { name: "other", wgsl: LIT, ..Liar::default() })));
+    let other =
+        refused(|_| Ok(Box::new(TestTechnique { name: "other", wgsl: LIT, ..TestTechnique::default() })));
     assert!(other.contains("it creates a technique named `other`"), "{other}");
 }
 
 #[test]
 fn a_missing_function_or_another_return_type_is_an_error() {
-    let missing = refused(|_| Ok(Box::new(Liar { name: "mine", ..Liar::default() })));
+    let missing = refused(|_| Ok(Box::new(TestTechnique { name: "mine", ..TestTechnique::default() })));
     assert!(missing.contains("shadow_visibility"), "{missing}");
     let grey = refused(|_| {
         let wgsl = "fn shadow_visibility(light: u32, receiver: Receiver) -> f32 { return 1.0; }\n";
-        Ok(Box::new(Liar { name: "mine", wgsl, ..Liar::default() }))
+        Ok(Box::new(TestTechnique { name: "mine", wgsl, ..TestTechnique::default() }))
     });
     assert!(grey.contains("shadow_visibility") && grey.contains("vec3"), "{grey}");
 }
@@ -145,17 +148,23 @@ fn an_error_in_wgsl_names_file_and_line() {
     let error = refused(|_| {
         let wgsl =
             "fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {\n    return nothing;\n}\n";
-        Ok(Box::new(Liar { name: "mine", wgsl, ..Liar::default() }))
+        Ok(Box::new(TestTechnique { name: "mine", wgsl, ..TestTechnique::default() }))
     });
     assert!(error.contains("mine.wgsl:4: ") && error.contains("nothing"), "{error}");
 }
 
 #[test]
 fn bindings_that_differ_from_the_declared_types_are_an_error() {
-    let none = refused(|_| Ok(Box::new(Liar { name: "mine", wgsl: BOUND, ..Liar::default() })));
+    let none =
+        refused(|_| Ok(Box::new(TestTechnique { name: "mine", wgsl: BOUND, ..TestTechnique::default() })));
     assert!(none.contains("group: 1, binding: 0"), "{none}");
     let other = refused(|_| {
-        Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![STORAGE], ..Liar::default() }))
+        Ok(Box::new(TestTechnique {
+            name: "mine",
+            wgsl: BOUND,
+            types: vec![STORAGE],
+            ..TestTechnique::default()
+        }))
     });
     assert!(other.contains("group: 1, binding: 0"), "{other}");
 }
@@ -186,8 +195,8 @@ fn structs_with_another_layout_in_rust_are_an_error() {
         }
     }
     let error = refused(|_| {
-        let records = vec![GpuStruct::new::<Mine>("Mine")];
-        Ok(Box::new(Liar { name: "mine", wgsl: BOUND, types: vec![UNIFORM], records }))
+        let structs = vec![GpuStruct::new::<Mine>("Mine")];
+        Ok(Box::new(TestTechnique { name: "mine", wgsl: BOUND, types: vec![UNIFORM], structs }))
     });
     assert!(error.contains("field `far` of WGSL struct `Mine` is at byte 4, expected 0"), "{error}");
 }
@@ -206,8 +215,9 @@ impl NamedSettings for Strength {
 
 #[test]
 fn default_settings_out_of_range_are_an_error() {
-    let kind =
-        TechniqueKind::new("mine", "", |_| Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() })));
+    let kind = TechniqueKind::new("mine", "", |_| {
+        Ok(Box::new(TestTechnique { name: "mine", wgsl: LIT, ..TestTechnique::default() }))
+    });
     let error = refused_kind(kind.with_settings::<Strength>());
     assert!(
         error.contains("default settings: ") && error.contains("`techniques.mine.strength` is NaN"),
@@ -217,8 +227,9 @@ fn default_settings_out_of_range_are_an_error() {
 
 #[test]
 fn settings_of_another_technique_are_an_error() {
-    let kind =
-        TechniqueKind::new("mine", "", |_| Ok(Box::new(Liar { name: "mine", wgsl: LIT, ..Liar::default() })));
+    let kind = TechniqueKind::new("mine", "", |_| {
+        Ok(Box::new(TestTechnique { name: "mine", wgsl: LIT, ..TestTechnique::default() }))
+    });
     let error = refused_kind(kind.with_settings::<crate::PcssSettings>());
     assert!(error.contains("its settings are named `pcss`"), "{error}");
 }

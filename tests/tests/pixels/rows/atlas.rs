@@ -226,7 +226,7 @@ fn row_11_casters_of_one_light_render_only_into_its_tile() {
     assert_eq!((with.size_px, without.size_px), ([512, 256], [512, 256]), "two tiles, side by side");
     let (mut first, mut second) = (0, 0);
     for (x, y) in (0..256).flat_map(|y| (0..512).map(move |x| (x, y))) {
-        let changed = usize::from(with.at(x, y) != without.at(x, y));
+        let changed = usize::from(with.depth_at(x, y) != without.depth_at(x, y));
         if x < 256 { first += changed } else { second += changed }
     }
     assert!(first > 50_000 && second == 0, "{first} {second}");

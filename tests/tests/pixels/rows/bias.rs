@@ -109,8 +109,8 @@ fn row_20_a_near_offset_extends_the_depth_range_towards_the_light() {
         let depth = plan(&scene, &options).views[0].depth_range_m;
         (depth, wrong(gpu, &scene, 0, &options))
     };
-    let ((usual, pancaked), (deep, told_apart)) = (near(0.0), near(100.0));
+    let ((usual, pancaked), (deep, unclamped)) = (near(0.0), near(100.0));
     assert!(deep >= usual + 100.0, "{usual} {deep}");
     // Flattened to the near plane or not, a caster casts the same shadow.
-    assert!(pancaked < 200 && told_apart < 200, "{pancaked} {told_apart}");
+    assert!(pancaked < 200 && unclamped < 200, "{pancaked} {unclamped}");
 }

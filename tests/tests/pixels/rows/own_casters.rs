@@ -118,7 +118,7 @@ fn covered(map: &Map) -> Vec<bool> {
 /// Returns the covered texels of the first tile, white, as an image for the documents.
 fn first_tile(map: &Map) -> GrayImage {
     let rect = map.plan.cascades.as_ref().unwrap().tiles[0].rect;
-    let white = |x: u32, y: u32| Luma([255 * u8::from(map.at(rect.x + x, rect.y + y) > 0.0)]);
+    let white = |x: u32, y: u32| Luma([255 * u8::from(map.depth_at(rect.x + x, rect.y + y) > 0.0)]);
     resize(&GrayImage::from_fn(rect.width, rect.height, white), 400, 400, FilterType::Triangle)
 }
 

@@ -46,11 +46,11 @@ fn row_29_screen_space_shadows_match_per_pixel_shadows() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
     for light in 0..2 {
-        let (asked, collected) =
+        let (per_pixel, screen_space) =
             (greys(gpu, &scene, light, &options), screen_greys(gpu, &scene, light, &options));
-        let differ = different(&asked, &collected, 8);
-        assert!(differ < asked.len() / 1000, "light {light}: {differ}");
-        assert!(count(&collected, |grey| grey < 255) > 20, "light {light}");
+        let differ = different(&per_pixel, &screen_space, 8);
+        assert!(differ < per_pixel.len() / 1000, "light {light}: {differ}");
+        assert!(count(&screen_space, |grey| grey < 255) > 20, "light {light}");
     }
 }
 
@@ -59,10 +59,10 @@ fn row_34_screen_space_shadows_select_cascades_by_depth_without_branches() {
     let Some(gpu) = gpu() else { return };
     let scene = pillars_in_sun();
     let options = pillar_view(|settings| settings.cascades.select = CascadeSelection::Depth);
-    let (asked, collected) = (greys(gpu, &scene, 0, &options), screen_greys(gpu, &scene, 0, &options));
-    assert!(different(&asked, &collected, 8) < asked.len() / 1000);
+    let (per_pixel, screen_space) = (greys(gpu, &scene, 0, &options), screen_greys(gpu, &scene, 0, &options));
+    assert!(different(&per_pixel, &screen_space, 8) < per_pixel.len() / 1000);
     let other = screen_greys(gpu, &scene, 0, &pillar_view(|_| ()));
-    assert!(different(&other, &collected, 8) > 0, "another cascade is read somewhere");
+    assert!(different(&other, &screen_space, 8) > 0, "another cascade is read somewhere");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use wgpu::util::DeviceExt as _;
 use wgpu::{Extent3d, TextureAspect, TextureFormat, TextureUsages};
 
-const WHOLE: TexturePart = TexturePart { mip: 0, layers: 0..1, aspect: TextureAspect::All, rect: None };
+const FULL: TexturePart = TexturePart { mip: 0, layers: 0..1, aspect: TextureAspect::All, rect: None };
 
 fn encoder(device: &wgpu::Device) -> wgpu::CommandEncoder {
     device.create_command_encoder(&Default::default())
@@ -135,7 +135,7 @@ fn texels_of_an_odd_width_are_tightly_packed() {
     let image = texture(&device, [3, 2, 1], TextureFormat::Rgba8Unorm);
     let contents: Vec<u8> = (0..24).collect();
     write(&queue, &image, 0, &contents);
-    assert_eq!(read(&device, &queue, &image, &WHOLE).wait(&device).unwrap(), contents);
+    assert_eq!(read(&device, &queue, &image, &FULL).wait(&device).unwrap(), contents);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn layers_follow_each_other() {
     let Some((device, queue)) = drawing() else { return };
     let layers = texture(&device, [5, 3, 4], TextureFormat::R32Uint);
     write(&queue, &layers, 0, &texels(0..60));
-    let part = TexturePart { layers: 1..3, ..WHOLE };
+    let part = TexturePart { layers: 1..3, ..FULL };
     assert_eq!(read(&device, &queue, &layers, &part).wait(&device).unwrap(), texels(15..45));
 }
 
@@ -155,7 +155,7 @@ fn a_mip_level_has_its_own_size() {
         ..description([7, 5, 2], TextureFormat::R32Uint)
     });
     write(&queue, &mips, 1, &texels(0..12));
-    let part = TexturePart { mip: 1, layers: 1..2, ..WHOLE };
+    let part = TexturePart { mip: 1, layers: 1..2, ..FULL };
     assert_eq!(read(&device, &queue, &mips, &part).wait(&device).unwrap(), texels(6..12));
 }
 
@@ -168,7 +168,7 @@ fn slices_of_a_volume_are_read_like_layers() {
         ..description([2, 2, 3], TextureFormat::R32Uint)
     });
     write(&queue, &volume, 0, &texels(0..12));
-    let part = TexturePart { layers: 1..3, ..WHOLE };
+    let part = TexturePart { layers: 1..3, ..FULL };
     assert_eq!(read(&device, &queue, &volume, &part).wait(&device).unwrap(), texels(4..12));
 }
 
@@ -191,7 +191,7 @@ fn cleared_depth(
         }),
         ..Default::default()
     }));
-    let part = TexturePart { aspect, ..WHOLE };
+    let part = TexturePart { aspect, ..FULL };
     let back = ReadBack::texture(device, &mut encoder, "depth", &depth, &part).unwrap();
     valid(device, || queue.submit([encoder.finish()]));
     back
@@ -296,25 +296,24 @@ fn textures_that_cannot_be_copied_are_errors() {
         ..description([4, 4, 1], TextureFormat::Rgba8Unorm)
     };
     assert!(
-        problem_of(&device, &many, &WHOLE)
-            .contains("4 samples per texel: resolve it into a texture with one")
+        problem_of(&device, &many, &FULL).contains("4 samples per texel: resolve it into a texture with one")
     );
     let sampled = wgpu::TextureDescriptor { usage: TextureUsages::TEXTURE_BINDING, ..plain.clone() };
-    assert!(problem_of(&device, &sampled, &WHOLE).contains("created without COPY_SRC"));
-    let mip = problem_of(&device, &plain, &TexturePart { mip: 1, ..WHOLE });
+    assert!(problem_of(&device, &sampled, &FULL).contains("created without COPY_SRC"));
+    let mip = problem_of(&device, &plain, &TexturePart { mip: 1, ..FULL });
     assert!(mip.contains("it has 1 mip levels, but level 1 is requested"), "{mip}");
-    let layers = problem_of(&device, &plain, &TexturePart { layers: 1..3, ..WHOLE });
+    let layers = problem_of(&device, &plain, &TexturePart { layers: 1..3, ..FULL });
     assert!(layers.contains("it has 2 layers, but 1..3 are requested"), "{layers}");
-    let stencil = TexturePart { aspect: TextureAspect::StencilOnly, ..WHOLE };
+    let stencil = TexturePart { aspect: TextureAspect::StencilOnly, ..FULL };
     assert!(problem_of(&device, &plain, &stencil).contains("Rgba8Unorm has no aspect StencilOnly"));
 }
 
 #[test]
 fn depth_that_cannot_be_copied_is_an_error() {
     let (device, _queue) = noop();
-    let depth = TexturePart { aspect: TextureAspect::DepthOnly, ..WHOLE };
+    let depth = TexturePart { aspect: TextureAspect::DepthOnly, ..FULL };
     let opaque = [
-        (TextureFormat::Depth24Plus, &WHOLE),
+        (TextureFormat::Depth24Plus, &FULL),
         (TextureFormat::Depth24Plus, &depth),
         (TextureFormat::Depth24PlusStencil8, &depth),
     ];
@@ -322,7 +321,7 @@ fn depth_that_cannot_be_copied_is_an_error() {
         let refused = problem_of(&device, &description([4, 4, 1], format), part);
         assert!(refused.contains("use Depth32Float instead"), "{refused}");
     }
-    let both = problem_of(&device, &description([4, 4, 1], TextureFormat::Depth24PlusStencil8), &WHOLE);
+    let both = problem_of(&device, &description([4, 4, 1], TextureFormat::Depth24PlusStencil8), &FULL);
     assert!(both.contains("two aspects"), "{both}");
 }
 

@@ -87,7 +87,7 @@ fn a_pass_that_draws_over_another_has_a_separate_snapshot() {
         let white = &white;
         pass.body(move |ctx| {
             ctx.pass.set_scissor_rect(4, 4, 4, 4);
-            white.record_as_it_is(ctx);
+            white.record_without_bindings(ctx);
             Ok(())
         });
         frame.export_texture(&scene);

@@ -39,7 +39,7 @@ fn depth_is_tested_and_sampled_in_one_pass() {
         pass.depth(&mut depth, Contents::clear_depth(0.25));
         pass.body(|ctx| {
             ctx.pass.set_scissor_rect(0, 0, 4, 8);
-            fill.record_as_it_is(ctx);
+            fill.record_without_bindings(ctx);
             Ok(())
         });
         let mut color = frame.create_texture("color", square(8));

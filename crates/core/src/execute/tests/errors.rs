@@ -105,7 +105,7 @@ fn frame<'f>(graph: &Graph, draw: &'f super::Draw, fault: Fault) -> (Frame<'f>, 
     let mut pass = frame.render_pass("draw");
     pass.color(&mut a, Contents::Preserve);
     pass.body(move |ctx| {
-        draw.record_as_it_is(ctx);
+        draw.record_without_bindings(ctx);
         match fault {
             Fault::None => Ok(()),
             Fault::Error => Err(Error::body("spilt")),

@@ -200,12 +200,12 @@ impl Draw {
             let group = ctx.bind_group(layout, entries)?;
             ctx.pass.set_bind_group(self.index, &group, &[]);
         }
-        self.record_as_it_is(ctx);
+        self.record_without_bindings(ctx);
         Ok(())
     }
 
     /// Draws with the groups that are set.
-    pub(super) fn record_as_it_is(&self, ctx: &mut RenderContext<'_>) {
+    pub(super) fn record_without_bindings(&self, ctx: &mut RenderContext<'_>) {
         ctx.pass.set_pipeline(&self.pipeline);
         ctx.pass.draw(0..3, 0..1);
     }

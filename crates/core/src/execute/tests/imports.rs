@@ -22,7 +22,7 @@ fn an_import_is_drawn_into_and_kept_where_the_frame_preserves_it() {
         pass.color(&mut out, Contents::Preserve);
         pass.body(|ctx| {
             ctx.pass.set_scissor_rect(0, 0, 8, 1);
-            draw.record_as_it_is(ctx);
+            draw.record_without_bindings(ctx);
             Ok(())
         });
         let export = frame.export_texture(&out);

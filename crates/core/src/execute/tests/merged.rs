@@ -21,7 +21,7 @@ fn a_pass_that_draws_with_the_bind_group_of_an_earlier_one_is_an_error() {
             second.body(|ctx| match sets_its_own {
                 true => draw.record(ctx, &[Bind::Uniform(block)]),
                 false => {
-                    draw.record_as_it_is(ctx);
+                    draw.record_without_bindings(ctx);
                     Ok(())
                 }
             });
@@ -54,7 +54,7 @@ fn groups_beyond_the_default_limit_are_unset_too() {
     let mut second = frame.render_pass("second");
     second.color(&mut color, Contents::Preserve);
     second.body(|ctx| {
-        draw.record_as_it_is(ctx);
+        draw.record_without_bindings(ctx);
         Ok(())
     });
     frame.export_texture(&color);
@@ -88,7 +88,7 @@ fn after_a_messy_pass(gpu: &Gpu, second: &super::Draw) -> Vec<u32> {
     pass.color(&mut color, Contents::Preserve);
     pass.depth(&mut depth, Contents::Preserve);
     pass.body(|ctx| {
-        second.record_as_it_is(ctx);
+        second.record_without_bindings(ctx);
         Ok(())
     });
     let color = frame.export_texture(&color);
@@ -149,7 +149,7 @@ fn merged_passes_are_one_render_pass_of_the_encoder() {
         pass.depth(&mut depth, Contents::clear_depth(0.0));
         pass.body(|ctx| {
             ctx.pass.set_scissor_rect(0, 0, 4, 8);
-            first.record_as_it_is(ctx);
+            first.record_without_bindings(ctx);
             Ok(())
         });
         let mut pass = frame.render_pass("second");

@@ -25,7 +25,7 @@ fn a_tile_has_the_viewport_and_scissor_of_its_rectangle() {
                 pass.subresource(Subresource::FULL.rect(tile)).color(&mut atlas, Contents::Overwrite);
                 let draw = &draw;
                 pass.body(move |ctx| {
-                    draw.record_as_it_is(ctx);
+                    draw.record_without_bindings(ctx);
                     Ok(())
                 });
             }

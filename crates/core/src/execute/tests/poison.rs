@@ -33,7 +33,7 @@ fn poison_shows_texels_that_a_false_overwrite_leaves_unwritten() {
             pass.color(&mut color, Contents::Overwrite);
             pass.body(|ctx| {
                 ctx.pass.set_scissor_rect(0, 0, 8, 4);
-                draw.record_as_it_is(ctx);
+                draw.record_without_bindings(ctx);
                 Ok(())
             });
             let color = frame.export_texture(&color);

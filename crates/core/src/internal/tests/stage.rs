@@ -23,13 +23,13 @@ pub(super) struct Values {
 }
 
 impl Values {
-    /// Returns the values everywhere after `over` has cleared everything over `self`.
-    fn under(&self, over: &Values) -> Values {
+    /// Returns the values everywhere after `clear` has cleared everything in `self`.
+    fn cleared_by(&self, clear: &Values) -> Values {
         let colors = self.colors.iter().enumerate();
         Values {
-            colors: colors.map(|(i, color)| over.colors.get(i).copied().flatten().or(*color)).collect(),
-            depth: over.depth.or(self.depth),
-            stencil: over.stencil.or(self.stencil),
+            colors: colors.map(|(i, color)| clear.colors.get(i).copied().flatten().or(*color)).collect(),
+            depth: clear.depth.or(self.depth),
+            stencil: clear.stencil.or(self.stencil),
         }
     }
 }
@@ -115,11 +115,12 @@ impl<'g> Stage<'g> {
     }
 
     /// Clears each rectangle of [`RECTS`] over `before` and compares all texels with those of a whole-target
-    /// `LoadOp::Clear`: of `over` inside, of `before` outside.
-    pub(super) fn check(&self, before: &Values, over: &Values) {
+    /// `LoadOp::Clear`: of `cleared` inside, of `before` outside.
+    pub(super) fn check(&self, before: &Values, cleared: &Values) {
         let mut clears = RegionClears::default();
         let clear = |clears: &mut RegionClears, rect| {
-            let clear = RegionClear { colors: &over.colors, depth: over.depth, stencil: over.stencil, rect };
+            let clear =
+                RegionClear { colors: &cleared.colors, depth: cleared.depth, stencil: cleared.stencil, rect };
             self.pass(None, |pass| {
                 // State that an earlier draw of the pass may have left.
                 pass.set_scissor_rect(1, 1, 2, 2);
@@ -131,7 +132,7 @@ impl<'g> Stage<'g> {
             self.pass(Some(before), |_| ());
             return clear(&mut clears, RECTS[0]);
         }
-        self.pass(Some(&before.under(over)), |_| ());
+        self.pass(Some(&before.cleared_by(cleared)), |_| ());
         let inside = self.read();
         self.pass(Some(before), |_| ());
         let outside = self.read();

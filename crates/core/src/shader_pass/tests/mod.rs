@@ -13,7 +13,7 @@ use crate::{
 };
 use crate::{Texture, TextureDesc};
 
-const TEXT: &str = include_str!("../../../tests/programs.wgsl");
+const TEXT: &str = include_str!("../../../tests/shader_passes.wgsl");
 
 fn fragment(entry: &'static str) -> FullscreenShader {
     FullscreenShader::wgsl(entry, TEXT).entry_point(entry)

@@ -129,7 +129,7 @@ fn a_walk_goes_along_the_light_until_it_is_dark_or_lost() {
 }
 
 #[test]
-fn contacts_are_truly_dark_and_have_their_caster_on_the_light_s_side() {
+fn contacts_should_be_dark_and_have_their_caster_on_the_light_s_side() {
     let (mut image, pixel_cm) = stripe();
     image.truth[30 * 64 + 10] = 1.0;
     assert_eq!(walked((image, pixel_cm)).0, 47);

@@ -17,7 +17,7 @@ impl Shadows {
     /// The setting that names the technique.
     pub(crate) const TECHNIQUE: &'static str = "technique";
     /// The setting that computes shadows in a screen-space mask.
-    pub(crate) const SCREEN_SPACE: &'static str = "collected";
+    pub(crate) const SCREEN_SPACE: &'static str = "screen_space";
 }
 
 impl Node for Shadows {

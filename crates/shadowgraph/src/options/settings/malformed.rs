@@ -5,7 +5,7 @@
     ("(", "s.ron:1:2: unexpected end of the file; expected ), ], } or"),
     ("distance_m: 100.0", "s.ron:1:"),
     ("{distance_m: 100.0}", "s.ron:1:1: expected a struct in parentheses, such as (field: 1)"),
-    ("(distance_m: 100.0", "s.ron:1:14: expected a comma or a closing bracket"),
+    ("(distance_m: 100.0", "s.ron:1:14: expected a comma or one of ) ] }"),
     ("(distance_m: 100.0,\n cascades: (count: 2)", "s.ron:2:"),
     ("(distance_m 100.0)", "s.ron:1:13: expected a colon between a name and its value"),
     ("(distance_m: 100.0 fade_fraction: 0.1)", "s.ron:1:20: "),

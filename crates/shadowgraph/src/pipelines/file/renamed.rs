@@ -1,16 +1,17 @@
-//! Former names of ports and outputs, which files may still use.
+//! Former names of ports, outputs and settings, which files may still use.
 
 use super::connect::OUTPUTS;
-use super::document::{Connection, Document};
+use super::document::Document;
+use super::source::Spanned;
 use crate::nodes::port::Port;
 use crate::nodes::registry::Nodes;
 
 /// Former names with the current ones.
-const RENAMED: &[(&str, &str)] = &[("picture", "image")];
+const RENAMED: &[(&str, &str)] = &[("picture", "image"), ("collected", "screen_space")];
 
 impl Document {
-    /// Replaces former names of inputs, of nodes' outputs and of the pipeline's outputs. A kind of node that declares a port with a
-    /// former name keeps it.
+    /// Replaces former names of inputs, settings, nodes' outputs and the pipeline's outputs. Kinds of nodes that declare a former
+    /// name themselves keep it.
     pub(super) fn with_current_names(mut self, nodes: &Nodes) -> Self {
         let names = |ports: &[Port]| ports.iter().map(|port| port.name).collect::<Vec<_>>();
         let mut outputs = Vec::new();
@@ -18,6 +19,8 @@ impl Document {
             let Some(kind) = nodes.get(&entry.kind.value) else { continue };
             outputs.push((entry.name.value.clone(), names(kind.outputs)));
             rename_keys(&mut entry.inputs, &names(kind.inputs));
+            let settings: Vec<&str> = kind.settings.iter().map(|setting| setting.name).collect();
+            rename_keys(&mut entry.settings, &settings);
         }
         rename_keys(&mut self.outputs, OUTPUTS);
         let connections = self.nodes.iter_mut().flat_map(|entry| &mut entry.inputs).chain(&mut self.outputs);
@@ -40,11 +43,11 @@ fn current_name(name: &str, known: &[&str]) -> Option<&'static str> {
 }
 
 /// Renames the keys of a map, but those whose current name is in it too.
-fn rename_keys(connections: &mut [Connection], known: &[&str]) {
-    for index in 0..connections.len() {
-        let Some(current) = current_name(&connections[index].0.value, known) else { continue };
-        if connections.iter().all(|(name, _)| name.value != current) {
-            current.clone_into(&mut connections[index].0.value);
+fn rename_keys<T>(entries: &mut [(Spanned<String>, T)], known: &[&str]) {
+    for index in 0..entries.len() {
+        let Some(current) = current_name(&entries[index].0.value, known) else { continue };
+        if entries.iter().all(|(name, _)| name.value != current) {
+            current.clone_into(&mut entries[index].0.value);
         }
     }
 }

@@ -75,7 +75,7 @@ fn a_file_is_valid_in_any_order_of_its_nodes() {
 }
 
 #[test]
-fn a_file_with_former_names_of_ports_and_outputs_gives_the_same_pipeline() {
+fn a_file_with_former_names_of_ports_outputs_and_settings_gives_the_same_pipeline() {
     const DEBUG: &str = include_str!("../../../pipelines/debug_cascades.ron");
     let with_fxaa = |port: &str| {
         let smooth = format!(
@@ -96,6 +96,8 @@ fn a_file_with_former_names_of_ports_and_outputs_gives_the_same_pipeline() {
         (nodes, resolved.image, resolved.image_output)
     };
     assert_eq!(connections(&former), connections(&with_fxaa("image")));
+    let setting = ("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"collected\": true}");
+    assert!(load(&changed(&[setting])).unwrap().has_screen_shadows());
     let both = changed(&[("outputs: {", "outputs: {\"picture\": \"tonemap\", ")]);
     let error = load(&both).err().unwrap();
     assert!(
@@ -186,7 +188,7 @@ fn the_schema_has_every_kind_with_its_ports_and_ranges() {
     let forward = kinds.iter().find(|kind| kind["properties"]["kind"]["const"] == "forward").unwrap();
     assert_eq!(forward["properties"]["inputs"]["required"], json!(["view", "shadows"]));
     let shadows = kinds.iter().find(|kind| kind["properties"]["kind"]["const"] == "shadows").unwrap();
-    assert_eq!(shadows["properties"]["settings"]["properties"]["collected"]["default"], json!(false));
+    assert_eq!(shadows["properties"]["settings"]["properties"]["screen_space"]["default"], json!(false));
 }
 
 #[test]

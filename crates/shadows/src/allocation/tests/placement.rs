@@ -4,7 +4,7 @@ use super::*;
 
 const SMALL: AtlasConfig = AtlasConfig { map_px: 128, smallest_px: 32, largest_px: 128 };
 
-fn at(allocation: &AtlasAllocation, owner: u32) -> [u32; 2] {
+fn origin_of(allocation: &AtlasAllocation, owner: u32) -> [u32; 2] {
     let rects = allocation.rects_for(owner);
     assert_eq!(rects.len(), 1);
     [rects[0].x, rects[0].y]
@@ -19,19 +19,19 @@ fn first_tiles_are_placed_largest_first_in_morton_order() {
         request(3, 1, 64.0, 0.0),
     ];
     let got = allocate_tiles(&SMALL, &requests, None);
-    assert_eq!([1, 3, 0, 2].map(|owner| at(&got, owner)), [[0, 0], [64, 0], [0, 64], [32, 64]]);
+    assert_eq!([1, 3, 0, 2].map(|owner| origin_of(&got, owner)), [[0, 0], [64, 0], [0, 64], [32, 64]]);
 }
 
 #[test]
 fn a_new_tile_is_placed_in_the_smallest_free_block_that_holds_it() {
     let five: Vec<TileRequest> = (0..5).map(|owner| request(owner, 1, 32.0, 0.0)).collect();
     let before = allocate_tiles(&SMALL, &five, None);
-    assert_eq!(at(&before, 4), [64, 0]);
+    assert_eq!(origin_of(&before, 4), [64, 0]);
     // Without the first quarter's owners that quarter is free, but the second one is in use already.
     let got = allocate_tiles(&SMALL, &[five[4], request(9, 1, 32.0, 0.0)], Some(&before));
-    assert_eq!(at(&got, 9), [96, 0]);
+    assert_eq!(origin_of(&got, 9), [96, 0]);
     let got = allocate_tiles(&SMALL, &[five[4], request(9, 1, 64.0, 0.0)], Some(&before));
-    assert_eq!(at(&got, 9), [0, 0]);
+    assert_eq!(origin_of(&got, 9), [0, 0]);
 }
 
 #[test]
@@ -41,9 +41,11 @@ fn a_new_owner_takes_the_position_of_one_that_was_removed() {
     let mut changed = full.clone();
     changed[6].owner = 99;
     let got = allocate_tiles(&SMALL, &changed, Some(&before));
-    assert_eq!(at(&got, 99), at(&before, 6));
+    assert_eq!(origin_of(&got, 99), origin_of(&before, 6));
     assert!(
-        full.iter().filter(|request| request.owner != 6).all(|w| at(&got, w.owner) == at(&before, w.owner))
+        full.iter()
+            .filter(|request| request.owner != 6)
+            .all(|w| origin_of(&got, w.owner) == origin_of(&before, w.owner))
     );
     assert!(!got.repacked);
 }
@@ -60,7 +62,7 @@ fn the_map_is_repacked_only_when_the_free_space_is_fragmented() {
     requests.push(request(99, 1, 64.0, 0.0));
     let got = allocate_tiles(&SMALL, &requests, Some(&loose));
     assert!(got.repacked);
-    assert_eq!(at(&got, 99), [0, 0]);
+    assert_eq!(origin_of(&got, 99), [0, 0]);
     assert_eq!(got.rects.len(), 13);
     assert!(!allocate_tiles(&SMALL, &requests, Some(&got)).repacked);
 }

@@ -11,7 +11,7 @@ fn listed(split: &SplitScheme) -> Option<&[f32]> {
 }
 
 /// Returns settings with 150 m of shadows.
-fn with(split: SplitScheme, bias_scales: &[f32]) -> ShadowSettings {
+fn settings_with(split: SplitScheme, bias_scales: &[f32]) -> ShadowSettings {
     let mut settings = ShadowSettings::default();
     settings.cascades.count = listed(&split).map_or(4, |ends| ends.len() as u32 + 1);
     settings.cascades.split = split;
@@ -87,7 +87,7 @@ proptest! {
 
 #[test]
 fn the_end_whose_texels_grow_least_is_removed_first() {
-    let four = with(SplitScheme::Ratios(vec![0.067, 0.2, 0.467]), &[]);
+    let four = settings_with(SplitScheme::Ratios(vec![0.067, 0.2, 0.467]), &[]);
     assert_eq!(left(&four, 3, 1.0), [0.067, 0.2]);
     assert_eq!(left(&four, 2, 1.0), [0.2]);
     assert_eq!(left(&four, 1, 1.0), [0.0; 0]);
@@ -96,32 +96,32 @@ fn the_end_whose_texels_grow_least_is_removed_first() {
 #[test]
 fn the_last_cascade_grows_too() {
     // By 1.5, 1.3 and 5 times.
-    let metres = with(SplitScheme::Metres(vec![15.0, 23.0, 30.0]), &[]);
+    let metres = settings_with(SplitScheme::Metres(vec![15.0, 23.0, 30.0]), &[]);
     assert_eq!(left(&metres, 3, 1.0), [15.0, 30.0]);
 }
 
 #[test]
 fn of_equals_the_farthest_is_removed() {
-    let mut engel = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
+    let mut engel = settings_with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
     engel.distance_m = 270.0;
     assert_eq!(left(&engel, 3, 1.0), [10.0, 30.0]);
 }
 
 #[test]
 fn a_shorter_distance_keeps_metres_and_scales_ratios() {
-    let metres = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
+    let metres = settings_with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[]);
     assert_eq!(left(&metres, 8, 0.7), [10.0, 30.0, 90.0]);
     assert_eq!(left(&metres, 8, 0.5), [10.0, 30.0]);
     assert_eq!(left(&metres, 8, 0.05), [0.0; 0]);
-    let at_the_end = with(SplitScheme::Metres(vec![10.0, 75.0]), &[]);
+    let at_the_end = settings_with(SplitScheme::Metres(vec![10.0, 75.0]), &[]);
     assert_eq!(left(&at_the_end, 8, 0.5), [10.0]);
-    let ratios = with(SplitScheme::Ratios(vec![0.1, 0.4]), &[]);
+    let ratios = settings_with(SplitScheme::Ratios(vec![0.1, 0.4]), &[]);
     assert_eq!(left(&ratios, 8, 0.05), [0.1, 0.4]);
 }
 
 #[test]
 fn the_last_cascade_within_the_distance_keeps_its_bias() {
-    let metres = with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[1.0, 2.0, 3.0, 4.0]);
+    let metres = settings_with(SplitScheme::Metres(vec![10.0, 30.0, 90.0]), &[1.0, 2.0, 3.0, 4.0]);
     let lowered = apply(QualityLevel { distance_scale: 0.5, ..QualityLevel::default() }, &metres).cascades;
     assert_eq!(lowered.bias_scales, [1.0, 2.0, 3.0]);
     // With fewer cascades than that, the one that is merged takes the bias of the farther one.

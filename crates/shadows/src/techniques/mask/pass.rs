@@ -31,8 +31,8 @@ impl Layers {
     }
 }
 
-/// A compute pass that computes one screen mask from another. It also reads the surface buffers and a uniform block of its
-/// own.
+/// A compute pass that computes one screen mask from another. It also reads the surface buffers and a separate
+/// uniform block.
 pub(in crate::techniques) struct MaskPass {
     name: &'static str,
     view_layout: wgpu::BindGroupLayout,

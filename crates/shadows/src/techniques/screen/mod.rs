@@ -1,7 +1,7 @@
 //! `screen`: the shadows of another technique in screen space, evaluated into a mask before lighting; and `contact`, which adds
 //! contact shadows to such a mask.
 
-mod collect;
+mod evaluate;
 mod settings;
 
 pub use settings::{ContactSettings, ScreenSettings};
@@ -18,7 +18,7 @@ use crate::settings::{NamedSettings, ShadowSettings};
 use crate::technique::binding::UNIFORM;
 use crate::technique::{GpuData, GpuStruct};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};
-use collect::Collect;
+use evaluate::EvaluatePass;
 
 /// Evaluates another technique once per pixel and light in a compute pass, and blurs the result; the mask of a technique that
 /// has one is used as it is. Lit passes read one texel: their shaders contain no code of the other technique, unless there is
@@ -29,7 +29,7 @@ use collect::Collect;
 pub struct ScreenShadows {
     name: String,
     inner: Box<dyn ShadowTechnique>,
-    collect: Collect,
+    evaluate: EvaluatePass,
     blur: MaskPass,
     contact: Option<MaskPass>,
     no_mask: wgpu::Texture,
@@ -44,7 +44,7 @@ impl ScreenShadows {
         let settings = GpuStruct::new::<ScreenSettings>("ScreenSettings");
         Ok(Self {
             name: format!("{}+{}", inner.name(), ScreenSettings::NAME),
-            collect: Collect::new(device, inner.as_ref())?,
+            evaluate: EvaluatePass::new(device, inner.as_ref())?,
             blur: MaskPass::new(device, "blur", ("blur.wgsl", "cs_blur"), &settings)?,
             contact: None,
             no_mask: no_mask(device),
@@ -126,7 +126,7 @@ impl ShadowTechnique for ScreenShadows {
         let mut modules = self.inner.modules(variant);
         if let Some(module) = modules.first_mut() {
             let path = "#define_import_path shadowgraph::";
-            let source = module.source.replace(&format!("{path}technique"), &format!("{path}collected"));
+            let source = module.source.replace(&format!("{path}technique"), &format!("{path}inner"));
             *module = ModuleSource::new(module.file.clone(), source);
         }
         modules.insert(0, numbered(SCREEN));
@@ -154,13 +154,13 @@ impl ShadowTechnique for ScreenShadows {
         let inner = self.inner.as_ref();
         let mut outputs = add_checked(inner, frame, inputs, requirements, Some(buffers))?;
         let layers = Layers::new(frame, inputs.lights);
-        outputs.mask = frame.node("collected shadows", |frame| {
+        outputs.mask = frame.node("screen-space shadows", |frame| {
             if layers.count == 0 {
                 return Ok(None);
             }
             let mask = match outputs.mask.take() {
                 Some(mask) => mask,
-                None => self.collect.add_to(frame, inner, buffers, &outputs, layers)?,
+                None => self.evaluate.add_to(frame, inner, buffers, &outputs, layers)?,
             };
             self.passes(frame, inputs.settings, buffers, mask, layers).map(Some)
         })?;

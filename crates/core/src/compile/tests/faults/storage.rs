@@ -14,7 +14,7 @@ fn transient(work: &Work) -> impl Iterator<Item = usize> + use<> {
 }
 
 /// Lifetimes in the plan are kept right, so that only the fault itself can be found.
-fn tell_true_lifetimes(work: &mut Work) {
+fn correct_lifetimes(work: &mut Work) {
     let uses = crate::compile::lifetime::uses(&work.plan.decl, &work.plan.order, &work.plan.steps);
     for (placement, own) in work.plan.placements.iter_mut().zip(&uses) {
         placement.steps = own.steps;
@@ -37,7 +37,7 @@ fn a_slot_freed_one_step_early() {
             Some(shortened)
         }
         Stage::Alias => {
-            tell_true_lifetimes(work);
+            correct_lifetimes(work);
             None
         }
         _ => None,
@@ -60,7 +60,7 @@ fn an_export_that_lives_to_its_last_access_only() {
             Some(shortened)
         }
         Stage::Alias => {
-            tell_true_lifetimes(work);
+            correct_lifetimes(work);
             None
         }
         _ => None,

@@ -129,13 +129,13 @@ impl<'b> Generator<'b> {
     /// Returns the part of a resource that a pass of this kind cannot use in two ways: wgpu does not track tiles or bytes
     /// within one pass, and slices of a volume only as attachments.
     fn extents(&self, resource: usize, subresource: SubresourceSpec) -> [Cells; 2] {
-        let [beside_attachments, beside_others] = match (self.pass.kind, self.spec.desc(resource)) {
+        let [with_attachments, with_others] = match (self.pass.kind, self.spec.desc(resource)) {
             (PassKind::Copy | PassKind::Encoder, _) => [subresource; 2],
             (_, ResourceDesc::Texture(desc)) => [subresource.subresources(), subresource.tracked(desc)],
             (_, ResourceDesc::Buffer(_)) => [SubresourceSpec::default(); 2],
         };
         let cells = &self.cells[resource];
-        [beside_attachments.cells(cells), beside_others.cells(cells)]
+        [with_attachments.cells(cells), with_others.cells(cells)]
     }
 
     /// Returns whether the pass may use a part in addition to its other accesses.

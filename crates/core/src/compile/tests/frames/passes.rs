@@ -18,7 +18,7 @@ impl Generator<'_> {
     pub(super) fn render_pass(&mut self) {
         self.begin(PassKind::Render);
         if !(self.source.chance(144) && self.draw_again()) {
-            self.draw_anew();
+            self.draw_to_new_targets();
         }
         let reads = self.source.below(4);
         (0..reads).for_each(|_| self.read());
@@ -82,7 +82,7 @@ impl Generator<'_> {
         true
     }
 
-    fn draw_anew(&mut self) {
+    fn draw_to_new_targets(&mut self) {
         let samples = if self.source.chance(40) { 4 } else { 1 };
         let size = self.size();
         let colors = self.source.below(4);
@@ -277,7 +277,7 @@ impl Generator<'_> {
     }
 
     /// Returns the mip and layer that the pass has used last.
-    fn target_beside(&self, last: AccessSpec) -> Option<Target> {
+    fn last_target(&self, last: AccessSpec) -> Option<Target> {
         let desc = self.texture_desc(last.resource)?;
         let previous = matches!(self.spec.resources[last.resource].origin, Origin::Previous { .. });
         let first = |range: Option<(u32, u32)>| range.map_or(0, |(start, _)| start);
@@ -290,7 +290,7 @@ impl Generator<'_> {
     fn attach(&mut self) {
         let size = self.size();
         let target = match self.pass.accesses.last().copied() {
-            Some(last) if self.source.chance(96) => self.target_beside(last),
+            Some(last) if self.source.chance(96) => self.last_target(last),
             _ => Some(self.target(size, 1, false)),
         };
         let Some(target) = target else { return };

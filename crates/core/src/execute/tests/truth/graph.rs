@@ -216,6 +216,6 @@ impl Graph {
 }
 
 /// The texels of a rectangle.
-pub(super) fn places(rect: Rect) -> impl Iterator<Item = (u32, u32)> {
+pub(super) fn texels_in(rect: Rect) -> impl Iterator<Item = (u32, u32)> {
     (rect.y..rect.y + rect.height).flat_map(move |y| (rect.x..rect.x + rect.width).map(move |x| (x, y)))
 }

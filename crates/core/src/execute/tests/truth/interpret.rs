@@ -1,6 +1,6 @@
 //! Computes the results of a graph: pass by pass in order of declaration, on plain arrays.
 
-use super::graph::{Contents, Graph, Inputs, Pass, Plane, Role, Span, Target, places};
+use super::graph::{Contents, Graph, Inputs, Pass, Plane, Role, Span, Target, texels_in};
 use super::random::Random;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,7 +122,7 @@ impl State {
             Pass::Draw { inputs, targets, area, words, keep: _ } => {
                 let before = self.clone();
                 self.clear(graph, targets);
-                for place in places(*area) {
+                for place in texels_in(*area) {
                     let value = before.value(graph, inputs, place, salt);
                     self.draw(graph, targets, *words, place, value);
                 }
@@ -136,7 +136,7 @@ impl State {
             Pass::Texels { inputs, plane, rect, preserve } => {
                 let before = self.clone();
                 let (width, _) = graph.size(*plane);
-                for (x, y) in places(rect.unwrap_or(graph.whole(*plane))) {
+                for (x, y) in texels_in(rect.unwrap_or(graph.whole(*plane))) {
                     let value = before.value(graph, inputs, (x, y), salt);
                     write(&mut self.plane_mut(*plane)[(x + y * width) as usize], value, *preserve);
                 }
@@ -152,7 +152,7 @@ impl State {
         for Target { plane, contents, rect } in targets {
             let (width, _) = graph.size(*plane);
             let Contents::Clear(value) = contents else { continue };
-            for (x, y) in places(rect.unwrap_or(graph.whole(*plane))) {
+            for (x, y) in texels_in(rect.unwrap_or(graph.whole(*plane))) {
                 self.plane_mut(*plane)[(x + y * width) as usize] = Word::Is(*value);
             }
         }
@@ -182,7 +182,7 @@ impl State {
             Pass::CopyTexture { from, from_rect, to, to_rect } => {
                 let (source, (from_width, _)) = (self.plane(from).to_vec(), graph.size(from));
                 let (width, _) = graph.size(to);
-                for (place, (x, y)) in places(from_rect).zip(places(to_rect)) {
+                for (place, (x, y)) in texels_in(from_rect).zip(texels_in(to_rect)) {
                     let word = source[(place.0 + place.1 * from_width) as usize];
                     self.plane_mut(to)[(x + y * width) as usize] = word;
                 }

@@ -1,6 +1,6 @@
 //! Random passes that read only what is defined.
 
-use super::graph::{Buffer, Contents, Graph, Inputs, Pass, Plane, Role, Span, Target, places};
+use super::graph::{Buffer, Contents, Graph, Inputs, Pass, Plane, Role, Span, Target, texels_in};
 use super::interpret::{State, Word};
 use super::random::Random;
 use crate::Rect;
@@ -84,7 +84,7 @@ impl Maker<'_> {
     fn known_in(&self, plane: Plane, rect: Rect) -> bool {
         let (width, _) = self.graph.size(plane);
         let words = self.state.plane(plane);
-        places(rect).all(|(x, y)| words[(x + y * width) as usize].is_known())
+        texels_in(rect).all(|(x, y)| words[(x + y * width) as usize].is_known())
     }
 
     fn contents(&mut self, plane: Plane, rect: Rect, covered: bool) -> Contents {

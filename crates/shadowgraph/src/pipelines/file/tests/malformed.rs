@@ -59,14 +59,14 @@
     (&[("outputs: {\"image\": \"tonemap\", \"light\": \"lighting\", \"depth\": \"geometry\"},", "")], "missing outputs: add outputs:"),
     (&[("outputs: {\"image\": \"tonemap\"", "outputs: {\"image\": \"tonemap\", \"image\": \"tonemap\"")], "duplicate output `image`"),
     // Settings.
-    (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"colected\": true}")], "unknown setting `colected` of `shadows` (shadows); did you mean `collected`?"),
-    (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"collected\": 1}")], "`shadows`: collected is 1; allowed: true or false"),
+    (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"screen_spce\": true}")], "unknown setting `screen_spce` of `shadows` (shadows); did you mean `screen_space`?"),
+    (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"screen_space\": 1}")], "`shadows`: screen_space is 1; allowed: true or false"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"pfc\"}")], "mine.ron:6:68: unknown technique `pfc`; did you mean `pcf`?"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": 3}")], "technique is 3; allowed: a string"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"$sun\"}")], "setting `technique`: unknown parameter `sun`; the pipeline has no parameters"),
     (&[("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"technique\": \"pcf\", \"technique\": \"msm\"}")], "duplicate setting `technique`"),
     // Parameters and conditions.
-    (&[("nodes: [", "parameters: {\"a\": 1},\n nodes: ["), ("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"collected\": \"$a\"}")], "`shadows`: collected is 1; allowed: true or false, set by the parameter `a`"),
+    (&[("nodes: [", "parameters: {\"a\": 1},\n nodes: ["), ("inputs: {\"surfaces\": \"geometry\"}", "settings: {\"screen_space\": \"$a\"}")], "`shadows`: screen_space is 1; allowed: true or false, set by the parameter `a`"),
     (&[("nodes: [", "parameters: {\"a\": 1, \"a\": 2},\n nodes: [")], "duplicate parameter `a`"),
     (&[("(name: \"geometry\", ", "(name: \"geometry\", when: On(\"depth\"), ")], "unknown parameter `depth`"),
     (&[("(name: \"geometry\", ", "(name: \"geometry\", when: on(\"depth\"), ")], "mine.ron:5:"),

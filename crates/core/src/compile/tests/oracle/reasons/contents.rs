@@ -18,8 +18,8 @@ impl Oracle<'_> {
         }
     }
 
-    /// Returns the position of a pass that runs and uses some of these cells in such a way.
-    fn at(
+    /// Returns the position of a pass that runs and uses some of these cells as `how` says.
+    fn position_of(
         &self,
         facts: &Facts<'_>,
         other: PassId,
@@ -53,7 +53,8 @@ impl Oracle<'_> {
             }
             LoadReason::RestUnneeded => clears && subresource != attachment,
             LoadReason::Preserves(writer) => {
-                let written = self.at(facts, writer, own, |a| a.writes()).is_some_and(|at| at < position);
+                let written =
+                    self.position_of(facts, writer, own, |a| a.writes()).is_some_and(|at| at < position);
                 ops.load == LoadAction::Load && access.contents == Some(Contents::Preserve) && written
             }
             LoadReason::PreservesImport => {
@@ -61,7 +62,7 @@ impl Oracle<'_> {
                 ops.load == LoadAction::Load && access.contents == Some(Contents::Preserve) && there
             }
             LoadReason::RestNeededBy(pass) => {
-                let needs = self.at(facts, pass, (access.resource, &attachment), |a| a.needs());
+                let needs = self.position_of(facts, pass, (access.resource, &attachment), |a| a.needs());
                 ops.load == LoadAction::Load && needs.is_some_and(|at| at >= position)
             }
             LoadReason::RestOutlives => {
@@ -87,14 +88,14 @@ impl Oracle<'_> {
         let (stores, discards) = (ops.store == StoreAction::Store, ops.store == StoreAction::Discard);
         match ops.store_reason {
             StoreReason::NeededBy(pass) => {
-                stores && self.at(facts, pass, own, |a| a.needs()).is_some_and(|at| at > position)
+                stores && self.position_of(facts, pass, own, |a| a.needs()).is_some_and(|at| at > position)
             }
             StoreReason::Exported => stores && exported,
             StoreReason::Imported => stores && matches!(resource.origin, Origin::Imported { .. }),
             StoreReason::History => stores && matches!(resource.origin, Origin::Current { .. }),
             StoreReason::OverwrittenBy(pass) => {
                 let overwrites = |a: &AccessSpec| a.writes() && !a.needs();
-                discards && self.at(facts, pass, own, overwrites).is_some_and(|at| at > position)
+                discards && self.position_of(facts, pass, own, overwrites).is_some_and(|at| at > position)
             }
             StoreReason::LastUse => discards && !exported,
             StoreReason::Merged => ops.store == StoreAction::Continue,

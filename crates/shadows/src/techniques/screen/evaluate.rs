@@ -14,7 +14,7 @@ use crate::techniques::mask::TARGET;
 use crate::techniques::mask::pass::{Layers, mask_texture, workgroups};
 
 /// The pass that writes a screen mask.
-pub(super) struct Collect {
+pub(super) struct EvaluatePass {
     device: wgpu::Device,
     view_layout: wgpu::BindGroupLayout,
     shadow_layout: wgpu::BindGroupLayout,
@@ -23,18 +23,18 @@ pub(super) struct Collect {
     pipelines: Mutex<BTreeMap<u32, Arc<wgpu::ComputePipeline>>>,
 }
 
-impl Collect {
+impl EvaluatePass {
     pub(super) fn new(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> Result<Self, Error> {
-        let collect = Self {
+        let pass = Self {
             device: device.clone(),
             view_layout: layout(device, "view", &[STORAGE; 2]),
             shadow_layout: shadow_layout(device, technique),
-            layout: layout(device, "collect", &[FLOAT_MAP, TARGET, UNIFORM]),
+            layout: layout(device, "evaluate", &[FLOAT_MAP, TARGET, UNIFORM]),
             pipelines: Mutex::default(),
         };
         // Reports composition errors now, not in some frame.
-        collect.pipeline(technique, 0)?;
-        Ok(collect)
+        pass.pipeline(technique, 0)?;
+        Ok(pass)
     }
 
     /// Returns the pipeline that evaluates a variant of the technique.
@@ -47,10 +47,10 @@ impl Collect {
         if let Some(pipeline) = known.get(&variant) {
             return Ok(pipeline.clone());
         }
-        let module = compose("collect.wgsl", &technique.modules(variant))?;
+        let module = compose("evaluate.wgsl", &technique.modules(variant))?;
         let layouts = [&self.view_layout, &self.shadow_layout, &self.layout];
-        let shader = shader(&self.device, "collect.wgsl", module);
-        let pipeline = Arc::new(pipeline(&self.device, &shader, "cs_collect", &layouts));
+        let shader = shader(&self.device, "evaluate.wgsl", module);
+        let pipeline = Arc::new(pipeline(&self.device, &shader, "cs_evaluate", &layouts));
         known.insert(variant, pipeline.clone());
         Ok(pipeline)
     }
@@ -66,7 +66,7 @@ impl Collect {
     ) -> Result<Texture, Error> {
         let pipeline = self.pipeline(technique, shadows.variant)?;
         let mut mask = mask_texture(frame, "shadow mask", buffers, layers);
-        let mut pass = frame.compute_pass("collect");
+        let mut pass = frame.compute_pass("evaluate");
         let shadows = shadows.read_in(&mut pass);
         let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let surfaces = pass.sample(&buffers.surfaces);

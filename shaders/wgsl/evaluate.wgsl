@@ -1,4 +1,4 @@
-// Collects shadows in screen space: evaluates the technique for each light at each pixel, and writes a screen mask.
+// Evaluates the technique for each light at each pixel, into a screen mask.
 #import shadowgraph::view::{view_depth_of, to_neighbour}
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::surface::unpack_normal
@@ -10,7 +10,7 @@
 @group(2) @binding(2) var<uniform> layers: MaskLayers;
 
 @compute @workgroup_size(8, 8)
-fn cs_collect(@builtin(global_invocation_id) id: vec3u) {
+fn cs_evaluate(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= textureDimensions(surfaces)) {
         return;
     }
