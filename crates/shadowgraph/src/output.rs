@@ -39,7 +39,7 @@ pub enum OutputError {
     },
 }
 
-/// The pixel format of a PNG: 8 bit per channel, rows from the top without padding.
+/// The pixel format of a PNG: 8 bits per channel, rows from the top without padding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pixels {
     /// One channel.

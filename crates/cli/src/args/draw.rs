@@ -50,7 +50,7 @@ pub(crate) struct DrawArgs {
     /// texture of the graph
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
-    /// The GPU by name; cpu forces a software adapter. Default: auto, but bench only measures the CPU by default
+    /// The GPU by name; cpu forces a software adapter. Default: auto; without this option, bench measures only the CPU
     #[arg(long, value_name = "auto|NAME|cpu")]
     adapter: Option<String>,
     /// Print a table of CPU and GPU time per pass

@@ -35,7 +35,7 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// List pipelines, node kinds and techniques, or describe one of them
     Nodes(NodesArgs),
-    /// Show a scene in a window, with its settings, the graph and its times
+    /// Show a scene in a window, with its settings, its graph and the times of its passes
     #[cfg(feature = "view")]
     View(ViewArgs),
     /// Measure the cost of a frame: the time of each pass, and the graph compared with hand-written passes
@@ -120,7 +120,7 @@ pub(crate) struct ViewArgs {
 pub(crate) struct NodesArgs {
     /// A pipeline, a node kind or a technique to describe, or `settings` for the settings that all techniques share
     pub(crate) name: Option<String>,
-    /// Print the JSON Schema of pipeline files, or with the name `settings` that of settings files
+    /// Print the JSON Schema of pipeline files or, if NAME is `settings`, the JSON Schema of settings files
     #[arg(long)]
     pub(crate) schema: bool,
 }
@@ -142,7 +142,7 @@ pub(crate) struct ExplainArgs {
 pub(crate) struct BenchArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// Number of frames to measure, of the graph and of hand-written passes each
+    /// Number of frames to measure, once with the graph and once with hand-written passes
     #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) frames: u32,

@@ -24,7 +24,7 @@ pub const PCSS: TechniqueKind = TechniqueKind::new(
 /// `evsm`: [`Evsm`].
 pub const EVSM: TechniqueKind = TechniqueKind::new(
     "evsm",
-    "exponential variance shadow maps: filtered before the lookup, so wide filters cost no more",
+    "exponential variance shadow maps: filtered before the lookup, so a wide filter costs no more than a narrow one",
     |context| Ok(Box::new(Evsm::new(context.device)?)),
 )
 .with_settings::<EvsmSettings>();

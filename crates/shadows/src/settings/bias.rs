@@ -13,7 +13,7 @@ declare_settings! {
         normal: NormalBias = NormalBias::Sine;
         /// Factor of the depth slope of `method`; each tap of the filter is moved towards the light accordingly.
         slope: f32 = 1.0, 0..=4, in "times the receiver's slope";
-        /// Smallest depth slope, in all directions, that taps off the centre are biased for; only with `Plane`. It keeps a lit wall from
+        /// Minimum depth slope, in every direction, for the bias of taps away from the centre; only with `Plane`. It keeps a lit wall from
         /// darkening the ground at its foot.
         min_slope: f32 = 0.5, 0..=4, in "texels of depth per texel";
         /// Steepest depth slope that is followed.

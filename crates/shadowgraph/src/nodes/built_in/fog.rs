@@ -34,7 +34,8 @@ impl Node for Fog {
             SettingType::Color([1.0; 3]),
             "the fraction of light that is scattered and not absorbed",
         ),
-        Setting::new("density", SettingType::Number(0.01, 0.0, 10.0), "extinction").in_units("per metre"),
+        Setting::new("density", SettingType::Number(0.01, 0.0, 10.0), "extinction coefficient")
+            .in_units("per metre"),
         Setting::new(
             "height_m",
             SettingType::Number(4.0, -1e5, 1e5),
@@ -50,7 +51,7 @@ impl Node for Fog {
         Setting::new(
             "anisotropy",
             SettingType::Number(0.4, -0.95, 0.95),
-            "phase function: -1 back-scattering, 1 forward-scattering",
+            "asymmetry of the phase function: negative scatters backwards, positive forwards",
         ),
         Setting::new(
             "distance_m",

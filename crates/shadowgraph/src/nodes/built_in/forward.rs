@@ -17,7 +17,7 @@ pub(super) struct Forward {
 
 impl Node for Forward {
     const NAME: &'static str = "forward";
-    const ABOUT: &'static str = "draws lit geometry with all lights and looks shadows up per pixel";
+    const ABOUT: &'static str = "draws geometry lit by all lights; shadows are looked up per pixel";
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera and the lights"),
         Port::new("shadows", PortKind::Shadows, "the shadows"),

@@ -13,7 +13,7 @@ use crate::render_view::RenderView;
 
 pub(crate) struct Taa {
     pass: Temporal,
-    fresh: f32,
+    current_weight: f32,
 }
 
 impl Node for Taa {
@@ -27,12 +27,15 @@ impl Node for Taa {
     ];
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "accumulated over frames").with_format(Format::Rgba16Float)];
-    const SETTINGS: &'static [Setting] =
-        &[Setting::new("fresh", SettingType::Number(0.1, 0.01, 1.0), "the weight of the current frame")];
+    const SETTINGS: &'static [Setting] = &[Setting::new(
+        "current_weight",
+        SettingType::Number(0.1, 0.01, 1.0),
+        "the weight of the current frame",
+    )];
 
     fn new(context: &BuildContext<'_>, settings: &Settings) -> Result<Self, Error> {
         context.require_single_sample(Self::NAME)?;
-        Ok(Self { pass: Temporal::new(context.device)?, fresh: settings.number("fresh")? })
+        Ok(Self { pass: Temporal::new(context.device)?, current_weight: settings.number("current_weight")? })
     }
 
     fn add<'f>(
@@ -44,7 +47,7 @@ impl Node for Taa {
         let (light, depth) = (ports.texture("light")?, ports.texture("depth")?);
         let camera = (view.index, &view.options.camera);
         let buffers = ports.view("view")?;
-        let accumulated = self.pass.add_to(frame, [&light, &depth], camera, &buffers, self.fresh);
+        let accumulated = self.pass.add_to(frame, [&light, &depth], camera, &buffers, self.current_weight);
         ports.set("light", accumulated);
         Ok(())
     }

@@ -20,9 +20,8 @@ impl Node for Tonemap {
     const ABOUT: &'static str = "tonemaps light with a filmic curve";
     const INPUTS: &'static [Port] =
         &[Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float)];
-    const OUTPUTS: &'static [Port] =
-        &[Port::texture("image", "the tonemapped image, 8 bit per channel")
-            .with_format(Format::Rgba8UnormSrgb)];
+    const OUTPUTS: &'static [Port] = &[Port::texture("image", "the tonemapped image, 8 bits per channel")
+        .with_format(Format::Rgba8UnormSrgb)];
 
     fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
         Ok(Self { pass: TonemapPass::new(context.device)? })

@@ -7,7 +7,8 @@ use crate::nodes::port::Port;
 use crate::nodes::registry::Nodes;
 
 /// Former names with the current ones.
-const RENAMED: &[(&str, &str)] = &[("picture", "image"), ("collected", "screen_space")];
+const RENAMED: &[(&str, &str)] =
+    &[("picture", "image"), ("collected", "screen_space"), ("fresh", "current_weight")];
 
 impl Document {
     /// Replaces former names of inputs, settings, nodes' outputs and the pipeline's outputs. Kinds of nodes that declare a former
