@@ -8,14 +8,23 @@ use shadowgraph::scene::{
 };
 use shadowgraph::shadows::{PCF, RaytracedSettings, ShadowInputs, ShadowPlan, ShadowSettings, plan_shadows};
 use shadowgraph::{Gpu, RenderConfig, RenderedFrame, Renderer, SceneCasters, ViewOptions};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{LazyLock, Mutex, OnceLock};
 
 pub(crate) const SIZE_PX: [u32; 2] = [320, 180];
 
-/// Returns the device that all tests share, or `None` after reporting a skip.
+/// Returns the device of this test, or `None` after reporting a skip.
+///
+/// A device of a software driver compiles its shaders on one thread, so the tests share as many devices as run at once.
 pub(crate) fn gpu() -> Option<&'static Gpu> {
-    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
-    match GPU.get_or_init(|| Gpu::open(&AdapterChoice::Auto).map_err(|error| error.to_string())) {
+    const DEVICES: usize = 2;
+    static GPUS: [OnceLock<Result<Gpu, String>>; DEVICES] = [const { OnceLock::new() }; DEVICES];
+    static TESTS: AtomicUsize = AtomicUsize::new(0);
+    thread_local! {
+        static INDEX: usize = TESTS.fetch_add(1, Ordering::Relaxed) % DEVICES;
+    }
+    let open = || Gpu::open(&AdapterChoice::Auto).map_err(|error| error.to_string());
+    match GPUS[INDEX.with(|index| *index)].get_or_init(open) {
         Ok(gpu) => Some(gpu),
         Err(reason) => {
             shadowgraph_tests::skip("pixels", reason);
@@ -133,14 +142,16 @@ pub(crate) fn draw_with(
     options: &ViewOptions,
     config: impl Into<RenderConfig>,
 ) -> RenderedFrame {
+    /// The device, by its address here (those of several instances are equal in wgpu), and the configuration.
+    type RendererKey = (usize, RenderConfig);
     /// Renderers that no test uses at the moment, the latest last.
-    static IDLE: Mutex<Vec<(RenderConfig, Renderer)>> = Mutex::new(Vec::new());
+    static IDLE: Mutex<Vec<(RendererKey, Renderer)>> = Mutex::new(Vec::new());
     const MAX_IDLE: usize = 8;
 
-    let config = config.into();
+    let key = (std::ptr::from_ref(gpu).addr(), config.into());
     let origin_world = origin_near(options.camera.position_world());
-    let fits = |(of, renderer): &(RenderConfig, Renderer)| {
-        *of == config
+    let fits = |(of, renderer): &(RendererKey, Renderer)| {
+        *of == key
             && *renderer.aov() == aov
             && renderer.casters().scene.origin_world() == origin_world
             && has_same_objects(renderer.scene(), scene)
@@ -149,7 +160,7 @@ pub(crate) fn draw_with(
     let found = idle.iter().position(fits).map(|index| idle.remove(index).1);
     drop(idle);
     let mut renderer = found.unwrap_or_else(|| {
-        Renderer::with_config(gpu, scene.clone(), &options.camera, aov.clone(), config.clone()).unwrap()
+        Renderer::with_config(gpu, scene.clone(), &options.camera, aov.clone(), key.1.clone()).unwrap()
     });
     renderer.set_lights(scene.lights.clone()).unwrap();
     let drawn = renderer.draw(gpu, options).unwrap();
@@ -157,7 +168,7 @@ pub(crate) fn draw_with(
     if idle.len() == MAX_IDLE {
         idle.remove(0);
     }
-    idle.push((config, renderer));
+    idle.push((key, renderer));
     drawn
 }
 
