@@ -8,15 +8,15 @@
 mod frames;
 #[path = "../../src/compile/tests/oracle/mod.rs"]
 mod oracle;
-#[path = "../../src/compile/tests/trial.rs"]
-mod trial;
+#[path = "../../src/compile/tests/frame_check.rs"]
+mod frame_check;
 
 use shadowgraph_core::*;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let spec = frames::frame_from_bytes(bytes);
-    for spec in [trial::shuffled(&spec, &mut frames::Source::new(bytes)), spec] {
-        if let Err(breach) = trial::trial(&spec) {
+    for spec in [frame_check::shuffled(&spec, &mut frames::Source::new(bytes)), spec] {
+        if let Err(breach) = frame_check::check_frame(&spec) {
             panic!("{breach}\nfrom the bytes {bytes:?}");
         }
     }

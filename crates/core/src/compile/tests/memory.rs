@@ -2,9 +2,9 @@
 
 mod orders;
 
+use super::frame_check::shuffled;
 use super::frames::{Source, Spec, chain_from_bytes, small_frame_from_bytes};
 use super::oracle::{Model, lower_bounds, peak_of};
-use super::trial::shuffled;
 use super::{print, random_bytes};
 use crate::OrderPolicy;
 use orders::Orders;

@@ -5,6 +5,7 @@ mod contents;
 mod counts;
 mod errors;
 mod faults;
+mod frame_check;
 mod frames;
 mod graph;
 mod helpers;
@@ -16,7 +17,6 @@ mod plans;
 mod random;
 mod regions;
 mod sharing;
-mod trial;
 
 /// Bytes that look random, always the same ones for a seed.
 fn random_bytes(seed: u64, count: usize) -> Vec<u8> {

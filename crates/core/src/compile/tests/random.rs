@@ -1,11 +1,11 @@
 //! Random frames, checked by the oracle.
 
 use super::counts::Counts;
+use super::frame_check::{check_frame, shuffled};
 use super::frames::{
     INVALID_CHANGES, Source, Spec, frame_from_bytes, random_calls_from_bytes, small_frame_from_bytes,
 };
 use super::print;
-use super::trial::{shuffled, trial};
 use crate::{Error, Frame, Graph, Plan};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};
@@ -37,7 +37,7 @@ fn compile(frame: Frame<'_>) -> Result<Plan, Error> {
 }
 
 fn check(spec: &Spec, counts: &Counts) -> Result<(), TestCaseError> {
-    let Some(plan) = trial(spec).map_err(TestCaseError::fail)? else {
+    let Some(plan) = check_frame(spec).map_err(TestCaseError::fail)? else {
         counts.add("refused frames", 1);
         return Ok(());
     };
@@ -58,7 +58,7 @@ fn every_rule_holds_on_random_frames_in_any_order_of_declaration() {
         let spec = frame_from_bytes(bytes);
         check(&spec, &counts)?;
         let shuffled = shuffled(&spec, &mut Source::new(bytes));
-        if shuffled != spec && trial(&shuffled).map_err(TestCaseError::fail)?.is_some() {
+        if shuffled != spec && check_frame(&shuffled).map_err(TestCaseError::fail)?.is_some() {
             counts.add("frames declared in another order", 1);
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! One frame put to the test, and the same frame declared in another order. Like `frames` and `oracle` it uses the crate's
+//! Checks a frame, and declares the same frame in another order. Like `frames` and `oracle` it uses the crate's
 //! public names only.
 
 use super::frames::{PassSpec, Source, Spec};
@@ -7,7 +7,7 @@ use crate::Plan;
 
 /// Compiles a frame twice and checks the plan, and returns what is wrong; an invalid frame
 /// has no plan.
-pub(super) fn trial(spec: &Spec) -> Result<Option<Plan>, String> {
+pub(super) fn check_frame(spec: &Spec) -> Result<Option<Plan>, String> {
     let compile = || {
         let (frame, names) = spec.build();
         (frame.compile().map(|compiled| compiled.into_plan()), names)
