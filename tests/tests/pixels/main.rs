@@ -1,10 +1,11 @@
-//! Images that a GPU renders, compared with ground truth. One program that shares a device; images of at most 320x180.
+//! Images that a GPU renders, compared with ground truth. One program whose tests share a few devices; images of at most 320x180.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod analytic;
 mod aovs;
 mod captured;
 mod casters;
+mod contact_sheet;
 mod hostile;
 mod lost;
 mod maps;
@@ -14,7 +15,6 @@ mod post;
 mod raytraced;
 mod rows;
 mod scenes;
-mod sheet;
 mod snapping;
 mod soft;
 mod stage;

@@ -13,18 +13,36 @@ use std::sync::{LazyLock, Mutex, OnceLock};
 
 pub(crate) const SIZE_PX: [u32; 2] = [320, 180];
 
+/// The devices that the tests share. A device of a software driver compiles its shaders on one thread, so several compile at once.
+const DEVICES: usize = 4;
+static USERS: [AtomicUsize; DEVICES] = [const { AtomicUsize::new(0) }; DEVICES];
+
+/// The use of a device by the thread of a test, until the thread ends.
+struct DeviceUse(usize);
+
+impl DeviceUse {
+    /// Takes the device that the fewest threads use.
+    fn new() -> Self {
+        let index = (0..DEVICES).min_by_key(|index| USERS[*index].load(Ordering::Relaxed)).unwrap_or(0);
+        USERS[index].fetch_add(1, Ordering::Relaxed);
+        Self(index)
+    }
+}
+
+impl Drop for DeviceUse {
+    fn drop(&mut self) {
+        USERS[self.0].fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
 /// Returns the device of this test, or `None` after reporting a skip.
-///
-/// A device of a software driver compiles its shaders on one thread, so the tests share as many devices as run at once.
 pub(crate) fn gpu() -> Option<&'static Gpu> {
-    const DEVICES: usize = 2;
     static GPUS: [OnceLock<Result<Gpu, String>>; DEVICES] = [const { OnceLock::new() }; DEVICES];
-    static TESTS: AtomicUsize = AtomicUsize::new(0);
     thread_local! {
-        static INDEX: usize = TESTS.fetch_add(1, Ordering::Relaxed) % DEVICES;
+        static USE: DeviceUse = DeviceUse::new();
     }
     let open = || Gpu::open(&AdapterChoice::Auto).map_err(|error| error.to_string());
-    match GPUS[INDEX.with(|index| *index)].get_or_init(open) {
+    match GPUS[USE.with(|device| device.0)].get_or_init(open) {
         Ok(gpu) => Some(gpu),
         Err(reason) => {
             shadowgraph_tests::skip("pixels", reason);
