@@ -176,7 +176,7 @@ fn every_example_that_renders_also_opens_a_window() {
     for name in IN_WINDOWS {
         let mut command = Command::new("xvfb-run");
         command.args(["--auto-servernum", "--server-args=-screen 0 1024x768x24"]);
-        let outcome = run(command.arg(example(name)).args(["--window", "--frames", "3"]));
+        let outcome = run(command.arg(example(name)).args(["--window", "--frames", "2"]));
         assert_eq!(outcome.code, Some(0), "{name}: {}", outcome.stderr);
         // wgpu panics on validation errors by default.
         assert!(!outcome.stderr.contains("panicked"), "{name}: {}", outcome.stderr);

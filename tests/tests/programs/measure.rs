@@ -102,7 +102,7 @@ fn variants_of_settings_are_measured_next_to_the_base_settings() {
     ])"#;
     std::fs::write(&variants, text_of_variants).unwrap();
     let (variants, out) = (variants.to_str().unwrap(), dir.path().join("out"));
-    let arguments = ["--size", "160x90", "--cases", &cases, "--variants", variants, "-o"];
+    let arguments = ["--quick", "--size", "160x90", "--cases", &cases, "--variants", variants, "-o"];
     let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
     assert!(output.status.success(), "{}", text(&output.stderr));
     let json = std::fs::read_to_string(out.join("report.json")).unwrap();
