@@ -1,7 +1,6 @@
 //! Counts allocations of declaring and compiling: none once a graph has compiled the frame.
 #![allow(clippy::expect_used, reason = "a test")]
 
-#[path = "../benches/cost/frames/mod.rs"]
 #[allow(dead_code, reason = "shared with the benchmark")]
 mod frames;
 

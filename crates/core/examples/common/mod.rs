@@ -2,6 +2,7 @@
 
 use shadowgraph_core::wgpu;
 use std::error::Error;
+use std::fs::File;
 use std::path::Path;
 
 /// Opens the first available adapter.
@@ -15,7 +16,9 @@ pub(crate) fn open() -> Result<(wgpu::Device, wgpu::Queue), Box<dyn Error>> {
 pub(crate) fn save(name: &str, width: u32, height: u32, rgba: &[u8]) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all("out")?;
     let path = Path::new("out").join(name).with_extension("png");
-    image::save_buffer(&path, rgba, width, height, image::ColorType::Rgba8)?;
+    let mut encoder = png::Encoder::new(File::create(&path)?, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header()?.write_image_data(rgba)?;
     println!("wrote {}", path.display());
     Ok(())
 }

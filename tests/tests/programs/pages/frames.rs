@@ -2,7 +2,7 @@
 
 use shadowgraph::core::{Contents, Error, Format, Frame, Plan, Texture, TextureDesc};
 
-#[path = "../../../../crates/core/benches/cost/frames/real.rs"]
+#[path = "../../../../crates/core/tests/frames/real.rs"]
 #[allow(dead_code, reason = "a part of it is for benchmarks")]
 mod real;
 

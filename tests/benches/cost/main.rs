@@ -1,4 +1,4 @@
-//! CPU cost of a frame: `cargo bench -p shadowgraph-core --bench cost`.
+//! CPU cost of a frame: `cargo bench -p shadowgraph-tests --bench cost`.
 //!
 //! Criterion computes the statistics of single figures; the table at the end compares them with their targets, and
 //! whole frames with the same passes written by hand, measured alternately in the same run. `-- table` prints only the
@@ -6,6 +6,7 @@
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a benchmark")]
 
 mod drawing;
+#[path = "../../../crates/core/tests/frames/mod.rs"]
 mod frames;
 mod graph;
 mod hand;
