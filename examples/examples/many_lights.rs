@@ -2,7 +2,7 @@
 //! to that of `forward`, which visits all.
 //!
 //! `cargo run -p shadowgraph-examples --example many_lights` writes out/many_lights.png and prints the GPU time of the
-//! lighting; `-- forward` draws with that pipeline, and `-- --window` opens a window.
+//! lighting of an image of half its width and height; `-- forward` draws with that pipeline, and `-- --window` opens a window.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use glam::{DVec3, Vec3};
@@ -51,7 +51,8 @@ impl Example for ManyLights {
         let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config)?;
         // Drivers may compile shaders at the first draw; a small one is enough for that.
         renderer.draw(gpu, &ViewOptions { size_px: [16, 9], ..options.clone() })?;
-        let drawn = renderer.draw_timed(gpu, &options, Some(&mut Timer::new()))?;
+        let half = ViewOptions { size_px: Self::SIZE_PX.map(|size| size / 2), ..options.clone() };
+        let drawn = renderer.draw_timed(gpu, &half, Some(&mut Timer::new()))?;
         let lighting = drawn.times.iter().filter(|time| !time.pass.starts_with("shadows/"));
         let milliseconds: Option<f64> = lighting.map(PassTime::gpu_share_ms).sum();
         println!("{name}: {:.1} ms", milliseconds.unwrap_or(f64::NAN));

@@ -19,7 +19,7 @@ use frames::Change;
 use frames::chain::Chain;
 use graph::{Declared, Source, Whole};
 use hand::Hand;
-use measure::{Subject, measure, timed};
+use measure::{Workload, measure, timed};
 use table::{Table, Target};
 
 fn main() {
@@ -59,16 +59,16 @@ fn single_figures(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A subject that declares and compiles.
-fn declares<'c>(source: Source<'c>, change: Change) -> Subject<'c> {
+/// A workload that declares and compiles.
+fn declares<'c>(source: Source<'c>, change: Change) -> Workload<'c> {
     let mut declared = Declared::new(source, change);
     timed(move || {
         declared.frame();
     })
 }
 
-/// A subject that declares and compiles, with only the time of compiling.
-fn compiles<'c>(source: Source<'c>, change: Change) -> Subject<'c> {
+/// A workload that declares and compiles, with only the time of compiling.
+fn compiles<'c>(source: Source<'c>, change: Change) -> Workload<'c> {
     let mut declared = Declared::new(source, change);
     Box::new(move || declared.frame())
 }
@@ -89,8 +89,8 @@ fn declaring(table: &mut Table) {
 fn growth(table: &mut Table) {
     table.heading("compile");
     let chains = [1_000, 10_000].map(Chain::new);
-    let subjects = chains.each_ref().map(|chain| compiles(Source::Chain(chain), Change::Always));
-    let [short, long] = measure(subjects);
+    let workloads = chains.each_ref().map(|chain| compiles(Source::Chain(chain), Change::Always));
+    let [short, long] = measure(workloads);
     table.row("1,000 passes", short.seconds, None, Target::None);
     table.row("10,000 passes, against 1,000", long.seconds, Some(long.ratio), Target::Times(12.0));
 }
@@ -133,11 +133,11 @@ fn on_threads(table: &mut Table) {
     let chain = Chain::new(32);
     for draws in [1, 10, 100, 1_000] {
         table.heading(&format!("whole frame of 32 passes with {draws} draws each"));
-        let subjects = [1, 2, 4].map(|threads| {
+        let workloads = [1, 2, 4].map(|threads| {
             let mut whole = Whole::new(&drawing, &chain, Change::Never).with_draws(draws, threads);
             timed(move || whole.frame())
         });
-        for (threads, measured) in [1, 2, 4].into_iter().zip(measure(subjects)) {
+        for (threads, measured) in [1, 2, 4].into_iter().zip(measure(workloads)) {
             table.row(&format!("threads: {threads}"), measured.seconds, Some(measured.ratio), Target::None);
         }
     }

@@ -1,26 +1,26 @@
-//! Medians of several subjects that are measured alternately, so that other load affects all of them equally.
+//! Medians of several workloads that are measured alternately, so that other load affects all of them equally.
 
 use std::time::{Duration, Instant};
 
 /// Runs one frame and returns its measured time.
-pub(crate) type Subject<'s> = Box<dyn FnMut() -> Duration + 's>;
+pub(crate) type Workload<'s> = Box<dyn FnMut() -> Duration + 's>;
 
 /// Number of rounds.
 const ROUNDS: usize = 151;
 /// Approximate duration of a sample.
 const SAMPLE_DURATION: Duration = Duration::from_millis(2);
 
-/// The measurement of a subject.
+/// The measurement of a workload.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Measured {
     /// Median time of a frame in seconds.
     pub(crate) seconds: f64,
-    /// Median over the rounds of the time relative to the first subject in the same round.
+    /// Median over the rounds of the time relative to the first workload in the same round.
     pub(crate) ratio: f64,
 }
 
-/// A subject with its whole time.
-pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Subject<'s> {
+/// A workload with its whole time.
+pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Workload<'s> {
     Box::new(move || {
         let start = Instant::now();
         frame();
@@ -28,16 +28,16 @@ pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Subject<'s> {
     })
 }
 
-/// Measures the subjects alternately.
-pub(crate) fn measure<const N: usize>(mut subjects: [Subject<'_>; N]) -> [Measured; N] {
-    let frames = subjects.each_mut().map(|subject| frames(subject));
+/// Measures the workloads alternately.
+pub(crate) fn measure<const N: usize>(mut workloads: [Workload<'_>; N]) -> [Measured; N] {
+    let frames = workloads.each_mut().map(|workload| frames(workload));
     let mut rounds: Vec<[f64; N]> = Vec::with_capacity(ROUNDS);
     for round in 0..ROUNDS {
         let mut seconds = [0.0; N];
         for turn in 0..N {
-            // Every other round is reversed, so that each subject follows each other one.
+            // Every other round is reversed, so that each workload follows each other one.
             let at = if round % 2 == 0 { turn } else { N - 1 - turn };
-            seconds[at] = turn_of(&mut subjects[at], frames[at]);
+            seconds[at] = turn_of(&mut workloads[at], frames[at]);
         }
         rounds.push(seconds);
     }
@@ -47,20 +47,20 @@ pub(crate) fn measure<const N: usize>(mut subjects: [Subject<'_>; N]) -> [Measur
     })
 }
 
-/// Warms a subject up, and returns its frames per round.
-fn frames(subject: &mut Subject<'_>) -> u32 {
+/// Warms a workload up, and returns its frames per round.
+fn frames(workload: &mut Workload<'_>) -> u32 {
     let start = Instant::now();
     let mut count = 0;
     while start.elapsed() < SAMPLE_DURATION * 10 {
-        subject();
+        workload();
         count += 1;
     }
     (count / 10).max(1)
 }
 
 /// Returns the seconds of a frame.
-fn turn_of(subject: &mut Subject<'_>, frames: u32) -> f64 {
-    let time: Duration = (0..frames).map(|_| subject()).sum();
+fn turn_of(workload: &mut Workload<'_>, frames: u32) -> f64 {
+    let time: Duration = (0..frames).map(|_| workload()).sum();
     time.as_secs_f64() / f64::from(frames)
 }
 

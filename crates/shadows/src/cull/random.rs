@@ -188,5 +188,5 @@ pub(crate) fn randoms() -> impl Strategy<Value = Random> {
 
 /// Returns the number of cases of each property; `PROPTEST_CASES` raises it.
 pub(crate) fn cases() -> u32 {
-    1000.max(ProptestConfig::default().cases)
+    500.max(ProptestConfig::default().cases)
 }

@@ -20,7 +20,7 @@ use std::fmt::Write as _;
 
 /// Returns a number of graphs, raised in proportion where `PROPTEST_CASES` asks for more than its default, 256.
 fn graph_count() -> u64 {
-    200 * u64::from(proptest::test_runner::Config::default().cases.div_ceil(256))
+    120 * u64::from(proptest::test_runner::Config::default().cases.div_ceil(256))
 }
 
 /// Graphs that are submitted and compared together.
