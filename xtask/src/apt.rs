@@ -1,17 +1,19 @@
 //! Installs packages with apt-get where this process may, and names the line to run where it may not.
 
 use crate::child;
-use crate::machine::Requirement;
 use std::process::Stdio;
+
+/// The packages that have a program or library, separated by spaces: of Debian, Fedora and Arch Linux.
+pub(crate) type Packages = [&'static str; 3];
 
 /// Options of apt-get. It waits for another package manager that is at work.
 const APT: [&str; 4] = ["DEBIAN_FRONTEND=noninteractive", "apt-get", "-qq", "-oDPkg::Lock::Timeout=120"];
 
-/// Installs the packages of all requirements in one call.
+/// Installs all packages in one call.
 ///
 /// # Errors
 /// When this process may not install, or apt-get failed.
-pub(crate) fn install(missing: &[Requirement]) -> Result<(), String> {
+pub(crate) fn install(missing: &[Packages]) -> Result<(), String> {
     let prefix = prefix().ok_or("no right to install")?;
     let run = |arguments: &[&str]| -> Result<bool, String> {
         let (program, before) = prefix.split_first().ok_or("nothing to run")?;
@@ -33,7 +35,7 @@ pub(crate) fn install(missing: &[Requirement]) -> Result<(), String> {
 }
 
 /// Returns the line with which a person installs the packages.
-pub(crate) fn line_to_run(missing: &[Requirement]) -> String {
+pub(crate) fn line_to_run(missing: &[Packages]) -> String {
     let sudo = if is_root() { "" } else { "sudo " };
     let packages = |distribution| packages(missing, distribution).join(" ");
     if child::succeeds("apt-get", &["--version"]) {
@@ -48,9 +50,9 @@ pub(crate) fn line_to_run(missing: &[Requirement]) -> String {
 }
 
 /// Returns the names of the packages, each once.
-fn packages(missing: &[Requirement], distribution: usize) -> Vec<&'static str> {
+fn packages(missing: &[Packages], distribution: usize) -> Vec<&'static str> {
     let mut names: Vec<&str> = Vec::new();
-    for name in missing.iter().flat_map(|requirement| requirement.packages[distribution].split(' ')) {
+    for name in missing.iter().flat_map(|packages| packages[distribution].split(' ')) {
         if !names.contains(&name) {
             names.push(name);
         }

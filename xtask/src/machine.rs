@@ -1,6 +1,6 @@
 //! Installs what commands need on the machine: a Vulkan driver, and the programs that some tests start.
 
-use crate::apt;
+use crate::apt::{self, Packages};
 use crate::child;
 use crate::driver::{Driver, Missing};
 
@@ -13,14 +13,14 @@ pub(crate) enum Need {
     Tests,
 }
 
-/// A program or library and the packages that have it: of Debian, Fedora and Arch Linux.
+/// A program or library, and the packages that have it.
 #[derive(Clone, Copy)]
-pub(crate) struct Requirement {
+struct Requirement {
     name: &'static str,
-    pub(crate) packages: [&'static str; 3],
+    packages: Packages,
 }
 
-const DRIVER: [&str; 3] = [
+const DRIVER: Packages = [
     "mesa-vulkan-drivers libvulkan1",
     "mesa-vulkan-drivers vulkan-loader",
     "vulkan-swrast vulkan-icd-loader",
@@ -42,7 +42,7 @@ const PROGRAMS: [(&[&str], Requirement); 5] = [
 ];
 
 /// Libraries that a window loads when it opens, and their packages.
-const LIBRARIES: [(&str, [&str; 3]); 5] = [
+const LIBRARIES: [(&str, Packages); 5] = [
     ("libX11.so.6", ["libx11-6", "libX11", "libx11"]),
     ("libX11-xcb.so.1", ["libx11-xcb1", "libX11-xcb", "libx11"]),
     ("libXcursor.so.1", ["libxcursor1", "libXcursor", "libxcursor"]),
@@ -65,13 +65,13 @@ pub(crate) fn prepare(need: Need) -> Result<(), String> {
         return Ok(());
     }
     println!("Missing: {}.", names(&missing));
-    let installed = apt::install(&missing);
+    let installed = apt::install(&packages(&missing));
     let missing = self::missing(need);
     if missing.is_empty() {
         println!("Installed.");
         return Ok(());
     }
-    let line = apt::line_to_run(&missing);
+    let line = apt::line_to_run(&packages(&missing));
     if let Some(driver) = missing_driver(need) {
         let reason = installed.err().map(|error| format!(" ({error})")).unwrap_or_default();
         return Err(format!("{} is missing{reason}; to install: {line}", driver.name()));
@@ -97,6 +97,10 @@ fn missing(need: Need) -> Vec<Requirement> {
         found.extend(absent.map(|&(name, packages)| Requirement { name, packages }));
     }
     found
+}
+
+fn packages(requirements: &[Requirement]) -> Vec<Packages> {
+    requirements.iter().map(|requirement| requirement.packages).collect()
 }
 
 fn names(requirements: &[Requirement]) -> String {
