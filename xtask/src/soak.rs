@@ -40,6 +40,8 @@ fn soak(frames: u32) -> Result<bool, String> {
         let arguments = [&["test", "--quiet", "--workspace"], test, &["--", "--nocapture"]].concat();
         let mut command = child::cargo(&arguments);
         command.env(variable, count.to_string());
+        // Some properties reject a third of their random values.
+        command.env("PROPTEST_MAX_GLOBAL_REJECTS", (4 * CASES).to_string());
         if !child::stream(runtime.apply(&mut command))?.success() {
             return Ok(false);
         }
