@@ -41,9 +41,8 @@ impl Table {
 
     pub(crate) fn print(&self) {
         println!("{}\n{} targets missed", self.text, self.missed);
-        println!(
-            "What is counted and not timed, tests hold to its targets: allocations in tests/allocations.rs, slots"
-        );
-        println!("and the peak of the chosen order in src/compile/tests/memory.rs.");
+        println!("Tests compare figures that are counted with their targets:");
+        println!("  allocations: crates/core/tests/allocations.rs");
+        println!("  slots, and the peak of the chosen order: crates/core/src/compile/tests/memory.rs");
     }
 }

@@ -1,4 +1,6 @@
 //! Every technique and pipeline with every mix of lights and every kind of caster: a contact sheet of small images.
+//!
+//! This is the longest test of its program. Tests start in the order of their names; at the end of it this one would run alone.
 
 use crate::stage::{camera, gpu, hard, light, sun, view};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
