@@ -55,7 +55,10 @@ pub fn struct_layout(module: &naga::Module, struct_name: &str) -> Result<Layout,
 /// use shadowgraph_shaders::{compose, layout};
 ///
 /// let module = compose("depth.wgsl", &[])?;
-/// layout::check(&module, "Instance", 48, &[("row_x", 0), ("row_y", 16), ("row_z", 32)])?;
+/// let rows = ["row_x", "row_y", "row_z", "previous_row_x", "previous_row_y", "previous_row_z"];
+/// let mut fields: Vec<_> = rows.into_iter().zip((0..).step_by(16)).collect();
+/// fields.push(("flags", 96));
+/// layout::check(&module, "Instance", 112, &fields)?;
 /// # Ok::<(), shadowgraph_shaders::Error>(())
 /// ```
 ///

@@ -177,7 +177,16 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
         ("spot_offset", 48),
     ];
     layout::check(&forward, "Light", 64, &light).unwrap();
-    layout::check(&forward, "Instance", 48, &[("row_x", 0), ("row_y", 16), ("row_z", 32)]).unwrap();
+    let instance = [
+        ("row_x", 0),
+        ("row_y", 16),
+        ("row_z", 32),
+        ("previous_row_x", 48),
+        ("previous_row_y", 64),
+        ("previous_row_z", 80),
+        ("flags", 96),
+    ];
+    layout::check(&forward, "Instance", 112, &instance).unwrap();
     let material = [
         ("base_color", 0),
         ("emissive", 16),

@@ -1,11 +1,16 @@
 // Instance transforms, group 3 of every pass that draws meshes, and the vertices of a mesh.
 #define_import_path shadowgraph::draw
 
-// Rows of the affine matrix world_from_local; world is relative to the frame's origin. 48 bytes.
+// Rows of the affine matrix world_from_local of this frame and of the previous one; world is relative to the frame's origin
+// in both. 112 bytes.
 struct Instance {
     row_x: vec4f,
     row_y: vec4f,
     row_z: vec4f,
+    previous_row_x: vec4f,
+    previous_row_y: vec4f,
+    previous_row_z: vec4f,
+    flags: vec4u,
 }
 
 // Indexed by `instance_index`, which counts from the draw's first instance: one draw per instance.

@@ -3,7 +3,7 @@
 use std::num::NonZeroU64;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DAffine3, DVec3, Vec4};
+use glam::{DAffine3, DVec3, UVec4, Vec4};
 
 use super::limits;
 use crate::error::Error;
@@ -28,25 +28,26 @@ pub fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
-/// `Instance` of `draw.wgsl`: the rows of world_from_local, relative to the origin.
+/// `Instance` of `draw.wgsl`: the rows of world_from_local of this frame and of the previous one, both relative to this
+/// frame's origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(super) struct GpuInstance {
     row_x: Vec4,
     row_y: Vec4,
     row_z: Vec4,
+    previous_row_x: Vec4,
+    previous_row_y: Vec4,
+    previous_row_z: Vec4,
+    flags: UVec4,
 }
 
 impl GpuInstance {
-    /// Converts a transform: subtracts the origin in f64, then rounds.
+    /// Converts the transform of an instance that does not move: subtracts the origin in f64, then rounds.
     pub(super) fn new(world_from_local: &DAffine3, origin_world: DVec3) -> Self {
-        let rows = world_from_local.matrix3.transpose();
-        let offset = world_from_local.translation - origin_world;
-        Self {
-            row_x: rows.x_axis.extend(offset.x).as_vec4(),
-            row_y: rows.y_axis.extend(offset.y).as_vec4(),
-            row_z: rows.z_axis.extend(offset.z).as_vec4(),
-        }
+        let [row_x, row_y, row_z] = rows(world_from_local, origin_world);
+        let [previous_row_x, previous_row_y, previous_row_z] = [row_x, row_y, row_z];
+        Self { row_x, row_y, row_z, previous_row_x, previous_row_y, previous_row_z, flags: UVec4::ZERO }
     }
 
     /// Converts all instances of a scene, in draw order.
@@ -54,6 +55,14 @@ impl GpuInstance {
         let instances = order.iter().filter_map(|&instance| scene.instances.get(instance as usize));
         instances.map(|instance| Self::new(&instance.world_from_local, origin_world)).collect()
     }
+}
+
+/// Returns the rows of an affine matrix, relative to the origin.
+fn rows(world_from_local: &DAffine3, origin_world: DVec3) -> [Vec4; 3] {
+    let rows = world_from_local.matrix3.transpose();
+    let offset = world_from_local.translation - origin_world;
+    [rows.x_axis.extend(offset.x), rows.y_axis.extend(offset.y), rows.z_axis.extend(offset.z)]
+        .map(|row| row.as_vec4())
 }
 
 /// The range of a mesh in the buffers.
@@ -182,6 +191,10 @@ mod tests {
             ("row_x", offset_of!(GpuInstance, row_x)),
             ("row_y", offset_of!(GpuInstance, row_y)),
             ("row_z", offset_of!(GpuInstance, row_z)),
+            ("previous_row_x", offset_of!(GpuInstance, previous_row_x)),
+            ("previous_row_y", offset_of!(GpuInstance, previous_row_y)),
+            ("previous_row_z", offset_of!(GpuInstance, previous_row_z)),
+            ("flags", offset_of!(GpuInstance, flags)),
         ];
         shadowgraph_shaders::layout::check(&module, "Instance", size_of::<GpuInstance>(), &fields).unwrap();
     }
