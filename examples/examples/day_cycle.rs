@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
-use shadowgraph::scene::{Light, LightKind};
+use shadowgraph::scene::{Light, LightKey, LightKind};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use shadowgraph_samples::demo::demo_scene;
@@ -30,7 +30,7 @@ fn sun(day: f64) -> Light {
 struct Day {
     renderer: Renderer,
     options: ViewOptions,
-    other_lights: Vec<Light>,
+    sun: LightKey,
 }
 
 impl Example for Day {
@@ -41,16 +41,16 @@ impl Example for Day {
 
     fn new(gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         let scene = demo_scene();
-        let other_lights = scene.lights[1..].to_vec();
+        let sun = scene.light_keys()[0];
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
         let renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color)?;
-        Ok(Self { renderer, options, other_lights })
+        Ok(Self { renderer, options, sun })
     }
 
     fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
         let day = f64::from(number % Self::FRAMES) / f64::from(Self::FRAMES - 1);
-        self.renderer.set_lights(std::iter::once(sun(day)).chain(self.other_lights.clone()).collect())?;
+        self.renderer.scene_mut().replace_light(self.sun, sun(day))?;
         self.renderer.record(gpu, encoder, target, &self.options)?;
         Ok(())
     }

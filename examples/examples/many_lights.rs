@@ -40,10 +40,8 @@ impl Example for ManyLights {
 
     fn new(gpu: &Gpu, argument: Option<&str>) -> Result<Self, Failure> {
         let mut scene = demo_scene();
-        // Moonlight.
-        scene.lights.truncate(1);
-        scene.lights[0].intensity = 0.6;
-        scene.lights.extend((0..LIGHT_COUNT).map(point_light));
+        let moon = Light { intensity: 0.6, ..scene.lights()[0].clone() };
+        scene.set_lights(std::iter::once(moon).chain((0..LIGHT_COUNT).map(point_light)));
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
         let name = argument.unwrap_or("forward_plus");

@@ -164,7 +164,8 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
         let technique: Technique = techniques.find(name).unwrap();
         let config = RenderConfig { technique: Some(technique), pipeline, samples: 1 };
         let mut own = scene.clone();
-        own.lights.truncate(random.below(own.lights.len() as u64 + 1) as usize);
+        let lights = random.below(scene.lights().len() as u64 + 1) as usize;
+        own.set_lights(scene.lights()[..lights].to_vec());
         let camera = scene.cameras[random.below(scene.cameras.len() as u64) as usize].clone();
         watched.send(format!("the renderer of frame {drawn}, {name}\n{text}")).unwrap();
         let mut renderer = Renderer::with_config(gpu, own, &camera, Aov::Color, config).unwrap();

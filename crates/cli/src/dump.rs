@@ -33,7 +33,7 @@ pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> 
 
 fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String, Failure> {
     input.options.timings |= format == Format::Trace;
-    let lights = input.scene.lights.clone();
+    let lights = input.scene.lights().to_vec();
     let (gpu, drawn) = planned(&args.draw, input)?;
     Ok(match format {
         Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
@@ -50,7 +50,7 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
 fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
     let view = view_options(&input);
     let (aov, config) = (input.options.aov.clone(), input.options.render_config());
-    let (scene_lights, mut notes) = (input.scene.lights.clone(), input.scene.notes.clone());
+    let (scene_lights, mut notes) = (input.scene.lights().to_vec(), input.scene.notes.clone());
     let [width, height] = view.size_px;
     notes.insert(
         0,

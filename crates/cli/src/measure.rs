@@ -320,9 +320,9 @@ mod tests {
         let sun = shadowgraph::options::default_sun();
         let point = LightKind::Point { position_world: glam::DVec3::Y, range: None };
         let mut scene = Scene::default();
-        scene.add_light(Light { kind: point, ..sun.clone() });
+        scene.insert_light(Light { kind: point, ..sun.clone() });
         let views = vec![("front".to_owned(), scene.framing_camera(1.0))];
-        scene.add_light(sun);
+        scene.insert_light(sun);
         let measured_scene = Box::new(MeasuredScene::new("scene", scene, views).unwrap());
         let mut seen = Vec::new();
         let work = Work::Scene { measured_scene, views_named: true };

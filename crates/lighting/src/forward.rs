@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialKey, MaterialLayouts, vertex_layout};
+use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
 
@@ -59,13 +59,13 @@ pub struct LitPipelines {
     shader: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
     key: LitKey,
-    /// The pipelines by [`MaterialKey::index`].
+    /// The pipelines by [`PipelineKey::index`].
     pipelines: Vec<OnceLock<wgpu::RenderPipeline>>,
 }
 
 impl LitPipelines {
     /// Returns the pipeline for draws with a key.
-    pub fn get(&self, key: MaterialKey) -> DrawPipeline<'_> {
+    pub fn get(&self, key: PipelineKey) -> DrawPipeline<'_> {
         let create = || self.builder.pipeline(&self.shader, &self.layout, self.key, key);
         DrawPipeline { pipeline: self.pipelines[key.index()].get_or_init(create), reads_material: true }
     }
@@ -146,7 +146,7 @@ impl Forward {
         let modules = key.bindings.add_modules(self.modules_for(key.variant));
         let shader = module(&self.builder.device, "forward.wgsl", &modules)?;
         let builder = self.builder.clone();
-        let by_material = MaterialKey::all().map(|_| OnceLock::new()).collect();
+        let by_material = PipelineKey::all().map(|_| OnceLock::new()).collect();
         let layout = builder.layout(key.bindings);
         let pipelines = Arc::new(LitPipelines { builder, shader, layout, key, pipelines: by_material });
         cache.insert(key, pipelines.clone());
@@ -342,7 +342,7 @@ impl PipelineBuilder {
         shader: &wgpu::ShaderModule,
         layout: &wgpu::PipelineLayout,
         lit: LitKey,
-        key: MaterialKey,
+        key: PipelineKey,
     ) -> wgpu::RenderPipeline {
         let constants = self.target.constants(lit.debug_light);
         // Blended geometry is drawn only for the output of light.

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialKey, MaterialLayouts, vertex_layout};
+use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
 
 use crate::error::Error;
 use crate::prepass::{DEPTH_FORMAT, Geometry};
@@ -37,7 +37,7 @@ pub struct GBufferPass {
     empty: wgpu::BindGroup,
     shader: wgpu::ShaderModule,
     device: wgpu::Device,
-    /// The pipelines by [`MaterialKey::index`].
+    /// The pipelines by [`PipelineKey::index`].
     pipelines: Vec<OnceLock<wgpu::RenderPipeline>>,
 }
 
@@ -68,7 +68,7 @@ impl GBufferPass {
             layout: &none,
             entries: &[],
         });
-        let pipelines = MaterialKey::all().map(|_| OnceLock::new()).collect();
+        let pipelines = PipelineKey::all().map(|_| OnceLock::new()).collect();
         Ok(Self { view_layouts, layout, empty, shader, device: device.clone(), pipelines })
     }
 
@@ -113,7 +113,7 @@ impl GBufferPass {
         buffer
     }
 
-    fn pipeline(&self, key: MaterialKey) -> wgpu::RenderPipeline {
+    fn pipeline(&self, key: PipelineKey) -> wgpu::RenderPipeline {
         debug_assert_ne!(key.alpha, AlphaKey::Blend, "blended geometry is drawn in the blended pass");
         let targets = GBuffer::FORMATS.map(|format| Some(format.into()));
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

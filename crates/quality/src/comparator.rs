@@ -112,7 +112,7 @@ impl<'g> Comparator<'g> {
         let surfaces = self.reader.read(self.gpu, renderer, options)?;
         let origin_world = renderer.casters().scene.origin_world();
         let eye = (options.camera.position_world() - origin_world).as_vec3();
-        let source = &renderer.scene().lights[self.light];
+        let source = &renderer.scene().lights()[self.light];
         let light = RayLight::new(source, light_size(source), origin_world);
         let rays = self.rays(renderer, origin_world)?;
         let truth = GroundTruth::trace(rays, &surfaces, &light, eye);
@@ -233,7 +233,7 @@ pub(super) fn texels(
         view: 0,
         camera: &options.camera,
         aspect: options.aspect(),
-        lights: &renderer.scene().lights,
+        lights: renderer.scene().lights(),
         casters: renderer.casters(),
         origin_world,
         settings: &options.shadows,

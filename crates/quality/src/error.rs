@@ -38,6 +38,7 @@ from_lower_crate!(
     shadowgraph_core::Error,
     shadowgraph_scene::Error,
     shadowgraph_scene::CameraError,
+    shadowgraph_scene::EditError,
     shadowgraph_shadows::Error,
     shadowgraph_lighting::Error,
     shadowgraph_shaders::Error

@@ -30,7 +30,7 @@ pub fn measure_flicker(
     let mut flickers = measure_motions(gpu, renderer, options, light, frames, false)?;
     let mut far = options.clone();
     far.camera.world_from_view.translation += FAR_OFFSET_M;
-    let scene = translated(renderer.scene(), FAR_OFFSET_M);
+    let scene = translated(renderer.scene(), FAR_OFFSET_M)?;
     let aov = Aov::Visibility(light as u32);
     let mut renderer = Renderer::with_config(gpu, scene, &far.camera, aov, technique)?;
     flickers.extend(measure_motions(gpu, &mut renderer, &far, light, frames, true)?);

@@ -46,10 +46,10 @@ impl MeasuredScene {
     /// # Errors
     /// If the scene's triangles cannot be traced, which choosing views requires.
     pub fn new(name: impl Into<String>, scene: Scene, views: Vec<(String, Camera)>) -> Result<Self, Error> {
-        let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts_shadow);
+        let casting = scene.lights().iter().enumerate().filter(|(_, light)| light.casts_shadow);
         let light = |(index, light): (usize, &Light)| MeasuredLight {
             name: format!("{} {index}", kind(light)),
-            all: scene.lights.clone(),
+            all: scene.lights().to_vec(),
             index,
         };
         let lights = casting.take(MAX_LIGHTS).map(light).collect();
@@ -77,8 +77,8 @@ impl MeasuredScene {
             SceneSource::TestScene(name) => test_scenes::test_scene(name).unwrap_or_default(),
             SceneSource::File(file) => gltf::load(&folder.join(file))?,
         };
-        if scene.lights.is_empty() && case.sun_elevations_deg.is_empty() {
-            scene.add_light(shadowgraph::options::default_sun());
+        if scene.lights().is_empty() && case.sun_elevations_deg.is_empty() {
+            scene.insert_light(shadowgraph::options::default_sun());
         }
         let mut views: Vec<_> = case.views.iter().map(|view| (view.name.clone(), view.camera())).collect();
         if views.is_empty() {
@@ -101,7 +101,7 @@ impl MeasuredScene {
     /// Returns the sun of a case, which replaces the scene's own.
     fn sun(&self, case: &Case, elevation_deg: f64) -> MeasuredLight {
         let is_directional = |light: &&Light| matches!(light.kind, LightKind::Directional { .. });
-        let others = self.scene.lights.iter().filter(|light| !is_directional(light)).cloned();
+        let others = self.scene.lights().iter().filter(|light| !is_directional(light)).cloned();
         let all = std::iter::once(case.sun(elevation_deg)).chain(others).collect();
         MeasuredLight { name: format!("sun {elevation_deg}°"), all, index: 0 }
     }

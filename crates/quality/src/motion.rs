@@ -1,7 +1,7 @@
 //! Cameras that move by less than a pixel from frame to frame.
 
 use glam::{DAffine3, DVec3};
-use shadowgraph_scene::{Camera, LightKind, Projection, Scene};
+use shadowgraph_scene::{Camera, EditError, LightKind, Projection, Scene};
 
 use super::comparator::pixel_m_at_1m;
 use super::report::Motion;
@@ -60,21 +60,27 @@ fn zoomed(projection: Projection, factor: f64) -> Projection {
 }
 
 /// Returns a scene with all its instances and lights moved by `offset`; its cameras stay.
-#[must_use]
-pub(super) fn translated(scene: &Scene, offset: DVec3) -> Scene {
-    let mut scene = scene.clone();
-    for instance in &mut scene.instances {
-        instance.world_from_local.translation += offset;
+///
+/// # Errors
+/// For an offset that is not finite.
+pub(super) fn translated(scene: &Scene, offset: DVec3) -> Result<Scene, EditError> {
+    let mut moved = scene.clone();
+    for (key, instance) in scene.instances() {
+        let mut transform = instance.world_from_local;
+        transform.translation += offset;
+        moved.move_instance(key, transform)?;
     }
-    for light in &mut scene.lights {
+    let lights = scene.lights().iter().cloned().map(|mut light| {
         match &mut light.kind {
             LightKind::Spot { position_world, .. } | LightKind::Point { position_world, .. } => {
                 *position_world += offset;
             }
             LightKind::Directional { .. } => {}
         }
-    }
-    scene
+        light
+    });
+    moved.set_lights(lights);
+    Ok(moved)
 }
 
 #[cfg(test)]

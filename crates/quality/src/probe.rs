@@ -163,7 +163,7 @@ impl Probe {
         let ProbeInputs { renderer, view, casters, points, query } = *inputs;
         let options = view.options;
         let scene = &renderer.casters().scene;
-        let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
+        let (lights, origin_world) = (renderer.scene().lights(), scene.origin_world());
         let mut frame = graph.frame();
         let uniforms =
             ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);

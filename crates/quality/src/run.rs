@@ -108,9 +108,9 @@ impl<'a> Run<'a> {
             self.light = Some((light.index, Comparator::new(self.gpu, &first.visibility, light.index)?));
         }
         for renderer_set in &mut self.renderers {
-            renderer_set.visibility.set_lights(light.all.clone())?;
+            renderer_set.visibility.scene_mut().set_lights(light.all.clone());
             if let Some(color) = &mut renderer_set.color {
-                color.set_lights(light.all.clone())?;
+                color.scene_mut().set_lights(light.all.clone());
             }
         }
         Ok(())
@@ -122,7 +122,7 @@ impl<'a> Run<'a> {
         light: &MeasuredLight,
     ) -> Result<TechniqueRenderers, Error> {
         let mut scene = self.measured_scene.scene.clone();
-        scene.lights.clone_from(&light.all);
+        scene.set_lights(light.all.clone());
         let eye = self
             .measured_scene
             .views

@@ -44,11 +44,11 @@ impl SurfaceReader {
     /// # Errors
     /// An image over the adapter's limits, or a failure of the GPU.
     pub fn read(&self, gpu: &Gpu, renderer: &mut Renderer, options: &ViewOptions) -> Result<Surfaces, Error> {
-        renderer.move_origin(gpu, options)?;
+        renderer.begin_frame(gpu, options)?;
         let view = renderer.view(options, None);
         let bytes = gpu.checked(|| -> Result<_, Error> {
             let scene = &renderer.casters().scene;
-            let (lights, origin_world) = (&renderer.scene().lights, scene.origin_world());
+            let (lights, origin_world) = (renderer.scene().lights(), scene.origin_world());
             let mut graph = renderer.graph();
             let mut frame = graph.frame();
             let uniforms = ViewUniforms::new(

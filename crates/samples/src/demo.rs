@@ -27,7 +27,7 @@ const SUN_HEADING_DEG: f64 = 25.0;
 ///
 /// ```
 /// let scene = shadowgraph_samples::demo::demo_scene();
-/// assert_eq!(scene.lights.len(), 4);
+/// assert_eq!(scene.lights().len(), 4);
 /// assert_eq!(scene.cameras[0].name.as_deref(), Some("courtyard"));
 /// ```
 #[must_use]
@@ -38,7 +38,7 @@ pub fn demo_scene() -> Scene {
     hall::build(&mut builder);
     far::build(&mut builder);
     let mut scene = builder.scene;
-    scene.add_light(sun());
+    scene.insert_light(sun());
     scene.cameras = cameras();
     scene
 }

@@ -1,6 +1,7 @@
 //! The demo scene and the procedural test scenes, created in code.
 
 pub mod demo;
+mod insert;
 mod mesh_builder;
 mod round;
 pub mod test_scenes;

@@ -6,9 +6,10 @@ pub use stained_glass::stained_glass;
 
 use glam::{DAffine3, DVec2, DVec3, Vec3, Vec4};
 
+use crate::insert::{insert_instance, insert_material};
 use crate::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
 use crate::round::{lathe, sphere};
-use shadowgraph_scene::{Instance, Light, LightKind, Material, Scene};
+use shadowgraph_scene::{Light, LightKind, Material, Scene};
 
 /// The names of all test scenes.
 pub const TEST_SCENES: [&str; 8] =
@@ -48,16 +49,11 @@ pub fn test_scene(name: &str) -> Option<Scene> {
     };
     let base_color = Vec4::new(0.6, 0.6, 0.6, 1.0);
     let grey = Material { name: "grey".into(), base_color, metallic: 0.0, ..Material::default() };
-    let mut scene = Scene { materials: vec![grey], ..Scene::default() };
+    let mut scene = Scene::default();
+    let grey = insert_material(&mut scene, grey);
     for (name, shape) in objects {
-        let instance = Instance {
-            name: name.to_owned(),
-            mesh: scene.meshes.len(),
-            material: 0,
-            world_from_local: DAffine3::IDENTITY,
-        };
-        scene.meshes.push(shape.finish(name));
-        scene.instances.push(instance);
+        let mesh = scene.insert_mesh(shape.finish(name));
+        insert_instance(&mut scene, name, mesh, grey, DAffine3::IDENTITY);
     }
     Some(scene)
 }
@@ -205,6 +201,8 @@ fn interior() -> Objects {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
+    use shadowgraph_scene::{CasterMode, Instance, InstanceKey};
+
     use super::*;
 
     #[test]
@@ -214,7 +212,7 @@ mod tests {
             let bounds = scene.bounds();
             assert!(scene.triangle_count() < 60_000, "{name}: {}", scene.triangle_count());
             assert!(bounds.min.y.abs() < 1e-6 && bounds.max.y > 1.0, "{name}: {bounds:?}");
-            assert_eq!(scene.meshes.len(), scene.instances.len());
+            assert_eq!(scene.meshes().len(), scene.instances().len());
         }
     }
 
@@ -229,9 +227,10 @@ mod tests {
     #[test]
     fn stained_glass_casts_coloured_shadows_and_stone_does_not() {
         let scene = stained_glass();
-        let tints =
-            |i: &&Instance| scene.materials[i.material].caster_mode() == shadowgraph_scene::CasterMode::Tint;
-        assert_eq!(scene.instances.iter().filter(tints).count(), 8);
-        assert_eq!((scene.lights.len(), scene.cameras.len(), scene.instances.len()), (2, 1, 11));
+        let tints = |(_, instance): &(InstanceKey, &Instance)| {
+            scene.material(instance.material).unwrap().caster_mode() == CasterMode::Tint
+        };
+        assert_eq!(scene.instances().filter(tints).count(), 8);
+        assert_eq!((scene.lights().len(), scene.cameras.len(), scene.instances().len()), (2, 1, 11));
     }
 }

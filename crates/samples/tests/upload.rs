@@ -5,7 +5,9 @@ use glam::{DAffine3, DVec3};
 
 use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_scene::gpu::*;
-use shadowgraph_scene::{AlphaMode, CasterMode, Error, Scene, origin_near};
+use shadowgraph_scene::{
+    AlphaMode, CasterMode, EditError, Error, Instance, InstanceKey, MaterialKey, Scene, origin_near,
+};
 
 /// Creates a device with wgpu's default limits and these features.
 fn device(required_features: wgpu::Features) -> (wgpu::Device, wgpu::Queue) {
@@ -27,24 +29,25 @@ fn without_validation_errors<T>(device: &wgpu::Device, work: impl FnOnce() -> T)
 /// The demo scene with three more instances: blended, mirrored, and mirrored and double-sided.
 fn varied_scene() -> Scene {
     let mut scene = demo_scene();
-    let mut glass = scene.materials[0].clone();
+    let mut glass = scene.materials().next().unwrap().1.clone();
     glass.alpha = AlphaMode::Blend;
-    scene.materials.push(glass);
-    let mut add = |like: usize, material: Option<usize>, mirror: f64| {
-        let mut instance = scene.instances[like].clone();
+    let glass = scene.insert_material(glass).unwrap();
+    let [second, third] = [1, 2].map(|n| scene.instances().nth(n).unwrap().0);
+    let (fence, _) = scene.instances().find(|(_, instance)| instance.name == "fence panel").unwrap();
+    let mut add = |like: InstanceKey, material: Option<MaterialKey>, mirror: f64| {
+        let mut instance = scene.instance(like).unwrap().clone();
         instance.material = material.unwrap_or(instance.material);
         instance.world_from_local *= DAffine3::from_scale(DVec3::new(mirror, 1.0, 1.0));
-        scene.instances.push(instance);
+        scene.insert_instance(instance).unwrap();
     };
-    let fence = demo_scene().instances.iter().position(|instance| instance.name == "fence panel").unwrap();
-    add(1, None, -1.0);
+    add(second, None, -1.0);
     add(fence, None, -1.0);
-    add(2, Some(scene.materials.len() - 1), 1.0);
+    add(third, Some(glass), 1.0);
     scene
 }
 
 fn all(scene: &Scene) -> Vec<u32> {
-    (0..scene.instances.len() as u32).collect()
+    (0..scene.instances().len() as u32).collect()
 }
 
 /// Draws everything into a depth texture, at the second of two views in a buffer.
@@ -139,7 +142,7 @@ fn a_draw_list_has_every_instance_once_with_the_key_of_its_material() {
     assert!(draws.solid.is_sorted());
     assert_eq!(draws.solid.iter().filter(|draw| draw.key.mirrored).count(), 2);
     assert!(draws.solid.iter().any(|draw| draw.key.alpha == AlphaKey::Mask && draw.key.double_sided));
-    assert_eq!(gpu.bounds().len(), scene.instances.len());
+    assert_eq!(gpu.bounds().len(), scene.instances().len());
     assert_eq!(gpu.draw_list(&[3, 100_000], DVec3::ZERO).iter().count(), 1);
 }
 
@@ -149,7 +152,7 @@ fn the_origin_moves_without_validation_errors_and_an_empty_scene_uploads() {
     let scene = demo_scene();
     without_validation_errors(&device, || {
         let mut gpu = GpuScene::new(&device, &queue, &scene, DVec3::ZERO).unwrap();
-        gpu.set_origin(&queue, &scene, origin_near(DVec3::new(5000.0, 0.0, 0.0)));
+        gpu.set_origin(&device, &queue, &scene, origin_near(DVec3::new(5000.0, 0.0, 0.0))).unwrap();
         assert_eq!(gpu.origin_world(), DVec3::new(5120.0, 0.0, 0.0));
         let empty = GpuScene::new(&device, &queue, &Scene::default(), DVec3::ZERO).unwrap();
         let pipelines = DepthPipelines::new(&device, empty.layouts(), &DepthTarget::default()).unwrap();
@@ -181,14 +184,36 @@ fn the_error_of_a_scene_over_a_limit_names_the_limit() {
 
 #[test]
 fn references_to_missing_meshes_materials_and_images_are_errors() {
+    let mut scene = demo_scene();
+    let plain = scene.instances().next().unwrap().1.clone();
+    assert_eq!(plain.name, "plain");
+    let mut scratch = scene.clone();
+    let (mesh, material) =
+        (scratch.mesh(plain.mesh).unwrap().clone(), scratch.material(plain.material).unwrap().clone());
+    let (mesh, material) = (scratch.insert_mesh(mesh), scratch.insert_material(material).unwrap());
+    let before = scene.clone();
+    let (key, _) = scene.instances().next().unwrap();
+    // The keys of another scene.
+    let error = scene.edit_instance(key, |instance| instance.mesh = mesh);
+    assert_eq!(error, Err(EditError::StaleKey { kind: "mesh" }));
+    let error = scene.edit_instance(key, |instance| instance.material = material);
+    assert_eq!(error, Err(EditError::StaleKey { kind: "material" }));
+    let error = scene.insert_instance(Instance { mesh, ..plain });
+    assert!(error.unwrap_err().to_string().contains("the mesh does not exist"));
+    // What others refer to cannot be removed.
+    let (image, name) = scene.images().nth(1).map(|(key, image)| (key, image.name.clone())).unwrap();
+    let text = scene.remove_image(image).unwrap_err().to_string();
+    assert!(text.contains(&format!("image \"{name}\" is used by")), "{text}");
+    assert_eq!(scene, before);
+}
+
+#[test]
+fn a_copy_of_a_scene_that_is_updated_with_another_scene_is_an_error() {
     let (device, queue) = device(wgpu::Features::empty());
-    let error_after = |change: &dyn Fn(&mut Scene)| {
-        let mut scene = demo_scene();
-        change(&mut scene);
-        GpuScene::new(&device, &queue, &scene, DVec3::ZERO).err().expect("an error").to_string()
-    };
-    let text = error_after(&|scene| scene.instances[0].mesh = 9999);
-    assert!(text.contains("instance 0 \"plain\"") && text.contains("mesh 9999"), "{text}");
-    assert!(error_after(&|scene| scene.instances[1].material = 9999).contains("material 9999"));
-    assert!(error_after(&|scene| scene.images.truncate(1)).contains("the scene has 1 images"));
+    let mut scene = demo_scene();
+    let mut gpu = GpuScene::new(&device, &queue, &Scene::default(), DVec3::ZERO).unwrap();
+    let mut changes = scene.take_changes();
+    changes.meshes.clear();
+    let error = gpu.update(&device, &queue, &scene, &changes);
+    assert!(matches!(error, Err(Error::Inconsistent { what: "mesh" })), "{error:?}");
 }

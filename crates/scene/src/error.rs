@@ -36,13 +36,11 @@ pub enum Error {
         /// The limit.
         max: u64,
     },
-    /// Parts of a scene that was created in code do not fit together.
-    #[error("{what}: {reason}")]
+    /// A copy of a scene follows another scene than the one that it was created from.
+    #[error("the scene is another one than was uploaded: a {what} that it refers to does not exist")]
     Inconsistent {
-        /// The part: "image 3 \"bark\"".
-        what: String,
-        /// The inconsistency.
-        reason: String,
+        /// The kind of value: "mesh".
+        what: &'static str,
     },
     /// A shader of this crate could not be composed.
     #[error("shader {name}: {reason}")]
@@ -52,4 +50,11 @@ pub enum Error {
         /// The error of the composer.
         reason: String,
     },
+}
+
+#[cfg(feature = "gpu")]
+impl Error {
+    pub(crate) fn missing(what: &'static str) -> Self {
+        Self::Inconsistent { what }
+    }
 }

@@ -32,7 +32,9 @@ pub use material::{
 };
 pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
-pub use scene::{Instance, Scene, visible_instances};
+pub use scene::{
+    Changes, EditError, ImageKey, Instance, InstanceKey, LightKey, MaterialKey, MeshKey, Scene, ShadowCasting,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,6 +2,8 @@
 
 use glam::{Vec3, Vec4};
 
+use crate::scene::ImageKey;
+
 /// A metallic-roughness material. Texture values multiply the factors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -76,6 +78,29 @@ impl Material {
             AlphaMode::Blend => CasterMode::Tint,
         })
     }
+
+    /// Returns the textures: base colour, metallic and roughness, normal, occlusion, emissive.
+    #[must_use]
+    pub fn textures(&self) -> [Option<TextureRef>; 5] {
+        [
+            self.base_color_texture,
+            self.metallic_roughness_texture,
+            self.normal_texture,
+            self.occlusion_texture,
+            self.emissive_texture,
+        ]
+    }
+
+    /// Returns the textures for changes, in the order of [`textures`](Self::textures).
+    pub fn textures_mut(&mut self) -> [&mut Option<TextureRef>; 5] {
+        [
+            &mut self.base_color_texture,
+            &mut self.metallic_roughness_texture,
+            &mut self.normal_texture,
+            &mut self.occlusion_texture,
+            &mut self.emissive_texture,
+        ]
+    }
 }
 
 /// Kind of shadow that a material casts.
@@ -112,8 +137,8 @@ pub enum AlphaMode {
 /// The use of an image by a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureRef {
-    /// Index into the scene's images.
-    pub image: usize,
+    /// The image of the scene.
+    pub image: ImageKey,
     /// Filtering and wrapping.
     pub sampler: Sampler,
     /// The set of texture coordinates: 0 or 1.
@@ -128,7 +153,7 @@ impl TextureRef {
 
     /// Creates a reference to an image with the default sampler, texture coordinates 0, untransformed.
     #[must_use]
-    pub fn new(image: usize) -> Self {
+    pub fn new(image: ImageKey) -> Self {
         Self { image, sampler: Sampler::default(), uv_set: 0, uv_transform: Self::UV_IDENTITY }
     }
 }

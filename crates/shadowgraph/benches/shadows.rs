@@ -11,7 +11,7 @@ use shadowgraph::Pipeline;
 use shadowgraph::options::{AdapterChoice, Aov};
 use shadowgraph::scene::gpu::{DrawList, GpuScene};
 use shadowgraph::scene::{
-    Aabb, AlphaMode, Camera, CullTree, CullVolume, Instance, Light, LightKind, Material, Mesh, Projection,
+    Aabb, Camera, CullTree, CullVolume, EditError, Instance, Light, LightKind, Material, Mesh, Projection,
     Scene, Vertex,
 };
 use shadowgraph::shadows::{
@@ -74,7 +74,7 @@ fn culling(boxes: &[Aabb]) -> Result<(), Failure> {
 /// Culls many instances for a moving camera, and builds the draw list.
 fn lists(boxes: &[Aabb]) -> Result<(), Failure> {
     let (device, queue) = Gpu::noop().map(|gpu| (gpu.device, gpu.queue))?;
-    let scene = GpuScene::new(&device, &queue, &city_scene(boxes), DVec3::ZERO)?;
+    let scene = GpuScene::new(&device, &queue, &city_scene(boxes)?, DVec3::ZERO)?;
     let (mut numbers, mut list) = (Vec::new(), DrawList::default());
     let mut frame = |frame: usize| {
         let camera = camera(frame);
@@ -118,7 +118,7 @@ fn draws(file: Option<String>) -> Result<(), Failure> {
             let settings = ShadowSettings { cull, ..ShadowSettings::default() };
             let casters = renderer.casters();
             let origin_world = casters.scene.origin_world();
-            let lights = &renderer.scene().lights;
+            let lights = renderer.scene().lights();
             let settings = &settings;
             let inputs =
                 ShadowInputs { view: 0, camera, aspect: 1.5, lights, casters, origin_world, settings };
@@ -148,7 +148,7 @@ fn overdraw() -> Result<(), Failure> {
         "layers", "minimal", "forward", "screen_shadows", "screen / forward"
     );
     for layers in [1, 2, 4, 8] {
-        let scene = layered(layers);
+        let scene = layered(layers)?;
         let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: Some(100.0) };
         let camera = Camera::look_at(DVec3::new(0.0, 0.0, 6.0), DVec3::ZERO, DVec3::Y, projection);
         let shadows = ShadowSettings { distance_m: 30.0, ..ShadowSettings::default() };
@@ -229,61 +229,46 @@ fn city() -> Vec<Aabb> {
 }
 
 /// Returns a scene with an instance of a unit quad for each box, with eight materials.
-fn city_scene(boxes: &[Aabb]) -> Scene {
-    let instance = |(number, bounds): (usize, &Aabb)| Instance {
-        name: String::new(),
-        mesh: 0,
-        material: number % 8,
-        world_from_local: DAffine3::from_translation(bounds.min)
-            * DAffine3::from_scale(bounds.max - bounds.min),
-    };
-    Scene {
-        meshes: vec![quad()],
-        materials: vec![Material::default(); 8],
-        instances: boxes.iter().enumerate().map(instance).collect(),
-        ..Scene::default()
+fn city_scene(boxes: &[Aabb]) -> Result<Scene, EditError> {
+    let mut scene = Scene::default();
+    let quad = scene.insert_mesh(quad());
+    let materials: Vec<_> =
+        (0..8).map(|_| scene.insert_material(Material::default())).collect::<Result<_, _>>()?;
+    for (bounds, &material) in boxes.iter().zip(materials.iter().cycle()) {
+        let transform =
+            DAffine3::from_translation(bounds.min) * DAffine3::from_scale(bounds.max - bounds.min);
+        scene.insert_instance(Instance::new(quad, material, transform))?;
     }
+    Ok(scene)
 }
 
 /// Returns a scene with walls that fill the image, the farthest first, and posts in front of them.
-fn layered(layers: usize) -> Scene {
-    let wall = |layer: usize| Instance {
-        name: String::new(),
-        mesh: 0,
-        // Draws are ordered by material: the farthest has the first.
-        material: layer,
-        world_from_local: DAffine3::from_translation(DVec3::new(-8.0, -5.0, 0.3 * layer as f64 - 3.0))
-            * DAffine3::from_scale(DVec3::new(16.0, 10.0, 1.0)),
-    };
-    let post = |number: i32| Instance {
-        name: String::new(),
-        mesh: 0,
-        material: layers,
-        world_from_local: DAffine3::from_translation(DVec3::new(f64::from(number), -1.5, 0.8))
-            * DAffine3::from_scale(DVec3::new(0.3, 3.0, 1.0)),
-    };
-    let mut scene = Scene {
-        meshes: vec![quad()],
-        materials: vec![
-            Material {
-                alpha: AlphaMode::Opaque,
-                double_sided: true,
-                metallic: 0.0,
-                ..Material::default()
-            };
-            layers + 1
-        ],
-        instances: (0..layers).map(wall).chain((-4..5).map(post)).collect(),
-        ..Scene::default()
-    };
-    scene.add_light(Light {
+fn layered(layers: usize) -> Result<Scene, EditError> {
+    let mut scene = Scene::default();
+    let quad = scene.insert_mesh(quad());
+    let material = || Material { double_sided: true, metallic: 0.0, ..Material::default() };
+    // Draws are ordered by material: the farthest has the first.
+    for layer in 0..layers {
+        let material = scene.insert_material(material())?;
+        let corner = DVec3::new(-8.0, -5.0, 0.3 * layer as f64 - 3.0);
+        let transform =
+            DAffine3::from_translation(corner) * DAffine3::from_scale(DVec3::new(16.0, 10.0, 1.0));
+        scene.insert_instance(Instance::new(quad, material, transform))?;
+    }
+    let post = scene.insert_material(material())?;
+    for number in -4..5 {
+        let transform = DAffine3::from_translation(DVec3::new(f64::from(number), -1.5, 0.8))
+            * DAffine3::from_scale(DVec3::new(0.3, 3.0, 1.0));
+        scene.insert_instance(Instance::new(quad, post, transform))?;
+    }
+    scene.insert_light(Light {
         name: None,
         kind: LightKind::Directional { direction: DVec3::new(0.3, -0.4, -1.0).normalize() },
         color: glam::Vec3::ONE,
         intensity: 10_000.0,
         casts_shadow: true,
     });
-    scene
+    Ok(scene)
 }
 
 /// Returns the unit square at z = 0, facing +Z.

@@ -1,21 +1,17 @@
 //! A scene's instances as shadow casters.
 
-use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, Draw, GpuScene};
+use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, ShadowCasters, TINT_FORMAT};
 
 use crate::error::Error;
 
-/// The instances of a scene on the GPU as casters, by the same indices. Their materials decide how they cast shadows.
+/// The instances of a scene on the GPU as casters, by the same numbers. Their flags and materials decide how they cast shadows.
 pub struct SceneCasters {
     /// The scene.
     pub scene: GpuScene,
     /// Pipelines by map format.
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
-    /// Bounds of all casters.
-    bounds: Aabb,
-    /// Whether an instance casts no shadow.
-    some_off: bool,
 }
 
 impl SceneCasters {
@@ -39,12 +35,7 @@ impl SceneCasters {
             Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        let casts = |number: u32| scene.draw_for(number).is_some_and(|draw| draw.casts != CasterMode::Off);
-        let (mut all, mut some_off) = (Aabb::EMPTY, false);
-        for (number, bounds) in (0..).zip(scene.bounds()) {
-            if casts(number) { all = all.union(bounds) } else { some_off = true }
-        }
-        Ok(Self { bounds: all, some_off, scene, pipelines })
+        Ok(Self { scene, pipelines })
     }
 
     /// Returns the number of triangles of some casters.
@@ -56,25 +47,15 @@ impl SceneCasters {
 
 impl ShadowCasters for SceneCasters {
     fn cull(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
-        let first = casters.len();
-        self.scene.cull(volume, casters);
-        if self.some_off {
-            let casts = |draw: &Draw| draw.casts != CasterMode::Off;
-            let mut index = 0;
-            casters.retain(|&caster| {
-                index += 1;
-                index <= first || self.scene.draw_for(caster).is_some_and(casts)
-            });
-        }
+        self.scene.cull_casters(volume, casters);
     }
 
     fn bounds(&self) -> Aabb {
-        self.bounds
+        self.scene.all_caster_bounds()
     }
 
-    /// Returns 0: a scene on the GPU does not change after the upload.
-    fn version(&self, _caster: u32) -> Option<u64> {
-        Some(0)
+    fn version(&self, caster: u32) -> Option<u64> {
+        self.scene.version(caster)
     }
 
     fn tints(&self, caster: u32) -> bool {
@@ -86,7 +67,7 @@ impl ShadowCasters for SceneCasters {
     }
 
     fn caster_bounds(&self, caster: u32) -> Aabb {
-        self.scene.bounds().get(caster as usize).copied().unwrap_or(Aabb::EMPTY)
+        self.scene.caster_bounds(caster)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {

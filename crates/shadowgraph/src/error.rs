@@ -122,6 +122,9 @@ pub enum Error {
     /// The scene cannot be loaded or uploaded.
     #[error(transparent)]
     Scene(#[from] shadowgraph_scene::Error),
+    /// An edit of the scene was refused.
+    #[error(transparent)]
+    Edit(#[from] shadowgraph_scene::EditError),
     /// The camera is invalid.
     #[error(transparent)]
     Camera(#[from] shadowgraph_scene::CameraError),

@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use shadowgraph_scene::{
-    AlphaMode, CasterMode, Filter, Instance, Material, Scene, TextureRef, Vertex, Wrap, linear_from_srgb,
+    AlphaMode, CasterMode, Filter, ImageKey, Instance, Material, Scene, TextureRef, Vertex, Wrap,
+    linear_from_srgb,
 };
 use shadowgraph_shadows::Error;
 use shadowgraph_shadows::rays::{self, ChannelTexture, Cutout, Occluder, RayScene, Surface, Tint};
@@ -18,13 +19,12 @@ const DITHER_CUTOFF: f32 = 0.5;
 pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> {
     let mut textures = Textures::default();
     let mut occluders = Vec::new();
-    for instance in &scene.instances {
-        let (Some(mesh), Some(material)) =
-            (scene.meshes.get(instance.mesh), scene.materials.get(instance.material))
+    for (_, instance) in scene.instances() {
+        let (Some(mesh), Some(material)) = (scene.mesh(instance.mesh), scene.material(instance.material))
         else {
             continue;
         };
-        if material.caster_mode() == CasterMode::Off {
+        if instance.caster_mode(material) == CasterMode::Off {
             continue;
         }
         let occluder_material = OccluderMaterial::new(material, scene, &mut textures)?;
@@ -99,7 +99,7 @@ struct Textures {
 }
 
 /// An image, how it is sampled, and the number of channels.
-type TextureKey = (usize, [rays::Wrap; 2], rays::Filter, usize);
+type TextureKey = (ImageKey, [rays::Wrap; 2], rays::Filter, usize);
 
 impl Textures {
     /// Returns the index of the first channel of a texture; `None` if the image does not exist.
@@ -117,7 +117,7 @@ impl Textures {
         if let Some((_, index)) = self.known.iter().find(|(known, _)| *known == key) {
             return Ok(Some(*index));
         }
-        let Some(image) = scene.images.get(used.image) else { return Ok(None) };
+        let Some(image) = scene.image(used.image) else { return Ok(None) };
         let first = self.all.len() as u32;
         for &channel in channels {
             let texels = image.rgba8.chunks_exact(4).map(|texel| match channel {

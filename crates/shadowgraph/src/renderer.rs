@@ -6,13 +6,14 @@ mod record;
 
 use aov::lit_output;
 
+use std::cell::Cell;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use shadowgraph_core::{Graph, Plan};
 use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget};
 use shadowgraph_scene::gpu::GpuScene;
-use shadowgraph_scene::{Camera, Light, Scene, origin_near};
+use shadowgraph_scene::{Camera, Changes, Scene, origin_near};
 use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{ShadowTechnique, TechniqueContext, Unshadowed};
 
@@ -33,6 +34,8 @@ use crate::view_options::ViewOptions;
 pub struct Renderer {
     casters: SceneCasters,
     technique: Box<dyn ShadowTechnique>,
+    /// Whether the technique keeps the scene's triangles.
+    traces_rays: bool,
     config: RenderConfig,
     instance: Box<dyn PipelineInstance>,
     debug_blit: DebugBlit,
@@ -124,15 +127,15 @@ impl Renderer {
 
     fn create_unchecked(
         gpu: &Gpu,
-        scene: Scene,
+        mut scene: Scene,
         origin_world: DVec3,
         aov: Aov,
         config: RenderConfig,
     ) -> Result<Self, Error> {
         let device = &gpu.device;
-        let uploaded = GpuScene::new(device, &gpu.queue, &scene, origin_world)?;
-        let technique = create_technique(&config, gpu, &scene, origin_world)?;
-        let (lit_output, format) = lit_output(&aov, &scene.lights)?;
+        let uploaded = upload(gpu, &mut scene, origin_world)?;
+        let (technique, traces_rays) = create_technique(&config, gpu, &scene, origin_world)?;
+        let (lit_output, format) = lit_output(&aov, scene.lights())?;
         let lit = LitTarget { format, output: lit_output, samples: config.samples };
         let layouts = uploaded.layouts();
         let instance =
@@ -140,6 +143,7 @@ impl Renderer {
         Ok(Self {
             casters: SceneCasters::new(device, uploaded)?,
             technique,
+            traces_rays,
             config,
             instance,
             debug_blit: DebugBlit::new(device)?,
@@ -156,13 +160,45 @@ impl Renderer {
         &self.scene
     }
 
-    /// Replaces the scene's lights, for instance to move the sun.
+    /// Returns the scene for edits between frames. The next frame follows them: it uploads what changed, and nothing else. To draw
+    /// another scene, use [`set_scene`](Self::set_scene).
+    ///
+    /// ```
+    /// use glam::{DAffine3, DVec3};
+    /// use shadowgraph::options::Aov;
+    /// use shadowgraph::{Gpu, Renderer, ViewOptions};
+    /// use shadowgraph_samples::demo::demo_scene;
+    /// # let gpu = Gpu::noop()?;
+    /// let scene = demo_scene();
+    /// let camera = scene.cameras[0].clone();
+    /// let (vase, _) = scene.instances().find(|(_, instance)| instance.name == "garden vase").unwrap();
+    /// let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color)?;
+    /// let options = ViewOptions { camera, size_px: [64, 36], shadows: Default::default() };
+    /// for frame in 0..3 {
+    ///     let up = DAffine3::from_translation(DVec3::Y * f64::from(frame) * 0.1);
+    ///     renderer.scene_mut().edit_instance(vase, |vase| vase.world_from_local = up * vase.world_from_local)?;
+    ///     renderer.draw(&gpu, &options)?;
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn scene_mut(&mut self) -> &mut Scene {
+        &mut self.scene
+    }
+
+    /// Replaces the scene by another one, and forgets what was kept from frame to frame. Pipelines stay, so this takes less time than a
+    /// new renderer.
     ///
     /// # Errors
-    /// If the AOV is the visibility of a light that is not among them.
-    pub fn set_lights(&mut self, lights: Vec<Light>) -> Result<(), Error> {
-        lit_output(&self.aov, &lights)?;
-        self.scene.lights = lights;
+    /// As [`with_config`](Self::with_config); the renderer is as it was then.
+    pub fn set_scene(&mut self, gpu: &Gpu, mut scene: Scene) -> Result<(), Error> {
+        let origin_world = self.casters.scene.origin_world();
+        let (lit_output, _) = lit_output(&self.aov, scene.lights())?;
+        let (uploaded, (technique, traces_rays)) = gpu.checked(|| {
+            let uploaded = upload(gpu, &mut scene, origin_world)?;
+            Ok::<_, Error>((uploaded, create_technique(&self.config, gpu, &scene, origin_world)?))
+        })?;
+        (self.casters.scene, self.technique, self.traces_rays) = (uploaded, technique, traces_rays);
+        (self.scene, self.lit_output, self.graph) = (scene, lit_output, Mutex::default());
         Ok(())
     }
 
@@ -221,13 +257,13 @@ impl Renderer {
         let mut visible = Vec::new();
         gpu_scene.cull(&options.camera.frustum(options.aspect()).into(), &mut visible);
         let draws = gpu_scene.draw_list(&visible, options.camera.position_world());
-        let key = KeyLight::estimate(&self.scene.lights, gpu_scene.bounds());
+        let key = KeyLight::estimate(self.scene.lights(), gpu_scene.bounds());
         RenderView {
             index: 0,
             options,
             draws,
             ambient_light: AmbientLight::for_key_light(key),
-            lights: &self.scene.lights,
+            lights: self.scene.lights(),
             casters: &self.casters,
             technique: self.technique.as_ref(),
             shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
@@ -236,20 +272,36 @@ impl Renderer {
         }
     }
 
-    /// Checks the camera, and moves the origin of GPU space to it.
+    /// Begins a frame: checks the camera, follows the edits of the scene, and moves the origin of GPU space to the camera.
+    /// Drawing and recording begin with it.
     ///
     /// # Errors
-    /// [`Error::Camera`], and those of creating the technique again where it keeps positions.
-    pub fn move_origin(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
+    /// [`Error::Camera`]; [`Error::UnknownLight`] if the AOV is the visibility of a light that was removed; for edits that exceed a
+    /// limit of the device, until they are undone; and those of creating the technique again where it keeps positions.
+    pub fn begin_frame(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         options.camera.check(options.aspect())?;
-        let origin_world = origin_near(options.camera.position_world());
-        if origin_world == self.casters.scene.origin_world() {
-            return Ok(());
+        (self.lit_output, _) = lit_output(&self.aov, self.scene.lights())?;
+        let changes = self.scene.take_changes();
+        if let Err(error) = self.follow(gpu, &changes) {
+            self.scene.restore_changes(changes);
+            return Err(error);
         }
-        self.casters.scene.set_origin(&gpu.queue, &self.scene, origin_world);
-        // It may keep positions.
-        self.technique = create_technique(&self.config, gpu, &self.scene, origin_world)?;
+        let origin_world = origin_near(options.camera.position_world());
+        let gpu_scene = &mut self.casters.scene;
+        // A technique may keep positions; one that traces rays also keeps the geometry.
+        let keeps_other = origin_world != gpu_scene.origin_world() || self.traces_rays && !changes.is_empty();
+        gpu_scene.set_origin(&gpu.device, &gpu.queue, &self.scene, origin_world)?;
+        if keeps_other {
+            (self.technique, self.traces_rays) =
+                create_technique(&self.config, gpu, &self.scene, origin_world)?;
+        }
         Ok(())
+    }
+
+    fn follow(&mut self, gpu: &Gpu, changes: &Changes) -> Result<(), Error> {
+        let Self { scene, casters, .. } = self;
+        let mut update = || Ok(casters.scene.update(&gpu.device, &gpu.queue, scene, changes)?);
+        if changes.is_empty() { update() } else { gpu.checked(update) }
     }
 
     /// Locks the graph, which keeps plans, pooled resources and histories from frame to frame. Drawing waits while the guard is held.
@@ -258,20 +310,30 @@ impl Renderer {
     }
 }
 
-/// Creates a technique for a scene whose GPU positions are relative to `origin_world`.
+/// Uploads a scene with all its edits.
+fn upload(gpu: &Gpu, scene: &mut Scene, origin_world: DVec3) -> Result<GpuScene, Error> {
+    let uploaded = GpuScene::new(&gpu.device, &gpu.queue, scene, origin_world)?;
+    let _uploaded = scene.take_changes();
+    Ok(uploaded)
+}
+
+/// Creates a technique for a scene whose GPU positions are relative to `origin_world`, and returns whether it traces rays.
 fn create_technique(
     config: &RenderConfig,
     gpu: &Gpu,
     scene: &Scene,
     origin_world: DVec3,
-) -> Result<Box<dyn ShadowTechnique>, Error> {
+) -> Result<(Box<dyn ShadowTechnique>, bool), Error> {
+    let traces_rays = Cell::new(false);
     let rays = || {
+        traces_rays.set(true);
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         Ok(GpuRayScene::new(&ray_scene(scene, origin_world)?, limit)?)
     };
     let technique = config.technique();
     let technique = if config.pipeline.has_screen_shadows() { technique.with_screen() } else { technique };
-    Ok(technique.make(&TechniqueContext::new(&gpu.device).with_rays(&rays))?)
+    let technique = technique.make(&TechniqueContext::new(&gpu.device).with_rays(&rays))?;
+    Ok((technique, traces_rays.get()))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Options of a view.
 
-use shadowgraph_scene::{Camera, Scene, visible_instances};
+use shadowgraph_scene::{Camera, Scene};
 use shadowgraph_shadows::ShadowSettings;
 
 use crate::options::distance::ShadowDistance;
@@ -34,10 +34,9 @@ impl ViewOptions {
     }
 
     fn automatic_distance_m(&self, scene: &Scene) -> f64 {
-        let bounds: Vec<_> = (0..scene.instances.len()).map(|i| scene.instance_bounds(i)).collect();
         let view_from_world = self.camera.view_from_world();
-        let visible = visible_instances(scene, &bounds, &self.camera.frustum(self.aspect()));
-        let corners = visible.iter().flat_map(|&instance| bounds[instance as usize].corners());
+        let volume = self.camera.frustum(self.aspect());
+        let corners = scene.visible_instances(&volume).flat_map(|key| scene.instance_bounds(key).corners());
         let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
         let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
         let near = self.camera.near();

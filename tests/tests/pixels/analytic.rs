@@ -185,7 +185,7 @@ fn the_outline_of_a_cubes_shadow_is_where_geometry_says_at_every_height_of_the_s
         for (azimuth_deg, distance_m) in [(110.0, 30.0), (200.0, 12.0), (-75.0, 60.0)] {
             let direction = sun_direction(elevation_deg, azimuth_deg);
             let mut scene = cube_on_floor(DVec3::ZERO);
-            scene.add_light(sun(direction));
+            scene.insert_light(sun(direction));
             let options = view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), distance_m);
             let report = examine(gpu, scene, &options, DVec3::ZERO, &|_| -direction);
             assert_clean(
@@ -202,7 +202,7 @@ fn the_outline_is_exact_ten_kilometres_from_the_origin() {
     let offset = DVec3::new(10_000.0, 0.0, -10_000.0);
     let direction = sun_direction(40.0, 60.0);
     let mut scene = cube_on_floor(offset);
-    scene.add_light(sun(direction));
+    scene.insert_light(sun(direction));
     let eye = DVec3::new(2.5, 3.0, 4.0) + offset;
     let options = view(camera(eye, DVec3::new(0.0, 0.3, 0.0) + offset), 30.0);
     let report = examine(gpu, scene, &options, offset, &|_| -direction);
@@ -222,7 +222,7 @@ fn the_outline_of_a_spot_lights_shadow_is_where_geometry_says() {
             inner_angle: 0.7,
             outer_angle: 0.8,
         };
-        scene.add_light(light(kind, 1_000.0));
+        scene.insert_light(light(kind, 1_000.0));
         let options = view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0);
         let views = plan(&scene, &options).views;
         let image = draw(gpu, scene, Aov::Visibility(0), &options).image;
@@ -268,7 +268,7 @@ fn the_outline_of_a_spot_lights_shadow_is_where_geometry_says() {
 fn visibility_is_full_where_no_caster_is_in_range() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(sun(DVec3::new(0.2, -1.0, 0.1).normalize()));
+    scene.insert_light(sun(DVec3::new(0.2, -1.0, 0.1).normalize()));
     // Next to the cube and its shadow, looking away.
     let options = view(camera(DVec3::new(8.0, 1.0, 8.0), DVec3::new(12.0, 0.0, 12.0)), 5.0);
     let image = draw(gpu, scene, Aov::Visibility(0), &options).image;

@@ -1,6 +1,6 @@
 //! Images of each output of the program.
 
-use crate::stage::{camera, cube_on_floor, draw, gpu, sun, view};
+use crate::stage::{camera, cube_on_floor, draw, gpu, nth_instance, sun, view};
 use glam::DVec3;
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::pipelines::Parameters;
@@ -11,7 +11,7 @@ use std::collections::HashSet;
 
 fn cube() -> (Scene, ViewOptions) {
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
+    scene.insert_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
     (scene, view(camera(DVec3::new(2.5, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 30.0))
 }
 
@@ -53,7 +53,7 @@ fn depth_is_white_near_dark_far_and_black_in_the_background() {
 fn each_cascade_has_its_own_colour() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
+    scene.insert_light(sun(DVec3::new(0.4, -1.0, 0.3).normalize()));
     let options = view(camera(DVec3::new(0.0, 1.0, 18.0), DVec3::ZERO), 40.0);
     let image = draw(gpu, scene, Aov::Cascade, &options).image;
     let hue = |p: &[u8]| (p[0] > p[1], p[1] > p[2], p[0] > p[2]);
@@ -146,12 +146,13 @@ fn shadows_fade_out_at_the_shadow_distance() {
     let Some(gpu) = gpu() else { return };
     // A roof over the whole floor, which is dark up to the shadow distance and lit beyond it.
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.instances[1].world_from_local = glam::DAffine3::from_scale_rotation_translation(
+    let roof = glam::DAffine3::from_scale_rotation_translation(
         DVec3::new(60.0, 1.0, 60.0),
         glam::DQuat::IDENTITY,
         DVec3::new(0.0, 8.0, 0.0),
     );
-    scene.add_light(sun(DVec3::NEG_Y));
+    scene.move_instance(nth_instance(&scene, 1), roof).unwrap();
+    scene.insert_light(sun(DVec3::NEG_Y));
     let options = view(camera(DVec3::new(0.0, 5.0, 18.0), DVec3::ZERO), 16.0);
     let image = draw(gpu, scene, Aov::Visibility(0), &options).image;
     let column: Vec<u8> =

@@ -40,14 +40,14 @@ fn a_captured_frame_has_the_plan_and_the_pixels_of_an_uncaptured_frame() {
 #[test]
 fn the_page_outlines_the_frustum_of_every_shadow_map() {
     let Some((inspected, _)) = inspect("sdsm") else { return };
-    assert_eq!(inspected.lights.len(), demo_scene().lights.len());
+    assert_eq!(inspected.lights.len(), demo_scene().lights().len());
     let scene = demo_scene();
     let options = ViewOptions {
         camera: scene.cameras[0].clone(),
         size_px: [160, 90],
         shadows: ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() },
     };
-    let page = inspected.page(&scene.lights, &options);
+    let page = inspected.page(scene.lights(), &options);
     let names: Vec<_> = page.drawings[0].outlines.iter().map(|outline| &*outline.name).collect();
     assert_eq!(names.len(), 1 + 4 + 3, "{names:?}");
     assert!(names[1].starts_with("cascade 0, 0.1 to ") && names.contains(&"light 2 (teal)"), "{names:?}");

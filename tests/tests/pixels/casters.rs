@@ -2,7 +2,8 @@
 
 use crate::maps::draw_map;
 use crate::stage::{
-    SIZE_PX, add_instance, camera, cube_on_floor, draw, floor_mesh, gpu, material, sun, vertex, view,
+    SIZE_PX, add_cube, add_instance, add_mesh, camera, cube_on_floor, draw, floor_mesh, gpu, material,
+    nth_instance, sun, vertex, view,
 };
 use glam::DVec3;
 use shadowgraph::SceneCasters;
@@ -21,17 +22,14 @@ fn half_cut_sheet(alpha: AlphaMode) -> Scene {
     let sheet = Mesh::new("sheet", vertices.to_vec(), vec![0, 1, 2, 0, 2, 3]);
     let rgba8 = (0..64).flat_map(|i| [255, 255, 255, if i % 8 < 4 { 0 } else { 255 }]).collect();
     let image = Image { name: "half".into(), width: 8, height: 8, rgba8 };
-    let base_color_texture = Some(TextureRef::new(0));
+    let mut scene = Scene::default();
+    scene.insert_material(material()).unwrap();
+    add_mesh(&mut scene, floor_mesh(20.0), DVec3::ZERO);
+    let base_color_texture = Some(TextureRef::new(scene.insert_image(image).unwrap()));
     let sheet_material = shadowgraph::scene::Material { alpha, base_color_texture, ..material() };
-    let mut scene = Scene {
-        meshes: vec![floor_mesh(20.0), sheet],
-        materials: vec![material(), sheet_material],
-        images: vec![image],
-        ..Scene::default()
-    };
-    add_instance(&mut scene, 0, 0, DVec3::ZERO);
-    add_instance(&mut scene, 1, 1, DVec3::new(0.0, 1.5, 0.0));
-    scene.add_light(sun(DVec3::NEG_Y));
+    let (sheet, sheet_material) = (scene.insert_mesh(sheet), scene.insert_material(sheet_material).unwrap());
+    add_instance(&mut scene, sheet, sheet_material, DVec3::new(0.0, 1.5, 0.0));
+    scene.insert_light(sun(DVec3::NEG_Y));
     scene
 }
 
@@ -77,7 +75,8 @@ fn a_blended_sheet_casts_the_shadow_of_its_opaque_part() {
 fn a_single_sided_wall_casts_shadows_on_both_sides() {
     let mut scene = half_cut_sheet(AlphaMode::Opaque);
     // Upside down: the sun sees only back faces.
-    scene.instances[1].world_from_local.matrix3 = glam::DMat3::from_rotation_x(std::f64::consts::PI);
+    let turned = glam::DMat3::from_rotation_x(std::f64::consts::PI);
+    scene.edit_instance(nth_instance(&scene, 1), |sheet| sheet.world_from_local.matrix3 = turned).unwrap();
     let Some(grey) = visibility(scene, DVec3::new(0.6, 0.0, 0.3)) else { return };
     assert_eq!(grey, 0);
 }
@@ -86,7 +85,9 @@ fn a_single_sided_wall_casts_shadows_on_both_sides() {
 fn a_caster_far_above_the_view_keeps_its_shadow() {
     let mut scene = half_cut_sheet(AlphaMode::Opaque);
     // Far above the sphere that the cascades are fitted to: clamped to the near plane.
-    scene.instances[1].world_from_local.translation.y = 500.0;
+    scene
+        .edit_instance(nth_instance(&scene, 1), |sheet| sheet.world_from_local.translation.y = 500.0)
+        .unwrap();
     let Some(grey) = visibility(scene, DVec3::new(0.6, 0.0, 0.3)) else { return };
     assert_eq!(grey, 0);
 }
@@ -103,16 +104,16 @@ fn depth_clamp_in_the_fragment_shader_gives_the_map_of_the_hardware_clamp() {
     }
     let mut scene = cube_on_floor(DVec3::ZERO);
     let direction = DVec3::new(0.3, -1.0, 0.2).normalize();
-    scene.add_light(sun(direction));
+    scene.insert_light(sun(direction));
     // Another cube high above the cascades towards the light, so that depth is clamped.
-    add_instance(&mut scene, 1, 0, direction * -60.0);
+    add_cube(&mut scene, direction * -60.0);
     let upload = || GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
     let maps = [false, true].map(|emulate_clamp| {
         let target = DepthTarget { clamp_near: true, emulate_clamp, ..DepthTarget::default() };
         let casters = SceneCasters::with_target(&gpu.device, upload(), &target).unwrap();
         let camera = camera(DVec3::new(2.0, 2.0, 3.0), DVec3::ZERO);
         let settings = ShadowSettings { distance_m: 10.0, ..ShadowSettings::default() };
-        draw_map(gpu, &Pcf::new(&gpu.device), &casters, &scene.lights, &camera, &settings, "cascades")
+        draw_map(gpu, &Pcf::new(&gpu.device), &casters, scene.lights(), &camera, &settings, "cascades")
     });
     let clamped = maps[0].depth.iter().filter(|depth| **depth == 1.0).count();
     let differ = maps[0].depth.iter().zip(&maps[1].depth).filter(|(a, b)| (*a - *b).abs() > 1e-6).count();

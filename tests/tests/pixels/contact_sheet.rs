@@ -82,10 +82,10 @@ fn images(gpu: &Gpu, config: RenderConfig, size_px: [u32; 2], is_truth: bool) ->
     let options = ViewOptions { size_px, ..view(camera, 80.0) };
     let mut options = if is_truth { hard(&options) } else { options };
     options.shadows.cascades.map_size_px = 2048;
-    let own = scene.lights.clone();
+    let own = scene.lights().to_vec();
     let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config).unwrap();
     let mut render = |mix: &&str| {
-        renderer.set_lights(lights(mix, &own)).unwrap();
+        renderer.scene_mut().set_lights(lights(mix, &own));
         renderer.draw(gpu, &options).unwrap().image
     };
     MIXES.iter().map(&mut render).collect()
@@ -128,9 +128,9 @@ fn add_panels(scene: &mut Scene) {
     };
     let alpha = |x: u32| [255, 153, 102, 0][x as usize / 16];
     let rgba8 = (0..64 * 64).flat_map(|i| [220, 60, 40, alpha(i % 64)]).collect();
-    let (mesh, image) = (scene.meshes.len(), scene.images.len());
-    scene.images.push(Image { name: "stripes".into(), width: 64, height: 64, rgba8 });
-    scene.meshes.push(Mesh::new("panel", corners.map(vertex).to_vec(), vec![0, 1, 2, 0, 2, 3]));
+    let stripes = Image { name: "stripes".into(), width: 64, height: 64, rgba8 };
+    let image = scene.insert_image(stripes).unwrap();
+    let mesh = scene.insert_mesh(Mesh::new("panel", corners.map(vertex).to_vec(), vec![0, 1, 2, 0, 2, 3]));
     let kinds = [
         (AlphaMode::Opaque, None),
         (AlphaMode::Mask { cutoff: 0.5 }, None),
@@ -138,8 +138,7 @@ fn add_panels(scene: &mut Scene) {
         (AlphaMode::Blend, None),
     ];
     for (x, (alpha, casts)) in [-9.0, -6.8, -4.6, -2.4].into_iter().zip(kinds) {
-        let material = scene.materials.len();
-        scene.materials.push(Material {
+        let panel = Material {
             name: "panel".into(),
             base_color: Vec4::ONE,
             metallic: 0.0,
@@ -148,10 +147,11 @@ fn add_panels(scene: &mut Scene) {
             double_sided: true,
             base_color_texture: Some(TextureRef::new(image)),
             ..Material::default()
-        });
+        };
+        let material = scene.insert_material(panel).unwrap();
         let world_from_local =
             DAffine3::from_translation(DVec3::new(x, 0.0, 9.5)) * DAffine3::from_rotation_y(0.3);
-        scene.instances.push(Instance { name: "panel".into(), mesh, material, world_from_local });
+        scene.insert_instance(Instance::new(mesh, material, world_from_local).with_name("panel")).unwrap();
     }
 }
 

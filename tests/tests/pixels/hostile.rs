@@ -17,7 +17,9 @@ fn options() -> ViewOptions {
 }
 
 fn lit_by(lights: Vec<Light>) -> Scene {
-    Scene { lights, ..cube_on_floor(DVec3::ZERO) }
+    let mut scene = cube_on_floor(DVec3::ZERO);
+    scene.set_lights(lights);
+    scene
 }
 
 fn spot(position_world: DVec3, direction: DVec3) -> Light {
@@ -44,7 +46,7 @@ impl Renderers {
 
     fn draw(&mut self, gpu: &Gpu, lights: &[Light], options: &ViewOptions) -> Vec<RenderedFrame> {
         let draw = |renderer: &mut Renderer| {
-            renderer.set_lights(lights.to_vec()).unwrap();
+            renderer.scene_mut().set_lights(lights.to_vec());
             renderer.draw(gpu, options).unwrap()
         };
         self.0.iter_mut().map(draw).collect()

@@ -1,7 +1,7 @@
 //! Measurements of shadows that a GPU renders: small errors with good settings, and each error caused on purpose
 //! found by its metric.
 
-use crate::stage::{SIZE_PX, gpu};
+use crate::stage::{SIZE_PX, gpu, move_instances};
 use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::shadows::{BiasSettings, PCF, ShadowSettings, SplitScheme};
@@ -18,7 +18,7 @@ fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == name).unwrap();
     let mut scene = test_scene(name).unwrap();
-    scene.add_light(case.sun(30.0));
+    scene.insert_light(case.sun(30.0));
     let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
     let mut comparator = Comparator::new(gpu, &renderer, 0).unwrap();
@@ -86,10 +86,8 @@ fn visibility_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>,
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
     let mut scene = test_scene("slats").unwrap();
-    scene.add_light(case.sun(30.0));
-    for instance in &mut scene.instances {
-        instance.world_from_local.translation += offset;
-    }
+    scene.insert_light(case.sun(30.0));
+    move_instances(&mut scene, offset);
     let mut camera = case.views[0].camera();
     camera.world_from_view.translation += offset;
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
@@ -116,7 +114,7 @@ fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
     let mut scene = test_scene("slats").unwrap();
-    scene.add_light(case.sun(30.0));
+    scene.insert_light(case.sun(30.0));
     let camera = case.views[0].camera();
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
@@ -133,7 +131,7 @@ fn cascades_of_different_resolution_are_measured_at_their_seam() {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
     let mut scene = test_scene("slats").unwrap();
-    scene.add_light(case.sun(30.0));
+    scene.insert_light(case.sun(30.0));
     let seam = |shadows: ShadowSettings| {
         let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
         let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Visibility(0)).unwrap();

@@ -1,7 +1,7 @@
 //! The technique `raytraced` on a GPU: equal to rays of the CPU and to a brute-force test of all triangles.
 
 use crate::scenes::{RealScene, real_scenes};
-use crate::stage::{SIZE_PX, add_instance, box_mesh, floor_mesh, gpu, light, material};
+use crate::stage::{SIZE_PX, add_instance, add_mesh, box_mesh, floor_mesh, gpu, light, material};
 use glam::{DVec3, Vec4};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{AlphaMode, Camera, Image, LightKind, Projection, Scene, TextureRef};
@@ -34,7 +34,7 @@ fn traced(gpu: &Gpu, scene: &Scene, camera: &Camera, light: usize) -> Traced {
     Traced {
         visibility: drawn.map(|texel| (texel[3] > 0).then_some(f32::from(texel[0]) / 255.0)).collect(),
         surfaces,
-        light: RayLight::new(&scene.lights[light], 0.0, origin_world),
+        light: RayLight::new(&scene.lights()[light], 0.0, origin_world),
         rays: ray_scene(scene, origin_world).unwrap(),
         eye: (camera.position_world() - origin_world).as_vec3(),
     }
@@ -84,7 +84,7 @@ fn in_every_test_scene_gpu_rays_match_cpu_rays_and_brute_force() {
     let Some(gpu) = gpu() else { return };
     for case in built_in_cases().unwrap().cases {
         let mut scene = test_scene(&case.name()).unwrap();
-        scene.add_light(case.sun(30.0));
+        scene.insert_light(case.sun(30.0));
         let traced = traced(gpu, &scene, &case.views[0].camera(), 0);
         let (unlike, compared) = traced.unlike_the_cpu();
         assert!(compared > 5_000, "{}: {compared} pixels", case.name());
@@ -101,7 +101,7 @@ fn gpu_and_cpu_rays_agree_for_spot_and_point_lights_and_alpha_masks() {
     let scene = leaf_scene();
     let projection = Projection::Perspective { fov_y: 0.9, near: 0.1, far: None };
     let camera = Camera::look_at(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.5, 0.0), DVec3::Y, projection);
-    for light in 0..scene.lights.len() {
+    for light in 0..scene.lights().len() {
         let traced = traced(gpu, &scene, &camera, light);
         let dark = traced.visibility.iter().filter(|seen| **seen == Some(0.0)).count();
         assert!(dark > 500, "light {light} casts a shadow of {dark} pixels");
@@ -118,28 +118,27 @@ fn leaf_scene() -> Scene {
         |index: u32| [255, 255, 255, if (index % 8 + index / 8).is_multiple_of(2) { 255 } else { 30 }];
     let rgba8 = (0..64).flat_map(texel).collect();
     let checkered = Image { name: String::new(), width: 8, height: 8, rgba8 };
+    let mut scene = Scene::default();
+    scene.insert_material(material()).unwrap();
+    add_mesh(&mut scene, floor_mesh(6.0), DVec3::ZERO);
+    let checkered = scene.insert_image(checkered).unwrap();
     let holes = shadowgraph::scene::Material {
         base_color: Vec4::ONE,
-        base_color_texture: Some(TextureRef::new(0)),
+        base_color_texture: Some(TextureRef::new(checkered)),
         alpha: AlphaMode::Mask { cutoff: 0.5 },
         double_sided: true,
         ..material()
     };
-    let mut scene = Scene {
-        meshes: vec![floor_mesh(6.0), box_mesh(DVec3::new(-1.0, 1.0, -1.0), DVec3::new(1.0, 1.02, 1.0))],
-        materials: vec![material(), holes],
-        images: vec![checkered],
-        ..Scene::default()
-    };
-    add_instance(&mut scene, 0, 0, DVec3::ZERO);
-    add_instance(&mut scene, 1, 1, DVec3::ZERO);
+    let holes = scene.insert_material(holes).unwrap();
+    let plate = scene.insert_mesh(box_mesh(DVec3::new(-1.0, 1.0, -1.0), DVec3::new(1.0, 1.02, 1.0)));
+    add_instance(&mut scene, plate, holes, DVec3::ZERO);
     let position_world = DVec3::new(0.7, 3.0, 0.4);
     let direction = -position_world.normalize();
     let spot = LightKind::Spot { position_world, direction, range: None, inner_angle: 0.4, outer_angle: 0.6 };
     let sun = LightKind::Directional { direction: DVec3::new(0.3, -1.0, -0.2).normalize() };
     let point = LightKind::Point { position_world: DVec3::new(-0.5, 2.4, 0.3), range: None };
     for kind in [sun, spot, point] {
-        scene.add_light(light(kind, 100.0));
+        scene.insert_light(light(kind, 100.0));
     }
     scene
 }
@@ -148,7 +147,7 @@ fn leaf_scene() -> Scene {
 fn in_every_real_scene_gpu_rays_match_cpu_rays() {
     let Some(gpu) = gpu() else { return };
     for RealScene { name, scene, camera } in real_scenes().unwrap_or_default() {
-        let Some(casts) = scene.lights.iter().position(|light| light.casts_shadow) else { continue };
+        let Some(casts) = scene.lights().iter().position(|light| light.casts_shadow) else { continue };
         assert_agree(name, traced(gpu, scene, camera, casts).unlike_the_cpu());
     }
 }

@@ -1,7 +1,7 @@
 //! The contents of a map do not change as the camera moves: they only shift by whole texels.
 
 use crate::maps::{Map, draw_map};
-use crate::stage::gpu;
+use crate::stage::{gpu, move_instances};
 use glam::{DMat4, DVec3};
 use shadowgraph::SceneCasters;
 use shadowgraph::scene::gpu::GpuScene;
@@ -60,12 +60,10 @@ fn sub_texel_camera_steps_only_shift_every_cascade_by_whole_texels() {
     let technique = Pcf::new(&gpu.device);
     for offset in [DVec3::ZERO, DVec3::new(10_000.0, 0.0, 10_000.0)] {
         let mut scene = demo_scene();
-        for instance in &mut scene.instances {
-            instance.world_from_local.translation += offset;
-        }
+        move_instances(&mut scene, offset);
         let mut camera = scene.cameras[0].clone();
         camera.world_from_view.translation += offset;
-        let lights = [scene.lights[0].clone()];
+        let lights = [scene.lights()[0].clone()];
         let cascades = CascadeSettings { map_size_px: 1024, ..CascadeSettings::default() };
         let settings = ShadowSettings { distance_m: 60.0, cascades, ..ShadowSettings::default() };
         let origin_world = origin_near(camera.position_world());

@@ -1,6 +1,6 @@
 //! `pcss`: penumbrae as wide as the size of the light gives.
 
-use crate::stage::{add_instance, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
+use crate::stage::{add_mesh, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
 use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
@@ -11,11 +11,11 @@ use shadowgraph_quality::Comparator;
 /// Returns a plate above a floor, its edge above x = 0, under a light.
 fn plate(height_m: f64, light: Light) -> Scene {
     let plate = box_mesh(DVec3::new(0.0, height_m, -3.0), DVec3::new(6.0, height_m + 0.02, 3.0));
-    let mut scene =
-        Scene { meshes: vec![floor_mesh(10.0), plate], materials: vec![material()], ..Scene::default() };
-    add_instance(&mut scene, 0, 0, DVec3::ZERO);
-    add_instance(&mut scene, 1, 0, DVec3::ZERO);
-    scene.add_light(light);
+    let mut scene = Scene::default();
+    scene.insert_material(material()).unwrap();
+    add_mesh(&mut scene, floor_mesh(10.0), DVec3::ZERO);
+    add_mesh(&mut scene, plate, DVec3::ZERO);
+    scene.insert_light(light);
     scene
 }
 

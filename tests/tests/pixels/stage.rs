@@ -4,7 +4,8 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 use shadowgraph::options::{AdapterChoice, Aov};
 use shadowgraph::scene::gpu::GpuScene;
 use shadowgraph::scene::{
-    AlphaMode, Camera, Instance, Light, LightKind, Material, Mesh, Projection, Scene, Vertex, origin_near,
+    AlphaMode, Camera, Instance, InstanceKey, Light, LightKind, Material, MaterialKey, Mesh, MeshKey,
+    Projection, Scene, Vertex, origin_near,
 };
 use shadowgraph::shadows::{PCF, RaytracedSettings, ShadowInputs, ShadowPlan, ShadowSettings, plan_shadows};
 use shadowgraph::{Gpu, RenderConfig, RenderedFrame, Renderer, SceneCasters, ViewOptions};
@@ -104,23 +105,66 @@ pub(crate) fn material() -> Material {
 
 /// Returns a floor at y = 0 and a cube of 1 m on it, moved by `offset`.
 pub(crate) fn cube_on_floor(offset: DVec3) -> Scene {
-    let mut scene = Scene {
-        meshes: vec![floor_mesh(20.0), box_mesh(CUBE_MIN, CUBE_MAX)],
-        materials: vec![material()],
-        ..Scene::default()
-    };
-    for mesh in 0..2 {
-        add_instance(&mut scene, mesh, 0, offset);
-    }
+    let mut scene = Scene::default();
+    scene.insert_material(material()).unwrap();
+    add_mesh(&mut scene, floor_mesh(20.0), offset);
+    add_mesh(&mut scene, box_mesh(CUBE_MIN, CUBE_MAX), offset);
     scene
 }
 
 pub(crate) const CUBE_MIN: DVec3 = DVec3::new(-0.5, 0.0, -0.5);
 pub(crate) const CUBE_MAX: DVec3 = DVec3::new(0.5, 1.0, 0.5);
 
-pub(crate) fn add_instance(scene: &mut Scene, mesh: usize, material: usize, at: DVec3) {
-    let world_from_local = DAffine3::from_translation(at);
-    scene.instances.push(Instance { name: String::new(), mesh, material, world_from_local });
+/// Adds an instance of a mesh.
+pub(crate) fn add_instance(
+    scene: &mut Scene,
+    mesh: MeshKey,
+    material: MaterialKey,
+    at: DVec3,
+) -> InstanceKey {
+    scene.insert_instance(Instance::new(mesh, material, DAffine3::from_translation(at))).unwrap()
+}
+
+/// Adds a mesh and an instance of it, with the scene's only material.
+pub(crate) fn add_mesh(scene: &mut Scene, mesh: Mesh, at: DVec3) -> MeshKey {
+    let (mesh, material) = (scene.insert_mesh(mesh), only_material(scene));
+    add_instance(scene, mesh, material, at);
+    mesh
+}
+
+/// Adds another instance of the cube of [`cube_on_floor`].
+pub(crate) fn add_cube(scene: &mut Scene, at: DVec3) -> InstanceKey {
+    let (mesh, material) = (nth_mesh(scene, 1), only_material(scene));
+    add_instance(scene, mesh, material, at)
+}
+
+/// Moves all instances, and nothing else.
+pub(crate) fn move_instances(scene: &mut Scene, offset: DVec3) {
+    let keys: Vec<_> = scene.instances().map(|(key, _)| key).collect();
+    for key in keys {
+        scene.edit_instance(key, |instance| instance.world_from_local.translation += offset).unwrap();
+    }
+}
+
+/// Returns the mesh that was inserted after `n` others.
+pub(crate) fn nth_mesh(scene: &Scene, n: usize) -> MeshKey {
+    scene.meshes().nth(n).unwrap().0
+}
+
+/// Returns the material that was inserted after `n` others.
+pub(crate) fn nth_material(scene: &Scene, n: usize) -> MaterialKey {
+    scene.materials().nth(n).unwrap().0
+}
+
+/// Returns the instance that was inserted after `n` others.
+pub(crate) fn nth_instance(scene: &Scene, n: usize) -> InstanceKey {
+    scene.instances().nth(n).unwrap().0
+}
+
+/// Returns the material of a scene that has no other.
+pub(crate) fn only_material(scene: &Scene) -> MaterialKey {
+    assert_eq!(scene.materials().len(), 1);
+    nth_material(scene, 0)
 }
 
 /// Returns the direction in which the light of a sun at `elevation_deg` above the horizon travels.
@@ -151,8 +195,8 @@ pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> 
     draw_with(gpu, &scene, aov, options, PCF)
 }
 
-/// Draws an image that does not depend on frames before it. Renderers compile their shaders, so one that a test has created for the same
-/// objects, whatever their lights, is used again.
+/// Draws an image that does not depend on frames before it. Renderers compile their shaders, so one that a test has created is used
+/// again: as it is for the same objects, whatever their lights, else with the other scene.
 pub(crate) fn draw_with(
     gpu: &Gpu,
     scene: &Scene,
@@ -168,19 +212,25 @@ pub(crate) fn draw_with(
 
     let key = (std::ptr::from_ref(gpu).addr(), config.into());
     let origin_world = origin_near(options.camera.position_world());
-    let fits = |(of, renderer): &(RendererKey, Renderer)| {
-        *of == key
-            && *renderer.aov() == aov
-            && renderer.casters().scene.origin_world() == origin_world
-            && has_same_objects(renderer.scene(), scene)
+    let fits = |(of, renderer): &(RendererKey, Renderer)| *of == key && *renderer.aov() == aov;
+    let is_ready = |renderer: &Renderer| {
+        renderer.casters().scene.origin_world() == origin_world && has_same_objects(renderer.scene(), scene)
     };
     let mut idle = IDLE.lock().unwrap();
-    let found = idle.iter().position(fits).map(|index| idle.remove(index).1);
+    let ready = idle.iter().position(|entry| fits(entry) && is_ready(&entry.1));
+    let found = ready.or_else(|| idle.iter().rposition(fits)).map(|index| idle.remove(index).1);
     drop(idle);
-    let mut renderer = found.unwrap_or_else(|| {
-        Renderer::with_config(gpu, scene.clone(), &options.camera, aov.clone(), key.1.clone()).unwrap()
-    });
-    renderer.set_lights(scene.lights.clone()).unwrap();
+    let mut renderer = match found {
+        Some(mut renderer) if ready.is_some() => {
+            renderer.scene_mut().set_lights(scene.lights().to_vec());
+            renderer
+        }
+        Some(mut renderer) => {
+            renderer.set_scene(gpu, scene.clone()).unwrap();
+            renderer
+        }
+        None => Renderer::with_config(gpu, scene.clone(), &options.camera, aov, key.1.clone()).unwrap(),
+    };
     let drawn = renderer.draw(gpu, options).unwrap();
     let mut idle = IDLE.lock().unwrap();
     if idle.len() == MAX_IDLE {
@@ -191,7 +241,10 @@ pub(crate) fn draw_with(
 }
 
 fn has_same_objects(a: &Scene, b: &Scene) -> bool {
-    (&a.meshes, &a.materials, &a.images, &a.instances) == (&b.meshes, &b.materials, &b.images, &b.instances)
+    a.meshes().eq(b.meshes())
+        && a.materials().eq(b.materials())
+        && a.images().eq(b.images())
+        && a.instances().eq(b.instances())
 }
 
 /// Plans the shadows of a view, without a driver.
@@ -203,7 +256,7 @@ pub(crate) fn plan(scene: &Scene, options: &ViewOptions) -> ShadowPlan {
         view: 0,
         camera: &options.camera,
         aspect: f64::from(options.size_px[0]) / f64::from(options.size_px[1]),
-        lights: &scene.lights,
+        lights: scene.lights(),
         casters: &SceneCasters::new(&GPU.device, uploaded).unwrap(),
         origin_world,
         settings: &options.shadows,

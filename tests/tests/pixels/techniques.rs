@@ -1,7 +1,8 @@
 //! Properties that techniques share, and the strength of each.
 
 use crate::stage::{
-    add_instance, box_mesh, camera, cube_on_floor, gpu, hard, material, sun, sun_direction, view,
+    add_instance, add_mesh, box_mesh, camera, cube_on_floor, gpu, hard, only_material, sun, sun_direction,
+    view,
 };
 use glam::DVec3;
 use shadowgraph::options::Aov;
@@ -85,9 +86,8 @@ fn moment_maps_have_no_dark_or_bright_specks_in_any_format() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     // Two layers of occluders: light leaks where their shadows overlap.
     let plate = box_mesh(DVec3::new(-2.0, 1.6, -0.2), DVec3::new(2.0, 1.7, 0.2));
-    scene.meshes.push(plate);
-    add_instance(&mut scene, 2, 0, DVec3::ZERO);
-    scene.add_light(sun(sun_direction(40.0, 130.0)));
+    add_mesh(&mut scene, plate, DVec3::ZERO);
+    scene.insert_light(sun(sun_direction(40.0, 130.0)));
     let mut options = view(camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
     options.shadows.cascades.map_size_px = 2048;
     let truth = truth(gpu, &scene, &options);
@@ -123,17 +123,13 @@ fn contact_shadows_add_shadows_that_maps_are_too_coarse_for() {
     let Some(gpu) = gpu() else { return };
     // Pebbles of 3 cm with texels of 10 cm.
     let mut scene = cube_on_floor(DVec3::new(0.0, 0.0, -3.0));
-    scene.meshes.push(box_mesh(DVec3::new(-0.03, 0.0, -0.03), DVec3::new(0.03, 0.06, 0.03)));
+    let pebble = scene.insert_mesh(box_mesh(DVec3::new(-0.03, 0.0, -0.03), DVec3::new(0.03, 0.06, 0.03)));
+    let material = only_material(&scene);
     for i in 0..25 {
-        add_instance(
-            &mut scene,
-            2,
-            0,
-            DVec3::new(f64::from(i % 5) * 0.2 - 0.4, 0.0, f64::from(i / 5) * 0.2 - 0.4),
-        );
+        let at = DVec3::new(f64::from(i % 5) * 0.2 - 0.4, 0.0, f64::from(i / 5) * 0.2 - 0.4);
+        add_instance(&mut scene, pebble, material, at);
     }
-    scene.materials = vec![material()];
-    scene.add_light(sun(sun_direction(40.0, 100.0)));
+    scene.insert_light(sun(sun_direction(40.0, 100.0)));
     let mut options = view(camera(DVec3::new(0.2, 0.7, 1.2), DVec3::ZERO), 20.0);
     options.shadows.cascades.map_size_px = 256;
     options.shadows.cascades.count = 1;
@@ -180,9 +176,9 @@ fn fitted_cascades_have_every_caster_that_the_view_needs() {
 fn the_denoiser_removes_noise_from_penumbrae_and_keeps_hard_edges() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.meshes.push(box_mesh(DVec3::new(-1.5, 1.6, -1.0), DVec3::new(1.5, 1.7, 1.0)));
-    add_instance(&mut scene, 2, 0, DVec3::ZERO);
-    scene.add_light(sun(sun_direction(50.0, 130.0)));
+    let plate = box_mesh(DVec3::new(-1.5, 1.6, -1.0), DVec3::new(1.5, 1.7, 1.0));
+    add_mesh(&mut scene, plate, DVec3::ZERO);
+    scene.insert_light(sun(sun_direction(50.0, 130.0)));
     let mut options = view(camera(DVec3::new(2.0, 3.0, 4.0), DVec3::new(0.0, 0.3, 0.0)), 20.0);
     let mut draw = |rays, denoise_px| {
         let own = RaytracedSettings { rays, denoise_px, sun_radius_rad: 0.1, ..RaytracedSettings::default() };

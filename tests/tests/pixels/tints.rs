@@ -14,7 +14,7 @@ use crate::stage::{gpu, hard, view};
 /// Returns the scene with one of its lights, 0 the sun or 1 the spot light, and a view from its camera.
 fn lit_by(light: usize) -> (Scene, ViewOptions) {
     let mut scene = stained_glass();
-    scene.lights = vec![scene.lights[light].clone()];
+    scene.set_lights([scene.lights()[light].clone()]);
     let options = ViewOptions { size_px: [640, 360], ..view(scene.cameras[0].clone(), 60.0) };
     (scene, options)
 }
@@ -95,7 +95,10 @@ fn materials_that_cast_no_tint_leave_light_uncoloured() {
     let pcf = Technique::from(PCF).with_screen();
     assert!(coloured(&mask(gpu, &scene, &options, pcf)) > 0.04);
     for mode in [CasterMode::On, CasterMode::Off] {
-        scene.materials.iter_mut().for_each(|material| material.casts = Some(mode));
+        let materials: Vec<_> = scene.materials().map(|(key, _)| key).collect();
+        for key in materials {
+            scene.edit_material(key, |material| material.casts = Some(mode)).unwrap();
+        }
         assert_eq!(coloured(&mask(gpu, &scene, &options, pcf)), 0.0, "{mode:?}");
     }
 }
@@ -106,14 +109,14 @@ fn cached_tints_equal_tints_rendered_every_frame() {
     let (scene, mut options) = lit_by(0);
     options.shadows.cascades.map_size_px = 1024;
     options.shadows.atlas.map_size_px = 1024;
-    let lights = stained_glass().lights;
+    let lights = stained_glass().lights().to_vec();
     let draw = |cache| {
         let mut options = options.clone();
         (options.shadows.cascades.cache, options.shadows.atlas.cache) = (cache, cache);
         let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Color).unwrap();
         // Both lights, both again, and only the sun while the camera moves.
         [(2, 0.0), (2, 0.0), (1, 0.3), (1, 0.3)].map(|(count, step)| {
-            renderer.set_lights(lights[..count].to_vec()).unwrap();
+            renderer.scene_mut().set_lights(lights[..count].to_vec());
             options.camera.world_from_view.translation = scene.cameras[0].position_world() + DVec3::X * step;
             let drawn = renderer.draw(gpu, &options).unwrap();
             let passes = drawn.plan.order().iter().map(|&pass| drawn.plan.pass_path(pass).to_string());
@@ -147,7 +150,7 @@ fn tints_in_front_of_the_near_plane_match_the_hardware_clamp() {
         let casters = SceneCasters::with_target(&gpu.device, upload(), &target).unwrap();
         let (technique, camera) = (Pcf::new(&gpu.device), &scene.cameras[0]);
         let settings = &options.shadows;
-        let map = draw_map(gpu, &technique, &casters, &scene.lights, camera, settings, "cascade tints");
+        let map = draw_map(gpu, &technique, &casters, scene.lights(), camera, settings, "cascade tints");
         map.depth.iter().map(|texel| texel.to_bits()).collect::<Vec<_>>()
     });
     let tinted = maps[0].iter().filter(|texel| **texel != u32::MAX).count();

@@ -75,7 +75,7 @@ impl DrawArgs {
     /// # Errors
     /// One line with the file, the location and the light.
     pub(crate) fn check_lights(&self, settings: &ShadowSettings, scene: &Scene) -> Result<(), OptionError> {
-        let wrong = settings.check_lights(&scene.lights).err();
+        let wrong = settings.check_lights(scene.lights()).err();
         match (wrong, &self.settings) {
             (Some(error), Some(file)) => Err(SettingsFile::error(file, &error)),
             _ => Ok(()),

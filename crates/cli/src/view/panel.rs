@@ -255,7 +255,7 @@ fn technique(ui: &mut Ui, stage: &mut Stage) {
 /// Outputs, and every texture of the frame.
 fn output_choice(ui: &mut Ui, stage: &mut Stage) {
     let mut choices = vec![Aov::Color, Aov::Cascade, Aov::Depth, Aov::Normal, Aov::Atlas];
-    choices.extend((0..stage.scene.lights.len().min(16)).map(|light| Aov::Visibility(light as u32)));
+    choices.extend((0..stage.scene.lights().len().min(16)).map(|light| Aov::Visibility(light as u32)));
     if let Some(plan) = &stage.plan {
         let textures = plan.resources().filter(|(_, resource)| {
             matches!(resource.desc, shadowgraph::core::ResourceDesc::Texture(desc) if desc.samples == 1)

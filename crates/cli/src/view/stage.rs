@@ -223,7 +223,7 @@ impl Stage {
     /// Returns the page of the current frame.
     pub(super) fn page(&mut self, gpu: &Gpu, size_px: [u32; 2]) -> Result<String, shadowgraph::Error> {
         let options = self.options(size_px);
-        let lights = self.scene.lights.clone();
+        let lights = self.scene.lights().to_vec();
         let Some(renderer) = &mut self.renderer else { return Ok(String::new()) };
         Ok(renderer.inspect(gpu, &options)?.page(&lights, &options).to_html())
     }

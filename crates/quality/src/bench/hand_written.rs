@@ -251,7 +251,7 @@ fn tonemap(device: &wgpu::Device, format: Format) -> Result<wgpu::RenderPipeline
 
 fn frame_data(renderer: &Renderer, view: &RenderView<'_>) -> Result<FrameData, Error> {
     let options = view.options;
-    let (camera, size_px, lights) = (&options.camera, options.size_px, &renderer.scene().lights);
+    let (camera, size_px, lights) = (&options.camera, options.size_px, renderer.scene().lights());
     let (casters, settings) = (renderer.casters(), &options.shadows);
     let origin_world = casters.scene.origin_world();
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);

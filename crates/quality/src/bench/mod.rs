@@ -120,7 +120,7 @@ fn compare_unchecked(
     pairs: u32,
 ) -> Result<Comparison, Error> {
     let target = target(&gpu.device, options.size_px)?;
-    renderer.move_origin(gpu, options)?;
+    renderer.begin_frame(gpu, options)?;
     let renderer = &*renderer;
     let view = renderer.view(options, Some(&target));
     let hand_written = HandWritten::new(gpu, renderer, &view, &target)?;

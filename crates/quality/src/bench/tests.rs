@@ -5,7 +5,7 @@ use shadowgraph::RenderedImage;
 use shadowgraph::options::{AdapterChoice, ShadowDistance};
 use shadowgraph_core::{Frame, PassKind, Plan, Subresource};
 use shadowgraph_samples::demo::demo_scene;
-use shadowgraph_scene::{Camera, Scene};
+use shadowgraph_scene::{Camera, Light, Scene};
 use shadowgraph_shadows::ShadowSettings;
 use std::io::Write as _;
 
@@ -57,7 +57,9 @@ fn the_hand_written_frame_has_as_many_passes_and_uploads_as_the_plan() {
 fn without_shadows_there_are_two_passes_fewer_on_both_sides() {
     let gpu = Gpu::noop().unwrap();
     let mut scene = demo_scene();
-    scene.lights.iter_mut().for_each(|light| light.casts_shadow = false);
+    let dark = |light: &Light| Light { casts_shadow: false, ..light.clone() };
+    let lights: Vec<Light> = scene.lights().iter().map(dark).collect();
+    scene.set_lights(lights);
     let camera = scene.cameras[0].clone();
     let options = options(&scene, &camera);
     let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();

@@ -3,8 +3,9 @@
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 use super::textures;
+use crate::insert::{insert_image, insert_instance, insert_material};
 use crate::mesh_builder::MeshBuilder;
-use shadowgraph_scene::{AlphaMode, Image, Instance, Material, Scene, TextureRef};
+use shadowgraph_scene::{AlphaMode, Image, ImageKey, Material, MaterialKey, MeshKey, Scene, TextureRef};
 
 /// A scene under construction, and its materials by name.
 pub(super) struct SceneBuilder {
@@ -12,21 +13,21 @@ pub(super) struct SceneBuilder {
     pub(super) materials: Materials,
 }
 
-/// Indices of the materials.
+/// Keys of the materials.
 pub(super) struct Materials {
-    pub(super) paving: usize,
-    pub(super) masonry: usize,
-    pub(super) stone: usize,
-    pub(super) plaster: usize,
-    pub(super) earth: usize,
-    pub(super) wood: usize,
-    pub(super) painted: usize,
-    pub(super) cloth: usize,
-    pub(super) fence: usize,
-    pub(super) iron: usize,
-    pub(super) bronze: usize,
-    pub(super) rope: usize,
-    pub(super) lamp: usize,
+    pub(super) paving: MaterialKey,
+    pub(super) masonry: MaterialKey,
+    pub(super) stone: MaterialKey,
+    pub(super) plaster: MaterialKey,
+    pub(super) earth: MaterialKey,
+    pub(super) wood: MaterialKey,
+    pub(super) painted: MaterialKey,
+    pub(super) cloth: MaterialKey,
+    pub(super) fence: MaterialKey,
+    pub(super) iron: MaterialKey,
+    pub(super) bronze: MaterialKey,
+    pub(super) rope: MaterialKey,
+    pub(super) lamp: MaterialKey,
 }
 
 impl SceneBuilder {
@@ -37,30 +38,35 @@ impl SceneBuilder {
         Self { scene, materials }
     }
 
-    /// Adds a mesh and returns its index.
-    pub(super) fn add_mesh(&mut self, name: &str, shape: MeshBuilder) -> usize {
-        self.scene.meshes.push(shape.finish(name));
-        self.scene.meshes.len() - 1
+    /// Adds a mesh and returns its key.
+    pub(super) fn add_mesh(&mut self, name: &str, shape: MeshBuilder) -> MeshKey {
+        self.scene.insert_mesh(shape.finish(name))
     }
 
     /// Adds an instance of a mesh.
     pub(super) fn add_instance(
         &mut self,
         name: &str,
-        mesh: usize,
-        material: usize,
+        mesh: MeshKey,
+        material: MaterialKey,
         world_from_local: DAffine3,
     ) {
-        self.scene.instances.push(Instance { name: name.to_owned(), mesh, material, world_from_local });
+        insert_instance(&mut self.scene, name, mesh, material, world_from_local);
     }
 
     /// Adds a translated instance of a mesh.
-    pub(super) fn add_instance_at(&mut self, name: &str, mesh: usize, material: usize, position: DVec3) {
+    pub(super) fn add_instance_at(
+        &mut self,
+        name: &str,
+        mesh: MeshKey,
+        material: MaterialKey,
+        position: DVec3,
+    ) {
         self.add_instance(name, mesh, material, DAffine3::from_translation(position));
     }
 
     /// Adds a mesh and its only instance, without a transform.
-    pub(super) fn add_single(&mut self, name: &str, shape: MeshBuilder, material: usize) {
+    pub(super) fn add_single(&mut self, name: &str, shape: MeshBuilder, material: MaterialKey) {
         let mesh = self.add_mesh(name, shape);
         self.add_instance(name, mesh, material, DAffine3::IDENTITY);
     }
@@ -68,19 +74,13 @@ impl SceneBuilder {
 
 impl Materials {
     fn new(scene: &mut Scene) -> Self {
-        let mut image = |image: Image| {
-            scene.images.push(image);
-            scene.images.len() - 1
-        };
+        let mut image = |image: Image| insert_image(scene, image);
         let paving = [image(textures::paving()), image(textures::paving_normals())];
         let masonry = [image(textures::masonry()), image(textures::masonry_normals())];
         let planks = [image(textures::planks()), image(textures::planks_normals())];
         let (stone, earth) = (image(textures::stone()), image(textures::earth()));
         let (cloth, fence) = (image(textures::cloth()), image(textures::fence()));
-        let mut add = |material: Material| {
-            scene.materials.push(material);
-            scene.materials.len() - 1
-        };
+        let mut add = |material: Material| insert_material(scene, material);
         let panel = textures::FENCE_PANEL.as_vec2();
         Self {
             paving: add(tiled("paving", paving[0], 4.0).normals(paving[1], 4.0).rough(0.62)),
@@ -125,12 +125,12 @@ fn plain(name: &str, base_color: Vec4, metallic: f32, roughness: f32) -> Materia
 }
 
 /// Returns a reference to an image with scaled texture coordinates.
-fn scaled(image: usize, u: f32, v: f32) -> TextureRef {
+fn scaled(image: ImageKey, u: f32, v: f32) -> TextureRef {
     TextureRef { uv_transform: [[u, 0.0, 0.0], [0.0, v, 0.0]], ..TextureRef::new(image) }
 }
 
 /// Returns a rough material whose texture covers `metres`.
-fn tiled(name: &str, image: usize, metres: f32) -> Material {
+fn tiled(name: &str, image: ImageKey, metres: f32) -> Material {
     Material {
         base_color_texture: Some(scaled(image, 1.0 / metres, 1.0 / metres)),
         ..plain(name, Vec4::ONE, 0.0, 0.85)
@@ -140,13 +140,13 @@ fn tiled(name: &str, image: usize, metres: f32) -> Material {
 /// Builder methods for materials.
 trait MaterialExt {
     /// Adds a normal map that covers `metres`.
-    fn normals(self, image: usize, metres: f32) -> Self;
+    fn normals(self, image: ImageKey, metres: f32) -> Self;
     /// Sets the roughness.
     fn rough(self, roughness: f32) -> Self;
 }
 
 impl MaterialExt for Material {
-    fn normals(self, image: usize, metres: f32) -> Self {
+    fn normals(self, image: ImageKey, metres: f32) -> Self {
         Self { normal_texture: Some(scaled(image, 1.0 / metres, 1.0 / metres)), ..self }
     }
 

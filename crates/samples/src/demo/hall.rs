@@ -8,7 +8,7 @@ use super::builder::SceneBuilder;
 use super::court::{BACK_Z, FLOOR, FRONT_Z, HALL_BAY};
 use crate::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
 use crate::round::{bulge, lathe, ring, sphere};
-use shadowgraph_scene::{Light, LightKind};
+use shadowgraph_scene::{Light, LightKind, MeshKey};
 
 const PEDESTAL: f64 = 0.95;
 /// Position of the figures between the hall's front and back.
@@ -45,7 +45,7 @@ pub(super) fn build(builder: &mut SceneBuilder) {
 /// Adds a spot light and the model of its lamp, which is behind the tip of the light.
 fn spot(
     builder: &mut SceneBuilder,
-    lamp: [usize; 2],
+    lamp: [MeshKey; 2],
     name: &str,
     color: Vec3,
     position: DVec3,
@@ -56,7 +56,7 @@ fn spot(
     let transform = DAffine3::from_rotation_translation(rotation, position - direction * 0.04);
     builder.add_instance("lamp", lamp[0], builder.materials.iron, transform);
     builder.add_instance("lamp glass", lamp[1], builder.materials.lamp, transform);
-    builder.scene.add_light(Light {
+    builder.scene.insert_light(Light {
         name: Some(name.to_owned()),
         kind: LightKind::Spot {
             position_world: position,
@@ -72,7 +72,7 @@ fn spot(
 }
 
 /// Adds the meshes of a lamp's housing and glass, which opens along +Y just below the origin.
-fn lamp(builder: &mut SceneBuilder) -> [usize; 2] {
+fn lamp(builder: &mut SceneBuilder) -> [MeshKey; 2] {
     let run = |points: &[(f64, f64)]| points.iter().map(|&(r, y)| DVec2::new(r, y)).collect::<Vec<_>>();
     let housing = lathe(&[run(&[(0.0, -0.34), (0.06, -0.33), (0.08, -0.28), (0.14, 0.0)])], 16);
     let glass = lathe(&[run(&[(0.135, -0.01), (0.0, -0.01)])], 16);

@@ -7,7 +7,7 @@ use shadowgraph_scene::AlphaMode;
 
 #[test]
 fn every_vertex_has_a_unit_normal_and_a_perpendicular_tangent() {
-    for mesh in demo_scene().meshes {
+    for (_, mesh) in demo_scene().meshes() {
         for vertex in &mesh.vertices {
             let normal = Vec3::from(vertex.normal);
             let [x, y, z, side] = vertex.tangent;
@@ -22,7 +22,7 @@ fn every_vertex_has_a_unit_normal_and_a_perpendicular_tangent() {
 
 #[test]
 fn every_index_is_in_range_and_every_triangle_faces_its_normals() {
-    for mesh in demo_scene().meshes {
+    for (_, mesh) in demo_scene().meshes() {
         assert!(!mesh.indices.is_empty() && mesh.indices.len().is_multiple_of(3), "{}", mesh.name);
         for corners in mesh.indices.chunks_exact(3) {
             let [a, b, c] = [0, 1, 2].map(|k| mesh.vertices[corners[k] as usize]);
@@ -37,16 +37,16 @@ fn every_index_is_in_range_and_every_triangle_faces_its_normals() {
 #[test]
 fn every_reference_is_in_range() {
     let scene = demo_scene();
-    for instance in &scene.instances {
-        assert!(instance.mesh < scene.meshes.len() && instance.material < scene.materials.len());
+    for (_, instance) in scene.instances() {
+        assert!(scene.mesh(instance.mesh).is_some() && scene.material(instance.material).is_some());
         assert!(!instance.name.is_empty());
     }
-    for material in &scene.materials {
+    for (_, material) in scene.materials() {
         assert!(!material.name.is_empty());
         let textures = [material.base_color_texture, material.normal_texture];
-        assert!(textures.iter().flatten().all(|texture| texture.image < scene.images.len()));
+        assert!(textures.iter().flatten().all(|texture| scene.image(texture.image).is_some()));
     }
-    for image in &scene.images {
+    for (_, image) in scene.images() {
         assert_eq!(image.rgba8.len(), (image.width * image.height * 4) as usize, "{}", image.name);
     }
 }
@@ -54,17 +54,18 @@ fn every_reference_is_in_range() {
 #[test]
 fn all_meshes_and_materials_are_used() {
     let scene = demo_scene();
-    for (index, mesh) in scene.meshes.iter().enumerate() {
-        assert!(scene.instances.iter().any(|instance| instance.mesh == index), "{}", mesh.name);
+    for (key, mesh) in scene.meshes() {
+        assert!(scene.instances().any(|(_, instance)| instance.mesh == key), "{}", mesh.name);
     }
-    for (index, material) in scene.materials.iter().enumerate() {
-        assert!(scene.instances.iter().any(|instance| instance.material == index), "{}", material.name);
+    for (key, material) in scene.materials() {
+        assert!(scene.instances().any(|(_, instance)| instance.material == key), "{}", material.name);
     }
 }
 
 #[test]
 fn scene_has_one_sun_then_three_spots_and_all_cast_shadows() {
-    let lights = demo_scene().lights;
+    let scene = demo_scene();
+    let lights = scene.lights();
     let orders: Vec<u8> = lights.iter().map(|light| light.kind.order()).collect();
     assert_eq!(orders, [0, 1, 1, 1]);
     for light in lights {
@@ -88,18 +89,18 @@ fn scene_has_few_triangles_and_large_bounds() {
 #[test]
 fn ball_touches_the_court() {
     let scene = demo_scene();
-    let index = |name: &str| scene.instances.iter().position(|instance| instance.name == name).unwrap();
-    let ball = scene.instance_bounds(index("ball"));
-    let court = scene.instance_bounds(index("court"));
+    let key = |name: &str| scene.instances().find(|(_, instance)| instance.name == name).unwrap().0;
+    let ball = scene.instance_bounds(key("ball"));
+    let court = scene.instance_bounds(key("court"));
     assert!((ball.min.y - court.max.y).abs() < 1e-6);
 }
 
 #[test]
 fn fence_texture_has_holes_and_iron() {
     let scene = demo_scene();
-    let fence = scene.materials.iter().find(|material| material.name == "wrought iron").unwrap();
+    let (_, fence) = scene.materials().find(|(_, material)| material.name == "wrought iron").unwrap();
     assert_eq!(fence.alpha, AlphaMode::Mask { cutoff: 0.5 });
-    let image = &scene.images[fence.base_color_texture.unwrap().image];
+    let image = scene.image(fence.base_color_texture.unwrap().image).unwrap();
     let iron = image.rgba8.chunks_exact(4).filter(|texel| texel[3] >= 128).count();
     let fraction = iron as f64 / f64::from(image.width * image.height);
     assert!((0.15..0.6).contains(&fraction), "{fraction}");

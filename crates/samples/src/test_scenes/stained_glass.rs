@@ -3,10 +3,11 @@
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 use super::{ground, sun};
+use crate::insert::{insert_image, insert_instance, insert_material};
 use crate::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
 use crate::round::sphere;
 use shadowgraph_scene::{
-    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Mesh, Projection, Scene, TextureRef,
+    AlphaMode, Camera, Image, Light, LightKind, Material, MaterialKey, Mesh, Projection, Scene, TextureRef,
 };
 
 /// The side of a pane, metres.
@@ -25,29 +26,22 @@ const SILL: f64 = 0.7;
 #[must_use]
 pub fn stained_glass() -> Scene {
     let stone = Vec4::new(0.75, 0.75, 0.75, 1.0);
-    let mut scene = Scene {
-        materials: vec![Material {
-            name: "stone".into(),
-            base_color: stone,
-            metallic: 0.0,
-            ..Material::default()
-        }],
-        images: vec![rings_texture()],
-        ..Scene::default()
-    };
+    let mut scene = Scene::default();
+    let stone = Material { name: "stone".into(), base_color: stone, metallic: 0.0, ..Material::default() };
+    let stone = insert_material(&mut scene, stone);
     let (name, floor) = ground(10.0);
-    add(&mut scene, floor.finish(name), 0);
-    add(&mut scene, wall().finish("wall"), 0);
+    add(&mut scene, floor.finish(name), stone);
+    add(&mut scene, wall().finish("wall"), stone);
     let mut block = MeshBuilder::default();
     block.append(&box_on_ground(0.6, 0.7, 0.6), DAffine3::from_translation(DVec3::new(-1.5, 0.0, 2.4)));
-    add(&mut scene, block.finish("box"), 0);
+    add(&mut scene, block.finish("box"), stone);
     add_panes(&mut scene);
     let mut ball = MeshBuilder::default();
     ball.append_translated(&sphere(0.5, 64), DVec3::new(1.7, 0.5, 2.6));
-    let glass = glass(&mut scene, Vec4::new(0.2, 0.8, 0.9, 0.3));
+    let glass = insert_material(&mut scene, glass(Vec4::new(0.2, 0.8, 0.9, 0.3)));
     add(&mut scene, ball.finish("ball"), glass);
-    scene.add_light(sun(42.0, -75.0));
-    scene.add_light(point_light());
+    scene.insert_light(sun(42.0, -75.0));
+    scene.insert_light(point_light());
     let projection = Projection::Perspective { fov_y: 0.8, near: 0.1, far: Some(100.0) };
     let camera = Camera::look_at(DVec3::new(0.6, 3.6, 8.2), DVec3::new(0.3, 0.7, 1.2), DVec3::Y, projection);
     scene.cameras.push(camera);
@@ -91,14 +85,14 @@ fn add_panes(scene: &mut Scene) {
     for (index, color) in colors.into_iter().enumerate() {
         let corner =
             DVec3::new(-HALF_WINDOW + PANE * (index % 3) as f64, SILL + PANE * (index / 3) as f64, 0.0);
-        let material = glass(scene, color);
+        let mut material = glass(color);
         let mut mesh = pane(corner, "pane");
         match index {
             2 => {
                 let scale = 1.0 / PANE as f32;
                 let uv_transform = [[scale, 0.0, 0.0], [0.0, scale, 0.0]];
-                let texture = TextureRef { uv_transform, ..TextureRef::new(0) };
-                scene.materials[material].base_color_texture = Some(texture);
+                let rings = insert_image(scene, rings_texture());
+                material.base_color_texture = Some(TextureRef { uv_transform, ..TextureRef::new(rings) });
             }
             5 => {
                 let corners =
@@ -109,9 +103,10 @@ fn add_panes(scene: &mut Scene) {
             }
             _ => {}
         }
+        let material = insert_material(scene, material);
         add(scene, mesh, material);
     }
-    let violet = glass(scene, Vec4::new(0.5, 0.1, 0.8, 0.5));
+    let violet = insert_material(scene, glass(Vec4::new(0.5, 0.1, 0.8, 0.5)));
     add(scene, pane(DVec3::new(0.1, 0.0, 1.3), "screen"), violet);
 }
 
@@ -121,8 +116,8 @@ fn pane(corner: DVec3, name: &str) -> Mesh {
     pane.finish(name)
 }
 
-fn glass(scene: &mut Scene, base_color: Vec4) -> usize {
-    scene.materials.push(Material {
+fn glass(base_color: Vec4) -> Material {
+    Material {
         name: "glass".into(),
         base_color,
         metallic: 0.0,
@@ -130,14 +125,13 @@ fn glass(scene: &mut Scene, base_color: Vec4) -> usize {
         alpha: AlphaMode::Blend,
         double_sided: true,
         ..Material::default()
-    });
-    scene.materials.len() - 1
+    }
 }
 
-fn add(scene: &mut Scene, mesh: Mesh, material: usize) {
-    let (name, index) = (mesh.name.clone(), scene.meshes.len());
-    scene.meshes.push(mesh);
-    scene.instances.push(Instance { name, mesh: index, material, world_from_local: DAffine3::IDENTITY });
+fn add(scene: &mut Scene, mesh: Mesh, material: MaterialKey) {
+    let name = mesh.name.clone();
+    let mesh = scene.insert_mesh(mesh);
+    insert_instance(scene, &name, mesh, material, DAffine3::IDENTITY);
 }
 
 /// Returns concentric colour gradients, more transparent towards the centre.

@@ -23,6 +23,10 @@ pub struct CullTree {
     items: Vec<u32>,
     /// The slot of each item.
     slots: Vec<u32>,
+    /// The half area of each node when the tree was built.
+    built_areas: Vec<f64>,
+    /// The number of nodes that have more than twice that area.
+    grown: usize,
 }
 
 impl CullTree {
@@ -55,10 +59,22 @@ impl CullTree {
         sort_distinct(found, start, self.items.len());
     }
 
+    /// Returns the number of items.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Returns whether there are no items.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
     /// Gives items new boxes, which may be empty. Items that do not exist are ignored.
     ///
     /// This costs one descent of the tree per item. Items keep their slots, so queries get slower when items move far, but
-    /// never wrong; a new tree is then better.
+    /// never wrong: [`rebuild`](Self::rebuild) a tree that [is degraded](Self::is_degraded).
     pub fn refit(&mut self, changed: impl IntoIterator<Item = (u32, Aabb)>) {
         let Some(root) = self.root() else { return };
         for (item, bounds) in changed {
@@ -67,6 +83,19 @@ impl CullTree {
                 self.refit_path(root, slot as usize);
             }
         }
+    }
+
+    /// Returns whether refits have made so many nodes so much larger that queries are slow: a quarter of the nodes have more than
+    /// twice the area that they had when the tree was built.
+    #[must_use]
+    pub fn is_degraded(&self) -> bool {
+        self.grown > self.nodes.len() / 4
+    }
+
+    /// Builds the tree again from the present boxes.
+    pub fn rebuild(&mut self) {
+        let boxes: Vec<_> = (0..self.items.len() as u32).map(|item| self.item_bounds(item)).collect();
+        *self = build(&boxes);
     }
 
     /// Returns the smallest box around all boxes; [`Aabb::EMPTY`] if all are empty.
@@ -115,8 +144,12 @@ impl CullTree {
             return false;
         }
         let before = self.nodes[node.number];
-        self.nodes[node.number] = self.compute_bounds(node);
-        self.nodes[node.number] != before
+        let after = self.compute_bounds(node);
+        let has_grown = |bounds: &Aabb| half_area(bounds) > 2.0 * self.built_areas[node.number];
+        let (grew, grows) = (has_grown(&before), has_grown(&after));
+        self.grown = self.grown + usize::from(grows) - usize::from(grew);
+        self.nodes[node.number] = after;
+        after != before
     }
 
     /// Recomputes the bounds of this node and all nodes below it.
@@ -153,11 +186,21 @@ fn build(bounds: &[Aabb]) -> CullTree {
     }
     let boxes = items.iter().map(|&item| bounds[item as usize]).collect();
     let nodes = vec![Aabb::EMPTY; root.map_or(0, Node::count)];
-    let mut tree = CullTree { nodes, boxes, items, slots };
+    let mut tree = CullTree { nodes, boxes, items, slots, built_areas: Vec::new(), grown: 0 };
     if let Some(root) = root {
         tree.refit_subtree(root);
     }
+    tree.built_areas = tree.nodes.iter().map(half_area).collect();
     tree
+}
+
+/// Returns half the area of a box's surface; 0 for an empty box.
+fn half_area(bounds: &Aabb) -> f64 {
+    if bounds.is_empty() {
+        return 0.0;
+    }
+    let size = bounds.max - bounds.min;
+    size.x * size.y + size.y * size.z + size.z * size.x
 }
 
 /// Returns the point that a box is sorted by. Empty boxes sort last, together, so that queries for others skip them.

@@ -14,9 +14,9 @@ use super::validate::{
 };
 use super::{container, images, materials};
 use crate::error::Error;
-use crate::material::Material;
+use crate::material::{Image, Material};
 use crate::mesh::Mesh;
-use crate::scene::{Instance, Scene};
+use crate::scene::{EditError, Instance, MaterialKey, Scene};
 
 /// The progress of loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,11 +78,36 @@ fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Re
     let materials::Materials { mut materials, images } = materials::read(&document, &mut notes)?;
     let buffers = Buffers::read(&document, chunks.bin, files)?;
     let geometry = Geometry::read(&buffers, &nodes, &mut materials, &mut notes, progress)?;
-    let instances = geometry.instances(&document, &nodes)?;
+    geometry.check_range(&document, &nodes)?;
     let decoded = |fraction| progress(Progress { stage: "images", fraction });
     let images = images::read(&buffers, files, &images, &mut { decoded })?;
-    let (meshes, notes) = (geometry.meshes, notes.into_lines());
-    Ok(Scene { meshes, materials, images, instances, lights, cameras, notes })
+    let mut scene = Scene::default();
+    (scene.cameras, scene.notes) = (cameras, notes.into_lines());
+    scene.set_lights(lights);
+    let inserted = insert_materials(&mut scene, images, materials)
+        .and_then(|materials| geometry.insert(&mut scene, &document, &nodes, &materials));
+    // Everything has been checked with its location before.
+    inserted.map_err(|error| ImportError::new("scene", error.to_string()))?;
+    Ok(scene)
+}
+
+/// Inserts the images and the materials, and returns the keys of the materials.
+fn insert_materials(
+    scene: &mut Scene,
+    images: Vec<Image>,
+    materials: Vec<(Material, [Option<usize>; 5])>,
+) -> Result<Vec<MaterialKey>, EditError> {
+    let images: Vec<_> =
+        images.into_iter().map(|image| scene.insert_image(image)).collect::<Result<_, _>>()?;
+    let insert = |(mut material, used): (Material, [Option<usize>; 5])| {
+        for (texture, used) in material.textures_mut().into_iter().zip(used) {
+            if let (Some(texture), Some(&image)) = (texture, used.and_then(|index| images.get(index))) {
+                texture.image = image;
+            }
+        }
+        scene.insert_material(material)
+    };
+    materials.into_iter().map(insert).collect()
 }
 
 fn note_unsupported_features(document: &Document, notes: &mut Notes) {
@@ -126,7 +151,7 @@ impl Geometry {
     fn read(
         buffers: &Buffers<'_>,
         nodes: &[SceneNode],
-        materials: &mut Vec<Material>,
+        materials: &mut Vec<(Material, [Option<usize>; 5])>,
         notes: &mut Notes,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<Self, ImportError> {
@@ -143,10 +168,10 @@ impl Geometry {
             progress(Progress { stage: "meshes", fraction: i as f32 / document.meshes.len() as f32 });
             for (j, primitive) in mesh.primitives.iter().enumerate().filter(|_| used) {
                 let material = primitive.material.map_or(default_material, |material| material.value());
-                let normal_map = materials.get(material).and_then(|material| material.normal_texture);
+                let normal_map = materials.get(material).and_then(|(material, _)| material.normal_texture);
                 let Some(mesh) = reader.primitive(i, j, normal_map.as_ref())? else { continue };
                 if material == materials.len() {
-                    materials.push(Material::default());
+                    materials.push((Material::default(), [None; 5]));
                 }
                 primitives.push((geometry.meshes.len(), material));
                 geometry.meshes.push(mesh);
@@ -156,33 +181,53 @@ impl Geometry {
         Ok(geometry)
     }
 
-    fn instances(&self, document: &Document, nodes: &[SceneNode]) -> Result<Vec<Instance>, ImportError> {
-        let mut instances = Vec::new();
-        for scene_node in nodes {
-            let Some(node) = document.nodes.get(scene_node.node) else { continue };
-            let primitives = node.mesh.and_then(|mesh| self.primitives.get(mesh.value()));
-            for (mesh, material) in primitives.into_iter().flatten().copied() {
-                let name = clean_name(node.name.as_deref());
-                let instance =
-                    Instance { name, mesh, material, world_from_local: scene_node.world_from_node };
-                self.check_range(&instance, scene_node.node)?;
-                instances.push(instance);
-            }
-        }
-        Ok(instances)
+    /// Returns the mesh and the material of each drawn primitive, with the node that draws it.
+    fn drawn<'a>(
+        &'a self,
+        document: &'a Document,
+        nodes: &'a [SceneNode],
+    ) -> impl Iterator<Item = (&'a SceneNode, String, usize, usize)> {
+        nodes.iter().flat_map(move |scene_node| {
+            let node = document.nodes.get(scene_node.node);
+            let primitives = node.and_then(|node| self.primitives.get(node.mesh?.value()));
+            let name = clean_name(node.and_then(|node| node.name.as_deref()));
+            let drawn = primitives.into_iter().flatten();
+            drawn.map(move |&(mesh, material)| (scene_node, name.clone(), mesh, material))
+        })
     }
 
-    /// Checks that an instance lies within the supported range.
-    fn check_range(&self, instance: &Instance, node: usize) -> Result<(), ImportError> {
-        let Some(mesh) = self.meshes.get(instance.mesh) else { return Ok(()) };
-        let bounds = mesh.bounds.transformed(&instance.world_from_local);
-        let extent_m = bounds.min.abs().max(bounds.max.abs()).max_element();
-        if bounds.is_empty() || extent_m <= MAX_WORLD_M {
-            return Ok(());
+    /// Checks that every instance lies within the supported range.
+    fn check_range(&self, document: &Document, nodes: &[SceneNode]) -> Result<(), ImportError> {
+        for (scene_node, name, mesh, _) in self.drawn(document, nodes) {
+            let Some(mesh) = self.meshes.get(mesh) else { continue };
+            let bounds = mesh.bounds.transformed(&scene_node.world_from_node);
+            let extent_m = bounds.min.abs().max(bounds.max.abs()).max_element();
+            if !bounds.is_empty() && extent_m > MAX_WORLD_M {
+                let reason = format!(
+                    "its mesh extends to {extent_m:.3e} m from the origin (allowed: up to {MAX_WORLD_M:e} m)"
+                );
+                return Err(ImportError::new(describe("node", scene_node.node, Some(&name)), reason));
+            }
         }
-        let reason = format!(
-            "its mesh extends to {extent_m:.3e} m from the origin (allowed: up to {MAX_WORLD_M:e} m)"
-        );
-        Err(ImportError::new(describe("node", node, Some(&instance.name)), reason))
+        Ok(())
+    }
+
+    /// Inserts the meshes and their instances.
+    fn insert(
+        mut self,
+        scene: &mut Scene,
+        document: &Document,
+        nodes: &[SceneNode],
+        materials: &[MaterialKey],
+    ) -> Result<(), EditError> {
+        let meshes: Vec<_> =
+            std::mem::take(&mut self.meshes).into_iter().map(|mesh| scene.insert_mesh(mesh)).collect();
+        for (scene_node, name, mesh, material) in self.drawn(document, nodes) {
+            if let (Some(&mesh), Some(&material)) = (meshes.get(mesh), materials.get(material)) {
+                let instance = Instance::new(mesh, material, scene_node.world_from_node).with_name(name);
+                scene.insert_instance(instance)?;
+            }
+        }
+        Ok(())
     }
 }

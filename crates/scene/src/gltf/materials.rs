@@ -15,7 +15,8 @@ const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 /// The materials of a file.
 #[derive(Debug)]
 pub(super) struct Materials {
-    pub(super) materials: Vec<Material>,
+    /// The materials, with the indices in `images` of their textures, whose own keys are not set yet.
+    pub(super) materials: Vec<(Material, [Option<usize>; 5])>,
     /// Indices in the file of the images that the materials use, ascending: the scene's images.
     pub(super) images: Vec<usize>,
 }
@@ -37,8 +38,8 @@ pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, 
     images.dedup();
     let materials = document.materials.iter().zip(&textures).enumerate().map(|(i, (material, textures))| {
         let location = describe_material(i, material);
-        let textures = textures.convert(document, &images, &location, notes)?;
-        convert(material, textures, &location)
+        let (references, used) = textures.convert(document, &images, &location, notes)?;
+        Ok((convert(material, references, &location)?, used))
     });
     Ok(Materials { materials: materials.collect::<Result<_, _>>()?, images })
 }
@@ -79,16 +80,17 @@ impl Textures {
         images: &[usize],
         location: &str,
         notes: &mut Notes,
-    ) -> Result<[Option<TextureRef>; 5], ImportError> {
-        let mut refs = [None; 5];
-        for (texture, result) in self.all.iter().zip(&mut refs) {
+    ) -> Result<([Option<TextureRef>; 5], [Option<usize>; 5]), ImportError> {
+        let (mut references, mut images_used) = ([None; 5], [None; 5]);
+        for (i, texture) in self.all.iter().enumerate() {
             let Some(texture) = texture else { continue };
             let image = texture.image(document).and_then(|image| images.binary_search(&image).ok());
             let image =
                 image.ok_or_else(|| ImportError::new(location, "uses a texture that does not exist"))?;
-            *result = Some(texture.convert(document, image, location, notes)?);
+            references[i] = Some(texture.convert(document, location, notes)?);
+            images_used[i] = Some(image);
         }
-        Ok(refs)
+        Ok((references, images_used))
     }
 }
 

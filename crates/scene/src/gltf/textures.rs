@@ -9,6 +9,7 @@ use super::document::Document;
 use super::error::{ImportError, WithLocation, describe};
 use super::notes::Notes;
 use crate::material::{Filter, Sampler, TextureRef, Wrap};
+use crate::scene::ImageKey;
 
 /// The use of a texture by a material, as in the file.
 pub(super) struct TextureUse {
@@ -40,14 +41,13 @@ impl TextureUse {
         Some(document.textures.get(self.texture)?.source.value())
     }
 
-    /// Converts to a [`TextureRef`]. `image` is the index of the image in the scene.
+    /// Converts to a [`TextureRef`] without the key of its image.
     ///
     /// # Errors
     /// The sampler or the transform has values that glTF does not allow.
     pub(super) fn convert(
         &self,
         document: &Document,
-        image: usize,
         location: &str,
         notes: &mut Notes,
     ) -> Result<TextureRef, ImportError> {
@@ -67,7 +67,7 @@ impl TextureUse {
         if !uv_transform.as_flattened().iter().all(|value| value.is_finite()) {
             return Err(ImportError::new(location, "KHR_texture_transform has values that are not finite"));
         }
-        Ok(TextureRef { image, sampler, uv_set, uv_transform })
+        Ok(TextureRef { image: ImageKey::default(), sampler, uv_set, uv_transform })
     }
 }
 

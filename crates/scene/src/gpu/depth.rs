@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::num::NonZeroU64;
 
 use super::draw_list::DrawPipeline;
-use super::key::{AlphaKey, MaterialKey};
+use super::geometry::vertex_layout;
+use super::key::{AlphaKey, PipelineKey};
 use super::materials::MaterialLayouts;
-use super::upload::vertex_layout;
 use crate::error::Error;
 use crate::material::CasterMode;
 
@@ -49,7 +49,7 @@ impl Default for DepthTarget {
 /// Group 0 is [`view_layout`](Self::view_layout), group 1 is unused.
 pub struct DepthPipelines {
     view_layout: wgpu::BindGroupLayout,
-    /// The pipelines by [`MaterialKey::index`].
+    /// The pipelines by [`PipelineKey::index`].
     pipelines: Vec<wgpu::RenderPipeline>,
 }
 
@@ -67,7 +67,7 @@ impl DepthPipelines {
         let builder = PipelineBuilder::new(device, layouts, target)?;
         // Keys with equal variants share a pipeline.
         let mut created: Vec<(Variant, wgpu::RenderPipeline)> = Vec::new();
-        let pipeline = |key: MaterialKey| {
+        let pipeline = |key: PipelineKey| {
             let variant = Variant::new(key);
             if let Some((_, pipeline)) = created.iter().find(|(other, _)| *other == variant) {
                 return pipeline.clone();
@@ -76,13 +76,13 @@ impl DepthPipelines {
             created.push((variant, pipeline.clone()));
             pipeline
         };
-        let pipelines = MaterialKey::all().map(pipeline).collect();
+        let pipelines = PipelineKey::all().map(pipeline).collect();
         Ok(Self { view_layout: builder.view_layout, pipelines })
     }
 
     /// Returns the pipeline for draws with a key.
     #[must_use]
-    pub fn get(&self, key: MaterialKey) -> DrawPipeline<'_> {
+    pub fn get(&self, key: PipelineKey) -> DrawPipeline<'_> {
         let reads_material = key.alpha != AlphaKey::Opaque;
         DrawPipeline { pipeline: &self.pipelines[key.index()], reads_material }
     }
@@ -172,7 +172,7 @@ struct Variant {
 }
 
 impl Variant {
-    fn new(key: MaterialKey) -> Self {
+    fn new(key: PipelineKey) -> Self {
         let state = key.primitive_state();
         let alpha = if key.alpha == AlphaKey::Opaque { Alpha::Ignored } else { Alpha::Clip };
         Self { alpha, culled: state.cull_mode.map(|_| state.front_face) }
@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn twelve_keys_have_six_variants() {
         let mut variants: Vec<Variant> = Vec::new();
-        for variant in MaterialKey::all().map(Variant::new) {
+        for variant in PipelineKey::all().map(Variant::new) {
             if !variants.contains(&variant) {
                 variants.push(variant);
             }
@@ -330,7 +330,7 @@ mod tests {
 
     #[test]
     fn mirrored_instances_flip_the_front_face_and_double_sided_ones_are_not_culled() {
-        let key = |double_sided, mirrored| MaterialKey { alpha: AlphaKey::Mask, double_sided, mirrored };
+        let key = |double_sided, mirrored| PipelineKey { alpha: AlphaKey::Mask, double_sided, mirrored };
         let culled = |key| Variant::new(key).culled;
         assert_eq!(culled(key(false, false)), Some(wgpu::FrontFace::Ccw));
         assert_eq!(culled(key(false, true)), Some(wgpu::FrontFace::Cw));

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::key::{AlphaKey, MaterialKey};
+use super::key::{AlphaKey, PipelineKey};
 use crate::bounds::Aabb;
 use crate::material::CasterMode;
 
@@ -10,7 +10,7 @@ use crate::material::CasterMode;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Draw {
     /// The key of the pipeline.
-    pub key: MaterialKey,
+    pub key: PipelineKey,
     /// Kind of shadow that it casts.
     pub casts: CasterMode,
     /// Index of the material.
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     fn draw(alpha: AlphaKey, material: u32, mesh: u32, instance: u32) -> Draw {
-        let key = MaterialKey { alpha, double_sided: false, mirrored: false };
+        let key = PipelineKey { alpha, double_sided: false, mirrored: false };
         Draw { key, casts: CasterMode::On, material, mesh, instance }
     }
 
@@ -117,9 +117,9 @@ mod tests {
 
     #[test]
     fn mirrored_and_double_sided_draws_are_grouped() {
-        let mut keys: Vec<MaterialKey> = MaterialKey::all().collect();
+        let mut keys: Vec<PipelineKey> = PipelineKey::all().collect();
         keys.sort();
-        assert!(keys.iter().copied().eq(MaterialKey::all()));
+        assert!(keys.iter().copied().eq(PipelineKey::all()));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::material::{AlphaMode, Material};
 
 /// The properties of a material and an instance that select the pipeline. Ordered as draws are: opaque, mask, blend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct MaterialKey {
+pub struct PipelineKey {
     /// The alpha mode.
     pub alpha: AlphaKey,
     /// Whether back faces are drawn.
@@ -24,7 +24,7 @@ pub enum AlphaKey {
     Blend,
 }
 
-impl MaterialKey {
+impl PipelineKey {
     /// Number of keys.
     pub const COUNT: usize = 12;
 
@@ -42,9 +42,9 @@ impl MaterialKey {
     /// Returns every key, in order of [`index`](Self::index).
     ///
     /// ```
-    /// use shadowgraph_scene::gpu::MaterialKey;
-    /// assert!(MaterialKey::all().enumerate().all(|(i, key)| key.index() == i));
-    /// assert_eq!(MaterialKey::all().count(), MaterialKey::COUNT);
+    /// use shadowgraph_scene::gpu::PipelineKey;
+    /// assert!(PipelineKey::all().enumerate().all(|(i, key)| key.index() == i));
+    /// assert_eq!(PipelineKey::all().count(), PipelineKey::COUNT);
     /// ```
     pub fn all() -> impl Iterator<Item = Self> {
         let sides = [(false, false), (false, true), (true, false), (true, true)];

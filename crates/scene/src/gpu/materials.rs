@@ -1,19 +1,24 @@
 //! The bind groups of materials: group 2.
 
 use std::num::NonZeroU64;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
+use super::instances::instance_layout;
 use super::mips::Encoding;
+use super::numbers::Numbers;
 use super::textures::{Reading, Textures};
-use super::{limits, upload};
+use super::write_batch::WriteBatch;
 use crate::error::Error;
 use crate::material::{AlphaMode, Material, Sampler, TextureRef};
-use crate::scene::Scene;
+use crate::scene::{ImageKey, MaterialKey, Scene};
 
 /// Stride of materials in their buffer, bytes: the alignment that every device supports.
 const STRIDE: u64 = 256;
+/// Number of uniforms in a buffer.
+const BLOCK: usize = 64;
 const TEXTURES: usize = 5;
 
 const MASK: u32 = 1;
@@ -66,7 +71,12 @@ impl MaterialLayouts {
         };
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
         let count = TEXTURES as u32;
-        let uniform = [entry(0, upload::buffer_binding(wgpu::BufferBindingType::Uniform, uniform_size()))];
+        let uniform = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: uniform_size(),
+        };
+        let uniform = [entry(0, uniform)];
         let textures = (1..=count).map(|binding| entry(binding, texture));
         let samplers = (1..=count).map(|binding| entry(count + binding, sampler));
         let entries: Vec<_> = uniform.into_iter().chain(textures).chain(samplers).collect();
@@ -75,7 +85,7 @@ impl MaterialLayouts {
                 label: Some("material"),
                 entries: &entries,
             }),
-            draw: upload::instance_layout(device),
+            draw: instance_layout(device),
         }
     }
 }
@@ -84,77 +94,182 @@ fn uniform_size() -> Option<NonZeroU64> {
     NonZeroU64::new(size_of::<MaterialUniform>() as u64)
 }
 
-/// Uploads the materials and the images that they use: a bind group for each.
-///
-/// # Errors
-///
-/// An image is larger than the device allows, does not exist, or has the wrong number of bytes.
-pub(super) fn bind_groups(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    layouts: &MaterialLayouts,
-    scene: &Scene,
-) -> Result<Vec<wgpu::BindGroup>, Error> {
-    let buffer = uniforms(device, queue, &scene.materials)?;
-    let mut textures = Textures::new(device, queue, &scene.images);
-    let white = textures.single("white", [255; 4]);
-    let flat = textures.single("flat normal", [128, 128, 255, 255]);
-    let bind_group = |(index, material): (usize, &Material)| {
-        let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &buffer,
-            offset: index as u64 * STRIDE,
-            size: uniform_size(),
-        });
+/// Bind groups of materials, and the images that they use.
+pub(super) struct Materials {
+    layout: wgpu::BindGroupLayout,
+    textures: Textures,
+    white: Arc<wgpu::TextureView>,
+    flat: Arc<wgpu::TextureView>,
+    /// Buffers of [`BLOCK`] uniforms each.
+    uniforms: Vec<wgpu::Buffer>,
+    writes: WriteBatch,
+    /// Numbers of materials that receive shadows, and of those of instances that do not.
+    numbers: [Numbers<MaterialKey>; 2],
+    /// By number times two, plus one for those that do not receive shadows.
+    groups: Vec<Option<MaterialGroup>>,
+}
+
+/// The bind group of a material.
+struct MaterialGroup {
+    key: MaterialKey,
+    group: wgpu::BindGroup,
+    /// Changes with the material.
+    version: u64,
+    /// The images, which live as long as a material uses them.
+    images: Vec<(ImageKey, Arc<wgpu::TextureView>)>,
+}
+
+impl Materials {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, layouts: &MaterialLayouts) -> Self {
+        let mut textures = Textures::new(device, queue);
+        Self {
+            layout: layouts.material.clone(),
+            white: textures.single("white", [255; 4]),
+            flat: textures.single("flat normal", [128, 128, 255, 255]),
+            textures,
+            uniforms: Vec::new(),
+            writes: WriteBatch::default(),
+            numbers: Default::default(),
+            groups: Vec::new(),
+        }
+    }
+
+    /// Returns the bind group of a material.
+    pub(super) fn group(&self, number: u32) -> Option<&wgpu::BindGroup> {
+        self.groups.get(number as usize)?.as_ref().map(|entry| &entry.group)
+    }
+
+    /// Returns a number that changes with the material.
+    pub(super) fn version(&self, number: u32) -> u64 {
+        self.groups.get(number as usize).and_then(Option::as_ref).map_or(0, |entry| entry.version)
+    }
+
+    /// Returns the number of a material for instances that receive shadows or do not; uploads it on first use.
+    ///
+    /// # Errors
+    /// An image is larger than the device allows, or the material does not exist.
+    pub(super) fn number(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        (key, receives): (MaterialKey, bool),
+        version: u64,
+    ) -> Result<u32, Error> {
+        let kind = usize::from(!receives);
+        let number = self.numbers[kind].insert(key) * 2 + kind as u32;
+        if self.group(number).is_none() {
+            self.upload((device, queue), scene, key, number, version)?;
+        }
+        Ok(number)
+    }
+
+    /// Uploads a replaced material again, or frees a removed one.
+    ///
+    /// # Errors
+    /// An image is larger than the device allows.
+    pub(super) fn update(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        key: MaterialKey,
+        version: u64,
+    ) -> Result<(), Error> {
+        for kind in [0, 1] {
+            let Some(number) = self.numbers[kind as usize].get(key) else { continue };
+            if scene.material(key).is_some() {
+                self.upload(gpu, scene, key, number * 2 + kind, version)?;
+            } else {
+                self.numbers[kind as usize].remove(key);
+                self.groups[(number * 2 + kind) as usize] = None;
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes the textures of a replaced or removed image, and returns the materials that use them.
+    pub(super) fn remove_image(&mut self, image: ImageKey) -> Vec<MaterialKey> {
+        self.textures.remove(image);
+        let uses = |entry: &&MaterialGroup| entry.images.iter().any(|(key, _)| *key == image);
+        self.groups.iter().flatten().filter(uses).map(|entry| entry.key).collect()
+    }
+
+    /// Returns the number of textures of images.
+    #[cfg(test)]
+    pub(super) fn texture_count(&self) -> usize {
+        self.textures.count()
+    }
+
+    /// Sends pending writes to the queue.
+    pub(super) fn flush(&mut self, queue: &wgpu::Queue) {
+        self.writes.flush(queue);
+    }
+
+    fn upload(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        key: MaterialKey,
+        number: u32,
+        version: u64,
+    ) -> Result<(), Error> {
+        let material = scene.material(key).ok_or_else(|| Error::missing("material"))?;
         let (mut views, mut samplers) = (Vec::with_capacity(TEXTURES), Vec::with_capacity(TEXTURES));
+        let mut images = Vec::new();
         for (slot, (reference, reading)) in slots(material).into_iter().enumerate() {
             views.push(match reference {
-                Some(reference) => textures.image(reference.image, reading)?,
-                None if slot == 2 => flat.clone(),
-                None => white.clone(),
+                Some(TextureRef { image, .. }) => {
+                    let view = self.textures.image(scene, image, reading)?;
+                    images.push((image, view.clone()));
+                    view
+                }
+                None if slot == 2 => self.flat.clone(),
+                None => self.white.clone(),
             });
-            samplers.push(textures.sampler(reference.map_or_else(Sampler::default, |used| used.sampler)));
+            samplers
+                .push(self.textures.sampler(reference.map_or_else(Sampler::default, |used| used.sampler)));
         }
-        let views = views.iter().map(wgpu::BindingResource::TextureView);
+        let (block, offset) = (number as usize / BLOCK, (number as usize % BLOCK) as u64 * STRIDE);
+        while self.uniforms.len() <= block {
+            self.uniforms.push(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("materials"),
+                size: BLOCK as u64 * STRIDE,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }));
+        }
+        let buffer = &self.uniforms[block];
+        let mut bytes = [0; STRIDE as usize];
+        let uniform = uniform(material, number.is_multiple_of(2));
+        bytes[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform));
+        self.writes.write(queue, buffer, offset, &bytes);
+        let uniform =
+            wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size: uniform_size() });
+        let views = views.iter().map(|view| wgpu::BindingResource::TextureView(view));
         let samplers = samplers.iter().map(wgpu::BindingResource::Sampler);
         let resources = [uniform].into_iter().chain(views).chain(samplers);
         let entries =
             resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
-        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&material.name),
-            layout: &layouts.material,
+            layout: &self.layout,
             entries: &entries.collect::<Vec<_>>(),
-        }))
-    };
-    scene.materials.iter().enumerate().map(bind_group).collect()
-}
-
-/// Creates a buffer with the uniforms of all materials.
-fn uniforms(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    materials: &[Material],
-) -> Result<wgpu::Buffer, Error> {
-    let bytes = materials.len() as u64 * STRIDE;
-    limits::buffer(&device.limits(), "the scene's materials", bytes)?;
-    let mut data = vec![0; bytes as usize];
-    for (material, target) in materials.iter().zip(data.chunks_exact_mut(STRIDE as usize)) {
-        target[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform(material)));
+        });
+        let index = number as usize;
+        if index >= self.groups.len() {
+            self.groups.resize_with(index + 1, || None);
+        }
+        self.groups[index] = Some(MaterialGroup { key, group, version, images });
+        Ok(())
     }
-    let usage = wgpu::BufferUsages::UNIFORM;
-    Ok(upload::buffer(device, queue, "materials", usage, STRIDE, bytes, [data.as_slice()]))
 }
 
 /// Returns the textures of a material in the order of their bindings, and how each is read.
 fn slots(material: &Material) -> [(Option<TextureRef>, Reading); TEXTURES] {
     let colors = Reading { encoding: Encoding::Srgb, cutoff: None };
     let values = Reading { encoding: Encoding::Linear, cutoff: None };
-    [
-        (material.base_color_texture, Reading { cutoff: texture_cutoff(material), ..colors }),
-        (material.metallic_roughness_texture, values),
-        (material.normal_texture, values),
-        (material.occlusion_texture, values),
-        (material.emissive_texture, colors),
-    ]
+    let base_color = Reading { cutoff: texture_cutoff(material), ..colors };
+    let [a, b, c, d, e] = material.textures();
+    [(a, base_color), (b, values), (c, values), (d, values), (e, colors)]
 }
 
 /// Returns the texture's alpha at which a masked material begins to be drawn, ignoring vertex colours; `None` if it is
@@ -165,7 +280,7 @@ fn texture_cutoff(material: &Material) -> Option<u8> {
     (1.0..=255.0).contains(&bytes).then_some(bytes as u8)
 }
 
-fn uniform(material: &Material) -> MaterialUniform {
+fn uniform(material: &Material, receives: bool) -> MaterialUniform {
     let (alpha_flag, alpha_cutoff) = match material.alpha {
         AlphaMode::Opaque => (0, 0.0),
         AlphaMode::Mask { cutoff } => (MASK, cutoff),
@@ -193,7 +308,7 @@ fn uniform(material: &Material) -> MaterialUniform {
             | flag(material.unlit, UNLIT)
             | flag(material.double_sided, DOUBLE_SIDED)
             | flag(material.normal_texture.is_some(), NORMAL_MAP)
-            | flag(!material.receives_shadows, UNSHADOWED),
+            | flag(!(receives && material.receives_shadows), UNSHADOWED),
         uv_sets,
         pad: [0; 2],
         uv_transforms,
@@ -249,15 +364,19 @@ mod tests {
 
     #[test]
     fn the_uniform_has_the_flags_transforms_and_uv_sets_of_the_material() {
-        let moved = TextureRef { uv_transform: [[2.0, 0.0, 0.5], [0.0, 3.0, 0.25]], ..TextureRef::new(0) };
+        let moved = TextureRef {
+            uv_transform: [[2.0, 0.0, 0.5], [0.0, 3.0, 0.25]],
+            ..TextureRef::new(ImageKey::default())
+        };
         let material = Material {
             alpha: AlphaMode::Mask { cutoff: 0.3 },
             double_sided: true,
             normal_texture: Some(TextureRef { uv_set: 1, ..moved }),
             ..Material::default()
         };
-        let uniform = uniform(&material);
+        let uniform = uniform(&material, true);
         assert_eq!(uniform.flags, MASK | DOUBLE_SIDED | NORMAL_MAP);
+        assert_eq!(super::uniform(&material, false).flags, uniform.flags | UNSHADOWED);
         assert_eq!(uniform.alpha_cutoff, 0.3);
         assert_eq!(uniform.uv_sets, 0b00100);
         assert_eq!(uniform.uv_transforms[4..6], [[2.0, 0.0, 0.5, 0.0], [0.0, 3.0, 0.25, 0.0]]);

@@ -13,29 +13,39 @@
 //! // A device that does nothing; a real one comes from an adapter.
 //! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
 //! let mut scene = Scene::default();
-//! scene.add(Mesh::cuboid(DVec3::ZERO, DVec3::ONE), Material::default(), DAffine3::IDENTITY);
+//! let cube = scene.add(Mesh::cuboid(DVec3::ZERO, DVec3::ONE), Material::default(), DAffine3::IDENTITY)?;
 //! let eye_world = DVec3::new(3.0, 2.0, 4.0);
-//! let gpu = GpuScene::new(&device, &queue, &scene, origin_near(eye_world))?;
-//! let all: Vec<u32> = (0..scene.instances.len() as u32).collect();
-//! let draws = gpu.draw_list(&all, eye_world);
-//! assert_eq!(draws.solid.len() + draws.blend.len(), scene.instances.len());
-//! # Ok::<(), shadowgraph_scene::Error>(())
+//! let mut gpu = GpuScene::new(&device, &queue, &scene, origin_near(eye_world))?;
+//! // The upload has everything.
+//! let _ = scene.take_changes();
+//! // Every frame:
+//! scene.move_instance(cube, DAffine3::from_translation(DVec3::Y))?;
+//! let changes = scene.take_changes();
+//! gpu.update(&device, &queue, &scene, &changes)?;
+//! let draws = gpu.draw_list(&[0], eye_world);
+//! assert_eq!((draws.solid.len(), gpu.all_bounds().max.y), (1, 2.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod coverage;
 mod depth;
 mod draw_list;
+mod element_buffer;
+mod geometry;
+mod instances;
 mod key;
 mod limits;
 mod materials;
 mod mips;
+mod numbers;
 mod scene;
 mod textures;
-mod upload;
+mod update;
+mod write_batch;
 
 pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
 pub use draw_list::{Draw, DrawList, DrawPipeline};
-pub use key::{AlphaKey, MaterialKey};
+pub use geometry::vertex_layout;
+pub use key::{AlphaKey, PipelineKey};
 pub use materials::MaterialLayouts;
 pub use scene::GpuScene;
-pub use upload::vertex_layout;

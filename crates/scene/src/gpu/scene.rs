@@ -3,32 +3,58 @@
 use glam::DVec3;
 
 use super::draw_list::{Draw, DrawList, DrawPipeline, squared_distance};
-use super::key::MaterialKey;
-use super::materials::MaterialLayouts;
-use super::upload::{Geometry, GpuInstance, buffer};
-use super::{limits, materials};
+use super::geometry::Geometry;
+use super::instances::InstanceBuffer;
+use super::materials::{MaterialLayouts, Materials};
+use super::numbers::Numbers;
 use crate::bounds::Aabb;
 use crate::cull::{CullTree, CullVolume};
 use crate::error::Error;
-use crate::scene::{Instance, Scene};
+use crate::material::CasterMode;
+use crate::scene::{Changes, InstanceKey, Scene};
+
+/// Frames for which an instance counts as moving after it has moved.
+const MOVING_FRAMES: u64 = 60;
 
 /// The GPU copy of a scene: geometry, images, materials and transforms.
 ///
 /// Its instances have their own numbers, in an order that needs few state changes when they are drawn: the results of
-/// culling need no sorting, and neighbours with the same mesh and material share a draw call.
+/// culling need no sorting, and neighbours with the same mesh and material share a draw call. A number stays that of its
+/// instance until [`update`](Self::update) sorts the instances, which it does when many have been inserted or replaced.
 pub struct GpuScene {
-    origin_world: DVec3,
-    /// The scene's instance index of each number.
-    order: Vec<u32>,
-    bounds: Vec<Aabb>,
-    tree: CullTree,
-    /// The draw of each instance, by number.
-    draws: Vec<Draw>,
-    geometry: Geometry,
-    instances: wgpu::Buffer,
-    instance_group: wgpu::BindGroup,
-    material_groups: Vec<wgpu::BindGroup>,
-    layouts: MaterialLayouts,
+    pub(super) origin_world: DVec3,
+    pub(super) numbers: Numbers<InstanceKey>,
+    /// The instance of each number.
+    pub(super) slots: Vec<Option<Slot>>,
+    /// Bounds of what cameras see, by number.
+    pub(super) bounds: Vec<Aabb>,
+    /// What cameras see.
+    pub(super) tree: CullTree,
+    /// What casts shadows.
+    pub(super) caster_tree: CullTree,
+    pub(super) geometry: Geometry,
+    pub(super) instances: InstanceBuffer,
+    pub(super) materials: Materials,
+    pub(super) layouts: MaterialLayouts,
+    /// Number of frames so far.
+    pub(super) frame: u64,
+    /// The number of versions so far.
+    pub(super) versions: u64,
+    /// The number of instances that are not at their place in the order of draws.
+    pub(super) unsorted: usize,
+}
+
+/// An instance on the GPU.
+#[derive(Clone, Debug)]
+pub(super) struct Slot {
+    pub(super) key: InstanceKey,
+    pub(super) draw: Draw,
+    /// Whether cameras see it.
+    pub(super) is_seen: bool,
+    /// Changes with the instance.
+    pub(super) version: u64,
+    /// The first frame in which it does not count as moving.
+    pub(super) stands_from: u64,
 }
 
 impl GpuScene {
@@ -37,47 +63,31 @@ impl GpuScene {
     ///
     /// # Errors
     ///
-    /// [`Error::Limit`], with the name of the limit, if the scene exceeds a limit of the device;
-    /// [`Error::Inconsistent`] if an instance, a material or an image does not fit the rest.
+    /// [`Error::Limit`], with the name of the limit, if the scene exceeds a limit of the device.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         scene: &Scene,
         origin_world: DVec3,
     ) -> Result<Self, Error> {
-        let (order, draws) = draws(scene)?;
         let layouts = MaterialLayouts::new(device);
-        let geometry = Geometry::new(device, queue, &scene.meshes)?;
-        let instances = upload_instances(device, queue, scene, &order, origin_world)?;
-        let instance_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("instances"),
-            layout: &layouts.draw,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: instances.as_entire_binding() }],
-        });
-        let bounds: Vec<_> = order.iter().map(|&i| scene.instance_bounds(i as usize)).collect();
-        Ok(Self {
+        let mut empty = Self {
             origin_world,
-            tree: CullTree::new(&bounds),
-            bounds,
-            order,
-            draws,
-            geometry,
-            instances,
-            instance_group,
-            material_groups: materials::bind_groups(device, queue, &layouts, scene)?,
+            numbers: Numbers::default(),
+            slots: Vec::new(),
+            bounds: Vec::new(),
+            tree: CullTree::new(&[]),
+            caster_tree: CullTree::new(&[]),
+            geometry: Geometry::new(device, scene)?,
+            instances: InstanceBuffer::new(device, &layouts.draw),
+            materials: Materials::new(device, queue, &layouts),
             layouts,
-        })
-    }
-
-    /// Moves the origin of GPU positions. Uploads the transforms again only if the origin changes; `scene` must be the one
-    /// that was uploaded.
-    pub fn set_origin(&mut self, queue: &wgpu::Queue, scene: &Scene, origin_world: DVec3) {
-        if origin_world == self.origin_world {
-            return;
-        }
-        self.origin_world = origin_world;
-        let instances = GpuInstance::all(scene, &self.order, origin_world);
-        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
+            frame: 0,
+            versions: 0,
+            unsorted: 0,
+        };
+        empty.update(device, queue, scene, &Changes::insert_all(scene))?;
+        Ok(empty)
     }
 
     /// Returns the origin of GPU positions in the world, metres.
@@ -89,36 +99,73 @@ impl GpuScene {
     /// Returns the number of triangles of a draw.
     #[must_use]
     pub fn triangle_count(&self, draw: &Draw) -> u32 {
-        self.geometry.ranges.get(draw.mesh as usize).map_or(0, |range| range.index_count / 3)
+        self.geometry.ranges(draw.mesh).map_or(0, |ranges| ranges.triangle_count())
     }
 
-    /// Returns the bounds of each instance in the world, by number.
+    /// Returns the bounds in the world of what cameras see, by number; empty for numbers that no visible instance has.
     #[must_use]
     pub fn bounds(&self) -> &[Aabb] {
         &self.bounds
     }
 
-    /// Returns the bounds of all instances in the world.
+    /// Returns the bounds in the world of all instances that cameras see.
     #[must_use]
     pub fn all_bounds(&self) -> Aabb {
         self.tree.bounds()
     }
 
-    /// Returns the scene's instance index of a number.
+    /// Returns the bounds in the world of all instances that cast shadows.
     #[must_use]
-    pub fn instance(&self, number: u32) -> Option<u32> {
-        self.order.get(number as usize).copied()
+    pub fn all_caster_bounds(&self) -> Aabb {
+        self.caster_tree.bounds()
     }
 
-    /// Appends the numbers of the instances that intersect a volume, ascending.
+    /// Returns the bounds in the world of an instance as a caster; empty if it casts no shadow.
+    #[must_use]
+    pub fn caster_bounds(&self, number: u32) -> Aabb {
+        self.caster_tree.item_bounds(number)
+    }
+
+    /// Returns the key of the instance with a number.
+    #[must_use]
+    pub fn instance(&self, number: u32) -> Option<InstanceKey> {
+        self.slot(number).map(|slot| slot.key)
+    }
+
+    /// Returns the number of an instance.
+    #[must_use]
+    pub fn number(&self, key: InstanceKey) -> Option<u32> {
+        self.numbers.get(key)
+    }
+
+    /// Returns a version of an instance, its mesh and its material: it changes whenever one of them does, and is never used again.
+    #[must_use]
+    pub fn version(&self, number: u32) -> Option<u64> {
+        let slot = self.slot(number)?;
+        let mesh = self.geometry.ranges(slot.draw.mesh).map_or(0, |ranges| ranges.version);
+        Some(slot.version.max(mesh).max(self.materials.version(slot.draw.material)))
+    }
+
+    /// Returns whether an instance has moved within the last 60 frames.
+    #[must_use]
+    pub fn is_moving(&self, number: u32) -> bool {
+        self.slot(number).is_some_and(|slot| self.frame < slot.stands_from)
+    }
+
+    /// Appends the numbers of the instances that cameras see and that intersect a volume, ascending.
     pub fn cull(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
         self.tree.query(volume, numbers);
+    }
+
+    /// Appends the numbers of the instances that cast shadows and intersect a volume, ascending.
+    pub fn cull_casters(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
+        self.caster_tree.query(volume, numbers);
     }
 
     /// Returns the draw of an instance.
     #[must_use]
     pub fn draw_for(&self, number: u32) -> Option<&Draw> {
-        self.draws.get(number as usize)
+        self.slot(number).map(|slot| &slot.draw)
     }
 
     /// Returns the layouts of groups 2 and 3, for pipelines that draw this scene.
@@ -127,8 +174,8 @@ impl GpuScene {
         &self.layouts
     }
 
-    /// Returns the draws of the instances with these numbers (ascending) for an eye at `eye_world`. Numbers that do not
-    /// exist are skipped.
+    /// Returns the draws of the instances with these numbers (ascending) for an eye at `eye_world`. Numbers that no visible
+    /// instance has are skipped.
     #[must_use]
     pub fn draw_list(&self, numbers: &[u32], eye_world: DVec3) -> DrawList {
         let mut list = DrawList::default();
@@ -138,8 +185,9 @@ impl GpuScene {
 
     /// Fills an existing list as [`draw_list`](Self::draw_list) does. A list with enough capacity is not reallocated.
     pub fn draw_list_into(&self, numbers: &[u32], eye_world: DVec3, list: &mut DrawList) {
-        let draws = numbers.iter().filter_map(|&number| self.draws.get(number as usize));
-        list.fill(draws.copied(), |number| squared_distance(&self.bounds[number as usize], eye_world));
+        let slots = numbers.iter().filter_map(|&number| self.slot(number));
+        let draws = slots.filter(|slot| slot.is_seen).map(|slot| slot.draw);
+        list.fill(draws, |number| squared_distance(&self.bounds[number as usize], eye_world));
     }
 
     /// Records draws. Sets the pipeline, group 2 (if the pipeline reads it), group 3 and the buffers, each only where it
@@ -156,14 +204,13 @@ impl GpuScene {
             return 0;
         }
         let mut calls = 0;
-        pass.set_vertex_buffer(0, self.geometry.vertices.slice(..));
-        pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.set_bind_group(3, &self.instance_group, &[]);
+        self.geometry.set_buffers(pass);
+        pass.set_bind_group(3, self.instances.group(), &[]);
         let (mut current_pipeline, mut material) = (None, None);
         while let Some(draw) = draws.next() {
-            let Some(range) = self.geometry.ranges.get(draw.mesh as usize) else { continue };
-            let Some(group) = self.material_groups.get(draw.material as usize) else { continue };
-            if draw.instance as usize >= self.draws.len() {
+            let Some(ranges) = self.geometry.ranges(draw.mesh) else { continue };
+            let Some(group) = self.materials.group(draw.material) else { continue };
+            if draw.instance as usize >= self.slots.len() {
                 continue;
             }
             let Some(pipeline) = pipeline_for(draw) else { continue };
@@ -179,57 +226,31 @@ impl GpuScene {
             while draws.next_if(|next| next.continues(draw, end)).is_some() {
                 end += 1;
             }
-            let indices = range.first_index..range.first_index + range.index_count;
-            pass.draw_indexed(indices, range.base_vertex, draw.instance..end);
+            let (indices, base_vertex) = ranges.draw();
+            pass.draw_indexed(indices, base_vertex, draw.instance..end);
             calls += 1;
         }
         calls
     }
-}
 
-/// Returns the scene's instance indices in draw order, and the draws.
-fn draws(scene: &Scene) -> Result<(Vec<u32>, Vec<Draw>), Error> {
-    let draw = |(index, instance): (usize, &Instance)| {
-        let missing = |kind: &str, wanted: usize, count: usize| Error::Inconsistent {
-            what: format!("instance {index} \"{}\"", instance.name),
-            reason: format!("{kind} {wanted} does not exist, the scene has {count}"),
-        };
-        let (meshes, materials) = (scene.meshes.len(), scene.materials.len());
-        if instance.mesh >= meshes {
-            return Err(missing("mesh", instance.mesh, meshes));
-        }
-        let material = scene.materials.get(instance.material);
-        let material = material.ok_or_else(|| missing("material", instance.material, materials))?;
-        let mirrored = instance.world_from_local.matrix3.determinant() < 0.0;
-        Ok(Draw {
-            key: MaterialKey::new(material, mirrored),
-            casts: material.caster_mode(),
-            material: instance.material as u32,
-            mesh: instance.mesh as u32,
-            instance: index as u32,
-        })
-    };
-    let mut draws: Vec<Draw> = scene.instances.iter().enumerate().map(draw).collect::<Result<_, _>>()?;
-    draws.sort_unstable();
-    let order = draws.iter().map(|draw| draw.instance).collect();
-    for (number, draw) in (0..).zip(&mut draws) {
-        draw.instance = number;
+    pub(super) fn slot(&self, number: u32) -> Option<&Slot> {
+        self.slots.get(number as usize)?.as_ref()
     }
-    Ok((order, draws))
+
+    /// Returns the frame from which an instance that moves now does not count as moving.
+    pub(super) fn moves_until(&self) -> u64 {
+        self.frame + MOVING_FRAMES
+    }
+
+    /// Returns a new version.
+    pub(super) fn next_version(&mut self) -> u64 {
+        self.versions += 1;
+        self.versions
+    }
 }
 
-/// Creates the storage buffer of all transforms.
-fn upload_instances(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    scene: &Scene,
-    order: &[u32],
-    origin_world: DVec3,
-) -> Result<wgpu::Buffer, Error> {
-    let size = size_of::<GpuInstance>() as u64;
-    let bytes = scene.instances.len() as u64 * size;
-    limits::storage(&device.limits(), "the scene's instances", bytes)?;
-    let instances = GpuInstance::all(scene, order, origin_world);
-    let data = bytemuck::cast_slice(&instances);
-    Ok(buffer(device, queue, "instances", wgpu::BufferUsages::STORAGE, size, bytes, [data]))
+/// Returns the bounds of an instance for cameras and as a caster: empty if they do not see it, or it casts no shadow.
+pub(super) fn bounds_of(slot: &Slot, bounds: Aabb) -> [Aabb; 2] {
+    let casts = slot.draw.casts != CasterMode::Off;
+    [slot.is_seen, casts].map(|included| if included { bounds } else { Aabb::EMPTY })
 }

@@ -1,11 +1,13 @@
 //! Textures and samplers of materials; each is created once.
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Weak};
 
 use super::limits;
 use super::mips::{Encoding, Level, for_each_level, level_count};
 use crate::error::Error;
 use crate::material::{Filter, Image, Sampler, Wrap};
+use crate::scene::{ImageKey, Scene};
 
 /// Bytes that are written to the queue between submissions, so that they do not accumulate in memory.
 const BYTES_IN_FLIGHT: usize = 64 << 20;
@@ -20,23 +22,21 @@ pub(super) struct Reading {
     pub(super) cutoff: Option<u8>,
 }
 
-/// Textures and samplers of a scene, created on first use.
-pub(super) struct Textures<'a> {
-    device: &'a wgpu::Device,
-    queue: &'a wgpu::Queue,
-    images: &'a [Image],
+/// Textures and samplers of a scene, created on first use. A texture is freed with its last user.
+pub(super) struct Textures {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
     limits: wgpu::Limits,
-    textures: BTreeMap<(usize, Reading), wgpu::TextureView>,
+    textures: BTreeMap<(ImageKey, Reading), Weak<wgpu::TextureView>>,
     samplers: BTreeMap<Sampler, wgpu::Sampler>,
     bytes_in_flight: usize,
 }
 
-impl<'a> Textures<'a> {
-    pub(super) fn new(device: &'a wgpu::Device, queue: &'a wgpu::Queue, images: &'a [Image]) -> Self {
+impl Textures {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         Self {
-            device,
-            queue,
-            images,
+            device: device.clone(),
+            queue: queue.clone(),
             limits: device.limits(),
             textures: BTreeMap::new(),
             samplers: BTreeMap::new(),
@@ -47,31 +47,43 @@ impl<'a> Textures<'a> {
     /// Returns the texture of an image.
     ///
     /// # Errors
-    ///
-    /// The image is larger than the device allows, does not exist, or has the wrong number of bytes.
-    pub(super) fn image(&mut self, index: usize, reading: Reading) -> Result<wgpu::TextureView, Error> {
-        if let Some(view) = self.textures.get(&(index, reading)) {
-            return Ok(view.clone());
+    /// The image is larger than the device allows, or does not exist.
+    pub(super) fn image(
+        &mut self,
+        scene: &Scene,
+        key: ImageKey,
+        reading: Reading,
+    ) -> Result<Arc<wgpu::TextureView>, Error> {
+        if let Some(view) = self.textures.get(&(key, reading)).and_then(Weak::upgrade) {
+            return Ok(view);
         }
-        let image = self.images.get(index).ok_or_else(|| Error::Inconsistent {
-            what: format!("image {index}"),
-            reason: format!("a material refers to it, but the scene has {} images", self.images.len()),
-        })?;
-        limits::image(&self.limits, index, image)?;
-        let view = self.upload(image, reading);
-        self.textures.insert((index, reading), view.clone());
+        let image = scene.image(key).ok_or_else(|| Error::missing("image"))?;
+        limits::image(&self.limits, image)?;
+        let view = Arc::new(self.upload(image, reading));
+        self.textures.insert((key, reading), Arc::downgrade(&view));
         Ok(view)
     }
 
+    /// Removes the textures of an image that was replaced or removed, for those who ask from now on.
+    pub(super) fn remove(&mut self, image: ImageKey) {
+        self.textures.retain(|(key, _), view| *key != image && view.strong_count() > 0);
+    }
+
+    /// Returns the number of textures in use.
+    #[cfg(test)]
+    pub(super) fn count(&self) -> usize {
+        self.textures.values().filter(|view| view.strong_count() > 0).count()
+    }
+
     /// Creates a texture of one pixel, for materials without an image.
-    pub(super) fn single(&mut self, name: &str, rgba: [u8; 4]) -> wgpu::TextureView {
+    pub(super) fn single(&mut self, name: &str, rgba: [u8; 4]) -> Arc<wgpu::TextureView> {
         let image = Image { name: name.to_owned(), width: 1, height: 1, rgba8: rgba.to_vec() };
-        self.upload(&image, Reading { encoding: Encoding::Linear, cutoff: None })
+        Arc::new(self.upload(&image, Reading { encoding: Encoding::Linear, cutoff: None }))
     }
 
     /// Returns the sampler with these properties.
     pub(super) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
-        let device = self.device;
+        let device = &self.device;
         let create = || {
             let anisotropy = anisotropy(device.adapter_info().device_type);
             device.create_sampler(&sampler_descriptor(&sampler, anisotropy))

@@ -3,21 +3,27 @@
 use glam::{DVec3, Vec3};
 use serde_json::json;
 use shadowgraph_scene::gltf::{Progress, load_with_progress};
-use shadowgraph_scene::{LightKind, Projection, Scene};
+use shadowgraph_scene::{LightKind, Mesh, Projection, Scene};
 
 use crate::builder::File;
 
+/// Returns the first mesh.
+fn mesh(scene: &Scene) -> &Mesh {
+    scene.meshes().next().unwrap().1
+}
+
 fn positions(scene: &Scene) -> Vec<[f32; 3]> {
-    scene.meshes[0].vertices.iter().map(|vertex| vertex.position).collect()
+    mesh(scene).vertices.iter().map(|vertex| vertex.position).collect()
 }
 
 #[test]
 fn a_triangle_without_normals_gets_flat_normals_and_a_default_material() {
     let scene = File::triangle().load().unwrap();
     assert_eq!(positions(&scene), [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-    assert!(scene.meshes[0].vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
-    assert_eq!((scene.materials.len(), scene.instances[0].material), (1, 0));
-    assert_eq!(scene.materials[0], shadowgraph_scene::Material::default());
+    assert!(mesh(&scene).vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
+    let (key, material) = scene.materials().next().unwrap();
+    assert_eq!((scene.materials().len(), scene.instances().next().unwrap().1.material), (1, key));
+    assert_eq!(*material, shadowgraph_scene::Material::default());
     assert!(scene.notes.is_empty());
 }
 
@@ -52,7 +58,7 @@ fn strips_fans_and_meshes_without_indices_become_lists() {
     }
     file.json["meshes"][0]["primitives"][0]["mode"] = json!(5);
     let scene = file.load().unwrap();
-    assert!(scene.meshes[0].vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]), "the winding");
+    assert!(mesh(&scene).vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]), "the winding");
 }
 
 #[test]
@@ -61,7 +67,7 @@ fn points_and_lines_are_not_drawn_and_give_one_note() {
     let primitive = |mode| json!({"attributes": {"POSITION": 0}, "mode": mode});
     file.json["meshes"][0]["primitives"] = json!([primitive(0), primitive(1), primitive(4), primitive(3)]);
     let scene = file.load().unwrap();
-    assert_eq!((scene.meshes.len(), scene.instances.len()), (1, 1));
+    assert_eq!((scene.meshes().len(), scene.instances().len()), (1, 1));
     assert_eq!(scene.notes, ["mesh 0 primitive 0 and 2 more: points and lines are not drawn"]);
 }
 
@@ -113,7 +119,7 @@ fn interleaved_and_normalised_attributes_are_read() {
     file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(uv);
     file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(color);
     let scene = file.load().unwrap();
-    let vertices = &scene.meshes[0].vertices;
+    let vertices = &mesh(&scene).vertices;
     assert_eq!(vertices[0].uv1, [0.0, 1.0]);
     assert_eq!((vertices[0].color, vertices[1].color), ([255, 0, 51, 255], [0, 255, 0, 255]));
     assert_eq!(vertices[2].normal, [0.0, 0.0, 1.0], "normalized");
@@ -127,7 +133,7 @@ fn colors_are_clamped_and_invalid_values_are_replaced() {
     file.attribute("COLOR_0", "VEC4", &colors);
     file.attribute("TEXCOORD_0", "VEC2", &[f32::INFINITY, 0.5, 0.0, 0.0, 1.0, 1.0]);
     let scene = file.load().unwrap();
-    let vertices = &scene.meshes[0].vertices;
+    let vertices = &mesh(&scene).vertices;
     assert_eq!((vertices[0].color, vertices[1].color[0]), ([255, 0, 128, 255], 0));
     assert!(vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
     assert_eq!(vertices[0].uv0, [0.0, 0.5]);
@@ -143,7 +149,7 @@ fn the_hierarchy_is_combined_in_f64() {
         {"name": "leaf", "mesh": 0, "translation": [0.25, 0, 0]},
     ]);
     let scene = file.load().unwrap();
-    let instance = &scene.instances[0];
+    let (_, instance) = scene.instances().next().unwrap();
     assert_eq!(instance.name, "leaf");
     let origin = instance.world_from_local.translation;
     assert!(origin.abs_diff_eq(DVec3::new(16_777_216.0, 0.0, -0.5), 1e-6), "{origin}");
@@ -156,7 +162,7 @@ fn a_hundred_thousand_nested_nodes_load() {
     let mut file = File::triangle();
     let nodes = (1..100_000).map(|i| json!({"children": [i]})).chain([json!({"mesh": 0})]);
     file.json["nodes"] = nodes.collect::<Vec<_>>().into();
-    assert_eq!(file.load().unwrap().instances.len(), 1);
+    assert_eq!(file.load().unwrap().instances().len(), 1);
 }
 
 #[test]
@@ -164,7 +170,7 @@ fn the_default_scene_is_drawn_else_the_first_else_all() {
     let mut file = File::triangle();
     file.json["nodes"] = json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b"}]);
     let names = |file: &File| -> String {
-        file.load().unwrap().instances.iter().map(|instance| instance.name.as_str()).collect()
+        file.load().unwrap().instances().map(|(_, instance)| instance.name.as_str()).collect()
     };
     file.json["scenes"] = json!([{"nodes": [0]}, {"nodes": [1]}, {}]);
     assert_eq!(names(&file), "a");
@@ -194,17 +200,18 @@ fn lights_are_placed_by_their_nodes_and_ordered_by_kind() {
     file.json["nodes"] = json!([node(0), node(1), node(2), node(0)]);
     file.json["scenes"] = json!([{"nodes": [0, 1, 2, 3]}]);
     let scene = file.load().unwrap();
-    let names: Vec<_> = scene.lights.iter().filter_map(|light| light.name.as_deref()).collect();
+    let names: Vec<_> = scene.lights().iter().filter_map(|light| light.name.as_deref()).collect();
     assert_eq!(names, ["node 2", "node 1", "bulb", "bulb"]);
-    let LightKind::Directional { direction } = scene.lights[0].kind else { unreachable!() };
+    let LightKind::Directional { direction } = scene.lights()[0].kind else { unreachable!() };
     assert!(direction.abs_diff_eq(DVec3::NEG_Y, 1e-6), "{direction}");
-    assert_eq!((scene.lights[0].color, scene.lights[0].intensity), (Vec3::new(1.0, 0.5, 0.25), 3.0));
-    let LightKind::Spot { position_world, range, inner_angle, outer_angle, .. } = scene.lights[1].kind else {
+    assert_eq!((scene.lights()[0].color, scene.lights()[0].intensity), (Vec3::new(1.0, 0.5, 0.25), 3.0));
+    let LightKind::Spot { position_world, range, inner_angle, outer_angle, .. } = scene.lights()[1].kind
+    else {
         unreachable!()
     };
     assert_eq!((position_world, range), (DVec3::new(1.0, 2.0, 3.0), None));
     assert!((inner_angle - 0.1).abs() < 1e-6 && (outer_angle - 0.2).abs() < 1e-6);
-    assert_eq!(scene.lights[2].effective_range(), Some(5.0));
+    assert_eq!(scene.lights()[2].effective_range(), Some(5.0));
 }
 
 #[test]

@@ -36,9 +36,10 @@ fn materials_keep_factors_textures_and_extensions() {
     file.json["meshes"][0]["primitives"][0]["material"] = json!(0);
     let scene = file.load().unwrap();
     let images: Vec<_> =
-        scene.images.iter().map(|image| (image.name.as_str(), image.rgba8.as_slice())).collect();
+        scene.images().map(|(_, image)| (image.name.as_str(), image.rgba8.as_slice())).collect();
     assert_eq!(images, [("b.png", &[5, 6, 7, 8][..]), ("A", &[1, 2, 3, 4])]);
-    let material = &scene.materials[0];
+    let [b, a] = [0, 1].map(|n| scene.images().nth(n).unwrap().0);
+    let (_, material) = scene.materials().next().unwrap();
     assert_eq!(
         (material.base_color, material.emissive),
         (Vec4::new(0.1, 0.2, 0.3, 0.4), Vec3::new(4.0, 2.0, 0.0))
@@ -50,14 +51,14 @@ fn materials_keep_factors_textures_and_extensions() {
         (AlphaMode::Mask { cutoff: 0.3 }, true, true)
     );
     let base = material.base_color_texture.unwrap();
-    assert_eq!((base.image, base.uv_set, base.uv_transform[0][2]), (1, 1, 0.5));
+    assert_eq!((base.image, base.uv_set, base.uv_transform[0][2]), (a, 1, 0.5));
     let normal = material.normal_texture.unwrap();
-    assert_eq!((normal.image, normal.uv_set, normal.uv_transform[0][2]), (0, 1, 0.25));
+    assert_eq!((normal.image, normal.uv_set, normal.uv_transform[0][2]), (b, 1, 0.25));
     assert_eq!((normal.sampler.wrap_u, normal.sampler.wrap_v), (Wrap::ClampToEdge, Wrap::MirrorRepeat));
     assert_eq!((normal.sampler.mag, normal.sampler.min), (Filter::Nearest, Filter::Linear));
     assert_eq!(normal.sampler.mip, Some(Filter::Nearest));
     assert_eq!(material.occlusion_texture.unwrap().uv_set, 1);
-    assert_eq!(material.emissive_texture.unwrap().image, 1);
+    assert_eq!(material.emissive_texture.unwrap().image, a);
 }
 
 #[test]
@@ -70,8 +71,9 @@ fn sixteen_bit_images_are_converted_to_8_bit() {
     file.json["textures"] = json!([{"source": 0}]);
     file.json["materials"] = json!([{"emissiveTexture": {"index": 0}}]);
     let scene = file.load().unwrap();
-    assert_eq!((scene.images[0].width, scene.images[0].height), (2, 1));
-    assert_eq!(scene.images[0].rgba8, [255, 128, 0, 255, 255, 128, 0, 255]);
+    let (_, image) = scene.images().next().unwrap();
+    assert_eq!((image.width, image.height), (2, 1));
+    assert_eq!(image.rgba8, [255, 128, 0, 255, 255, 128, 0, 255]);
 }
 
 #[test]
@@ -86,5 +88,6 @@ fn tangents_are_generated_for_materials_with_a_normal_map() {
     file.json["materials"] = json!([{"normalTexture": {"index": 0}}]);
     file.json["meshes"][0]["primitives"][0]["material"] = json!(0);
     let scene = file.load().unwrap();
-    assert!(scene.meshes[0].vertices.iter().all(|vertex| vertex.tangent == [0.0, 1.0, 0.0, 1.0]));
+    let (_, mesh) = scene.meshes().next().unwrap();
+    assert!(mesh.vertices.iter().all(|vertex| vertex.tangent == [0.0, 1.0, 0.0, 1.0]));
 }

@@ -114,10 +114,9 @@ mod tests {
             let camera = Camera::look_at(DVec3::new(x, 0.0, 0.0), DVec3::NEG_Z, DVec3::Y, projection);
             Camera { name: name.map(str::to_owned), ..camera }
         };
-        Scene {
-            cameras: vec![camera(None, 1.0), camera(Some("7"), 2.0), camera(Some("Left side"), 3.0)],
-            ..Scene::default()
-        }
+        let mut scene = Scene::default();
+        scene.cameras = vec![camera(None, 1.0), camera(Some("7"), 2.0), camera(Some("Left side"), 3.0)];
+        scene
     }
 
     fn chosen_x(text: &str) -> f64 {

@@ -34,13 +34,13 @@ impl SunChoice {
     /// use shadowgraph::options::SunChoice;
     /// let mut scene = shadowgraph_scene::Scene::default();
     /// "dir=0,-1,0 lux=5".parse::<SunChoice>()?.apply(&mut scene);
-    /// assert_eq!(scene.lights[0].intensity, 5.0);
+    /// assert_eq!(scene.lights()[0].intensity, 5.0);
     /// # Ok::<(), shadowgraph::options::OptionError>(())
     /// ```
     pub fn apply(&self, scene: &mut Scene) -> Option<String> {
         match self {
-            Self::Scene if scene.lights.is_empty() => {
-                scene.add_light(default_sun());
+            Self::Scene if scene.lights().is_empty() => {
+                scene.insert_light(default_sun());
                 Some(format!("the scene has no light; a default sun of {DEFAULT_SUN_LUX} lux is added"))
             }
             Self::Scene => None,
@@ -50,7 +50,7 @@ impl SunChoice {
             }
             Self::Sun(sun) => {
                 remove_directional(scene);
-                scene.add_light(sun.clone());
+                scene.insert_light(sun.clone());
                 None
             }
         }
@@ -69,7 +69,9 @@ fn sun(direction: DVec3, intensity: f32, color: Vec3) -> Light {
 }
 
 fn remove_directional(scene: &mut Scene) {
-    scene.lights.retain(|light| !matches!(light.kind, LightKind::Directional { .. }));
+    let others = |light: &&Light| !matches!(light.kind, LightKind::Directional { .. });
+    let others: Vec<Light> = scene.lights().iter().filter(others).cloned().collect();
+    scene.set_lights(others);
 }
 
 impl FromStr for SunChoice {
@@ -99,14 +101,14 @@ mod tests {
     fn scene() -> Scene {
         let mut scene = Scene::default();
         let point = LightKind::Point { position_world: DVec3::ZERO, range: None };
-        scene.add_light(Light { kind: point, ..default_sun() });
-        scene.add_light(default_sun());
-        scene.add_light(default_sun());
+        scene.insert_light(Light { kind: point, ..default_sun() });
+        scene.insert_light(default_sun());
+        scene.insert_light(default_sun());
         scene
     }
 
     fn orders(scene: &Scene) -> Vec<u8> {
-        scene.lights.iter().map(|light| light.kind.order()).collect()
+        scene.lights().iter().map(|light| light.kind.order()).collect()
     }
 
     fn error(text: &str) -> String {
@@ -119,8 +121,8 @@ mod tests {
         let choice: SunChoice = "dir=0,-2,0 lux=7 color=1,0.5,0".parse().unwrap();
         assert_eq!(choice.apply(&mut scene), None);
         assert_eq!(orders(&scene), [0, 2]);
-        assert_eq!(scene.lights[0].kind, LightKind::Directional { direction: DVec3::NEG_Y });
-        assert_eq!((scene.lights[0].intensity, scene.lights[0].color), (7.0, Vec3::new(1.0, 0.5, 0.0)));
+        assert_eq!(scene.lights()[0].kind, LightKind::Directional { direction: DVec3::NEG_Y });
+        assert_eq!((scene.lights()[0].intensity, scene.lights()[0].color), (7.0, Vec3::new(1.0, 0.5, 0.0)));
     }
 
     #[test]
@@ -130,14 +132,14 @@ mod tests {
         assert_eq!(orders(&scene), [2]);
         let mut dark = Scene::default();
         assert_eq!(SunChoice::None.apply(&mut dark), None);
-        assert!(dark.lights.is_empty());
+        assert!(dark.lights().is_empty());
     }
 
     #[test]
     fn only_a_scene_without_lights_gets_the_default_sun_and_a_note() {
         let mut dark = Scene::default();
         assert!(SunChoice::Scene.apply(&mut dark).unwrap().contains("no light"));
-        assert_eq!(dark.lights, [default_sun()]);
+        assert_eq!(dark.lights(), [default_sun()]);
         let mut lit = scene();
         assert_eq!(SunChoice::Scene.apply(&mut lit), None);
         assert_eq!(lit, scene());

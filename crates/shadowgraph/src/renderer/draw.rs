@@ -54,7 +54,7 @@ impl Renderer {
         if width.max(height) > limit {
             return Err(Error::ImageSize { width, height, limit });
         }
-        self.move_origin(gpu, options)?;
+        self.begin_frame(gpu, options)?;
         let view = self.view(options, None);
         gpu.checked(|| {
             let mut frame = self.graph().frame();
@@ -80,7 +80,7 @@ impl Renderer {
     /// As [`draw`](Self::draw), and for views that are too far apart, kilometres, to share one GPU space.
     pub fn draw_views(&mut self, gpu: &Gpu, views: &[ViewOptions]) -> Result<Vec<RenderedImage>, Error> {
         let Some(first) = views.first() else { return Ok(Vec::new()) };
-        self.move_origin(gpu, first)?;
+        self.begin_frame(gpu, first)?;
         let planned: Vec<RenderView<'_>> = (0u32..)
             .zip(views)
             .map(|(index, options)| RenderView { index, ..self.view(options, None) })

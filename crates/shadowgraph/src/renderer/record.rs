@@ -43,7 +43,7 @@ impl Renderer {
     ) -> Result<Executed, Error> {
         let options = options_for(target, options);
         self.check_target(target.format())?;
-        self.move_origin(gpu, &options)?;
+        self.begin_frame(gpu, &options)?;
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
         self.add_into(&mut frame, &view, target)?;
@@ -64,7 +64,7 @@ impl Renderer {
         let all: Vec<_> = views.iter().map(|(target, options)| options_for(target, options)).collect();
         views.iter().try_for_each(|(target, _)| self.check_target(target.format()))?;
         if let Some(first) = all.first() {
-            self.move_origin(gpu, first)?;
+            self.begin_frame(gpu, first)?;
         }
         let planned: Vec<(RenderView<'_>, &wgpu::Texture)> = (0u32..)
             .zip(all.iter().zip(views))

@@ -1,7 +1,7 @@
 //! Spot lights and the atlas.
 
 use super::{count, cube_under_spot, cube_view, dark_and_between, different, greys, plan, spot, wrong};
-use crate::stage::{SIZE_PX, add_instance, box_mesh, cube_on_floor, gpu, sun, sun_direction, view};
+use crate::stage::{SIZE_PX, add_cube, add_mesh, box_mesh, cube_on_floor, gpu, sun, sun_direction, view};
 use glam::{DVec3, Vec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::{DepthTarget, GpuScene};
@@ -22,7 +22,7 @@ fn row_02_casters_in_front_of_the_near_plane_are_kept() {
             gpu,
             &Pcf::new(&gpu.device),
             &casters,
-            &scene.lights,
+            scene.lights(),
             &options.camera,
             &options.shadows,
             "atlas",
@@ -99,7 +99,8 @@ fn row_05_each_light_has_its_own_strength_filter_and_biases() {
 #[test]
 fn row_05_settings_can_name_a_light_and_an_unknown_name_is_an_error() {
     let mut scene = cube_under_spot();
-    scene.lights[0].name = Some("lamp".into());
+    let lamp = shadowgraph::scene::Light { name: Some("lamp".into()), ..scene.lights()[0].clone() };
+    scene.replace_light(scene.light_keys()[0], lamp).unwrap();
     let own = |name: &str| LightShadows { strength: 0.25, ..LightShadows::new(name.into()) };
     let options = cube_view(|settings| settings.lights = vec![own("lamp")]);
     assert_eq!(plan(&scene, &options).lights[0].strength, 0.25);
@@ -115,13 +116,13 @@ fn row_08_nothing_is_read_from_a_neighbouring_tile() {
     let Some(gpu) = gpu() else { return };
     let alone = {
         let mut scene = cube_under_spot();
-        scene.add_light(spot(DVec3::new(3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
+        scene.insert_light(spot(DVec3::new(3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
         scene
     };
     // Fills the second light's tile up to its edges, and is behind the first light.
     let mut crowded = alone.clone();
-    crowded.meshes.push(box_mesh(DVec3::new(-0.5, -0.5, -0.5), DVec3::new(0.5, 0.5, 0.5)));
-    add_instance(&mut crowded, 2, 0, DVec3::new(3.0, 3.5, 1.0));
+    let shell = box_mesh(DVec3::new(-0.5, -0.5, -0.5), DVec3::new(0.5, 0.5, 0.5));
+    add_mesh(&mut crowded, shell, DVec3::new(3.0, 3.5, 1.0));
     for filter in ShadowFilter::ALL {
         let options = cube_view(|settings| settings.atlas.filter = filter);
         assert_eq!(plan(&crowded, &options).views[1].tile_px[0], 1024, "side by side");
@@ -140,9 +141,9 @@ fn row_09_several_directional_lights_cast_shadows_next_to_spot_lights() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     for (azimuth, intensity) in [(0.0, 500.0), (120.0, 2000.0), (240.0, 1000.0)] {
         let light = sun(sun_direction(45.0, azimuth));
-        scene.add_light(shadowgraph::scene::Light { intensity, color: Vec3::ONE, ..light });
+        scene.insert_light(shadowgraph::scene::Light { intensity, color: Vec3::ONE, ..light });
     }
-    scene.add_light(spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
+    scene.insert_light(spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
     let options = cube_view(|_| ());
     let planned = plan(&scene, &options);
     assert!(planned.cascades.as_ref().unwrap().tiles.iter().all(|tile| tile.light == 1), "the brightest");
@@ -158,7 +159,7 @@ fn row_09_several_directional_lights_cast_shadows_next_to_spot_lights() {
 fn row_10_the_shadow_distance_applies_to_every_kind_of_light() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_under_spot();
-    scene.lights.insert(0, sun(sun_direction(40.0, 250.0)));
+    scene.insert_light(sun(sun_direction(40.0, 250.0)));
     for light in 0..2 {
         // The cube is 5 m away.
         let dark = [3.0, 20.0].map(|distance_m| {
@@ -174,7 +175,7 @@ fn row_17_without_shadows_maps_are_one_texel() {
     let options = cube_view(|_| ());
     let with_sun = {
         let mut scene = scene.clone();
-        scene.add_light(sun(DVec3::NEG_Y));
+        scene.insert_light(sun(DVec3::NEG_Y));
         scene
     };
     let largest = [scene, with_sun].map(|scene| {
@@ -198,12 +199,12 @@ fn row_11_casters_of_one_light_render_only_into_its_tile() {
     let Some(gpu) = gpu() else { return };
     let map = |wall: bool| {
         let mut scene = cube_under_spot();
-        scene.add_light(spot(DVec3::new(0.0, 3.5, 30.0), DVec3::new(0.0, 0.0, 28.0), 0.4));
-        add_instance(&mut scene, 1, 0, DVec3::new(0.0, 0.0, 28.0));
+        scene.insert_light(spot(DVec3::new(0.0, 3.5, 30.0), DVec3::new(0.0, 0.0, 28.0), 0.4));
+        add_cube(&mut scene, DVec3::new(0.0, 0.0, 28.0));
         if wall {
             // Directly in front of the first light, and far beyond the edges of its tile.
-            scene.meshes.push(box_mesh(DVec3::new(-9.0, -9.0, -9.0), DVec3::new(9.0, -8.9, 9.0)));
-            add_instance(&mut scene, 2, 0, DVec3::new(-3.0, 11.9, 1.0));
+            let wall = box_mesh(DVec3::new(-9.0, -9.0, -9.0), DVec3::new(9.0, -8.9, 9.0));
+            add_mesh(&mut scene, wall, DVec3::new(-3.0, 11.9, 1.0));
         }
         let upload = GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::ZERO).unwrap();
         let casters = SceneCasters::new(&gpu.device, upload).unwrap();
@@ -216,7 +217,7 @@ fn row_11_casters_of_one_light_render_only_into_its_tile() {
             gpu,
             &technique,
             &casters,
-            &scene.lights,
+            scene.lights(),
             &options.camera,
             &options.shadows,
             "atlas",

@@ -8,7 +8,7 @@ use shadowgraph::shadows::{BiasMethod, BiasSettings, NormalBias, ShadowFilter};
 
 fn low_sun() -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(sun(sun_direction(25.0, 130.0)));
+    scene.insert_light(sun(sun_direction(25.0, 130.0)));
     scene
 }
 
@@ -65,7 +65,7 @@ fn row_19_normal_bias_is_a_texels_diagonal_times_the_filters_radius_and_one() {
 fn row_31_each_cascade_has_its_own_bias() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
     // Without bias in the first cascade, acne appears only near the camera, in the lower part of the image.
     let dark = |method, scales: Vec<f32>| {
         let options = pillar_view(|settings| {
@@ -102,8 +102,8 @@ fn row_20_a_near_offset_extends_the_depth_range_towards_the_light() {
     let Some(gpu) = gpu() else { return };
     let mut scene = low_sun();
     let direction = sun_direction(60.0, 130.0);
-    scene.lights[0] = sun(direction);
-    crate::stage::add_instance(&mut scene, 1, 0, -direction * 30.0);
+    scene.set_lights([sun(direction)]);
+    crate::stage::add_cube(&mut scene, -direction * 30.0);
     let near = |near_offset_m| {
         let options = cube_view(|settings| settings.cascades.near_offset_m = near_offset_m);
         let depth = plan(&scene, &options).views[0].depth_range_m;

@@ -22,7 +22,7 @@ fn time_ms(scene: &Scene, options: &ViewOptions) -> f64 {
 fn row_28_a_controller_keeps_shadows_within_a_time_budget() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
     let best = pillar_view(|settings| settings.cascades.map_size_px = 4096);
     let mut now_ms = time_ms(&scene, &best);
     let budget_ms = now_ms / 6.0;
@@ -49,7 +49,7 @@ fn row_28_a_controller_keeps_shadows_within_a_time_budget() {
 fn row_28_the_time_of_the_shadow_passes_is_reported() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(2);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
     let options = pillar_view(|_| ());
     let shadow_ms = |technique, timer: Option<&mut Timer>| {
         let mut renderer =

@@ -15,7 +15,9 @@ fn lights(shift: f64) -> Vec<Light> {
 }
 
 fn scene() -> Scene {
-    Scene { lights: lights(0.0), ..pillars(12) }
+    let mut scene = pillars(12);
+    scene.set_lights(lights(0.0));
+    scene
 }
 
 fn view(step: f64, cache: bool) -> ViewOptions {
@@ -62,7 +64,7 @@ fn row_41_cached_maps_give_the_image_of_maps_rendered_every_frame() {
             (0.6, 0.2, 2048),
         ] {
             let [with, without] = [(&mut cached, true), (&mut uncached, false)].map(|(renderer, cache)| {
-                renderer.set_lights(lights(shift)).unwrap();
+                renderer.scene_mut().set_lights(lights(shift));
                 let mut options = view(step, cache);
                 options.shadows.atlas.map_size_px = size;
                 draw(renderer, &options)

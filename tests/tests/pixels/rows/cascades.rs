@@ -13,7 +13,7 @@ use shadowgraph::{RenderedImage, Renderer};
 
 fn pillars_in_sun() -> Scene {
     let mut scene = pillars(12);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
     scene
 }
 
@@ -105,7 +105,7 @@ fn row_13_the_cascades_of_the_most_important_light_are_shown() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars_in_sun();
     // Brighter, but vertical.
-    scene.add_light(Light { intensity: 50_000.0, ..sun(DVec3::NEG_Y) });
+    scene.insert_light(Light { intensity: 50_000.0, ..sun(DVec3::NEG_Y) });
     let camera = pillar_view(|_| ()).camera;
     let mut renderer = Renderer::new(gpu, scene, &camera, Aov::Cascade).unwrap();
     let mut cascades = |own: Vec<LightShadows>| {
@@ -126,7 +126,7 @@ fn row_13_the_cascades_of_the_most_important_light_are_shown() {
 fn row_16_four_directional_lights_share_sixteen_tiles() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.lights = suns(5);
+    scene.set_lights(suns(5));
     let with = |lights| cube_view(|settings| settings.cascades.lights = lights);
     let (one, four) = (plan(&scene, &with(1)), plan(&scene, &with(4)));
     let tiles = |plan: &shadowgraph::shadows::ShadowPlan| {

@@ -1,7 +1,9 @@
 //! Culling of casters.
 
 use super::{greys, pillar_view, pillars, plan};
-use crate::stage::{SIZE_PX, add_instance, box_mesh, camera, floor_mesh, gpu, material, sun, view};
+use crate::stage::{
+    SIZE_PX, add_instance, add_mesh, box_mesh, camera, floor_mesh, gpu, material, nth_instance, sun, view,
+};
 use glam::DVec3;
 use shadowgraph::ViewOptions;
 use shadowgraph::scene::{LightKind, Scene};
@@ -27,15 +29,16 @@ impl Random {
 /// and lights at grazing angles.
 fn adversarial(seed: u64) -> (Scene, ViewOptions) {
     let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    let mut scene = Scene { meshes: vec![floor_mesh(60.0)], materials: vec![material()], ..Scene::default() };
-    add_instance(&mut scene, 0, 0, DVec3::ZERO);
-    for mesh in 1..7 {
+    let mut scene = Scene::default();
+    let material = scene.insert_material(material()).unwrap();
+    add_mesh(&mut scene, floor_mesh(60.0), DVec3::ZERO);
+    for _ in 1..7 {
         let half = DVec3::new(
             random.between(0.02, 2.5) * random.next(),
             random.between(0.02, 6.0) * random.next(),
             random.between(0.02, 2.5),
         );
-        scene.meshes.push(box_mesh(-half, half));
+        let mesh = scene.insert_mesh(box_mesh(-half, half));
         for _ in 0..14 {
             let reach = random.between(2.0, 50.0);
             let at = DVec3::new(
@@ -43,15 +46,15 @@ fn adversarial(seed: u64) -> (Scene, ViewOptions) {
                 random.between(-0.5, 9.0) * random.next(),
                 random.between(-reach, reach),
             );
-            add_instance(&mut scene, mesh, 0, at);
+            add_instance(&mut scene, mesh, material, at);
         }
     }
     let way = DVec3::new(random.between(-1.0, 1.0), random.between(-1.2, -0.05), random.between(-1.0, 1.0));
-    scene.add_light(sun(way.normalize()));
+    scene.insert_light(sun(way.normalize()));
     let position_world = DVec3::new(random.between(-6.0, 6.0), 4.0, random.between(-6.0, 6.0));
-    scene.add_light(super::spot(position_world, DVec3::new(0.0, -1.0, 0.0), 0.7));
+    scene.insert_light(super::spot(position_world, DVec3::new(0.0, -1.0, 0.0), 0.7));
     let kind = LightKind::Point { position_world: position_world * 1.4, range: Some(25.0) };
-    scene.add_light(crate::stage::light(kind, 3000.0));
+    scene.insert_light(crate::stage::light(kind, 3000.0));
     let eye = DVec3::new(random.between(-5.0, 5.0), random.between(0.3, 5.0), random.between(-5.0, 5.0));
     let target = DVec3::new(random.between(-9.0, 9.0), random.between(-1.0, 3.0), random.between(-9.0, 9.0));
     let mut options = view(camera(eye, target), 45.0);
@@ -102,7 +105,7 @@ fn row_23_and_33_culling_casters_changes_no_pixel() {
 #[test]
 fn row_23_casters_covered_by_finer_cascades_are_culled_from_coarser_ones() {
     let mut scene = pillars(40);
-    scene.add_light(sun(crate::stage::sun_direction(60.0, 60.0)));
+    scene.insert_light(sun(crate::stage::sun_direction(60.0, 60.0)));
     let with = |unseen, covered| {
         let options = pillar_view(|settings| settings.cull = CullSettings { unseen, covered });
         let tiles = plan(&scene, &options).cascades.unwrap().tiles;
@@ -117,8 +120,8 @@ fn row_23_casters_covered_by_finer_cascades_are_culled_from_coarser_ones() {
 #[test]
 fn row_33_a_cascade_without_receivers_has_no_pass() {
     let mut scene = pillars(3);
-    scene.add_light(sun(crate::stage::sun_direction(60.0, 60.0)));
-    scene.instances.remove(0);
+    scene.insert_light(sun(crate::stage::sun_direction(60.0, 60.0)));
+    scene.remove_instance(nth_instance(&scene, 0)).unwrap();
     let options = pillar_view(|_| ());
     let tiles = plan(&scene, &options).cascades.unwrap().tiles;
     // The first 6 m of the view are empty.

@@ -10,9 +10,9 @@ fn row_06_the_shader_is_compiled_for_the_filters_of_the_frame() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     let mut options = cube_view(|_| ());
     assert_eq!(plan(&scene, &options).variant(), PcfVariant::Unshadowed);
-    scene.add_light(sun(sun_direction(40.0, 30.0)));
+    scene.insert_light(sun(sun_direction(40.0, 30.0)));
     assert_eq!(plan(&scene, &options).variant(), PcfVariant::OneFilter { taps: 3 });
-    scene.add_light(super::spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
+    scene.insert_light(super::spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
     let Some(gpu) = gpu() else { return };
     let one = greys(gpu, &scene, 0, &options);
     let hard = LightShadows { filter: Some(ShadowFilter::Tent2), ..LightShadows::new(1.into()) };
@@ -28,7 +28,7 @@ fn row_06_the_shader_is_compiled_for_the_filters_of_the_frame() {
 fn row_14_cascades_and_atlas_have_separate_filters() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_under_spot();
-    scene.lights.insert(0, sun(sun_direction(40.0, 30.0)));
+    scene.insert_light(sun(sun_direction(40.0, 30.0)));
     let between = |light, cascades, atlas| {
         let options = cube_view(|settings| {
             settings.cascades.filter = cascades;
@@ -49,7 +49,7 @@ fn row_14_cascades_and_atlas_have_separate_filters() {
 fn row_21_wider_filters_have_wider_edges() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(sun(sun_direction(40.0, 30.0)));
+    scene.insert_light(sun(sun_direction(40.0, 30.0)));
     let between = ShadowFilter::ALL.map(|filter| {
         let options = cube_view(|settings| {
             settings.cascades.filter = filter;
@@ -64,7 +64,7 @@ fn row_21_wider_filters_have_wider_edges() {
 fn row_32_the_filter_gets_narrower_with_distance() {
     let Some(gpu) = gpu() else { return };
     let mut scene = pillars(12);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
     // One cascade, so that texels have the same size everywhere.
     let between = |far_filter| {
         let options = pillar_view(|settings| {

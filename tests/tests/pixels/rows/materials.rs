@@ -1,7 +1,7 @@
 //! Materials as casters and receivers.
 
 use super::{Greys, count, cube_view, greys, plan};
-use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, sun};
+use crate::stage::{add_instance, box_mesh, cube_on_floor, gpu, material, nth_instance, nth_material, sun};
 use glam::{DVec3, Vec4};
 use shadowgraph::Renderer;
 use shadowgraph::options::Aov;
@@ -12,14 +12,14 @@ use shadowgraph_quality::{Comparator, Points, Probe, Query};
 /// Returns a sheet of a material, 1.5 m above a floor, under a vertical sun. Its alpha is 0.6.
 fn sheet(change: impl FnOnce(&mut Material)) -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.instances.truncate(1);
-    scene.meshes.push(box_mesh(DVec3::new(-1.0, 1.5, -1.0), DVec3::new(1.0, 1.51, 1.0)));
+    scene.remove_instance(nth_instance(&scene, 1)).unwrap();
+    let mesh = scene.insert_mesh(box_mesh(DVec3::new(-1.0, 1.5, -1.0), DVec3::new(1.0, 1.51, 1.0)));
     let mut sheet =
         Material { alpha: AlphaMode::Blend, base_color: Vec4::new(0.8, 0.8, 0.8, 0.6), ..material() };
     change(&mut sheet);
-    scene.materials.push(sheet);
-    add_instance(&mut scene, 2, 1, DVec3::ZERO);
-    scene.add_light(sun(DVec3::NEG_Y));
+    let sheet = scene.insert_material(sheet).unwrap();
+    add_instance(&mut scene, mesh, sheet, DVec3::ZERO);
+    scene.insert_light(sun(DVec3::NEG_Y));
     scene
 }
 
@@ -87,7 +87,8 @@ fn row_24_a_scene_without_casters_has_no_map() {
     let options = cube_view(|_| ());
     let casters = |mode| {
         let mut scene = sheet(|sheet| sheet.casts = mode);
-        scene.materials[0].casts = Some(CasterMode::Off);
+        let floor = nth_material(&scene, 0);
+        scene.edit_material(floor, |floor| floor.casts = Some(CasterMode::Off)).unwrap();
         plan(&scene, &options).cascades.is_some()
     };
     assert_eq!([casters(None), casters(Some(CasterMode::Off))], [true, false]);
@@ -100,7 +101,7 @@ fn row_24_unlit_materials_cast_shadows_and_receiving_can_be_disabled() {
     };
     assert!(count(&unlit, |grey| grey == 0) > 1000);
     let mut bright = sheet(|sheet| sheet.alpha = AlphaMode::Opaque);
-    bright.materials[0].receives_shadows = false;
+    bright.edit_material(nth_material(&bright, 0), |floor| floor.receives_shadows = false).unwrap();
     assert_eq!(count(&shadows(&bright).unwrap(), |grey| grey < 255), 0);
 }
 

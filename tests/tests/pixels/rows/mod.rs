@@ -14,7 +14,8 @@ mod screen;
 mod views;
 
 use crate::stage::{
-    add_instance, box_mesh, camera, cube_on_floor, draw_with, floor_mesh, hard, material, plan, view,
+    add_instance, add_mesh, box_mesh, camera, cube_on_floor, draw_with, floor_mesh, hard, material, plan,
+    view,
 };
 use glam::DVec3;
 use shadowgraph::options::Aov;
@@ -87,21 +88,20 @@ fn spot(position_world: DVec3, target: DVec3, half_angle: f64) -> Light {
 /// Returns the cube on its floor under a spot light from the side.
 fn cube_under_spot() -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
+    scene.insert_light(spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
     scene
 }
 
 /// Returns two rows of pillars that lead away from the camera, 2 m apart, on a floor 200 m long.
 fn pillars(count: usize) -> Scene {
-    let mut scene = Scene {
-        meshes: vec![floor_mesh(200.0), box_mesh(DVec3::new(-0.3, 0.0, -0.3), DVec3::new(0.3, 2.5, 0.3))],
-        materials: vec![material()],
-        ..Scene::default()
-    };
-    add_instance(&mut scene, 0, 0, DVec3::ZERO);
+    let mut scene = Scene::default();
+    let material = scene.insert_material(material()).unwrap();
+    add_mesh(&mut scene, floor_mesh(200.0), DVec3::ZERO);
+    let pillar = box_mesh(DVec3::new(-0.3, 0.0, -0.3), DVec3::new(0.3, 2.5, 0.3));
+    let pillar = scene.insert_mesh(pillar);
     for i in 0..count {
         for side in [-2.0, 2.0] {
-            add_instance(&mut scene, 1, 0, DVec3::new(side, 0.0, -2.0 * i as f64));
+            add_instance(&mut scene, pillar, material, DVec3::new(side, 0.0, -2.0 * i as f64));
         }
     }
     scene

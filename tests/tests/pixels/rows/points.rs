@@ -1,7 +1,7 @@
 //! Point lights.
 
 use super::{count, cube_view, greys, plan, wrong};
-use crate::stage::{add_instance, cube_on_floor, gpu, light, view};
+use crate::stage::{add_cube, cube_on_floor, gpu, light, nth_instance, view};
 use glam::DVec3;
 use shadowgraph::scene::{LightKind, Scene};
 use shadowgraph::shadows::{SELECT_FACE, TileKind};
@@ -11,10 +11,10 @@ fn point_light_among_cubes() -> Scene {
     let mut scene = cube_on_floor(DVec3::new(2.0, 0.0, 0.0));
     for i in 1..8 {
         let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
-        add_instance(&mut scene, 1, 0, DVec3::new(2.0 * cos, 0.0, 2.0 * sin));
+        add_cube(&mut scene, DVec3::new(2.0 * cos, 0.0, 2.0 * sin));
     }
     let kind = LightKind::Point { position_world: DVec3::new(0.0, 1.6, 0.0), range: Some(15.0) };
-    scene.add_light(light(kind, 3000.0));
+    scene.insert_light(light(kind, 3000.0));
     scene
 }
 
@@ -40,9 +40,9 @@ fn row_37_faces_meet_without_a_seam() {
     let Some(gpu) = gpu() else { return };
     // A point light above an empty floor: the edges of its lower faces cross the floor at 45 degrees.
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.instances.truncate(1);
+    scene.remove_instance(nth_instance(&scene, 1)).unwrap();
     let kind = LightKind::Point { position_world: DVec3::new(0.1, 1.5, 0.2), range: Some(30.0) };
-    scene.add_light(light(kind, 3000.0));
+    scene.insert_light(light(kind, 3000.0));
     for filter in shadowgraph::shadows::ShadowFilter::ALL {
         let mut options = view(crate::stage::camera(DVec3::new(3.0, 6.0, 4.0), DVec3::ZERO), 40.0);
         options.shadows.atlas.filter = filter;

@@ -1,7 +1,7 @@
 //! Screen-space shadows.
 
 use super::{Greys, count, cube_view, different, greys, pillar_view, pillars};
-use crate::stage::{SIZE_PX, cube_on_floor, draw_with, gpu, sun, sun_direction};
+use crate::stage::{SIZE_PX, cube_on_floor, draw_with, gpu, nth_mesh, sun, sun_direction};
 use glam::DVec3;
 use shadowgraph::Pipeline;
 use shadowgraph::core::{Contents, Format, Frame, TextureDesc};
@@ -24,8 +24,8 @@ fn screen_greys(gpu: &Gpu, scene: &Scene, light: u32, options: &ViewOptions) -> 
 
 fn pillars_in_sun() -> Scene {
     let mut scene = pillars(12);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
-    scene.add_light(super::spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(super::spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7));
     scene
 }
 
@@ -69,7 +69,7 @@ fn row_34_screen_space_shadows_select_cascades_by_depth_without_branches() {
 fn row_35_blur_widens_nearby_edges_and_stops_at_other_surfaces() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
-    scene.add_light(sun(sun_direction(40.0, 130.0)));
+    scene.insert_light(sun(sun_direction(40.0, 130.0)));
     let draw = |blur_m, depth_threshold| {
         let options = cube_view(|settings| {
             settings.cascades.filter = ShadowFilter::Tent2;
@@ -110,14 +110,18 @@ fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let screen_shadows = ScreenShadows::new(&device, Box::new(Pcf::new(&device))).unwrap();
     let mut scene = pillars_in_sun();
-    scene.lights.resize(lights, scene.lights[1].clone());
+    let spot = scene.lights()[1].clone();
+    for _ in 2..lights {
+        scene.insert_light(spot.clone());
+    }
+    assert_eq!(scene.lights().len(), lights);
     let options = pillar_view(|_| ());
     let renderer = Renderer::new(&Gpu::noop().unwrap(), scene, &options.camera, Aov::Color).unwrap();
     let inputs = ShadowInputs {
         view: 0,
         camera: &options.camera,
         aspect: 1.5,
-        lights: &renderer.scene().lights,
+        lights: renderer.scene().lights(),
         casters: renderer.casters(),
         origin_world: DVec3::ZERO,
         settings: &options.shadows,
@@ -154,10 +158,10 @@ fn row_36_blended_geometry_receives_shadows() {
     let Some(gpu) = gpu() else { return };
     let mut scene = cube_on_floor(DVec3::ZERO);
     let glass = shadowgraph::scene::Material { alpha: AlphaMode::Blend, ..crate::stage::material() };
-    scene.materials.push(glass);
+    let (floor, glass) = (nth_mesh(&scene, 0), scene.insert_material(glass).unwrap());
     // A blended sheet just above the floor: the cube's shadow falls on it.
-    crate::stage::add_instance(&mut scene, 0, 1, DVec3::new(0.0, 0.02, 0.0));
-    scene.add_light(sun(sun_direction(40.0, 130.0)));
+    crate::stage::add_instance(&mut scene, floor, glass, DVec3::new(0.0, 0.02, 0.0));
+    scene.insert_light(sun(sun_direction(40.0, 130.0)));
     let options = cube_view(|_| ());
     let [forward, screen] = [Pipeline::forward(), Pipeline::screen_shadows()]
         .map(|pipeline| render(gpu, &scene, Aov::Color, &options, pipeline).rgba8);

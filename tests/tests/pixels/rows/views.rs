@@ -11,8 +11,8 @@ use shadowgraph::{Error, Gpu, RenderConfig, Renderer};
 
 fn pillars_in_sun() -> Scene {
     let mut scene = pillars(12);
-    scene.add_light(sun(sun_direction(35.0, 60.0)));
-    scene.add_light(super::spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7));
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
+    scene.insert_light(super::spot(DVec3::new(0.0, 4.0, -2.0), DVec3::new(0.5, 0.0, -6.0), 0.7));
     scene
 }
 

@@ -1,0 +1,27 @@
+//! Insertion of what is known to fit: keys of the same scene, finite transforms, whole images.
+#![expect(clippy::expect_used, reason = "the procedural scenes are constants, which tests create")]
+
+use glam::DAffine3;
+use shadowgraph_scene::{Image, ImageKey, Instance, Material, MaterialKey, MeshKey, Scene};
+
+/// Inserts a material.
+pub(crate) fn insert_material(scene: &mut Scene, material: Material) -> MaterialKey {
+    scene.insert_material(material).expect("images of the scene")
+}
+
+/// Inserts an image.
+pub(crate) fn insert_image(scene: &mut Scene, image: Image) -> ImageKey {
+    scene.insert_image(image).expect("a whole image")
+}
+
+/// Inserts an instance.
+pub(crate) fn insert_instance(
+    scene: &mut Scene,
+    name: &str,
+    mesh: MeshKey,
+    material: MaterialKey,
+    world_from_local: DAffine3,
+) {
+    let instance = Instance::new(mesh, material, world_from_local).with_name(name);
+    scene.insert_instance(instance).expect("a mesh and a material of the scene, and a finite transform");
+}

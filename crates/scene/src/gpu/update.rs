@@ -1,0 +1,257 @@
+//! Edits of the GPU copy of a scene.
+
+use glam::DVec3;
+
+use super::draw_list::Draw;
+use super::key::PipelineKey;
+use super::numbers::Numbers;
+use super::scene::{GpuScene, Slot, bounds_of};
+use crate::bounds::Aabb;
+use crate::cull::CullTree;
+use crate::error::Error;
+use crate::scene::{Changes, Instance, InstanceKey, MaterialKey, MeshKey, Scene};
+
+/// Instances out of order, in addition to a quarter of all, before all are sorted.
+const MIN_UNSORTED: usize = 64;
+
+impl GpuScene {
+    /// Follows the edits of a scene, and begins a frame: what moved since the last call has its previous transform
+    /// for motion vectors. Call it once a frame, with what [`Scene::take_changes`] returns, before the frame is recorded; submit
+    /// what was recorded earlier first. `scene` must be the one that was uploaded.
+    ///
+    /// It uploads what changed and nothing else: the time depends on the number of changes, except that a replaced mesh or material
+    /// looks for its instances among all.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Limit`] if the scene exceeds a limit of the device, and [`Error::Inconsistent`] for another scene. Part of the
+    /// changes is then followed: fix the cause, [restore](Scene::restore_changes) the changes and update again.
+    pub fn update(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        changes: &Changes,
+    ) -> Result<(), Error> {
+        self.frame += 1;
+        self.instances.begin_frame();
+        let materials = self.update_materials((device, queue), scene, changes)?;
+        self.update_meshes((device, queue), scene, &changes.meshes)?;
+        let mut edits = Edits::default();
+        for &key in &changes.instances {
+            self.update_instance((device, queue), scene, key, &mut edits)?;
+        }
+        if !materials.is_empty() || !changes.meshes.is_empty() {
+            self.update_users((device, queue), scene, (&materials, &changes.meshes), &mut edits)?;
+        }
+        self.refit(edits);
+        if self.unsorted > self.slots.len() / 4 + MIN_UNSORTED || self.frame == 1 {
+            self.sort();
+        }
+        self.geometry.flush(queue);
+        self.materials.flush(queue);
+        self.instances.flush((device, queue), &self.layouts.draw)
+    }
+
+    /// Moves the origin of GPU positions. Uploads the transforms again only if the origin changes; `scene` must be the one
+    /// that was uploaded, and [`update`](Self::update) must have followed its edits.
+    ///
+    /// # Errors
+    ///
+    /// As [`update`](Self::update).
+    pub fn set_origin(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        origin_world: DVec3,
+    ) -> Result<(), Error> {
+        if origin_world == self.origin_world {
+            return Ok(());
+        }
+        let transforms = scene
+            .instances()
+            .filter_map(|(key, instance)| Some((self.numbers.get(key)?, &instance.world_from_local)));
+        self.instances.set_origin(transforms, (self.origin_world, origin_world));
+        self.origin_world = origin_world;
+        self.instances.flush((device, queue), &self.layouts.draw)
+    }
+
+    /// Uploads changed materials and those of changed images; returns all of these.
+    fn update_materials(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        changes: &Changes,
+    ) -> Result<Vec<MaterialKey>, Error> {
+        let mut materials = changes.materials.clone();
+        for &image in &changes.images {
+            materials.extend(self.materials.remove_image(image));
+        }
+        materials.sort_unstable();
+        materials.dedup();
+        for &key in &materials {
+            let version = self.next_version();
+            self.materials.update(gpu, scene, key, version)?;
+        }
+        Ok(materials)
+    }
+
+    fn update_meshes(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        meshes: &[MeshKey],
+    ) -> Result<(), Error> {
+        for &key in meshes {
+            let version = self.next_version();
+            self.geometry.update(gpu, key, scene.mesh(key), version)?;
+        }
+        Ok(())
+    }
+
+    /// Inserts, changes or removes an instance.
+    fn update_instance(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        key: InstanceKey,
+        edits: &mut Edits,
+    ) -> Result<(), Error> {
+        let Some(instance) = scene.instance(key) else {
+            if let Some(number) = self.numbers.remove(key) {
+                self.slots[number as usize] = None;
+                edits.set(number, [Aabb::EMPTY; 2]);
+            }
+            return Ok(());
+        };
+        let (known, version) = (self.numbers.get(key).is_some(), self.next_version());
+        let number = self.numbers.insert(key);
+        let draw = self.draw_of(gpu, scene, instance, number)?;
+        let index = number as usize;
+        if index >= self.slots.len() {
+            self.slots.resize(index + 1, None);
+            self.bounds.resize(index + 1, Aabb::EMPTY);
+        }
+        let mut stands_from = self.slots[index].as_ref().map_or(0, |slot| slot.stands_from);
+        let world_from_local = &instance.world_from_local;
+        if !known {
+            self.instances.insert(number, world_from_local, self.origin_world);
+        } else if self.instances.move_to(number, world_from_local, self.origin_world) {
+            stands_from = self.moves_until();
+        }
+        if self.slots[index].as_ref().map(|slot| slot.draw) != Some(draw) {
+            self.unsorted += 1;
+        }
+        let slot = Slot { key, draw, is_seen: instance.is_seen(), version, stands_from };
+        edits.set(number, bounds_of(&slot, scene.instance_bounds(key)));
+        self.slots[index] = Some(slot);
+        Ok(())
+    }
+
+    /// Updates the draws and the bounds of the instances of changed materials and meshes.
+    fn update_users(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        (materials, meshes): (&[MaterialKey], &[MeshKey]),
+        edits: &mut Edits,
+    ) -> Result<(), Error> {
+        let mut meshes = meshes.to_vec();
+        meshes.sort_unstable();
+        for number in 0..self.slots.len() as u32 {
+            let Some(key) = self.instance(number) else { continue };
+            let instance = scene.instance(key).ok_or_else(|| Error::missing("instance"))?;
+            let mesh_changed = meshes.binary_search(&instance.mesh).is_ok();
+            if !mesh_changed && materials.binary_search(&instance.material).is_err() {
+                continue;
+            }
+            let draw = self.draw_of(gpu, scene, instance, number)?;
+            let Some(slot) = self.slots[number as usize].as_mut() else { continue };
+            if std::mem::replace(&mut slot.draw, draw) != draw {
+                self.unsorted += 1;
+            }
+            edits.set(number, bounds_of(slot, scene.instance_bounds(key)));
+        }
+        Ok(())
+    }
+
+    fn draw_of(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        instance: &Instance,
+        number: u32,
+    ) -> Result<Draw, Error> {
+        let material = scene.material(instance.material).ok_or_else(|| Error::missing("material"))?;
+        let mirrored = instance.world_from_local.matrix3.determinant() < 0.0;
+        let version = self.versions;
+        let receives = (instance.material, instance.receives_shadows);
+        Ok(Draw {
+            key: PipelineKey::new(material, mirrored),
+            casts: instance.caster_mode(material),
+            material: self.materials.number(gpu, scene, receives, version)?,
+            mesh: self.geometry.number(instance.mesh).ok_or_else(|| Error::missing("mesh"))?,
+            instance: number,
+        })
+    }
+
+    /// Gives the trees the new bounds; builds them again where they are too small or degraded.
+    fn refit(&mut self, Edits { bounds, caster_bounds }: Edits) {
+        for &(number, bounds) in &bounds {
+            self.bounds[number as usize] = bounds;
+        }
+        let count = self.slots.len();
+        for (tree, changed) in [(&mut self.tree, bounds), (&mut self.caster_tree, caster_bounds)] {
+            if count > tree.len() {
+                let mut all: Vec<_> = (0..tree.len() as u32).map(|item| tree.item_bounds(item)).collect();
+                // A tree that grew once is likely to grow again.
+                let reserve = if tree.is_empty() { 0 } else { count / 2 + MIN_UNSORTED };
+                all.resize(count + reserve, Aabb::EMPTY);
+                changed.into_iter().for_each(|(number, bounds)| all[number as usize] = bounds);
+                *tree = CullTree::new(&all);
+                continue;
+            }
+            tree.refit(changed);
+            if tree.is_degraded() {
+                tree.rebuild();
+            }
+        }
+    }
+
+    /// Numbers all instances in the order of draws.
+    fn sort(&mut self) {
+        let mut slots: Vec<Slot> = std::mem::take(&mut self.slots).into_iter().flatten().collect();
+        slots.sort_unstable_by_key(|slot| slot.draw);
+        let order: Vec<u32> = slots.iter().map(|slot| slot.draw.instance).collect();
+        self.instances.reorder(&order);
+        self.bounds = order.iter().map(|number| self.bounds[*number as usize]).collect();
+        let caster_bounds: Vec<_> =
+            order.iter().map(|&number| self.caster_tree.item_bounds(number)).collect();
+        self.tree = CullTree::new(&self.bounds);
+        self.caster_tree = CullTree::new(&caster_bounds);
+        self.numbers = Numbers::default();
+        for slot in &mut slots {
+            slot.draw.instance = self.numbers.insert(slot.key);
+        }
+        self.slots = slots.into_iter().map(Some).collect();
+        self.unsorted = 0;
+    }
+}
+
+/// New bounds of instances, by number: those that cameras see, and those that cast shadows.
+#[derive(Default)]
+struct Edits {
+    bounds: Vec<(u32, Aabb)>,
+    caster_bounds: Vec<(u32, Aabb)>,
+}
+
+impl Edits {
+    fn set(&mut self, number: u32, [bounds, caster_bounds]: [Aabb; 2]) {
+        self.bounds.push((number, bounds));
+        self.caster_bounds.push((number, caster_bounds));
+    }
+}
+
+#[cfg(test)]
+mod tests;

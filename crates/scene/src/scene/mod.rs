@@ -1,0 +1,172 @@
+//! A scene: meshes, materials and images, their instances, lights and cameras.
+
+mod changes;
+mod edit;
+mod error;
+mod instance;
+mod lights;
+mod store;
+#[cfg(test)]
+mod tests;
+
+pub use changes::Changes;
+pub use error::EditError;
+pub use instance::{Instance, ShadowCasting};
+
+use lights::Lights;
+use store::Store;
+
+use crate::bounds::{Aabb, ConvexVolume};
+use crate::camera::Camera;
+use crate::light::Light;
+use crate::material::{Image, Material};
+use crate::mesh::Mesh;
+
+slotmap::new_key_type! {
+    /// The key of a mesh of a [`Scene`]. The key of a removed mesh never becomes that of another one.
+    pub struct MeshKey;
+    /// The key of a material of a [`Scene`]. The key of a removed material never becomes that of another one.
+    pub struct MaterialKey;
+    /// The key of an image of a [`Scene`]. The key of a removed image never becomes that of another one.
+    pub struct ImageKey;
+    /// The key of an instance of a [`Scene`]. The key of a removed instance never becomes that of another one.
+    pub struct InstanceKey;
+    /// The key of a light of a [`Scene`]. The key of a removed light never becomes that of another one.
+    pub struct LightKey;
+}
+
+/// Everything that a renderer needs to draw an image, as plain data.
+///
+/// Meshes, materials, images, instances and lights have keys that stay the same while others come and go. The scene notes what is
+/// edited, so that copies of it, such as [`GpuScene`](crate::gpu::GpuScene), follow at a cost proportional to the edits:
+/// see [`take_changes`](Self::take_changes).
+///
+/// ```
+/// use glam::{DAffine3, DVec3};
+/// use shadowgraph_scene::{Instance, Material, Mesh, Scene};
+///
+/// let mut scene = Scene::default();
+/// let cube = scene.insert_mesh(Mesh::cuboid(DVec3::ZERO, DVec3::ONE));
+/// let white = scene.insert_material(Material::default())?;
+/// let first = scene.insert_instance(Instance::new(cube, white, DAffine3::IDENTITY))?;
+/// scene.insert_instance(Instance::new(cube, white, DAffine3::from_translation(DVec3::X * 3.0)))?;
+/// scene.move_instance(first, DAffine3::from_translation(DVec3::Y))?;
+/// scene.edit_instance(first, |instance| instance.receives_shadows = false)?;
+/// // The second instance still uses the cube.
+/// assert!(scene.remove_instance(first).is_ok() && scene.remove_mesh(cube).is_err());
+/// # Ok::<(), shadowgraph_scene::EditError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scene {
+    meshes: Store<MeshKey, Mesh>,
+    materials: Store<MaterialKey, Material>,
+    images: Store<ImageKey, Image>,
+    instances: Store<InstanceKey, Instance>,
+    lights: Lights,
+    /// The cameras of the file.
+    pub cameras: Vec<Camera>,
+    /// The contents of the file that are not drawn as it says, one line each.
+    pub notes: Vec<String>,
+}
+
+impl Scene {
+    /// Returns the meshes.
+    pub fn meshes(&self) -> impl ExactSizeIterator<Item = (MeshKey, &Mesh)> + Clone {
+        self.meshes.iter()
+    }
+
+    /// Returns the materials.
+    pub fn materials(&self) -> impl ExactSizeIterator<Item = (MaterialKey, &Material)> + Clone {
+        self.materials.iter()
+    }
+
+    /// Returns the images.
+    pub fn images(&self) -> impl ExactSizeIterator<Item = (ImageKey, &Image)> + Clone {
+        self.images.iter()
+    }
+
+    /// Returns the instances.
+    pub fn instances(&self) -> impl ExactSizeIterator<Item = (InstanceKey, &Instance)> + Clone {
+        self.instances.iter()
+    }
+
+    /// Returns the lights in the order of their numbers: directional lights, then spot lights, then point lights, each kind as
+    /// inserted.
+    #[must_use]
+    pub fn lights(&self) -> &[Light] {
+        self.lights.as_slice()
+    }
+
+    /// Returns the key of each light, in the order of [`lights`](Self::lights).
+    #[must_use]
+    pub fn light_keys(&self) -> &[LightKey] {
+        self.lights.keys()
+    }
+
+    /// Returns a mesh.
+    #[must_use]
+    pub fn mesh(&self, key: MeshKey) -> Option<&Mesh> {
+        self.meshes.get(key)
+    }
+
+    /// Returns a material.
+    #[must_use]
+    pub fn material(&self, key: MaterialKey) -> Option<&Material> {
+        self.materials.get(key)
+    }
+
+    /// Returns an image.
+    #[must_use]
+    pub fn image(&self, key: ImageKey) -> Option<&Image> {
+        self.images.get(key)
+    }
+
+    /// Returns an instance.
+    #[must_use]
+    pub fn instance(&self, key: InstanceKey) -> Option<&Instance> {
+        self.instances.get(key)
+    }
+
+    /// Returns the number of a light, its index in [`lights`](Self::lights). Edits of other lights may change it.
+    #[must_use]
+    pub fn light_index(&self, key: LightKey) -> Option<usize> {
+        self.lights.index(key)
+    }
+
+    /// Returns the bounds of all instances; empty without any.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        self.instances().fold(Aabb::EMPTY, |bounds, (key, _)| bounds.union(&self.instance_bounds(key)))
+    }
+
+    /// Returns the world bounds of an instance; empty if there is no such instance, and for a hidden one.
+    #[must_use]
+    pub fn instance_bounds(&self, key: InstanceKey) -> Aabb {
+        let bounds = self.instance(key).filter(|instance| instance.visible).and_then(|instance| {
+            let mesh = self.mesh(instance.mesh)?;
+            Some(mesh.bounds.transformed(&instance.world_from_local))
+        });
+        bounds.unwrap_or(Aabb::EMPTY)
+    }
+
+    /// Returns the instances whose bounds intersect the volume.
+    pub fn visible_instances(&self, volume: &ConvexVolume) -> impl Iterator<Item = InstanceKey> {
+        let visible = |key: &InstanceKey| volume.intersects(&self.instance_bounds(*key));
+        self.instances().map(|(key, _)| key).filter(visible)
+    }
+
+    /// Returns a camera that frames the bounds from the front, the right and above.
+    ///
+    /// `aspect` is the image's width over its height, above 0.
+    #[must_use]
+    pub fn framing_camera(&self, aspect: f64) -> Camera {
+        Camera::framing(&self.bounds(), aspect)
+    }
+
+    /// Returns the number of triangles over all instances.
+    #[must_use]
+    pub fn triangle_count(&self) -> u64 {
+        let triangles = |mesh: MeshKey| self.mesh(mesh).map_or(0, |mesh| mesh.indices.len() as u64 / 3);
+        self.instances().map(|(_, instance)| triangles(instance.mesh)).sum()
+    }
+}
