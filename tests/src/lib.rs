@@ -1,6 +1,8 @@
 //! Shared by the tests of the whole workspace: paths, skips, the built program.
 
+pub mod edits;
 mod program;
+pub mod random;
 pub mod watch;
 
 pub use program::{ProgramError, on_path, program};

@@ -1,4 +1,4 @@
-//! Many frames in which pipelines, techniques, sizes and lights change. `SHADOWGRAPH_SOAK` is their number, 60 by default,
+//! Many frames in which pipelines, techniques, sizes, lights and objects change. `SHADOWGRAPH_SOAK` is their number, 60 by default,
 //! and `SHADOWGRAPH_SOAK_SEED` the seed. Many frames are split among processes: Mesa's software driver keeps the code of shaders whose
 //! pipelines were destroyed, about 100 MiB for each renderer, so one process for all would run out of memory.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
@@ -8,7 +8,8 @@ use shadowgraph::pipelines::Parameters;
 use shadowgraph::shadows::Technique;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
-use shadowgraph_tests::skip;
+use shadowgraph_tests::random::Random;
+use shadowgraph_tests::{edits, skip};
 use std::io::Write;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -22,31 +23,6 @@ const SHARE: u32 = 120;
 
 /// More than any frame takes, including the creation of pipelines on a busy machine.
 const FRAME_LIMIT: Duration = Duration::from_secs(300);
-
-/// Pseudo-random numbers that are the same in every run (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u32) -> Self {
-        let mut random = Self(0x9e37_79b9_7f4a_7c15 ^ (u64::from(seed) << 32));
-        // The first numbers of similar seeds are similar.
-        (0..16).for_each(|_| {
-            random.flip();
-        });
-        random
-    }
-
-    fn below(&mut self, end: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 % end
-    }
-
-    fn flip(&mut self) -> bool {
-        self.below(2) == 1
-    }
-}
 
 /// Returns a pipeline file with some of the optional nodes.
 fn pipeline(random: &mut Random) -> String {
@@ -178,6 +154,9 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
             options.shadows.cascades.map_size_px = 512;
             options.shadows.atlas.map_size_px = 512;
             options.shadows.atlas.cache = random.flip();
+            for _ in 0..random.below(4) {
+                edits::edit(renderer.scene_mut(), &mut random);
+            }
             watched.send(format!("frame {drawn}, {name}, {size_px:?} px\n{text}")).unwrap();
             let view = renderer.draw(gpu, &options).unwrap_or_else(|error| panic!("{error}, {name}\n{text}"));
             assert_eq!(view.image.rgba8.len(), (size_px[0] * size_px[1] * 4) as usize);
@@ -224,7 +203,7 @@ fn in_process(seed: u32, share: u32) {
 /// On the noop device, the process's memory is that of this project and wgpu: it must not grow. On a software driver, the device's memory
 /// must be freed; that of the process is not checked, as Mesa keeps the code of shaders whose pipelines were destroyed.
 #[test]
-fn changing_pipelines_sizes_techniques_and_lights_leaks_no_memory() {
+fn changing_pipelines_sizes_techniques_lights_and_objects_leaks_no_memory() {
     let frames = from_env("SHADOWGRAPH_SOAK", FRAMES);
     if frames > SHARE {
         return in_processes(frames);

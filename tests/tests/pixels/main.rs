@@ -6,6 +6,7 @@ mod aovs;
 mod captured;
 mod casters;
 mod contact_sheet;
+mod edits;
 mod hostile;
 mod lost;
 mod maps;

@@ -42,13 +42,14 @@ fn run(command: &mut Command) -> Outcome {
 }
 
 /// The examples that can render into a window.
-const IN_WINDOWS: [&str; 9] = [
+const IN_WINDOWS: [&str; 10] = [
     "minimal_graph",
     "post_chain",
     "compute_only",
     "split_screen",
     "many_lights",
     "day_cycle",
+    "edit_scene",
     "temporal",
     "custom_pipeline",
     "custom_engine",
@@ -97,6 +98,10 @@ fn every_small_example_runs_and_writes_its_image() {
     output_of("day_cycle", &["--frames", "12"]);
     let day = [0, 11].map(|number| read(&format!("day_cycle/{number:02}.png")));
     assert!(pixel(&day[1], 160, 150) != pixel(&day[0], 160, 150), "noon is not morning");
+
+    output_of("edit_scene", &[]);
+    let edited = [0, 11, 23].map(|number| read(&format!("edit_scene/{number:02}.png")));
+    assert!(edited[0] != edited[1] && edited[1] != edited[2], "every frame is edited");
 
     // In the penumbra one frame is black or white, and many are grey.
     let [one, many] = [&["--frames", "1"][..], &[]].map(|arguments| {

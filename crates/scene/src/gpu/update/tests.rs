@@ -311,7 +311,7 @@ fn apply(scene: &mut Scene, edit: &Edit) -> Option<()> {
         }
         Edit::RemoveMesh(mesh) => drop(scene.remove_mesh(nth(scene.meshes(), mesh)?)),
         Edit::InsertMaterial(alpha, image) => {
-            drop(scene.insert_material(some_material(scene, alpha, image)).unwrap());
+            scene.insert_material(some_material(scene, alpha, image)).unwrap();
         }
         Edit::ReplaceMaterial(material, alpha, image) => {
             let replacement = some_material(scene, alpha, image);
