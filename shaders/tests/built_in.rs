@@ -238,7 +238,9 @@ fn depth_and_lit_passes_compute_positions_by_the_same_functions() {
     assert!(has_invariant_position(&depth, "vs_depth"));
     let shared = ["world_position", "clip_position"];
     assert_eq!(functions_called(&depth, "vs_depth"), shared);
-    for (file, entry) in [("forward.wgsl", "vs_forward"), ("gbuffer.wgsl", "vs_gbuffer")] {
+    for (file, entry) in
+        [("forward.wgsl", "vs_forward"), ("gbuffer.wgsl", "vs_gbuffer"), ("velocity.wgsl", "vs_velocity")]
+    {
         let module = composed(file);
         assert!(has_invariant_position(&module, entry));
         let lit = functions_called(&module, entry);

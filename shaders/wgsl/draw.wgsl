@@ -33,6 +33,18 @@ fn world_position(instance: u32, position: vec3f) -> vec3f {
     return vec3f(dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p));
 }
 
+// The position of a vertex in the previous frame, in the space of its mesh.
+fn previous_position_local(vertex: Vertex) -> vec3f {
+    return vertex.position;
+}
+
+// The position of a vertex in the previous frame, relative to this frame's origin.
+fn previous_world_position(vertex: Vertex) -> vec3f {
+    let m = instances[vertex.instance];
+    let p = vec4f(previous_position_local(vertex), 1.0);
+    return vec3f(dot(m.previous_row_x, p), dot(m.previous_row_y, p), dot(m.previous_row_z, p));
+}
+
 // A direction in the surface (a tangent): not unit length.
 fn world_direction(instance: u32, direction: vec3f) -> vec3f {
     let m = instances[instance];

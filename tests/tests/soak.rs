@@ -68,7 +68,8 @@ fn pipeline(random: &mut Random) -> String {
             continue;
         }
         let more = match kind {
-            "sky" | "taa" => ", \"view\": \"view\", \"depth\": \"geometry\"",
+            "sky" => ", \"view\": \"view\", \"depth\": \"geometry\"",
+            "taa" => ", \"view\": \"view\", \"depth\": \"geometry\", \"velocity\": \"geometry\"",
             "fog" => ", \"view\": \"view\", \"depth\": \"geometry\", \"shadows\": \"shadows\"",
             _ => "",
         };

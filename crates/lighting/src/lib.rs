@@ -18,12 +18,14 @@ mod exposure;
 mod forward;
 mod gbuffer;
 mod jitter;
+mod motion;
 pub mod post;
 mod prepass;
 mod screen_pass;
 mod shader;
 mod tonemap;
 mod uniforms;
+mod velocity;
 mod view_group;
 
 pub use clusters::Clusters;
@@ -32,10 +34,12 @@ pub use error::Error;
 pub use exposure::{AmbientLight, KeyLight};
 pub use forward::{Forward, LitOutput, LitPipelines, LitTarget};
 pub use gbuffer::{GBuffer, GBufferPass};
+pub use motion::{CameraMotion, PreviousCameras};
 pub use prepass::{Geometry, Prepass};
 pub use shader::fullscreen as fullscreen_shader;
 pub use tonemap::Tonemap;
 pub use uniforms::{GpuLight, GpuView, ViewBuffers, ViewUniforms};
+pub use velocity::Velocity;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,5 +1,7 @@
 //! The uniforms of the camera and the lights: `View` and `Light` of `shadowgraph::view`.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
 use shadowgraph_core::{Buffer, Frame, Texture};
@@ -7,6 +9,7 @@ use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 
 use crate::exposure::AmbientLight;
 use crate::jitter::Jitter;
+use crate::motion::CameraMotion;
 
 /// The camera of a frame, 256 bytes. World space here is relative to the frame's origin.
 #[repr(C)]
@@ -68,6 +71,8 @@ pub struct ViewUniforms {
     pub lights: Vec<GpuLight>,
     /// The jitter of sample positions, pixels.
     pub jitter_px: Vec2,
+    /// The camera's motion since the view's previous frame.
+    pub motion: Arc<CameraMotion>,
 }
 
 /// The contents of bind group 0 of lit passes.
@@ -83,10 +88,12 @@ pub struct ViewBuffers {
     pub occlusion: Option<Texture>,
     /// The jitter of sample positions in this frame, pixels ([`Jitter`]).
     pub jitter_px: Vec2,
+    /// The camera's motion since the view's previous frame.
+    pub motion: Arc<CameraMotion>,
 }
 
 impl ViewUniforms {
-    /// Creates the uniforms of a camera and lights for an image of `size_px`, relative to `origin_world`.
+    /// Creates the uniforms of a camera that stands still, and lights, for an image of `size_px`, relative to `origin_world`.
     pub fn new(
         camera: &Camera,
         size_px: [u32; 2],
@@ -102,7 +109,15 @@ impl ViewUniforms {
             ..GpuView::for_camera(camera, size_px, origin_world)
         };
         let lights = lights.iter().map(|light| GpuLight::new(light, origin_world)).collect();
-        Self { view, lights, jitter_px: Vec2::ZERO }
+        let [width, height] = size_px.map(f64::from);
+        let motion = Arc::new(CameraMotion::still(camera, width / height));
+        Self { view, lights, jitter_px: Vec2::ZERO, motion }
+    }
+
+    /// Sets the camera's motion since the view's previous frame ([`PreviousCameras`](crate::PreviousCameras)).
+    #[must_use]
+    pub fn moving(self, motion: CameraMotion) -> Self {
+        Self { motion: Arc::new(motion), ..self }
     }
 
     /// Offsets the sample positions of pixels, for temporal anti-aliasing.
@@ -125,6 +140,7 @@ impl ViewUniforms {
             clusters: None,
             occlusion: None,
             jitter_px: self.jitter_px,
+            motion: self.motion.clone(),
         })
     }
 }

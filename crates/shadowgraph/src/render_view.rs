@@ -1,7 +1,7 @@
 //! One view of a frame.
 
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, Tonemap, ViewUniforms};
+use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, PreviousCameras, Tonemap, ViewUniforms};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_scene::{Camera, Light};
 use shadowgraph_shadows::{ShadowInputs, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
@@ -31,6 +31,8 @@ pub struct RenderView<'v> {
     pub technique: &'v dyn ShadowTechnique,
     /// The camera that shadows are fitted to.
     pub shadow_camera: &'v Camera,
+    /// The cameras of the renderer's views in their previous frames.
+    pub previous_cameras: &'v PreviousCameras,
     /// Value that lit passes write.
     pub lit_output: LitOutput,
     /// The target of the colour image: a texture of the caller, as large as the view; `None` for a texture of the frame.
@@ -42,7 +44,8 @@ impl<'v> RenderView<'v> {
     pub fn uniforms(&self) -> ViewUniforms {
         let ViewOptions { camera, size_px, .. } = self.options;
         let origin_world = self.casters.scene.origin_world();
-        ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light)
+        let motion = self.previous_cameras.motion(self.index, camera, self.options.aspect());
+        ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light).moving(motion)
     }
 
     /// Returns the visible geometry.

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use shadowgraph_core::{Graph, Plan};
-use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget};
+use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget, PreviousCameras};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Changes, Scene, origin_near};
 use shadowgraph_shadows::rays::GpuRayScene;
@@ -44,6 +44,7 @@ pub struct Renderer {
     aov: Aov,
     /// The camera that shadows are fitted to, if it is not that of the view.
     shadow_camera: Option<Camera>,
+    previous_cameras: PreviousCameras,
     /// Guarded by a mutex because a frame borrows the renderer while the graph compiles and executes it.
     graph: Mutex<Graph>,
 }
@@ -151,6 +152,7 @@ impl Renderer {
             scene,
             aov,
             shadow_camera: None,
+            previous_cameras: PreviousCameras::default(),
             graph: Mutex::default(),
         })
     }
@@ -267,6 +269,7 @@ impl Renderer {
             casters: &self.casters,
             technique: self.technique.as_ref(),
             shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
+            previous_cameras: &self.previous_cameras,
             lit_output: self.lit_output,
             target: target.filter(|_| self.aov == Aov::Color),
         }

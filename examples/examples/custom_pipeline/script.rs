@@ -3,7 +3,7 @@
 use crate::vignette::Vignette;
 use shadowgraph::core::{Format, Frame};
 use shadowgraph::lighting::post::{Bloom, Jitters, Occlusion, OcclusionSettings, Sky, SkySettings, Temporal};
-use shadowgraph::lighting::{Forward, Tonemap};
+use shadowgraph::lighting::{Forward, Tonemap, Velocity};
 use shadowgraph::nodes::GeometryNode;
 use shadowgraph::pipelines::{PipelineInstance, PipelineOutput};
 use shadowgraph::{BuildContext, Error, RenderView};
@@ -12,6 +12,7 @@ use shadowgraph::{BuildContext, Error, RenderView};
 pub(crate) struct Script {
     jitters: Jitters,
     geometry: GeometryNode,
+    velocity: Velocity,
     occlusion: Occlusion,
     lighting: Forward,
     sky: Sky,
@@ -26,6 +27,7 @@ impl Script {
         Ok(Self {
             jitters: Jitters::default(),
             geometry: GeometryNode::new(context)?,
+            velocity: Velocity::new(context.device, context.layouts)?,
             occlusion: Occlusion::new(context.device)?,
             lighting: Forward::new(context.device, context.layouts, context.technique, context.lit)?,
             sky: Sky::new(context.device)?,
@@ -43,13 +45,16 @@ impl PipelineInstance for Script {
         frame: &mut Frame<'f>,
         view: &'f RenderView<'f>,
     ) -> Result<PipelineOutput<'f>, Error> {
-        let (geometry, camera) = (view.geometry(), (view.index, &view.options.camera));
+        let geometry = view.geometry();
         let light =
             |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
 
         let buffers = view.uniforms().jittered(self.jitters.next(view.index)).upload(frame);
-        let (depth, surfaces) =
-            frame.node("geometry", |frame| self.geometry.add_to(frame, view, &buffers))?;
+        let (depth, surfaces, velocity) = frame.node("geometry", |frame| {
+            let (depth, surfaces) = self.geometry.add_to(frame, view, &buffers)?;
+            let velocity = self.velocity.add_to(frame, &buffers, &depth, geometry);
+            Ok::<_, Error>((depth, surfaces, velocity))
+        })?;
         let shadows = view.add_shadows(frame, surfaces.as_ref())?;
         let occluded = frame.node("occlusion", |frame| {
             self.occlusion.add_to(frame, &buffers, &depth, &OcclusionSettings::default())
@@ -59,8 +64,9 @@ impl PipelineInstance for Script {
         })?;
         frame
             .node("sky", |frame| self.sky.add_to(frame, &buffers, &depth, &mut lit, &SkySettings::default()));
-        let accumulated = frame
-            .node("temporal", |frame| self.temporal.add_to(frame, [&lit, &depth], camera, &buffers, 0.1));
+        let accumulated = frame.node("temporal", |frame| {
+            self.temporal.add_to(frame, [&lit, &depth], Some(&velocity), &buffers, 0.1)
+        });
         let bloomed = frame.node("bloom", |frame| {
             let mut target = light(frame);
             self.bloom.add_to(frame, &accumulated, &mut target, 0.06, 6);

@@ -21,3 +21,5 @@ mod soft;
 mod stage;
 mod techniques;
 mod tints;
+mod trails;
+mod velocity;

@@ -68,13 +68,24 @@ fn anti_aliasing_brings_edges_nearer_to_an_image_of_many_samples() {
     let plain = pipeline("", VIEW, &tonemap("lighting"), "tonemap");
     let smooth = "(name: \"smooth\", kind: \"fxaa\", inputs: {\"image\": \"tonemap\"})";
     let fxaa = pipeline("", VIEW, &(tonemap("lighting") + smooth), "smooth");
-    let mixed = "(name: \"mixed\", kind: \"taa\", inputs: {\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"}),";
-    let taa = pipeline("\"jitter\": true", VIEW, &(mixed.to_owned() + &tonemap("mixed")), "tonemap");
+    let taa = |velocity: &str| {
+        let mixed = format!(
+            "(name: \"mixed\", kind: \"taa\", \
+              inputs: {{\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"lighting\"{velocity}}}),"
+        );
+        pipeline("\"jitter\": true", VIEW, &(mixed + &tonemap("mixed")), "tonemap")
+    };
+    let (taa, taa_velocity) = (taa(""), taa(", \"velocity\": \"geometry\""));
     let large = draw(gpu, &plain, Aov::Color, [640, 360], 1);
     let of = |pipeline: &Pipeline, frames| error(&draw(gpu, pipeline, Aov::Color, [160, 90], frames), &large);
     let (without, with_fxaa, with_taa) = (of(&plain, 1), of(&fxaa, 1), of(&taa, 16));
-    println!("root mean square: none {without:.2}, fxaa {with_fxaa:.2}, taa {with_taa:.2}");
+    let with_velocity = of(&taa_velocity, 16);
+    println!(
+        "root mean square: none {without:.2}, fxaa {with_fxaa:.2}, taa {with_taa:.2}, with velocity {with_velocity:.2}"
+    );
     assert!(with_fxaa < 0.95 * without && with_taa < 0.75 * without, "{without}, {with_fxaa}, {with_taa}");
+    // Nothing moves, so nothing was hidden: motion vectors cost no smoothness.
+    assert!(with_velocity < 1.02 * with_taa, "{with_velocity} and {with_taa}");
     // The first frame has no history: it is the rendered image.
     assert!(of(&taa, 1) < 1.3 * without);
 }

@@ -1,12 +1,8 @@
 //! Temporal anti-aliasing.
 
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
-
 use bytemuck::{NoUninit, bytes_of};
-use glam::{DMat4, Mat4, Vec2};
-use shadowgraph_core::{Format, Frame, FullscreenShader, Resize, Texture};
-use shadowgraph_scene::Camera;
+use glam::{Mat4, Vec2};
+use shadowgraph_core::{Format, Frame, FullscreenShader, Resize, Texture, TextureDesc};
 
 use crate::error::Error;
 use crate::shader::{fullscreen, linear_sampler};
@@ -14,12 +10,14 @@ use crate::uniforms::ViewBuffers;
 
 /// Temporal anti-aliasing: sample positions are jittered in each frame ([`Jitter`](super::Jitter)), and the result is blended with the
 /// reprojected history (Karis, "High Quality Temporal Supersampling", 2014), clipped to the neighbourhood of the pixel (Salvi,
-/// "An Excursion in Temporal Supersampling", 2016). Reprojection follows the camera; moving objects rely on clipping alone.
+/// "An Excursion in Temporal Supersampling", 2016).
+///
+/// With motion vectors ([`Velocity`](crate::Velocity)) the history follows cameras and objects, and surfaces that were hidden in the
+/// previous frame, by its depth, start again. Without them it follows the camera alone, and moving objects rely on clipping.
 pub struct Temporal {
-    shader: FullscreenShader,
+    by_camera: FullscreenShader,
+    by_velocity: FullscreenShader,
     linear: wgpu::Sampler,
-    /// The unjittered `clip_from_world` of the previous frame of each view.
-    previous: Mutex<BTreeMap<u32, DMat4>>,
 }
 
 /// `Settings` of `post/temporal.wgsl`.
@@ -30,46 +28,81 @@ struct TemporalUniforms {
     jitter_px: Vec2,
     current_weight: f32,
     history_valid: f32,
+    depth_offset: f32,
+    padding: [f32; 3],
 }
 
 impl Temporal {
-    /// Composes the shader.
+    /// Composes the shaders.
     ///
     /// # Errors
     /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
-        let shader = fullscreen(device, "post/temporal.wgsl", "fs_temporal")?;
-        Ok(Self { shader, linear: linear_sampler(device), previous: Mutex::default() })
+        let shader = |entry| fullscreen(device, "post/temporal.wgsl", entry);
+        Ok(Self {
+            by_camera: shader("fs_temporal")?,
+            by_velocity: shader("fs_temporal_velocity")?,
+            linear: linear_sampler(device),
+        })
     }
 
-    /// Adds the pass, and returns the light of this frame blended with the history. `number` identifies the view among those of
-    /// a frame; `view` has the jitter of this frame; `current_weight` is the weight of this frame, 0.01 to 1.
+    /// Adds the pass, and returns the light of this frame blended with the history. `view` has the jitter and the camera's motion of
+    /// this frame, `velocity` the motion vectors if there are any; `current_weight` is the weight of this frame, 0.01 to 1. With
+    /// motion vectors the first frames of a surface weigh more: the light is their mean until that weight is reached.
     pub fn add_to(
         &self,
         frame: &mut Frame<'_>,
         [light, depth]: [&Texture; 2],
-        (number, camera): (u32, &Camera),
+        velocity: Option<&Texture>,
         view: &ViewBuffers,
         current_weight: f32,
     ) -> Texture {
-        let desc =
-            frame.texture_desc(light).unwrap_or(shadowgraph_core::TextureDesc::d2(1, 1, Format::Rgba16Float));
-        let aspect = f64::from(desc.size.width) / f64::from(desc.size.height.max(1));
-        let current = camera.clip_from_view(aspect) * camera.view_from_world();
-        let previous = {
-            let mut by_view = self.previous.lock().unwrap_or_else(PoisonError::into_inner);
-            by_view.insert(number, current)
-        };
+        let desc = frame.texture_desc(light).unwrap_or(TextureDesc::d2(1, 1, Format::Rgba16Float));
         let mut history = frame.history("mixed light", desc, Resize::Reset);
-        let uniforms = TemporalUniforms {
-            previous_from_current: (previous.unwrap_or(current) * current.inverse()).as_mat4(),
+        let mut uniforms = TemporalUniforms {
+            previous_from_current: view.motion.previous_from_current().as_mat4(),
             jitter_px: view.jitter_px,
             current_weight: current_weight.clamp(0.01, 1.0),
-            history_valid: f32::from(u8::from(history.valid && previous.is_some())),
+            history_valid: f32::from(u8::from(history.valid)),
+            depth_offset: view.motion.depth_offset() as f32,
+            padding: [0.0; 3],
         };
-        let pass = frame.fullscreen("temporal", &self.shader).sample(light).sample(&history.previous);
+        let Some(velocity) = velocity else {
+            let pass = frame.fullscreen("temporal", &self.by_camera).sample(light).sample(&history.previous);
+            let pass = pass.sample(depth).sampler(&self.linear).uniform(bytes_of(&uniforms));
+            pass.draw(&mut history.current);
+            return history.current;
+        };
+        let desc = TextureDesc { format: Format::Rg16Float, ..desc };
+        let mut surface = frame.history("mixed surface", desc, Resize::Reset);
+        uniforms.history_valid *= f32::from(u8::from(surface.valid));
+        let pass = frame.fullscreen("temporal", &self.by_velocity).sample(light).sample(&history.previous);
         let pass = pass.sample(depth).sampler(&self.linear).uniform(bytes_of(&uniforms));
-        pass.draw(&mut history.current);
+        let pass = pass.sample(velocity).sample(&surface.previous);
+        pass.target(&mut history.current).draw(&mut surface.current);
         history.current
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use std::mem::offset_of;
+
+    use shadowgraph_shaders::{compose, layout};
+
+    use super::*;
+
+    #[test]
+    fn uniforms_have_the_layout_of_the_wgsl_struct() {
+        let fields = [
+            ("previous_from_current", offset_of!(TemporalUniforms, previous_from_current)),
+            ("jitter_px", offset_of!(TemporalUniforms, jitter_px)),
+            ("current_weight", offset_of!(TemporalUniforms, current_weight)),
+            ("history_valid", offset_of!(TemporalUniforms, history_valid)),
+            ("depth_offset", offset_of!(TemporalUniforms, depth_offset)),
+        ];
+        let module = compose("post/temporal.wgsl", &[]).unwrap();
+        layout::check(&module, "Settings", size_of::<TemporalUniforms>(), &fields).unwrap();
     }
 }

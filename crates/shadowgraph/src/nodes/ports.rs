@@ -18,6 +18,8 @@ pub struct Ports<'n, 'f> {
     /// The outputs with the indices of their values.
     pub(crate) outputs: &'n [(Port, usize)],
     pub(crate) values: &'n mut [Option<Value<'f>>],
+    /// Of each value, whether a node or an output of the pipeline reads it.
+    pub(crate) is_read: &'n [bool],
     /// The output that is the view's image, if it is one of these.
     pub(crate) image: Option<&'n str>,
 }
@@ -130,6 +132,12 @@ impl<'f> Ports<'_, 'f> {
     /// Returns whether an input has a value in this frame.
     pub fn is_connected(&self, name: &str) -> bool {
         self.value(name).is_ok_and(|value| value.is_some())
+    }
+
+    /// Returns whether a node or an output of the pipeline reads an output, for a node that computes an optional output on demand.
+    pub fn is_read(&self, output: &str) -> bool {
+        let found = self.outputs.iter().find(|(port, _)| port.name == output);
+        found.is_some_and(|(_, index)| self.is_read.get(*index).is_some_and(|read| *read))
     }
 
     /// Creates the texture of an output, named like the output. If the output is the view's image, this is the view's target, and

@@ -18,6 +18,7 @@ impl Renderer {
     /// For settings out of range, and for an output that the pipeline does not have.
     pub fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f RenderView<'f>) -> Result<ViewOutput, Error> {
         let output = self.instance.add(frame, view)?;
+        self.previous_cameras.set(view.index, &view.options.camera, view.options.aspect());
         let image = self.aov_image(frame, view, &output)?;
         let ShadowOutputs { debug_buffers: shadow_buffers, unshadowed, .. } = output.shadows;
         Ok(ViewOutput { image, shadow_buffers, unshadowed })

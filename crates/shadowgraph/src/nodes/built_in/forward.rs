@@ -3,6 +3,7 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::Forward as ForwardPasses;
 
+use super::velocity::VelocityOutput;
 use crate::build_context::BuildContext;
 use crate::error::Error;
 use crate::nodes::node::Node;
@@ -13,6 +14,7 @@ use crate::render_view::RenderView;
 
 pub(super) struct Forward {
     passes: ForwardPasses,
+    velocity: VelocityOutput,
 }
 
 impl Node for Forward {
@@ -28,11 +30,12 @@ impl Node for Forward {
     const OUTPUTS: &'static [Port] = &[
         Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float),
         Port::texture("depth", "reversed depth").with_format(Format::Depth32Float),
+        VelocityOutput::PORT,
     ];
 
     fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
         let passes = ForwardPasses::new(context.device, context.layouts, context.technique, context.lit)?;
-        Ok(Self { passes })
+        Ok(Self { passes, velocity: VelocityOutput::new(context) })
     }
 
     fn add<'f>(
@@ -49,6 +52,7 @@ impl Node for Forward {
         } else {
             self.passes.lit_without_prepass(frame, &buffers, shadows, geometry, background)?
         };
+        self.velocity.set(frame, view, (&buffers, &depth), ports)?;
         ports.set("light", light);
         ports.set("depth", depth);
         Ok(())

@@ -3,6 +3,7 @@
 use shadowgraph_core::{Format, Frame};
 use shadowgraph_lighting::GBufferPass;
 
+use super::velocity::VelocityOutput;
 use crate::build_context::BuildContext;
 use crate::error::Error;
 use crate::nodes::node::Node;
@@ -13,6 +14,7 @@ use crate::render_view::RenderView;
 
 pub(super) struct GBuffer {
     pass: GBufferPass,
+    velocity: VelocityOutput,
 }
 
 impl Node for GBuffer {
@@ -23,10 +25,11 @@ impl Node for GBuffer {
         Port::texture("depth", "the depth of `geometry`").with_format(Format::Depth32Float),
     ];
     const OUTPUTS: &'static [Port] =
-        &[Port::new("gbuffer", PortKind::GBuffer, "colours, materials and normals")];
+        &[Port::new("gbuffer", PortKind::GBuffer, "colours, materials and normals"), VelocityOutput::PORT];
 
     fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
-        Ok(Self { pass: GBufferPass::new(context.device, context.layouts)? })
+        let pass = GBufferPass::new(context.device, context.layouts)?;
+        Ok(Self { pass, velocity: VelocityOutput::new(context) })
     }
 
     fn add<'f>(
@@ -35,8 +38,9 @@ impl Node for GBuffer {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let buffers = ports.view("view")?;
-        let gbuffer = self.pass.add_to(frame, &buffers, &ports.texture("depth")?, view.geometry());
+        let (buffers, depth) = (ports.view("view")?, ports.texture("depth")?);
+        let gbuffer = self.pass.add_to(frame, &buffers, &depth, view.geometry());
+        self.velocity.set(frame, view, (&buffers, &depth), ports)?;
         ports.set("gbuffer", gbuffer);
         Ok(())
     }

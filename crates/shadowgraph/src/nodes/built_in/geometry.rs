@@ -4,6 +4,7 @@ use shadowgraph_core::{Format, Frame, Texture};
 use shadowgraph_lighting::{Prepass, ViewBuffers};
 use shadowgraph_shadows::SurfaceBuffers;
 
+use super::velocity::VelocityOutput;
 use crate::build_context::BuildContext;
 use crate::error::Error;
 use crate::nodes::node::Node;
@@ -17,6 +18,7 @@ use crate::surfaces::SurfaceDrawer;
 pub struct Geometry {
     prepass: Prepass,
     surfaces: Option<SurfaceDrawer>,
+    velocity: VelocityOutput,
     samples: u32,
 }
 
@@ -29,7 +31,8 @@ impl Geometry {
         let reads = context.technique.reads_surface_buffers();
         let surfaces = reads.then(|| SurfaceDrawer::new(context.device, context.layouts)).transpose()?;
         let samples = context.lit.samples;
-        Ok(Self { prepass: Prepass::new(context.device, context.layouts, samples)?, surfaces, samples })
+        let prepass = Prepass::new(context.device, context.layouts, samples)?;
+        Ok(Self { prepass, surfaces, velocity: VelocityOutput::new(context), samples })
     }
 
     /// Adds the passes and returns the depth, and the surfaces if the technique reads them.
@@ -61,6 +64,7 @@ impl Node for Geometry {
         Port::texture("depth", "reversed depth, with the sample count of the colours")
             .with_format(Format::Depth32Float),
         Port::new("surfaces", PortKind::Surfaces, "positions and normals, for the technique").optional(),
+        VelocityOutput::PORT,
     ];
 
     fn new(context: &BuildContext<'_>, _settings: &Settings) -> Result<Self, Error> {
@@ -73,7 +77,9 @@ impl Node for Geometry {
         view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
-        let (depth, surfaces) = self.add_to(frame, view, &ports.view("view")?)?;
+        let buffers = ports.view("view")?;
+        let (depth, surfaces) = self.add_to(frame, view, &buffers)?;
+        self.velocity.set(frame, view, (&buffers, &depth), ports)?;
         ports.set("depth", depth);
         if let Some(surfaces) = surfaces {
             ports.set("surfaces", surfaces);

@@ -17,6 +17,7 @@ mod ssao;
 mod surfaces;
 pub(crate) mod taa;
 mod tonemap;
+mod velocity;
 pub(crate) mod view;
 
 use super::kind::NodeKind;

@@ -1,6 +1,7 @@
 //! `taa`
 
 use shadowgraph_core::{Format, Frame};
+use shadowgraph_lighting::Velocity;
 use shadowgraph_lighting::post::Temporal;
 
 use crate::build_context::BuildContext;
@@ -24,6 +25,9 @@ impl Node for Taa {
         Port::new("view", PortKind::View, "the camera"),
         Port::texture("depth", "depth with one sample per pixel").with_format(Format::Depth32Float),
         Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float),
+        Port::texture("velocity", "motion vectors; without them moving objects leave trails")
+            .with_format(Velocity::FORMAT)
+            .optional(),
     ];
     const OUTPUTS: &'static [Port] =
         &[Port::texture("light", "accumulated over frames").with_format(Format::Rgba16Float)];
@@ -41,13 +45,13 @@ impl Node for Taa {
     fn add<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        view: &'f RenderView<'f>,
+        _view: &'f RenderView<'f>,
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (light, depth) = (ports.texture("light")?, ports.texture("depth")?);
-        let camera = (view.index, &view.options.camera);
-        let buffers = ports.view("view")?;
-        let accumulated = self.pass.add_to(frame, [&light, &depth], camera, &buffers, self.current_weight);
+        let velocity = ports.is_connected("velocity").then(|| ports.texture("velocity")).transpose()?;
+        let (buffers, weight) = (ports.view("view")?, self.current_weight);
+        let accumulated = self.pass.add_to(frame, [&light, &depth], velocity.as_ref(), &buffers, weight);
         ports.set("light", accumulated);
         Ok(())
     }

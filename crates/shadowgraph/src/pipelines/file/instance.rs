@@ -33,8 +33,8 @@ impl PipelineInstance for FileInstance {
         frame: &mut Frame<'f>,
         view: &'f RenderView<'f>,
     ) -> Result<PipelineOutput<'f>, Error> {
-        let ResolvedPipeline { nodes, image_output, image, light, depth, value_count } = &*self.resolved;
-        let mut values: Vec<Option<Value<'f>>> = (0..*value_count).map(|_| None).collect();
+        let ResolvedPipeline { nodes, image_output, image, light, depth, is_read } = &*self.resolved;
+        let mut values: Vec<Option<Value<'f>>> = is_read.iter().map(|_| None).collect();
         for (index, (resolved, node)) in nodes.iter().zip(&self.nodes).enumerate() {
             let mut ports = Ports {
                 kind: resolved.kind.name,
@@ -43,6 +43,7 @@ impl PipelineInstance for FileInstance {
                 inputs: &resolved.inputs,
                 outputs: &resolved.outputs,
                 values: &mut values,
+                is_read,
                 image: (index == image_output.0).then_some(image_output.1),
             };
             if resolved.kind.groups_itself {

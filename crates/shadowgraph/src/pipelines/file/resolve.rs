@@ -31,7 +31,8 @@ pub(super) struct ResolvedPipeline {
     pub(super) image: usize,
     pub(super) light: Option<usize>,
     pub(super) depth: Option<usize>,
-    pub(super) value_count: usize,
+    /// Of each value, whether a node or an output of the pipeline reads it.
+    pub(super) is_read: Vec<bool>,
 }
 
 impl Document {
@@ -55,6 +56,11 @@ impl Document {
             return Err(PipelineError { location: name.into(), problem: problem.into() });
         };
         let value = |OutputRef { node, port }: OutputRef| enabled[node].first_value + port;
+        let mut is_read = vec![false; value_count];
+        let by_nodes = inputs.iter().flatten().filter_map(|input| input.value);
+        for read in by_nodes.chain(outputs.iter().map(|(_, output)| value(*output))) {
+            is_read[read] = true;
+        }
         let resolved = order.iter().map(|&index| resolve_node(&enabled[index], &inputs[index], parameters));
         Ok(ResolvedPipeline {
             nodes: resolved.collect::<Result<_, _>>()?,
@@ -65,7 +71,7 @@ impl Document {
             image: value(image),
             light: find("light").map(value),
             depth: find("depth").map(value),
-            value_count,
+            is_read,
         })
     }
 

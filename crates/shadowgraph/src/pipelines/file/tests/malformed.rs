@@ -36,7 +36,7 @@
     (&[("\"shadows\": \"shadows\", ", "")], "required input `shadows` of `lighting` (the shadows) is not connected: add \"shadows\": \"shadows.shadows\""),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"lightning\"}")], "unknown node `lightning`; did you mean `lighting`?"),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"lighting.lit\"}")], "unknown output `lit` of `lighting`; expected one of: light, depth"),
-    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"geometry\"}")], "`geometry` has the outputs depth and surfaces: name one, such as \"geometry.depth\""),
+    (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"geometry\"}")], "`geometry` has the outputs depth and surfaces and velocity: name one, such as \"geometry.depth\""),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"view\"}")], "`light` of `tonemap` expects a texture, and `view.view` is a view"),
     (&[("inputs: {\"light\": \"lighting\"}", "inputs: {\"light\": \"geometry.depth\"}")], "`light` of `tonemap` expects Rgba16Float, and `geometry.depth` is Depth32Float; `lighting.light` matches"),
     (&[("\"depth\": \"geometry\"}),", "\"depth\": \"tonemap\"}),")], "`depth` of `lighting` expects Depth32Float, and `tonemap.image` is Rgba8UnormSrgb; `geometry.depth` matches"),
