@@ -1,7 +1,7 @@
 //! A scene that is edited while it is drawn: every few frames a box appears, boxes fly in a circle, the oldest is removed, one casts only its
 //! shadow, and the colour of another changes.
 //!
-//! `cargo run -p shadowgraph-examples --example edit_scene` writes out/edit_scene/00.png to 23.png; `-- --window` goes on.
+//! `cargo run -p shadowgraph-examples --example edit_scene` writes out/edit_scene/00.png to 71.png; `-- --window` goes on.
 
 use glam::{DAffine3, DVec3, Vec4};
 use shadowgraph::options::Aov;
@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// The number of boxes at a time.
 const BOXES: usize = 7;
 /// A box appears every so many frames.
-const FRAMES_PER_BOX: u32 = 3;
+const FRAMES_PER_BOX: u32 = 10;
 
 struct EditScene {
     renderer: Renderer,
@@ -31,7 +31,7 @@ struct EditScene {
 
 /// Returns the transform of a box some frames after it appeared.
 fn transform(age: u32) -> DAffine3 {
-    let angle = f64::from(age) * 0.12;
+    let angle = f64::from(age) * 0.05;
     let position = DVec3::new(angle.cos() * 3.0, 0.9 + 0.5 * (angle * 2.0).sin(), angle.sin() * 3.0);
     DAffine3::from_translation(position) * DAffine3::from_rotation_y(-angle * 3.0)
 }
@@ -66,7 +66,7 @@ impl EditScene {
 impl Example for EditScene {
     const NAME: &'static str = "edit_scene";
     const SIZE_PX: [u32; 2] = [320, 180];
-    const FRAMES: u32 = 24;
+    const FRAMES: u32 = 72;
     const SEQUENCE: bool = true;
 
     fn new(gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {

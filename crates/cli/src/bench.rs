@@ -11,7 +11,10 @@ use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
 use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
-use shadowgraph_quality::bench::{Comparison, FrameTime, Stats, compare, pass_times};
+use shadowgraph_quality::bench::{
+    Comparison, FrameTime, INSTANCES, MovingFrameTime, MovingFrames, Stats, compare, moving_frames,
+    pass_times,
+};
 
 /// Number of frames on a real GPU; each is waited for.
 const GPU_FRAMES: u32 = 20;
@@ -29,6 +32,14 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         false => None,
     };
     console::print(&heading(args, &input))?;
+    if !args.moving.is_empty() {
+        let counts: Vec<usize> = args.moving.iter().map(|&count| count as usize).collect();
+        let (gpu, size_px) = (gpu.as_ref().unwrap_or(&noop), view.size_px);
+        let measuring = Progress::if_slow("measuring");
+        let runs = moving_frames(gpu, &input.options.render_config(), size_px, &counts, args.frames)?;
+        drop(measuring);
+        return console::print(&moving_table(&runs));
+    }
     let measuring = Progress::if_slow("measuring");
     let comparison = match input.options.render_config() == RenderConfig::default() {
         true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
@@ -54,7 +65,11 @@ fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<S
 }
 
 fn heading(args: &BenchArgs, input: &Input) -> String {
-    let scene = args.draw.scene.as_ref().map_or("the demo scene".into(), |file| file.display().to_string());
+    let scene = match &args.draw.scene {
+        Some(file) => file.display().to_string(),
+        None if args.moving.is_empty() => "the demo scene".into(),
+        None => "boxes".into(),
+    };
     let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
     let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
     format!(
@@ -107,6 +122,31 @@ fn times(frames: &[FrameTime], step: Option<StepOf>) -> [String; 2] {
     let Some(step) = step else { return ["-".into(), String::new()] };
     let stats = Stats::from_samples(frames.iter().map(|time| step(time).as_secs_f64() * 1e6));
     [stats.median, stats.p95].map(|micros| format!("{micros:.1}"))
+}
+
+/// Formats the frames in which instances move as a table.
+fn moving_table(runs: &[MovingFrames]) -> String {
+    let mut rows = vec![["moving", "edit", "follow", "both, per instance", "draw"].map(str::to_owned)];
+    for MovingFrames { moving, frames } in runs {
+        let median = |step: fn(&MovingFrameTime) -> Duration| {
+            Stats::from_samples(frames.iter().map(|time| step(time).as_secs_f64() * 1e6)).median
+        };
+        let (edit, follow, draw) =
+            (median(|time| time.edit), median(|time| time.follow), median(|time| time.draw));
+        let each = if *moving == 0 { "-".into() } else { format!("{:.3}", (edit + follow) / *moving as f64) };
+        rows.push([
+            moving.to_string(),
+            format!("{edit:.1}"),
+            format!("{follow:.1}"),
+            each,
+            format!("{draw:.1}"),
+        ]);
+    }
+    let frames = runs.first().map_or(0, |run| run.frames.len());
+    format!(
+        "CPU time of a frame of {INSTANCES} boxes, some of which move; medians of {frames} frames, microseconds\n{}",
+        TextTable { alignment: "rrrrr", indent: 2, width: COLUMNS }.format(rows)
+    )
 }
 
 fn ratio(stats: Stats) -> String {

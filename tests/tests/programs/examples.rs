@@ -100,7 +100,7 @@ fn every_small_example_runs_and_writes_its_image() {
     assert!(pixel(&day[1], 160, 150) != pixel(&day[0], 160, 150), "noon is not morning");
 
     output_of("edit_scene", &[]);
-    let edited = [0, 11, 23].map(|number| read(&format!("edit_scene/{number:02}.png")));
+    let edited = [0, 35, 71].map(|number| read(&format!("edit_scene/{number:02}.png")));
     assert!(edited[0] != edited[1] && edited[1] != edited[2], "every frame is edited");
 
     // In the penumbra one frame is black or white, and many are grey.

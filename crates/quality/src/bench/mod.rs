@@ -6,12 +6,14 @@
 //! [`Comparison::ratio_without_planning`] subtracts it.
 
 mod hand_written;
+mod moving;
 mod objects;
 mod stats;
 
 #[cfg(test)]
 mod tests;
 
+pub use moving::{INSTANCES, MovingFrameTime, MovingFrames, moving_frames};
 pub use stats::Stats;
 
 use std::time::{Duration, Instant};

@@ -10,6 +10,9 @@ use crate::cull::volume::{Containment, CullVolume, PreparedVolume, ShapeMask, cl
 #[cfg(test)]
 mod tests;
 
+/// Above the number of items divided by this, a refit of all nodes is faster than one descent per changed item.
+const MANY: usize = 8;
+
 /// Many boxes, one per item, arranged so that those that intersect a volume are found without testing all.
 ///
 /// It is a binary bounding volume hierarchy. Items are numbered as in the list that the tree was built from.
@@ -73,14 +76,23 @@ impl CullTree {
 
     /// Gives items new boxes, which may be empty. Items that do not exist are ignored.
     ///
-    /// This costs one descent of the tree per item. Items keep their slots, so queries get slower when items move far, but
+    /// This costs one descent of the tree per item, and for many items one pass over all nodes. Items keep their slots, so queries get slower when items move far, but
     /// never wrong: [`rebuild`](Self::rebuild) a tree that [is degraded](Self::is_degraded).
     pub fn refit(&mut self, changed: impl IntoIterator<Item = (u32, Aabb)>) {
         let Some(root) = self.root() else { return };
+        let mut changed_slots = Vec::new();
         for (item, bounds) in changed {
             if let Some(&slot) = self.slots.get(item as usize) {
                 self.boxes[slot as usize] = clip_to_space(&bounds);
-                self.refit_path(root, slot as usize);
+                changed_slots.push(slot as usize);
+            }
+        }
+        if changed_slots.len() > self.items.len() / MANY {
+            self.refit_subtree(root);
+            self.grown = (0..self.nodes.len()).filter(|&node| self.has_grown(node)).count();
+        } else {
+            for slot in changed_slots {
+                self.refit_path(root, slot);
             }
         }
     }
@@ -143,13 +155,16 @@ impl CullTree {
         if child.is_some_and(|child| !self.refit_path(child, slot)) {
             return false;
         }
-        let before = self.nodes[node.number];
-        let after = self.compute_bounds(node);
-        let has_grown = |bounds: &Aabb| half_area(bounds) > 2.0 * self.built_areas[node.number];
-        let (grew, grows) = (has_grown(&before), has_grown(&after));
-        self.grown = self.grown + usize::from(grows) - usize::from(grew);
-        self.nodes[node.number] = after;
-        after != before
+        let (before, had_grown) = (self.nodes[node.number], self.has_grown(node.number));
+        self.nodes[node.number] = self.compute_bounds(node);
+        self.grown += usize::from(self.has_grown(node.number));
+        self.grown -= usize::from(had_grown);
+        self.nodes[node.number] != before
+    }
+
+    /// Returns whether a node has more than twice the area that it had when the tree was built.
+    fn has_grown(&self, number: usize) -> bool {
+        half_area(&self.nodes[number]) > 2.0 * self.built_areas[number]
     }
 
     /// Recomputes the bounds of this node and all nodes below it.

@@ -124,3 +124,26 @@ fn trees_and_volumes_are_send_and_sync() {
     shared::<CullTree>();
     shared::<CullVolume>();
 }
+
+#[test]
+fn a_tree_is_degraded_when_many_nodes_have_grown_and_good_again_when_it_is_rebuilt() {
+    let boxes: Vec<Aabb> = (0..1000).map(|i| unit(f64::from(i) * 2.0)).collect();
+    let mut tree = CullTree::new(&boxes);
+    // One item that is far away, and all that move a little, are no reason to build the tree again.
+    tree.refit([(3, unit(1e6))]);
+    assert!(!tree.is_degraded());
+    tree.refit((0..1000).map(|i| (i, unit(f64::from(i) * 2.0 + 0.5))));
+    assert!(!tree.is_degraded());
+    // Neighbours that are now far apart.
+    let shuffled = |i: u32| unit(f64::from(i * 617 % 1000) * 2.0);
+    for first in (0..1000).step_by(50) {
+        tree.refit((first..first + 50).map(|i| (i, shuffled(i))));
+    }
+    assert!(tree.is_degraded());
+    tree.rebuild();
+    assert!(!tree.is_degraded());
+    let planes = vec![Plane::through(DVec3::X * 1900.5, DVec3::X)];
+    let boxes: Vec<Aabb> = (0..1000).map(shuffled).collect();
+    let volume = CullVolume::from(ConvexVolume { planes });
+    assert_eq!(query(&tree, &volume), test_each(&boxes, &volume));
+}
