@@ -1,4 +1,4 @@
-//! A scene that is edited while it is drawn: every few frames a box appears, boxes fly in a circle, the oldest is removed, one casts only its
+//! A scene that is edited while it is drawn: every few frames a box appears, boxes fly around, the oldest is removed, one casts only its
 //! shadow, and the colour of another changes.
 //!
 //! `cargo run -p shadowgraph-examples --example edit_scene` writes out/edit_scene/00.png to 71.png; `-- --window` goes on.
@@ -16,7 +16,7 @@ use std::process::ExitCode;
 
 /// The number of boxes at a time.
 const BOXES: usize = 7;
-/// A box appears every so many frames.
+/// Frames between two boxes that appear.
 const FRAMES_PER_BOX: u32 = 10;
 
 struct EditScene {

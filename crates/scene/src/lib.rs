@@ -16,6 +16,7 @@ mod error;
 pub mod gltf;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod keys;
 mod light;
 mod material;
 mod mesh;
@@ -26,15 +27,14 @@ pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, CameraError, Projection};
 pub use cull::{BoundingSphere, Cone, CullTree, CullVolume};
 pub use error::Error;
+pub use keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
 pub use material::{
     AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap, linear_from_srgb,
 };
 pub use mesh::{Mesh, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
-pub use scene::{
-    Changes, EditError, ImageKey, Instance, InstanceKey, LightKey, MaterialKey, MeshKey, Scene, ShadowCasting,
-};
+pub use scene::{Changes, EditError, Instance, Scene, ShadowCasting};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,7 +2,7 @@
 
 use glam::{Vec3, Vec4};
 
-use crate::scene::ImageKey;
+use crate::keys::ImageKey;
 
 /// A metallic-roughness material. Texture values multiply the factors.
 #[derive(Clone, Debug, PartialEq)]

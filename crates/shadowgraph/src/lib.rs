@@ -100,6 +100,8 @@ mod readme {
 mod book {
     #[doc = include_str!("../../../docs/graph.md")]
     mod graph {}
+    #[doc = include_str!("../../../docs/moving.md")]
+    mod moving {}
     #[doc = include_str!("../../../docs/pipelines.md")]
     mod pipelines {}
 }

@@ -200,7 +200,8 @@ impl Renderer {
             Ok::<_, Error>((uploaded, create_technique(&self.config, gpu, &scene, origin_world)?))
         })?;
         (self.casters.scene, self.technique, self.traces_rays) = (uploaded, technique, traces_rays);
-        (self.scene, self.lit_output, self.graph) = (scene, lit_output, Mutex::default());
+        (self.scene, self.lit_output) = (scene, lit_output);
+        (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
         Ok(())
     }
 

@@ -97,7 +97,7 @@ impl CullTree {
         }
     }
 
-    /// Returns whether refits have made so many nodes so much larger that queries are slow: a quarter of the nodes have more than
+    /// Returns whether refits have made queries slow: a quarter of the nodes have more than
     /// twice the area that they had when the tree was built.
     #[must_use]
     pub fn is_degraded(&self) -> bool {

@@ -14,9 +14,10 @@ use super::validate::{
 };
 use super::{container, images, materials};
 use crate::error::Error;
+use crate::keys::MaterialKey;
 use crate::material::{Image, Material};
 use crate::mesh::Mesh;
-use crate::scene::{EditError, Instance, MaterialKey, Scene};
+use crate::scene::{EditError, Instance, Scene};
 
 /// The progress of loading.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,8 +8,8 @@ use json::validation::Checked;
 use super::document::Document;
 use super::error::{ImportError, WithLocation, describe};
 use super::notes::Notes;
+use crate::keys::ImageKey;
 use crate::material::{Filter, Sampler, TextureRef, Wrap};
-use crate::scene::ImageKey;
 
 /// The use of a texture by a material, as in the file.
 pub(super) struct TextureUse {

@@ -5,8 +5,9 @@ use std::ops::Range;
 use super::element_buffer::ElementBuffer;
 use super::numbers::Numbers;
 use crate::error::Error;
+use crate::keys::MeshKey;
 use crate::mesh::{Mesh, Vertex};
-use crate::scene::{MeshKey, Scene};
+use crate::scene::Scene;
 
 const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Float32x2, 5 => Unorm8x4
@@ -48,7 +49,7 @@ pub(super) struct Geometry {
     vertices: ElementBuffer,
     indices: ElementBuffer,
     numbers: Numbers<MeshKey>,
-    /// By number.
+    /// The ranges of each mesh, by number.
     ranges: Vec<MeshRanges>,
 }
 

@@ -203,7 +203,7 @@ mod tests {
 
     use super::*;
 
-    fn at(x: f64) -> DAffine3 {
+    fn translated(x: f64) -> DAffine3 {
         DAffine3::from_translation(DVec3::X * x)
     }
 
@@ -253,9 +253,9 @@ mod tests {
             buffer.begin_frame();
             for &(number, x) in moves {
                 if number as usize == buffer.data.len() {
-                    buffer.insert(number, &at(x), DVec3::ZERO);
+                    buffer.insert(number, &translated(x), DVec3::ZERO);
                 } else {
-                    buffer.move_to(number, &at(x), DVec3::ZERO);
+                    buffer.move_to(number, &translated(x), DVec3::ZERO);
                 }
             }
             buffer.flush((&device, &queue), &layout).unwrap();
@@ -272,12 +272,12 @@ mod tests {
     fn the_previous_transform_follows_the_origin_and_the_order() {
         let device = gpu().0;
         let mut buffer = InstanceBuffer::new(&device, &instance_layout(&device));
-        let mut transforms = [at(1025.0), at(2.0)];
+        let mut transforms = [translated(1025.0), translated(2.0)];
         for (number, transform) in (0..).zip(&transforms) {
             buffer.insert(number, transform, DVec3::ZERO);
         }
         buffer.begin_frame();
-        transforms[0] = at(1026.0);
+        transforms[0] = translated(1026.0);
         buffer.move_to(0, &transforms[0], DVec3::ZERO);
         buffer.set_origin((0..).zip(&transforms), (DVec3::ZERO, DVec3::X * 1024.0));
         assert_eq!(x(&buffer), [[2.0, 1.0], [-1022.0, -1022.0]]);

@@ -12,8 +12,9 @@ use super::numbers::Numbers;
 use super::textures::{Reading, Textures};
 use super::write_batch::WriteBatch;
 use crate::error::Error;
+use crate::keys::{ImageKey, MaterialKey};
 use crate::material::{AlphaMode, Material, Sampler, TextureRef};
-use crate::scene::{ImageKey, MaterialKey, Scene};
+use crate::scene::Scene;
 
 /// Stride of materials in their buffer, bytes: the alignment that every device supports.
 const STRIDE: u64 = 256;

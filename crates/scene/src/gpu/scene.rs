@@ -10,8 +10,9 @@ use super::numbers::Numbers;
 use crate::bounds::Aabb;
 use crate::cull::{CullTree, CullVolume};
 use crate::error::Error;
+use crate::keys::InstanceKey;
 use crate::material::CasterMode;
-use crate::scene::{Changes, InstanceKey, Scene};
+use crate::scene::{Changes, Scene};
 
 /// Frames for which an instance counts as moving after it has moved.
 const MOVING_FRAMES: u64 = 60;
@@ -250,7 +251,7 @@ impl GpuScene {
 }
 
 /// Returns the bounds of an instance for cameras and as a caster: empty if they do not see it, or it casts no shadow.
-pub(super) fn bounds_of(slot: &Slot, bounds: Aabb) -> [Aabb; 2] {
+pub(super) fn split_bounds(slot: &Slot, bounds: Aabb) -> [Aabb; 2] {
     let casts = slot.draw.casts != CasterMode::Off;
     [slot.is_seen, casts].map(|included| if included { bounds } else { Aabb::EMPTY })
 }

@@ -6,8 +6,9 @@ use std::sync::{Arc, Weak};
 use super::limits;
 use super::mips::{Encoding, Level, for_each_level, level_count};
 use crate::error::Error;
+use crate::keys::ImageKey;
 use crate::material::{Filter, Image, Sampler, Wrap};
-use crate::scene::{ImageKey, Scene};
+use crate::scene::Scene;
 
 /// Bytes that are written to the queue between submissions, so that they do not accumulate in memory.
 const BYTES_IN_FLIGHT: usize = 64 << 20;

@@ -5,11 +5,12 @@ use glam::DVec3;
 use super::draw_list::Draw;
 use super::key::PipelineKey;
 use super::numbers::Numbers;
-use super::scene::{GpuScene, Slot, bounds_of};
+use super::scene::{GpuScene, Slot, split_bounds};
 use crate::bounds::Aabb;
 use crate::cull::CullTree;
 use crate::error::Error;
-use crate::scene::{Changes, Instance, InstanceKey, MaterialKey, MeshKey, Scene};
+use crate::keys::{InstanceKey, MaterialKey, MeshKey};
+use crate::scene::{Changes, Instance, Scene};
 
 /// Instances out of order, in addition to a quarter of all, before all are sorted.
 const MIN_UNSORTED: usize = 64;
@@ -127,7 +128,7 @@ impl GpuScene {
         };
         let (known, version) = (self.numbers.get(key).is_some(), self.next_version());
         let number = self.numbers.insert(key);
-        let draw = self.draw_of(gpu, scene, instance, number)?;
+        let draw = self.draw_for_instance(gpu, scene, instance, number)?;
         let index = number as usize;
         if index >= self.slots.len() {
             self.slots.resize(index + 1, None);
@@ -144,7 +145,7 @@ impl GpuScene {
             self.unsorted += 1;
         }
         let slot = Slot { key, draw, is_seen: instance.is_seen(), version, stands_from };
-        edits.set(number, bounds_of(&slot, scene.instance_bounds(key)));
+        edits.set(number, split_bounds(&slot, scene.instance_bounds(key)));
         self.slots[index] = Some(slot);
         Ok(())
     }
@@ -166,17 +167,17 @@ impl GpuScene {
             if !mesh_changed && materials.binary_search(&instance.material).is_err() {
                 continue;
             }
-            let draw = self.draw_of(gpu, scene, instance, number)?;
+            let draw = self.draw_for_instance(gpu, scene, instance, number)?;
             let Some(slot) = self.slots[number as usize].as_mut() else { continue };
             if std::mem::replace(&mut slot.draw, draw) != draw {
                 self.unsorted += 1;
             }
-            edits.set(number, bounds_of(slot, scene.instance_bounds(key)));
+            edits.set(number, split_bounds(slot, scene.instance_bounds(key)));
         }
         Ok(())
     }
 
-    fn draw_of(
+    fn draw_for_instance(
         &mut self,
         gpu: (&wgpu::Device, &wgpu::Queue),
         scene: &Scene,

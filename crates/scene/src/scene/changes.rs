@@ -1,6 +1,7 @@
 //! The log of edits.
 
-use super::{ImageKey, InstanceKey, MaterialKey, MeshKey, Scene};
+use super::Scene;
+use crate::keys::{ImageKey, InstanceKey, MaterialKey, MeshKey};
 
 /// Keys of what was inserted, edited or removed, each once: a key that the scene no longer has was removed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use glam::DAffine3;
 
 use super::error::EditError;
-use super::{ImageKey, Instance, InstanceKey, LightKey, MaterialKey, MeshKey, Scene};
+use super::{Instance, Scene};
+use crate::keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 use crate::light::Light;
 use crate::material::{Image, Material};
 use crate::mesh::Mesh;

@@ -2,7 +2,7 @@
 
 use glam::DAffine3;
 
-use super::{MaterialKey, MeshKey};
+use crate::keys::{MaterialKey, MeshKey};
 use crate::material::{CasterMode, Material};
 
 /// One drawn copy of a mesh.

@@ -2,7 +2,7 @@
 
 use slotmap::SlotMap;
 
-use super::LightKey;
+use crate::keys::LightKey;
 use crate::light::Light;
 
 /// The lights of a scene: directional lights, then spot lights, then point lights, each kind in the order of insertion.

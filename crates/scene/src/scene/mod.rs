@@ -18,22 +18,10 @@ use store::Store;
 
 use crate::bounds::{Aabb, ConvexVolume};
 use crate::camera::Camera;
+use crate::keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 use crate::light::Light;
 use crate::material::{Image, Material};
 use crate::mesh::Mesh;
-
-slotmap::new_key_type! {
-    /// The key of a mesh of a [`Scene`]. The key of a removed mesh never becomes that of another one.
-    pub struct MeshKey;
-    /// The key of a material of a [`Scene`]. The key of a removed material never becomes that of another one.
-    pub struct MaterialKey;
-    /// The key of an image of a [`Scene`]. The key of a removed image never becomes that of another one.
-    pub struct ImageKey;
-    /// The key of an instance of a [`Scene`]. The key of a removed instance never becomes that of another one.
-    pub struct InstanceKey;
-    /// The key of a light of a [`Scene`]. The key of a removed light never becomes that of another one.
-    pub struct LightKey;
-}
 
 /// Everything that a renderer needs to draw an image, as plain data.
 ///

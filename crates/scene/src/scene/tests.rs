@@ -36,7 +36,7 @@ fn triangle() -> Mesh {
     Mesh::new("triangle", vertices, vec![0, 1, 2])
 }
 
-fn at(translation: DVec3) -> DAffine3 {
+fn translated(translation: DVec3) -> DAffine3 {
     DAffine3::from_translation(translation)
 }
 
@@ -120,7 +120,7 @@ fn bounds_and_triangles_count_every_instance() {
     let mesh = scene.insert_mesh(triangle());
     let material = scene.insert_material(Material::default()).unwrap();
     let [_, far, removed] = [0.0, 1e7, -1e7].map(|x| {
-        let instance = Instance::new(mesh, material, at(DVec3::X * x));
+        let instance = Instance::new(mesh, material, translated(DVec3::X * x));
         scene.insert_instance(instance).unwrap()
     });
     scene.remove_instance(removed).unwrap();
@@ -138,14 +138,14 @@ fn culling_keeps_what_the_framing_camera_shows_and_drops_what_is_behind_it() {
     let mut scene = Scene::default();
     let mesh = scene.insert_mesh(triangle());
     let material = scene.insert_material(Material::default()).unwrap();
-    let instance = |translation| Instance::new(mesh, material, at(translation));
+    let instance = |translation| Instance::new(mesh, material, translated(translation));
     let first = scene.insert_instance(instance(DVec3::ZERO)).unwrap();
     let moved = scene.insert_instance(instance(DVec3::ZERO)).unwrap();
     let third = scene.insert_instance(instance(DVec3::X * 3.0)).unwrap();
     let camera = scene.framing_camera(1.5);
     let visible = |scene: &Scene| scene.visible_instances(&camera.frustum(1.5)).collect::<Vec<_>>();
     assert_eq!(visible(&scene), [first, moved, third]);
-    scene.move_instance(moved, at(camera.position_world() * 3.0)).unwrap();
+    scene.move_instance(moved, translated(camera.position_world() * 3.0)).unwrap();
     assert_eq!(visible(&scene), [first, third]);
 }
 
@@ -261,7 +261,7 @@ fn transforms_that_are_not_finite_are_errors_and_change_nothing() {
     let _ = scene.take_changes();
     let before = scene.clone();
     let name = |name: &str| EditError::NotFinite { what: format!("instance \"{name}\"") };
-    for wrong in [at(DVec3::X * f64::NAN), DAffine3::from_scale(DVec3::INFINITY)] {
+    for wrong in [translated(DVec3::X * f64::NAN), DAffine3::from_scale(DVec3::INFINITY)] {
         assert_eq!(scene.move_instance(instance, wrong), Err(name("tree")));
         assert_eq!(scene.edit_instance(instance, |tree| tree.world_from_local = wrong), Err(name("tree")));
         let new = Instance::new(mesh, material, wrong).with_name("new");
@@ -308,12 +308,12 @@ fn each_edited_key_is_logged_once() {
         instances: vec![instance],
     };
     assert_eq!(Changes::insert_all(&scene), all);
-    scene.move_instance(instance, at(DVec3::X)).unwrap();
+    scene.move_instance(instance, translated(DVec3::X)).unwrap();
     assert_eq!(scene.take_changes(), all);
     assert!(scene.take_changes().is_empty());
     // Every kind of edit, twice.
     for i in 0..2 {
-        scene.move_instance(instance, at(DVec3::X * f64::from(i))).unwrap();
+        scene.move_instance(instance, translated(DVec3::X * f64::from(i))).unwrap();
         scene.edit_instance(instance, |tree| tree.casts = ShadowCasting::Off).unwrap();
         scene.edit_material(material, |wood| wood.roughness = 0.5).unwrap();
         scene.replace_material(material, textured("wood", image)).unwrap();
@@ -348,7 +348,7 @@ fn restored_changes_are_taken_again_once() {
     let One { mut scene, mesh, material, image, instance, .. } = one();
     let gone = scene.add(triangle(), Material::default(), DAffine3::IDENTITY).unwrap();
     let _ = scene.take_changes();
-    scene.move_instance(instance, at(DVec3::X)).unwrap();
+    scene.move_instance(instance, translated(DVec3::X)).unwrap();
     scene.replace_mesh(mesh, triangle()).unwrap();
     scene.edit_material(material, |wood| wood.unlit = true).unwrap();
     scene.replace_image(image, pixel("bark")).unwrap();
@@ -363,13 +363,13 @@ fn restored_changes_are_taken_again_once() {
     assert_eq!(changes, expected);
     scene.restore_changes(changes);
     // Edits of what is in the log already, and of something else.
-    scene.move_instance(instance, at(DVec3::Y)).unwrap();
+    scene.move_instance(instance, translated(DVec3::Y)).unwrap();
     scene.replace_mesh(mesh, triangle()).unwrap();
     let added = scene.insert_instance(Instance::new(mesh, material, DAffine3::IDENTITY)).unwrap();
     let changes = scene.take_changes();
     assert_eq!(changes, Changes { instances: vec![instance, gone, added], ..expected });
     // Edited between.
-    scene.move_instance(added, at(DVec3::Z)).unwrap();
+    scene.move_instance(added, translated(DVec3::Z)).unwrap();
     scene.restore_changes(changes);
     let mut instances = scene.take_changes().instances;
     instances.sort_unstable();
@@ -395,7 +395,7 @@ fn scenes_are_equal_if_keys_and_values_are() {
     // The log does not count, nor edits that were undone.
     let mut same = scene.clone();
     let _ = same.take_changes();
-    same.move_instance(instance, at(DVec3::X)).unwrap();
+    same.move_instance(instance, translated(DVec3::X)).unwrap();
     assert_ne!(same, scene);
     same.move_instance(instance, DAffine3::IDENTITY).unwrap();
     assert_eq!(same, scene);

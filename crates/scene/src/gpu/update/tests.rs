@@ -67,7 +67,7 @@ impl Copied {
     }
 }
 
-fn at(x: f64) -> DAffine3 {
+fn translated(x: f64) -> DAffine3 {
     DAffine3::from_translation(DVec3::X * x)
 }
 
@@ -84,7 +84,7 @@ fn row(count: usize) -> (Scene, Vec<InstanceKey>) {
     let mut scene = Scene::default();
     let mesh = scene.insert_mesh(cube(1.0));
     let material = scene.insert_material(Material::default()).unwrap();
-    let insert = |x| scene.insert_instance(Instance::new(mesh, material, at(f64::from(x)))).unwrap();
+    let insert = |x| scene.insert_instance(Instance::new(mesh, material, translated(f64::from(x)))).unwrap();
     let keys = (0..count as u32).map(insert).collect();
     (scene, keys)
 }
@@ -97,7 +97,7 @@ fn moving_one_of_ten_thousand_instances_changes_one_and_uploads_as_much() {
         keys.iter().map(|&key| copied.gpu.version(copied.number(key))).collect()
     };
     let before = versions(&copied);
-    copied.scene.move_instance(keys[77], at(-5.0)).unwrap();
+    copied.scene.move_instance(keys[77], translated(-5.0)).unwrap();
     let changes = copied.scene.take_changes();
     assert_eq!((changes.instances.as_slice(), changes.meshes.len()), (&keys[77..78], 0));
     copied.gpu.frame += 1;
@@ -146,7 +146,7 @@ fn flags_decide_what_cameras_see_and_what_casts() {
 #[test]
 fn a_replaced_material_or_mesh_changes_the_versions_of_its_instances_alone() {
     let (mut scene, keys) = row(3);
-    let other = scene.add(cube(2.0), Material::default(), at(9.0)).unwrap();
+    let other = scene.add(cube(2.0), Material::default(), translated(9.0)).unwrap();
     let (mesh, material) = (scene.instance(keys[0]).unwrap().mesh, scene.instance(keys[0]).unwrap().material);
     let mut copied = Copied::new(scene);
     let versions = |copied: &Copied| {
@@ -173,7 +173,7 @@ fn textures_are_shared_replaced_with_their_image_and_freed_with_their_last_mater
     let mut scene = Scene::default();
     let image = scene.insert_image(dot(255)).unwrap();
     let textured = Material { base_color_texture: Some(TextureRef::new(image)), ..Material::default() };
-    let keys = [0.0, 2.0].map(|x| scene.add(cube(1.0), textured.clone(), at(x)).unwrap());
+    let keys = [0.0, 2.0].map(|x| scene.add(cube(1.0), textured.clone(), translated(x)).unwrap());
     let materials = keys.map(|key| scene.instance(key).unwrap().material);
     let mut copied = Copied::new(scene);
     assert_eq!(copied.gpu.materials.texture_count(), 1);
@@ -278,10 +278,10 @@ fn apply(scene: &mut Scene, edit: &Edit) -> Option<()> {
     match *edit {
         Edit::Insert(mesh, material, x) => {
             let (mesh, material) = (nth(scene.meshes(), mesh)?, nth(scene.materials(), material)?);
-            scene.insert_instance(Instance::new(mesh, material, at(x))).unwrap();
+            scene.insert_instance(Instance::new(mesh, material, translated(x))).unwrap();
         }
         Edit::Remove(number) => drop(scene.remove_instance(instance(scene, number)?).unwrap()),
-        Edit::Move(number, x) => scene.move_instance(instance(scene, number)?, at(x)).unwrap(),
+        Edit::Move(number, x) => scene.move_instance(instance(scene, number)?, translated(x)).unwrap(),
         Edit::Mirror(number) => {
             let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
             scene.edit_instance(instance(scene, number)?, |i| i.world_from_local *= mirror).unwrap();
@@ -368,7 +368,7 @@ fn ten_thousand_random_edits_leave_buffers_of_bounded_size() {
     };
     for frame in 0..10_000 {
         let material = Material { base_color_texture: Some(TextureRef::new(image)), ..Material::default() };
-        copied.scene.add(cube(random(9) as f64 + 1.0), material, at(random(99) as f64)).unwrap();
+        copied.scene.add(cube(random(9) as f64 + 1.0), material, translated(random(99) as f64)).unwrap();
         if copied.scene.instances().len() > 40 {
             let key = nth(copied.scene.instances(), random(40) as u8).unwrap();
             let removed = copied.scene.remove_instance(key).unwrap();
