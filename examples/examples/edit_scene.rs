@@ -44,7 +44,7 @@ impl EditScene {
             scene.move_instance(*key, transform(frame - born))?;
         }
         if frame.is_multiple_of(FRAMES_PER_BOX) {
-            let material = if self.boxes.len() % 2 == 0 { self.white } else { self.changing };
+            let material = if self.boxes.len().is_multiple_of(2) { self.white } else { self.changing };
             let mut instance = Instance::new(self.cube, material, transform(0));
             if frame.is_multiple_of(4 * FRAMES_PER_BOX) {
                 instance.casts = ShadowCasting::ShadowOnly;

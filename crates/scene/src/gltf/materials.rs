@@ -38,8 +38,12 @@ pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, 
     images.dedup();
     let materials = document.materials.iter().zip(&textures).enumerate().map(|(i, (material, textures))| {
         let location = describe_material(i, material);
-        let (references, used) = textures.convert(document, &images, &location, notes)?;
-        Ok((convert(material, references, &location)?, used))
+        let textures = textures.convert(document, &images, &location, notes)?;
+        let references = textures.map(|texture| texture.map(|(reference, _)| reference));
+        Ok((
+            convert(material, references, &location)?,
+            textures.map(|texture| texture.map(|(_, image)| image)),
+        ))
     });
     Ok(Materials { materials: materials.collect::<Result<_, _>>()?, images })
 }
@@ -80,17 +84,16 @@ impl Textures {
         images: &[usize],
         location: &str,
         notes: &mut Notes,
-    ) -> Result<([Option<TextureRef>; 5], [Option<usize>; 5]), ImportError> {
-        let (mut references, mut images_used) = ([None; 5], [None; 5]);
-        for (i, texture) in self.all.iter().enumerate() {
+    ) -> Result<[Option<(TextureRef, usize)>; 5], ImportError> {
+        let mut references = [None; 5];
+        for (texture, reference) in self.all.iter().zip(&mut references) {
             let Some(texture) = texture else { continue };
             let image = texture.image(document).and_then(|image| images.binary_search(&image).ok());
             let image =
                 image.ok_or_else(|| ImportError::new(location, "uses a texture that does not exist"))?;
-            references[i] = Some(texture.convert(document, location, notes)?);
-            images_used[i] = Some(image);
+            *reference = Some((texture.convert(document, location, notes)?, image));
         }
-        Ok((references, images_used))
+        Ok(references)
     }
 }
 

@@ -238,21 +238,21 @@ enum Edit {
 fn edit() -> impl Strategy<Value = Edit> {
     let (n, x) = (any::<u8>(), -50.0..50.0);
     prop_oneof![
-        6 => (n.clone(), n.clone(), x.clone()).prop_map(|(a, b, x)| Edit::Insert(a, b, x)),
-        3 => n.clone().prop_map(Edit::Remove),
-        6 => (n.clone(), x).prop_map(|(a, x)| Edit::Move(a, x)),
-        1 => n.clone().prop_map(Edit::Mirror),
-        1 => (n.clone(), any::<bool>()).prop_map(|(a, on)| Edit::Visible(a, on)),
-        1 => (n.clone(), n.clone()).prop_map(|(a, b)| Edit::Casts(a, b)),
-        1 => (n.clone(), any::<bool>()).prop_map(|(a, on)| Edit::Receives(a, on)),
-        2 => (n.clone(), n.clone(), n.clone()).prop_map(|(a, b, c)| Edit::Use(a, b, c)),
-        1 => n.clone().prop_map(Edit::InsertMesh),
-        1 => (n.clone(), n.clone()).prop_map(|(a, b)| Edit::ReplaceMesh(a, b)),
-        1 => n.clone().prop_map(Edit::RemoveMesh),
-        1 => (n.clone(), n.clone()).prop_map(|(a, b)| Edit::InsertMaterial(a, b)),
-        1 => (n.clone(), n.clone(), n.clone()).prop_map(|(a, b, c)| Edit::ReplaceMaterial(a, b, c)),
-        1 => n.clone().prop_map(Edit::RemoveMaterial),
-        1 => (n.clone(), n).prop_map(|(a, b)| Edit::ReplaceImage(a, b)),
+        6 => (n, n, x.clone()).prop_map(|(a, b, x)| Edit::Insert(a, b, x)),
+        3 => n.prop_map(Edit::Remove),
+        6 => (n, x).prop_map(|(a, x)| Edit::Move(a, x)),
+        1 => n.prop_map(Edit::Mirror),
+        1 => (n, any::<bool>()).prop_map(|(a, on)| Edit::Visible(a, on)),
+        1 => (n, n).prop_map(|(a, b)| Edit::Casts(a, b)),
+        1 => (n, any::<bool>()).prop_map(|(a, on)| Edit::Receives(a, on)),
+        2 => (n, n, n).prop_map(|(a, b, c)| Edit::Use(a, b, c)),
+        1 => n.prop_map(Edit::InsertMesh),
+        1 => (n, n).prop_map(|(a, b)| Edit::ReplaceMesh(a, b)),
+        1 => n.prop_map(Edit::RemoveMesh),
+        1 => (n, n).prop_map(|(a, b)| Edit::InsertMaterial(a, b)),
+        1 => (n, n, n).prop_map(|(a, b, c)| Edit::ReplaceMaterial(a, b, c)),
+        1 => n.prop_map(Edit::RemoveMaterial),
+        1 => (n, n).prop_map(|(a, b)| Edit::ReplaceImage(a, b)),
         4 => Just(Edit::Frame),
     ]
 }
@@ -268,7 +268,7 @@ fn some_material(scene: &Scene, alpha: u8, image: u8) -> Material {
         2 => AlphaMode::Mask { cutoff: f32::from(alpha) / 256.0 },
         _ => AlphaMode::Blend,
     };
-    let texture = nth(scene.images(), image).filter(|_| image % 3 > 0).map(TextureRef::new);
+    let texture = nth(scene.images(), image).filter(|_| !image.is_multiple_of(3)).map(TextureRef::new);
     Material { alpha, base_color_texture: texture, base_color: Vec4::ONE, ..Material::default() }
 }
 
