@@ -8,6 +8,7 @@
 //! reversed (near 1, far 0); matrices are named `destination_from_source`. Transforms are f64 and
 //! absolute; GPU space is relative to [`origin_near`] the camera.
 
+pub mod animation;
 mod bounds;
 mod camera;
 mod cull;
