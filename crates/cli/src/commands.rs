@@ -86,6 +86,7 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     }
     let mut scene = load(args.scene.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
+    scene.set_time(options.animation.resolve(&scene.hierarchy)?, options.time.0)?;
     if let Some(note) = options.sun.apply(&mut scene) {
         console::warning(&note);
     }

@@ -49,6 +49,21 @@ pub enum Projection {
 }
 
 impl Camera {
+    /// Moves the camera to a node, whose scale is ignored. Where the node has no direction, because its scale is 0, the camera keeps
+    /// its own.
+    pub fn follow(&mut self, world_from_node: &DAffine3) {
+        self.world_from_view = Self::world_from_view_at_node(world_from_node)
+            .unwrap_or(DAffine3 { translation: world_from_node.translation, ..self.world_from_view });
+    }
+
+    /// Returns the transform of a camera at a node, without its scale; `None` if the node has no direction.
+    pub(crate) fn world_from_view_at_node(world_from_node: &DAffine3) -> Option<DAffine3> {
+        let back = world_from_node.matrix3.z_axis.try_normalize()?;
+        let right = world_from_node.matrix3.y_axis.cross(back).try_normalize()?;
+        let rotation = DMat3::from_cols(right, back.cross(right), back);
+        Some(DAffine3::from_mat3_translation(rotation, world_from_node.translation))
+    }
+
     /// Creates a camera at `eye` that looks at `target` with `up` upwards in the image.
     ///
     /// If the direction is undefined (`eye` equals `target`, or `up` lies along the view) an arbitrary one is chosen.

@@ -33,9 +33,11 @@ pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
 pub use material::{
     AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap, linear_from_srgb,
 };
-pub use mesh::{Mesh, Vertex};
+pub use mesh::{Influence, Mesh, MeshPose, MorphDelta, MorphTarget, SkinWeights, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
-pub use scene::{Changes, EditError, Instance, Scene, ShadowCasting};
+pub use scene::{
+    AnimationSelection, Attachment, Changes, EditError, Hierarchy, Instance, Scene, ShadowCasting,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,6 +1,6 @@
 //! Punctual lights, as glTF's KHR_lights_punctual has them.
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// The illuminance, lux, below which a spot or point light without a range is treated as having no effect.
@@ -60,6 +60,19 @@ impl LightKind {
             Self::Spot { .. } => 1,
             Self::Point { .. } => 2,
         }
+    }
+
+    /// Returns the light at a node: at its origin, travelling along its -Z. Where the node has no direction, because its scale is 0,
+    /// the light keeps its own.
+    #[must_use]
+    pub fn at_node(mut self, world_from_node: &DAffine3) -> Self {
+        if let Self::Spot { position_world, .. } | Self::Point { position_world, .. } = &mut self {
+            *position_world = world_from_node.translation;
+        }
+        if let Self::Directional { direction } | Self::Spot { direction, .. } = &mut self {
+            *direction = (-world_from_node.matrix3.z_axis).try_normalize().unwrap_or(*direction);
+        }
+        self
     }
 }
 

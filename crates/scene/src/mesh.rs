@@ -6,10 +6,17 @@ use glam::DVec3;
 use crate::bounds::Aabb;
 
 mod cuboid;
+mod morph;
 mod normals;
+mod pose;
+mod skin;
 mod tangents;
 #[cfg(test)]
 mod tests;
+
+pub use morph::{MorphDelta, MorphTarget};
+pub use pose::MeshPose;
+pub use skin::{Influence, SkinWeights};
 
 /// A vertex, 60 bytes, as the GPU reads it.
 #[repr(C)]
@@ -54,10 +61,14 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Bounds of the vertices in the mesh's own space.
     pub bounds: Aabb,
+    /// The joints that move each vertex, if a skin can move the mesh.
+    pub skin: Option<SkinWeights>,
+    /// The displacements that weights can add to the vertices.
+    pub morph_targets: Vec<MorphTarget>,
 }
 
 impl Mesh {
-    /// Creates a mesh and computes its bounds.
+    /// Creates a mesh without skin and morph targets, and computes its bounds.
     ///
     /// ```
     /// use shadowgraph_scene::{Mesh, Vertex};
@@ -68,7 +79,7 @@ impl Mesh {
     #[must_use]
     pub fn new(name: impl Into<String>, vertices: Vec<Vertex>, indices: Vec<u32>) -> Self {
         let bounds = Aabb::from_points(vertices.iter().map(position));
-        Self { name: name.into(), vertices, indices, bounds }
+        Self { name: name.into(), vertices, indices, bounds, skin: None, morph_targets: Vec::new() }
     }
 
     /// Creates a box from one corner to the opposite one, metres.

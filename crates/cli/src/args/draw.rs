@@ -43,6 +43,12 @@ pub(crate) struct DrawArgs {
     /// in which its light travels; or none for no directional lights
     #[arg(long, value_name = "SUN")]
     sun: Option<String>,
+    /// The moment of the animations in seconds; before their start and after their end, the scene stands still
+    #[arg(long, value_name = "S", default_value = "0", allow_negative_numbers = true)]
+    time: String,
+    /// The animations of the file that are played: one by name or index, all or none
+    #[arg(long, value_name = "NAME|INDEX|all|none", default_value = "all")]
+    animation: String,
     /// Shadow distance in metres, or auto for the end of the visible scene. Default: that of --settings, else auto
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     shadow_distance: Option<String>,
@@ -107,6 +113,8 @@ impl DrawArgs {
             size: self.size.parse()?,
             camera: or_default(self.camera.as_deref())?,
             sun: or_default(self.sun.as_deref())?,
+            animation: self.animation.parse()?,
+            time: self.time.parse()?,
             shadow_distance,
             aov: self.aov.parse()?,
             adapter: or_default(self.adapter.as_deref())?,
@@ -186,7 +194,7 @@ mod tests {
     use super::*;
     use crate::args::{Cli, Command};
     use clap::Parser;
-    use shadowgraph::options::{AdapterChoice, Aov};
+    use shadowgraph::options::{AdapterChoice, AnimationChoice, AnimationTime, Aov};
 
     fn options(line: &str) -> Result<Options, String> {
         let words =
@@ -204,12 +212,16 @@ mod tests {
     #[test]
     fn every_option_of_the_design_is_accepted() {
         let line = "scene.glb;--pipeline;forward;--technique;pcf;--size;320x180;--camera;1;--sun;none;\
-            --shadow-distance;80;--aov;visibility:1;--adapter;cpu;--timings;-o;a/b.png";
+            --shadow-distance;80;--time;-1.5;--animation;walk;--aov;visibility:1;--adapter;cpu;--timings;-o;a/b.png";
         let options = options(line).unwrap();
         assert_eq!(options.size.to_string(), "320x180");
         assert_eq!(options.aov, Aov::Visibility(1));
         assert_eq!(options.adapter, AdapterChoice::Cpu);
         assert_eq!(options.shadow_distance, ShadowDistance::Metres(80.0));
+        assert_eq!(
+            (options.animation, options.time),
+            (AnimationChoice::Scene("walk".into()), AnimationTime(-1.5))
+        );
         assert!(options.timings);
     }
 
@@ -224,6 +236,7 @@ mod tests {
             ),
             ("--size;0x4", "--size: width 0"),
             ("--sun;dir=0,0,0", "--sun: dir must not be zero"),
+            ("--time;soon", "--time: invalid value `soon`; expected -1000000000 to 1000000000 seconds"),
             ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
         ] {
             let error = options(line).unwrap_err();

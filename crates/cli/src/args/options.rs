@@ -1,6 +1,8 @@
 //! The values of a drawing command's options.
 
-use shadowgraph::options::{AdapterChoice, Aov, CameraChoice, ShadowDistance, Size, SunChoice};
+use shadowgraph::options::{
+    AdapterChoice, AnimationChoice, AnimationTime, Aov, CameraChoice, ShadowDistance, Size, SunChoice,
+};
 use shadowgraph::shadows::{ShadowSettings, Technique};
 use shadowgraph::{Pipeline, RenderConfig};
 
@@ -21,6 +23,10 @@ pub(crate) struct Options {
     pub(crate) camera: CameraChoice,
     /// The directional lights.
     pub(crate) sun: SunChoice,
+    /// The animations that are played.
+    pub(crate) animation: AnimationChoice,
+    /// The moment of the animations.
+    pub(crate) time: AnimationTime,
     /// The shadow distance, instead of `settings.distance_m`.
     pub(crate) shadow_distance: ShadowDistance,
     /// The AOV that the image shows.
@@ -48,6 +54,8 @@ impl Default for Options {
             size: Size::default(),
             camera: CameraChoice::default(),
             sun: SunChoice::default(),
+            animation: AnimationChoice::default(),
+            time: AnimationTime::default(),
             shadow_distance: ShadowDistance::default(),
             aov: Aov::default(),
             adapter: AdapterChoice::default(),

@@ -13,6 +13,14 @@ pub enum Interpolation {
     CubicSpline,
 }
 
+impl Interpolation {
+    /// Returns the number of values of a keyframe: splines have a tangent before and after the value.
+    #[must_use]
+    pub fn values_per_key(self) -> usize {
+        if self == Self::CubicSpline { 3 } else { 1 }
+    }
+}
+
 /// A value of some components over time. Before the first keyframe and after the last it is constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
@@ -43,7 +51,7 @@ impl Curve {
             }
             before = Some(time_s);
         }
-        let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        let per_key = interpolation.values_per_key();
         let expected = times_s.len().checked_mul(width * per_key);
         if times_s.is_empty() || width == 0 || expected != Some(values.len()) {
             let (keys, count) = (times_s.len(), values.len());

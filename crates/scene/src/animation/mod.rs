@@ -19,6 +19,17 @@ pub struct Node {
     pub local: LocalTransform,
     /// The weights at rest, one for each morph target.
     pub weights: Vec<f32>,
+    /// Index of the skin that deforms the mesh of the node.
+    pub skin: Option<usize>,
+}
+
+/// Nodes that move the vertices of meshes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Skin {
+    /// Index of the node of each joint.
+    pub joints: Vec<usize>,
+    /// The transform from the space of the mesh to that of each joint at rest.
+    pub inverse_bind: Vec<DAffine3>,
 }
 
 /// The transform from a node's space to its parent's.
@@ -75,6 +86,26 @@ impl Animation {
     #[must_use]
     pub fn end_s(&self) -> f32 {
         self.channels.iter().map(|channel| channel.curve.end_s()).fold(0.0, f32::max)
+    }
+}
+
+impl Skin {
+    /// Returns a transform near the joints, and for each joint the transform from the space of the mesh to the space of that
+    /// transform. The transform is mirrored if the first joint mirrors the mesh, so that it has the winding of the triangles.
+    #[must_use]
+    pub fn pose(&self, world_from_node: &[DAffine3]) -> (DAffine3, Vec<DAffine3>) {
+        let world = |node: &usize| world_from_node.get(*node).copied().unwrap_or(DAffine3::IDENTITY);
+        let joints = self.joints.iter().zip(&self.inverse_bind);
+        let mut joints: Vec<_> = joints.map(|(node, inverse_bind)| world(node) * *inverse_bind).collect();
+        let is_mirrored = joints.first().is_some_and(|joint| joint.matrix3.determinant() < 0.0);
+        let scale = DVec3::new(if is_mirrored { -1.0 } else { 1.0 }, 1.0, 1.0);
+        let translation = self.joints.first().map_or(DVec3::ZERO, |node| world(node).translation);
+        let world_from_local = DAffine3::from_scale_rotation_translation(scale, DQuat::IDENTITY, translation);
+        for joint in &mut joints {
+            joint.translation -= translation;
+            *joint = DAffine3::from_scale(scale) * *joint;
+        }
+        (world_from_local, joints)
     }
 }
 

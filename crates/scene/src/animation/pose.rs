@@ -85,7 +85,7 @@ mod tests {
 
     fn node(parent: Option<usize>, translation: DVec3) -> Node {
         let local = LocalTransform::Parts { translation, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
-        Node { name: String::new(), parent, local, weights: vec![0.25, 0.5] }
+        Node { name: String::new(), parent, local, weights: vec![0.25, 0.5], skin: None }
     }
 
     fn animation(node: usize, property: Property, width: usize, values: &[f32]) -> Animation {

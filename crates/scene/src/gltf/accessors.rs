@@ -16,7 +16,7 @@ struct Elements<'a> {
 impl<'a> Elements<'a> {
     /// Returns the bytes of an element of `size` bytes.
     fn get(&self, index: usize, size: usize) -> &'a [u8] {
-        const ZEROS: [u8; 16] = [0; 16];
+        const ZEROS: [u8; 64] = [0; 64];
         let bytes = match self.bytes {
             None => ZEROS.get(..size),
             Some(bytes) => bytes.get(index * self.stride..).and_then(|bytes| bytes.get(..size)),
@@ -30,6 +30,7 @@ impl<'a> Elements<'a> {
 struct Layout {
     count: usize,
     component: ComponentType,
+    kind: Type,
     /// Number of components of an element.
     width: usize,
     normalized: bool,
@@ -71,6 +72,60 @@ impl Buffers<'_> {
         if layout.component == ComponentType::U32 {
             return Err("contains 32-bit integers (allowed: floats, 8-bit and 16-bit integers)".into());
         }
+        self.values(index, layout, fill)
+    }
+
+    /// Reads an accessor of single floats; at most `max_count`.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn floats(&self, index: usize, max_count: usize) -> Result<Vec<f32>, String> {
+        let layout = self.layout(index, max_count)?;
+        if (layout.kind, layout.component) != (Type::Scalar, ComponentType::F32) {
+            return Err("does not contain single floats (allowed: SCALAR of 5126)".into());
+        }
+        Ok(self.values::<1>(index, layout, [0.0])?.into_flattened())
+    }
+
+    /// Reads an accessor of matrices, column by column; at most `max_count`.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn matrices(&self, index: usize, max_count: usize) -> Result<Vec<[f32; 16]>, String> {
+        let layout = self.any_layout(index, max_count)?;
+        if (layout.kind, layout.component) != (Type::Mat4, ComponentType::F32) {
+            return Err("does not contain matrices of 4 x 4 floats (allowed: MAT4 of 5126)".into());
+        }
+        self.values(index, layout, [0.0; 16])
+    }
+
+    /// Reads an accessor of four joints per element; at most `max_count` elements.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn joints(&self, index: usize, max_count: usize) -> Result<Vec<[u16; 4]>, String> {
+        let layout = self.layout(index, max_count)?;
+        let unsigned = matches!(layout.component, ComponentType::U8 | ComponentType::U16);
+        if layout.kind != Type::Vec4 || !unsigned || layout.normalized {
+            return Err("does not contain joints (allowed: VEC4 of 5121 or 5123, not normalized)".into());
+        }
+        let mut joints = vec![[0; 4]; layout.count];
+        self.for_each(index, layout, |i, bytes| {
+            let components = bytes.chunks_exact(layout.component.size());
+            for (joint, bytes) in joints.get_mut(i).into_iter().flatten().zip(components) {
+                *joint = unsigned_integer(bytes) as u16;
+            }
+        })?;
+        Ok(joints)
+    }
+
+    /// Reads elements as f32; components that they lack are those of `fill`.
+    fn values<const N: usize>(
+        &self,
+        index: usize,
+        layout: Layout,
+        fill: [f32; N],
+    ) -> Result<Vec<[f32; N]>, String> {
         let mut vectors = vec![fill; layout.count];
         let read = |vector: &mut [f32; N], bytes: &[u8]| {
             for (value, bytes) in vector.iter_mut().zip(bytes.chunks_exact(layout.component.size())) {
@@ -109,7 +164,18 @@ impl Buffers<'_> {
         self.document().accessors.get(index).ok_or_else(|| "does not exist".to_owned())
     }
 
+    /// Returns the layout of an accessor without matrices.
     fn layout(&self, index: usize, max_count: usize) -> Result<Layout, String> {
+        let layout = self.any_layout(index, max_count)?;
+        match layout.kind {
+            Type::Mat2 | Type::Mat3 | Type::Mat4 => {
+                Err("contains matrices (allowed: SCALAR, VEC2, VEC3, VEC4)".into())
+            }
+            _ => Ok(layout),
+        }
+    }
+
+    fn any_layout(&self, index: usize, max_count: usize) -> Result<Layout, String> {
         let accessor = self.accessor(index)?;
         let Checked::Valid(component) = accessor.component_type else {
             return Err("has an unknown componentType (allowed: 5120 to 5123, 5125, 5126)".into());
@@ -117,9 +183,6 @@ impl Buffers<'_> {
         let Checked::Valid(kind) = accessor.type_ else {
             return Err("has an unknown type (allowed: SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4)".into());
         };
-        if matches!(kind, Type::Mat2 | Type::Mat3 | Type::Mat4) {
-            return Err("contains matrices (allowed: SCALAR, VEC2, VEC3, VEC4)".into());
-        }
         let count = usize::try_from(accessor.count.0).ok().filter(|count| *count <= max_count);
         let Some(count) = count else {
             let count = accessor.count.0;
@@ -130,6 +193,7 @@ impl Buffers<'_> {
         Ok(Layout {
             count,
             component: component.0,
+            kind,
             width: kind.multiplicity(),
             normalized: accessor.normalized,
         })

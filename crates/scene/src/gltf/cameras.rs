@@ -1,7 +1,7 @@
 //! Conversion of cameras.
 
 use ::gltf::json;
-use glam::{DAffine3, DMat3};
+use glam::DAffine3;
 use json::camera::Type;
 use json::validation::Checked;
 
@@ -61,12 +61,8 @@ pub(super) fn camera_at_node(
     name: Option<String>,
     world: &DAffine3,
 ) -> Result<Camera, String> {
-    let back = world.matrix3.z_axis.try_normalize();
-    let right = back.and_then(|back| world.matrix3.y_axis.cross(back).try_normalize().zip(Some(back)));
-    let Some((right, back)) = right else {
-        return Err("its camera has no direction: the scale must not be 0".into());
-    };
-    let rotation = DMat3::from_cols(right, back.cross(right), back);
-    let world_from_view = DAffine3::from_mat3_translation(rotation, world.translation);
-    Ok(Camera { name, world_from_view, projection })
+    match Camera::world_from_view_at_node(world) {
+        Some(world_from_view) => Ok(Camera { name, world_from_view, projection }),
+        None => Err("its camera has no direction: the scale must not be 0".into()),
+    }
 }

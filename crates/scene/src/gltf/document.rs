@@ -1,13 +1,12 @@
 //! The JSON of a glTF file, in the `gltf` crate's types.
 //!
-//! The top-level object is our own type, which only counts what is not drawn (animations, skins), so that an error there
-//! does not prevent the rest from being drawn.
+//! The top-level object is our own type, and so are animations, so that channels of extensions do not prevent the rest from being
+//! drawn.
 
 use ::gltf::json;
 use json::Index;
 use json::extensions::scene::khr_lights_punctual::Light;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 
 use super::error::ImportError;
 
@@ -18,7 +17,7 @@ pub(super) struct Document {
     #[serde(default)]
     pub(super) accessors: Vec<json::Accessor>,
     #[serde(default)]
-    pub(super) animations: Vec<IgnoredAny>,
+    pub(super) animations: Vec<Animation>,
     #[serde(default)]
     pub(super) buffers: Vec<json::Buffer>,
     #[serde(default)]
@@ -43,7 +42,46 @@ pub(super) struct Document {
     #[serde(default)]
     pub(super) scenes: Vec<Scene>,
     #[serde(default)]
+    pub(super) skins: Vec<json::Skin>,
+    #[serde(default)]
     pub(super) textures: Vec<json::Texture>,
+}
+
+/// Properties of nodes over time.
+#[derive(Debug, Deserialize)]
+#[serde(expecting = "an animation object")]
+pub(super) struct Animation {
+    pub(super) name: Option<String>,
+    #[serde(default)]
+    pub(super) channels: Vec<Channel>,
+    #[serde(default)]
+    pub(super) samplers: Vec<Sampler>,
+}
+
+/// A sampler and the property that it animates.
+#[derive(Debug, Deserialize)]
+#[serde(expecting = "a channel object")]
+pub(super) struct Channel {
+    pub(super) sampler: Index<Sampler>,
+    pub(super) target: Target,
+}
+
+/// The animated property.
+#[derive(Debug, Deserialize)]
+#[serde(expecting = "a target object")]
+pub(super) struct Target {
+    /// Extensions may animate other objects.
+    pub(super) node: Option<Index<json::Node>>,
+    pub(super) path: String,
+}
+
+/// The times and values of keyframes.
+#[derive(Debug, Deserialize)]
+#[serde(expecting = "a sampler object")]
+pub(super) struct Sampler {
+    pub(super) input: Index<json::Accessor>,
+    pub(super) interpolation: Option<String>,
+    pub(super) output: Index<json::Accessor>,
 }
 
 /// The root nodes of a scene.

@@ -9,15 +9,16 @@ use super::files::{Files, read_file};
 use super::mesh::Reader;
 use super::nodes::{self, SceneNode};
 use super::notes::Notes;
+use super::skins::Skins;
 use super::validate::{
-    MAX_BYTES, MAX_INSTANCES, MAX_WORLD_M, SUPPORTED_EXTENSIONS, check_header, check_references,
+    MAX_BYTES, MAX_INSTANCES, MAX_VERTICES, MAX_WORLD_M, SUPPORTED_EXTENSIONS, check_header, check_references,
 };
-use super::{container, images, materials};
+use super::{animations, container, hierarchy, images, materials};
 use crate::error::Error;
-use crate::keys::MaterialKey;
+use crate::keys::{InstanceKey, MaterialKey};
 use crate::material::{Image, Material};
 use crate::mesh::Mesh;
-use crate::scene::{EditError, Instance, Scene};
+use crate::scene::{Attachment, EditError, Hierarchy, Instance, Scene};
 
 /// The progress of loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,24 +72,36 @@ fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Re
     let document = Document::from_json(chunks.json)?;
     check_references(&document)?;
     let mut notes = Notes::default();
-    note_unsupported_features(&document, &mut notes);
+    note_unsupported_extensions(&document, &mut notes);
     let nodes = nodes::walk(&document, &mut notes)?;
     check_instance_count(&document, &nodes)?;
     let lights = nodes::lights(&document, &nodes)?;
     let cameras = nodes::cameras(&document, &nodes)?;
     let materials::Materials { mut materials, images } = materials::read(&document, &mut notes)?;
     let buffers = Buffers::read(&document, chunks.bin, files)?;
+    let skins = Skins::read(&buffers, &nodes)?;
+    let hierarchy_nodes = hierarchy::nodes(&document, &nodes, &skins)?;
+    let animations = animations::Reader::new(&buffers, &nodes, &hierarchy_nodes, &mut notes).animations()?;
     let geometry = Geometry::read(&buffers, &nodes, &mut materials, &mut notes, progress)?;
     geometry.check_range(&document, &nodes)?;
+    geometry.check_deformed(&document, &nodes, &skins)?;
     let decoded = |fraction| progress(Progress { stage: "images", fraction });
     let images = images::read(&buffers, files, &images, &mut { decoded })?;
     let mut scene = Scene::default();
-    (scene.cameras, scene.notes) = (cameras, notes.into_lines());
-    scene.set_lights(lights);
+    scene.notes = notes.into_lines();
     let inserted = insert_materials(&mut scene, images, materials)
         .and_then(|materials| geometry.insert(&mut scene, &document, &nodes, &materials));
     // Everything has been checked with its location before.
-    inserted.map_err(|error| ImportError::new("scene", error.to_string()))?;
+    let instances = inserted.map_err(|error| ImportError::new("scene", error.to_string()))?;
+    let lights =
+        lights.into_iter().map(|(node, light)| Attachment { node, object: scene.insert_light(light) });
+    let lights = lights.collect();
+    let (camera_nodes, all_cameras): (Vec<usize>, _) = cameras.into_iter().unzip();
+    let cameras = (0..).zip(camera_nodes).map(|(object, node)| Attachment { node, object }).collect();
+    scene.cameras = all_cameras;
+    let (nodes, skins) = (hierarchy_nodes, skins.skins);
+    scene.hierarchy = Hierarchy { nodes, skins, animations, instances, lights, cameras };
+    scene.deform_at_rest().map_err(|error| ImportError::new("scene", error.to_string()))?;
     Ok(scene)
 }
 
@@ -111,16 +124,10 @@ fn insert_materials(
     materials.into_iter().map(insert).collect()
 }
 
-fn note_unsupported_features(document: &Document, notes: &mut Notes) {
+fn note_unsupported_extensions(document: &Document, notes: &mut Notes) {
     for name in document.extensions_used.iter().filter(|name| !SUPPORTED_EXTENSIONS.contains(&name.as_str()))
     {
         notes.add("extensionsUsed", format!("{name} is not drawn"));
-    }
-    if !document.animations.is_empty() {
-        notes.add("animation 0", "animations are not played, the scene is drawn at rest");
-    }
-    if let Some(node) = document.nodes.iter().position(|node| node.skin.is_some()) {
-        notes.add(describe("node", node, None), "skins are not drawn, the mesh is drawn at rest");
     }
 }
 
@@ -182,24 +189,24 @@ impl Geometry {
         Ok(geometry)
     }
 
-    /// Returns the mesh and the material of each drawn primitive, with the node that draws it.
+    /// Returns the mesh and the material of each drawn primitive, with the node that draws it and the index of the node.
     fn drawn<'a>(
         &'a self,
         document: &'a Document,
         nodes: &'a [SceneNode],
-    ) -> impl Iterator<Item = (&'a SceneNode, String, usize, usize)> {
-        nodes.iter().flat_map(move |scene_node| {
+    ) -> impl Iterator<Item = (usize, &'a SceneNode, String, usize, usize)> {
+        nodes.iter().enumerate().flat_map(move |(number, scene_node)| {
             let node = document.nodes.get(scene_node.node);
             let primitives = node.and_then(|node| self.primitives.get(node.mesh?.value()));
             let name = clean_name(node.and_then(|node| node.name.as_deref()));
             let drawn = primitives.into_iter().flatten();
-            drawn.map(move |&(mesh, material)| (scene_node, name.clone(), mesh, material))
+            drawn.map(move |&(mesh, material)| (number, scene_node, name.clone(), mesh, material))
         })
     }
 
     /// Checks that every instance lies within the supported range.
     fn check_range(&self, document: &Document, nodes: &[SceneNode]) -> Result<(), ImportError> {
-        for (scene_node, name, mesh, _) in self.drawn(document, nodes) {
+        for (_, scene_node, name, mesh, _) in self.drawn(document, nodes) {
             let Some(mesh) = self.meshes.get(mesh) else { continue };
             let bounds = mesh.bounds.transformed(&scene_node.world_from_node);
             let extent_m = bounds.min.abs().max(bounds.max.abs()).max_element();
@@ -213,22 +220,52 @@ impl Geometry {
         Ok(())
     }
 
-    /// Inserts the meshes and their instances.
+    /// Checks the number of deformed vertices, and that the skin of each node has every joint that its meshes need.
+    fn check_deformed(
+        &self,
+        document: &Document,
+        nodes: &[SceneNode],
+        skins: &Skins,
+    ) -> Result<(), ImportError> {
+        let mut vertices_left = MAX_VERTICES;
+        for (_, scene_node, name, mesh, _) in self.drawn(document, nodes) {
+            let Some(mesh) = self.meshes.get(mesh) else { continue };
+            let skin = document.nodes.get(scene_node.node).and_then(|node| skins.get(node.skin?.value()));
+            if (mesh.skin.is_some() && skin.is_some()) || !mesh.morph_targets.is_empty() {
+                vertices_left = vertices_left.checked_sub(mesh.vertices.len()).ok_or_else(|| {
+                    ImportError::new(
+                        "nodes",
+                        format!("their skins and morph targets deform over {MAX_VERTICES} vertices"),
+                    )
+                })?;
+            }
+            let Some((weights, skin)) = mesh.skin.as_ref().zip(skin) else { continue };
+            let (needed, count) = (weights.joint_bounds().len(), skin.joints.len());
+            if needed > count {
+                let reason = format!("its mesh needs joint {} of a skin with {count} joints", needed - 1);
+                return Err(ImportError::new(describe("node", scene_node.node, Some(&name)), reason));
+            }
+        }
+        Ok(())
+    }
+
+    /// Inserts the meshes and their instances, and returns the instances with their nodes.
     fn insert(
         mut self,
         scene: &mut Scene,
         document: &Document,
         nodes: &[SceneNode],
         materials: &[MaterialKey],
-    ) -> Result<(), EditError> {
+    ) -> Result<Vec<Attachment<InstanceKey>>, EditError> {
         let meshes: Vec<_> =
             std::mem::take(&mut self.meshes).into_iter().map(|mesh| scene.insert_mesh(mesh)).collect();
-        for (scene_node, name, mesh, material) in self.drawn(document, nodes) {
+        let mut attachments = Vec::new();
+        for (node, scene_node, name, mesh, material) in self.drawn(document, nodes) {
             if let (Some(&mesh), Some(&material)) = (meshes.get(mesh), materials.get(material)) {
                 let instance = Instance::new(mesh, material, scene_node.world_from_node).with_name(name);
-                scene.insert_instance(instance)?;
+                attachments.push(Attachment { node, object: scene.insert_instance(instance)? });
             }
         }
-        Ok(())
+        Ok(attachments)
     }
 }

@@ -1,5 +1,8 @@
 //! Conversion of primitives to meshes.
 
+mod morph;
+mod skin;
+
 use ::gltf::json;
 use json::mesh::{Mode, Primitive, Semantic};
 use json::validation::Checked;
@@ -17,6 +20,7 @@ pub(super) struct Reader<'a> {
     notes: &'a mut Notes,
     vertices_left: usize,
     indices_left: usize,
+    morph_vertices_left: usize,
 }
 
 /// The primitive that is being read.
@@ -29,7 +33,8 @@ struct Source<'a> {
 
 impl<'a> Reader<'a> {
     pub(super) fn new(buffers: &'a Buffers<'a>, notes: &'a mut Notes) -> Self {
-        Self { buffers, notes, vertices_left: MAX_VERTICES, indices_left: MAX_INDICES }
+        let (vertices_left, morph_vertices_left) = (MAX_VERTICES, MAX_VERTICES);
+        Self { buffers, notes, vertices_left, indices_left: MAX_INDICES, morph_vertices_left }
     }
 
     /// Reads a primitive; `None` if there is nothing to draw. `normal_map` is the normal texture of its
@@ -57,9 +62,6 @@ impl<'a> Reader<'a> {
             self.notes.add(source.location, "points and lines are not drawn");
             return Ok(None);
         }
-        if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            self.notes.add(&source.location, "morph targets are not drawn, the mesh is drawn at rest");
-        }
         let Some(mut vertices) = self.positions(&mut source)? else { return Ok(None) };
         let indices = self.indices(&source, mode)?;
         if indices.is_empty() {
@@ -72,6 +74,8 @@ impl<'a> Reader<'a> {
         // glTF says to ignore tangents without normals.
         let has_tangents = has_normals && self.tangents(&source, &mut vertices)?;
         let mut mesh = Mesh::new(clean_name(name), vertices, indices);
+        mesh.skin = self.skin(&source, &mesh.vertices)?;
+        mesh.morph_targets = self.morph_targets(&source, has_normals, has_tangents)?;
         self.finish(&mut mesh, has_normals, has_tangents, normal_map, &source)?;
         Ok(Some(mesh))
     }
@@ -191,6 +195,7 @@ impl<'a> Reader<'a> {
                 ));
             };
             self.vertices_left = left;
+            self.take_morph_vertices(source, more.saturating_mul(mesh.morph_targets.len()))?;
             mesh.flat_normals();
         } else if mesh.repair_normals() > 0 {
             self.notes.add(&source.location, "normals that are zero or not finite are recomputed");
@@ -217,15 +222,19 @@ impl<'a> Reader<'a> {
     ) -> Result<Option<Vec<[f32; N]>>, ImportError> {
         let Some(accessor) = source.accessor(semantic) else { return Ok(None) };
         let location = || source.attribute_location(&semantic.to_string(), accessor);
-        let count = self.buffers.accessor_count(accessor).with_location(location)?;
-        if count != source.count as u64 {
-            let reason = format!(
+        self.check_count(source, accessor).with_location(location)?;
+        Ok(Some(self.buffers.vectors(accessor, min, fill, source.count).with_location(location)?))
+    }
+
+    /// Checks that an accessor has one element per vertex.
+    fn check_count(&self, source: &Source<'_>, accessor: usize) -> Result<(), String> {
+        match self.buffers.accessor_count(accessor)? {
+            count if count == source.count as u64 => Ok(()),
+            count => Err(format!(
                 "has {count} elements for {} positions (allowed: as many as positions)",
                 source.count
-            );
-            return Err(ImportError::new(location(), reason));
+            )),
         }
-        Ok(Some(self.buffers.vectors(accessor, min, fill, source.count).with_location(location)?))
     }
 }
 

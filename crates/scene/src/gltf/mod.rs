@@ -1,8 +1,8 @@
 //! Import of glTF 2.0 and GLB files.
 //!
 //! Drawn: meshes (triangles, strips and fans) and their instances, metallic-roughness materials,
-//! PNG and JPEG images, cameras, and the extensions [`SUPPORTED_EXTENSIONS`]. Skins, morph targets and
-//! animations are drawn at rest; everything that is not drawn as the file says adds a line to `Scene::notes`.
+//! PNG and JPEG images, cameras, animations, skins, morph targets, and the extensions [`SUPPORTED_EXTENSIONS`]. Everything that is
+//! not drawn as the file says adds a line to `Scene::notes`.
 //! Meshes that no drawn node uses, and images that no material uses, are not read.
 //!
 //! Files are not trusted: every index, offset, count and size is checked against the available bytes before
@@ -10,12 +10,14 @@
 //! the constants). Every error is one [`Error`](crate::Error) that says where in the file it is.
 
 mod accessors;
+mod animations;
 mod buffers;
 mod cameras;
 mod container;
 mod document;
 mod error;
 mod files;
+mod hierarchy;
 mod images;
 mod lights;
 mod load;
@@ -23,10 +25,14 @@ mod materials;
 mod mesh;
 mod nodes;
 mod notes;
+mod skins;
 mod textures;
 mod uri;
 mod validate;
 
 pub use images::{MAX_IMAGE_BYTES, MAX_IMAGE_SIZE_PX};
 pub use load::{Progress, load, load_with_progress};
-pub use validate::{MAX_BYTES, MAX_INDICES, MAX_INSTANCES, MAX_VERTICES, MAX_WORLD_M, SUPPORTED_EXTENSIONS};
+pub use validate::{
+    MAX_BYTES, MAX_INDICES, MAX_INSTANCES, MAX_JOINTS, MAX_KEYFRAME_VALUES, MAX_MORPH_WEIGHTS, MAX_VERTICES,
+    MAX_WORLD_M, SUPPORTED_EXTENSIONS,
+};

@@ -8,6 +8,7 @@ use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
 use super::validate::MAX_WORLD_M;
 use super::{cameras, lights};
+use crate::animation::LocalTransform;
 use crate::camera::{Camera, Projection};
 use crate::light::Light;
 
@@ -16,7 +17,19 @@ use crate::light::Light;
 pub(super) struct SceneNode {
     /// Index of the node in the file.
     pub(super) node: usize,
+    /// Index of the parent among the nodes of the drawn scene.
+    pub(super) parent: Option<usize>,
+    pub(super) local: LocalTransform,
     pub(super) world_from_node: DAffine3,
+}
+
+/// Returns the index of each node of the file among the nodes of the drawn scene.
+pub(super) fn numbers(document: &Document, nodes: &[SceneNode]) -> Vec<Option<usize>> {
+    let mut numbers = vec![None; document.nodes.len()];
+    for (number, scene_node) in nodes.iter().enumerate() {
+        numbers.get_mut(scene_node.node).into_iter().for_each(|slot| *slot = Some(number));
+    }
+    numbers
 }
 
 /// Returns the nodes of the default scene, else of the first scene, else all nodes; parents before children.
@@ -28,16 +41,18 @@ pub(super) fn walk(document: &Document, notes: &mut Notes) -> Result<Vec<SceneNo
     let mut found = Vec::new();
     let roots = roots(document, &parents, notes)?;
     // A stack instead of recursion: a file may nest its nodes to any depth.
-    let mut stack: Vec<(usize, DAffine3)> =
-        roots.into_iter().rev().map(|node| (node, DAffine3::IDENTITY)).collect();
-    while let Some((index, world_from_parent)) = stack.pop() {
+    let mut stack: Vec<(usize, Option<usize>, DAffine3)> =
+        roots.into_iter().rev().map(|node| (node, None, DAffine3::IDENTITY)).collect();
+    while let Some((index, parent, world_from_parent)) = stack.pop() {
         let Some(node) = document.nodes.get(index) else { continue };
         let location = || describe("node", index, node.name.as_deref());
-        let world_from_node = world_from_parent * local_transform(node).with_location(location)?;
+        let local = local_transform(node).with_location(location)?;
+        let world_from_node = world_from_parent * local.to_affine();
         check_range(&world_from_node).with_location(location)?;
-        found.push(SceneNode { node: index, world_from_node });
+        let number = found.len();
+        found.push(SceneNode { node: index, parent, local, world_from_node });
         let children = node.children.iter().flatten().rev();
-        stack.extend(children.map(|child| (child.value(), world_from_node)));
+        stack.extend(children.map(|child| (child.value(), Some(number), world_from_node)));
     }
     Ok(found)
 }
@@ -110,13 +125,13 @@ fn roots(
 }
 
 /// Returns the transform from a node's space to its parent's.
-fn local_transform(node: &json::Node) -> Result<DAffine3, String> {
+fn local_transform(node: &json::Node) -> Result<LocalTransform, String> {
     if let Some(matrix) = &node.matrix {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
         if matrix.row(3) != DVec4::W {
             return Err("the last row of its matrix must be 0 0 0 1".into());
         }
-        return Ok(DAffine3::from_mat4(matrix));
+        return Ok(LocalTransform::Matrix(DAffine3::from_mat4(matrix)));
     }
     let vector = |value: Option<[f32; 3]>, default: DVec3| {
         value.map_or(default, |value| DVec3::from(value.map(f64::from)))
@@ -128,7 +143,7 @@ fn local_transform(node: &json::Node) -> Result<DAffine3, String> {
         return Err(format!("its rotation has the length {length} (allowed: 1)"));
     }
     let (scale, translation) = (vector(node.scale, DVec3::ONE), vector(node.translation, DVec3::ZERO));
-    Ok(DAffine3::from_scale_rotation_translation(scale, rotation / length, translation))
+    Ok(LocalTransform::Parts { translation, rotation: rotation / length, scale })
 }
 
 fn check_range(world: &DAffine3) -> Result<(), String> {
@@ -142,17 +157,17 @@ fn check_range(world: &DAffine3) -> Result<(), String> {
     }
 }
 
-/// Returns the lights of the drawn nodes: directional, spot, point, each in the order of the file.
+/// Returns the lights of the drawn nodes, each with the index of its node: directional, spot, point, each in the order of the file.
 ///
 /// # Errors
 /// The location names the light with a value that is not allowed, or the node that gives it no direction.
-pub(super) fn lights(document: &Document, nodes: &[SceneNode]) -> Result<Vec<Light>, ImportError> {
+pub(super) fn lights(document: &Document, nodes: &[SceneNode]) -> Result<Vec<(usize, Light)>, ImportError> {
     let punctual = document.lights().iter().enumerate().map(|(i, light)| {
         lights::convert(light).with_location(|| describe("light", i, light.name.as_deref()))
     });
     let punctual: Vec<lights::PunctualLight> = punctual.collect::<Result<_, _>>()?;
     let mut found = Vec::new();
-    for (node, scene_node) in scene_nodes(document, nodes) {
+    for (number, node, scene_node) in scene_nodes(document, nodes) {
         let extension = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
         let Some(index) = extension.map(|extension| extension.light.value()) else { continue };
         let (Some(punctual), Some(light)) = (punctual.get(index), document.lights().get(index)) else {
@@ -160,41 +175,44 @@ pub(super) fn lights(document: &Document, nodes: &[SceneNode]) -> Result<Vec<Lig
         };
         let name = name_or_node_name(light.name.as_deref(), node);
         let light = lights::light_at_node(punctual, name, &scene_node.world_from_node);
-        found.push((index, light.with_location(|| describe("node", scene_node.node, node.name.as_deref()))?));
+        let light = light.with_location(|| describe("node", scene_node.node, node.name.as_deref()))?;
+        found.push((index, number, light));
     }
-    found.sort_by_key(|(index, light)| (light.kind.order(), *index));
-    Ok(found.into_iter().map(|(_, light)| light).collect())
+    found.sort_by_key(|(index, _, light)| (light.kind.order(), *index));
+    Ok(found.into_iter().map(|(_, number, light)| (number, light)).collect())
 }
 
-/// Returns the cameras of the drawn nodes in the order of the file.
+/// Returns the cameras of the drawn nodes, each with the index of its node, in the order of the file.
 ///
 /// # Errors
 /// The location names the camera with a value that is not allowed, or the node that gives it no direction.
-pub(super) fn cameras(document: &Document, nodes: &[SceneNode]) -> Result<Vec<Camera>, ImportError> {
+pub(super) fn cameras(document: &Document, nodes: &[SceneNode]) -> Result<Vec<(usize, Camera)>, ImportError> {
     let projections = document.cameras.iter().enumerate().map(|(i, camera)| {
         cameras::projection(camera).with_location(|| describe("camera", i, camera.name.as_deref()))
     });
     let projections: Vec<Projection> = projections.collect::<Result<_, _>>()?;
     let mut found = Vec::new();
-    for (node, scene_node) in scene_nodes(document, nodes) {
+    for (number, node, scene_node) in scene_nodes(document, nodes) {
         let Some(index) = node.camera.map(|camera| camera.value()) else { continue };
         let (Some(projection), Some(camera)) = (projections.get(index), document.cameras.get(index)) else {
             continue;
         };
         let name = name_or_node_name(camera.name.as_deref(), node);
         let camera = cameras::camera_at_node(*projection, name, &scene_node.world_from_node);
-        found
-            .push((index, camera.with_location(|| describe("node", scene_node.node, node.name.as_deref()))?));
+        let camera = camera.with_location(|| describe("node", scene_node.node, node.name.as_deref()))?;
+        found.push((index, number, camera));
     }
-    found.sort_by_key(|(index, _)| *index);
-    Ok(found.into_iter().map(|(_, camera)| camera).collect())
+    found.sort_by_key(|(index, ..)| *index);
+    Ok(found.into_iter().map(|(_, number, camera)| (number, camera)).collect())
 }
 
+/// Returns the index of each drawn node, and the node in the file.
 fn scene_nodes<'a>(
     document: &'a Document,
     nodes: &'a [SceneNode],
-) -> impl Iterator<Item = (&'a json::Node, &'a SceneNode)> {
-    nodes.iter().filter_map(|scene_node| Some((document.nodes.get(scene_node.node)?, scene_node)))
+) -> impl Iterator<Item = (usize, &'a json::Node, &'a SceneNode)> {
+    let nodes = nodes.iter().enumerate();
+    nodes.filter_map(|(number, node)| Some((number, document.nodes.get(node.node)?, node)))
 }
 
 /// Returns the name of a light or camera, else the name of its node.

@@ -22,6 +22,12 @@ pub const MAX_VERTICES: usize = 24_000_000;
 pub const MAX_INDICES: usize = 100_000_000;
 /// The maximum number of instances of a scene.
 pub const MAX_INSTANCES: usize = 1_000_000;
+/// The maximum number of joints of a skin.
+pub const MAX_JOINTS: usize = 1 << 16;
+/// The maximum number of times and values of keyframes of a scene, over all of its animations.
+pub const MAX_KEYFRAME_VALUES: usize = 1 << 26;
+/// The maximum number of morph weights of a scene, over all of its nodes.
+pub const MAX_MORPH_WEIGHTS: usize = 1 << 22;
 /// The maximum distance from the world's origin, metres.
 pub const MAX_WORLD_M: f64 = 1e15;
 
@@ -50,6 +56,8 @@ pub(super) fn check_references(document: &Document) -> Result<(), ImportError> {
     check_buffers(document)?;
     check_meshes(document)?;
     check_nodes(document)?;
+    check_skins(document)?;
+    check_animations(document)?;
     for (i, texture) in document.textures.iter().enumerate() {
         let object = Object { kind: "texture", index: i, name: texture.name.as_deref() };
         // The value of the gltf crate for a missing source.
@@ -105,6 +113,11 @@ fn check_meshes(document: &Document) -> Result<(), ImportError> {
             for accessor in primitive.attributes.values() {
                 object.check(&field("attribute"), Some(*accessor), count)?;
             }
+            for target in primitive.targets.iter().flatten() {
+                for accessor in [target.positions, target.normals, target.tangents] {
+                    object.check(&field("target"), accessor, count)?;
+                }
+            }
         }
     }
     Ok(())
@@ -115,6 +128,7 @@ fn check_nodes(document: &Document) -> Result<(), ImportError> {
         let object = Object { kind: "node", index: i, name: node.name.as_deref() };
         object.check("mesh", node.mesh, document.meshes.len())?;
         object.check("camera", node.camera, document.cameras.len())?;
+        object.check("skin", node.skin, document.skins.len())?;
         let light = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map(|l| l.light);
         object.check("light", light, document.lights().len())?;
         for child in node.children.iter().flatten() {
@@ -125,6 +139,32 @@ fn check_nodes(document: &Document) -> Result<(), ImportError> {
         let object = Object { kind: "scene", index: i, name: None };
         for node in &scene.nodes {
             object.check("node", Some(*node), document.nodes.len())?;
+        }
+    }
+    Ok(())
+}
+
+fn check_skins(document: &Document) -> Result<(), ImportError> {
+    for (i, skin) in document.skins.iter().enumerate() {
+        let object = Object { kind: "skin", index: i, name: skin.name.as_deref() };
+        object.check("inverseBindMatrices", skin.inverse_bind_matrices, document.accessors.len())?;
+        for joint in &skin.joints {
+            object.check("joint", Some(*joint), document.nodes.len())?;
+        }
+    }
+    Ok(())
+}
+
+fn check_animations(document: &Document) -> Result<(), ImportError> {
+    for (i, animation) in document.animations.iter().enumerate() {
+        let object = Object { kind: "animation", index: i, name: animation.name.as_deref() };
+        for sampler in &animation.samplers {
+            object.check("input", Some(sampler.input), document.accessors.len())?;
+            object.check("output", Some(sampler.output), document.accessors.len())?;
+        }
+        for channel in &animation.channels {
+            object.check("sampler", Some(channel.sampler), animation.samplers.len())?;
+            object.check("target node", channel.target.node, document.nodes.len())?;
         }
     }
     Ok(())

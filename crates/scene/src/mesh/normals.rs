@@ -2,20 +2,29 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Mesh, Vertex, position};
+use super::{Mesh, MorphDelta, MorphTarget, Vertex, position};
 
 impl Mesh {
-    /// Gives every triangle its own three vertices, with the triangle's own normal.
+    /// Gives every triangle its own three vertices, with the triangle's own normal, also where morph targets displace it.
     ///
     /// glTF requires this for meshes without normals. The mesh then has one vertex per index.
     pub fn flat_normals(&mut self) {
         let mut vertices = Vec::with_capacity(self.indices.len());
-        for corners in triangles(&self.indices, &self.vertices) {
+        let mut sources = Vec::with_capacity(self.indices.len());
+        for indices in self.indices.as_chunks::<3>().0 {
+            let Some(corners) = corners(*indices, &self.vertices) else { continue };
             let normal = to_array(face_normal(&corners).unwrap_or(DVec3::Z));
             vertices.extend(corners.map(|corner| Vertex { normal, ..corner }));
+            sources.extend(*indices);
         }
         self.indices = (0u32..).take(vertices.len()).collect();
         self.vertices = vertices;
+        self.skin = self.skin.as_ref().map(|skin| skin.select(&sources));
+        for target in &mut self.morph_targets {
+            let mut deltas = select(target.deltas(), &sources);
+            flat_deltas(&self.vertices, &mut deltas);
+            *target = MorphTarget::new(deltas);
+        }
     }
 
     /// Gives every vertex the mean normal of its adjacent triangles, weighted by their angles at the vertex.
@@ -62,14 +71,27 @@ impl Mesh {
     }
 }
 
+/// Returns the elements with these indices.
+fn select<T: Copy>(elements: &[T], indices: &[u32]) -> Vec<T> {
+    indices.iter().filter_map(|index| elements.get(*index as usize).copied()).collect()
+}
+
+/// Sets the change of the normal of each displaced triangle.
+fn flat_deltas(vertices: &[Vertex], deltas: &mut [MorphDelta]) {
+    for (corners, deltas) in vertices.as_chunks::<3>().0.iter().zip(deltas.as_chunks_mut::<3>().0) {
+        let mut displaced = *corners;
+        for (corner, delta) in displaced.iter_mut().zip(&*deltas) {
+            corner.position = (Vec3::from(corner.position) + Vec3::from(delta.position)).to_array();
+        }
+        let normal = Vec3::from(corners[0].normal);
+        let change = face_normal(&displaced).map_or(Vec3::ZERO, |displaced| displaced.as_vec3() - normal);
+        deltas.iter_mut().for_each(|delta| delta.normal = change.to_array());
+    }
+}
+
 /// Returns the direction of a vector of any length; `None` if it has none.
 pub(super) fn unit(vector: Vec3) -> Option<Vec3> {
     vector.as_dvec3().try_normalize().map(|unit| unit.as_vec3())
-}
-
-/// Returns the triangles whose indices are in range.
-fn triangles(indices: &[u32], vertices: &[Vertex]) -> impl Iterator<Item = [Vertex; 3]> {
-    indices.as_chunks::<3>().0.iter().filter_map(|indices| corners(*indices, vertices))
 }
 
 /// Returns the vertices of a triangle; `None` if an index is out of range.

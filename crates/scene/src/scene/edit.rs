@@ -7,7 +7,7 @@ use super::{Instance, Scene};
 use crate::keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 use crate::light::Light;
 use crate::material::{Image, Material};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshPose};
 
 impl Scene {
     /// Inserts a mesh. It is drawn once instances use it.
@@ -140,7 +140,7 @@ impl Scene {
         material: Material,
         world_from_local: DAffine3,
     ) -> Result<InstanceKey, EditError> {
-        check_finite(&mesh.name, &world_from_local)?;
+        check_finite(&mesh.name, &world_from_local, None)?;
         let name = mesh.name.clone();
         let material = self.insert_material(material)?;
         let mesh = self.insert_mesh(mesh);
@@ -153,9 +153,28 @@ impl Scene {
     /// [`EditError::StaleKey`] and [`EditError::NotFinite`].
     pub fn move_instance(&mut self, key: InstanceKey, world_from_local: DAffine3) -> Result<(), EditError> {
         let instance = self.instance(key).ok_or(stale("instance"))?;
-        check_finite(&instance.name, &world_from_local)?;
+        check_finite(&instance.name, &world_from_local, None)?;
         if let Some(instance) = self.instances.edit(key) {
             instance.world_from_local = world_from_local;
+        }
+        Ok(())
+    }
+
+    /// Gives an instance another transform and another deformation of its mesh, if it is deformed.
+    ///
+    /// # Errors
+    /// [`EditError::StaleKey`]; [`EditError::NotFinite`], also for the pose; [`EditError::TooFewJoints`].
+    pub fn pose_instance(
+        &mut self,
+        key: InstanceKey,
+        world_from_local: DAffine3,
+        pose: Option<MeshPose>,
+    ) -> Result<(), EditError> {
+        let instance = self.instance(key).ok_or(stale("instance"))?;
+        check_finite(&instance.name, &world_from_local, pose.as_ref())?;
+        self.check_joints(&instance.name, instance.mesh, pose.as_ref())?;
+        if let Some(instance) = self.instances.edit(key) {
+            (instance.world_from_local, instance.pose) = (world_from_local, pose);
         }
         Ok(())
     }
@@ -243,7 +262,19 @@ impl Scene {
     fn check_instance(&self, instance: &Instance) -> Result<(), EditError> {
         self.mesh(instance.mesh).ok_or(stale("mesh"))?;
         self.material(instance.material).ok_or(stale("material"))?;
-        check_finite(&instance.name, &instance.world_from_local)
+        check_finite(&instance.name, &instance.world_from_local, instance.pose.as_ref())?;
+        self.check_joints(&instance.name, instance.mesh, instance.pose.as_ref())
+    }
+
+    fn check_joints(&self, name: &str, mesh: MeshKey, pose: Option<&MeshPose>) -> Result<(), EditError> {
+        let skin = self.mesh(mesh).and_then(|mesh| mesh.skin.as_ref());
+        let needed = skin.map_or(0, |skin| skin.joint_bounds().len());
+        match pose.map(|pose| pose.joints.len()).filter(|joints| (1..needed).contains(joints)) {
+            None => Ok(()),
+            Some(joints) => {
+                Err(EditError::TooFewJoints { what: format!("instance \"{name}\""), joints, needed })
+            }
+        }
     }
 
     fn check_images(&self, material: &Material) -> Result<(), EditError> {
@@ -269,8 +300,8 @@ fn unused(kind: &str, name: &str, users: u32, by: &'static str) -> Result<(), Ed
     if users == 0 { Ok(()) } else { Err(EditError::InUse { what: format!("{kind} \"{name}\""), users, by }) }
 }
 
-fn check_finite(name: &str, transform: &DAffine3) -> Result<(), EditError> {
-    if transform.is_finite() {
+fn check_finite(name: &str, transform: &DAffine3, pose: Option<&MeshPose>) -> Result<(), EditError> {
+    if transform.is_finite() && pose.is_none_or(MeshPose::is_finite) {
         Ok(())
     } else {
         Err(EditError::NotFinite { what: format!("instance \"{name}\"") })

@@ -40,4 +40,20 @@ pub enum EditError {
         /// The bytes that it has.
         bytes: usize,
     },
+    /// A pose has fewer joints than its mesh needs.
+    #[error("{what}: its pose has {joints} joints (allowed: none, or at least {needed})")]
+    TooFewJoints {
+        /// The instance: "instance \"cube\"".
+        what: String,
+        /// The number of joints.
+        joints: usize,
+        /// The number that the mesh needs.
+        needed: usize,
+    },
+    /// An animation moves something too far away.
+    #[error("{what}: it is moved over 1e15 m from the world's origin (allowed: up to 1e15 m)")]
+    OutOfRange {
+        /// The node and the time: "node 3 \"arm\" at 2 s".
+        what: String,
+    },
 }

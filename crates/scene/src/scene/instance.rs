@@ -4,6 +4,7 @@ use glam::DAffine3;
 
 use crate::keys::{MaterialKey, MeshKey};
 use crate::material::{CasterMode, Material};
+use crate::mesh::MeshPose;
 
 /// One drawn copy of a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub struct Instance {
     pub material: MaterialKey,
     /// The transform, in f64, absolute.
     pub world_from_local: DAffine3,
+    /// How its mesh is deformed, if it is.
+    pub pose: Option<MeshPose>,
     /// Whether it is drawn at all. A hidden instance casts no shadow either.
     pub visible: bool,
     /// Whether it casts shadows.
@@ -45,6 +48,7 @@ impl Instance {
             mesh,
             material,
             world_from_local,
+            pose: None,
             visible: true,
             casts: ShadowCasting::On,
             receives_shadows: true,

@@ -3,6 +3,7 @@
 mod changes;
 mod edit;
 mod error;
+mod hierarchy;
 mod instance;
 mod lights;
 mod store;
@@ -11,6 +12,7 @@ mod tests;
 
 pub use changes::Changes;
 pub use error::EditError;
+pub use hierarchy::{AnimationSelection, Attachment, Hierarchy};
 pub use instance::{Instance, ShadowCasting};
 
 use lights::Lights;
@@ -55,6 +57,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// The contents of the file that are not drawn as it says, one line each.
     pub notes: Vec<String>,
+    /// The nodes that instances, lights and cameras hang on, and their animations.
+    pub hierarchy: Hierarchy,
 }
 
 impl Scene {
@@ -127,12 +131,13 @@ impl Scene {
         self.instances().fold(Aabb::EMPTY, |bounds, (key, _)| bounds.union(&self.instance_bounds(key)))
     }
 
-    /// Returns the world bounds of an instance; empty if there is no such instance, and for a hidden one.
+    /// Returns the world bounds of an instance in its pose; empty if there is no such instance, and for a hidden one.
     #[must_use]
     pub fn instance_bounds(&self, key: InstanceKey) -> Aabb {
         let bounds = self.instance(key).filter(|instance| instance.visible).and_then(|instance| {
             let mesh = self.mesh(instance.mesh)?;
-            Some(mesh.bounds.transformed(&instance.world_from_local))
+            let bounds = instance.pose.as_ref().map_or(mesh.bounds, |pose| mesh.posed_bounds(pose));
+            Some(bounds.transformed(&instance.world_from_local))
         });
         bounds.unwrap_or(Aabb::EMPTY)
     }

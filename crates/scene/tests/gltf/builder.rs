@@ -64,6 +64,24 @@ impl File {
         self.json["meshes"][0]["primitives"][0]["attributes"][name] = json!(accessor);
     }
 
+    /// Adds an accessor of floats, and returns its index.
+    pub(crate) fn floats(&mut self, kind: &str, width: usize, values: &[f32]) -> usize {
+        let view = self.view_f32(values);
+        self.accessor(view, 5126, (values.len() / width) as u64, kind)
+    }
+
+    /// Adds an animation of one property of a node by keyframes, and returns its index.
+    pub(crate) fn animate(&mut self, node: usize, path: &str, input: usize, output: usize) -> usize {
+        let animation = json!({
+            "channels": [{"sampler": 0, "target": {"node": node, "path": path}}],
+            "samplers": [{"input": input, "output": output}],
+        });
+        if self.json.get("animations").is_none() {
+            self.json["animations"] = json!([]);
+        }
+        push(&mut self.json["animations"], animation)
+    }
+
     /// Writes the file and loads it.
     pub(crate) fn load(&self) -> Result<Scene, Error> {
         let path = self.directory.path().join("scene.gltf");

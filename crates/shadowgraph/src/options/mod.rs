@@ -14,6 +14,7 @@
 //! ```
 
 pub(crate) mod adapter;
+pub(crate) mod animation;
 pub(crate) mod aov;
 pub(crate) mod camera;
 pub(crate) mod distance;
@@ -24,6 +25,7 @@ pub(crate) mod size;
 pub(crate) mod sun;
 
 pub use adapter::AdapterChoice;
+pub use animation::{AnimationChoice, AnimationTime};
 pub use aov::Aov;
 pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
