@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
 use shadowgraph_shaders::ModuleSource;
-use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, shadow_layout};
+use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, VertexBuffers, shadow_layout};
 
 use crate::error::Error;
 use crate::prepass::{DEPTH_FORMAT, Geometry};
@@ -219,7 +219,9 @@ impl Forward {
         let (variant, debug_light) = self.builder.target.variant(shadows);
         let bindings = view.optional_bindings();
         let pipelines = self.pipelines_for(LitKey { variant, debug_light, writes_depth: false, bindings })?;
+        let buffers = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass("blended");
+        buffers.read_in(&mut pass);
         let (shadows, view) = (shadows.read_in(&mut pass), view.read_in(&mut pass));
         pass.depth_read(depth);
         pass.color(light, Contents::Preserve);
@@ -258,7 +260,9 @@ impl Forward {
         let desc = TextureDesc::d2(width, height, format);
         let mut color = frame.create_texture(texture, desc);
         let multisampled = (samples > 1).then(|| frame.create_texture("lit samples", desc.samples(samples)));
+        let buffers = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass(pass);
+        buffers.read_in(&mut pass);
         let shadows = shadows.read_in(&mut pass);
         let view = view.read_in(&mut pass);
         match depth {

@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
+use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
 use crate::prepass::{DEPTH_FORMAT, Geometry};
@@ -90,7 +91,9 @@ impl GBufferPass {
             normals: texture("normals", normals),
             emissive: texture("glow", emissive),
         };
+        let vertices = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass("G-buffer");
+        vertices.read_in(&mut pass);
         let view = ViewBuffers { clusters: None, occlusion: None, ..view.clone() }.read_in(&mut pass);
         pass.depth_read(depth);
         for texture in

@@ -2,6 +2,7 @@
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialLayouts};
+use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
 use crate::uniforms::{GpuView, ViewBuffers};
@@ -51,7 +52,9 @@ impl Prepass {
         let [width, height] = geometry.size_px;
         let desc = TextureDesc::d2(width, height, DEPTH_FORMAT).samples(self.samples);
         let mut depth = frame.create_texture("depth", desc);
+        let buffers = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass("depth prepass");
+        buffers.read_in(&mut pass);
         let view = pass.storage_buffer(&view.view);
         pass.depth(&mut depth, Contents::clear_depth(0.0));
         pass.body(move |ctx| {

@@ -6,6 +6,7 @@ use bytemuck::{NoUninit, Pod, Zeroable, bytes_of};
 use glam::{Mat4, Vec2, Vec3};
 use shadowgraph_core::{Bind, Contents, Format, Frame, FullscreenShader, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
+use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
 use crate::prepass::{DEPTH_FORMAT, Geometry};
@@ -93,7 +94,9 @@ impl Velocity {
             return velocity;
         }
         let motion = frame.upload_buffer("motion", bytes_of(&GpuViewMotion::new(view, geometry)).to_vec());
+        let vertices = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass("velocity");
+        vertices.read_in(&mut pass);
         let (view, motion) = (pass.storage_buffer(&view.view), pass.storage_buffer(&motion));
         pass.depth_read(depth);
         pass.color(&mut velocity, Contents::Preserve);

@@ -165,6 +165,7 @@ impl Probe {
         let scene = &renderer.casters().scene;
         let (lights, origin_world) = (renderer.scene().lights(), scene.origin_world());
         let mut frame = graph.frame();
+        view.add_pose(&mut frame);
         let uniforms =
             ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
         let buffers = uniforms.upload(&mut frame);

@@ -51,6 +51,7 @@ impl SurfaceReader {
             let (lights, origin_world) = (renderer.scene().lights(), scene.origin_world());
             let mut graph = renderer.graph();
             let mut frame = graph.frame();
+            view.add_pose(&mut frame);
             let uniforms = ViewUniforms::new(
                 &options.camera,
                 options.size_px,

@@ -1,5 +1,7 @@
 //! A scene's triangles as occluders of rays.
 
+use std::borrow::Cow;
+
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use shadowgraph_scene::{
     AlphaMode, CasterMode, Filter, ImageKey, Instance, Material, Scene, TextureRef, Vertex, Wrap,
@@ -28,9 +30,12 @@ pub fn ray_scene(scene: &Scene, origin_world: DVec3) -> Result<RayScene, Error> 
             continue;
         }
         let occluder_material = OccluderMaterial::new(material, scene, &mut textures)?;
+        let vertices = match &instance.pose {
+            Some(pose) => Cow::Owned(mesh.posed_vertices(pose)),
+            None => Cow::Borrowed(&mesh.vertices),
+        };
         for triangle in mesh.indices.chunks_exact(3) {
-            let vertices =
-                [triangle[0], triangle[1], triangle[2]].map(|index| mesh.vertices.get(index as usize));
+            let vertices = [triangle[0], triangle[1], triangle[2]].map(|index| vertices.get(index as usize));
             let [Some(a), Some(b), Some(c)] = vertices else { continue };
             let corners = [a, b, c].map(|vertex| position(instance, vertex, origin_world));
             let surface =

@@ -1,7 +1,9 @@
 //! One view of a frame.
 
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::{AmbientLight, Geometry, LitOutput, PreviousCameras, Tonemap, ViewUniforms};
+use shadowgraph_lighting::{
+    AmbientLight, Geometry, LitOutput, PosePass, PreviousCameras, Tonemap, ViewUniforms,
+};
 use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_scene::{Camera, Light};
 use shadowgraph_shadows::{ShadowInputs, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
@@ -27,6 +29,8 @@ pub struct RenderView<'v> {
     pub lights: &'v [Light],
     /// The scene on the GPU.
     pub casters: &'v SceneCasters,
+    /// The pass that deforms meshes.
+    pub pose: &'v PosePass,
     /// The shadow technique.
     pub technique: &'v dyn ShadowTechnique,
     /// The camera that shadows are fitted to.
@@ -51,6 +55,11 @@ impl<'v> RenderView<'v> {
     /// Returns the visible geometry.
     pub fn geometry(&self) -> Geometry<'_> {
         Geometry { scene: &self.casters.scene, draws: &self.draws, size_px: self.options.size_px }
+    }
+
+    /// Adds the pass that deforms meshes, before anything draws them, unless the frame has it.
+    pub fn add_pose(&self, frame: &mut Frame<'v>) {
+        self.pose.add_to(frame, &self.casters.scene);
     }
 
     /// Adds the shadows of all lights. A technique that reads surface buffers needs `surfaces`.

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use shadowgraph_core::{Graph, Plan};
-use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget, PreviousCameras};
+use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget, PosePass, PreviousCameras};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Changes, Scene, origin_near};
 use shadowgraph_shadows::rays::GpuRayScene;
@@ -39,6 +39,7 @@ pub struct Renderer {
     config: RenderConfig,
     instance: Box<dyn PipelineInstance>,
     debug_blit: DebugBlit,
+    pose: PosePass,
     lit_output: LitOutput,
     scene: Scene,
     aov: Aov,
@@ -148,6 +149,7 @@ impl Renderer {
             config,
             instance,
             debug_blit: DebugBlit::new(device)?,
+            pose: PosePass::new(device)?,
             lit_output,
             scene,
             aov,
@@ -268,6 +270,7 @@ impl Renderer {
             ambient_light: AmbientLight::for_key_light(key),
             lights: self.scene.lights(),
             casters: &self.casters,
+            pose: &self.pose,
             technique: self.technique.as_ref(),
             shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
             previous_cameras: &self.previous_cameras,

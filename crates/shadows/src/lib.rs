@@ -35,6 +35,7 @@ mod settings;
 mod spot;
 mod technique;
 mod techniques;
+mod vertex_buffers;
 mod views;
 
 pub use allocation::{AtlasAllocation, AtlasConfig, TileAllocation, TileRequest, allocate_tiles};
@@ -72,6 +73,7 @@ pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss,
     PcssSettings, Raytraced, RaytracedSettings, ScreenSettings, ScreenShadows, Sdsm, SdsmSettings,
 };
+pub use vertex_buffers::VertexBuffers;
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
     NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,

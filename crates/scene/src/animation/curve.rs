@@ -166,7 +166,7 @@ mod tests {
         Curve::new(vec![1.0, 2.0, 4.0], values.to_vec(), 1, interpolation).unwrap()
     }
 
-    fn at(curve: &Curve, time_s: f64) -> f64 {
+    fn sampled(curve: &Curve, time_s: f64) -> f64 {
         let mut value = [f64::NAN];
         curve.sample(time_s, &mut value);
         value[0]
@@ -175,15 +175,15 @@ mod tests {
     #[test]
     fn steps_keep_the_value_of_the_keyframe_before() {
         let curve = curve(Interpolation::Step, &[10.0, 20.0, 40.0]);
-        let values = [-1.0, 1.0, 1.99, 2.0, 3.999, 4.0, 1e9].map(|time_s| at(&curve, time_s));
+        let values = [-1.0, 1.0, 1.99, 2.0, 3.999, 4.0, 1e9].map(|time_s| sampled(&curve, time_s));
         assert_eq!(values, [10.0, 10.0, 10.0, 20.0, 20.0, 40.0, 40.0]);
-        assert_eq!(at(&curve, f64::NAN), 10.0);
+        assert_eq!(sampled(&curve, f64::NAN), 10.0);
     }
 
     #[test]
     fn linear_values_are_proportional_to_time() {
         let curve = curve(Interpolation::Linear, &[10.0, 20.0, 40.0]);
-        let values = [0.0, 1.0, 1.25, 2.0, 3.0, 4.0, f64::INFINITY].map(|time_s| at(&curve, time_s));
+        let values = [0.0, 1.0, 1.25, 2.0, 3.0, 4.0, f64::INFINITY].map(|time_s| sampled(&curve, time_s));
         assert_eq!(values, [10.0, 10.0, 12.5, 20.0, 30.0, 40.0, 40.0]);
     }
 
@@ -195,7 +195,7 @@ mod tests {
         let curve = curve(Interpolation::CubicSpline, &[key(1.0), key(2.0), key(4.0)].concat());
         for step in 0..=30 {
             let time_s = 1.0 + f64::from(step) * 0.1;
-            assert!((at(&curve, time_s) - value(time_s)).abs() < 1e-12, "at {time_s} s");
+            assert!((sampled(&curve, time_s) - value(time_s)).abs() < 1e-12, "at {time_s} s");
         }
     }
 

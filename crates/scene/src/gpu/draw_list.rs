@@ -17,6 +17,8 @@ pub struct Draw {
     pub material: u32,
     /// Index of the mesh.
     pub mesh: u32,
+    /// The first vertex of a deformed mesh among those that [`pose_inputs`](super::GpuScene::pose_inputs) deforms.
+    pub posed: Option<u32>,
     /// Number of the instance: see [`GpuScene`](super::GpuScene).
     pub instance: u32,
 }
@@ -80,7 +82,7 @@ mod tests {
 
     fn draw(alpha: AlphaKey, material: u32, mesh: u32, instance: u32) -> Draw {
         let key = PipelineKey { alpha, double_sided: false, mirrored: false };
-        Draw { key, casts: CasterMode::On, material, mesh, instance }
+        Draw { key, casts: CasterMode::On, material, mesh, posed: None, instance }
     }
 
     fn list(draws: impl Iterator<Item = Draw>, distance: impl Fn(u32) -> f64) -> DrawList {

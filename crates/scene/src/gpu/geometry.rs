@@ -128,9 +128,13 @@ impl Geometry {
         self.indices.flush(queue);
     }
 
-    /// Sets the buffers of a pass.
-    pub(super) fn set_buffers(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_vertex_buffer(0, self.vertices.buffer.slice(..));
+    /// Returns the vertex buffer.
+    pub(super) fn vertices(&self) -> &wgpu::Buffer {
+        &self.vertices.buffer
+    }
+
+    /// Sets the index buffer of a pass.
+    pub(super) fn set_indices(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
     }
 }

@@ -7,6 +7,7 @@ use super::geometry::Geometry;
 use super::instances::InstanceBuffer;
 use super::materials::{MaterialLayouts, Materials};
 use super::numbers::Numbers;
+use super::posed::{PoseInputs, PosedGeometry};
 use crate::bounds::Aabb;
 use crate::cull::{CullTree, CullVolume};
 use crate::error::Error;
@@ -34,6 +35,7 @@ pub struct GpuScene {
     /// What casts shadows.
     pub(super) caster_tree: CullTree,
     pub(super) geometry: Geometry,
+    pub(super) posed: PosedGeometry,
     pub(super) instances: InstanceBuffer,
     pub(super) materials: Materials,
     pub(super) layouts: MaterialLayouts,
@@ -80,6 +82,7 @@ impl GpuScene {
             tree: CullTree::new(&[]),
             caster_tree: CullTree::new(&[]),
             geometry: Geometry::new(device, scene)?,
+            posed: PosedGeometry::new(device)?,
             instances: InstanceBuffer::new(device, &layouts.draw),
             materials: Materials::new(device, queue, &layouts),
             layouts,
@@ -163,6 +166,13 @@ impl GpuScene {
         self.caster_tree.query(volume, numbers);
     }
 
+    /// Returns what a pass reads and writes to deform meshes by skins and morph targets, before anything draws them; `None` if no
+    /// mesh is deformed.
+    #[must_use]
+    pub fn pose_inputs(&self) -> Option<PoseInputs<'_>> {
+        self.posed.inputs()
+    }
+
     /// Returns the draw of an instance.
     #[must_use]
     pub fn draw_for(&self, number: u32) -> Option<&Draw> {
@@ -205,9 +215,9 @@ impl GpuScene {
             return 0;
         }
         let mut calls = 0;
-        self.geometry.set_buffers(pass);
+        self.geometry.set_indices(pass);
         pass.set_bind_group(3, self.instances.group(), &[]);
-        let (mut current_pipeline, mut material) = (None, None);
+        let (mut current_pipeline, mut material, mut is_posed) = (None, None, None);
         while let Some(draw) = draws.next() {
             let Some(ranges) = self.geometry.ranges(draw.mesh) else { continue };
             let Some(group) = self.materials.group(draw.material) else { continue };
@@ -223,11 +233,17 @@ impl GpuScene {
                 pass.set_bind_group(2, group, &[]);
                 material = Some(draw.material);
             }
+            if is_posed.replace(draw.posed.is_some()) != Some(draw.posed.is_some()) {
+                let vertices =
+                    if draw.posed.is_some() { self.posed.vertices() } else { self.geometry.vertices() };
+                pass.set_vertex_buffer(0, vertices.slice(..));
+            }
             let mut end = draw.instance + 1;
             while draws.next_if(|next| next.continues(draw, end)).is_some() {
                 end += 1;
             }
             let (indices, base_vertex) = ranges.draw();
+            let base_vertex = draw.posed.map_or(base_vertex, |first| first as i32);
             pass.draw_indexed(indices, base_vertex, draw.instance..end);
             calls += 1;
         }

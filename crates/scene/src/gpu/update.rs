@@ -50,6 +50,7 @@ impl GpuScene {
             self.sort();
         }
         self.geometry.flush(queue);
+        self.posed.flush(device, queue)?;
         self.materials.flush(queue);
         self.instances.flush((device, queue), &self.layouts.draw)
     }
@@ -120,6 +121,7 @@ impl GpuScene {
         edits: &mut Edits,
     ) -> Result<(), Error> {
         let Some(instance) = scene.instance(key) else {
+            self.posed.remove(key);
             if let Some(number) = self.numbers.remove(key) {
                 self.slots[number as usize] = None;
                 edits.set(number, [Aabb::EMPTY; 2]);
@@ -128,7 +130,8 @@ impl GpuScene {
         };
         let (known, version) = (self.numbers.get(key).is_some(), self.next_version());
         let number = self.numbers.insert(key);
-        let draw = self.draw_for_instance(gpu, scene, instance, number)?;
+        let (posed, has_new_pose) = self.update_pose(gpu, scene, key, instance)?;
+        let draw = Draw { posed, ..self.draw_for_instance(gpu, scene, instance, number)? };
         let index = number as usize;
         if index >= self.slots.len() {
             self.slots.resize(index + 1, None);
@@ -138,7 +141,7 @@ impl GpuScene {
         let world_from_local = &instance.world_from_local;
         if !known {
             self.instances.insert(number, world_from_local, self.origin_world);
-        } else if self.instances.move_to(number, world_from_local, self.origin_world) {
+        } else if self.instances.move_to(number, world_from_local, self.origin_world) || has_new_pose {
             stands_from = self.moves_until();
         }
         if self.slots[index].as_ref().map(|slot| slot.draw) != Some(draw) {
@@ -167,7 +170,8 @@ impl GpuScene {
             if !mesh_changed && materials.binary_search(&instance.material).is_err() {
                 continue;
             }
-            let draw = self.draw_for_instance(gpu, scene, instance, number)?;
+            let posed = self.update_pose(gpu, scene, key, instance)?.0;
+            let draw = Draw { posed, ..self.draw_for_instance(gpu, scene, instance, number)? };
             let Some(slot) = self.slots[number as usize].as_mut() else { continue };
             if std::mem::replace(&mut slot.draw, draw) != draw {
                 self.unsorted += 1;
@@ -175,6 +179,27 @@ impl GpuScene {
             edits.set(number, split_bounds(slot, scene.instance_bounds(key)));
         }
         Ok(())
+    }
+
+    /// Deforms the mesh of an instance, and returns the first of its vertices, if it is deformed, and whether its pose is another one
+    /// than before.
+    fn update_pose(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        scene: &Scene,
+        key: InstanceKey,
+        instance: &Instance,
+    ) -> Result<(Option<u32>, bool), Error> {
+        let mesh = scene.mesh(instance.mesh).ok_or_else(|| Error::missing("mesh"))?;
+        let is_deformable = mesh.skin.is_some() || !mesh.morph_targets.is_empty();
+        let Some(pose) = instance.pose.as_ref().filter(|_| is_deformable) else {
+            self.posed.remove(key);
+            return Ok((None, false));
+        };
+        let number = self.geometry.number(instance.mesh).ok_or_else(|| Error::missing("mesh"))?;
+        let version = self.geometry.ranges(number).map_or(0, |ranges| ranges.version);
+        let (first, has_new_pose) = self.posed.update(gpu, key, (instance.mesh, mesh, version), pose)?;
+        Ok((Some(first), has_new_pose))
     }
 
     fn draw_for_instance(
@@ -193,6 +218,7 @@ impl GpuScene {
             casts: instance.caster_mode(material),
             material: self.materials.number(gpu, scene, receives, version)?,
             mesh: self.geometry.number(instance.mesh).ok_or_else(|| Error::missing("mesh"))?,
+            posed: None,
             instance: number,
         })
     }

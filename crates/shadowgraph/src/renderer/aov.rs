@@ -17,6 +17,7 @@ impl Renderer {
     /// # Errors
     /// For settings out of range, and for an output that the pipeline does not have.
     pub fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f RenderView<'f>) -> Result<ViewOutput, Error> {
+        view.add_pose(frame);
         let output = self.instance.add(frame, view)?;
         self.previous_cameras.set(view.index, &view.options.camera, view.options.aspect());
         let image = self.aov_image(frame, view, &output)?;

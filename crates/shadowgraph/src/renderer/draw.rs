@@ -87,6 +87,7 @@ impl Renderer {
             .collect();
         gpu.checked(|| {
             let mut frame = self.graph().frame();
+            planned.iter().for_each(|view| view.add_pose(&mut frame));
             let mut requests = Vec::new();
             for view in &planned {
                 let name = format_args!("view {}", view.index);

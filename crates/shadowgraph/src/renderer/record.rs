@@ -73,6 +73,7 @@ impl Renderer {
             })
             .collect();
         let mut frame = self.graph().frame();
+        planned.iter().for_each(|(view, _)| view.add_pose(&mut frame));
         for (view, target) in &planned {
             let name = format_args!("view {}", view.index);
             frame.node(name, |frame| self.add_into(frame, view, target))?;

@@ -9,6 +9,7 @@ use super::{DrawnMap, ShadowMaps, Views};
 use crate::atlas::TileRect;
 use crate::casters::{CasterPass, ShadowCasters, TINT_FORMAT, TileKind};
 use crate::plan::{MapPlan, TilePlan};
+use crate::vertex_buffers::VertexBuffers;
 use crate::views::ShadowView;
 
 /// Size of a view, bytes: also the step of its dynamic offset.
@@ -199,11 +200,13 @@ impl ShadowMaps {
         then: impl FnOnce(TileRect) + Send + 'f,
     ) {
         let (light, rect, view) = (tile.light, tile.rect, tile.view);
+        let buffers = VertexBuffers::published_in(frame);
         let mut pass = match tile.kind {
             TileKind::Cascade(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
             TileKind::Face(face) => frame.render_pass(format_args!("light {light} face {face}")),
             TileKind::Whole => frame.render_pass(format_args!("light {light}")),
         };
+        buffers.read_in(&mut pass);
         let (buffer, views) = source.views;
         let buffer = pass.storage_buffer(buffer);
         // The graph limits viewport and scissor to the tile.

@@ -1,0 +1,413 @@
+//! Deformed meshes: the vertices that a compute pass writes, and what it reads.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DAffine3, Vec4};
+use slotmap::SecondaryMap;
+
+use super::element_buffer::ElementBuffer;
+use super::limits;
+use crate::error::Error;
+use crate::keys::{InstanceKey, MeshKey};
+use crate::mesh::{Influence, Mesh, MeshPose, MorphDelta, Vertex};
+
+/// Vertices of a workgroup: the size in `pose.wgsl`.
+const WORKGROUP: u32 = 64;
+/// The maximum number of workgroups of a dimension, which every device has.
+const MAX_WORKGROUPS: usize = 65_535;
+/// The job of workgroups without work: `NO_JOB` of `pose.wgsl`.
+const NO_JOB: u32 = u32::MAX;
+
+/// `Job` of `pose.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+struct Job {
+    rest_vertex: u32,
+    posed_vertex: u32,
+    vertex_count: u32,
+    first_influence: u32,
+    influences_per_vertex: u32,
+    first_joint: u32,
+    first_delta: u32,
+    first_weight: u32,
+    weight_count: u32,
+}
+
+/// What the pass that deforms meshes reads and writes. All bytes are those of arrays of at least one element.
+#[derive(Clone, Copy, Debug)]
+pub struct PoseInputs<'a> {
+    /// The deformed meshes.
+    pub jobs: &'a [u8],
+    /// The job and the first vertex of each workgroup.
+    pub workgroups: &'a [u8],
+    /// The number of workgroups of each dimension.
+    pub dispatch: [u32; 3],
+    /// The transforms of all joints.
+    pub joints: &'a [u8],
+    /// The weights of all morph targets.
+    pub weights: &'a [u8],
+    /// The vertices at rest.
+    pub rest: &'a wgpu::Buffer,
+    /// The influences of each vertex.
+    pub influences: &'a wgpu::Buffer,
+    /// The displacements of each morph target.
+    pub deltas: &'a wgpu::Buffer,
+    /// The vertices that the pass writes and draws read. What is not deformed, such as texture coordinates, is there already.
+    pub vertices: &'a wgpu::Buffer,
+}
+
+/// A mesh that instances deform.
+struct DeformedMesh {
+    vertices: Range<u64>,
+    influences: Range<u64>,
+    influences_per_vertex: u32,
+    deltas: Range<u64>,
+    target_count: usize,
+    /// The version of the mesh that was uploaded.
+    version: u64,
+    /// The number of instances.
+    users: u32,
+}
+
+/// An instance whose mesh is deformed.
+struct DeformedInstance {
+    mesh: MeshKey,
+    /// The version of the mesh.
+    version: u64,
+    vertices: Range<u64>,
+    pose: MeshPose,
+}
+
+/// All deformed meshes.
+pub(super) struct PosedGeometry {
+    rest: ElementBuffer,
+    influences: ElementBuffer,
+    deltas: ElementBuffer,
+    vertices: ElementBuffer,
+    meshes: SecondaryMap<MeshKey, DeformedMesh>,
+    instances: SecondaryMap<InstanceKey, DeformedInstance>,
+    /// Whether an instance has changed since the inputs were computed.
+    changed: bool,
+    jobs: Vec<Job>,
+    workgroups: Vec<[u32; 2]>,
+    dispatch: [u32; 3],
+    joints: Vec<[Vec4; 3]>,
+    weights: Vec<f32>,
+}
+
+impl PosedGeometry {
+    /// Creates empty buffers.
+    pub(super) fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        use wgpu::BufferUsages as Usage;
+        let buffer = |label, usage, bytes: usize| {
+            let element = (bytes as u64, i32::MAX as u64);
+            ElementBuffer::new(device, (label, Usage::STORAGE | usage), element, 1)
+        };
+        Ok(Self {
+            rest: buffer("vertices at rest", Usage::empty(), size_of::<Vertex>())?,
+            influences: buffer("influences", Usage::empty(), size_of::<Influence>())?,
+            deltas: buffer("morph targets", Usage::empty(), size_of::<MorphDelta>())?,
+            vertices: buffer("posed vertices", Usage::VERTEX, size_of::<Vertex>())?,
+            meshes: SecondaryMap::new(),
+            instances: SecondaryMap::new(),
+            changed: false,
+            jobs: Vec::new(),
+            workgroups: Vec::new(),
+            dispatch: [0; 3],
+            joints: Vec::new(),
+            weights: Vec::new(),
+        })
+    }
+
+    /// Gives an instance its pose, and returns the first of its vertices and whether its pose is another one than before.
+    ///
+    /// # Errors
+    /// The deformed meshes are larger than the device allows.
+    pub(super) fn update(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        key: InstanceKey,
+        (mesh_key, mesh, version): (MeshKey, &Mesh, u64),
+        pose: &MeshPose,
+    ) -> Result<(u32, bool), Error> {
+        let is_known =
+            |instance: &&mut DeformedInstance| (instance.mesh, instance.version) == (mesh_key, version);
+        if let Some(instance) = self.instances.get_mut(key).filter(is_known) {
+            let moved = instance.pose != *pose;
+            instance.pose.clone_from(pose);
+            self.changed |= moved;
+            return Ok((instance.vertices.start as u32, moved));
+        }
+        self.remove(key);
+        if self.meshes.get(mesh_key).is_none_or(|mesh| mesh.version != version) {
+            self.upload_mesh(gpu, mesh_key, mesh, version)?;
+        }
+        let (device, queue) = gpu;
+        let vertices = self.vertices.allocate(device, queue, mesh.vertices.len() as u64)?;
+        self.vertices.write(queue, vertices.start, bytemuck::cast_slice(&mesh.vertices));
+        self.meshes[mesh_key].users += 1;
+        let first = vertices.start as u32;
+        let instance = DeformedInstance { mesh: mesh_key, version, vertices, pose: pose.clone() };
+        self.instances.insert(key, instance);
+        self.changed = true;
+        Ok((first, true))
+    }
+
+    /// Removes an instance, and its mesh with the last one.
+    pub(super) fn remove(&mut self, key: InstanceKey) {
+        let Some(instance) = self.instances.remove(key) else { return };
+        self.vertices.free(instance.vertices);
+        self.changed = true;
+        if let Some(mesh) = self.meshes.get_mut(instance.mesh) {
+            mesh.users -= 1;
+            if mesh.users == 0 {
+                self.free_mesh(instance.mesh);
+            }
+        }
+    }
+
+    fn free_mesh(&mut self, key: MeshKey) {
+        if let Some(mesh) = self.meshes.remove(key) {
+            self.rest.free(mesh.vertices);
+            self.influences.free(mesh.influences);
+            self.deltas.free(mesh.deltas);
+        }
+    }
+
+    /// Uploads a mesh. Instances of its previous version keep counting as users.
+    fn upload_mesh(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        key: MeshKey,
+        mesh: &Mesh,
+        version: u64,
+    ) -> Result<(), Error> {
+        let users = self.meshes.get(key).map_or(0, |mesh| mesh.users);
+        self.free_mesh(key);
+        let vertices = self.rest.allocate(device, queue, mesh.vertices.len() as u64)?;
+        self.rest.write(queue, vertices.start, bytemuck::cast_slice(&mesh.vertices));
+        let skin = mesh.skin.as_ref().map_or(&[][..], |skin| skin.influences());
+        let influences = self.influences.allocate(device, queue, skin.len() as u64)?;
+        self.influences.write(queue, influences.start, bytemuck::cast_slice(skin));
+        let target_count = mesh.morph_targets.len();
+        let count = mesh.vertices.len() * target_count;
+        let deltas = self.deltas.allocate(device, queue, count as u64)?;
+        for (target, first) in
+            mesh.morph_targets.iter().zip((deltas.start..).step_by(mesh.vertices.len().max(1)))
+        {
+            let given = target.deltas();
+            let given = &given[..given.len().min(mesh.vertices.len())];
+            self.deltas.write(queue, first, bytemuck::cast_slice(given));
+        }
+        let influences_per_vertex = mesh.skin.as_ref().map_or(0, |skin| skin.per_vertex() as u32);
+        let mesh = DeformedMesh {
+            vertices,
+            influences,
+            influences_per_vertex,
+            deltas,
+            target_count,
+            version,
+            users,
+        };
+        self.meshes.insert(key, mesh);
+        Ok(())
+    }
+
+    /// Computes the inputs of the pass if an instance has changed, and sends pending writes to the queue.
+    ///
+    /// # Errors
+    /// The deformed meshes are larger than the device can bind.
+    pub(super) fn flush(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), Error> {
+        for buffer in [&mut self.rest, &mut self.influences, &mut self.deltas, &mut self.vertices] {
+            buffer.flush(queue);
+        }
+        if !std::mem::take(&mut self.changed) {
+            return Ok(());
+        }
+        self.jobs.clear();
+        self.workgroups.clear();
+        self.joints.clear();
+        self.weights.clear();
+        // Meshes of one skin share its joints.
+        let mut first_joints = BTreeMap::new();
+        for instance in self.instances.values() {
+            let Some(mesh) = self.meshes.get(instance.mesh) else { continue };
+            let joints = &instance.pose.joints;
+            let first_joint = *first_joints.entry(joints.as_ptr().addr()).or_insert_with(|| {
+                let first = self.joints.len() as u32;
+                self.joints.extend(joints.iter().map(rows));
+                first
+            });
+            let first_weight = self.weights.len();
+            self.weights.extend(instance.pose.weights.iter().take(mesh.target_count));
+            let vertex_count = (instance.vertices.end - instance.vertices.start) as u32;
+            let job = self.jobs.len() as u32;
+            self.workgroups.extend((0..vertex_count).step_by(WORKGROUP as usize).map(|first| [job, first]));
+            self.jobs.push(Job {
+                rest_vertex: mesh.vertices.start as u32,
+                posed_vertex: instance.vertices.start as u32,
+                vertex_count,
+                first_influence: mesh.influences.start as u32,
+                influences_per_vertex: if joints.is_empty() { 0 } else { mesh.influences_per_vertex },
+                first_joint,
+                first_delta: mesh.deltas.start as u32,
+                first_weight: first_weight as u32,
+                weight_count: (self.weights.len() - first_weight) as u32,
+            });
+        }
+        self.pad();
+        self.check_limits(&device.limits())
+    }
+
+    /// Fills the last row of workgroups, and arrays that are empty.
+    fn pad(&mut self) {
+        let rows = self.workgroups.len().div_ceil(MAX_WORKGROUPS).max(1);
+        let width = self.workgroups.len().div_ceil(rows);
+        self.dispatch = [width as u32, rows as u32, 1];
+        self.workgroups.resize(width * rows, [NO_JOB, 0]);
+        self.joints.resize(self.joints.len().max(1), [Vec4::ZERO; 3]);
+        self.weights.resize(self.weights.len().max(1), 0.0);
+    }
+
+    fn check_limits(&self, limits: &wgpu::Limits) -> Result<(), Error> {
+        for (what, bytes) in [
+            ("the vertices of deformed meshes", self.rest.buffer.size()),
+            ("the influences of deformed meshes", self.influences.buffer.size()),
+            ("the morph targets", self.deltas.buffer.size()),
+            ("the vertices of deformed instances", self.vertices.buffer.size()),
+            ("the joints", size_of_val(&self.joints[..]) as u64),
+        ] {
+            limits::storage(limits, what, bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Returns what the pass reads and writes; `None` if no mesh is deformed.
+    pub(super) fn inputs(&self) -> Option<PoseInputs<'_>> {
+        if self.dispatch[0] == 0 {
+            return None;
+        }
+        Some(PoseInputs {
+            jobs: bytemuck::cast_slice(&self.jobs),
+            workgroups: bytemuck::cast_slice(&self.workgroups),
+            dispatch: self.dispatch,
+            joints: bytemuck::cast_slice(&self.joints),
+            weights: bytemuck::cast_slice(&self.weights),
+            rest: &self.rest.buffer,
+            influences: &self.influences.buffer,
+            deltas: &self.deltas.buffer,
+            vertices: &self.vertices.buffer,
+        })
+    }
+
+    /// Returns the vertex buffer of the deformed meshes.
+    pub(super) fn vertices(&self) -> &wgpu::Buffer {
+        &self.vertices.buffer
+    }
+}
+
+/// Returns the rows of an affine matrix.
+fn rows(joint: &DAffine3) -> [Vec4; 3] {
+    let rows = joint.matrix3.transpose();
+    let at = joint.translation;
+    [rows.x_axis.extend(at.x), rows.y_axis.extend(at.y), rows.z_axis.extend(at.z)].map(|row| row.as_vec4())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use std::mem::offset_of;
+
+    use super::*;
+    use crate::mesh::{MorphTarget, SkinWeights};
+    use glam::DVec3;
+
+    #[test]
+    fn structs_have_the_layout_of_the_wgsl_structs() {
+        let module = shadowgraph_shaders::compose("pose.wgsl", &[]).unwrap();
+        let fields = [
+            ("rest_vertex", offset_of!(Job, rest_vertex)),
+            ("posed_vertex", offset_of!(Job, posed_vertex)),
+            ("vertex_count", offset_of!(Job, vertex_count)),
+            ("first_influence", offset_of!(Job, first_influence)),
+            ("influences_per_vertex", offset_of!(Job, influences_per_vertex)),
+            ("first_joint", offset_of!(Job, first_joint)),
+            ("first_delta", offset_of!(Job, first_delta)),
+            ("first_weight", offset_of!(Job, first_weight)),
+            ("weight_count", offset_of!(Job, weight_count)),
+        ];
+        shadowgraph_shaders::layout::check(&module, "Job", size_of::<Job>(), &fields).unwrap();
+        let fields = [("joint", offset_of!(Influence, joint)), ("weight", offset_of!(Influence, weight))];
+        shadowgraph_shaders::layout::check(&module, "Influence", size_of::<Influence>(), &fields).unwrap();
+        let fields = [("row_x", 0), ("row_y", 16), ("row_z", 32)];
+        shadowgraph_shaders::layout::check(&module, "Joint", size_of::<[Vec4; 3]>(), &fields).unwrap();
+        assert_eq!((size_of::<Vertex>(), size_of::<MorphDelta>()), (15 * 4, 9 * 4), "words in pose.wgsl");
+    }
+
+    /// A mesh with a skin of `joints` joints and one morph target.
+    fn mesh(vertices: usize) -> Mesh {
+        let mut mesh = Mesh::new("", vec![Vertex::default(); vertices], vec![0, 1, 2]);
+        let influences = vec![Influence { joint: 0, weight: 1.0 }; vertices * 4];
+        mesh.skin = Some(SkinWeights::new(influences, 4, &mesh.vertices).unwrap());
+        mesh.morph_targets = vec![MorphTarget::new(vec![MorphDelta::default(); vertices])];
+        mesh
+    }
+
+    fn pose(x: f64) -> MeshPose {
+        MeshPose { joints: [DAffine3::from_translation(DVec3::X * x)].into(), weights: vec![0.5] }
+    }
+
+    #[test]
+    fn instances_share_the_mesh_and_have_their_own_vertices_until_they_are_removed() {
+        let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+        let gpu = (&device, &queue);
+        let mut scene = crate::Scene::default();
+        let mesh_key = scene.insert_mesh(mesh(100));
+        let material = scene.insert_material(crate::Material::default()).unwrap();
+        let mut insert = || {
+            let instance = crate::Instance::new(mesh_key, material, DAffine3::IDENTITY);
+            scene.insert_instance(instance).unwrap()
+        };
+        let (first, second) = (insert(), insert());
+        let mut posed = PosedGeometry::new(&device).unwrap();
+        assert!(posed.inputs().is_none());
+        let hundred = mesh(100);
+        let update = |posed: &mut PosedGeometry, key, x, version| {
+            let updated = posed.update(gpu, key, (mesh_key, &hundred, version), &pose(x)).unwrap();
+            posed.flush(&device, &queue).unwrap();
+            updated
+        };
+        let base = update(&mut posed, first, 1.0, 7).0;
+        assert_eq!(update(&mut posed, first, 1.0, 7), (base, false));
+        assert_eq!(update(&mut posed, first, 2.0, 7), (base, true));
+        let other = update(&mut posed, second, 3.0, 7).0;
+        assert!(base.abs_diff(other) >= 100);
+        let job = |posed: &PosedGeometry, index: usize| posed.jobs[index];
+        assert_eq!(job(&posed, 0).rest_vertex, job(&posed, 1).rest_vertex);
+        assert_eq!([0, 1].map(|index| job(&posed, index).posed_vertex), [base, other]);
+        assert_eq!(posed.workgroups, [[0, 0], [0, 64], [1, 0], [1, 64]]);
+        assert_eq!(posed.joints.iter().map(|joint| joint[0].w).collect::<Vec<_>>(), [2.0, 3.0]);
+        posed.remove(first);
+        posed.flush(&device, &queue).unwrap();
+        assert_eq!((posed.jobs.len(), posed.meshes.len()), (1, 1));
+        // A replaced mesh is uploaded again.
+        update(&mut posed, second, 3.0, 8);
+        assert_eq!((posed.jobs.len(), posed.meshes[mesh_key].users), (1, 1));
+        posed.remove(second);
+        posed.flush(&device, &queue).unwrap();
+        assert!(posed.inputs().is_none() && posed.meshes.is_empty());
+    }
+
+    #[test]
+    fn many_workgroups_fill_rows() {
+        let (device, _) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+        let mut posed = PosedGeometry::new(&device).unwrap();
+        posed.workgroups = vec![[0, 0]; MAX_WORKGROUPS + 2];
+        posed.pad();
+        assert_eq!(posed.dispatch, [32_769, 2, 1]);
+        assert_eq!((posed.workgroups.len(), posed.workgroups[65_537]), (65_538, [NO_JOB, 0]));
+    }
+}

@@ -1,0 +1,189 @@
+//! Animated files: transforms and vertices agree with a reference in f64, and images with those of meshes that are deformed on the CPU.
+
+mod kinds;
+mod written;
+
+use glam::{DAffine3, DVec3};
+use kinds::{CUBIC, Kind, MORPHED, RIGID, SKINNED, SKINNED_BY_EIGHT};
+use shadowgraph::lighting::PosePass;
+use shadowgraph::options::Aov;
+use shadowgraph::scene::gpu::GpuScene;
+use shadowgraph::scene::{AnimationSelection, LightKind, Scene};
+use shadowgraph::shadows::VertexBuffers;
+use shadowgraph::{Gpu, Renderer};
+use shadowgraph_core::{Graph, Subresource};
+
+use crate::scenes::real_scenes;
+use crate::stage::{camera, floor_mesh, gpu, light, material, sun, sun_direction, view};
+
+/// The times of the frames, seconds: before the start, at it, between keyframes, at the end and after it.
+const TIMES_S: [f64; 5] = [-1.0, 0.0, 0.4, 1.0, 7.5];
+
+/// Reads the deformed vertices of a scene's first instance back from the GPU, and returns their positions and normals in the world.
+fn posed(gpu: &Gpu, scene: &Scene, pass: &PosePass) -> Vec<[DVec3; 2]> {
+    let uploaded = GpuScene::new(&gpu.device, &gpu.queue, scene, DVec3::ZERO).unwrap();
+    let mut graph = Graph::default();
+    let mut frame = graph.frame();
+    pass.add_to(&mut frame, &uploaded);
+    let VertexBuffers(buffers) = VertexBuffers::published_in(&frame);
+    let request = frame.read_back_buffer(&buffers[0], Subresource::FULL);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut executed = graph.compile(frame).unwrap().execute(&mut graph, &gpu.device, &mut encoder).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = executed.read_back(request).unwrap().wait(&gpu.device).unwrap();
+    let (_, instance) = scene.instances().next().unwrap();
+    let count = scene.mesh(instance.mesh).unwrap().vertices.len();
+    let first = uploaded.draw_for(0).unwrap().posed.unwrap() as usize;
+    let words: Vec<f32> = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+    let vector = |word: usize| DVec3::new(words[word].into(), words[word + 1].into(), words[word + 2].into());
+    let vertex = |index: usize| {
+        let normal = instance.world_from_local.transform_vector3(vector(index * 15 + 3));
+        [instance.world_from_local.transform_point3(vector(index * 15)), normal]
+    };
+    (first..first + count).map(vertex).collect()
+}
+
+#[test]
+fn deformed_vertices_are_within_a_tenth_of_a_millimetre_of_a_reference_in_f64() {
+    let Some(gpu) = gpu() else { return };
+    let pass = PosePass::new(&gpu.device).unwrap();
+    for kind in [SKINNED, SKINNED_BY_EIGHT, MORPHED] {
+        let mut scene = (kind.file)().load();
+        for time_s in TIMES_S {
+            scene.set_time(AnimationSelection::All, time_s).unwrap();
+            let found = posed(gpu, &scene, &pass);
+            let expected = (kind.vertices)(time_s.clamp(0.0, 1.0));
+            assert_eq!(found.len(), expected.len(), "{}", kind.name);
+            for (found, expected) in found.iter().zip(&expected) {
+                for (found, expected) in found.iter().zip(expected) {
+                    let error = found.distance(*expected);
+                    assert!(error < 1e-4, "{} at {time_s} s: {found} for {expected}", kind.name);
+                }
+            }
+            let bounds = scene.bounds();
+            assert!(expected.iter().all(|[position, _]| bounds.contains_point(*position)), "{}", kind.name);
+        }
+    }
+}
+
+#[test]
+fn transforms_are_within_a_tenth_of_a_millimetre_of_a_reference_in_f64() {
+    for kind in [RIGID, CUBIC] {
+        let mut scene = (kind.file)().load();
+        for time_s in TIMES_S {
+            scene.set_time(AnimationSelection::All, time_s).unwrap();
+            let (_, instance) = scene.instances().next().unwrap();
+            let vertices = &scene.mesh(instance.mesh).unwrap().vertices;
+            for (vertex, [expected, _]) in vertices.iter().zip((kind.vertices)(time_s.clamp(0.0, 1.0))) {
+                let local = DVec3::from(vertex.position.map(f64::from));
+                let found = instance.world_from_local.transform_point3(local);
+                assert!(
+                    found.distance(expected) < 1e-4,
+                    "{} at {time_s} s: {found} for {expected}",
+                    kind.name
+                );
+            }
+        }
+    }
+}
+
+/// Adds a floor, a sun, a spot light and a point light to a scene.
+fn staged(mut scene: Scene) -> Scene {
+    scene.add(floor_mesh(20.0), material(), DAffine3::IDENTITY).unwrap();
+    scene.insert_light(sun(sun_direction(50.0, 30.0)));
+    let position_world = DVec3::new(3.0, 5.0, 2.0);
+    let direction = (DVec3::Y - position_world).normalize();
+    let range = Some(20.0);
+    let spot = LightKind::Spot { position_world, direction, range, inner_angle: 0.5, outer_angle: 0.7 };
+    scene.insert_light(light(spot, 3000.0));
+    let position_world = DVec3::new(-3.0, 4.0, 2.0);
+    scene.insert_light(light(LightKind::Point { position_world, range }, 2000.0));
+    scene
+}
+
+/// Returns the scene with its deformed meshes replaced by meshes of the same shape.
+fn baked(scene: &Scene) -> Scene {
+    let mut baked = scene.clone();
+    for (key, instance) in scene.instances() {
+        let Some(pose) = &instance.pose else { continue };
+        let mut mesh = scene.mesh(instance.mesh).unwrap().clone();
+        mesh.vertices = mesh.posed_vertices(pose);
+        (mesh.skin, mesh.morph_targets) = (None, Vec::new());
+        let mesh = shadowgraph::scene::Mesh::new("baked", mesh.vertices, mesh.indices);
+        let mesh = baked.insert_mesh(mesh);
+        baked.edit_instance(key, |instance| (instance.mesh, instance.pose) = (mesh, None)).unwrap();
+    }
+    baked
+}
+
+#[test]
+fn images_and_shadows_of_deformed_meshes_are_those_of_meshes_with_that_shape() {
+    let Some(gpu) = gpu() else { return };
+    let mut options = view(camera(DVec3::new(3.0, 3.0, 6.0), DVec3::Y), 30.0);
+    options.size_px = [160, 90];
+    for kind in [SKINNED, MORPHED] {
+        for aov in [Aov::Color, Aov::Visibility(0), Aov::Visibility(1), Aov::Visibility(2)] {
+            let scene = staged((kind.file)().load());
+            let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, aov.clone()).unwrap();
+            let mut reference = Renderer::new(gpu, scene, &options.camera, aov.clone()).unwrap();
+            let mut images = Vec::new();
+            for time_s in [0.0, 0.6, 1.0] {
+                renderer.scene_mut().set_time(AnimationSelection::All, time_s).unwrap();
+                reference.set_scene(gpu, baked(renderer.scene())).unwrap();
+                let [found, expected] = [&mut renderer, &mut reference]
+                    .map(|renderer| renderer.draw(gpu, &options).unwrap().image.rgba8);
+                let differs = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|i| a[i].abs_diff(b[i]) > 8);
+                let pixels = found.as_chunks::<4>().0.iter().zip(expected.as_chunks::<4>().0);
+                let differing = pixels.filter(|pair| differs(*pair)).count();
+                assert!(differing <= 14, "{} {aov:?} at {time_s} s: {differing} pixels", kind.name);
+                images.push(found);
+            }
+            assert!(images[0] != images[1] && images[1] != images[2], "{} {aov:?} moves", kind.name);
+        }
+    }
+}
+
+#[test]
+fn a_deformed_mesh_far_from_where_it_rests_is_drawn_with_its_shadow() {
+    let Some(gpu) = gpu() else { return };
+    let mut options = view(camera(DVec3::new(3.0, 3.0, 6.0), DVec3::Y), 30.0);
+    options.size_px = [160, 90];
+    let draw = |scene: Scene| {
+        let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
+        renderer.draw(gpu, &options).unwrap().image.rgba8
+    };
+    let near = draw(staged((SKINNED.file)().load()));
+    // The mesh rests 500 m away; its joints move it back.
+    let mut file = (SKINNED.file)();
+    kinds::move_rest(&mut file, 500.0);
+    let far = draw(staged(file.load()));
+    let differing =
+        near.as_chunks::<4>().0.iter().zip(far.as_chunks::<4>().0).filter(|(a, b)| a != b).count();
+    assert!(differing <= 14, "{differing} pixels");
+}
+
+#[test]
+fn the_wheels_of_the_truck_turn_and_its_shadow_with_them() {
+    let (Some(gpu), Some(scenes)) = (gpu(), real_scenes()) else { return };
+    let truck = scenes.iter().find(|scene| scene.name == "CesiumMilkTruck").unwrap();
+    let mut scene = truck.scene.clone();
+    scene.add(floor_mesh(20.0), material(), DAffine3::IDENTITY).unwrap();
+    scene.set_lights([sun(sun_direction(25.0, 80.0))]);
+    let mut options = view(camera(DVec3::new(4.0, 1.5, 4.0), DVec3::Y), 30.0);
+    options.size_px = [160, 90];
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color).unwrap();
+    let mut images = Vec::new();
+    for time_s in [0.0, 0.25, 0.5, 0.75, 1.0] {
+        renderer.scene_mut().set_time(AnimationSelection::All, time_s).unwrap();
+        let image = renderer.draw(gpu, &options).unwrap().image.rgba8;
+        assert!(!images.contains(&image), "at {time_s} s");
+        images.push(image);
+    }
+}
+
+/// Kinds of written files, for messages.
+impl std::fmt::Debug for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
