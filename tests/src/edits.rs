@@ -15,13 +15,9 @@ pub fn transform(random: &mut Random) -> DAffine3 {
 
 /// Makes a random edit of a scene with an instance that stays where it is, the first, and others.
 ///
-/// # Panics
+/// # Errors
 /// If the scene refuses the edit.
-pub fn edit(scene: &mut Scene, random: &mut Random) {
-    try_edit(scene, random).unwrap_or_else(|error| panic!("{error}"));
-}
-
-fn try_edit(scene: &mut Scene, random: &mut Random) -> Result<(), EditError> {
+pub fn edit(scene: &mut Scene, random: &mut Random) -> Result<(), EditError> {
     let count = scene.instances().len();
     let nth = 1 + random.below(count.max(2) as u64 - 1) as usize;
     let Some((key, instance)) = scene.instances().nth(nth).map(|(key, instance)| (key, instance.clone()))

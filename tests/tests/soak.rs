@@ -156,7 +156,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
             options.shadows.atlas.map_size_px = 512;
             options.shadows.atlas.cache = random.flip();
             for _ in 0..random.below(4) {
-                edits::edit(renderer.scene_mut(), &mut random);
+                edits::edit(renderer.scene_mut(), &mut random).unwrap();
             }
             watched.send(format!("frame {drawn}, {name}, {size_px:?} px\n{text}")).unwrap();
             let view = renderer.draw(gpu, &options).unwrap_or_else(|error| panic!("{error}, {name}\n{text}"));

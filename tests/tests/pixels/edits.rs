@@ -40,7 +40,7 @@ fn frames_equal_new_scenes(technique: TechniqueKind, frames: u32) {
     let mut images = Vec::new();
     for frame in 0..frames {
         for _ in 0..random.below(4) {
-            edit(edited.scene_mut(), &mut random);
+            edit(edited.scene_mut(), &mut random).unwrap();
         }
         fresh.set_scene(gpu, edited.scene().clone()).unwrap();
         let image = edited.draw(gpu, &options).unwrap().image;
