@@ -33,15 +33,10 @@ fn world_position(instance: u32, position: vec3f) -> vec3f {
     return vec3f(dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p));
 }
 
-// The position of a vertex in the previous frame, in the space of its mesh.
-fn previous_position_local(vertex: Vertex) -> vec3f {
-    return vertex.position;
-}
-
-// The position of a vertex in the previous frame, relative to this frame's origin.
-fn previous_world_position(vertex: Vertex) -> vec3f {
-    let m = instances[vertex.instance];
-    let p = vec4f(previous_position_local(vertex), 1.0);
+// The position in the previous frame of a vertex that had this one in the space of the instance, relative to this frame's origin.
+fn previous_world_position(instance: u32, position: vec3f) -> vec3f {
+    let m = instances[instance];
+    let p = vec4f(position, 1.0);
     return vec3f(dot(m.previous_row_x, p), dot(m.previous_row_y, p), dot(m.previous_row_z, p));
 }
 

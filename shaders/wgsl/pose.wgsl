@@ -1,4 +1,5 @@
-// Skins and morph targets: computes the vertices of deformed meshes, in the space of their instances.
+// Skins and morph targets: computes the vertices of deformed meshes, in the space of their instances, and their
+// positions in the previous frame.
 
 // Words of a vertex, and of the displacement of one.
 const VERTEX_WORDS = 15u;
@@ -17,6 +18,9 @@ struct Job {
     first_delta: u32,
     first_weight: u32,
     weight_count: u32,
+    // Those of the previous frame.
+    previous_first_joint: u32,
+    previous_first_weight: u32,
 }
 
 // Rows of the affine matrix from the space of the mesh to that of the instance.
@@ -138,4 +142,12 @@ fn cs_pose(
     write_vector(target_word, position);
     write_vector(target_word + 3u, normalize_or(normal, rest_normal));
     write_vector(target_word + 6u, normalize_or(tangent, rest_tangent));
+    if job.previous_first_joint != job.first_joint || job.previous_first_weight != job.first_weight {
+        position = rest_position + displacement(job, job.previous_first_weight, vertex, 0u);
+        if job.influences_per_vertex > 0u {
+            position = transform_point(skin_transform(job, job.previous_first_joint, vertex), position);
+        }
+    }
+    // The positions in the previous frame follow the vertices.
+    write_vector(target_word + job.vertex_count * VERTEX_WORDS, position);
 }

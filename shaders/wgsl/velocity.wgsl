@@ -31,9 +31,9 @@ struct VelocityVertex {
 }
 
 @vertex
-fn vs_velocity(vertex: Vertex) -> VelocityVertex {
+fn vs_velocity(vertex: Vertex, @location(6) previous_local: vec3f) -> VelocityVertex {
     let position = world_position(vertex.instance, vertex.position);
-    let previous_position = previous_world_position(vertex);
+    let previous_position = previous_world_position(vertex.instance, previous_local);
     let current = view_motion.clip_from_relative * vec4f(position - view_motion.eye, 1.0);
     let previous = view_motion.previous_clip_from_relative * vec4f(previous_position - view_motion.eye, 1.0);
     return VelocityVertex(clip_position(velocity_view.clip_from_world, position), current.xyw, previous.xyw);

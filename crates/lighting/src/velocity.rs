@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 use bytemuck::{NoUninit, Pod, Zeroable, bytes_of};
 use glam::{Mat4, Vec2, Vec3};
 use shadowgraph_core::{Bind, Contents, Format, Frame, FullscreenShader, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
+use shadowgraph_scene::gpu::{
+    AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, previous_vertex_layout, vertex_layout,
+};
 use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
@@ -16,7 +18,7 @@ use crate::uniforms::ViewBuffers;
 /// The passes that compute motion vectors: for each pixel, the motion of its surface from its position in this frame back to
 /// that in the previous frame, in pixels, y down, without jitter. So a surface at pixel `p` was at `p + velocity`.
 ///
-/// The motion includes those of the camera and of instances. Where nothing is drawn, it is that of a background infinitely far away.
+/// The motion includes those of the camera, of instances, and of skins and morph targets. Where nothing is drawn, it is that of a background infinitely far away.
 /// Blended geometry has none: its pixels have the motion of what is behind it. A surface that was behind the camera has the
 /// motion (32768, 32768).
 pub struct Velocity {
@@ -146,7 +148,7 @@ impl Velocity {
                 module: &self.shader,
                 entry_point: Some("vs_velocity"),
                 compilation_options: Default::default(),
-                buffers: &[Some(vertex_layout())],
+                buffers: &[Some(vertex_layout()), Some(previous_vertex_layout())],
             },
             primitive: key.primitive_state(),
             depth_stencil: Some(wgpu::DepthStencilState {

@@ -5,10 +5,10 @@ use shadowgraph::Gpu;
 use shadowgraph::core::{Graph, Subresource};
 use shadowgraph::lighting::post::Jitter;
 use shadowgraph::lighting::{
-    AmbientLight, Geometry, KeyLight, Prepass, PreviousCameras, Velocity, ViewUniforms,
+    AmbientLight, Geometry, KeyLight, PosePass, Prepass, PreviousCameras, Velocity, ViewUniforms,
 };
 use shadowgraph::scene::gpu::GpuScene;
-use shadowgraph::scene::{Camera, Projection, origin_near};
+use shadowgraph::scene::{Camera, Influence, MeshPose, Projection, Scene, SkinWeights, origin_near};
 
 use crate::stage::{CUBE_MAX, CUBE_MIN, SIZE_PX, camera, cube_on_floor, gpu, ray_box};
 
@@ -52,12 +52,14 @@ enum Hit {
 struct Stage {
     offset: DVec3,
     cube: [DAffine3; 2],
+    /// Whether a skin moves the cube.
+    is_skinned: bool,
 }
 
 impl Stage {
     /// Returns the stage with everything at rest.
     fn resting(offset: DVec3) -> Self {
-        Self { offset, cube: [DAffine3::from_translation(offset); 2] }
+        Self { offset, cube: [DAffine3::from_translation(offset); 2], is_skinned: false }
     }
 
     /// Casts a ray in the second frame. Returns what it meets, and the point in both frames or (of the background) the direction.
@@ -80,17 +82,39 @@ impl Stage {
     }
 }
 
+/// Moves the cube: by its transform, or by a joint of its skin that is relative to a transform which moves too.
+fn move_cube(scene: &mut Scene, stage: &Stage, frame: usize) {
+    let (key, instance) = scene.instances().nth(1).unwrap();
+    if scene.mesh(instance.mesh).unwrap().skin.is_none() {
+        return scene.move_instance(key, stage.cube[frame]).unwrap();
+    }
+    let anchor = DAffine3::from_translation(stage.offset + DVec3::splat(frame as f64));
+    let pose = MeshPose { joints: [anchor.inverse() * stage.cube[frame]].into(), weights: vec![] };
+    scene.pose_instance(key, anchor, Some(pose)).unwrap();
+}
+
+/// Gives the cube a skin of one joint.
+fn add_skin(scene: &mut Scene) {
+    let key = scene.instances().nth(1).unwrap().1.mesh;
+    let mut mesh = scene.mesh(key).unwrap().clone();
+    let influences = vec![Influence { joint: 0, weight: 1.0 }; mesh.vertices.len() * 4];
+    mesh.skin = Some(SkinWeights::new(influences, 4, &mesh.vertices).unwrap());
+    scene.replace_mesh(key, mesh).unwrap();
+}
+
 /// Draws the second of two frames and returns its motion vectors by row.
 fn velocities(gpu: &Gpu, cameras: [&Camera; 2], jitter: Jitter, stage: &Stage) -> Vec<DVec2> {
     let mut scene = cube_on_floor(stage.offset);
-    let cube = scene.instances().nth(1).unwrap().0;
-    scene.move_instance(cube, stage.cube[0]).unwrap();
+    if stage.is_skinned {
+        add_skin(&mut scene);
+    }
+    move_cube(&mut scene, stage, 0);
     let [previous, current] = cameras;
     let origins = cameras.map(|camera| origin_near(camera.position_world()));
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene, origins[0]).unwrap();
     drop(scene.take_changes());
     if stage.cube[1] != stage.cube[0] {
-        scene.move_instance(cube, stage.cube[1]).unwrap();
+        move_cube(&mut scene, stage, 1);
     }
     uploaded.update(&gpu.device, &gpu.queue, &scene, &scene.clone().take_changes()).unwrap();
     uploaded.set_origin(&gpu.device, &gpu.queue, &scene, origins[1]).unwrap();
@@ -108,6 +132,7 @@ fn velocities(gpu: &Gpu, cameras: [&Camera; 2], jitter: Jitter, stage: &Stage) -
         .moving(previous_cameras.motion(0, current, aspect()))
         .jittered(jitter)
         .upload(&mut frame);
+    PosePass::new(&gpu.device).unwrap().add_to(&mut frame, &uploaded);
     let depth = prepass.add_to(&mut frame, &view, geometry);
     let velocity = passes.add_to(&mut frame, &view, &depth, geometry);
     let request = frame.read_back_texture(&velocity, Subresource::FULL);
@@ -202,7 +227,7 @@ fn an_orthographic_camera_has_velocity() {
 }
 
 #[test]
-fn velocity_of_rigid_instances_is_the_analytic_motion() {
+fn velocity_of_rigid_and_skinned_instances_is_the_analytic_motion() {
     let Some(gpu) = gpu() else { return };
     let rest = camera(DVec3::new(2.0, 1.6, 4.0), DVec3::new(0.0, 0.8, 0.0));
     let walks = camera(DVec3::new(2.1, 1.7, 3.7), DVec3::new(0.1, 0.9, -0.3));
@@ -215,10 +240,15 @@ fn velocity_of_rigid_instances_is_the_analytic_motion() {
     let tumbles = transform(DVec3::new(0.4, 0.6, 0.5), 0.9, DVec3::ONE);
     let grows = transform(DVec3::new(-0.3, 0.4, 0.2), 0.3, DVec3::new(1.3, 0.8, -1.1));
     let back = transform(DVec3::new(-0.2, 0.4, 0.3), 0.2, DVec3::new(1.2, 0.8, -1.0));
-    for (cube, camera, jitter) in
-        [([from, falls], &rest, 1), ([from, tumbles], &walks, 6), ([grows, back], &walks, 0)]
+    let motions = [([from, falls], &rest, 1), ([from, tumbles], &walks, 6), ([grows, back], &walks, 0)];
+    for ((cube, camera, jitter), is_skinned) in
+        motions.into_iter().flat_map(|motion| [(motion, false), (motion, true)])
     {
-        let stage = Stage { offset: DVec3::ZERO, cube };
+        // A skin gives one winding to all its triangles: its first joint is mirrored only with the instance.
+        if is_skinned && cube[0].matrix3.determinant() < 0.0 {
+            continue;
+        }
+        let stage = Stage { offset: DVec3::ZERO, cube, is_skinned };
         let [worst, longest] = compare(gpu, [&rest, camera], Jitter::for_frame(jitter), &stage, 4);
         assert!(worst < BOUND_PX && longest > 8.0, "{worst} of {longest}");
     }

@@ -24,6 +24,13 @@ pub fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
+/// Returns the layout of a second vertex buffer: location 6 is the position in the previous frame, in the space of the instance.
+#[must_use]
+pub fn previous_vertex_layout() -> wgpu::VertexBufferLayout<'static> {
+    const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
+    wgpu::VertexBufferLayout { attributes: &POSITION, ..vertex_layout() }
+}
+
 /// The ranges of a mesh in the buffers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct MeshRanges {
@@ -37,6 +44,10 @@ impl MeshRanges {
     /// Returns the indices, and the base vertex of a draw.
     pub(super) fn draw(&self) -> (Range<u32>, i32) {
         (self.indices.start as u32..self.indices.end as u32, self.vertices.start as i32)
+    }
+
+    pub(super) fn vertex_count(&self) -> u64 {
+        self.vertices.end - self.vertices.start
     }
 
     pub(super) fn triangle_count(&self) -> u32 {
@@ -128,9 +139,11 @@ impl Geometry {
         self.indices.flush(queue);
     }
 
-    /// Returns the vertex buffer.
-    pub(super) fn vertices(&self) -> &wgpu::Buffer {
-        &self.vertices.buffer
+    /// Sets the vertex buffers of a pass for meshes that are not deformed: 0 has their vertices, and 1 too.
+    pub(super) fn set_vertices(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for slot in 0..2 {
+            pass.set_vertex_buffer(slot, self.vertices.buffer.slice(..));
+        }
     }
 
     /// Sets the index buffer of a pass.

@@ -46,7 +46,7 @@ mod write_batch;
 
 pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
 pub use draw_list::{Draw, DrawList, DrawPipeline};
-pub use geometry::vertex_layout;
+pub use geometry::{previous_vertex_layout, vertex_layout};
 pub use key::{AlphaKey, PipelineKey};
 pub use materials::MaterialLayouts;
 pub use posed::PoseInputs;

@@ -1,7 +1,9 @@
 //! Deformed meshes: the vertices that a compute pass writes, and what it reads.
 
 use std::collections::BTreeMap;
+use std::iter;
 use std::ops::Range;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, Vec4};
@@ -33,6 +35,8 @@ struct Job {
     first_delta: u32,
     first_weight: u32,
     weight_count: u32,
+    previous_first_joint: u32,
+    previous_first_weight: u32,
 }
 
 /// What the pass that deforms meshes reads and writes. All bytes are those of arrays of at least one element.
@@ -76,8 +80,11 @@ struct DeformedInstance {
     mesh: MeshKey,
     /// The version of the mesh.
     version: u64,
+    /// The vertices of this frame, and as many for the positions in the previous one.
     vertices: Range<u64>,
     pose: MeshPose,
+    /// The pose in the previous frame.
+    previous: MeshPose,
 }
 
 /// All deformed meshes.
@@ -88,6 +95,8 @@ pub(super) struct PosedGeometry {
     vertices: ElementBuffer,
     meshes: SecondaryMap<MeshKey, DeformedMesh>,
     instances: SecondaryMap<InstanceKey, DeformedInstance>,
+    /// Instances whose previous pose differs from their own, with duplicates.
+    moved: Vec<InstanceKey>,
     /// Whether an instance has changed since the inputs were computed.
     changed: bool,
     jobs: Vec<Job>,
@@ -112,6 +121,7 @@ impl PosedGeometry {
             vertices: buffer("posed vertices", Usage::VERTEX, size_of::<Vertex>())?,
             meshes: SecondaryMap::new(),
             instances: SecondaryMap::new(),
+            moved: Vec::new(),
             changed: false,
             jobs: Vec::new(),
             workgroups: Vec::new(),
@@ -119,6 +129,16 @@ impl PosedGeometry {
             joints: Vec::new(),
             weights: Vec::new(),
         })
+    }
+
+    /// Begins a frame: the instances that moved in the last frame have now the same previous pose.
+    pub(super) fn begin_frame(&mut self) {
+        for key in std::mem::take(&mut self.moved) {
+            if let Some(instance) = self.instances.get_mut(key) {
+                instance.previous.clone_from(&instance.pose);
+                self.changed = true;
+            }
+        }
     }
 
     /// Gives an instance its pose, and returns the first of its vertices and whether its pose is another one than before.
@@ -137,7 +157,14 @@ impl PosedGeometry {
         if let Some(instance) = self.instances.get_mut(key).filter(is_known) {
             let moved = instance.pose != *pose;
             instance.pose.clone_from(pose);
-            self.changed |= moved;
+            if instance.previous.joints.len() != pose.joints.len() {
+                // Another skin did not move from where this one is.
+                instance.previous.clone_from(pose);
+            }
+            if moved {
+                self.moved.push(key);
+                self.changed = true;
+            }
             return Ok((instance.vertices.start as u32, moved));
         }
         self.remove(key);
@@ -145,11 +172,12 @@ impl PosedGeometry {
             self.upload_mesh(gpu, mesh_key, mesh, version)?;
         }
         let (device, queue) = gpu;
-        let vertices = self.vertices.allocate(device, queue, mesh.vertices.len() as u64)?;
+        let vertices = self.vertices.allocate(device, queue, 2 * mesh.vertices.len() as u64)?;
         self.vertices.write(queue, vertices.start, bytemuck::cast_slice(&mesh.vertices));
         self.meshes[mesh_key].users += 1;
         let first = vertices.start as u32;
-        let instance = DeformedInstance { mesh: mesh_key, version, vertices, pose: pose.clone() };
+        let (pose, previous) = (pose.clone(), pose.clone());
+        let instance = DeformedInstance { mesh: mesh_key, version, vertices, pose, previous };
         self.instances.insert(key, instance);
         self.changed = true;
         Ok((first, true))
@@ -234,27 +262,42 @@ impl PosedGeometry {
         let mut first_joints = BTreeMap::new();
         for instance in self.instances.values() {
             let Some(mesh) = self.meshes.get(instance.mesh) else { continue };
-            let joints = &instance.pose.joints;
-            let first_joint = *first_joints.entry(joints.as_ptr().addr()).or_insert_with(|| {
-                let first = self.joints.len() as u32;
-                self.joints.extend(joints.iter().map(rows));
+            let mut first_joint = |joints: &Arc<[DAffine3]>| {
+                *first_joints.entry(joints.as_ptr().addr()).or_insert_with(|| {
+                    let first = self.joints.len() as u32;
+                    self.joints.extend(joints.iter().map(rows));
+                    first
+                })
+            };
+            let (joint, previous_joint) =
+                (first_joint(&instance.pose.joints), first_joint(&instance.previous.joints));
+            let mut push_weights = |weights: &[f32]| {
+                let first = self.weights.len() as u32;
+                let weights = weights.iter().copied().chain(iter::repeat(0.0));
+                self.weights.extend(weights.take(mesh.target_count));
                 first
-            });
-            let first_weight = self.weights.len();
-            self.weights.extend(instance.pose.weights.iter().take(mesh.target_count));
-            let vertex_count = (instance.vertices.end - instance.vertices.start) as u32;
+            };
+            let DeformedInstance { pose, previous, .. } = instance;
+            let first_weight = push_weights(&pose.weights);
+            let weights_stand = previous.weights == pose.weights;
+            let previous_first_weight =
+                if weights_stand { first_weight } else { push_weights(&previous.weights) };
+            let vertex_count = (instance.vertices.end - instance.vertices.start) as u32 / 2;
             let job = self.jobs.len() as u32;
             self.workgroups.extend((0..vertex_count).step_by(WORKGROUP as usize).map(|first| [job, first]));
+            let is_skinned = !instance.pose.joints.is_empty();
             self.jobs.push(Job {
                 rest_vertex: mesh.vertices.start as u32,
                 posed_vertex: instance.vertices.start as u32,
                 vertex_count,
                 first_influence: mesh.influences.start as u32,
-                influences_per_vertex: if joints.is_empty() { 0 } else { mesh.influences_per_vertex },
-                first_joint,
+                influences_per_vertex: if is_skinned { mesh.influences_per_vertex } else { 0 },
+                first_joint: joint,
                 first_delta: mesh.deltas.start as u32,
-                first_weight: first_weight as u32,
-                weight_count: (self.weights.len() - first_weight) as u32,
+                first_weight,
+                weight_count: mesh.target_count as u32,
+                previous_first_joint: previous_joint,
+                previous_first_weight,
             });
         }
         self.pad();
@@ -302,9 +345,11 @@ impl PosedGeometry {
         })
     }
 
-    /// Returns the vertex buffer of the deformed meshes.
-    pub(super) fn vertices(&self) -> &wgpu::Buffer {
-        &self.vertices.buffer
+    /// Sets the vertex buffers of a pass for a deformed mesh with this number of vertices: 0 has its vertices, 1 those of the
+    /// previous frame.
+    pub(super) fn set_vertices(&self, pass: &mut wgpu::RenderPass<'_>, count: u64) {
+        pass.set_vertex_buffer(0, self.vertices.buffer.slice(..));
+        pass.set_vertex_buffer(1, self.vertices.buffer.slice(count * size_of::<Vertex>() as u64..));
     }
 }
 
@@ -338,6 +383,8 @@ mod tests {
             ("first_delta", offset_of!(Job, first_delta)),
             ("first_weight", offset_of!(Job, first_weight)),
             ("weight_count", offset_of!(Job, weight_count)),
+            ("previous_first_joint", offset_of!(Job, previous_first_joint)),
+            ("previous_first_weight", offset_of!(Job, previous_first_weight)),
         ];
         shadowgraph_shaders::layout::check(&module, "Job", size_of::<Job>(), &fields).unwrap();
         let fields = [("joint", offset_of!(Influence, joint)), ("weight", offset_of!(Influence, weight))];
@@ -384,12 +431,21 @@ mod tests {
         assert_eq!(update(&mut posed, first, 1.0, 7), (base, false));
         assert_eq!(update(&mut posed, first, 2.0, 7), (base, true));
         let other = update(&mut posed, second, 3.0, 7).0;
-        assert!(base.abs_diff(other) >= 100);
+        assert!(base.abs_diff(other) >= 200);
         let job = |posed: &PosedGeometry, index: usize| posed.jobs[index];
         assert_eq!(job(&posed, 0).rest_vertex, job(&posed, 1).rest_vertex);
         assert_eq!([0, 1].map(|index| job(&posed, index).posed_vertex), [base, other]);
         assert_eq!(posed.workgroups, [[0, 0], [0, 64], [1, 0], [1, 64]]);
-        assert_eq!(posed.joints.iter().map(|joint| joint[0].w).collect::<Vec<_>>(), [2.0, 3.0]);
+        let x = |posed: &PosedGeometry, first: u32| posed.joints[first as usize][0].w;
+        let joints = |posed: &PosedGeometry| {
+            [0, 1]
+                .map(|index| job(posed, index))
+                .map(|job| [job.first_joint, job.previous_first_joint].map(|first| x(posed, first)))
+        };
+        assert_eq!(joints(&posed), [[2.0, 1.0], [3.0, 3.0]]);
+        posed.begin_frame();
+        posed.flush(&device, &queue).unwrap();
+        assert_eq!(joints(&posed), [[2.0, 2.0], [3.0, 3.0]]);
         posed.remove(first);
         posed.flush(&device, &queue).unwrap();
         assert_eq!((posed.jobs.len(), posed.meshes.len()), (1, 1));

@@ -233,11 +233,12 @@ impl GpuScene {
                 pass.set_bind_group(2, group, &[]);
                 material = Some(draw.material);
             }
-            if is_posed.replace(draw.posed.is_some()) != Some(draw.posed.is_some()) {
-                let vertices =
-                    if draw.posed.is_some() { self.posed.vertices() } else { self.geometry.vertices() };
-                pass.set_vertex_buffer(0, vertices.slice(..));
+            match draw.posed {
+                Some(_) => self.posed.set_vertices(pass, ranges.vertex_count()),
+                None if is_posed != Some(false) => self.geometry.set_vertices(pass),
+                None => {}
             }
+            is_posed = Some(draw.posed.is_some());
             let mut end = draw.instance + 1;
             while draws.next_if(|next| next.continues(draw, end)).is_some() {
                 end += 1;

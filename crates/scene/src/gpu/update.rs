@@ -36,6 +36,7 @@ impl GpuScene {
     ) -> Result<(), Error> {
         self.frame += 1;
         self.instances.begin_frame();
+        self.posed.begin_frame();
         let materials = self.update_materials((device, queue), scene, changes)?;
         self.update_meshes((device, queue), scene, &changes.meshes)?;
         let mut edits = Edits::default();
