@@ -66,6 +66,7 @@ impl App {
         let seconds = self.drawn.elapsed().as_secs_f64();
         self.drawn = Instant::now();
         self.stage.reload();
+        self.stage.playback.advance(&self.stage.scene.hierarchy, seconds);
         let context = screen.input.egui_ctx();
         if !context.egui_wants_keyboard_input() {
             let input = context.input(super::panel::fly_input);

@@ -3,6 +3,7 @@
 mod app;
 mod fly;
 mod panel;
+mod playback;
 mod reload;
 mod screen;
 mod stage;

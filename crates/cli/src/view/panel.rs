@@ -1,5 +1,6 @@
 //! The panel next to the image: choices, settings, the graph and its times.
 
+mod animation;
 mod edit;
 mod graph;
 mod settings;
@@ -143,7 +144,7 @@ impl Panel {
         action
     }
 
-    /// Keys that work while nothing is typed: pages, the next technique, freezing.
+    /// Keys that work while nothing is typed: pages, the next technique, freezing, playing.
     fn keys(&mut self, ui: &Ui, stage: &mut Stage) {
         if ui.ctx().egui_wants_keyboard_input() {
             return;
@@ -155,6 +156,9 @@ impl Panel {
         }
         if ui.input(|input| input.key_pressed(Key::T)) {
             next_technique(stage);
+        }
+        if ui.input(|input| input.key_pressed(Key::P)) {
+            stage.playback.is_playing = !stage.playback.is_playing;
         }
         if ui.input(|input| input.key_pressed(Key::F)) {
             stage.freeze(!stage.frozen);
@@ -210,6 +214,7 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
     if ui.checkbox(&mut frozen, "Freeze the shadow camera (F)").changed() {
         stage.freeze(frozen);
     }
+    animation::show(ui, stage);
     if let Some(controller) = &stage.controller {
         ui.label(format!("Shadow quality: level {} (0 is the best)", controller.level()));
     }
@@ -236,7 +241,7 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
         ui.monospace(format!("GPU {gpu_ms:.2} ms, the median of {} frames", stage.times.frames()));
     }
     ui.separator();
-    ui.weak("W A S D or arrow keys move, E and Q up and down, Shift faster; drag to look around; T selects the next technique.");
+    ui.weak("W A S D or arrow keys move, E and Q up and down, Shift faster; drag to look around; T selects the next technique; P plays and pauses.");
     action
 }
 

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::fly::FlyCamera;
+use super::playback::Playback;
 use super::reload::Watched;
 use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load};
 use crate::failure::Failure;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
 use shadowgraph::options::{Aov, OptionError, SettingsFile, ShadowDistance, SunChoice};
-use shadowgraph::scene::Scene;
+use shadowgraph::scene::{AnimationSelection, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, ShadowSettings, Technique};
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu};
 
@@ -30,6 +31,7 @@ pub(super) struct Stage {
     /// Lowers the quality of shadows while they exceed a time budget.
     pub(super) controller: Option<QualityController>,
     pub(super) fly: FlyCamera,
+    pub(super) playback: Playback,
     /// Whether the shadow camera is frozen.
     pub(super) frozen: bool,
     pub(super) times: TimeHistory,
@@ -65,8 +67,10 @@ impl Stage {
             shadowgraph::shaders::builtin_files().map(|file| folder.join(file)).collect::<Vec<_>>()
         });
         let settings_file = args.draw.settings_file().map(PathBuf::from);
+        let selection = input.options.animation.resolve(&input.scene.hierarchy)?;
         Ok(Self {
             fly: FlyCamera::new(input.camera, radius_m),
+            playback: Playback::new(selection, input.options.time.0),
             scene: input.scene,
             technique: input.options.render_config().technique(),
             registry,
@@ -103,6 +107,7 @@ impl Stage {
         let view = ViewOptions { camera: camera.clone(), size_px: [16, 9], shadows: self.settings.clone() };
         self.settings = view.with_shadow_distance(ShadowDistance::Auto, &scene).shadows;
         self.fly = FlyCamera::new(camera, scene.bounds().radius());
+        self.playback = Playback::new(AnimationSelection::All, 0.0);
         (self.scene, self.aov, self.frozen) = (scene, Aov::default(), false);
         (self.renderer, self.created, self.file_error) = (None, None, None);
     }
@@ -185,6 +190,9 @@ impl Stage {
         let options = self.options([target.width(), target.height()]);
         self.registry.techniques.check(&options.shadows)?;
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
+        if let Err(error) = self.playback.apply([&mut self.scene, renderer.scene_mut()]) {
+            self.file_error = Some(error.to_string());
+        }
         let mut timer = Timer::new();
         let plan = gpu.checked(|| -> Result<_, shadowgraph::Error> {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
