@@ -80,20 +80,18 @@ impl CullTree {
     /// never wrong: [`rebuild`](Self::rebuild) a tree that [is degraded](Self::is_degraded).
     pub fn refit(&mut self, changed: impl IntoIterator<Item = (u32, Aabb)>) {
         let Some(root) = self.root() else { return };
-        let mut changed_slots = Vec::new();
+        let mut count = 0;
         for (item, bounds) in changed {
-            if let Some(&slot) = self.slots.get(item as usize) {
-                self.boxes[slot as usize] = clip_to_space(&bounds);
-                changed_slots.push(slot as usize);
+            let Some(&slot) = self.slots.get(item as usize) else { continue };
+            self.boxes[slot as usize] = clip_to_space(&bounds);
+            count += 1;
+            if count <= self.items.len() / MANY {
+                self.refit_path(root, slot as usize);
             }
         }
-        if changed_slots.len() > self.items.len() / MANY {
+        if count > self.items.len() / MANY {
             self.refit_subtree(root);
             self.grown = (0..self.nodes.len()).filter(|&node| self.has_grown(node)).count();
-        } else {
-            for slot in changed_slots {
-                self.refit_path(root, slot);
-            }
         }
     }
 
