@@ -10,12 +10,16 @@ impl Mesh {
     /// glTF requires this for meshes without normals. The mesh then has one vertex per index.
     pub fn flat_normals(&mut self) {
         let mut vertices = Vec::with_capacity(self.indices.len());
-        let mut sources = Vec::with_capacity(self.indices.len());
+        // Most meshes do not deform.
+        let deforms = self.skin.is_some() || !self.morph_targets.is_empty();
+        let mut sources = Vec::new();
         for indices in self.indices.as_chunks::<3>().0 {
             let Some(corners) = corners(*indices, &self.vertices) else { continue };
             let normal = to_array(face_normal(&corners).unwrap_or(DVec3::Z));
             vertices.extend(corners.map(|corner| Vertex { normal, ..corner }));
-            sources.extend(*indices);
+            if deforms {
+                sources.extend(*indices);
+            }
         }
         self.indices = (0u32..).take(vertices.len()).collect();
         self.vertices = vertices;
