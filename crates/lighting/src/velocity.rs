@@ -18,9 +18,9 @@ use crate::uniforms::ViewBuffers;
 /// The passes that compute motion vectors: for each pixel, the motion of its surface from its position in this frame back to
 /// that in the previous frame, in pixels, y down, without jitter. So a surface at pixel `p` was at `p + velocity`.
 ///
-/// The motion includes those of the camera, of instances, and of skins and morph targets. Where nothing is drawn, it is that of a background infinitely far away.
-/// Blended geometry has none: its pixels have the motion of what is behind it. A surface that was behind the camera has the
-/// motion (32768, 32768).
+/// The motion includes those of the camera, of instances, and of skins and morph targets. Where nothing is drawn, it is that of a
+/// background infinitely far away. Blended geometry has none: its pixels have the motion of what is behind it. A surface that was
+/// behind the camera has the motion (32768, 32768).
 pub struct Velocity {
     camera: FullscreenShader,
     view_layout: wgpu::BindGroupLayout,

@@ -5,6 +5,9 @@ use glam::DVec3;
 /// The spacing of the grid of possible origins of GPU space, metres.
 pub const ORIGIN_GRID_M: f64 = 1024.0;
 
+/// The maximum distance from the world's origin of files and of what animations move, metres.
+pub(crate) const MAX_WORLD_M: f64 = 1e15;
+
 /// Returns the grid point nearest to `position_world`, so that f32 offsets from it stay small.
 ///
 /// The result changes only when the position crosses into another grid cell. A position that is not

@@ -289,26 +289,30 @@ impl Renderer {
         options.camera.check(options.aspect())?;
         (self.lit_output, _) = lit_output(&self.aov, self.scene.lights())?;
         let changes = self.scene.take_changes();
-        if let Err(error) = self.follow(gpu, &changes) {
+        let origin_world = origin_near(options.camera.position_world());
+        if let Err(error) = self.follow(gpu, &changes, origin_world) {
             self.scene.restore_changes(changes);
             return Err(error);
         }
-        let origin_world = origin_near(options.camera.position_world());
-        let gpu_scene = &mut self.casters.scene;
+        Ok(())
+    }
+
+    /// Follows edits, and moves the origin.
+    fn follow(&mut self, gpu: &Gpu, changes: &Changes, origin_world: DVec3) -> Result<(), Error> {
+        let Self { scene, casters: SceneCasters { scene: gpu_scene, .. }, .. } = self;
+        let (device, queue) = (&gpu.device, &gpu.queue);
         // A technique may keep positions; one that traces rays also keeps the geometry.
         let keeps_other = origin_world != gpu_scene.origin_world() || self.traces_rays && !changes.is_empty();
-        gpu_scene.set_origin(&gpu.device, &gpu.queue, &self.scene, origin_world)?;
+        let mut update = || -> Result<(), Error> {
+            gpu_scene.update(device, queue, scene, changes)?;
+            Ok(gpu_scene.set_origin(device, queue, scene, origin_world)?)
+        };
+        if changes.is_empty() { update() } else { gpu.checked(update) }?;
         if keeps_other {
             (self.technique, self.traces_rays) =
                 create_technique(&self.config, gpu, &self.scene, origin_world)?;
         }
         Ok(())
-    }
-
-    fn follow(&mut self, gpu: &Gpu, changes: &Changes) -> Result<(), Error> {
-        let Self { scene, casters, .. } = self;
-        let mut update = || Ok(casters.scene.update(&gpu.device, &gpu.queue, scene, changes)?);
-        if changes.is_empty() { update() } else { gpu.checked(update) }
     }
 
     /// Locks the graph, which keeps plans, pooled resources and histories from frame to frame. Drawing waits while the guard is held.

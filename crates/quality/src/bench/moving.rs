@@ -7,7 +7,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_scene::{Camera, Instance, InstanceKey, Light, Material, Mesh, Projection, Scene};
 
-use super::{Clock, idle, target};
+use super::{Clock, graph_frame, idle, target};
 use crate::Error;
 
 /// The number of instances of the scene, without its floor.
@@ -86,10 +86,8 @@ fn moving_frame(
     let edit = clock.lap();
     renderer.begin_frame(gpu, options)?;
     let follow = clock.lap();
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let executed = renderer.record(gpu, &mut encoder, target, options)?;
-    gpu.queue.submit([encoder.finish()]);
-    drop(executed);
+    let view = renderer.view(options, Some(target));
+    graph_frame(gpu, renderer, &view, &mut renderer.graph())?;
     Ok(MovingFrameTime { edit, follow, draw: clock.lap() })
 }
 

@@ -27,7 +27,7 @@ pub(super) struct Materials {
     pub(super) iron: MaterialKey,
     pub(super) bronze: MaterialKey,
     pub(super) rope: MaterialKey,
-    pub(super) lamp: MaterialKey,
+    pub(super) lantern: MaterialKey,
 }
 
 impl SceneBuilder {
@@ -106,9 +106,9 @@ impl Materials {
             iron: add(plain("iron", linear(0.05, 0.055, 0.06), 1.0, 0.5)),
             bronze: add(plain("bronze", linear(0.83, 0.58, 0.30), 1.0, 0.32)),
             rope: add(plain("rope", linear(0.62, 0.52, 0.36), 0.0, 0.95)),
-            lamp: add(Material {
+            lantern: add(Material {
                 emissive: Vec3::splat(14_000.0),
-                ..plain("lamp", linear(0.9, 0.9, 0.9), 0.0, 0.5)
+                ..plain("lantern", linear(0.9, 0.9, 0.9), 0.0, 0.5)
             }),
         }
     }

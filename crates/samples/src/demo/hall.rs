@@ -14,13 +14,13 @@ const PEDESTAL: f64 = 0.95;
 /// Position of the figures between the hall's front and back.
 const FIGURE_Z: f64 = BACK_Z + 2.0;
 
-/// Adds figures, lamps and spot lights.
+/// Adds figures, lanterns and spot lights.
 pub(super) fn build(builder: &mut SceneBuilder) {
     let mut pedestal = box_on_ground(0.95, 0.16, 0.95);
     pedestal.append_translated(&box_on_ground(0.75, PEDESTAL - 0.28, 0.75), DVec3::Y * 0.16);
     pedestal.append_translated(&box_on_ground(0.9, 0.12, 0.9), DVec3::Y * (PEDESTAL - 0.12));
     let pedestal = builder.add_mesh("pedestal", pedestal);
-    let lamp = lamp(builder);
+    let lantern = lantern(builder);
     let figures = [("vase", vase()), ("rings", rings()), ("needle", needle())];
     let colors = [
         ("amber", Vec3::new(1.0, 0.50, 0.14)),
@@ -37,15 +37,15 @@ pub(super) fn build(builder: &mut SceneBuilder) {
         // From the upper right, so that the shadow on the back wall is to the left of its figure.
         let position = DVec3::new(x + 1.9, FLOOR + 3.7, FRONT_Z - 0.9);
         let target = foot + DVec3::new(-0.35, PEDESTAL + 0.4, 0.0);
-        spot(builder, lamp, color_name, color, position, target);
+        spot(builder, lantern, color_name, color, position, target);
     }
     vases(builder);
 }
 
-/// Adds a spot light and the model of its lamp, which is behind the tip of the light.
+/// Adds a spot light and the model of its lantern, which is behind the tip of the light.
 fn spot(
     builder: &mut SceneBuilder,
-    lamp: [MeshKey; 2],
+    lantern: [MeshKey; 2],
     name: &str,
     color: Vec3,
     position: DVec3,
@@ -54,8 +54,8 @@ fn spot(
     let direction = (target - position).normalize();
     let rotation = DQuat::from_rotation_arc(DVec3::Y, direction);
     let transform = DAffine3::from_rotation_translation(rotation, position - direction * 0.04);
-    builder.add_instance("lamp", lamp[0], builder.materials.iron, transform);
-    builder.add_instance("lamp glass", lamp[1], builder.materials.lamp, transform);
+    builder.add_instance("lantern", lantern[0], builder.materials.iron, transform);
+    builder.add_instance("lantern glass", lantern[1], builder.materials.lantern, transform);
     builder.scene.insert_light(Light {
         name: Some(name.to_owned()),
         kind: LightKind::Spot {
@@ -71,12 +71,12 @@ fn spot(
     });
 }
 
-/// Adds the meshes of a lamp's housing and glass, which opens along +Y just below the origin.
-fn lamp(builder: &mut SceneBuilder) -> [MeshKey; 2] {
+/// Adds the meshes of a lantern's housing and glass, which opens along +Y just below the origin.
+fn lantern(builder: &mut SceneBuilder) -> [MeshKey; 2] {
     let run = |points: &[(f64, f64)]| points.iter().map(|&(r, y)| DVec2::new(r, y)).collect::<Vec<_>>();
     let housing = lathe(&[run(&[(0.0, -0.34), (0.06, -0.33), (0.08, -0.28), (0.14, 0.0)])], 16);
     let glass = lathe(&[run(&[(0.135, -0.01), (0.0, -0.01)])], 16);
-    [builder.add_mesh("lamp", housing), builder.add_mesh("lamp glass", glass)]
+    [builder.add_mesh("lantern", housing), builder.add_mesh("lantern glass", glass)]
 }
 
 /// Returns a turned vase of about 1.1 m.

@@ -29,7 +29,7 @@ pub const MAX_KEYFRAME_VALUES: usize = 1 << 26;
 /// The maximum number of morph weights of a scene, over all of its nodes.
 pub const MAX_MORPH_WEIGHTS: usize = 1 << 22;
 /// The maximum distance from the world's origin, metres.
-pub const MAX_WORLD_M: f64 = 1e15;
+pub const MAX_WORLD_M: f64 = crate::origin::MAX_WORLD_M;
 
 /// Checks the version and the required extensions.
 pub(super) fn check_header(header: &Header) -> Result<(), ImportError> {

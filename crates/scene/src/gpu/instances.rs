@@ -135,8 +135,8 @@ impl InstanceBuffer {
     ) -> Result<(), Error> {
         let (bytes, element) = (size_of_val(&self.data[..]) as u64, size_of::<GpuInstance>() as u64);
         if bytes > self.buffer.size() {
-            limits::storage(&device.limits(), "the scene's instances", bytes)?;
             let limits = device.limits();
+            limits::storage(&limits, "the scene's instances", bytes)?;
             let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) / element;
             // The first upload has the size of the scene; later ones leave space for more.
             let first = self.buffer.size() <= element;

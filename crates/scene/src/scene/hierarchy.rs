@@ -9,28 +9,26 @@ use crate::animation::{Animation, Node, Pose, Skin};
 use crate::keys::{InstanceKey, LightKey};
 use crate::light::Light;
 use crate::mesh::MeshPose;
+use crate::origin::MAX_WORLD_M;
 
-/// The maximum distance from the world's origin that an animation may move anything to, metres.
-const MAX_WORLD_M: f64 = 1e15;
-
-/// The nodes of a scene, their animations, and what hangs on them.
+/// The nodes of a scene, their animations, and what is attached to them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hierarchy {
-    /// Parents before children.
+    /// The nodes, parents before children.
     pub nodes: Vec<Node>,
-    /// Nodes refer to them by index.
+    /// The skins, which nodes refer to by index.
     pub skins: Vec<Skin>,
     /// The animations of the file.
     pub animations: Vec<Animation>,
-    /// The instances that hang on nodes.
+    /// The instances that are attached to nodes.
     pub instances: Vec<Attachment<InstanceKey>>,
-    /// The lights that hang on nodes.
+    /// The lights that are attached to nodes.
     pub lights: Vec<Attachment<LightKey>>,
-    /// The cameras that hang on nodes.
+    /// The cameras that are attached to nodes.
     pub cameras: Vec<Attachment<usize>>,
 }
 
-/// Something that hangs on a node and moves with it.
+/// The attachment of an instance, a light or a camera to the node that it moves with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attachment<K> {
     /// Index of the node.
@@ -88,7 +86,7 @@ impl Hierarchy {
 type InstanceMove = (InstanceKey, DAffine3, Option<MeshPose>);
 
 impl Scene {
-    /// Poses the nodes of the hierarchy at a time: moves the instances, lights and cameras that hang on animated nodes, and deforms
+    /// Poses the nodes of the hierarchy at a time: moves the instances, lights and cameras that are attached to animated nodes, and deforms
     /// the meshes whose joints or weights are animated. Before the first keyframe and after the last the values of these
     /// count. A light or camera whose node has the scale 0 keeps its direction. What no animation of the scene moves is not touched.
     ///
@@ -127,7 +125,7 @@ impl Scene {
         self.move_instances(moves)
     }
 
-    /// Returns the new transforms and poses of the instances that hang on these nodes, or are deformed by them.
+    /// Returns the new transforms and poses of the instances that are attached to these nodes, or are deformed by them.
     fn instance_moves(
         &self,
         pose: &Pose,

@@ -57,7 +57,7 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// The contents of the file that are not drawn as it says, one line each.
     pub notes: Vec<String>,
-    /// The nodes that instances, lights and cameras hang on, and their animations.
+    /// The nodes that instances, lights and cameras are attached to, and their animations.
     pub hierarchy: Hierarchy,
 }
 

@@ -68,10 +68,12 @@ fn sun(direction: DVec3, intensity: f32, color: Vec3) -> Light {
     Light { name: Some("sun".to_owned()), kind, color, intensity, casts_shadow: true }
 }
 
+/// Removes the directional lights. The others keep their keys, so that animations still move them.
 fn remove_directional(scene: &mut Scene) {
-    let others = |light: &&Light| !matches!(light.kind, LightKind::Directional { .. });
-    let others: Vec<Light> = scene.lights().iter().filter(others).cloned().collect();
-    scene.set_lights(others);
+    let is_directional = |light: &Light| matches!(light.kind, LightKind::Directional { .. });
+    let lights = scene.light_keys().iter().zip(scene.lights());
+    let keys: Vec<_> = lights.filter(|(_, light)| is_directional(light)).map(|(key, _)| *key).collect();
+    keys.into_iter().for_each(|key| drop(scene.remove_light(key)));
 }
 
 impl FromStr for SunChoice {
@@ -119,8 +121,10 @@ mod tests {
     fn a_sun_replaces_the_directional_lights_and_is_light_zero() {
         let mut scene = scene();
         let choice: SunChoice = "dir=0,-2,0 lux=7 color=1,0.5,0".parse().unwrap();
+        let point = scene.light_keys()[2];
         assert_eq!(choice.apply(&mut scene), None);
         assert_eq!(orders(&scene), [0, 2]);
+        assert_eq!(scene.light_index(point), Some(1), "other lights keep their keys");
         assert_eq!(scene.lights()[0].kind, LightKind::Directional { direction: DVec3::NEG_Y });
         assert_eq!((scene.lights()[0].intensity, scene.lights()[0].color), (7.0, Vec3::new(1.0, 0.5, 0.0)));
     }

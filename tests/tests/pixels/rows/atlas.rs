@@ -99,12 +99,12 @@ fn row_05_each_light_has_its_own_strength_filter_and_biases() {
 #[test]
 fn row_05_settings_can_name_a_light_and_an_unknown_name_is_an_error() {
     let mut scene = cube_under_spot();
-    let lamp = shadowgraph::scene::Light { name: Some("lamp".into()), ..scene.lights()[0].clone() };
-    scene.replace_light(scene.light_keys()[0], lamp).unwrap();
+    let named = shadowgraph::scene::Light { name: Some("ceiling".into()), ..scene.lights()[0].clone() };
+    scene.replace_light(scene.light_keys()[0], named).unwrap();
     let own = |name: &str| LightShadows { strength: 0.25, ..LightShadows::new(name.into()) };
-    let options = cube_view(|settings| settings.lights = vec![own("lamp")]);
+    let options = cube_view(|settings| settings.lights = vec![own("ceiling")]);
     assert_eq!(plan(&scene, &options).lights[0].strength, 0.25);
-    let wrong = cube_view(|settings| settings.lights = vec![own("lmap")]);
+    let wrong = cube_view(|settings| settings.lights = vec![own("cieling")]);
     let renderer =
         Renderer::new(&shadowgraph::Gpu::noop().unwrap(), scene, &wrong.camera, Aov::Color).unwrap();
     let error = renderer.plan(&wrong).unwrap_err().to_string();
