@@ -108,7 +108,7 @@ fn row_05_settings_can_name_a_light_and_an_unknown_name_is_an_error() {
     let renderer =
         Renderer::new(&shadowgraph::Gpu::noop().unwrap(), scene, &wrong.camera, Aov::Color).unwrap();
     let error = renderer.plan(&wrong).unwrap_err().to_string();
-    assert!(error.contains("\"lmap\"") && error.contains(": 1, numbered from 0"), "{error}");
+    assert!(error.contains("\"cieling\"") && error.contains(": 1, numbered from 0"), "{error}");
 }
 
 #[test]
