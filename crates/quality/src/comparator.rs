@@ -3,7 +3,6 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use shadowgraph_scene::{Camera, Light, LightKind, Projection};
-use shadowgraph_shadows::rays::RayScene;
 use shadowgraph_shadows::{ShadowInputs, plan_shadows};
 
 use super::ground_truth::RayLight;
@@ -11,9 +10,10 @@ use super::metrics::{
     Band, EdgeError, Images, MeanError, Misclassified, MissingContacts, PeterPanning, RECEIVER_N_DOT_L,
     Samples, TowardsLight, band, edge_error, mean_error, misclassified, missing_contacts, peter_panning,
 };
+use super::scene_truth::SceneTruth;
 use super::subpixel::SubpixelReference;
 use super::{GroundTruth, SurfaceReader, Surfaces, Texels, ViewImages};
-use shadowgraph::{Gpu, Renderer, ViewOptions, ray_scene};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
 
 use crate::Error;
 
@@ -73,8 +73,8 @@ pub struct Comparator<'g> {
     gpu: &'g Gpu,
     reader: SurfaceReader,
     light: usize,
-    /// The triangles, relative to this origin.
-    rays: Option<(DVec3, RayScene)>,
+    /// The triangles.
+    truth: SceneTruth,
 }
 
 impl<'g> Comparator<'g> {
@@ -83,7 +83,7 @@ impl<'g> Comparator<'g> {
     /// # Errors
     /// A failure of the GPU.
     pub fn new(gpu: &'g Gpu, renderer: &Renderer, light: usize) -> Result<Self, Error> {
-        Ok(Self { gpu, reader: SurfaceReader::new(gpu, renderer)?, light, rays: None })
+        Ok(Self { gpu, reader: SurfaceReader::new(gpu, renderer)?, light, truth: SceneTruth::default() })
     }
 
     /// Measures a view, without a soft reference.
@@ -114,7 +114,7 @@ impl<'g> Comparator<'g> {
         let eye = (options.camera.position_world() - origin_world).as_vec3();
         let source = &renderer.scene().lights()[self.light];
         let light = RayLight::new(source, light_size(source), origin_world);
-        let rays = self.rays(renderer, origin_world)?;
+        let rays = self.truth.follow(renderer.scene(), origin_world)?;
         let truth = GroundTruth::trace(rays, &surfaces, &light, eye);
         let soft = (soft_rays > 0)
             .then(|| GroundTruth::trace_soft(rays, &surfaces, &light, eye, &truth.hard, soft_rays));
@@ -176,9 +176,8 @@ impl<'g> Comparator<'g> {
         reference: &Reference,
         n_dot_l: &[f32],
     ) {
-        let Some((origin_world, rays)) = &self.rays else { return };
-        let fine =
-            SubpixelReference::new(rays, &reference.light, &reference.surfaces, options, *origin_world);
+        let Some(rays) = self.truth.rays() else { return };
+        let fine = SubpixelReference::new(rays, &reference.light, &reference.surfaces, options);
         for pixel in 0..visibility.len() {
             let differs = (visibility[pixel] - reference.truth.hard[pixel]).abs() > NUMERIC_NOISE;
             let counts = reference.surfaces.is_drawn(pixel) && n_dot_l[pixel] > RECEIVER_N_DOT_L;
@@ -186,16 +185,6 @@ impl<'g> Comparator<'g> {
                 band.insert(pixel);
             }
         }
-    }
-
-    /// Returns the triangles relative to an origin.
-    fn rays(&mut self, renderer: &Renderer, origin_world: DVec3) -> Result<&RayScene, Error> {
-        let kept = self.rays.take().filter(|(origin, _)| *origin == origin_world);
-        let rays = match kept {
-            Some((_, rays)) => rays,
-            None => ray_scene(renderer.scene(), origin_world)?,
-        };
-        Ok(&self.rays.insert((origin_world, rays)).1)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use shadowgraph_scene::{Aabb, CullVolume};
+use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{CasterView, ShadowCasters};
 
 use shadowgraph::SceneCasters;
@@ -48,6 +49,10 @@ impl ShadowCasters for CountingCasters<'_> {
 
     fn receivers(&self) -> Aabb {
         self.casters.receivers()
+    }
+
+    fn rays(&self) -> Option<&GpuRayScene> {
+        self.casters.rays()
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {

@@ -15,6 +15,7 @@ mod parallel;
 mod probe;
 pub mod report;
 mod run;
+mod scene_truth;
 mod seam;
 mod subpixel;
 mod surfaces;

@@ -29,8 +29,8 @@ impl<'a> SubpixelReference<'a> {
         light: &'a RayLight,
         surfaces: &'a Surfaces,
         options: &ViewOptions,
-        origin_world: DVec3,
     ) -> Self {
+        let origin_world = rays.origin_world();
         let camera = &options.camera;
         let clip_from_world = camera.clip_from_view(options.aspect()) * camera.view_from_world();
         let eye = (camera.position_world() - origin_world).as_vec3();

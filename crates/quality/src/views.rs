@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, Vec3};
 use shadowgraph_scene::{Aabb, Camera, Projection, Scene, origin_near};
-use shadowgraph_shadows::rays::{Ray, RayScene};
+use shadowgraph_shadows::rays::{NearestHit, Ray};
 
-use shadowgraph::ray_scene;
+use shadowgraph::SceneRays;
 
 use crate::Error;
 
@@ -36,7 +36,7 @@ const ASPECT: f64 = 16.0 / 9.0;
 pub fn automatic_views(scene: &Scene, count: usize) -> Result<Vec<(String, Camera)>, Error> {
     let bounds = scene.bounds();
     let origin_world = origin_near(bounds.center());
-    let finder = Finder { rays: ray_scene(scene, origin_world)?, origin_world, bounds };
+    let finder = Finder { rays: SceneRays::new(scene, origin_world)?, origin_world, bounds };
     let mut views = Vec::with_capacity(count);
     for index in 0..count as u32 {
         let inside = (index % 2 == 1).then(|| finder.inside(index * CANDIDATES)).flatten();
@@ -61,7 +61,7 @@ fn outside(bounds: &Aabb, index: u32) -> Camera {
 }
 
 struct Finder {
-    rays: RayScene,
+    rays: SceneRays,
     origin_world: DVec3,
     bounds: Aabb,
 }
@@ -109,8 +109,7 @@ impl Finder {
     fn cast(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
         let origin: Vec3 = (from - self.origin_world).as_vec3();
         let ray = Ray::new(origin, direction.as_vec3(), 0.0, f32::INFINITY);
-        let (distance_m, triangle) = self.rays.nearest_triangle(&ray)?;
-        let [a, b, c] = self.rays.triangles().get(triangle)?.corners();
+        let NearestHit { distance_m, corners: [a, b, c] } = self.rays.rays().nearest_hit(&ray)?;
         let from_behind = (b - a).cross(c - a).dot(direction.as_vec3()) > 0.0;
         Some(Hit { distance_m: f64::from(distance_m), from_behind })
     }

@@ -2,9 +2,11 @@
 
 use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
+use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, ShadowCasters, TINT_FORMAT};
 
 use crate::error::Error;
+use crate::scene_rays::UploadedRays;
 
 /// The instances of a scene on the GPU as casters, by the same numbers. Their flags and materials decide how they cast shadows.
 pub struct SceneCasters {
@@ -12,6 +14,8 @@ pub struct SceneCasters {
     pub scene: GpuScene,
     /// Pipelines by map format.
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
+    /// The triangles, if the technique traces rays.
+    pub(crate) rays: Option<UploadedRays>,
 }
 
 impl SceneCasters {
@@ -35,7 +39,7 @@ impl SceneCasters {
             Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        Ok(Self { scene, pipelines })
+        Ok(Self { scene, pipelines, rays: None })
     }
 
     /// Returns the number of triangles of some casters.
@@ -68,6 +72,10 @@ impl ShadowCasters for SceneCasters {
 
     fn caster_bounds(&self, caster: u32) -> Aabb {
         self.scene.caster_bounds(caster)
+    }
+
+    fn rays(&self) -> Option<&GpuRayScene> {
+        self.rays.as_ref().map(UploadedRays::gpu)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {

@@ -50,7 +50,6 @@ mod gpu;
 #[cfg(feature = "inspect")]
 pub mod inspect;
 pub mod nodes;
-mod occluders;
 pub mod options;
 pub mod output;
 pub mod pipelines;
@@ -60,6 +59,7 @@ mod render_view;
 mod rendered;
 mod renderer;
 pub mod ron_file;
+mod scene_rays;
 mod surfaces;
 mod view_options;
 
@@ -68,7 +68,6 @@ pub use casters::SceneCasters;
 pub use debug_blit::DebugBlit;
 pub use error::Error;
 pub use gpu::Gpu;
-pub use occluders::ray_scene;
 pub use pipelines::Pipeline;
 pub use registry::Registry;
 pub use render_config::RenderConfig;
@@ -76,6 +75,7 @@ pub use render_view::RenderView;
 pub use rendered::{RenderedFrame, RenderedImage, shadow_ms};
 pub use renderer::Renderer;
 pub use renderer::aov::ViewOutput;
+pub use scene_rays::SceneRays;
 pub use surfaces::SurfaceDrawer;
 pub use view_options::ViewOptions;
 

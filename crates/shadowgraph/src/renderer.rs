@@ -6,7 +6,6 @@ mod record;
 
 use aov::lit_output;
 
-use std::cell::Cell;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
@@ -14,7 +13,6 @@ use shadowgraph_core::{Graph, Plan};
 use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget, PosePass, PreviousCameras};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Camera, Changes, Scene, origin_near};
-use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{ShadowTechnique, TechniqueContext, Unshadowed};
 
 use crate::build_context::BuildContext;
@@ -22,20 +20,18 @@ use crate::casters::SceneCasters;
 use crate::debug_blit::DebugBlit;
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::occluders::ray_scene;
 use crate::options::aov::Aov;
 use crate::pipelines::instance::PipelineInstance;
 use crate::pipelines::pipeline::Pipeline;
 use crate::render_config::RenderConfig;
 use crate::render_view::RenderView;
+use crate::scene_rays::UploadedRays;
 use crate::view_options::ViewOptions;
 
 /// Draws one scene with one configuration.
 pub struct Renderer {
     casters: SceneCasters,
     technique: Box<dyn ShadowTechnique>,
-    /// Whether the technique keeps the scene's triangles.
-    traces_rays: bool,
     config: RenderConfig,
     instance: Box<dyn PipelineInstance>,
     debug_blit: DebugBlit,
@@ -136,16 +132,18 @@ impl Renderer {
     ) -> Result<Self, Error> {
         let device = &gpu.device;
         let uploaded = upload(gpu, &mut scene, origin_world)?;
-        let (technique, traces_rays) = create_technique(&config, gpu, &scene, origin_world)?;
+        let technique = create_technique(&config, gpu)?;
+        let rays = upload_rays(technique.as_ref(), gpu, &scene, origin_world)?;
         let (lit_output, format) = lit_output(&aov, scene.lights())?;
         let lit = LitTarget { format, output: lit_output, samples: config.samples };
         let layouts = uploaded.layouts();
         let instance =
             config.pipeline.build(&BuildContext { device, layouts, technique: technique.as_ref(), lit })?;
+        let mut casters = SceneCasters::new(device, uploaded)?;
+        casters.rays = rays;
         Ok(Self {
-            casters: SceneCasters::new(device, uploaded)?,
+            casters,
             technique,
-            traces_rays,
             config,
             instance,
             debug_blit: DebugBlit::new(device)?,
@@ -197,11 +195,13 @@ impl Renderer {
     pub fn set_scene(&mut self, gpu: &Gpu, mut scene: Scene) -> Result<(), Error> {
         let origin_world = self.casters.scene.origin_world();
         let (lit_output, _) = lit_output(&self.aov, scene.lights())?;
-        let (uploaded, (technique, traces_rays)) = gpu.checked(|| {
+        let (uploaded, technique, rays) = gpu.checked(|| {
             let uploaded = upload(gpu, &mut scene, origin_world)?;
-            Ok::<_, Error>((uploaded, create_technique(&self.config, gpu, &scene, origin_world)?))
+            let technique = create_technique(&self.config, gpu)?;
+            let rays = upload_rays(technique.as_ref(), gpu, &scene, origin_world)?;
+            Ok::<_, Error>((uploaded, technique, rays))
         })?;
-        (self.casters.scene, self.technique, self.traces_rays) = (uploaded, technique, traces_rays);
+        (self.casters.scene, self.casters.rays, self.technique) = (uploaded, rays, technique);
         (self.scene, self.lit_output) = (scene, lit_output);
         (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
         Ok(())
@@ -284,35 +284,33 @@ impl Renderer {
     ///
     /// # Errors
     /// [`Error::Camera`]; [`Error::UnknownLight`] if the AOV is the visibility of a light that was removed; for edits that exceed a
-    /// limit of the device, until they are undone; and those of creating the technique again where it keeps positions.
+    /// limit of the device, until they are undone.
     pub fn begin_frame(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         options.camera.check(options.aspect())?;
         (self.lit_output, _) = lit_output(&self.aov, self.scene.lights())?;
         let changes = self.scene.take_changes();
         let origin_world = origin_near(options.camera.position_world());
-        if let Err(error) = self.follow(gpu, &changes, origin_world) {
+        let followed = self.follow(gpu, &changes, origin_world);
+        if followed.is_err() {
             self.scene.restore_changes(changes);
-            return Err(error);
         }
-        Ok(())
+        followed
     }
 
     /// Follows edits, and moves the origin.
     fn follow(&mut self, gpu: &Gpu, changes: &Changes, origin_world: DVec3) -> Result<(), Error> {
-        let Self { scene, casters: SceneCasters { scene: gpu_scene, .. }, .. } = self;
+        let Self { scene, casters, .. } = self;
         let (device, queue) = (&gpu.device, &gpu.queue);
-        // A technique may keep positions; one that traces rays also keeps the geometry.
-        let keeps_other = origin_world != gpu_scene.origin_world() || self.traces_rays && !changes.is_empty();
-        let mut update = || -> Result<(), Error> {
-            gpu_scene.update(device, queue, scene, changes)?;
-            Ok(gpu_scene.set_origin(device, queue, scene, origin_world)?)
+        let is_still = changes.is_empty() && casters.scene.origin_world() == origin_world;
+        let mut update = || {
+            casters.scene.update(device, queue, scene, changes)?;
+            casters.scene.set_origin(device, queue, scene, origin_world)?;
+            if let Some(rays) = &mut casters.rays {
+                rays.update(gpu, scene, changes, origin_world)?;
+            }
+            Ok(())
         };
-        if changes.is_empty() { update() } else { gpu.checked(update) }?;
-        if keeps_other {
-            (self.technique, self.traces_rays) =
-                create_technique(&self.config, gpu, &self.scene, origin_world)?;
-        }
-        Ok(())
+        if is_still { update() } else { gpu.checked(update) }
     }
 
     /// Locks the graph, which keeps plans, pooled resources and histories from frame to frame. Drawing waits while the guard is held.
@@ -328,23 +326,21 @@ fn upload(gpu: &Gpu, scene: &mut Scene, origin_world: DVec3) -> Result<GpuScene,
     Ok(uploaded)
 }
 
-/// Creates a technique for a scene whose GPU positions are relative to `origin_world`, and returns whether it traces rays.
-fn create_technique(
-    config: &RenderConfig,
+fn create_technique(config: &RenderConfig, gpu: &Gpu) -> Result<Box<dyn ShadowTechnique>, Error> {
+    let technique = config.technique();
+    let technique = if config.pipeline.has_screen_shadows() { technique.with_screen() } else { technique };
+    Ok(technique.make(&TechniqueContext::new(&gpu.device))?)
+}
+
+/// Uploads the triangles of a scene for a technique that traces rays.
+fn upload_rays(
+    technique: &dyn ShadowTechnique,
     gpu: &Gpu,
     scene: &Scene,
     origin_world: DVec3,
-) -> Result<(Box<dyn ShadowTechnique>, bool), Error> {
-    let traces_rays = Cell::new(false);
-    let rays = || {
-        traces_rays.set(true);
-        let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        Ok(GpuRayScene::new(&ray_scene(scene, origin_world)?, limit)?)
-    };
-    let technique = config.technique();
-    let technique = if config.pipeline.has_screen_shadows() { technique.with_screen() } else { technique };
-    let technique = technique.make(&TechniqueContext::new(&gpu.device).with_rays(&rays))?;
-    Ok((technique, traces_rays.get()))
+) -> Result<Option<UploadedRays>, Error> {
+    let rays = || UploadedRays::new(gpu, scene, origin_world);
+    Ok(technique.traces_rays().then(rays).transpose()?)
 }
 
 #[cfg(test)]

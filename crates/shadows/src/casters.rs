@@ -2,6 +2,8 @@
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
+use crate::rays::GpuRayScene;
+
 /// The shadow casters of a scene. Implement it for your own scene.
 ///
 /// Casters are identified by numbers of the implementer's choice. All coordinates are
@@ -38,6 +40,12 @@ pub trait ShadowCasters: Sync {
     /// distance. The default is the bounds of all casters; add those of surfaces that receive shadows and cast none.
     fn receivers(&self) -> Aabb {
         self.bounds()
+    }
+
+    /// Returns the casters' triangles, for techniques that [trace rays](crate::ShadowTechnique::traces_rays). Keep it up to date from frame to
+    /// frame.
+    fn rays(&self) -> Option<&GpuRayScene> {
+        None
     }
 
     /// Draws the casters into the pass for `view.target`. Viewport, scissor and group 0

@@ -43,6 +43,12 @@ pub enum Error {
         /// The technique's name.
         technique: String,
     },
+    /// A technique that traces rays got casters without triangles.
+    #[error("technique `{technique}` traces the casters' triangles: implement `ShadowCasters::rays`")]
+    MissingRays {
+        /// The technique's name.
+        technique: String,
+    },
     /// A technique is inconsistent with its declarations, or has invalid settings.
     #[error("technique `{technique}`: {reason}")]
     Technique {

@@ -59,7 +59,7 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
         let length = length(direction_to_sample);
         let end = select(length * RAY_LIGHT_FRACTION, RAY_FAR, is_sun);
         if dot(geometric_normal, direction_to_sample) > 0.0 {
-            visibility += ray_passed(origin, direction_to_sample / length, 0.0, end);
+            visibility += ray_passed(origin, direction_to_sample / length, 0.0, end, traced.max_coordinate);
         }
     }
     return visibility / f32(traced.settings.rays);

@@ -2,10 +2,10 @@
 
 use glam::Vec2;
 
-use super::Error;
+use super::{Error, gpu_structs::RayTexture};
 
 /// The address mode of a texture along one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u32)]
 pub enum Wrap {
     /// Repeats the texture.
@@ -18,7 +18,7 @@ pub enum Wrap {
 }
 
 /// The filter between the centres of texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u32)]
 pub enum Filter {
     /// The texel that contains the point.
@@ -54,33 +54,53 @@ impl ChannelTexture {
         Ok(Self { size_px, texels, wrap, filter })
     }
 
-    /// Returns the numbers of columns and rows.
-    #[must_use]
-    pub fn size_px(&self) -> [u32; 2] {
-        self.size_px
-    }
-
     /// Returns the texels, row by row.
-    #[must_use]
-    pub fn texels(&self) -> &[u8] {
+    pub(crate) fn texels(&self) -> &[u8] {
         &self.texels
     }
 
-    /// Returns the address modes along u and v.
-    #[must_use]
-    pub fn wrap(&self) -> [Wrap; 2] {
-        self.wrap
-    }
-
-    /// Returns the filter.
-    #[must_use]
-    pub fn filter(&self) -> Filter {
-        self.filter
+    /// Returns the description for the shader of the channel whose texels begin at `first_texel`.
+    pub(crate) fn header(&self, first_texel: u32) -> RayTexture {
+        let ([width, height], [wrap_u, wrap_v]) = (self.size_px, self.wrap);
+        let sampling = wrap_u as u32 | (wrap_v as u32) << 2 | (self.filter as u32) << 4;
+        RayTexture { first_texel, width, height, sampling }
     }
 
     /// Returns the value at a point, 0 to 1.
     #[must_use]
     pub fn value(&self, uv: Vec2) -> f32 {
+        Channel { size_px: self.size_px, texels: &self.texels, wrap: self.wrap, filter: self.filter }
+            .value(uv)
+    }
+}
+
+/// A channel of a texture whose texels are elsewhere.
+pub(crate) struct Channel<'t> {
+    size_px: [u32; 2],
+    texels: &'t [u8],
+    wrap: [Wrap; 2],
+    filter: Filter,
+}
+
+impl<'t> Channel<'t> {
+    /// Returns the channel that the shader reads. `texels` are those of all textures.
+    pub(crate) fn new(header: RayTexture, texels: &'t [u8]) -> Self {
+        let wrap = |bits: u32| match bits & 3 {
+            0 => Wrap::Repeat,
+            1 => Wrap::Mirror,
+            _ => Wrap::Clamp,
+        };
+        let RayTexture { first_texel, width, height, sampling } = header;
+        Self {
+            size_px: [width, height],
+            texels: texels.get(first_texel as usize..).unwrap_or_default(),
+            wrap: [wrap(sampling), wrap(sampling >> 2)],
+            filter: if sampling & 16 == 0 { Filter::Nearest } else { Filter::Bilinear },
+        }
+    }
+
+    /// Returns the value at a point, 0 to 1.
+    pub(crate) fn value(&self, uv: Vec2) -> f32 {
         let x = folded(uv.x, self.wrap[0]) * self.size_px[0] as f32;
         let y = folded(uv.y, self.wrap[1]) * self.size_px[1] as f32;
         if self.filter == Filter::Nearest {

@@ -1,6 +1,6 @@
 //! Errors of ray scenes.
 
-/// Errors of creating a [`RayScene`](super::RayScene) or a [`GpuRayScene`](super::GpuRayScene).
+/// Errors of editing a [`RayScene`](super::RayScene) and of uploading it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -16,23 +16,41 @@ pub enum Error {
         /// Number of bytes passed.
         bytes: usize,
     },
-    /// An occluder refers to a channel that does not exist.
-    #[error("occluder {occluder} refers to channel {texture}; the scene has {count} channels")]
-    NoTexture {
-        /// The occluder's index.
-        occluder: usize,
-        /// The channel that it refers to.
-        texture: u32,
-        /// Number of channels.
+    /// A surface reads more channels than its texture has.
+    #[error("a surface reads {needed} channels of a texture with {count}")]
+    Channels {
+        /// Number of channels that it reads.
+        needed: usize,
+        /// Number of channels of the texture.
         count: usize,
     },
-    /// There are more occluders than the tree can number.
-    #[error("a ray scene of {count} triangles; at most {limit} are allowed")]
-    TooMany {
-        /// Number of triangles.
+    /// An instance has not as many surfaces as triangles.
+    #[error("an instance has {count} surfaces for {triangles} triangles; expected one each")]
+    Surfaces {
+        /// Number of surfaces.
         count: usize,
-        /// Largest allowed number.
-        limit: usize,
+        /// Number of triangles of its mesh.
+        triangles: usize,
+    },
+    /// A key refers to something that was removed, or belongs to another scene.
+    #[error("the key of a {what} of the ray scene is stale; it was removed, or is another scene's")]
+    Stale {
+        /// What it referred to, such as `mesh`.
+        what: &'static str,
+    },
+    /// Something that is to be removed is still used.
+    #[error("a {what} of the ray scene has {users} users; remove them first")]
+    InUse {
+        /// What was to be removed, such as `mesh`.
+        what: &'static str,
+        /// Number of its users.
+        users: usize,
+    },
+    /// There are more elements than can be numbered.
+    #[error("the ray scene cannot hold {count} more elements; at most 2^30 of each kind are allowed")]
+    TooMany {
+        /// Number of elements that do not fit.
+        count: usize,
     },
     /// A buffer of the GPU scene is larger than a binding can be.
     #[error(

@@ -1,125 +1,119 @@
-//! The scene in the buffers of `rays.wgsl`.
+//! The buffers of `rays.wgsl`.
 
-use bytemuck::Zeroable;
-use shadowgraph_shaders::ModuleSource;
+use bytemuck::Pod;
 
-use super::{
-    ChannelTexture, Error, RayScene,
-    gpu_structs::{NO_MATERIAL, RayMaterial, RayNode, RayTexture, RayTriangle, TINT},
-};
+use super::gpu_structs::{RayInstance, RayNode, RaySurface, RayTriangle};
+use super::pool::Pool;
+use super::scene::SurfaceKinds;
+use super::{Error, RayScene};
 
 const FEWER_TRIANGLES: &str = "remove casters whose shadows are not visible, use coarser meshes, or request a device \
                                with a larger max_storage_buffer_binding_size";
 const FEWER_TEXELS: &str = "use smaller textures, or request a device with a larger \
                             max_storage_buffer_binding_size";
 
-/// The buffers of `rays.wgsl`. None is empty: an empty scene has one triangle that no ray hits.
-#[derive(Clone, Debug, PartialEq)]
+/// A [`RayScene`] on the GPU.
 pub struct GpuRayScene {
-    /// The nodes of the tree; the first one is the root.
-    pub nodes: Vec<RayNode>,
-    /// The triangles, in the tree's order.
-    pub triangles: Vec<RayTriangle>,
-    /// The materials of triangles that let light through.
-    pub materials: Vec<RayMaterial>,
-    /// The channels of textures.
-    pub textures: Vec<RayTexture>,
-    /// The texels of all channels, packed four to a word with the first in the lowest byte.
-    pub texels: Vec<u32>,
-    /// [`RayScene::max_coordinate_m`], from which the shader computes the rays' origins.
-    pub max_coordinate_m: f32,
+    device: wgpu::Device,
+    /// Nodes, triangles, instances, surfaces and words, in the order of their bindings.
+    buffers: [wgpu::Buffer; 5],
+    max_coordinate_m: f32,
+    kinds: SurfaceKinds,
 }
 
 impl GpuRayScene {
-    /// Creates the contents of the buffers. `max_binding_bytes` is the device's `max_storage_buffer_binding_size`.
+    /// Creates an empty scene, which blocks nothing.
+    #[must_use]
+    pub fn new(device: &wgpu::Device) -> Self {
+        let sizes = [
+            2 * size_of::<RayNode>(),
+            size_of::<RayTriangle>(),
+            size_of::<RayInstance>(),
+            size_of::<RaySurface>(),
+            4,
+        ];
+        Self {
+            device: device.clone(),
+            buffers: sizes.map(|bytes| buffer(device, bytes as u64)),
+            max_coordinate_m: 0.0,
+            kinds: SurfaceKinds::default(),
+        }
+    }
+
+    /// Uploads what has changed since the last update, always of the same scene, and returns the number of bytes. Buffers that are too small
+    /// are replaced by larger ones. The writes take effect before the next submission's commands.
     ///
     /// # Errors
     ///
-    /// [`Error::TooBig`] if one of the buffers would be larger than that.
-    pub fn new(scene: &RayScene, max_binding_bytes: u64) -> Result<Self, Error> {
-        let texels: u64 = scene.textures().iter().map(|texture| texture.texels().len() as u64).sum();
-        fits::<RayNode>("nodes", scene.bvh().nodes.len(), max_binding_bytes)?;
-        fits::<RayTriangle>("triangles", scene.triangles().len(), max_binding_bytes)?;
-        fits::<RayMaterial>("materials", scene.materials().len(), max_binding_bytes)?;
-        let (bytes, limit) = (texels.next_multiple_of(4), max_binding_bytes.min(u64::from(u32::MAX)));
-        if bytes > limit {
-            return Err(Error::TooBig { what: "texels", bytes, limit, help: FEWER_TEXELS });
-        }
-        let mut gpu = Self {
-            nodes: nodes(scene),
-            triangles: or_one(scene.triangles(), RayTriangle::new([glam::Vec3::ZERO; 3], NO_MATERIAL)),
-            materials: or_one(scene.materials(), RayMaterial::zeroed()),
-            textures: Vec::new(),
-            texels: Vec::new(),
-            max_coordinate_m: scene.max_coordinate_m(),
-        };
-        gpu.pack(scene.textures());
-        Ok(gpu)
+    /// [`Error::TooBig`] if a buffer would be larger than the device's bindings can be.
+    pub fn update(&mut self, queue: &wgpu::Queue, scene: &mut RayScene) -> Result<u64, Error> {
+        scene.rebuild_if_degraded()?;
+        self.max_coordinate_m = scene.max_coordinate_m();
+        self.kinds = scene.surface_kinds();
+        let device = &self.device;
+        let [nodes, triangles, instances, surfaces, words] = &mut self.buffers;
+        let written = [
+            upload(device, queue, ("nodes", FEWER_TRIANGLES), &mut scene.nodes, nodes)?,
+            upload(device, queue, ("triangles", FEWER_TRIANGLES), &mut scene.triangles, triangles)?,
+            upload(device, queue, ("instances", FEWER_TRIANGLES), &mut scene.instances, instances)?,
+            upload(device, queue, ("surfaces", FEWER_TRIANGLES), &mut scene.surfaces, surfaces)?,
+            upload(device, queue, ("texels", FEWER_TEXELS), &mut scene.words, words)?,
+        ];
+        Ok(written.into_iter().sum())
     }
 
-    /// Returns the replacement of `ray_surfaces.wgsl`: code for kinds of materials that no triangle has is not compiled.
-    #[must_use]
-    pub fn surfaces(&self) -> ModuleSource {
-        let tints = |index: u32| self.materials.get(index as usize).map(|material| material.cutoff == TINT);
-        let has = |value| self.triangles.iter().any(|triangle| tints(triangle.material) == Some(value));
-        let source = format!(
-            "#define_import_path shadowgraph::ray_surfaces\n\
-             const CUTOUTS: bool = {};\n\
-             const TINTS: bool = {};\n",
-            has(false),
-            has(true),
-        );
-        ModuleSource::new("ray_surfaces.wgsl of a scene", source)
+    /// Returns the buffers, in the order of their bindings.
+    pub(crate) fn buffers(&self) -> &[wgpu::Buffer; 5] {
+        &self.buffers
     }
 
-    /// Returns the bytes of the buffers, in the order of their bindings: nodes, triangles, materials, channels, texels.
-    #[must_use]
-    pub fn buffers(&self) -> [&[u8]; 5] {
-        [
-            bytemuck::cast_slice(&self.nodes),
-            bytemuck::cast_slice(&self.triangles),
-            bytemuck::cast_slice(&self.materials),
-            bytemuck::cast_slice(&self.textures),
-            bytemuck::cast_slice(&self.texels),
-        ]
+    /// Returns [`RayScene::max_coordinate_m`], from which shaders compute the rays' origins.
+    pub(crate) fn max_coordinate_m(&self) -> f32 {
+        self.max_coordinate_m
     }
 
-    fn pack(&mut self, textures: &[ChannelTexture]) {
-        let mut texels = Vec::new();
-        for texture in textures {
-            let ([width, height], [wrap_u, wrap_v]) = (texture.size_px(), texture.wrap());
-            let sampling = wrap_u as u32 | (wrap_v as u32) << 2 | (texture.filter() as u32) << 4;
-            let first_texel = texels.len() as u32;
-            self.textures.push(RayTexture { first_texel, width, height, sampling });
-            texels.extend_from_slice(texture.texels());
-        }
-        texels.resize(texels.len().next_multiple_of(4).max(4), 0);
-        let words = texels.as_chunks::<4>().0.iter();
-        self.texels = words.map(|&bytes| u32::from_le_bytes(bytes)).collect();
-        self.textures = or_one(&self.textures, RayTexture::zeroed());
+    /// Returns the kinds of surfaces, besides opaque ones.
+    pub(crate) fn surface_kinds(&self) -> SurfaceKinds {
+        self.kinds
     }
 }
 
-fn fits<T>(what: &'static str, count: usize, limit: u64) -> Result<(), Error> {
-    let bytes = count as u64 * size_of::<T>() as u64;
+/// Uploads the changed elements of a pool, or all of them to a new buffer with space for half as many more, and returns the number of bytes.
+fn upload<T: Copy + Default + PartialEq + Pod>(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    (what, help): (&'static str, &'static str),
+    pool: &mut Pool<T>,
+    target: &mut wgpu::Buffer,
+) -> Result<u64, Error> {
+    let (limits, element) = (device.limits(), size_of::<T>() as u64);
+    let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    let bytes = pool.elements().len() as u64 * element;
     if bytes > limit {
-        return Err(Error::TooBig { what, bytes, limit, help: FEWER_TRIANGLES });
+        return Err(Error::TooBig { what, bytes, limit, help });
     }
-    Ok(())
+    let mut ranges = pool.take_changed();
+    if target.size() < bytes {
+        let reserved = (bytes + bytes / 2).min(limit);
+        *target = buffer(device, reserved - reserved % element);
+        ranges = std::iter::once(0..pool.elements().len()).collect();
+    }
+    let mut written = 0;
+    for range in ranges {
+        let offset = range.start as u64 * element;
+        let contents: &[u8] = bytemuck::cast_slice(&pool.elements()[range]);
+        queue.write_buffer(target, offset, contents);
+        written += contents.len() as u64;
+    }
+    Ok(written)
 }
 
-fn nodes(scene: &RayScene) -> Vec<RayNode> {
-    let gpu_node = |node: &obvhs::bvh2::node::Bvh2Node| RayNode {
-        lowest: node.aabb().min.into(),
-        first: node.first_index,
-        highest: node.aabb().max.into(),
-        count: node.prim_count,
-    };
-    let nodes: Vec<RayNode> = scene.bvh().nodes.iter().map(gpu_node).collect();
-    or_one(&nodes, RayNode { count: 1, ..RayNode::zeroed() })
-}
-
-/// Returns the elements, or `one` if there are none: bindings cannot be empty.
-fn or_one<T: Copy>(elements: &[T], one: T) -> Vec<T> {
-    if elements.is_empty() { vec![one] } else { elements.to_vec() }
+/// Creates a buffer of zeros.
+fn buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("rays"),
+        size,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }

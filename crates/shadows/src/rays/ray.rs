@@ -78,16 +78,19 @@ impl Ray {
         Vec3::new(p.x - self.shear.x * p.z, p.y - self.shear.y * p.z, self.shear.z * p.z)
     }
 
-    /// Returns the ray in the tree's type.
-    pub(crate) fn for_boxes(&self) -> obvhs::ray::Ray {
-        let inverse = |d: f32| 1.0 / if d.abs() < 1e-20 { 1e-20 } else { d };
-        obvhs::ray::Ray {
-            origin: self.origin.into(),
-            direction: self.direction.into(),
-            inv_direction: self.direction.to_array().map(inverse).into(),
-            tmin: self.min_m,
-            tmax: self.max_m,
-        }
+    /// Returns the point that it starts from.
+    pub(crate) fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
+    /// Returns its direction.
+    pub(crate) fn direction(&self) -> Vec3 {
+        self.direction
+    }
+
+    /// Returns its end, metres.
+    pub(crate) fn max_m(&self) -> f32 {
+        self.max_m
     }
 }
 

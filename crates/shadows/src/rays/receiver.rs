@@ -25,7 +25,7 @@ impl ReceiverPoint {
     /// [largest coordinate](super::RayScene::max_coordinate_m). The [module](super) has the derivation.
     #[must_use]
     pub fn offset_m(&self, max_coordinate_m: f32) -> f32 {
-        let coordinates_m = 2.0 * self.position.abs().max_element() + max_coordinate_m;
+        let coordinates_m = 2.0 * self.position.abs().max_element() + 1.5 * max_coordinate_m;
         OFFSET_PER_COORDINATE * coordinates_m + OFFSET_PER_VIEW_DISTANCE * self.view_distance_m
     }
 

@@ -48,7 +48,7 @@ pub const SDSM: TechniqueKind = TechniqueKind::new(
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
     "ray-traced hard or soft shadows: the reference for the other techniques",
-    |context| Ok(Box::new(Raytraced::new(context.device, &context.rays()?)?)),
+    |context| Ok(Box::new(Raytraced::new(context.device)?)),
 )
 .with_settings::<RaytracedSettings>();
 

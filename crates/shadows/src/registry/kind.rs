@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::error::Error;
-use crate::rays::{GpuRayScene, RayScene};
 use crate::settings::{NamedSettings, Setting, SettingType, ShadowSettings, failed, json, validate};
 use crate::technique::ShadowTechnique;
 use serde_json::Value;
@@ -92,41 +91,22 @@ impl TechniqueKind {
     /// Creates an instance of the technique.
     ///
     /// # Errors
-    /// If a shader does not compose, or the scene's triangles are not available.
+    /// If a shader does not compose.
     pub fn make(&self, context: &TechniqueContext<'_>) -> Result<Box<dyn ShadowTechnique>, Error> {
         (self.make)(context)
     }
 }
 
-/// The device and the scene that techniques are created for.
+/// The device that techniques are created for.
 #[derive(Clone, Copy)]
 pub struct TechniqueContext<'c> {
     /// The device that draws.
     pub device: &'c wgpu::Device,
-    rays: Option<&'c dyn Fn() -> Result<GpuRayScene, Error>>,
 }
 
 impl<'c> TechniqueContext<'c> {
-    /// Creates a context without a scene's triangles.
+    /// Creates a context.
     pub fn new(device: &'c wgpu::Device) -> Self {
-        Self { device, rays: None }
-    }
-
-    /// Adds the source of the scene's triangles, for techniques that trace rays. They are relative to the origin of the
-    /// frames that are drawn: when that moves, techniques are created again.
-    #[must_use]
-    pub fn with_rays(self, rays: &'c dyn Fn() -> Result<GpuRayScene, Error>) -> Self {
-        Self { rays: Some(rays), ..self }
-    }
-
-    /// Returns the scene's triangles.
-    ///
-    /// # Errors
-    /// If they cannot be traced, or do not fit the device's buffers.
-    pub fn rays(&self) -> Result<GpuRayScene, Error> {
-        match self.rays {
-            Some(rays) => rays(),
-            None => Ok(GpuRayScene::new(&RayScene::new(&[], Vec::new())?, u64::MAX)?),
-        }
+        Self { device }
     }
 }

@@ -44,6 +44,11 @@ pub trait ShadowTechnique: Send + Sync {
         false
     }
 
+    /// Returns whether it traces [the casters' triangles](crate::ShadowCasters::rays).
+    fn traces_rays(&self) -> bool {
+        false
+    }
+
     /// Returns the number of variants of its WGSL, at least 1. Variant 0 works for every frame; others contain less code,
     /// and [`ShadowOutputs::variant`] is the best one for a frame.
     fn variant_count(&self) -> u32 {
@@ -66,7 +71,7 @@ pub trait ShadowTechnique: Send + Sync {
     /// [`reads_surface_buffers`](Self::reads_surface_buffers) returns true.
     ///
     /// # Errors
-    /// For settings, a camera or an aspect ratio that are out of range; [`Error::MissingSurfaceBuffers`].
+    /// For settings, a camera or an aspect ratio that are out of range; [`Error::MissingSurfaceBuffers`] and [`Error::MissingRays`].
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,

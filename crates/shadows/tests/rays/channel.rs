@@ -1,7 +1,7 @@
 use glam::{Vec2, Vec3};
 use shadowgraph_shadows::rays::{ChannelTexture, Error, Filter, RayScene, Surface, Wrap};
 
-use crate::common::{cutout_square, ray, texture};
+use crate::common::{cutout_square, insert, ray, scene, texture};
 
 const RAMP: [u8; 4] = [0, 51, 102, 255];
 
@@ -46,7 +46,9 @@ fn outside_the_square_each_axis_uses_its_own_address_mode() {
 fn rays_pass_only_the_holes_of_a_checkerboard() {
     let texels: Vec<u8> = (0..64).map(|i| if (i % 8 + i / 8) % 2 == 0 { 255 } else { 0 }).collect();
     let board = texture([8, 8], &texels, Wrap::Repeat, Filter::Nearest);
-    let scene = RayScene::new(&cutout_square(1.0, 4.0, Some(0), 1.0), vec![board]).unwrap();
+    let mut scene = RayScene::default();
+    let board = scene.insert_texture(&[board]).unwrap();
+    insert(&mut scene, &cutout_square(1.0, 4.0, Some(board), 1.0)).unwrap();
     for (column, row) in (0..64).map(|n| (n % 8, n / 8)) {
         let below = Vec3::new(column as f32 - 3.5, 0.0, row as f32 - 3.4);
         let ray = ray(below, below + Vec3::Y);
@@ -59,20 +61,21 @@ fn rays_pass_only_the_holes_of_a_checkerboard() {
 fn a_ray_continues_through_a_hole_to_the_surface_behind_it() {
     let mut occluders = cutout_square(1.0, 1.0, None, 0.2);
     occluders.extend(cutout_square(2.0, 1.0, None, 0.8));
-    let scene = RayScene::new(&occluders, Vec::new()).unwrap();
+    let scene = scene(&occluders);
     assert_eq!(scene.nearest_distance(&ray(Vec3::ZERO, Vec3::Y)), Some(2.0));
 }
 
 #[test]
 fn the_factor_is_interpolated_and_multiplies_the_texture() {
-    let half = texture([1, 1], &[128], Wrap::Repeat, Filter::Bilinear);
-    let mut occluders = cutout_square(1.0, 1.0, Some(0), 1.0);
+    let mut scene = RayScene::default();
+    let half = scene.insert_texture(&[texture([1, 1], &[128], Wrap::Repeat, Filter::Bilinear)]).unwrap();
+    let mut occluders = cutout_square(1.0, 1.0, Some(half), 1.0);
     for occluder in &mut occluders {
         let across = occluder.corners.map(|corner| corner.x + 1.0);
         let Surface::Cutout(cutout) = &mut occluder.surface else { panic!() };
         cutout.alpha = across;
     }
-    let scene = RayScene::new(&occluders, vec![half]).unwrap();
+    insert(&mut scene, &occluders).unwrap();
     let is_occluded = |x: f32| scene.is_occluded(&ray(Vec3::new(x, 0.0, 0.3), Vec3::new(x, 1.0, 0.3)));
     // 128 / 255 times x + 1 is one half at x = -0.0039.
     assert!(!is_occluded(-0.02) && is_occluded(0.02));

@@ -1,9 +1,32 @@
 //! Meshes and rays for the tests.
 
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, Vec2, Vec3};
 use shadowgraph_shadows::rays::{
-    ChannelTexture, Cutout, Filter, Occluder, Ray, RayScene, ReceiverPoint, Surface, Wrap,
+    ChannelTexture, Cutout, Error, Filter, Instance, Ray, RayScene, RayTextureKey, ReceiverPoint, Surface,
+    Wrap,
 };
+
+/// A triangle and its surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Occluder {
+    pub(crate) corners: [Vec3; 3],
+    pub(crate) surface: Surface,
+}
+
+impl Occluder {
+    pub(crate) fn opaque(corners: [Vec3; 3]) -> Self {
+        Self { corners, surface: Surface::Opaque }
+    }
+}
+
+/// Adds triangles as a mesh with one instance where they are.
+pub(crate) fn insert(scene: &mut RayScene, occluders: &[Occluder]) -> Result<(), Error> {
+    let corners: Vec<_> = occluders.iter().map(|occluder| occluder.corners).collect();
+    let surfaces: Vec<_> = occluders.iter().map(|occluder| occluder.surface).collect();
+    let mesh = scene.insert_mesh(&corners)?;
+    let surfaces = Some(scene.insert_surfaces(&surfaces)?);
+    scene.insert_instance(Instance { mesh, surfaces, world_from_mesh: DAffine3::IDENTITY }).map(drop)
+}
 
 /// Returns two triangles, from `corner` along `u` and `v`.
 pub(crate) fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Vec<Occluder> {
@@ -17,7 +40,12 @@ pub(crate) fn level_square(height: f32, half: f32) -> Vec<Occluder> {
 }
 
 /// Returns the same with an alpha test, the texture stretched once over it: u along x, v along z.
-pub(crate) fn cutout_square(height: f32, half: f32, texture: Option<u32>, alpha: f32) -> Vec<Occluder> {
+pub(crate) fn cutout_square(
+    height: f32,
+    half: f32,
+    texture: Option<RayTextureKey>,
+    alpha: f32,
+) -> Vec<Occluder> {
     let uv = |p: Vec3| Vec2::new(p.x + half, p.z + half) / (2.0 * half);
     let with_cutout = |o: Occluder| {
         let cutout = Cutout { texture, uv: o.corners.map(uv), alpha: [alpha; 3], cutoff: 0.5 };
@@ -31,7 +59,9 @@ pub(crate) fn texture(size_px: [u32; 2], texels: &[u8], wrap: Wrap, filter: Filt
 }
 
 pub(crate) fn scene(occluders: &[Occluder]) -> RayScene {
-    RayScene::new(occluders, Vec::new()).unwrap()
+    let mut scene = RayScene::default();
+    insert(&mut scene, occluders).unwrap();
+    scene
 }
 
 pub(crate) fn ray(origin: Vec3, to: Vec3) -> Ray {

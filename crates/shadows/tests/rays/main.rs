@@ -1,9 +1,10 @@
-//! Shadow rays on the CPU, and their buffers for the GPU.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+//! Shadow rays on the CPU, and what is uploaded for the GPU.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod channel;
 mod common;
-mod flat;
+mod edits;
+mod levels;
 mod lights;
 mod origins;
 mod scenes;

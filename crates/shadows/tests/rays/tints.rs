@@ -2,13 +2,13 @@
 
 use glam::{Vec2, Vec3, Vec4};
 use shadowgraph_shadows::rays::{
-    Error, Filter, LightShape, Occluder, RayScene, Surface, Tint, Wrap, trace_hard, trace_soft,
+    Error, Filter, LightShape, RayScene, RayTextureKey, Surface, Tint, Wrap, trace_hard, trace_soft,
 };
 
-use crate::common::{level_square, on_floor, ray, texture};
+use crate::common::{Occluder, insert, level_square, on_floor, ray, scene, texture};
 
 /// Returns a horizontal pane around (0, `height`, 0), the texture stretched once over it.
-fn pane(height: f32, texture: Option<u32>, color: Vec4) -> Vec<Occluder> {
+fn pane(height: f32, texture: Option<RayTextureKey>, color: Vec4) -> Vec<Occluder> {
     let uv = |p: Vec3| Vec2::new(p.x + 1.0, p.z + 1.0) / 2.0;
     let tint = |o: Occluder| {
         let tint = Tint { texture, uv: o.corners.map(uv), color: [color; 3] };
@@ -18,8 +18,7 @@ fn pane(height: f32, texture: Option<u32>, color: Vec4) -> Vec<Occluder> {
 }
 
 fn transmittance(occluders: &[Occluder]) -> Vec3 {
-    let scene = RayScene::new(occluders, Vec::new()).unwrap();
-    scene.transmittance(&ray(Vec3::new(0.3, 0.0, 0.1), Vec3::new(0.3, 1.0, 0.1)))
+    scene(occluders).transmittance(&ray(Vec3::new(0.3, 0.0, 0.1), Vec3::new(0.3, 1.0, 0.1)))
 }
 
 #[track_caller]
@@ -54,18 +53,20 @@ fn panes_multiply_in_any_order_and_opaque_surfaces_behind_them_block_light() {
 #[test]
 fn texture_and_factor_multiply_and_the_channels_are_alpha_red_green_blue() {
     let channels = [255, 255, 128, 0].map(|value| texture([1, 1], &[value], Wrap::Repeat, Filter::Nearest));
-    let glass = pane(1.0, Some(0), Vec4::new(0.5, 1.0, 1.0, 0.5));
-    let scene = RayScene::new(&glass, channels.to_vec()).unwrap();
+    let mut scene = RayScene::default();
+    let color = scene.insert_texture(&channels).unwrap();
+    let glass = |texture| pane(1.0, Some(texture), Vec4::new(0.5, 1.0, 1.0, 0.5));
+    insert(&mut scene, &glass(color)).unwrap();
     let up = ray(Vec3::new(0.3, 0.0, 0.1), Vec3::new(0.3, 1.0, 0.1));
     assert_near(scene.transmittance(&up), [0.3125, 0.3125, 0.125]);
-    let error = RayScene::new(&glass, channels[..3].to_vec()).err();
-    assert_eq!(error, Some(Error::NoTexture { occluder: 0, texture: 3, count: 3 }));
+    let three = scene.insert_texture(&channels[..3]).unwrap();
+    assert_eq!(insert(&mut scene, &glass(three)), Err(Error::Channels { needed: 4, count: 3 }));
 }
 
 #[test]
 fn ground_truth_is_coloured_and_its_nearest_blocker_is_the_nearest_opaque_surface() {
     let glass = [pane(1.0, None, Vec4::new(1.0, 0.0, 0.0, 0.5)), level_square(4.0, 0.5)].concat();
-    let scene = RayScene::new(&glass, Vec::new()).unwrap();
+    let scene = scene(&glass);
     let sun = LightShape::Directional { to_light: Vec3::Y, angular_radius: 0.004 };
     let [under_both, under_glass] = [0.2, 0.8].map(|x| on_floor(Vec3::new(x, 0.0, 0.1)));
     for with_blocker in [false, true] {

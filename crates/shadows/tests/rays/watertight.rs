@@ -1,8 +1,8 @@
 use glam::Vec3;
 use proptest::prelude::*;
-use shadowgraph_shadows::rays::{Occluder, Ray, RayScene};
+use shadowgraph_shadows::rays::{Ray, RayScene};
 
-use crate::common::{ray, scene, sphere};
+use crate::common::{Occluder, ray, scene, sphere};
 
 fn vector(largest: f32) -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-largest..largest).prop_map(Vec3::from)

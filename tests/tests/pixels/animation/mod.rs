@@ -9,10 +9,11 @@ use shadowgraph::lighting::PosePass;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::GpuScene;
 use shadowgraph::scene::{AnimationSelection, LightKind, Scene};
-use shadowgraph::shadows::VertexBuffers;
+use shadowgraph::shadows::{RAYTRACED, VertexBuffers};
 use shadowgraph::{Gpu, Renderer};
 use shadowgraph_core::{Graph, Subresource};
 
+use crate::raytraced::traced_by;
 use crate::scenes::real_scenes;
 use crate::stage::{camera, floor_mesh, gpu, light, material, sun, sun_direction, view};
 
@@ -141,6 +142,30 @@ fn images_and_shadows_of_deformed_meshes_are_those_of_meshes_with_that_shape() {
             assert!(images[0] != images[1] && images[1] != images[2], "{} {aov:?} moves", kind.name);
         }
     }
+}
+
+#[test]
+fn gpu_rays_follow_animations_as_rays_of_the_cpu_do() {
+    let Some(gpu) = gpu() else { return };
+    let mut options = view(camera(DVec3::new(3.0, 3.0, 6.0), DVec3::Y), 30.0);
+    options.size_px = [160, 90];
+    let (mut unlike, mut compared) = (0, 0);
+    for kind in [RIGID, CUBIC, SKINNED, SKINNED_BY_EIGHT, MORPHED] {
+        let scene = staged((kind.file)().load());
+        let mut renderer =
+            Renderer::with_config(gpu, scene, &options.camera, Aov::Visibility(0), RAYTRACED).unwrap();
+        let mut images = Vec::new();
+        for time_s in [0.0, 0.4, 1.0] {
+            renderer.scene_mut().set_time(AnimationSelection::All, time_s).unwrap();
+            let traced = traced_by(gpu, &mut renderer, &options, 0);
+            let (differ, of) = traced.unlike_the_cpu();
+            println!("{} at {time_s} s: {differ} of {of} pixels differ", kind.name);
+            (unlike, compared) = (unlike + differ, compared + of);
+            images.push(traced.visibility);
+        }
+        assert!(images[0] != images[1] && images[1] != images[2], "{} moves", kind.name);
+    }
+    assert!(compared > 50_000 && unlike * 10_000 <= compared, "{unlike} of {compared} pixels differ");
 }
 
 #[test]

@@ -4,17 +4,19 @@ mod settings;
 
 pub use settings::RaytracedSettings;
 
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture};
 use shadowgraph_scene::Light;
-use shadowgraph_shaders::{ModuleSource, RAYTRACED};
-use wgpu::util::DeviceExt as _;
+use shadowgraph_shaders::{ModuleSource, RAYTRACED, compose};
 
 use super::compute::{dispatch, pipeline, shader};
 use super::mask::pass::{Layers, MaskPass, mask_texture, workgroups};
 use super::mask::{MASK, TARGET, no_mask};
 use crate::error::Error;
 use crate::plan::ShadowInputs;
-use crate::rays::GpuRayScene;
+use crate::rays::{GpuRayScene, SurfaceKinds};
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE};
@@ -36,39 +38,32 @@ const LIT: u32 = u32::MAX;
 pub struct Raytraced {
     trace: Trace,
     denoise: MaskPass,
-    /// The bindings of `rays.wgsl`.
-    rays: [wgpu::Buffer; 5],
-    max_coordinate_m: f32,
-    /// See [`GpuRayScene::surfaces`].
-    surfaces: ModuleSource,
+    /// Replaces the triangles where there is no caster.
+    no_rays: GpuRayScene,
     /// A placeholder for a missing mask.
     no_mask: wgpu::Texture,
 }
 
 /// The pass that writes the mask.
 struct Trace {
+    device: wgpu::Device,
     view_layout: wgpu::BindGroupLayout,
     rays_layout: wgpu::BindGroupLayout,
     screen_layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::ComputePipeline,
+    /// Pipelines by variant, created on first use.
+    pipelines: Mutex<BTreeMap<u32, Arc<wgpu::ComputePipeline>>>,
 }
 
 impl Raytraced {
-    /// Uploads the triangles. They are relative to a frame's origin: frames with another origin need another value.
+    /// Creates the technique. Frames get the triangles with the [casters](crate::ShadowCasters::rays).
     ///
     /// # Errors
     /// If a shader does not compose.
-    pub fn new(device: &wgpu::Device, scene: &GpuRayScene) -> Result<Self, Error> {
-        let buffer = |contents: &[u8]| {
-            let (label, usage) = (Some("rays"), wgpu::BufferUsages::STORAGE);
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
-        };
+    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self {
-            trace: Trace::new(device, &scene.surfaces())?,
+            trace: Trace::new(device)?,
             denoise: MaskPass::new(device, "denoise", ("denoise.wgsl", "cs_denoise"), &settings_struct())?,
-            rays: scene.buffers().map(buffer),
-            max_coordinate_m: scene.max_coordinate_m,
-            surfaces: scene.surfaces(),
+            no_rays: GpuRayScene::new(device),
             no_mask: no_mask(device),
         })
     }
@@ -78,28 +73,30 @@ impl Raytraced {
         &'f self,
         frame: &mut Frame<'f>,
         buffers: &SurfaceBuffers,
+        rays: &'f GpuRayScene,
         traced: &Buffer,
         layers: Layers,
-    ) -> Texture {
+    ) -> Result<Texture, Error> {
         let mut mask = mask_texture(frame, "shadow mask", buffers, layers);
         let mut pass = frame.compute_pass("trace");
         let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let (traced, surfaces) = (pass.storage_buffer(traced), pass.sample(&buffers.surfaces));
         let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
         let size_px = buffers.size_px;
+        let pipeline = self.trace.pipeline(variant(rays))?;
         pass.body(move |ctx| {
-            let Trace { view_layout, rays_layout, screen_layout, pipeline } = &self.trace;
-            let mut rays: Vec<_> = self.rays.iter().map(Bind::ExternalBuffer).collect();
-            rays.push(Bind::Buffer(traced));
+            let Trace { view_layout, rays_layout, screen_layout, .. } = &self.trace;
+            let mut bound: Vec<_> = rays.buffers().iter().map(Bind::ExternalBuffer).collect();
+            bound.push(Bind::Buffer(traced));
             let groups = [
                 ctx.bind_group(view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
-                ctx.bind_group(rays_layout, &rays)?,
+                ctx.bind_group(rays_layout, &bound)?,
                 ctx.bind_group(screen_layout, &[Bind::Texture(surfaces), Bind::TextureArray(target)])?,
             ];
-            dispatch(&mut ctx.pass, pipeline, &groups, workgroups(size_px, layers));
+            dispatch(&mut ctx.pass, &pipeline, &groups, workgroups(size_px, layers));
             Ok(())
         });
-        mask
+        Ok(mask)
     }
 
     /// Adds the passes that compute the mask; returns `None` if no light has a layer.
@@ -107,19 +104,29 @@ impl Raytraced {
         &'f self,
         frame: &mut Frame<'f>,
         buffers: &SurfaceBuffers,
+        rays: &'f GpuRayScene,
         traced: &Buffer,
         (lights, settings): (&[Light], &RaytracedSettings),
-    ) -> Option<Texture> {
+    ) -> Result<Option<Texture>, Error> {
         let layers = Layers::new(frame, lights);
         if layers.count == 0 {
-            return None;
+            return Ok(None);
         }
-        let mask = self.trace(frame, buffers, traced, layers);
+        let mask = self.trace(frame, buffers, rays, traced, layers)?;
         if settings.rays == 1 || settings.denoise_px == 0 {
-            return Some(mask);
+            return Ok(Some(mask));
         }
         let own = frame.uniform(&settings.bytes());
-        Some(self.denoise.add_to(frame, buffers, &mask, layers, own))
+        Ok(Some(self.denoise.add_to(frame, buffers, &mask, layers, own)))
+    }
+
+    /// Returns the triangles of the casters, or none where there is no caster.
+    fn rays<'f>(&'f self, inputs: &ShadowInputs<'f>) -> Result<&'f GpuRayScene, Error> {
+        match inputs.casters.rays() {
+            Some(rays) => Ok(rays),
+            None if inputs.casters.bounds().is_empty() => Ok(&self.no_rays),
+            None => Err(Error::MissingRays { technique: self.name().into() }),
+        }
     }
 }
 
@@ -136,8 +143,16 @@ impl ShadowTechnique for Raytraced {
         true
     }
 
-    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
-        vec![RAYTRACED, self.surfaces.clone()]
+    fn traces_rays(&self) -> bool {
+        true
+    }
+
+    fn variant_count(&self) -> u32 {
+        OPAQUE + 1
+    }
+
+    fn modules(&self, variant: u32) -> Vec<ModuleSource> {
+        vec![RAYTRACED, surfaces(variant)]
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
@@ -159,19 +174,47 @@ impl ShadowTechnique for Raytraced {
         let buffers =
             buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
         let settings: RaytracedSettings = inputs.settings.techniques.get()?;
-        let layers = mask_layers(inputs.lights);
-        Ok(frame.node("shadows", |frame| {
-            let traced =
-                frame.upload_buffer("traced lights", traced_bytes(self.max_coordinate_m, &settings, &layers));
-            let mask = self.mask(frame, buffers, &traced, (inputs.lights, &settings));
+        let (rays, layers) = (self.rays(inputs)?, mask_layers(inputs.lights));
+        frame.node("shadows", |frame| {
+            let traced = frame
+                .upload_buffer("traced lights", traced_bytes(rays.max_coordinate_m(), &settings, &layers));
+            let mask = self.mask(frame, buffers, rays, &traced, (inputs.lights, &settings))?;
             let bound =
                 mask.clone().unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
-            let mut bindings: Vec<_> = self.rays.iter().map(ShadowBinding::ExternalBuffer).collect();
+            let mut bindings: Vec<_> = rays.buffers().iter().map(ShadowBinding::ExternalBuffer).collect();
             bindings.push(ShadowBinding::Buffer(traced));
             bindings.push(ShadowBinding::TextureArray(bound.clone()));
-            ShadowOutputs { bindings, mask, debug: vec![("shadow mask", bound)], ..ShadowOutputs::default() }
-        }))
+            let (debug, variant) = (vec![("shadow mask", bound)], variant(rays));
+            Ok(ShadowOutputs { bindings, mask, debug, variant, ..ShadowOutputs::default() })
+        })
     }
+}
+
+/// The variant for cutouts without tints; variant 0 has both.
+const CUTOUTS: u32 = 1;
+
+/// The variant for opaque surfaces alone.
+const OPAQUE: u32 = 2;
+
+/// Returns the variant of the shaders for a scene's surfaces.
+fn variant(rays: &GpuRayScene) -> u32 {
+    match rays.surface_kinds() {
+        SurfaceKinds { tints: true, .. } => 0,
+        SurfaceKinds { cutouts: true, .. } => CUTOUTS,
+        SurfaceKinds { .. } => OPAQUE,
+    }
+}
+
+/// Returns the replacement of `ray_surfaces.wgsl` in a variant.
+fn surfaces(variant: u32) -> ModuleSource {
+    let source = format!(
+        "#define_import_path shadowgraph::ray_surfaces\n\
+         const CUTOUTS: bool = {};\n\
+         const TINTS: bool = {};\n",
+        variant < OPAQUE,
+        variant < CUTOUTS,
+    );
+    ModuleSource::new("ray_surfaces.wgsl of a variant", source)
 }
 
 /// Returns the struct `RaytracedSettings` of `raytraced_settings.wgsl`.
@@ -198,15 +241,30 @@ fn traced_bytes(max_coordinate_m: f32, settings: &RaytracedSettings, layers: &[u
 }
 
 impl Trace {
-    fn new(device: &wgpu::Device, surfaces: &ModuleSource) -> Result<Self, Error> {
-        let module = shadowgraph_shaders::compose("raytrace.wgsl", std::slice::from_ref(surfaces))?;
-        let view_layout = layout(device, "view", &[STORAGE; 2]);
-        let rays_layout = layout(device, "rays", &[STORAGE; 6]);
-        let screen_layout = layout(device, "screen", &[FLOAT_MAP, TARGET]);
-        let shader = shader(device, "raytrace.wgsl", module);
-        let layouts = [&view_layout, &rays_layout, &screen_layout];
-        let pipeline = pipeline(device, &shader, "cs_raytrace", &layouts);
-        Ok(Self { view_layout, rays_layout, screen_layout, pipeline })
+    fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let pass = Self {
+            device: device.clone(),
+            view_layout: layout(device, "view", &[STORAGE; 2]),
+            rays_layout: layout(device, "rays", &[STORAGE; 6]),
+            screen_layout: layout(device, "screen", &[FLOAT_MAP, TARGET]),
+            pipelines: Mutex::default(),
+        };
+        // Reports composition errors now, not in some frame.
+        compose("raytrace.wgsl", &[surfaces(0)])?;
+        Ok(pass)
+    }
+
+    /// Returns the pipeline of a variant.
+    fn pipeline(&self, variant: u32) -> Result<Arc<wgpu::ComputePipeline>, Error> {
+        let mut known = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = known.get(&variant) {
+            return Ok(pipeline.clone());
+        }
+        let shader = shader(&self.device, "raytrace.wgsl", compose("raytrace.wgsl", &[surfaces(variant)])?);
+        let layouts = [&self.view_layout, &self.rays_layout, &self.screen_layout];
+        let pipeline = Arc::new(pipeline(&self.device, &shader, "cs_raytrace", &layouts));
+        known.insert(variant, pipeline.clone());
+        Ok(pipeline)
     }
 }
 

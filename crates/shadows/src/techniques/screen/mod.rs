@@ -109,6 +109,10 @@ impl ShadowTechnique for ScreenShadows {
         true
     }
 
+    fn traces_rays(&self) -> bool {
+        self.inner.traces_rays()
+    }
+
     fn variant_count(&self) -> u32 {
         self.mask_only() + 1
     }

@@ -1,19 +1,8 @@
-//! Occluders: triangles, some of them alpha-tested, some of them translucent.
+//! Surfaces of triangles: opaque, alpha-tested or translucent.
 
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec4};
 
-/// Largest absolute coordinate of a valid corner, metres: products of
-/// three such numbers still fit into f32.
-pub(crate) const MAX_COORDINATE_M: f32 = 1e9;
-
-/// A triangle that blocks light from both sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Occluder {
-    /// The corners, metres relative to the frame's origin.
-    pub corners: [Vec3; 3],
-    /// The surface of the triangle.
-    pub surface: Surface,
-}
+use super::keys::RayTextureKey;
 
 /// The surface of a triangle: the light that passes through it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,8 +21,8 @@ pub enum Surface {
 /// Alpha at a point is the channel's value (1 without one) times the factor, both interpolated over the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutout {
-    /// Index of the alpha channel; `None` for the factor alone.
-    pub texture: Option<u32>,
+    /// The texture, whose first channel is alpha; `None` for the factor alone.
+    pub texture: Option<RayTextureKey>,
     /// Texture coordinates of each corner: (0, 0) is the first texel's outer corner, (1, 1) the last one's,
     /// with the material's transform applied.
     pub uv: [Vec2; 3],
@@ -48,36 +37,18 @@ pub struct Cutout {
 /// Both are the channels' values times the factor, interpolated over the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tint {
-    /// Index of the first of four channels, alpha and linear red, green and blue; `None` for the factor alone.
-    pub texture: Option<u32>,
+    /// The texture, with four channels: alpha and linear red, green and blue; `None` for the factor alone.
+    pub texture: Option<RayTextureKey>,
     /// Texture coordinates of each corner, as in [`Cutout::uv`].
     pub uv: [Vec2; 3],
     /// The material's linear colour and alpha times the vertex's, at each corner. Colours are rounded to 1/255.
     pub color: [Vec4; 3],
 }
 
-impl Occluder {
-    /// Creates an opaque triangle.
-    #[must_use]
-    pub fn opaque(corners: [Vec3; 3]) -> Self {
-        Self { corners, surface: Surface::Opaque }
-    }
-
-    /// Returns whether rays can be tested against it: all numbers finite, corners within 1e9 m, area above 0, no cutoff below 0.
+impl Surface {
+    /// Returns whether rays can be tested against it: all numbers finite, no cutoff below 0. Rays pass through others.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        let near = |corner: &Vec3| corner.is_finite() && corner.abs().max_element() <= MAX_COORDINATE_M;
-        self.corners.iter().all(near) && self.has_area() && self.surface.is_valid()
-    }
-
-    fn has_area(&self) -> bool {
-        let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
-        (b - a).cross(c - a) != DVec3::ZERO
-    }
-}
-
-impl Surface {
-    fn is_valid(&self) -> bool {
         let finite = |uv: &[Vec2; 3]| uv.iter().all(|uv| uv.is_finite());
         match self {
             Self::Opaque => true,
@@ -91,8 +62,8 @@ impl Surface {
         }
     }
 
-    /// Returns the channels that it reads: the first and their number.
-    pub(crate) fn channels(&self) -> Option<(u32, u32)> {
+    /// Returns its texture, and the number of channels that it reads.
+    pub(crate) fn texture(&self) -> Option<(RayTextureKey, usize)> {
         match self {
             Self::Opaque => None,
             Self::Cutout(cut) => Some((cut.texture?, 1)),
