@@ -10,7 +10,7 @@ pub use shader_pass::ShaderPassBuilder;
 use crate::access::{Access, Contents};
 #[cfg(feature = "gpu")]
 use crate::context::{Body, BodyResult, ComputeContext, EncoderContext, RenderContext};
-use crate::declaration::PassKind;
+use crate::declaration::{NoteSubject, PassKind};
 use crate::frame::Frame;
 use crate::handle::{Buffer, BufferToken, PassId, Texture, TextureToken};
 use crate::name::Name;
@@ -78,6 +78,11 @@ impl<'p, 'f, K> Pass<'p, 'f, K> {
     /// Keeps the pass even if nothing needs what it writes, for effects that the graph cannot see.
     pub fn keep(&mut self) {
         self.frame.pass_mut(self.id).keep = true;
+    }
+
+    /// Adds a sentence to what plans say about the pass, such as why it is needed in this frame.
+    pub fn note(&mut self, text: impl Name) {
+        self.frame.add_note(NoteSubject::Pass(self.id), text);
     }
 
     /// Runs this pass after `other`, for shared effects that the graph cannot see. It does not keep `other`.

@@ -195,6 +195,21 @@ impl WriteMode {
     }
 }
 
+/// What a note is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum NoteSubject {
+    Pass(PassId),
+    Resource(ResourceId),
+}
+
+/// A sentence of the declaration's author about a pass or a resource.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct NoteDecl {
+    pub(crate) subject: NoteSubject,
+    pub(crate) text: Text,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SubresourceDecl {
     pub(crate) subresource: Subresource,
@@ -231,13 +246,25 @@ pub(crate) struct Declaration {
     pub(crate) copies: Vec<CopyOp>,
     /// Explicit orders: the first pass runs before the second.
     pub(crate) after: Vec<(PassId, PassId)>,
+    pub(crate) notes: Vec<NoteDecl>,
     pub(crate) names: Names,
 }
 
 impl Declaration {
     pub(crate) fn clear(&mut self) {
-        let Self { options, resources, passes, accesses, nodes, subresources, clears, copies, after, names } =
-            self;
+        let Self {
+            options,
+            resources,
+            passes,
+            accesses,
+            nodes,
+            subresources,
+            clears,
+            copies,
+            after,
+            notes,
+            names,
+        } = self;
         *options = Options::default();
         resources.clear();
         passes.clear();
@@ -247,6 +274,7 @@ impl Declaration {
         clears.clear();
         copies.clear();
         after.clear();
+        notes.clear();
         names.clear();
     }
 
@@ -367,8 +395,19 @@ impl Declaration {
 
     /// Compares two frames. Fields that are short or often differ are compared first.
     pub(crate) fn similarity(&self, other: &Self) -> FrameSimilarity {
-        let Self { options, resources, passes, accesses, nodes, subresources, clears, copies, after, names } =
-            self;
+        let Self {
+            options,
+            resources,
+            passes,
+            accesses,
+            nodes,
+            subresources,
+            clears,
+            copies,
+            after,
+            notes,
+            names,
+        } = self;
         let same_structure = resources.len() == other.resources.len()
             && passes.len() == other.passes.len()
             && accesses.len() == other.accesses.len()
@@ -379,6 +418,7 @@ impl Declaration {
             && *nodes == other.nodes
             && *copies == other.copies
             && *after == other.after
+            && *notes == other.notes
             && *passes == other.passes
             && *accesses == other.accesses;
         if !same_structure {

@@ -10,7 +10,7 @@ mod serialize;
 pub use reasons::{CullReason, LoadReason, MergeReason, OrderReason, SlotReason, StoreReason};
 
 use crate::access::{Access, ClearValue, Contents};
-use crate::declaration::{AccessDecl, CopyOp, Declaration, Options, Origin, PassKind};
+use crate::declaration::{AccessDecl, CopyOp, Declaration, NoteSubject, Options, Origin, PassKind};
 use crate::desc::ResourceDesc;
 #[cfg(any(feature = "gpu", test))]
 use crate::error::Error;
@@ -362,6 +362,21 @@ impl Plan {
     /// Returns the last resource declared as `name`.
     pub fn find_resource(&self, name: &str) -> Option<ResourceId> {
         self.resources().rev().find(|(_, resource)| resource.name == name).map(|(id, _)| id)
+    }
+
+    /// Returns the notes of the declaration about a pass.
+    pub fn pass_notes(&self, id: PassId) -> impl Iterator<Item = &str> {
+        self.notes_about(NoteSubject::Pass(id))
+    }
+
+    /// Returns the notes of the declaration about a resource.
+    pub fn resource_notes(&self, id: ResourceId) -> impl Iterator<Item = &str> {
+        self.notes_about(NoteSubject::Resource(id))
+    }
+
+    fn notes_about(&self, subject: NoteSubject) -> impl Iterator<Item = &str> {
+        let notes = self.decl.notes.iter().filter(move |note| note.subject == subject);
+        notes.map(|note| self.decl.names.get(note.text))
     }
 
     /// Returns the pass's path: its name after those of its nodes, such as `post/blur`.

@@ -133,6 +133,9 @@ impl Plan {
         if pass.keep {
             let _ = writeln!(out, "         kept even if nothing needs what it writes");
         }
+        for note in self.pass_notes(id) {
+            let _ = writeln!(out, "         {note}");
+        }
         for access in self.accesses(id) {
             self.write_access(out, id, &access);
         }
@@ -215,11 +218,14 @@ impl Plan {
             clip(resource.name, 24),
             steps(&resource),
             usage(&resource),
-            self.resource_notes(id, &resource).join("; "),
+            self.placement_notes(id, &resource).join("; "),
         );
+        for note in self.resource_notes(id) {
+            let _ = writeln!(out, "      {note}");
+        }
     }
 
-    fn resource_notes(&self, id: ResourceId, resource: &ResourcePlan<'_>) -> Vec<String> {
+    fn placement_notes(&self, id: ResourceId, resource: &ResourcePlan<'_>) -> Vec<String> {
         let mut notes = Vec::new();
         if resource.exported {
             notes.push("exported".into());

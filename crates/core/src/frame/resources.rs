@@ -2,7 +2,7 @@
 
 use super::Frame;
 use crate::access::{Access, ClearValue, Contents};
-use crate::declaration::{CopyOp, Origin, PassKind, ResourceDecl};
+use crate::declaration::{CopyOp, NoteDecl, NoteSubject, Origin, PassKind, ResourceDecl};
 use crate::desc::{BufferDesc, Format, ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::{Buffer, BufferExport, ResourceId, Texture, TextureExport, Uniform, Version};
@@ -91,6 +91,26 @@ impl<'f> Frame<'f> {
         let version = self.add_resource(name, ResourceDesc::Buffer(desc), Origin::Imported { defined });
         self.decl.resources[version.resource.index()].buffer_usage = usage;
         Buffer(version)
+    }
+
+    /// Adds a sentence to what plans say about a texture, such as why its contents were kept.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Format, Frame, TextureDesc};
+    /// let mut frame = Frame::new();
+    /// let map = frame.create_texture("map", TextureDesc::d2(64, 64, Format::Depth32Float));
+    /// frame.note(&map, "kept: nothing moved");
+    /// let compiled = frame.compile()?;
+    /// assert!(compiled.plan().resource_notes(map.id()).eq(["kept: nothing moved"]));
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    pub fn note(&mut self, texture: &Texture, text: impl Name) {
+        self.add_note(NoteSubject::Resource(texture.0.resource), text);
+    }
+
+    pub(crate) fn add_note(&mut self, subject: NoteSubject, text: impl Name) {
+        let text = self.decl.names.push(text);
+        self.decl.notes.push(NoteDecl { subject, text });
     }
 
     /// Keeps the texture's current contents until the end of the frame, where the executed frame returns them. A later

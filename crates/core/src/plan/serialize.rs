@@ -1,6 +1,7 @@
 //! The plan as a tree of named fields, for JSON.
 
 use super::{AccessPlan, MergeReason, OrderReason, PassPlan, Plan};
+use crate::declaration::NoteSubject;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
 #[derive(serde::Serialize)]
@@ -11,6 +12,13 @@ struct PassDocument<'p> {
     #[serde(rename = "placed")]
     order: Option<OrderReason>,
     merge: Option<MergeReason>,
+}
+
+#[derive(serde::Serialize)]
+struct NoteDocument<'p> {
+    #[serde(flatten)]
+    subject: NoteSubject,
+    text: &'p str,
 }
 
 impl Serialize for Plan {
@@ -28,7 +36,11 @@ impl Serialize for Plan {
                 merge: position[id.index()].map(|position| self.merge_reasons[position]),
             })
             .collect();
-        let mut plan = serializer.serialize_struct("Plan", 7)?;
+        let notes = self.decl.notes.iter();
+        let notes: Vec<_> = notes
+            .map(|note| NoteDocument { subject: note.subject, text: self.decl.names.get(note.text) })
+            .collect();
+        let mut plan = serializer.serialize_struct("Plan", 7 + usize::from(!notes.is_empty()))?;
         plan.serialize_field("options", &self.options())?;
         plan.serialize_field("nodes", &self.nodes().collect::<Vec<_>>())?;
         plan.serialize_field("passes", &passes)?;
@@ -36,6 +48,9 @@ impl Serialize for Plan {
         plan.serialize_field("slots", &self.slots().collect::<Vec<_>>())?;
         plan.serialize_field("order", &self.steps().collect::<Vec<_>>())?;
         plan.serialize_field("dependencies", &self.dependencies)?;
+        if !notes.is_empty() {
+            plan.serialize_field("notes", &notes)?;
+        }
         plan.end()
     }
 }

@@ -27,6 +27,9 @@ pub fn explain_pass(plan: &Plan, id: PassId) -> String {
         (None, Some(position)) => write_position(plan, &mut page, id, position),
         (None, None) => {}
     }
+    for note in plan.pass_notes(id) {
+        page.line(1, note);
+    }
     for access in plan.accesses(id) {
         write_pass_access(plan, &mut page, id, &access);
     }

@@ -26,6 +26,9 @@ pub fn explain_resource(plan: &Plan, id: ResourceId) -> String {
     let size = bytes(resource.desc.bytes());
     let mut page = Page::new(&format!("`{}`: {}, {size}", plan.resource_path(id), shape(&resource.desc)));
     page.line(1, describe_origin(plan, id));
+    for note in plan.resource_notes(id) {
+        page.line(1, note);
+    }
     write_versions(plan, &mut page, id);
     for usage in usages(plan, id) {
         page.line(1, &usage);

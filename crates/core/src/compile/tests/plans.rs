@@ -68,3 +68,29 @@ fn a_frame_with_an_error_does_not_change_the_plans() {
     compile(&mut graph, "a", 64, BLACK);
     assert_eq!(graph.plan_counts().reused, 1);
 }
+
+#[test]
+fn notes_are_in_every_dump_and_part_of_the_declaration() {
+    let mut graph = Graph::new();
+    let mut plan = |note: &str| {
+        let mut frame = graph.frame();
+        declare(&mut frame, "a", 64, BLACK);
+        let texture = frame.find_texture("a").unwrap();
+        frame.note(&texture, note);
+        let mut b = frame.create_texture("b", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+        let mut pass = frame.render_pass("drawn");
+        pass.note("drawn: `Fox` moved");
+        pass.color(&mut b, BLACK);
+        graph.compile(frame).unwrap().shared_plan()
+    };
+    let plans = [plan("kept: 1 caster"), plan("kept: 2 casters")];
+    assert_ne!(plans[0], plans[1]);
+    let texture = plans[1].resources().find(|(_, resource)| resource.name == "a").unwrap().0;
+    assert!(plans[1].resource_notes(texture).eq(["kept: 2 casters"]));
+    let pass = plans[1].find_pass("drawn").unwrap();
+    assert!(plans[1].pass_notes(pass).eq(["drawn: `Fox` moved"]));
+    let text = plans[1].to_text();
+    assert!(text.contains("kept: 2 casters"), "{text}");
+    let json = plans[1].to_json().unwrap();
+    assert!(json.contains("kept: 2 casters") && json.contains("drawn: `Fox` moved"), "{json}");
+}
