@@ -31,9 +31,10 @@ fn soak(frames: u32) -> Result<bool, String> {
     machine::prepare(Need::Driver(Driver::Software))?;
     let runtime = RuntimeDir::new();
     let files = FILES.saturating_mul(frames);
-    let tests: [(&[&str], &str, u32); 3] = [
+    let tests: [(&[&str], &str, u32); 4] = [
         (&["--lib"], "PROPTEST_CASES", CASES),
         (&["--test", "damaged_files"], "SHADOWGRAPH_FUZZ", files),
+        (&["--test", "moving"], "SHADOWGRAPH_SOAK", frames),
         (&["--test", "soak"], "SHADOWGRAPH_SOAK", frames),
     ];
     for (test, variable, count) in tests {

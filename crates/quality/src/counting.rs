@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use shadowgraph_scene::{Aabb, CullVolume};
 use shadowgraph_shadows::rays::GpuRayScene;
-use shadowgraph_shadows::{CasterView, ShadowCasters};
+use shadowgraph_shadows::{CasterView, Mobility, ShadowCasters};
 
 use shadowgraph::SceneCasters;
 
@@ -41,6 +41,14 @@ impl ShadowCasters for CountingCasters<'_> {
 
     fn version(&self, caster: u32) -> Option<u64> {
         self.casters.version(caster)
+    }
+
+    fn mobility(&self, caster: u32) -> Mobility {
+        self.casters.mobility(caster)
+    }
+
+    fn caster_name(&self, caster: u32) -> Option<&str> {
+        self.casters.caster_name(caster)
     }
 
     fn tints(&self, caster: u32) -> bool {

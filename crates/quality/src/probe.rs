@@ -6,7 +6,7 @@ use shadowgraph_core::{
     Bind, Contents, Format, Frame, Graph, PassTime, Plan, ResourceDesc, Subresource, TextureDesc, Timer,
 };
 use shadowgraph_lighting::{Geometry, ViewUniforms};
-use shadowgraph_shadows::{CullSettings, ShadowInputs, add_shadows, shadow_layout};
+use shadowgraph_shadows::{CullSettings, ShadowInputs, ShadowSettings, add_shadows, shadow_layout};
 
 use super::Surfaces;
 use super::comparator::pixel_m_at_1m;
@@ -135,7 +135,7 @@ impl Probe {
     ) -> Result<Results, Error> {
         // Points may be outside the view, and are evaluated in coarser cascades than usual.
         let mut options = options.clone();
-        options.shadows.cull = CullSettings::NONE;
+        options.shadows = ShadowSettings { cull: CullSettings::NONE, ..options.shadows.without_cache() };
         let view = renderer.view(&options, None);
         let casters = CountingCasters::new(renderer.casters());
         let (mut graph, mut timer) = (renderer.graph(), Timer::new());

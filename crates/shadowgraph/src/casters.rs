@@ -3,7 +3,7 @@
 use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::rays::GpuRayScene;
-use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, ShadowCasters, TINT_FORMAT};
+use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, Mobility, ShadowCasters, TINT_FORMAT};
 
 use crate::error::Error;
 use crate::scene_rays::UploadedRays;
@@ -60,6 +60,10 @@ impl ShadowCasters for SceneCasters {
 
     fn version(&self, caster: u32) -> Option<u64> {
         self.scene.version(caster)
+    }
+
+    fn mobility(&self, caster: u32) -> Mobility {
+        if self.scene.is_moving(caster) { Mobility::Moving } else { Mobility::Static }
     }
 
     fn tints(&self, caster: u32) -> bool {

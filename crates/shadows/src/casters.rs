@@ -22,9 +22,23 @@ pub trait ShadowCasters: Sync {
         self.bounds()
     }
 
-    /// Returns a version that changes whenever the caster's geometry changes; `None` if it may change at any time. Tiles are
-    /// cached where the settings say so if all their casters have a version.
+    /// Returns a version that changes whenever what the caster draws or its bounds change; `None` if that may happen at any
+    /// time. Versions must not be reused: a number that is given to another caster has another version. Tiles are kept from
+    /// frame to frame while the versions of their casters stay the same.
     fn version(&self, caster: u32) -> Option<u64> {
+        let _ = caster;
+        None
+    }
+
+    /// Returns whether the caster moves often. What static casters draw is kept, and moving casters are added to a copy of
+    /// it, so a caster that has changed recently should be `Moving` until it rests. The default is `Static` for casters with a
+    /// version; without one a caster is drawn as a moving one.
+    fn mobility(&self, caster: u32) -> Mobility {
+        if self.version(caster).is_some() { Mobility::Static } else { Mobility::Moving }
+    }
+
+    /// Returns the caster's name, for plans, which say why a tile was drawn.
+    fn caster_name(&self, caster: u32) -> Option<&str> {
         let _ = caster;
         None
     }
@@ -57,6 +71,16 @@ pub trait ShadowCasters: Sync {
     ///
     /// Returns the number of draw calls that it recorded, for statistics.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32;
+}
+
+/// Whether a caster moves often.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mobility {
+    /// It rarely changes: when it does, the tiles that it is drawn into are drawn again.
+    #[default]
+    Static,
+    /// It changes often: it is added to the kept depth of the static casters.
+    Moving,
 }
 
 /// The target of a pipeline that draws casters: depth compare `GreaterEqual` (depth is reversed), one sample, no

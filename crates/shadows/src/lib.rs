@@ -35,6 +35,7 @@ mod settings;
 mod spot;
 mod technique;
 mod techniques;
+mod tile_fit;
 mod vertex_buffers;
 mod views;
 
@@ -43,14 +44,14 @@ pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atla
 pub use budget::{BudgetConfig, QualityController, QualityLevel};
 pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
 pub use casters::{
-    CasterPass, CasterTarget, CasterView, ShadowCasters, TINT_FORMAT, TileKind, caster_view_layout,
+    CasterPass, CasterTarget, CasterView, Mobility, ShadowCasters, TINT_FORMAT, TileKind, caster_view_layout,
 };
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use error::Error;
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};
 pub use pcf_variant::PcfVariant;
-pub use plan::{MapPlan, ShadowInputs, ShadowPlan, TilePlan};
+pub use plan::{MapPlan, PlanState, ShadowInputs, ShadowPlan, TilePlan};
 pub use planner::{plan_shadows, plan_shadows_after};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,
@@ -73,6 +74,7 @@ pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss,
     PcssSettings, Raytraced, RaytracedSettings, ScreenSettings, ScreenShadows, Sdsm, SdsmSettings,
 };
+pub use tile_fit::TileFit;
 pub use vertex_buffers::VertexBuffers;
 pub use views::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,

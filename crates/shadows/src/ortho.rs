@@ -7,13 +7,14 @@ use shadowgraph_scene::{Aabb, BoundingSphere, ConvexVolume, Plane};
 ///
 /// Width and height are `texel_m * tile_px`; the depth range is twice that, so that the surroundings of the
 /// sphere are not clamped to the near plane even where they slope steeply towards the light. The centre is a whole
-/// number of texels from the world's origin on each axis, so while rotation and radius are constant,
-/// each texel covers the same area of the world, and a depth changes by a multiple of `1 / (2 * depth_scale * tile_px)`.
+/// number of texels from the world's origin across the light, so while rotation and radius are constant, each texel covers
+/// the same area of the world. Along the light it moves in steps of a quarter of the radius, so depths rarely change as the
+/// camera moves, and what was drawn stays valid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthoFit {
     /// The rotation from world to light space, +Z towards the light.
     pub light_from_world: DMat3,
-    /// The centre in light space, in texels from the world's origin: integers.
+    /// The centre in light space, in texels from the world's origin: integers across the light.
     pub center_texels: DVec3,
     /// The width of a texel in the world, metres.
     pub texel_m: f64,
@@ -32,6 +33,12 @@ const RADIUS_STEPS: f64 = 32.0;
 /// (2 km of 2 mm texels) they fit an f32, so steps of whole texels reach the GPU exactly.
 const PHASE_STEPS: f64 = 16.0;
 
+/// Step along the light, in radii. It is the same for tiles of all sizes, so larger tiles cover no more than smaller ones.
+const DEPTH_STEP: f64 = 0.25;
+
+/// Distance from the centre to the far end, in half widths: half a step along the light more than the sphere needs.
+const FAR: f64 = 1.0 + 0.5 * DEPTH_STEP;
+
 impl OrthoFit {
     /// Fits the box to a sphere: wherever snapping moves the centre, the sphere stays `margin_px` away from the tile's edges.
     ///
@@ -40,7 +47,9 @@ impl OrthoFit {
     pub fn new(light_from_world: DMat3, sphere: BoundingSphere, tile_px: u32, margin_px: f64) -> Self {
         let radius_m = round_up(sphere.radius_m.max(f64::MIN_POSITIVE.sqrt()), RADIUS_STEPS);
         let texel_m = 2.0 * radius_m / (f64::from(tile_px) - 2.0 * margin_px);
-        let center_texels = (light_from_world * sphere.center_world / texel_m).round();
+        let center = light_from_world * sphere.center_world / texel_m;
+        let step = DEPTH_STEP * radius_m / texel_m;
+        let center_texels = DVec3::new(center.x.round(), center.y.round(), (center.z / step).round() * step);
         Self { light_from_world, center_texels, texel_m, tile_px, depth_scale: 1.0, sphere }
     }
 
@@ -84,9 +93,9 @@ impl OrthoFit {
         let origin_texels = self.light_from_world * origin_world / self.texel_m;
         let phase = (origin_texels * PHASE_STEPS).round() / PHASE_STEPS;
         let translation = DMat4::from_translation((phase - self.center_texels) / half_px);
-        // x and y unchanged; z from -1..3, times the scale, to 0..1.
+        // x and y unchanged; four units of z, times the scale, to 0..1.
         let z = DVec4::Z * (0.25 / self.depth_scale);
-        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, z, DVec4::new(0.0, 0.0, 0.25, 1.0));
+        let depth = DMat4::from_cols(DVec4::X, DVec4::Y, z, DVec4::new(0.0, 0.0, 0.25 * FAR, 1.0));
         let scale = DMat4::from_scale(DVec3::splat(1.0 / self.half_extent_m()));
         depth * translation * scale * rotation
     }
@@ -110,7 +119,40 @@ impl OrthoFit {
             planes.push(Plane { normal: axis, distance: half - middle });
             planes.push(Plane { normal: -axis, distance: half + middle });
         }
-        planes.push(Plane { normal: axes.z_axis, distance: half * self.depth_scale - center.z });
+        planes.push(Plane { normal: axes.z_axis, distance: -self.far_z_m() });
+        ConvexVolume { planes }
+    }
+
+    /// Returns the far end of the depth range in light space, metres from the world's origin towards the light.
+    #[must_use]
+    pub fn far_z_m(&self) -> f64 {
+        self.center_texels.z * self.texel_m - FAR * self.half_extent_m() * self.depth_scale
+    }
+
+    /// Returns the tile's first texel, counted from the world's origin: x to the right, y down.
+    #[must_use]
+    pub fn first_texel(&self) -> [i64; 2] {
+        let half = i64::from(self.tile_px / 2);
+        [self.center_texels.x as i64 - half, -self.center_texels.y as i64 - half]
+    }
+
+    /// Returns the part of [`cull_volume`](Self::cull_volume) around some texels: `size` of them from `first` on, counted as
+    /// [`first_texel`](Self::first_texel) is. It is wider by `pad_texels` on each side.
+    #[must_use]
+    pub fn texels_volume(&self, first: [i64; 2], size: [u32; 2], pad_texels: f64) -> ConvexVolume {
+        let axes = self.light_from_world.transpose();
+        let ends = |i: usize| {
+            let first = first[i] as f64;
+            [first - pad_texels, first + f64::from(size[i]) + pad_texels]
+        };
+        let [[left, right], [top, bottom]] = [0, 1].map(|i| ends(i).map(|texel| texel * self.texel_m));
+        let planes = vec![
+            Plane { normal: axes.x_axis, distance: -left },
+            Plane { normal: -axes.x_axis, distance: right },
+            Plane { normal: -axes.y_axis, distance: -top },
+            Plane { normal: axes.y_axis, distance: bottom },
+            Plane { normal: axes.z_axis, distance: -self.far_z_m() },
+        ];
         ConvexVolume { planes }
     }
 }

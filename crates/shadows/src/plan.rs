@@ -12,6 +12,7 @@ use crate::pcf_variant::PcfVariant;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
 use crate::settings::{DepthFormat, ShadowSettings};
+use crate::tile_fit::TileFit;
 use crate::views::{ShadowLight, ShadowView};
 
 /// The inputs of a shadow plan.
@@ -47,10 +48,20 @@ pub struct ShadowPlan {
     pub lights: Vec<ShadowLight>,
     /// The lights with `casts_shadow` that have no shadows in this frame, in the scene's order.
     pub unshadowed: Vec<Unshadowed>,
-    /// The tiles of lights in the atlas, for the next frame.
-    pub atlas_allocation: AtlasAllocation,
+    /// What the plan of the next frame follows.
+    pub state: PlanState,
     /// The requirements that follow from the settings.
     pub requirements: Requirements,
+}
+
+/// What a frame hands on to the plan of the next frame of the same view, so that tiles stay as they are where possible.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlanState {
+    /// The tiles of lights in the atlas.
+    pub atlas_allocation: AtlasAllocation,
+    /// Distance at which all receivers end, metres, in steps; 0 before the first frame. Cascades end there if that is nearer than
+    /// the shadow distance.
+    pub receivers_end_m: f64,
 }
 
 /// A shadow map.
@@ -77,6 +88,8 @@ pub struct TilePlan {
     pub kind: TileKind,
     /// Viewport and scissor.
     pub rect: TileRect,
+    /// The tile's projection, before passes on the GPU fit it.
+    pub fit: TileFit,
     /// The opaque casters to draw, as returned by [`ShadowCasters::cull`]. Can be empty: a cleared tile is lit.
     pub casters: Vec<u32>,
     /// The casters that tint.
@@ -118,7 +131,7 @@ impl ShadowPlan {
             views: Vec::new(),
             lights: vec![ShadowLight::default(); light_count],
             unshadowed: Vec::new(),
-            atlas_allocation: AtlasAllocation::default(),
+            state: PlanState::default(),
             requirements: settings_requirements(settings),
         }
     }

@@ -8,11 +8,10 @@ use shadowgraph_scene::{Aabb, Camera, CullVolume};
 
 use culling::VisibleReceivers;
 
-use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
-use crate::plan::{ShadowInputs, ShadowPlan};
+use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
 use crate::requirements::Requirements;
 use crate::select::{Candidate, ShadowRange, Shape, candidate};
 use crate::select::{Unshadowed, UnshadowedReason};
@@ -69,19 +68,22 @@ pub fn plan_shadows(inputs: &ShadowInputs<'_>) -> Result<ShadowPlan, Error> {
     plan_shadows_after(inputs, None, &Requirements::NONE)
 }
 
-/// Plans the shadows of a frame that follows another one: lights keep the size and the position of their tiles
-/// ([`ShadowPlan::atlas_allocation`]) where possible. `requirements` are the technique's, beyond those of the settings' filters.
+/// Plans the shadows of a frame that follows another one of the same view, of which `previous` is the [`ShadowPlan::state`]: lights keep
+/// the size and the position of their tiles where possible, and cascades their ends. `requirements` are the technique's, beyond those of the settings' filters.
 ///
 /// # Errors
 ///
 /// The errors of [`plan_shadows`].
 pub fn plan_shadows_after(
     inputs: &ShadowInputs<'_>,
-    previous: Option<&AtlasAllocation>,
+    previous: Option<&PlanState>,
     requirements: &Requirements,
 ) -> Result<ShadowPlan, Error> {
     Ok(Planner::new(inputs, previous, requirements)?.plan())
 }
+
+/// Number of steps per factor of two of the distance at which receivers end.
+const END_STEPS: f64 = 4.0;
 
 /// A plan under construction.
 struct Planner<'a> {
@@ -90,8 +92,8 @@ struct Planner<'a> {
     visible: VisibleReceivers,
     /// The individual settings of each light of the scene.
     own: Vec<Option<&'a LightShadows>>,
-    /// The tiles of the previous frame.
-    previous: Option<&'a AtlasAllocation>,
+    /// The previous frame's state.
+    previous: Option<&'a PlanState>,
     /// The technique's requirements.
     requirements: Requirements,
     plan: ShadowPlan,
@@ -101,7 +103,7 @@ impl<'a> Planner<'a> {
     /// Validates the inputs.
     fn new(
         inputs: &ShadowInputs<'a>,
-        previous: Option<&'a AtlasAllocation>,
+        previous: Option<&'a PlanState>,
         requirements: &Requirements,
     ) -> Result<Self, Error> {
         let ShadowInputs { camera, aspect, settings, .. } = *inputs;
@@ -112,9 +114,12 @@ impl<'a> Planner<'a> {
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
         let near_m = camera.near();
         // Never in front of the near plane, however small the scene.
-        let fit_m = farthest_m(&inputs.casters.receivers(), camera).max(near_m * 1.01 + 1e-3).min(distance_m);
+        let previous_m = previous.map_or(0.0, |previous| previous.receivers_end_m);
+        let receivers_end_m = receivers_end_m(&inputs.casters.receivers(), camera, previous_m);
+        let fit_m = receivers_end_m.max(near_m * 1.01 + 1e-3).min(distance_m);
         let range = ShadowRange { camera, aspect, near_m, distance_m, fit_m };
-        let plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
+        let mut plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
+        plan.state.receivers_end_m = receivers_end_m;
         let visible = VisibleReceivers::new(inputs, &range);
         Ok(Self { inputs: *inputs, range, visible, own, previous, requirements: *requirements, plan })
     }
@@ -202,12 +207,15 @@ fn placement(
 }
 
 /// Returns the distance from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per
-/// factor of two: it does not change as the camera turns, and rarely as it moves. Infinite for empty bounds.
-fn farthest_m(bounds: &Aabb, camera: &Camera) -> f64 {
+/// factor of two: it does not change as the camera turns, and rarely as it moves. It stays at `previous_m` while that is far
+/// enough and at most a step too far, so it does not flip back and forth. Infinite for empty bounds.
+fn receivers_end_m(bounds: &Aabb, camera: &Camera, previous_m: f64) -> f64 {
     if bounds.is_empty() {
         return f64::INFINITY;
     }
     let eye = camera.position_world();
     let farthest = bounds.corners().map(|corner| corner.distance(eye)).into_iter().fold(0.0, f64::max);
-    ((farthest.log2() * 4.0).ceil() / 4.0).exp2()
+    let step = (farthest.log2() * END_STEPS).ceil();
+    let ends = [step, step + 1.0].map(|step| (step / END_STEPS).exp2());
+    if ends.contains(&previous_m) { previous_m } else { ends[0] }
 }

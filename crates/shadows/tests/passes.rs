@@ -53,14 +53,20 @@ fn spot(index: usize) -> Light {
     light(kind)
 }
 
-/// Plans a frame with a pass that reads all outputs of the technique, as a lit pass does.
+/// Plans a frame that keeps no maps.
 fn plan(lights: &[Light], casters: Vec<Aabb>, cascades: u32) -> Plan {
+    plan_with(lights, casters, cascades, false)
+}
+
+/// Plans a frame with a pass that reads all outputs of the technique, as a lit pass does.
+fn plan_with(lights: &[Light], casters: Vec<Aabb>, cascades: u32, cache: bool) -> Plan {
     let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     let technique = Pcf::new(&device);
     let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: Some(1000.0) };
     let camera = Camera::look_at(DVec3::new(0.0, 2.0, 8.0), DVec3::ZERO, DVec3::Y, projection);
     let mut settings = ShadowSettings::default();
     settings.cascades.count = cascades;
+    (settings.cascades.cache, settings.atlas.cache) = (cache, cache);
     // Every cascade has its casters, even those that finer cascades cover.
     settings.cull = CullSettings::NONE;
     let origin_world = origin_near(camera.position_world());
@@ -114,6 +120,15 @@ fn row_01_tiles_of_a_map_share_one_render_pass_that_begins_with_one_clear() {
         let continues = (LoadAction::Continue, false, StoreAction::Continue);
         assert!(between.iter().all(|ops| *ops == continues), "{own:?}");
     }
+}
+
+#[test]
+fn tiles_of_a_kept_map_share_one_render_pass_too() {
+    let plan = plan_with(&[sun(), spot(1), spot(2)], vec![cube(DVec3::ZERO)], 3, true);
+    let steps = drawn(&plan);
+    assert!(steps.contains(&vec!["cascade 0", "cascade 1", "cascade 2"]), "{steps:?}");
+    assert!(steps.contains(&vec!["light 1", "light 2"]), "{steps:?}");
+    assert_eq!(steps.len(), 3, "{}", plan.to_text());
 }
 
 #[test]

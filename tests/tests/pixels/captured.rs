@@ -13,7 +13,7 @@ fn inspect(technique: &str) -> Option<(InspectedFrame, shadowgraph::RenderedFram
     let gpu = gpu()?;
     let scene = demo_scene();
     let camera = scene.cameras[0].clone();
-    let shadows = ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() };
+    let shadows = ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() }.without_cache();
     let options = ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows };
     let technique = Techniques::built_in().find(technique).unwrap();
     let new = || Renderer::with_config(gpu, scene.clone(), &camera, Aov::Color, technique).unwrap();

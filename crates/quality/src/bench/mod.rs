@@ -112,7 +112,12 @@ pub fn compare(
     pairs: u32,
 ) -> Result<Comparison, Error> {
     require_color(renderer)?;
-    gpu.checked(|| compare_unchecked(gpu, renderer, options, pairs))
+    gpu.checked(|| compare_unchecked(gpu, renderer, &drawing_maps(options), pairs))
+}
+
+/// Returns the options with maps that are drawn in every frame: nothing moves, so kept maps would cost nothing.
+fn drawing_maps(options: &ViewOptions) -> ViewOptions {
+    ViewOptions { shadows: options.shadows.without_cache(), ..options.clone() }
 }
 
 fn compare_unchecked(
@@ -170,7 +175,8 @@ fn graph_frame(
     Ok(FrameTime { plan: Duration::ZERO, declare, compile, record, finish, submit: clock.lap() })
 }
 
-/// Measures each pass of `frames` frames: the CPU time of recording it, and its GPU time if the device can measure it.
+/// Measures each pass of `frames` frames: the CPU time of recording it, and its GPU time if the device can measure it. Shadow maps are
+/// drawn in each frame.
 ///
 /// # Errors
 /// As [`compare`], or when the GPU fails.
@@ -181,6 +187,7 @@ pub fn pass_times(
     frames: u32,
 ) -> Result<Vec<TimeSummary>, Error> {
     require_color(renderer)?;
+    let options = &drawing_maps(options);
     let target = target(&gpu.device, options.size_px)?;
     let mut frame = || -> Result<Vec<PassTime>, Error> {
         let mut timer = Timer::new();

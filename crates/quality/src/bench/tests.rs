@@ -10,7 +10,7 @@ use shadowgraph_shadows::ShadowSettings;
 use std::io::Write as _;
 
 fn options(scene: &Scene, camera: &Camera) -> ViewOptions {
-    let mut shadows = ShadowSettings::default();
+    let mut shadows = ShadowSettings::default().without_cache();
     shadows.cascades.map_size_px = 1024;
     shadows.atlas.map_size_px = 1024;
     ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows }

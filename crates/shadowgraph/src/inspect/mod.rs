@@ -34,6 +34,8 @@ impl Renderer {
     /// # Errors
     /// As `draw`.
     pub fn inspect(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<InspectedFrame, crate::Error> {
+        // Shows how the maps are drawn, which the first frame did.
+        let options = &ViewOptions { shadows: options.shadows.without_cache(), ..options.clone() };
         // Drivers may compile shaders at the first draw.
         self.draw(gpu, options)?;
         let frame = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;

@@ -71,7 +71,8 @@ fn equal_views_share_a_plan_and_other_sizes_do_not_analyse_the_frame_again() {
     let scene = demo_scene();
     let camera = scene.cameras[0].clone();
     let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();
-    let options = ViewOptions { camera, size_px: [64, 36], shadows: ShadowSettings::default() };
+    let shadows = ShadowSettings::default().without_cache();
+    let options = ViewOptions { camera, size_px: [64, 36], shadows };
     let mut record = |size_px| {
         let target = target(&gpu, size_px, Format::Bgra8UnormSrgb, TextureUsages::RENDER_ATTACHMENT);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -1,67 +1,44 @@
-//! Maps that are cached from frame to frame, and the contents of their tiles.
+//! Maps that are kept from frame to frame, the separate depth of static casters, and the contents of their tiles.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use super::contents::{Held, Stored};
 use crate::atlas::TileRect;
-use crate::casters::ShadowCasters;
-use crate::views::ShadowView;
 
-/// A cached map.
+/// A kept map.
 pub(super) struct CachedMap {
     pub(super) texture: wgpu::Texture,
-    drawn: Mutex<Drawn>,
+    state: Mutex<State>,
 }
 
 /// The contents that the passes of recorded frames have drawn.
 #[derive(Default)]
-struct Drawn {
-    /// Whether the whole map has been cleared once.
-    cleared: bool,
-    tiles: Vec<(TileRect, TileKey)>,
+struct State {
+    /// Whether a pass has drawn into the map.
+    drawn: bool,
+    tiles: Vec<(TileRect, Held)>,
+    store: Option<Store>,
 }
 
-/// The contents of a tile.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct TileKey {
-    clip_from_world: glam::Mat4,
-    /// The casters and the versions that were drawn.
-    casters: Vec<(u32, u64)>,
+/// The depth of static casters alone, in a texture of the map's size and format. wgpu initializes it with zeros, the far end.
+struct Store {
+    texture: wgpu::Texture,
+    tiles: Vec<(TileRect, Stored)>,
+    /// Number of frames since it was needed.
+    unused_frames: u32,
 }
 
-impl TileKey {
-    /// Returns `None` if a caster may change at any time.
-    pub(super) fn new(
-        view: &ShadowView,
-        casters: impl Iterator<Item = u32>,
-        all: &dyn ShadowCasters,
-    ) -> Option<Self> {
-        let version = |caster| all.version(caster).map(|version| (caster, version));
-        let casters = casters.map(version).collect::<Option<_>>()?;
-        Some(Self { clip_from_world: view.clip_from_world, casters })
-    }
-}
+/// The number of frames without need after which a store is dropped.
+const KEPT_FRAMES: u32 = 60;
 
 impl CachedMap {
     pub(super) fn new(
         device: &wgpu::Device,
         name: &str,
-        [width, height]: [u32; 2],
+        size_px: [u32; 2],
         format: wgpu::TextureFormat,
     ) -> Self {
-        let usage = wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::COPY_SRC;
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(name),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        });
-        Self { texture, drawn: Mutex::default() }
+        Self { texture: texture(device, name, size_px, format), state: Mutex::default() }
     }
 
     /// Returns whether it has this size and format.
@@ -69,30 +46,101 @@ impl CachedMap {
         [self.texture.width(), self.texture.height()] == size_px && self.texture.format() == format
     }
 
-    fn drawn(&self) -> MutexGuard<'_, Drawn> {
-        self.drawn.lock().unwrap_or_else(PoisonError::into_inner)
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(super) fn is_cleared(&self) -> bool {
-        self.drawn().cleared
+    /// Returns whether no pass has drawn into it.
+    pub(super) fn is_new(&self) -> bool {
+        !self.state().drawn
     }
 
-    /// Returns whether the tile has these contents already.
-    pub(super) fn holds(&self, rect: TileRect, key: &TileKey) -> bool {
-        self.drawn().tiles.iter().any(|(other, held)| *other == rect && held == key)
+    /// Calls `read` with the contents of a tile and of its store.
+    pub(super) fn with_tile<R>(
+        &self,
+        rect: TileRect,
+        read: impl FnOnce(Option<&Held>, Option<&Stored>) -> R,
+    ) -> R {
+        let state = self.state();
+        let stored = state.store.as_ref().and_then(|store| find(&store.tiles, rect));
+        read(find(&state.tiles, rect), stored)
     }
 
     /// Marks the whole map as cleared.
     pub(super) fn mark_cleared(&self) {
-        *self.drawn() = Drawn { cleared: true, tiles: Vec::new() };
+        self.state().drawn = true;
     }
 
-    /// Stores the contents of a tile; `None` if it must be drawn again.
-    pub(super) fn set_tile(&self, rect: TileRect, key: Option<TileKey>) {
-        let mut drawn = self.drawn();
+    /// Stores the contents of a tile.
+    pub(super) fn set_tile(&self, rect: TileRect, held: Held) {
+        let mut state = self.state();
         // Where the tiles of a frame cover the whole map, the graph culls its clear.
-        drawn.cleared = true;
-        drawn.tiles.retain(|(other, _)| !other.overlaps(&rect));
-        drawn.tiles.extend(key.map(|key| (rect, key)));
+        state.drawn = true;
+        replace(&mut state.tiles, rect, held);
     }
+
+    /// Stores the contents of a tile of a new map in which nothing is drawn.
+    pub(super) fn set_empty(&self, rect: TileRect, held: Held) {
+        replace(&mut self.state().tiles, rect, held);
+    }
+
+    /// Returns the store for a frame that needs it; it is created by the first.
+    pub(super) fn store(&self, device: &wgpu::Device, name: &str) -> wgpu::Texture {
+        let mut state = self.state();
+        let size_px = [self.texture.width(), self.texture.height()];
+        let make = || Store {
+            texture: texture(device, name, size_px, self.texture.format()),
+            tiles: Vec::new(),
+            unused_frames: 0,
+        };
+        let store = state.store.get_or_insert_with(make);
+        store.unused_frames = 0;
+        store.texture.clone()
+    }
+
+    /// Counts a frame that does not need the store, which is dropped if many have not.
+    pub(super) fn skip_store(&self) {
+        let mut state = self.state();
+        let Some(store) = &mut state.store else { return };
+        store.unused_frames += 1;
+        if store.unused_frames > KEPT_FRAMES {
+            state.store = None;
+        }
+    }
+
+    /// Stores the contents of a tile of the store.
+    pub(super) fn set_stored(&self, rect: TileRect, stored: Stored) {
+        if let Some(store) = &mut self.state().store {
+            replace(&mut store.tiles, rect, stored);
+        }
+    }
+}
+
+fn find<T>(tiles: &[(TileRect, T)], rect: TileRect) -> Option<&T> {
+    tiles.iter().find(|(other, _)| *other == rect).map(|(_, contents)| contents)
+}
+
+fn replace<T>(tiles: &mut Vec<(TileRect, T)>, rect: TileRect, contents: T) {
+    tiles.retain(|(other, _)| !other.overlaps(&rect));
+    tiles.push((rect, contents));
+}
+
+fn texture(
+    device: &wgpu::Device,
+    name: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(name),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
 }

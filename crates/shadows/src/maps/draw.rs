@@ -1,13 +1,14 @@
 //! The passes that draw maps.
 
-use std::sync::{Arc, PoisonError};
+use shadowgraph_core::{
+    Bind, BodyResult, BufferToken, Contents, Format, Frame, Pass, RenderContext, Rendering, Subresource,
+    Texture, TextureDesc,
+};
 
-use shadowgraph_core::{Bind, Contents, Format, Frame, Pass, Rendering, Subresource, Texture, TextureDesc};
-
-use super::cache::{CachedMap, TileKey};
+use super::reasons::tile_name;
 use super::{DrawnMap, ShadowMaps, Views};
-use crate::atlas::TileRect;
-use crate::casters::{CasterPass, ShadowCasters, TINT_FORMAT, TileKind};
+use crate::casters::{CasterPass, CasterView, ShadowCasters, TINT_FORMAT};
+use crate::error::Error;
 use crate::plan::{MapPlan, TilePlan};
 use crate::vertex_buffers::VertexBuffers;
 use crate::views::ShadowView;
@@ -36,24 +37,26 @@ pub(super) const ATLAS: Names =
 pub(super) struct Source<'v, 'f> {
     /// Index of the frame's view.
     pub(super) view: u32,
+    /// See [`ShadowInputs::origin_world`](crate::ShadowInputs::origin_world).
+    pub(super) origin_world: glam::DVec3,
     pub(super) views: Views<'v>,
     pub(super) casters: &'f dyn ShadowCasters,
 }
 
 /// One of the textures of a map.
-struct MapTexture<'p> {
-    name: &'static str,
-    pass: CasterPass,
-    plan: &'p MapPlan,
+pub(super) struct MapTexture<'p> {
+    pub(super) name: &'static str,
+    pub(super) pass: CasterPass,
+    pub(super) plan: &'p MapPlan,
 }
 
 impl MapTexture<'_> {
-    fn format(&self) -> Format {
+    pub(super) fn format(&self) -> Format {
         if self.pass == CasterPass::Tint { TINT_FORMAT } else { self.plan.depth.texture_format() }
     }
 
     /// Returns the contents where nothing is drawn.
-    fn empty(&self) -> Contents {
+    pub(super) fn empty(&self) -> Contents {
         if self.pass == CasterPass::Tint {
             Contents::clear_color([1.0; 4])
         } else {
@@ -62,7 +65,11 @@ impl MapTexture<'_> {
     }
 
     /// Adds the pass that clears the whole texture.
-    fn clear<'p, 'f>(&self, frame: &'p mut Frame<'f>, texture: &mut Texture) -> Pass<'p, 'f, Rendering> {
+    pub(super) fn clear<'p, 'f>(
+        &self,
+        frame: &'p mut Frame<'f>,
+        texture: &mut Texture,
+    ) -> Pass<'p, 'f, Rendering> {
         let mut pass = frame.render_pass("clear");
         match self.pass {
             CasterPass::Tint => pass.color(texture, self.empty()),
@@ -71,21 +78,19 @@ impl MapTexture<'_> {
         pass
     }
 
-    /// Returns the contents of a tile.
-    fn key(&self, tile: &TilePlan, source: Source<'_, '_>) -> Option<TileKey> {
-        // Opaque casters hide tints.
-        let hiding = if self.pass == CasterPass::Tint { &tile.casters[..] } else { &[] };
-        let casters = tile.casters_of(self.pass).iter().chain(hiding).copied();
-        TileKey::new(&source.views.1[tile.view as usize], casters, source.casters)
+    /// Describes a tile for the casters.
+    pub(super) fn caster_view(&self, tile: &TilePlan, views: &[ShadowView]) -> CasterView {
+        let format = self.plan.depth.texture_format();
+        tile.caster_view(&views[tile.view as usize], self.pass, format)
     }
 }
 
 /// The textures that a pass draws into.
-struct Target<'t> {
-    texture: &'t mut Texture,
+pub(super) struct Target<'t> {
+    pub(super) texture: &'t mut Texture,
     /// The depth that colours are tested against.
-    depth: Option<&'t Texture>,
-    contents: Contents,
+    pub(super) depth: Option<&'t Texture>,
+    pub(super) contents: Contents,
 }
 
 impl ShadowMaps {
@@ -96,7 +101,7 @@ impl ShadowMaps {
         names: Names,
         plan: Option<&MapPlan>,
         source: Source<'_, 'f>,
-    ) -> DrawnMap {
+    ) -> Result<DrawnMap, Error> {
         let tiles = plan.iter().flat_map(|plan| &plan.tiles).map(|tile| (tile.rect, tile.view)).collect();
         let is_tinted = |plan: &&MapPlan| plan.tiles.iter().any(|tile| !tile.tints.is_empty());
         let tinted = plan.filter(is_tinted);
@@ -104,23 +109,23 @@ impl ShadowMaps {
             Some(plan) => self.map_texture(frame, &MapTexture { name, pass, plan }, depth, source),
             None => {
                 self.evict(source.view, name);
-                frame.import_texture(format_args!("no {name}"), lit, true)
+                Ok(frame.import_texture(format_args!("no {name}"), lit, true))
             }
         };
-        let texture = texture_or_lit(names.depth, CasterPass::Depth, plan, &self.lit, None);
-        let tint_depths = texture_or_lit(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None);
-        let tints = texture_or_lit(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture));
-        DrawnMap { texture, tints, tint_depths, tiles }
+        let texture = texture_or_lit(names.depth, CasterPass::Depth, plan, &self.lit, None)?;
+        let tint_depths = texture_or_lit(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None)?;
+        let tints = texture_or_lit(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture))?;
+        Ok(DrawnMap { texture, tints, tint_depths, tiles })
     }
 
-    /// Draws one of a map's textures, or its outdated tiles if it is cached.
+    /// Draws one of a map's textures, or what has changed in it if it is kept.
     fn map_texture<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         map: &MapTexture<'_>,
         depth: Option<&Texture>,
         source: Source<'_, 'f>,
-    ) -> Texture {
+    ) -> Result<Texture, Error> {
         if map.plan.cache {
             return self.update(frame, map, depth, source);
         }
@@ -133,84 +138,31 @@ impl ShadowMaps {
             map.clear(frame, &mut texture);
             for tile in map.plan.tiles.iter().filter(|tile| !tile.casters_of(map.pass).is_empty()) {
                 let target = Target { texture: &mut texture, depth, contents: Contents::Preserve };
-                self.tile(frame, map, target, tile, source, |_| ());
+                let casters = tile.casters_of(map.pass).to_vec();
+                let (pass, draws) = self.tile(frame, map, target, tile, source, casters);
+                pass.body(move |ctx| draws.record(ctx));
             }
         });
-        texture
+        Ok(texture)
     }
 
-    /// Draws the outdated tiles of a cached texture.
-    fn update<'f>(
+    /// Adds the pass that draws casters into a tile, without its body.
+    pub(super) fn tile<'p, 'f>(
         &'f self,
-        frame: &mut Frame<'f>,
-        map: &MapTexture<'_>,
-        depth: Option<&Texture>,
-        source: Source<'_, 'f>,
-    ) -> Texture {
-        let cached = self.cached(source.view, map);
-        let cleared = cached.is_cleared();
-        let mut texture = frame.import_texture(map.name, &cached.texture, cleared);
-        frame.node(map.name, |frame| {
-            if !cleared {
-                let cached = cached.clone();
-                map.clear(frame, &mut texture).body(move |_| {
-                    cached.mark_cleared();
-                    Ok(())
-                });
-            }
-            for tile in &map.plan.tiles {
-                let key = map.key(tile, source);
-                if key.as_ref().is_some_and(|key| cached.holds(tile.rect, key)) {
-                    continue;
-                }
-                // The contents are stored when the pass is recorded, not when it is declared.
-                let cached = cached.clone();
-                let store = move |rect| cached.set_tile(rect, key);
-                let target = Target { texture: &mut texture, depth, contents: map.empty() };
-                self.tile(frame, map, target, tile, source, store);
-            }
-        });
-        texture
-    }
-
-    fn cached(&self, view: u32, map: &MapTexture<'_>) -> Arc<CachedMap> {
-        let mut all = self.cached.lock().unwrap_or_else(PoisonError::into_inner);
-        let (size_px, format) = (map.plan.size_px, map.format());
-        let make = || Arc::new(CachedMap::new(&self.device, map.name, size_px, format));
-        let cached = all.entry((view, map.name)).or_insert_with(make);
-        if !cached.fits(size_px, format) {
-            *cached = make();
-        }
-        cached.clone()
-    }
-
-    /// Drops a cached texture.
-    fn evict(&self, view: u32, name: &'static str) {
-        self.cached.lock().unwrap_or_else(PoisonError::into_inner).remove(&(view, name));
-    }
-
-    /// Adds the pass that draws casters into a tile; `then` is called when the pass has been recorded.
-    fn tile<'f>(
-        &'f self,
-        frame: &mut Frame<'f>,
+        frame: &'p mut Frame<'f>,
         map: &MapTexture<'_>,
         target: Target<'_>,
         tile: &TilePlan,
         source: Source<'_, 'f>,
-        then: impl FnOnce(TileRect) + Send + 'f,
-    ) {
-        let (light, rect, view) = (tile.light, tile.rect, tile.view);
+        casters: Vec<u32>,
+    ) -> (Pass<'p, 'f, Rendering>, TileDraws<'f>) {
         let buffers = VertexBuffers::published_in(frame);
-        let mut pass = match tile.kind {
-            TileKind::Cascade(cascade) => frame.render_pass(format_args!("cascade {cascade}")),
-            TileKind::Face(face) => frame.render_pass(format_args!("light {light} face {face}")),
-            TileKind::Whole => frame.render_pass(format_args!("light {light}")),
-        };
+        let mut pass = frame.render_pass(tile_name(tile));
         buffers.read_in(&mut pass);
         let (buffer, views) = source.views;
-        let buffer = pass.storage_buffer(buffer);
+        let token = pass.storage_buffer(buffer);
         // The graph limits viewport and scissor to the tile.
-        let part = Subresource::FULL.rect(rect.into());
+        let part = Subresource::FULL.rect(tile.rect.into());
         match target.depth {
             None => pass.subresource(part).depth(target.texture, target.contents),
             Some(depth) => {
@@ -218,16 +170,36 @@ impl ShadowMaps {
                 pass.subresource(part).depth_read(depth)
             }
         };
-        let format = map.plan.depth.texture_format();
-        let caster_view = tile.caster_view(&views[view as usize], map.pass, format);
-        let (all, casters) = (source.casters, tile.casters_of(map.pass).to_vec());
-        pass.body(move |ctx| {
-            let group = ctx.bind_group(&self.view_layout, &[Bind::BufferRange(buffer, 0..VIEW_BYTES)])?;
-            ctx.pass.set_bind_group(0, &group, &[view * VIEW_BYTES as u32]);
-            let draws = all.draw(&mut ctx.pass, &caster_view, &casters);
-            ctx.report_draws(draws);
-            then(rect);
-            Ok(())
-        });
+        let draws = TileDraws {
+            layout: &self.view_layout,
+            views: token,
+            view: tile.view,
+            caster_view: map.caster_view(tile, views),
+            all: source.casters,
+            casters,
+        };
+        (pass, draws)
+    }
+}
+
+/// The draws of some casters into a tile.
+pub(super) struct TileDraws<'f> {
+    pub(super) layout: &'f wgpu::BindGroupLayout,
+    pub(super) views: BufferToken,
+    /// Index of the view in `views`.
+    pub(super) view: u32,
+    pub(super) caster_view: CasterView,
+    pub(super) all: &'f dyn ShadowCasters,
+    pub(super) casters: Vec<u32>,
+}
+
+impl TileDraws<'_> {
+    /// Records the draws.
+    pub(super) fn record(&self, ctx: &mut RenderContext<'_>) -> BodyResult {
+        let group = ctx.bind_group(self.layout, &[Bind::BufferRange(self.views, 0..VIEW_BYTES)])?;
+        ctx.pass.set_bind_group(0, &group, &[self.view * VIEW_BYTES as u32]);
+        let draws = self.all.draw(&mut ctx.pass, &self.caster_view, &self.casters);
+        ctx.report_draws(draws);
+        Ok(())
     }
 }

@@ -1,21 +1,28 @@
 //! The shadow maps of a frame: planned, drawn, and cached where the settings say so.
 
 mod cache;
+mod contents;
 mod draw;
+mod kept;
+mod reasons;
+mod restore;
+mod scroll;
+mod store_draws;
+mod tile;
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use cache::CachedMap;
 use draw::{ATLAS, CASCADES, Source};
+use restore::Restore;
 use shadowgraph_core::{Buffer, Frame, Texture};
 
-use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
 use crate::casters::{TINT_FORMAT, caster_view_layout};
 use crate::error::Error;
 use crate::pcf_variant::PcfVariant;
-use crate::plan::{ShadowInputs, ShadowPlan};
+use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
 use crate::planner::plan_shadows_after;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
@@ -35,10 +42,12 @@ pub struct ShadowMaps {
     /// A placeholder of one texel, never read, for missing tints.
     untinted: wgpu::Texture,
     device: wgpu::Device,
-    /// The atlas allocation of the previous frame, by view.
-    atlas_allocations: Mutex<BTreeMap<u32, AtlasAllocation>>,
+    /// What plans follow, by view.
+    states: Mutex<BTreeMap<u32, PlanState>>,
     /// The cached maps, by view and name.
     cached: Mutex<BTreeMap<(u32, &'static str), Arc<CachedMap>>>,
+    /// Pipelines that copy kept depth, by format.
+    restore: Mutex<Vec<(wgpu::TextureFormat, Arc<Restore>)>>,
 }
 
 /// The maps of one view in a frame.
@@ -85,8 +94,9 @@ impl ShadowMaps {
             lit: texel(device, "no shadows", wgpu::TextureFormat::Depth32Float),
             untinted: texel(device, "no tints", TINT_FORMAT),
             device: device.clone(),
-            atlas_allocations: Mutex::default(),
+            states: Mutex::default(),
             cached: Mutex::default(),
+            restore: Mutex::default(),
         }
     }
 
@@ -123,17 +133,22 @@ impl ShadowMaps {
         });
         let views = fit(frame, &plan, &views, &lights);
         let (variant, main_light) = (plan.variant(), plan.main_light().unwrap_or(0));
-        let source = Source { view: inputs.view, views: (&views, &plan.views[..]), casters: inputs.casters };
-        let cascades = self.map(frame, CASCADES, plan.cascades.as_ref(), source);
-        let atlas = self.map(frame, ATLAS, plan.atlas.as_ref(), source);
+        let source = Source {
+            view: inputs.view,
+            origin_world: inputs.origin_world,
+            views: (&views, &plan.views[..]),
+            casters: inputs.casters,
+        };
+        let cascades = self.map(frame, CASCADES, plan.cascades.as_ref(), source)?;
+        let atlas = self.map(frame, ATLAS, plan.atlas.as_ref(), source)?;
         Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, unshadowed: plan.unshadowed })
     }
 
     /// Plans a frame that follows the previous one of the same view.
     fn plan(&self, inputs: &ShadowInputs<'_>, requirements: &Requirements) -> Result<ShadowPlan, Error> {
-        let mut atlas_allocations = self.atlas_allocations.lock().unwrap_or_else(PoisonError::into_inner);
-        let plan = plan_shadows_after(inputs, atlas_allocations.get(&inputs.view), requirements)?;
-        atlas_allocations.insert(inputs.view, plan.atlas_allocation.clone());
+        let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
+        let plan = plan_shadows_after(inputs, states.get(&inputs.view), requirements)?;
+        states.insert(inputs.view, plan.state.clone());
         Ok(plan)
     }
 }

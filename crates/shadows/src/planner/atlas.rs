@@ -12,6 +12,7 @@ use crate::select::UnshadowedReason;
 use crate::select::{Candidate, ShadowRange, Shape, point_face};
 use crate::settings::AtlasTiles;
 use crate::spot::SpotFit;
+use crate::tile_fit::TileFit;
 use crate::views::{MAP_ATLAS, ShadowView, TilePlacement};
 use crate::views::{SELECT_FACE, SELECT_MAP};
 
@@ -117,14 +118,15 @@ impl<'a> Planner<'a> {
                 importance: -f64::from(rank),
             })
             .collect();
-        self.plan.atlas_allocation = allocate_tiles(&config, &tile_requests, self.previous);
-        for &light in &self.plan.atlas_allocation.rejected.clone() {
+        let previous = self.previous.map(|previous| &previous.atlas_allocation);
+        self.plan.state.atlas_allocation = allocate_tiles(&config, &tile_requests, previous);
+        for &light in &self.plan.state.atlas_allocation.rejected.clone() {
             self.reject(light, UnshadowedReason::AtlasFull);
         }
         requests.sort_by_key(|light| light.candidate.light);
         let tiles = |light: Request<'a>| {
-            let entry = self.plan.atlas_allocation.for_owner(light.candidate.light)?;
-            let rects = self.plan.atlas_allocation.rects_for(light.candidate.light).to_vec();
+            let entry = self.plan.state.atlas_allocation.for_owner(light.candidate.light)?;
+            let rects = self.plan.state.atlas_allocation.rects_for(light.candidate.light).to_vec();
             Some((light, Tiles { map_size_px: [map_px; 2], tile_px: entry.tile_px, rects }))
         };
         requests.into_iter().filter_map(tiles).collect()
@@ -148,7 +150,7 @@ impl<'a> Planner<'a> {
             self.plan.views.push(ShadowView { is_tinted, ..fit.view(&tile, self.inputs.origin_world) });
             let kind = if is_point { TileKind::Face(index) } else { TileKind::Whole };
             let (light, view) = (candidate.light, first_view + index);
-            planned.push(TilePlan { light, view, kind, rect, casters, tints });
+            planned.push(TilePlan { light, view, kind, rect, fit, casters, tints });
         }
         planned
     }
@@ -157,7 +159,7 @@ impl<'a> Planner<'a> {
         let margin_px = params.margin_px(1.0);
         let near_m = params.near_m.unwrap_or(f64::from(self.inputs.settings.atlas.spot_near_m));
         let spot = |(cone, light_from_world)| {
-            TileFit::Spot(SpotFit::new(cone, light_from_world, near_m, tile_px, margin_px))
+            TileFit::Local(SpotFit::new(cone, light_from_world, near_m, tile_px, margin_px))
         };
         match *shape {
             Shape::Spot { cone, light_from_world } => spot((cone, light_from_world)),
@@ -172,23 +174,17 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// The projection of a tile.
-enum TileFit {
-    Spot(SpotFit),
-    Directional(OrthoFit),
-}
-
 impl TileFit {
     fn view(&self, tile: &TilePlacement, origin_world: glam::DVec3) -> ShadowView {
         match self {
-            Self::Spot(fit) => ShadowView::spot(fit, tile, origin_world),
+            Self::Local(fit) => ShadowView::spot(fit, tile, origin_world),
             Self::Directional(fit) => ShadowView::directional(fit, tile, origin_world),
         }
     }
 
     fn cull(&self, planner: &Planner<'_>, params: &LightShadowParams) -> Vec<u32> {
         match self {
-            Self::Spot(fit) => planner.cull_local(fit, params),
+            Self::Local(fit) => planner.cull_local(fit, params),
             Self::Directional(fit) => planner.cull_directional(fit, params),
         }
     }

@@ -11,6 +11,7 @@ use crate::plan::{MapPlan, TilePlan};
 use crate::select::UnshadowedReason;
 use crate::select::{Candidate, Shape};
 use crate::settings::CascadeSelection;
+use crate::tile_fit::TileFit;
 use crate::views::{MAP_CASCADES, ShadowView};
 
 /// A light's cascades.
@@ -123,7 +124,8 @@ impl<'a> Planner<'a> {
             });
             begin_m = fit.far_m;
             let (light, view, kind) = (candidate.light, first_view + cascade, TileKind::Cascade(cascade));
-            tiles.push(TilePlan { light, view, kind, rect, casters, tints });
+            let fit = TileFit::Directional(fit.fit);
+            tiles.push(TilePlan { light, view, kind, rect, fit, casters, tints });
         }
         if settings.select != CascadeSelection::Map {
             self.plan.views.push(ShadowView::empty());

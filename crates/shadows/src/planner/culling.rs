@@ -1,7 +1,7 @@
 //! Culling of the casters of each tile.
 
 use glam::DVec3;
-use shadowgraph_scene::{Aabb, BoundingSphere, Cone, ConvexVolume, CullVolume};
+use shadowgraph_scene::{Aabb, ConvexVolume};
 
 use super::Planner;
 use crate::cascades::CascadeFit;
@@ -12,6 +12,7 @@ use crate::plan::ShadowInputs;
 use crate::select::ShadowRange;
 use crate::settings::{CascadeSelection, CascadeSettings};
 use crate::spot::SpotFit;
+use crate::tile_fit::TileFit;
 
 /// The visible receivers.
 pub(super) struct VisibleReceivers {
@@ -63,27 +64,13 @@ impl Planner<'_> {
 
     /// Returns the casters of a tile of a spot or point light.
     pub(super) fn cull_local(&self, fit: &SpotFit, params: &LightShadowParams) -> Vec<u32> {
-        let mut planes = fit.cull_volume();
-        let cone = fit.cone;
-        if self.inputs.settings.cull.unseen && !self.inputs.settings.atlas.cache {
+        let mut volume = TileFit::Local(*fit).volume();
+        if self.inputs.settings.cull.unseen {
             let pad_m = params.radius_m(fit.texel_per_m() * fit.far_m, 1.0);
-            planes.planes.extend(self.visible.around(cone.position_world, pad_m).planes);
+            let seen = self.visible.around(fit.cone.position_world, pad_m);
+            volume.planes.planes.extend(seen.planes);
         }
-        // The corners of the pyramid around the cone are outside the light, but its filter can read them.
-        let widest = (fit.tan_half * std::f64::consts::SQRT_2).atan();
-        self.cull(&CullVolume {
-            sphere: Some(BoundingSphere {
-                center_world: cone.position_world,
-                radius_m: fit.far_m / widest.cos(),
-            }),
-            cone: Some(Cone {
-                tip_world: cone.position_world,
-                axis: cone.direction,
-                half_angle: widest,
-                length_m: fit.far_m,
-            }),
-            planes,
-        })
+        self.cull(&volume)
     }
 
     /// Returns the casters of each cascade of a light.
@@ -159,7 +146,7 @@ fn inner_box(fit: &OrthoFit, params: &LightShadowParams, slack_m: f64, blend: f6
     let rise_m = std::f64::consts::SQRT_2 * steepest * fit.texel_m;
     let depth_m = fit.depth_range_m();
     let faded_m = 0.5 * blend * depth_m + slack_m + 1e-5 * depth_m;
-    let far = center.z - half * fit.depth_scale;
+    let far = fit.far_z_m();
     let across = DVec3::new(inner, inner, 0.0);
     Aabb {
         min: (center.with_z(far + faded_m)) - across,

@@ -14,9 +14,8 @@ declare_settings! {
         map_size_px: u32 = 2048, power_of_two 256..=8192, in "pixels";
         /// Division of the map among the lights.
         tiles: AtlasTiles = AtlasTiles::ByImportance { smallest_px: 64 };
-        /// Keeps tiles from frame to frame, and draws a tile again only when its light, its location or its casters change.
-        /// Casters that `cull.unseen` would cull are then drawn too, because later frames may need them.
-        cache: bool = false;
+        /// Keeps the map from frame to frame and draws only what changed, as for cascades.
+        cache: bool = true;
         /// Format of the map.
         depth: DepthFormat = DepthFormat::Depth32;
         /// Filter of shadow edges.

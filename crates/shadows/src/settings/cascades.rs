@@ -17,9 +17,9 @@ declare_settings! {
         /// Width of the map that holds all cascades. It is divided into as many tiles per side as needed: two for up to four
         /// tiles.
         map_size_px: u32 = 4096, power_of_two 256..=8192, in "pixels";
-        /// Keeps the map from frame to frame, and draws a cascade again only when it, its light or its casters change;
-        /// useful only while the camera does not move.
-        cache: bool = false;
+        /// Keeps the map from frame to frame and draws only what changed: moving casters are added to the kept depth of static ones.
+        /// `sdsm` keeps nothing.
+        cache: bool = true;
         /// Format of the map.
         depth: DepthFormat = DepthFormat::Depth32;
         /// View depths at which the cascades end.

@@ -76,6 +76,14 @@ impl ShadowSettings {
         DescribeSettings::validate(self)
     }
 
+    /// Returns the settings with maps that are drawn in every frame, to measure or show how they are drawn.
+    #[must_use]
+    pub fn without_cache(&self) -> Self {
+        let mut settings = self.clone();
+        (settings.cascades.cache, settings.atlas.cache) = (false, false);
+        settings
+    }
+
     /// Checks that a scene has each light that [`lights`](Self::lights) names, and that none is named twice.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The maps, tiles and casters of lights.
 
 use glam::DVec3;
-use shadowgraph_scene::{Camera, CameraError, Light, LightKind, Projection, origin_near};
+use shadowgraph_scene::{Aabb, Camera, CameraError, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
     AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, Requirements,
     ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TileKind, Unshadowed,
@@ -371,7 +371,7 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
     let (lights, casters) = street_lights(24);
     let settings = ShadowSettings::default();
     let at = |step: f64| camera(DVec3::new(0.3 * step, 2.0, 8.0), DVec3::ZERO);
-    let plan = |step: f64, previous: Option<&shadowgraph_shadows::AtlasAllocation>| {
+    let plan = |step: f64, previous: Option<&shadowgraph_shadows::PlanState>| {
         let camera = at(step);
         let inputs = ShadowInputs {
             view: 0,
@@ -384,14 +384,14 @@ fn row_38_tiles_keep_size_and_place_from_frame_to_frame() {
         };
         plan_shadows_after(&inputs, previous, &Requirements::NONE).unwrap()
     };
-    let rects = |plan: &ShadowPlan| plan.atlas_allocation.rects.clone();
+    let rects = |plan: &ShadowPlan| plan.state.atlas_allocation.rects.clone();
     let (mut changed, mut changed_without) = (0, 0);
     let first = plan(0.0, None);
     let mut previous = first.clone();
     for step in 1..40 {
         // Back and forth, by 30 cm each.
         let at = f64::from(step % 2);
-        let next = plan(at, Some(&previous.atlas_allocation));
+        let next = plan(at, Some(&previous.state));
         changed += usize::from(rects(&next) != rects(&previous));
         changed_without += usize::from(rects(&plan(at, None)) != rects(&plan(1.0 - at, None)));
         previous = next;
@@ -420,4 +420,38 @@ fn casters_outside_the_view_are_drawn_within_the_techniques_blocker_reach() {
         plan.cascades.unwrap().tiles.iter().any(|tile| tile.casters.contains(&1))
     };
     assert!(!drawn(0.0) && drawn(10.0));
+}
+
+#[test]
+fn the_end_of_the_cascades_changes_in_steps_and_not_back_at_once() {
+    let half_m = 20.0;
+    let casters = Boxes(vec![Aabb { min: DVec3::splat(-half_m), max: DVec3::splat(half_m) }]);
+    let settings = ShadowSettings { distance_m: 1e5, ..ShadowSettings::default() };
+    let mut state = None;
+    let mut end_at = |x: f64| {
+        let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
+        let eye = DVec3::new(x, 0.0, 0.0);
+        let camera = Camera::look_at(eye, eye + DVec3::X, DVec3::Y, projection);
+        let inputs = ShadowInputs {
+            view: 0,
+            camera: &camera,
+            aspect: 1.0,
+            lights: &[sun(DVec3::NEG_Y, 1.0)],
+            casters: &casters,
+            origin_world: DVec3::ZERO,
+            settings: &settings,
+        };
+        let plan = plan_shadows_after(&inputs, state.as_ref(), &Requirements::NONE).unwrap();
+        state = Some(plan.state.clone());
+        let farthest = DVec3::new(half_m + x.abs(), half_m, half_m).length();
+        assert!(plan.state.receivers_end_m >= farthest, "it contains all receivers");
+        plan.state.receivers_end_m
+    };
+    // A step ends at 2^(21/4) m, 38.05 m: at 5.46 m.
+    let ends = [5.0, 5.2, 6.4, 5.3, 6.2, 5.1].map(&mut end_at);
+    assert!(ends[0] == ends[1] && ends[1] < ends[2], "{ends:?}");
+    assert!(ends[2..].iter().all(|end| *end == ends[2]), "{ends:?}");
+    // Two steps nearer it follows.
+    assert!(end_at(60.0) > ends[2]);
+    assert_eq!(end_at(0.0), ends[0]);
 }
