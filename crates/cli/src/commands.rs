@@ -5,6 +5,7 @@ use std::path::Path;
 use super::args::{DrawArgs, RenderArgs};
 use super::console;
 use super::failure::Failure;
+use super::frame_files::FrameFiles;
 use super::progress::Progress;
 use super::report;
 use crate::args::options::Options;
@@ -25,45 +26,59 @@ pub(crate) struct Input {
 /// `shadowgraph render`
 pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
     check_output(&args.output)?;
+    let files = FrameFiles::parse(&args.output)?;
     let input = input(&args.draw, registry)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-    let drawn = draw(&gpu, input, args.frames)?;
-    let (pixels, bytes) = file_pixels(&drawn.aov, drawn.view.image);
-    let [width, height] = drawn.size_px;
-    write_png(&args.output, width, height, pixels, &bytes)?;
+    let Options { aov, timings, .. } = input.options.clone();
+    let [width, height] = view_options(&input).size_px;
+    let drawn = draw_frames(&gpu, input, args.frames, &mut |number, image| {
+        let Some(file) = files.file(number, args.frames) else { return Ok(()) };
+        let (pixels, bytes) = file_pixels(&aov, image);
+        Ok(write_png(&file, width, height, pixels, &bytes)?)
+    })?;
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
-    console::print(&format!("wrote {file}: {width}x{height}, rendered by {adapter}\n"))?;
-    if drawn.timings {
-        console::print(&report::times(&drawn.view.times, &gpu.adapter))?;
+    let sequence = match files {
+        FrameFiles::Each { .. } => {
+            format!("{} frames, {:.2} s, ", args.frames, f64::from(args.frames) / args.fps)
+        }
+        FrameFiles::Last(_) => String::new(),
+    };
+    console::print(&format!("wrote {file}: {sequence}{width}x{height}, rendered by {adapter}\n"))?;
+    if timings {
+        console::print(&report::times(&drawn.times, &gpu.adapter))?;
     }
     Ok(())
 }
 
-pub(super) struct DrawnView {
-    pub(super) view: RenderedFrame,
-    size_px: [u32; 2],
-    aov: Aov,
-    timings: bool,
+/// Draws one frame.
+pub(super) fn draw(gpu: &Gpu, input: Input) -> Result<RenderedFrame, Failure> {
+    draw_frames(gpu, input, 1, &mut |_, _| Ok(()))
 }
 
-/// Draws a number of frames, and returns the last.
-pub(super) fn draw(gpu: &Gpu, input: Input, frames: u32) -> Result<DrawnView, Failure> {
+/// Draws a number of frames, and returns the last. Each image is passed to `keep` with the number of its frame.
+fn draw_frames(
+    gpu: &Gpu,
+    input: Input,
+    frames: u32,
+    keep: &mut dyn FnMut(u32, RenderedImage) -> Result<(), Failure>,
+) -> Result<RenderedFrame, Failure> {
     let drawing = Progress::if_slow("drawing");
     let Options { aov, timings, .. } = input.options.clone();
     let (view, config) = (view_options(&input), input.options.render_config());
-    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov.clone(), config)?;
+    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
     let mut timer = timings.then(Timer::new);
     if timings {
         // A software driver compiles shaders at the first draw.
         renderer.draw(gpu, &view)?;
     }
     for number in 1..frames {
-        renderer.draw(gpu, &view)?;
+        keep(number - 1, renderer.draw(gpu, &view)?.image)?;
         drawing.set(&format!("frame {number} of {frames}"), number as f32 / frames as f32);
     }
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
     report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
-    Ok(DrawnView { view: drawn, size_px: view.size_px, aov, timings })
+    keep(frames - 1, drawn.image.clone())?;
+    Ok(drawn)
 }
 
 /// Checks before drawing that the output is a PNG file.

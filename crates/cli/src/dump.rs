@@ -146,7 +146,7 @@ fn disabled(node: &str, pipeline: &Pipeline) -> String {
 fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let RenderedFrame { plan, times, unshadowed, .. } = draw(&gpu, input, 1)?.view;
+        let RenderedFrame { plan, times, unshadowed, .. } = draw(&gpu, input)?;
         return Ok((gpu, Planned { plan, times, unshadowed }));
     }
     let gpu = if args.names_adapter() {

@@ -9,6 +9,7 @@ mod commands;
 mod console;
 mod dump;
 mod failure;
+mod frame_files;
 mod measure;
 mod nodes;
 mod progress;

@@ -9,7 +9,7 @@ use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer
 use shadowgraph_samples::demo::demo_scene;
 
 /// Returns `forward` with more nodes; `output` is the node whose output is the image.
-fn pipeline(view: &str, lit: &str, more: &str, output: &str) -> Pipeline {
+pub(crate) fn pipeline(view: &str, lit: &str, more: &str, output: &str) -> Pipeline {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("post.ron");
     let text = format!(
@@ -115,6 +115,33 @@ fn render_writes_the_last_of_the_requested_frames() {
     };
     assert_ne!(render("1", "taa=true"), render("3", "taa=true"));
     assert_eq!(render("1", "taa=false"), render("3", "taa=false"));
+}
+
+#[test]
+fn render_writes_each_frame_to_a_file_with_a_number_and_the_same_frames_every_time() {
+    let Some(_gpu) = gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let render = |name: &str, pipeline: &[&str]| {
+        let mut command = std::process::Command::new(shadowgraph_tests::program().unwrap());
+        let options = ["render", "--size", "96x54", "--technique", "pcss", "--frames", "3", "--fps", "30"];
+        command.args(options).args(pipeline).arg("-o").arg(dir.path().join(name)).output().unwrap()
+    };
+    let frames = |folder: &str| {
+        let file = |number: u32| std::fs::read(dir.path().join(format!("{folder}/{number:03}.png"))).unwrap();
+        [0, 1, 2].map(file)
+    };
+    let everything = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron");
+    for folder in ["a", "b"] {
+        let output = render(&format!("{folder}/%03d.png"), &["--pipeline", everything, "--set", "taa=true"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("3 frames, 0.10 s, 96x54"));
+    }
+    let [first, second, third] = frames("a");
+    assert!(first != second && second != third);
+    assert_eq!([first, second, third], frames("b"));
+    let output = render("%3d.png", &[]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), message.lines().count()), (Some(1), 1), "{message}");
 }
 
 #[test]

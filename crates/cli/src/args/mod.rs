@@ -49,11 +49,16 @@ pub(crate) enum Command {
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// Number of frames; the last one is written. Nodes that accumulate frames, such as taa, need several
+    /// Number of frames; the last one is written, or all if the file has a number. Nodes that accumulate frames, such as taa,
+    /// need several
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) frames: u32,
-    /// The PNG file; missing directories are created
+    /// Frames per second
+    #[arg(long, value_name = "F", default_value_t = 60.0, allow_negative_numbers = true)]
+    #[arg(value_parser = frames_per_second)]
+    pub(crate) fps: f64,
+    /// The PNG file; missing directories are created. %04d stands for the number of the frame, from 0, with at least 4 digits
     #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
     pub(crate) output: PathBuf,
 }
@@ -219,6 +224,12 @@ pub(crate) enum Format {
     Html,
     /// Trace of pass times for chrome://tracing or ui.perfetto.dev
     Trace,
+}
+
+/// Parses frames per second.
+fn frames_per_second(text: &str) -> Result<f64, String> {
+    let fps = text.parse().ok().filter(|fps| (0.01..=10_000.0).contains(fps));
+    fps.ok_or_else(|| "expected frames per second, 0.01 to 10000".to_owned())
 }
 
 #[cfg(test)]
