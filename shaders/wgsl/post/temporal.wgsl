@@ -34,13 +34,16 @@ fn from_ycocg(color: vec3f) -> vec3f {
     return vec3f(color.x + color.y - color.z, color.x + color.z, color.x - color.y - color.z);
 }
 
-// Weights bright colours down while they are blended, so that single bright samples do not dominate.
+// Compresses colours brighter than white while they are blended, so that single bright samples do not dominate. Up to white
+// nothing is compressed: the mean of noise would be too dark.
 fn luma_weighted(color: vec3f) -> vec3f {
-    return color / (1.0 + max(color.r, max(color.g, color.b)));
+    let brightest = max(1.0, max(color.r, max(color.g, color.b)));
+    return color * (2.0 - 1.0 / brightest) / brightest;
 }
 
 fn luma_unweighted(color: vec3f) -> vec3f {
-    return color / max(1.0 - max(color.r, max(color.g, color.b)), 1e-3);
+    let brightest = max(1.0, max(color.r, max(color.g, color.b)));
+    return color / (brightest * max(2.0 - brightest, 1e-3));
 }
 
 // The 3x3 pixels around a pixel.
@@ -88,9 +91,11 @@ fn is_inside(uv: vec2f) -> bool {
 fn blended(current: vec3f, history_uv: vec2f, around: Neighbourhood, weight: f32) -> vec3f {
     let weighted = luma_weighted(current);
     let old = to_ycocg(luma_weighted(textureSampleLevel(history, linear, history_uv, 0.0).rgb));
-    let clipped =
-        from_ycocg(clamp(old, around.mean - 1.25 * around.deviation, around.mean + 1.25 * around.deviation));
-    return luma_unweighted(mix(clipped, weighted, weight));
+    // With this frame's colour within the range, an image that does not change stays as it is.
+    let own = to_ycocg(weighted);
+    let lowest = min(own, around.mean - 1.25 * around.deviation);
+    let highest = max(own, around.mean + 1.25 * around.deviation);
+    return luma_unweighted(mix(from_ycocg(clamp(old, lowest, highest)), weighted, weight));
 }
 
 @fragment
