@@ -72,6 +72,7 @@ pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 pub(crate) const MODULES: &[ModuleSource] = &[
     file!("cluster_grid.wgsl"),
     file!("draw.wgsl"),
+    file!("frame_noise.wgsl"),
     file!("fullscreen.wgsl"),
     file!("gbuffer_layout.wgsl"),
     file!("light_list.wgsl"),

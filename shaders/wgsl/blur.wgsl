@@ -2,7 +2,7 @@
 // surfaces. After Pranckevičius, "Deferred Cascaded Shadow Maps" (2009), and Mitchell, "Poisson Shadow Blur" (ShaderX3,
 // 2005).
 #import shadowgraph::view::{view, view_depth_of}
-#import shadowgraph::noise::pixel_noise
+#import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::surface::unpack_normal
 
 // The settings of the modifier `screen`.
@@ -51,7 +51,7 @@ fn cs_blur(@builtin(global_invocation_id) id: vec3u) {
         let radius_px = min(settings.blur_m * pixels_per_metre(depth), settings.blur_max_px);
         let max_distance = settings.depth_threshold * depth;
         let pixel = vec2f(id.xy);
-        let angle = 6.2831853 * pixel_noise(pixel);
+        let angle = 6.2831853 * frame_noise(pixel);
         let rotation = mat2x2f(cos(angle), sin(angle), -sin(angle), cos(angle));
         // Within half a pixel there is nothing to blur.
         let taps = select(0u, TAPS, radius_px > 0.5);

@@ -2,7 +2,7 @@
 // until a visible surface occludes it. After Sousa, "Secrets of CryENGINE 3 Graphics Technology" (SIGGRAPH 2011), *screen
 // space self-shadowing*.
 #import shadowgraph::view::{view, lights, view_depth_of, LIGHT_DIRECTIONAL}
-#import shadowgraph::noise::pixel_noise
+#import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::layers::MaskLayers
 
@@ -42,7 +42,7 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
     let size = vec2f(textureDimensions(surfaces));
     let height = MIN_HEIGHT * view_depth_of(position);
     // Jitter: neighbouring pixels sample different steps.
-    let noise = pixel_noise(vec2f(pixel));
+    let noise = frame_noise(vec2f(pixel));
     for (var step = 0u; step < settings.steps; step++) {
         let fraction = (f32(step) + 0.5 + 0.5 * noise) / f32(settings.steps);
         let point = position + to_light * (fraction * length_world);

@@ -1,5 +1,6 @@
 // Deferred lighting: shades each pixel of the G-buffer with every light.
 #import shadowgraph::view::{view, view_depth_of, direction_to_camera, to_neighbour}
+#import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::fullscreen::{FullscreenVertex, fullscreen_vertex}
 #import shadowgraph::surface::unfold
 #import shadowgraph::gbuffer_layout::{
@@ -58,7 +59,7 @@ fn fs_deferred(in: FullscreenVertex) -> @location(0) vec4f {
         position,
         view_depth,
         flat_normal,
-        select(0u, RECEIVER_BACK_FACE, (flags & SURFACE_BACK_FACE) != 0u),
+        select(0u, RECEIVER_BACK_FACE, (flags & SURFACE_BACK_FACE) != 0u) | noise_flags(in.position.xy),
         normal,
         in.position.xy,
         to_neighbour(position, flat_normal, view_depth, 0),

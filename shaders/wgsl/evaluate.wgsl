@@ -1,5 +1,6 @@
 // Evaluates the technique for each light at each pixel, into a screen mask.
 #import shadowgraph::view::{view_depth_of, to_neighbour}
+#import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::layers::MaskLayers
@@ -22,7 +23,7 @@ fn cs_evaluate(@builtin(global_invocation_id) id: vec3u) {
         let depth = view_depth_of(surface.xyz);
         let right = to_neighbour(surface.xyz, normal, depth, 0);
         let down = -to_neighbour(surface.xyz, normal, depth, 1);
-        let receiver = Receiver(surface.xyz, depth, normal, 0u, normal, pixel, right, down);
+        let receiver = Receiver(surface.xyz, depth, normal, noise_flags(pixel), normal, pixel, right, down);
         visibility = shadow_visibility(layers.light[id.z / 4u][id.z % 4u], receiver);
     }
     textureStore(mask, id.xy, id.z, vec4f(visibility, 1.0));

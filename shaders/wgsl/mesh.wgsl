@@ -1,6 +1,7 @@
 // Mesh surfaces for passes that shade: their vertices, materials and normals.
 #define_import_path shadowgraph::mesh
 #import shadowgraph::view::{view, view_depth_of, direction_to_camera, to_neighbour}
+#import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::draw::{
     Vertex, world_position, world_normal, world_direction, handedness, clip_position,
 }
@@ -116,7 +117,8 @@ fn receiver_of(
         position,
         view_depth,
         flat_normal,
-        select(0u, RECEIVER_TRANSPARENT, blended) | select(RECEIVER_BACK_FACE, 0u, front_facing),
+        select(0u, RECEIVER_TRANSPARENT, blended) | select(RECEIVER_BACK_FACE, 0u, front_facing)
+            | noise_flags(in.position.xy),
         normal,
         in.position.xy,
         to_neighbour(position, flat_normal, view_depth, 0),

@@ -1,5 +1,6 @@
 // A point at which a technique evaluates visibility.
 #define_import_path shadowgraph::receiver
+#import shadowgraph::noise::pixel_noise
 
 // The surface is blended with what is behind it.
 const RECEIVER_TRANSPARENT: u32 = 1u;
@@ -9,6 +10,8 @@ const RECEIVER_BACK_FACE: u32 = 2u;
 const RECEIVER_OFF_SCREEN: u32 = 4u;
 // Read the next coarser map that covers the point, if there is one. For measurements.
 const RECEIVER_COARSER: u32 = 8u;
+// The eight highest bits of the flags are the noise of the frame at this pixel.
+const RECEIVER_NOISE: u32 = 16u;
 
 struct Receiver {
     // Metres relative to the frame's origin.
@@ -17,7 +20,7 @@ struct Receiver {
     view_depth: f32,
     // Normal of the triangle, towards the viewer, unit length.
     geometric_normal: vec3f,
-    // RECEIVER_* bits.
+    // RECEIVER_* bits, and noise in the eight highest.
     flags: u32,
     // Interpolated and normal-mapped normal, unit length.
     shading_normal: vec3f,
@@ -26,4 +29,12 @@ struct Receiver {
     // Change of position to the next pixel right and down on the surface's plane, metres.
     ddx_position: vec3f,
     ddy_position: vec3f,
+}
+
+// Noise for sample patterns, 0 to below 1: that of the frame where it changes, else that of the pixel.
+fn receiver_noise(receiver: Receiver) -> f32 {
+    if (receiver.flags & RECEIVER_NOISE) != 0u {
+        return (f32(receiver.flags >> 24u) + 0.5) / 256.0;
+    }
+    return pixel_noise(receiver.pixel);
 }

@@ -1,7 +1,7 @@
 // The camera and the lights of a frame: group 0 of every lit pass.
 #define_import_path shadowgraph::view
 
-// Positions are metres relative to the frame's origin. Depth is reversed: near 1, far 0. 256 bytes.
+// Positions are metres relative to the frame's origin. Depth is reversed: near 1, far 0. 256 bytes, and the noise.
 struct View {
     clip_from_world: mat4x4f,
     world_from_clip: mat4x4f,
@@ -20,6 +20,8 @@ struct View {
     ambient_ground: vec3f,
     // 1: orthographic, 0: perspective.
     orthographic: u32,
+    // See shadowgraph::frame_noise: one element if noise is the same in every frame.
+    noise: array<vec4u>,
 }
 
 const LIGHT_DIRECTIONAL: u32 = 0u;

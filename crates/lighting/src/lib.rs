@@ -19,6 +19,7 @@ mod forward;
 mod gbuffer;
 mod jitter;
 mod motion;
+mod noise;
 mod pose;
 pub mod post;
 mod prepass;

@@ -10,8 +10,9 @@ use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 use crate::exposure::AmbientLight;
 use crate::jitter::Jitter;
 use crate::motion::CameraMotion;
+use crate::noise::noise_of;
 
-/// The camera of a frame, 256 bytes. World space here is relative to the frame's origin.
+/// The camera of a frame, 256 bytes; in the buffer of the view, noise follows. World space here is relative to the frame's origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct GpuView {
@@ -73,12 +74,14 @@ pub struct ViewUniforms {
     pub jitter_px: Vec2,
     /// The camera's motion since the view's previous frame.
     pub motion: Arc<CameraMotion>,
+    /// The number of the frame whose noise shaders draw; `None`: noise that is the same in every frame.
+    pub noise_frame: Option<u32>,
 }
 
 /// The contents of bind group 0 of lit passes.
 #[derive(Clone, Debug)]
 pub struct ViewBuffers {
-    /// One [`GpuView`].
+    /// One [`GpuView`], and the noise of the frame.
     pub view: Buffer,
     /// [`GpuLight`]s; one of zeros if there is no light.
     pub lights: Buffer,
@@ -111,7 +114,7 @@ impl ViewUniforms {
         let lights = lights.iter().map(|light| GpuLight::new(light, origin_world)).collect();
         let [width, height] = size_px.map(f64::from);
         let motion = Arc::new(CameraMotion::still(camera, width / height));
-        Self { view, lights, jitter_px: Vec2::ZERO, motion }
+        Self { view, lights, jitter_px: Vec2::ZERO, motion, noise_frame: None }
     }
 
     /// Sets the camera's motion since the view's previous frame ([`PreviousCameras`](crate::PreviousCameras)).
@@ -130,12 +133,24 @@ impl ViewUniforms {
         self
     }
 
+    /// Gives shaders the noise of a frame, for pipelines that average frames; `None`, the default: noise is the same in every
+    /// frame.
+    #[must_use]
+    pub fn with_noise(self, noise_frame: Option<u32>) -> Self {
+        Self { noise_frame, ..self }
+    }
+
+    /// Returns the contents of [`ViewBuffers::view`].
+    pub fn view_bytes(&self) -> Vec<u8> {
+        [bytemuck::bytes_of(&self.view), &noise_of(self.noise_frame)].concat()
+    }
+
     /// Adds the node that uploads the uniforms.
     pub fn upload(&self, frame: &mut Frame<'_>) -> ViewBuffers {
         let none = [GpuLight::zeroed()];
         let lights = if self.lights.is_empty() { &none } else { &self.lights[..] };
         frame.node("view", |frame| ViewBuffers {
-            view: frame.upload_buffer("view", bytemuck::bytes_of(&self.view).to_vec()),
+            view: frame.upload_buffer("view", self.view_bytes()),
             lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
             clusters: None,
             occlusion: None,
@@ -227,8 +242,9 @@ mod tests {
             ("light_count", offset_of!(GpuView, light_count)),
             ("ambient_ground", offset_of!(GpuView, ambient_ground)),
             ("orthographic", offset_of!(GpuView, orthographic)),
+            ("noise", size_of::<GpuView>()),
         ];
-        layout::check(&module, "View", size_of::<GpuView>(), &view).unwrap();
+        layout::check(&module, "View", size_of::<GpuView>() + noise_of(None).len(), &view).unwrap();
         let light = [
             ("position", offset_of!(GpuLight, position)),
             ("kind", offset_of!(GpuLight, kind)),

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_lighting::{GpuView, ViewBuffers};
+use shadowgraph_lighting::ViewBuffers;
 
 use crate::error::Error;
 
@@ -109,8 +109,7 @@ impl DebugBlit {
         let view = pass.storage_buffer(&view.view);
         pass.color(&mut image, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
         pass.body(move |ctx| {
-            let whole = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
-            let view = ctx.bind_group(&self.view_layout, &[whole])?;
+            let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view)])?;
             ctx.pass.set_pipeline(pipeline);
             ctx.pass.set_bind_group(0, &view, &[]);
             for (token, [x, y, width, height]) in tokens.into_iter().zip(viewports) {

@@ -39,6 +39,8 @@ pub struct RenderView<'v> {
     pub previous_cameras: &'v PreviousCameras,
     /// Value that lit passes write.
     pub lit_output: LitOutput,
+    /// The number of the frame if the pipeline is [temporal](crate::pipelines::PipelineInstance::is_temporal): noise changes with it.
+    pub noise_frame: Option<u32>,
     /// The target of the colour image: a texture of the caller, as large as the view; `None` for a texture of the frame.
     pub target: Option<&'v wgpu::Texture>,
 }
@@ -49,7 +51,9 @@ impl<'v> RenderView<'v> {
         let ViewOptions { camera, size_px, .. } = self.options;
         let origin_world = self.casters.scene.origin_world();
         let motion = self.previous_cameras.motion(self.index, camera, self.options.aspect());
-        ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light).moving(motion)
+        ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light)
+            .moving(motion)
+            .with_noise(self.noise_frame)
     }
 
     /// Returns the visible geometry.

@@ -42,6 +42,8 @@ pub struct Renderer {
     /// The camera that shadows are fitted to, if it is not that of the view.
     shadow_camera: Option<Camera>,
     previous_cameras: PreviousCameras,
+    /// The number of frames that were drawn or recorded.
+    frames: u32,
     /// Guarded by a mutex because a frame borrows the renderer while the graph compiles and executes it.
     graph: Mutex<Graph>,
 }
@@ -153,6 +155,7 @@ impl Renderer {
             aov,
             shadow_camera: None,
             previous_cameras: PreviousCameras::default(),
+            frames: 0,
             graph: Mutex::default(),
         })
     }
@@ -204,6 +207,7 @@ impl Renderer {
         (self.casters.scene, self.casters.rays, self.technique) = (uploaded, rays, technique);
         (self.scene, self.lit_output) = (scene, lit_output);
         (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
+        self.frames = 0;
         Ok(())
     }
 
@@ -275,6 +279,7 @@ impl Renderer {
             shadow_camera: self.shadow_camera.as_ref().unwrap_or(&options.camera),
             previous_cameras: &self.previous_cameras,
             lit_output: self.lit_output,
+            noise_frame: self.instance.is_temporal().then_some(self.frames),
             target: target.filter(|_| self.aov == Aov::Color),
         }
     }
@@ -311,6 +316,11 @@ impl Renderer {
             Ok(())
         };
         if is_still { update() } else { gpu.checked(update) }
+    }
+
+    /// Moves on to the next frame's noise.
+    fn count_frame(&mut self) {
+        self.frames = self.frames.wrapping_add(1);
     }
 
     /// Locks the graph, which keeps plans, pooled resources and histories from frame to frame. Drawing waits while the guard is held.

@@ -80,4 +80,8 @@ impl PipelineInstance for Script {
         let image = view.add_tonemap(frame, &self.tonemap, &darker);
         Ok(PipelineOutput { image, light: Some(lit), depth: Some(depth), view: Some(buffers), shadows })
     }
+
+    fn is_temporal(&self) -> bool {
+        true
+    }
 }

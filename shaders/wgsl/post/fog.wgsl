@@ -1,6 +1,7 @@
 // Light that thin fog scatters to the camera, with shadows: light shafts. Marches along each pixel's ray, with the phase
 // function of Henyey and Greenstein (1941).
 #import shadowgraph::view::{view, lights, view_depth_of, to_neighbour, LIGHT_DIRECTIONAL}
+#import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::fullscreen::{FullscreenVertex, fullscreen_vertex}
 #import shadowgraph::lighting::arriving_light
 #import shadowgraph::light_list::light_mask
@@ -53,7 +54,7 @@ fn scattered(position: vec3f, direction: vec3f, pixel: vec2f) -> vec3f {
         position,
         view_depth,
         -direction,
-        RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN,
+        RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN | noise_flags(pixel),
         -direction,
         pixel,
         to_neighbour(position, -direction, view_depth, 0),

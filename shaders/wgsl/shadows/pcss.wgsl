@@ -1,8 +1,7 @@
 // The filter of the technique `pcss`: penumbrae with a width that follows from the light's size (Fernando, "Percentage-Closer Soft
 // Shadows", 2005). Taps lie on a Vogel spiral that is rotated per pixel.
 #define_import_path shadowgraph::shadows::filter
-#import shadowgraph::noise::pixel_noise
-#import shadowgraph::receiver::Receiver
+#import shadowgraph::receiver::{Receiver, receiver_noise}
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{cascade_map, atlas_map, map_size, stored_depth}
 #import shadowgraph::shadows::tent::tent_depth
@@ -64,7 +63,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let size_px = map_size(light.map);
     let at = lookup.uv * size_px;
-    let rotation = TAU * pixel_noise(receiver.pixel);
+    let rotation = TAU * receiver_noise(receiver);
 
     // Blocker search: the mean depth of the blockers.
     let widest = clamp(penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, pcss.max_radius_texels);

@@ -1,7 +1,6 @@
 // Finds the shadow map tiles that a point is read from, and their weights.
 #define_import_path shadowgraph::shadows::tiles
-#import shadowgraph::noise::pixel_noise
-#import shadowgraph::receiver::{Receiver, RECEIVER_COARSER}
+#import shadowgraph::receiver::{Receiver, RECEIVER_COARSER, receiver_noise}
 #import shadowgraph::shadows::lookup::{Lookup, look_up}
 #import shadowgraph::shadows::types::{
     ShadowView, ShadowLight, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
@@ -103,7 +102,7 @@ fn blend_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     }
     let inner = inner_weight(light, receiver, lookup, light.blend_fraction);
     if light.blend == BLEND_DITHER {
-        return select(0.0, 1.0, pixel_noise(receiver.pixel) < inner);
+        return select(0.0, 1.0, receiver_noise(receiver) < inner);
     }
     return inner;
 }

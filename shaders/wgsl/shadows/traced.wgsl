@@ -1,7 +1,7 @@
 // The visibility of lights by rays.
 #define_import_path shadowgraph::shadows::traced
 #import shadowgraph::view::{view, lights, LIGHT_DIRECTIONAL}
-#import shadowgraph::noise::pixel_noise
+#import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::rays::{ray_passed, ray_origin, RAY_FAR, RAY_LIGHT_FRACTION}
 #import shadowgraph::shadows::raytraced_settings::RaytracedSettings
 
@@ -47,7 +47,7 @@ fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel
     }
     let disc = perpendicular(to_center / distance);
     let radius = select(traced.settings.light_radius_m, traced.sun_tangent, is_sun);
-    let rotation = TAU * pixel_noise(pixel);
+    let rotation = TAU * frame_noise(pixel);
     var visibility = vec3f(0.0);
     for (var i = 0u; i < traced.settings.rays; i++) {
         var direction_to_sample = to_center;

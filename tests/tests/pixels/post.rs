@@ -9,7 +9,7 @@ use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, RenderedImage, Renderer
 use shadowgraph_samples::demo::demo_scene;
 
 /// Returns `forward` with more nodes; `output` is the node whose output is the image.
-pub(crate) fn pipeline(view: &str, lit: &str, more: &str, output: &str) -> Pipeline {
+fn pipeline(view: &str, lit: &str, more: &str, output: &str) -> Pipeline {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("post.ron");
     let text = format!(

@@ -267,7 +267,7 @@ fn bytes(frame_data: &FrameData) -> [Vec<u8>; 4] {
     let none = [<GpuLight as bytemuck::Zeroable>::zeroed()];
     let lights = if frame_data.view.lights.is_empty() { &none } else { &frame_data.view.lights[..] };
     [
-        bytemuck::bytes_of(&frame_data.view.view).to_vec(),
+        frame_data.view.view_bytes(),
         bytemuck::cast_slice(lights).to_vec(),
         frame_data.shadows.view_bytes(),
         frame_data.shadows.light_bytes(),

@@ -26,6 +26,7 @@ pub struct NodeKind {
     /// The settings.
     pub settings: &'static [Setting],
     pub(crate) groups_itself: bool,
+    pub(crate) temporal: bool,
     pub(crate) build: BuildFn,
 }
 
@@ -38,6 +39,7 @@ impl NodeKind {
             outputs: N::OUTPUTS,
             settings: N::SETTINGS,
             groups_itself: N::GROUPS_ITSELF,
+            temporal: N::TEMPORAL,
             build: |context, settings| Ok(Box::new(N::new(context, settings)?)),
         }
     }

@@ -67,6 +67,8 @@ pub trait Node: Send + Sync + Sized + 'static {
     const SETTINGS: &'static [Setting] = &[];
     /// Whether it groups its passes in graph nodes itself, so that none is put around them.
     const GROUPS_ITSELF: bool = false;
+    /// Whether it averages frames, as temporal anti-aliasing does: then noise changes from frame to frame.
+    const TEMPORAL: bool = false;
 
     /// Creates what the node keeps from frame to frame.
     ///

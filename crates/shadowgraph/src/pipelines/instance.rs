@@ -18,6 +18,12 @@ pub trait PipelineInstance: Send + Sync {
         frame: &mut Frame<'f>,
         view: &'f RenderView<'f>,
     ) -> Result<PipelineOutput<'f>, Error>;
+
+    /// Returns whether a node averages frames, as temporal anti-aliasing does: then noise changes from frame to frame, and its
+    /// average converges. The default is `false`: the same view gives the same image in every frame.
+    fn is_temporal(&self) -> bool {
+        false
+    }
 }
 
 /// The outputs of a pipeline for one view.

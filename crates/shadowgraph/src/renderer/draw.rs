@@ -56,7 +56,7 @@ impl Renderer {
         }
         self.begin_frame(gpu, options)?;
         let view = self.view(options, None);
-        gpu.checked(|| {
+        let drawn = gpu.checked(|| {
             let mut frame = self.graph().frame();
             let output = self.add(&mut frame, &view)?;
             let request = frame.read_back_texture(&output.image, Subresource::FULL);
@@ -70,7 +70,9 @@ impl Renderer {
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let (plan, times) = (executed.shared_plan(), Vec::new());
             Ok((RenderedFrame { image, plan, times, unshadowed: output.unshadowed }, output.shadow_buffers))
-        })
+        });
+        self.count_frame();
+        drawn
     }
 
     /// Draws several views in one frame, such as the halves of a split screen or two eyes. Each has its own shadow maps. The
@@ -85,7 +87,7 @@ impl Renderer {
             .zip(views)
             .map(|(index, options)| RenderView { index, ..self.view(options, None) })
             .collect();
-        gpu.checked(|| {
+        let drawn = gpu.checked(|| {
             let mut frame = self.graph().frame();
             planned.iter().for_each(|view| view.add_pose(&mut frame));
             let mut requests = Vec::new();
@@ -104,7 +106,9 @@ impl Renderer {
                 Ok(RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? })
             });
             images.collect()
-        })
+        });
+        self.count_frame();
+        drawn
     }
 }
 

@@ -47,7 +47,9 @@ impl Renderer {
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
         self.add_into(&mut frame, &view, target)?;
-        self.execute(frame, gpu, encoder, timer)
+        let executed = self.execute(frame, gpu, encoder, timer);
+        self.count_frame();
+        executed
     }
 
     /// Records several views in one frame, each into its own target, such as the halves of a split screen or two eyes. Each has
@@ -78,7 +80,9 @@ impl Renderer {
             let name = format_args!("view {}", view.index);
             frame.node(name, |frame| self.add_into(frame, view, target))?;
         }
-        self.execute(frame, gpu, encoder, None)
+        let executed = self.execute(frame, gpu, encoder, None);
+        self.count_frame();
+        executed
     }
 
     /// Adds the passes of a view, and the copy to `target` if the AOV is not drawn into it.

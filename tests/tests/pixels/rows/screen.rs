@@ -131,7 +131,7 @@ fn lit_by(has_blended: bool, lights: usize) -> (bool, String) {
     frame.render_pass("surfaces").color(&mut surfaces, Contents::clear_color([0.0; 4]));
     let buffers = SurfaceBuffers {
         size_px: [64, 64],
-        view: frame.upload_buffer("view", vec![0; 256]),
+        view: frame.upload_buffer("view", vec![0; 272]),
         lights: frame.upload_buffer("lights", vec![0; 64]),
         surfaces,
         has_blended,

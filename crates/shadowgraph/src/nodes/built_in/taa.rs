@@ -36,6 +36,7 @@ impl Node for Taa {
         SettingType::Number(0.1, 0.01, 1.0),
         "the weight of the current frame",
     )];
+    const TEMPORAL: bool = true;
 
     fn new(context: &BuildContext<'_>, settings: &Settings) -> Result<Self, Error> {
         context.require_single_sample(Self::NAME)?;

@@ -70,6 +70,10 @@ impl PipelineInstance for FileInstance {
         }
         Ok(PipelineOutput { image, light, depth, view: buffers, shadows: shadows.unwrap_or_default() })
     }
+
+    fn is_temporal(&self) -> bool {
+        self.resolved.nodes.iter().any(|node| node.kind.temporal)
+    }
 }
 
 /// Checks that a node has set its required outputs, with values of the declared kinds.
