@@ -12,6 +12,7 @@ mod failure;
 mod frame_files;
 mod measure;
 mod nodes;
+mod noise;
 mod progress;
 mod report;
 #[cfg(feature = "view")]
@@ -51,6 +52,9 @@ pub fn run(registry: &Registry) -> ExitCode {
         Ok(Cli { command: Some(Command::View(args)) }) => view::view(&args, registry),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, registry),
         Ok(Cli { command: Some(Command::Nodes(args)) }) => nodes::nodes(&args, registry),
+        Ok(Cli { command: Some(Command::Measure(args)) }) if args.noise => {
+            noise::noise_command(&args, registry)
+        }
         Ok(Cli { command: Some(Command::Measure(args)) }) => measure::measure_command(&args, registry),
         Err(usage) => return print_usage_error(&usage),
     };

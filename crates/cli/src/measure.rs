@@ -30,7 +30,7 @@ struct Plan {
 }
 
 /// The scenes to measure.
-enum Work {
+pub(super) enum Work {
     Cases { cases: Vec<Case>, folder: PathBuf },
     Scene { measured_scene: Box<MeasuredScene>, views_named: bool },
 }
@@ -113,7 +113,8 @@ fn chosen(names: &[String], known: &Techniques) -> Result<Vec<Technique>, Option
     Ok(chosen)
 }
 
-fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
+/// Returns the scenes to measure.
+pub(super) fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
     if let Some(file) = &args.cases {
         let set = CaseSet::parse(&read("--cases", file)?, file)?;
         let folder = file.parent().unwrap_or(Path::new("")).to_owned();
@@ -148,7 +149,7 @@ fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
 impl Work {
     /// Calls `work` for each scene, with the finished fraction of all scenes. If `quick`, only one light of each scene is
     /// measured, and one view unless the user named them.
-    fn each(
+    pub(super) fn each(
         self,
         quick: bool,
         work: &mut dyn FnMut(f32, &MeasuredScene) -> Result<(), Failure>,

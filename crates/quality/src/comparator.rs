@@ -73,6 +73,7 @@ pub struct Comparator<'g> {
     gpu: &'g Gpu,
     reader: SurfaceReader,
     light: usize,
+    sun_radius_rad: f32,
     /// The triangles.
     truth: SceneTruth,
 }
@@ -83,7 +84,14 @@ impl<'g> Comparator<'g> {
     /// # Errors
     /// A failure of the GPU.
     pub fn new(gpu: &'g Gpu, renderer: &Renderer, light: usize) -> Result<Self, Error> {
-        Ok(Self { gpu, reader: SurfaceReader::new(gpu, renderer)?, light, truth: SceneTruth::default() })
+        let (reader, sun_radius_rad) = (SurfaceReader::new(gpu, renderer)?, SUN_ANGULAR_RADIUS);
+        Ok(Self { gpu, reader, light, sun_radius_rad, truth: SceneTruth::default() })
+    }
+
+    /// Sets the angular radius of directional lights in the soft reference, radians; the default is the sun's.
+    #[must_use]
+    pub fn with_sun_radius(self, sun_radius_rad: f32) -> Self {
+        Self { sun_radius_rad, ..self }
     }
 
     /// Measures a view, without a soft reference.
@@ -113,7 +121,7 @@ impl<'g> Comparator<'g> {
         let origin_world = renderer.casters().scene.origin_world();
         let eye = (options.camera.position_world() - origin_world).as_vec3();
         let source = &renderer.scene().lights()[self.light];
-        let light = RayLight::new(source, light_size(source), origin_world);
+        let light = RayLight::new(source, light_size(source, self.sun_radius_rad), origin_world);
         let rays = self.truth.follow(renderer.scene(), origin_world)?;
         let truth = GroundTruth::trace(rays, &surfaces, &light, eye);
         let soft = (soft_rays > 0)
@@ -189,9 +197,9 @@ impl<'g> Comparator<'g> {
 }
 
 /// Returns the size of a light for the soft reference: angular radius of the sun in radians, else radius in metres.
-fn light_size(light: &Light) -> f32 {
+fn light_size(light: &Light, sun_radius_rad: f32) -> f32 {
     match light.kind {
-        LightKind::Directional { .. } => SUN_ANGULAR_RADIUS,
+        LightKind::Directional { .. } => sun_radius_rad,
         LightKind::Spot { .. } | LightKind::Point { .. } => PUNCTUAL_LIGHT_RADIUS_M,
     }
 }

@@ -12,6 +12,7 @@ mod hostile;
 mod lost;
 mod maps;
 mod measure;
+mod noise;
 mod pipelines;
 mod post;
 mod raytraced;

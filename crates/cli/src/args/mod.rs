@@ -201,6 +201,10 @@ pub(crate) struct MeasureArgs {
     /// Measure flicker over 64 frames in every case, and use twice as many rays; takes half an hour without a GPU
     #[arg(long, conflicts_with = "quick")]
     pub(crate) full: bool,
+    /// Measure instead how much noise is left after 16 frames of temporal anti-aliasing, for each technique that draws noise,
+    /// with one light and one view of each scene at 192x108
+    #[arg(long, conflicts_with_all = ["techniques", "variants", "quick", "full", "output", "check"])]
+    pub(crate) noise: bool,
     /// The directory for report.html, report.json and the images; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
