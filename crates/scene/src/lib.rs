@@ -23,6 +23,7 @@ mod material;
 mod mesh;
 mod origin;
 mod scene;
+mod sun;
 
 pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, CameraError, Projection};
@@ -38,6 +39,7 @@ pub use origin::{ORIGIN_GRID_M, origin_near};
 pub use scene::{
     AnimationSelection, Attachment, Changes, EditError, Hierarchy, Instance, Scene, ShadowCasting,
 };
+pub use sun::{SkyDirection, SolarTime};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -40,7 +40,8 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "CAMERA")]
     camera: Option<String>,
     /// A sun that replaces the file's directional lights: "dir=X,Y,Z lux=L color=R,G,B", where dir is the direction
-    /// in which its light travels; or none for no directional lights
+    /// in which its light travels; "time=HH:MM day=1..366 lat=DEGREES" in place of dir, in true solar time with north -Z and east
+    /// +X; or none for no directional lights
     #[arg(long, value_name = "SUN")]
     sun: Option<String>,
     /// The moment of the animations in seconds; before their start and after their end, the scene stands still
@@ -237,6 +238,7 @@ mod tests {
             ("--size;0x4", "--size: width 0"),
             ("--sun;dir=0,0,0", "--sun: dir must not be zero"),
             ("--time;soon", "--time: invalid value `soon`; expected -1000000000 to 1000000000 seconds"),
+            ("--sun;time=12:60 day=1 lat=0", "--sun: invalid value time=12:60; expected HH:MM"),
             ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
         ] {
             let error = options(line).unwrap_err();

@@ -32,4 +32,4 @@ pub use distance::ShadowDistance;
 pub use error::OptionError;
 pub use settings::{SettingsFile, setting_error};
 pub use size::Size;
-pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun};
+pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun, sun_at};

@@ -94,6 +94,32 @@ impl<'a> Pairs<'a> {
         Ok(Some(DVec3::new(one(x)?, one(y)?, one(z)?)))
     }
 
+    /// Returns a time of day, HH:MM or HH:MM:SS from 00:00 to 24:00, in hours; `None` if the key is missing.
+    pub(super) fn time(&self, key: &str) -> Result<Option<f64>, OptionError> {
+        let Some(text) = self.get(key) else { return Ok(None) };
+        let invalid = || {
+            let form = "expected HH:MM or HH:MM:SS, from 00:00 to 24:00";
+            OptionError::new(self.option, format!("invalid value {key}={text}; {form}"))
+        };
+        let part = |part: &str| {
+            let digits = part.len() <= 2 && part.bytes().all(|byte| byte.is_ascii_digit());
+            part.parse::<u8>().ok().filter(|_| digits).map(f64::from).ok_or_else(invalid)
+        };
+        let parts = text.split(':').map(part).collect::<Result<Vec<_>, _>>()?;
+        let (hours, minutes, seconds) = match *parts.as_slice() {
+            [hours, minutes] => (hours, minutes, 0.0),
+            [hours, minutes, seconds] => (hours, minutes, seconds),
+            _ => return Err(invalid()),
+        };
+        let hour = hours + minutes / 60.0 + seconds / 3600.0;
+        if minutes < 60.0 && seconds < 60.0 && hour <= 24.0 { Ok(Some(hour)) } else { Err(invalid()) }
+    }
+
+    /// Returns the key of these that was given first, if any.
+    pub(super) fn any_of(&self, keys: &[&'static str]) -> Option<&'static str> {
+        keys.iter().copied().find(|key| self.get(key).is_some())
+    }
+
     fn get(&self, key: &str) -> Option<&'a str> {
         self.pairs.iter().find(|(other, _)| *other == key).map(|(_, value)| *value)
     }
@@ -141,6 +167,24 @@ mod tests {
         }
         assert_eq!(error("a=ten"), "o: a=ten: `ten` is not a number; expected above 0 to 10 m");
         assert_eq!(error("a="), "o: a=: `` is not a number; expected above 0 to 10 m");
+    }
+
+    #[test]
+    fn a_time_is_hours_and_minutes_with_optional_seconds() {
+        let time = |text: &str| Pairs::parse("o", text, &["a"]).and_then(|pairs| pairs.time("a"));
+        for (text, hour) in [("a=15:30", 15.5), ("a=0:00", 0.0), ("a=24:00", 24.0), ("a=06:00:36", 6.01)] {
+            assert!((time(text).unwrap().unwrap() - hour).abs() < 1e-12, "{text}");
+        }
+        assert_eq!(time("").unwrap(), None);
+        for text in
+            ["a=15", "a=24:01", "a=12:60", "a=12:00:60", "a=-1:00", "a=+1:00", "a=1:2:3:4", "a=:", "a=256:00"]
+        {
+            let error = time(text).unwrap_err().to_string();
+            assert_eq!(
+                error,
+                format!("o: invalid value {text}; expected HH:MM or HH:MM:SS, from 00:00 to 24:00")
+            );
+        }
     }
 
     #[test]
