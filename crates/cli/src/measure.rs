@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{MeasureArgs, settings_file, technique};
+use super::args::{MeasureArgs, MotionArg, settings_file, technique};
 use super::commands;
 use super::console;
 use super::failure::Failure;
@@ -12,10 +12,13 @@ use shadowgraph::options::{AdapterChoice, CameraChoice, OptionError, Size, SunCh
 use shadowgraph::output::{Pixels, write_png, write_text};
 use shadowgraph::scene::Camera;
 use shadowgraph::shadows::{Technique, Techniques};
-use shadowgraph_quality::report::{Bound, Bounds, CaseReport, ImageFiles, Report, page, table};
+use shadowgraph_quality::report::{
+    Bound, Bounds, CaseReport, ImageFiles, MotionReport, Moving, Report, motion_markdown, motion_table, page,
+    table,
+};
 use shadowgraph_quality::{
-    Case, CaseImages, CaseSet, Measured, MeasuredScene, Task, Variant, VariantSet, automatic_views,
-    built_in_cases, measure,
+    Case, CaseImages, CaseSet, MOTION_FRAMES, MOTION_SIZE_PX, Measured, MeasuredScene, MotionMeasured,
+    MotionTask, Task, Variant, VariantSet, automatic_views, built_in_cases, measure, measure_motion,
 };
 
 /// Directory of the images in the output directory.
@@ -38,6 +41,9 @@ pub(super) enum Work {
 /// Measures, prints the table, writes the files, and checks the bounds.
 pub(crate) fn measure_command(args: &MeasureArgs, registry: &shadowgraph::Registry) -> Result<(), Failure> {
     let techniques = &registry.techniques;
+    if let Some(motion) = args.motion {
+        return motion_command(args, motion, techniques);
+    }
     let plan = plan(args, techniques)?;
     let gpu = Gpu::open(&plan.adapter).map_err(Failure::no_device)?;
     let output = args.output.as_deref().map(Output::new).transpose()?;
@@ -68,6 +74,56 @@ pub(crate) fn measure_command(args: &MeasureArgs, registry: &shadowgraph::Regist
         console::print(&format!("\nwrote {}\n", page.display()))?;
     }
     check(&report, plan.bounds.as_ref())
+}
+
+/// Measures change along paths, prints the table, and writes the images, the table in Markdown and the report.
+fn motion_command(args: &MeasureArgs, motion: MotionArg, known: &Techniques) -> Result<(), Failure> {
+    let [width_px, height_px] = MOTION_SIZE_PX;
+    let size = args.size.as_deref().map_or(Ok(Size { width_px, height_px }), str::parse)?;
+    let task = MotionTask {
+        techniques: chosen(&args.techniques, known)?,
+        size_px: [size.width_px, size.height_px],
+        settings: settings_file(args.settings.as_deref(), known)?.settings,
+        distance: args.shadow_distance.as_deref().map(str::parse).transpose()?,
+        moving: match motion {
+            MotionArg::Camera => vec![Moving::Camera],
+            MotionArg::Sun => vec![Moving::Sun],
+            MotionArg::Objects => vec![Moving::Objects],
+            MotionArg::All => Moving::ALL.to_vec(),
+        },
+        frames: MOTION_FRAMES,
+    };
+    let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
+    let work = work(args, size)?;
+    let gpu = Gpu::open(&adapter).map_err(Failure::no_device)?;
+    let output = args.output.as_deref().map(Output::new).transpose()?;
+    let progress = Progress::if_slow("measuring");
+    let mut report = MotionReport {
+        version: Report::VERSION,
+        adapter: gpu.adapter.name.clone(),
+        size_px: task.size_px,
+        settings: task.settings.clone(),
+        cases: Vec::new(),
+    };
+    work.each(!args.full, &mut |part, measured_scene| {
+        progress.set(&measured_scene.name, part);
+        measure_motion(&gpu, measured_scene, &task, &mut |measured: MotionMeasured| {
+            if let Some(output) = &output {
+                output.write_motion(report.cases.len(), &measured, task.size_px)?;
+            }
+            report.cases.push(measured.report);
+            Ok(())
+        })
+    })?;
+    drop(progress);
+    console::print(&motion_table(&report))?;
+    if let Some(output) = output {
+        write_text(&output.folder.join("motion.md"), &motion_markdown(&report))?;
+        write_text(&output.folder.join("motion.json"), &serde_json::to_string_pretty(&report)?)?;
+        let folder = output.move_images()?;
+        console::print(&format!("\nwrote {}\n", folder.display()))?;
+    }
+    Ok(())
 }
 
 fn plan(args: &MeasureArgs, known: &Techniques) -> Result<Plan, Failure> {
@@ -284,8 +340,32 @@ impl Output {
         })
     }
 
+    /// Writes the image of a path.
+    fn write_motion(
+        &self,
+        index: usize,
+        measured: &MotionMeasured,
+        [width, height]: [u32; 2],
+    ) -> Result<(), Failure> {
+        let case = &measured.report;
+        let names = [&case.scene, &case.light, &case.view, &case.technique].map(|name| file_name(name));
+        let file = format!("{index:03}-{}-{}.png", names.join("-"), case.moving.name());
+        write_png(&self.temporary.path().join(file), width, height, Pixels::Rgba, &measured.image_rgba8)?;
+        Ok(())
+    }
+
     /// Moves everything to its final location, and returns the path of the page.
     fn finish(self, report: &Report) -> Result<PathBuf, Failure> {
+        let folder = self.move_images()?;
+        let file = folder.join("report.html");
+        let json = serde_json::to_string_pretty(report)?;
+        write_text(&folder.join("report.json"), &json)?;
+        write_text(&file, &page(report))?;
+        Ok(file)
+    }
+
+    /// Moves the images to their final location, and returns the output directory.
+    fn move_images(self) -> Result<PathBuf, Failure> {
         let failed = |error: std::io::Error| Failure {
             code: Failure::INPUT,
             message: format!("-o {}: cannot be written: {error}", self.folder.display()),
@@ -296,11 +376,7 @@ impl Output {
             let entry = entry.map_err(failed)?;
             std::fs::rename(entry.path(), images.join(entry.file_name())).map_err(failed)?;
         }
-        let json = serde_json::to_string_pretty(report)?;
-        write_text(&self.folder.join("report.json"), &json)?;
-        let file = self.folder.join("report.html");
-        write_text(&file, &page(report))?;
-        Ok(file)
+        Ok(self.folder)
     }
 }
 

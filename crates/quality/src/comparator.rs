@@ -8,7 +8,8 @@ use shadowgraph_shadows::{ShadowInputs, plan_shadows};
 use super::ground_truth::RayLight;
 use super::metrics::{
     Band, EdgeError, Images, MeanError, Misclassified, MissingContacts, PeterPanning, RECEIVER_N_DOT_L,
-    Samples, TowardsLight, band, edge_error, mean_error, misclassified, missing_contacts, peter_panning,
+    Samples, TowardsLight, band, edge_error, mean_error, misclassified, missing_contacts, percentile,
+    peter_panning,
 };
 use super::scene_truth::SceneTruth;
 use super::subpixel::SubpixelReference;
@@ -55,6 +56,23 @@ pub struct Reference {
     /// The texels of the shadow maps according to the settings. They determine the width of the band, so all
     /// techniques are measured on the same pixels.
     pub texels: Texels,
+}
+
+impl Reference {
+    /// Returns whether a pixel counts: it has geometry that faces the light.
+    pub(super) fn is_receiver(&self, pixel: usize) -> bool {
+        self.surfaces.is_drawn(pixel) && self.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L
+    }
+
+    /// Returns the values of the pixels that count.
+    pub(super) fn receiver_values(&self, values: &[f32]) -> Vec<f32> {
+        (0..values.len()).filter(|&pixel| self.is_receiver(pixel)).map(|pixel| values[pixel]).collect()
+    }
+
+    /// Returns the median view depth of the pixels that count, metres; `None` if there are none.
+    pub(super) fn median_depth_m(&self) -> Option<f64> {
+        percentile(&self.receiver_values(&self.surfaces.view_depths_m), 50.0).map(f64::from)
+    }
 }
 
 /// A technique's errors in a view.

@@ -1,11 +1,11 @@
 //! Flicker: change of a technique's shadows while the camera moves.
 
-use super::metrics::{RECEIVER_N_DOT_L, flicker};
+use super::metrics::flicker;
 use super::motion::{FAR_OFFSET_M, camera_for_frame, translated};
 use super::report::{Flicker, Motion};
 use shadowgraph_shadows::Technique;
 
-use super::{Comparator, Points, Probe, Query, Reference};
+use super::{Comparator, Points, Probe, Query};
 use shadowgraph::options::Aov;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 
@@ -48,15 +48,15 @@ fn measure_motions(
     let options = ViewOptions { size_px: FLICKER_SIZE_PX, ..options.clone() };
     let reference = Comparator::new(gpu, renderer, light)?.reference(renderer, &options, 0)?;
     let (probe, points) = (Probe::new(gpu, renderer)?, Points::new(gpu, &reference.surfaces));
-    let Some(distance_m) = median_depth_m(&reference) else { return Ok(Vec::new()) };
-    let truth = receiver_values(&reference, &reference.truth.hard);
+    let Some(distance_m) = reference.median_depth_m() else { return Ok(Vec::new()) };
+    let truth = reference.receiver_values(&reference.truth.hard);
     let query = Query { light: light as u32, coarser: false };
     let change = |motion| {
         let visibilities = (0..frames).map(|frame| {
             let camera = camera_for_frame(&options.camera, motion, frame, options.size_px[1], distance_m);
             let view = ViewOptions { camera, ..options.clone() };
             let results = probe.evaluate(gpu, renderer, &view, &points, query)?;
-            Ok(receiver_values(&reference, &results.visibility))
+            Ok(reference.receiver_values(&results.visibility))
         });
         let visibilities = visibilities.collect::<Result<Vec<_>, Error>>()?;
         // Neither the scene nor the light moves, so the reference at a world point is constant.
@@ -67,19 +67,4 @@ fn measure_motions(
         })
     };
     [Motion::Translate, Motion::Rotate, Motion::Zoom].into_iter().map(change).collect()
-}
-
-fn is_receiver(reference: &Reference, pixel: usize) -> bool {
-    reference.surfaces.is_drawn(pixel) && reference.truth.n_dot_l[pixel] > RECEIVER_N_DOT_L
-}
-
-fn receiver_values(reference: &Reference, values: &[f32]) -> Vec<f32> {
-    let receivers = values.iter().enumerate().filter(|(pixel, _)| is_receiver(reference, *pixel));
-    receivers.map(|(_, value)| *value).collect()
-}
-
-/// Returns the median view depth of receivers; `None` if there are none.
-fn median_depth_m(reference: &Reference) -> Option<f64> {
-    let depths = receiver_values(reference, &reference.surfaces.view_depths_m);
-    super::metrics::percentile(&depths, 50.0).map(f64::from)
 }

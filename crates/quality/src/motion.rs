@@ -1,4 +1,4 @@
-//! Cameras that move by less than a pixel from frame to frame.
+//! Cameras and suns that move a little from frame to frame.
 
 use glam::{DAffine3, DVec3};
 use shadowgraph_scene::{Camera, EditError, LightKind, Projection, Scene};
@@ -43,6 +43,28 @@ pub fn camera_for_frame(
         }
     };
     Camera { name: camera.name.clone(), world_from_view: camera.world_from_view * step, projection }
+}
+
+/// Returns the camera for a frame of a walk: it moves for 16 frames, then it turns, by [`STEP_PX`] each frame. As
+/// [`camera_for_frame`] otherwise.
+#[must_use]
+pub fn camera_walk(camera: &Camera, frame: u32, height_px: u32, distance_m: f64) -> Camera {
+    let walked = camera_for_frame(camera, Motion::Translate, frame.min(16), height_px, distance_m);
+    camera_for_frame(&walked, Motion::Rotate, frame.saturating_sub(16), height_px, distance_m)
+}
+
+/// Turn of the sun from one frame to the next, radians: 0.05 degrees, as in 12 seconds of a day.
+pub const SUN_STEP: f64 = 0.05 * std::f64::consts::PI / 180.0;
+
+/// Returns the direction of a sun's light for a frame of its path, on a great circle that changes azimuth and elevation, by
+/// [`SUN_STEP`] each frame. `direction` is not zero.
+#[must_use]
+pub fn turned_sun(direction: DVec3, frame: u32) -> DVec3 {
+    let from = direction.normalize();
+    let east = DVec3::Y.cross(from).try_normalize().unwrap_or(DVec3::X);
+    let across = 0.8 * east + 0.6 * from.cross(east);
+    let (sin, cos) = (SUN_STEP * f64::from(frame)).sin_cos();
+    from * cos + across * sin
 }
 
 fn zoomed(projection: Projection, factor: f64) -> Projection {
@@ -112,6 +134,18 @@ mod tests {
                 let step = at(frame).distance(at(frame + 1));
                 assert!((0.05..0.8).contains(&step), "{motion:?}, frame {frame}: {step} pixels");
             }
+        }
+    }
+
+    #[test]
+    fn the_sun_turns_by_a_twentieth_of_a_degree_in_azimuth_and_elevation() {
+        for direction in [DVec3::new(0.5, -1.0, -0.6), DVec3::NEG_Y, DVec3::new(2.0, -0.1, 0.0)] {
+            assert!(turned_sun(direction, 0).distance(direction.normalize()) < 1e-12);
+            for frame in 0..32 {
+                let (before, after) = (turned_sun(direction, frame), turned_sun(direction, frame + 1));
+                assert!((before.angle_between(after).to_degrees() - 0.05).abs() < 1e-9, "{direction}");
+            }
+            assert!(turned_sun(direction, 31).y > direction.normalize().y || direction.x == 0.0);
         }
     }
 

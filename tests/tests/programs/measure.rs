@@ -2,7 +2,7 @@
 
 use shadowgraph::Gpu;
 use shadowgraph::options::AdapterChoice;
-use shadowgraph_quality::report::{CaseReport, Report};
+use shadowgraph_quality::report::{CaseReport, MotionReport, Moving, Report};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -43,6 +43,32 @@ fn the_quick_set_is_within_the_stored_bounds() {
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     assert!(output.status.success(), "{err}\n{out}");
     assert!(out.contains("within all"), "{out}");
+}
+
+#[test]
+fn motion_is_measured_against_the_truth_for_each_technique_on_each_path() {
+    let dir = tempfile::tempdir().unwrap();
+    let (cases, out) = (small_case(dir.path()), dir.path().join("out"));
+    let arguments =
+        ["--motion", "all", "--size", "96x54", "--techniques", "pcf,raytraced", "--cases", &cases, "-o"];
+    let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let report: MotionReport = serde_json::from_str(&read("motion.json")).unwrap();
+    let names: Vec<_> = report.cases.iter().map(|case| (case.moving, case.technique.as_str())).collect();
+    let expected = Moving::ALL.map(|moving| [(moving, "pcf"), (moving, "raytraced")]);
+    assert_eq!(names, expected.concat());
+    for case in &report.cases {
+        let stability = &case.stability;
+        assert!(stability.excess.count > 1_000, "{case:?}");
+        assert_eq!(stability.truth_changed > 0.0, case.moving != Moving::Camera, "{case:?}");
+        if case.moving == Moving::Camera {
+            // The maps move by whole texels; weights of filters are rounded.
+            assert!(stability.excess.p99 < 1e-6 && stability.changed == 0.0, "{case:?}");
+        }
+    }
+    assert_eq!(read("motion.md").lines().count(), 2 + 6);
+    assert_eq!(std::fs::read_dir(out.join("images")).unwrap().count(), 6);
 }
 
 #[test]

@@ -208,9 +208,26 @@ pub(crate) struct MeasureArgs {
     /// The directory for report.html, report.json and the images; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+    /// Measure instead how much shadows change over 32 frames beyond the ray-traced truth while the camera walks, the sun turns by
+    /// 0.05 degrees a frame, objects move, or each of these; the default size is 480x270. Without --full, one light and view of each scene
+    #[arg(long, value_enum, value_name = "WHAT", conflicts_with_all = ["variants", "check", "quick"])]
+    pub(crate) motion: Option<MotionArg>,
     /// A RON file with bounds to check the results against; violations are listed, and the exit code is 1
     #[arg(long, value_name = "FILE")]
     pub(crate) check: Option<PathBuf>,
+}
+
+/// What moves, for `measure --motion`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MotionArg {
+    /// The camera
+    Camera,
+    /// The sun
+    Sun,
+    /// Instances that are smaller than half of the scene
+    Objects,
+    /// Each of them, one after the other
+    All,
 }
 
 /// The format of a dump.

@@ -15,6 +15,7 @@ mod band;
 mod edge_error;
 mod peter_panning;
 mod samples;
+mod stability;
 mod visibility;
 
 #[cfg(test)]
@@ -24,6 +25,7 @@ pub use band::{BAND_PX, BAND_TEXELS, Band, band};
 pub use edge_error::{EdgeError, PENUMBRA, edge_error};
 pub use peter_panning::{CONTACT_M, PeterPanning, peter_panning};
 pub use samples::{CREASE_COS, Images, MetricsError, RECEIVER_N_DOT_L, STEP_PX, Samples, TowardsLight};
+pub use stability::{CHANGE, Stability, stability};
 pub use visibility::{
     AcneBin, MeanError, Misclassified, MisclassifiedCounts, MissingContacts, N_DOT_L_BINS, NEAR_BLOCKER_M,
     Summary, flicker, mean_error, misclassified, missing_contacts, percentile, seam,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowgraph_shadows::ShadowSettings;
 
 use crate::comparator::ViewErrors;
-use crate::metrics::{EdgeError, Summary};
+use crate::metrics::{EdgeError, Stability, Summary};
 use crate::variants::Variant;
 
 /// Results of a measurement, from which the table, the page and the check against bounds are made.
@@ -76,6 +76,64 @@ pub enum Motion {
     Rotate,
     /// Field of view.
     Zoom,
+}
+
+/// Results of a measurement of motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionReport {
+    /// Version of the format: [`Report::VERSION`].
+    pub version: u32,
+    /// Name of the adapter.
+    pub adapter: String,
+    /// Width and height of the images, pixels.
+    pub size_px: [u32; 2],
+    /// The shadow settings of all techniques.
+    pub settings: ShadowSettings,
+    /// A case for each technique on each path in each view of each light.
+    pub cases: Vec<MotionCase>,
+}
+
+/// Change of one technique's shadows on a path, in one view of one light.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionCase {
+    /// The scene's name.
+    pub scene: String,
+    /// The light: a sun by its elevation, other lights by kind and index.
+    pub light: String,
+    /// The view's name.
+    pub view: String,
+    /// The technique's name.
+    pub technique: String,
+    /// What moves.
+    pub moving: Moving,
+    /// The change of the shadows. Points are pixels.
+    pub stability: Stability,
+}
+
+/// What moves on a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Moving {
+    /// The camera walks, then turns.
+    Camera,
+    /// The sun turns.
+    Sun,
+    /// All instances that are smaller than half of the scene move.
+    Objects,
+}
+
+impl Moving {
+    /// All of them, in the order of tables.
+    pub const ALL: [Self; 3] = [Self::Camera, Self::Sun, Self::Objects];
+
+    /// Returns the name in tables and options.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::Sun => "sun",
+            Self::Objects => "objects",
+        }
+    }
 }
 
 /// Cost of the shadows of a frame.
