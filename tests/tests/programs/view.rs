@@ -231,17 +231,24 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     });
     let moved = view.keep("2 moved");
 
+    // The day passes: shadows and brightness change.
+    view.tap(u32::from('l'));
+    view.until("the sun to move", |view| changed(&moved, &view.screenshot()) > 0.05);
+    view.tap(u32::from('l'));
+    std::thread::sleep(Duration::from_secs(3));
+    let later = view.keep("3 later");
+
     view.tap(u32::from('t'));
     view.until("the next technique", |view| view.title(view.window).contains("pcss"));
     view.tap(F3);
-    view.wait_for_change(&moved);
+    view.wait_for_change(&later);
     std::thread::sleep(Duration::from_secs(3));
-    let graph = view.keep("3 graph");
+    let graph = view.keep("4 graph");
 
     view.tap(F2);
     view.wait_for_change(&graph);
     std::thread::sleep(Duration::from_secs(2));
-    view.keep("4 settings");
+    view.keep("5 settings");
 
     // The smallest size, hidden, and back.
     view.resize(1, 1);
@@ -253,7 +260,7 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     view.x.map_window(view.window).unwrap();
     view.x.flush().unwrap();
     view.wait_for_change(&empty);
-    view.keep("5 back");
+    view.keep("6 back");
 
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
@@ -274,7 +281,7 @@ fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
     std::fs::write(&file, good.replace("return", "return oops +")).unwrap();
     // The panel shows the error; the frame next to it stays.
     view.wait_for_change(&before);
-    let broken = view.keep("6 shader error");
+    let broken = view.keep("7 shader error");
     assert!(changed(&scene(&before), &scene(&broken)) < 0.001, "the last good frame stays");
     std::fs::write(&file, good.replace("@fragment", "\n@fragment")).unwrap();
     view.until("the error to be gone", |view| changed(&before, &view.screenshot()) < 0.02);
@@ -294,10 +301,10 @@ fn a_saved_settings_file_is_reloaded_and_an_error_in_it_is_shown() {
     let before = view.screenshot();
     std::fs::write(&file, "(distance_m: 0.0)").unwrap();
     view.wait_for_change(&before);
-    let shown = view.keep("7 settings error");
+    let shown = view.keep("8 settings error");
     std::fs::write(&file, "(distance_m: 70.0)").unwrap();
     view.wait_for_change(&shown);
-    view.keep("8 settings again");
+    view.keep("9 settings again");
     // It ends with an exit code, not a signal, and with at most two lines.
     let (status, errors) = view.kill();
     assert!(status.code().is_some_and(|code| code <= 1), "{status}: {errors}");

@@ -67,6 +67,7 @@ impl App {
         self.drawn = Instant::now();
         self.stage.reload();
         self.stage.playback.advance(&self.stage.scene.hierarchy, seconds);
+        self.stage.move_sun(seconds)?;
         let context = screen.input.egui_ctx();
         if !context.egui_wants_keyboard_input() {
             let input = context.input(super::panel::fly_input);

@@ -7,6 +7,7 @@ mod playback;
 mod reload;
 mod screen;
 mod stage;
+mod sun;
 
 use std::path::Path;
 

@@ -4,6 +4,7 @@ mod animation;
 mod edit;
 mod graph;
 mod settings;
+mod sun;
 
 use std::path::PathBuf;
 
@@ -144,7 +145,7 @@ impl Panel {
         action
     }
 
-    /// Keys that work while nothing is typed: pages, the next technique, freezing, playing.
+    /// Keys that work while nothing is typed: pages, the next technique, freezing, playing animations and the day.
     fn keys(&mut self, ui: &Ui, stage: &mut Stage) {
         if ui.ctx().egui_wants_keyboard_input() {
             return;
@@ -162,6 +163,9 @@ impl Panel {
         }
         if ui.input(|input| input.key_pressed(Key::F)) {
             stage.freeze(!stage.frozen);
+        }
+        if let Some(sun) = stage.sun.as_mut().filter(|_| ui.input(|input| input.key_pressed(Key::L))) {
+            sun.play(!sun.plays);
         }
     }
 }
@@ -210,6 +214,9 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
         ui.label("Output");
         output_choice(ui, stage);
     });
+    if let Some(sun) = &mut stage.sun {
+        sun::show(ui, sun);
+    }
     let mut frozen = stage.frozen;
     if ui.checkbox(&mut frozen, "Freeze the shadow camera (F)").changed() {
         stage.freeze(frozen);
@@ -241,7 +248,7 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
         ui.monospace(format!("GPU {gpu_ms:.2} ms, the median of {} frames", stage.times.frames()));
     }
     ui.separator();
-    ui.weak("W A S D or arrow keys move, E and Q up and down, Shift faster; drag to look around; T selects the next technique; P plays and pauses.");
+    ui.weak("W A S D or arrow keys move, E and Q up and down, Shift faster; drag to look around; T selects the next technique; P plays and pauses, L the day.");
     action
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::fly::FlyCamera;
 use super::playback::Playback;
 use super::reload::Watched;
+use super::sun::Sun;
 use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load};
 use crate::failure::Failure;
@@ -32,6 +33,8 @@ pub(super) struct Stage {
     pub(super) controller: Option<QualityController>,
     pub(super) fly: FlyCamera,
     pub(super) playback: Playback,
+    /// `None` in a scene without directional lights.
+    pub(super) sun: Option<Sun>,
     /// Whether the shadow camera is frozen.
     pub(super) frozen: bool,
     pub(super) times: TimeHistory,
@@ -71,6 +74,7 @@ impl Stage {
         Ok(Self {
             fly: FlyCamera::new(input.camera, radius_m),
             playback: Playback::new(selection, input.options.time.0),
+            sun: Sun::from_scene(&input.scene, &input.options.sun),
             scene: input.scene,
             technique: input.options.render_config().technique(),
             registry,
@@ -108,6 +112,7 @@ impl Stage {
         self.settings = view.with_shadow_distance(ShadowDistance::Auto, &scene).shadows;
         self.fly = FlyCamera::new(camera, scene.bounds().radius());
         self.playback = Playback::new(AnimationSelection::All, 0.0);
+        self.sun = Sun::from_scene(&scene, &SunChoice::default());
         (self.scene, self.aov, self.frozen) = (scene, Aov::default(), false);
         (self.renderer, self.created, self.file_error) = (None, None, None);
     }
@@ -141,6 +146,19 @@ impl Stage {
                 Err(error) => self.file_error = Some(error.to_string()),
             }
         }
+    }
+
+    /// Lets the sun move for some seconds, and follows its controls.
+    pub(super) fn move_sun(&mut self, seconds: f64) -> Result<(), shadowgraph::Error> {
+        let Some(sun) = &mut self.sun else { return Ok(()) };
+        sun.advance(seconds);
+        let Some(light) = sun.changed() else { return Ok(()) };
+        let key = sun.key;
+        if let Some(renderer) = &mut self.renderer {
+            renderer.scene_mut().replace_light(key, light.clone())?;
+        }
+        self.scene.replace_light(key, light)?;
+        Ok(())
     }
 
     /// Freezes the shadow camera, or lets it follow the camera again.
