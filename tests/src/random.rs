@@ -33,4 +33,9 @@ impl Random {
     pub fn unit(&mut self) -> f64 {
         self.below(1 << 20) as f64 / f64::from(1 << 20)
     }
+
+    /// Returns a number from `from` to below `to`.
+    pub fn between(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * self.unit()
+    }
 }

@@ -5,6 +5,9 @@ use shadowgraph_shadows::ShadowSettings;
 
 use crate::options::distance::ShadowDistance;
 
+/// Number of steps per factor of two of the automatic shadow distance.
+const DISTANCE_STEPS: f64 = 8.0;
+
 /// The options of a view.
 #[derive(Clone, Debug)]
 pub struct ViewOptions {
@@ -19,7 +22,21 @@ pub struct ViewOptions {
 
 impl ViewOptions {
     /// Sets the shadow distance. `Auto`, the program's default, is so large that the fade begins behind the visible part of the
-    /// scene, and at most the far plane.
+    /// scene, and at most the far plane. It changes in eight steps per factor of two, and stays as it is where it is a step larger
+    /// than needed: set it in every frame from the options of the frame before, and cascades are rarely fitted again as the camera
+    /// moves.
+    ///
+    /// ```
+    /// use shadowgraph::ViewOptions;
+    /// use shadowgraph::options::ShadowDistance;
+    /// let scene = shadowgraph_samples::demo::demo_scene();
+    /// let options = ViewOptions { camera: scene.cameras[0].clone(), size_px: [64, 36], shadows: Default::default() };
+    /// let mut options = options.with_shadow_distance(ShadowDistance::Auto, &scene);
+    /// let before_m = options.shadows.distance_m;
+    /// options.camera.world_from_view.translation.y += 0.01;
+    /// options = options.with_shadow_distance(ShadowDistance::Auto, &scene);
+    /// assert_eq!(options.shadows.distance_m, before_m);
+    /// ```
     pub fn with_shadow_distance(mut self, distance: ShadowDistance, scene: &Scene) -> Self {
         self.shadows.distance_m = match distance {
             ShadowDistance::Metres(metres) => metres as f32,
@@ -39,7 +56,12 @@ impl ViewOptions {
         let corners = scene.visible_instances(&volume).flat_map(|key| scene.instance_bounds(key).corners());
         let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
         let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
+        let step = (with_fade.log2() * DISTANCE_STEPS).ceil();
+        let [needed_m, spare_m] = [step, step + 1.0].map(|step| (step / DISTANCE_STEPS).exp2());
+        let stays = self.shadows.distance_m == spare_m as f32;
         let near = self.camera.near();
-        with_fade.min(self.camera.far().unwrap_or(f64::INFINITY)).clamp(near * 1.001 + 0.001, 1.0e6)
+        (if stays { spare_m } else { needed_m })
+            .min(self.camera.far().unwrap_or(f64::INFINITY))
+            .clamp(near * 1.001 + 0.001, 1.0e6)
     }
 }

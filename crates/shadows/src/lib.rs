@@ -51,7 +51,7 @@ pub use error::Error;
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};
 pub use pcf_variant::PcfVariant;
-pub use plan::{MapPlan, PlanState, ShadowInputs, ShadowPlan, TilePlan};
+pub use plan::{MapPlan, PlanState, ReceiversEnd, ShadowInputs, ShadowPlan, TilePlan};
 pub use planner::{plan_shadows, plan_shadows_after};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,

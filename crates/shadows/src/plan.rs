@@ -59,9 +59,17 @@ pub struct ShadowPlan {
 pub struct PlanState {
     /// The tiles of lights in the atlas.
     pub atlas_allocation: AtlasAllocation,
-    /// Distance at which all receivers end, metres, in steps; 0 before the first frame. Cascades end there if that is nearer than
-    /// the shadow distance.
-    pub receivers_end_m: f64,
+    /// The end of all receivers. Cascades end there if that is nearer than the shadow distance.
+    pub receivers_end: ReceiversEnd,
+}
+
+/// The distance at which all receivers end, in steps: a step too far is kept for some frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReceiversEnd {
+    /// Distance from the camera, metres; 0 before the first frame.
+    pub distance_m: f64,
+    /// Number of frames for which it has been a step farther than needed.
+    pub spare_frames: u32,
 }
 
 /// A shadow map.

@@ -11,7 +11,7 @@ use culling::VisibleReceivers;
 use crate::atlas::TileRect;
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
-use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
+use crate::plan::{PlanState, ReceiversEnd, ShadowInputs, ShadowPlan};
 use crate::requirements::Requirements;
 use crate::select::{Candidate, ShadowRange, Shape, candidate};
 use crate::select::{Unshadowed, UnshadowedReason};
@@ -85,6 +85,9 @@ pub fn plan_shadows_after(
 /// Number of steps per factor of two of the distance at which receivers end.
 const END_STEPS: f64 = 4.0;
 
+/// Number of frames for which cascades keep an end that is a step farther than needed.
+const SPARE_FRAMES: u32 = 60;
+
 /// A plan under construction.
 struct Planner<'a> {
     inputs: ShadowInputs<'a>,
@@ -114,12 +117,12 @@ impl<'a> Planner<'a> {
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
         let near_m = camera.near();
         // Never in front of the near plane, however small the scene.
-        let previous_m = previous.map_or(0.0, |previous| previous.receivers_end_m);
-        let receivers_end_m = receivers_end_m(&inputs.casters.receivers(), camera, previous_m);
-        let fit_m = receivers_end_m.max(near_m * 1.01 + 1e-3).min(distance_m);
+        let previous_end = previous.map_or_else(ReceiversEnd::default, |previous| previous.receivers_end);
+        let receivers_end = receivers_end(&inputs.casters.receivers(), camera, previous_end);
+        let fit_m = receivers_end.distance_m.max(near_m * 1.01 + 1e-3).min(distance_m);
         let range = ShadowRange { camera, aspect, near_m, distance_m, fit_m };
         let mut plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
-        plan.state.receivers_end_m = receivers_end_m;
+        plan.state.receivers_end = receivers_end;
         let visible = VisibleReceivers::new(inputs, &range);
         Ok(Self { inputs: *inputs, range, visible, own, previous, requirements: *requirements, plan })
     }
@@ -206,16 +209,19 @@ fn placement(
     TilePlacement { rect, map_size_px, border_px: params.border_px(), depth_step }
 }
 
-/// Returns the distance from the camera to the farthest point of the bounds, metres, rounded up to one of four steps per
-/// factor of two: it does not change as the camera turns, and rarely as it moves. It stays at `previous_m` while that is far
-/// enough and at most a step too far, so it does not flip back and forth. Infinite for empty bounds.
-fn receivers_end_m(bounds: &Aabb, camera: &Camera, previous_m: f64) -> f64 {
+/// Returns the distance from the camera to the farthest point of the bounds, rounded up to one of four steps per factor of two:
+/// it does not change as the camera turns, and rarely as it moves. A distance that is a step too far stays for some frames, so
+/// it does not flip back and forth, and a camera that rests has the distance of a fresh start. Infinite for empty bounds.
+fn receivers_end(bounds: &Aabb, camera: &Camera, previous: ReceiversEnd) -> ReceiversEnd {
     if bounds.is_empty() {
-        return f64::INFINITY;
+        return ReceiversEnd { distance_m: f64::INFINITY, spare_frames: 0 };
     }
     let eye = camera.position_world();
     let farthest = bounds.corners().map(|corner| corner.distance(eye)).into_iter().fold(0.0, f64::max);
     let step = (farthest.log2() * END_STEPS).ceil();
-    let ends = [step, step + 1.0].map(|step| (step / END_STEPS).exp2());
-    if ends.contains(&previous_m) { previous_m } else { ends[0] }
+    let [needed_m, spare_m] = [step, step + 1.0].map(|step| (step / END_STEPS).exp2());
+    if previous.distance_m == spare_m && previous.spare_frames < SPARE_FRAMES {
+        return ReceiversEnd { spare_frames: previous.spare_frames + 1, ..previous };
+    }
+    ReceiversEnd { distance_m: needed_m, spare_frames: 0 }
 }

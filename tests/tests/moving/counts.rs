@@ -1,12 +1,12 @@
 //! What a frame costs, counted. Nothing is drawn: the device does nothing.
 
-use crate::Random;
 use crate::boxes::Boxes;
 use crate::maps::{Frames, View, camera, notes, sun};
 use glam::DVec3;
 use shadowgraph::scene::Aabb;
 use shadowgraph::shadows::{Mobility, ShadowSettings};
 use shadowgraph::wgpu;
+use shadowgraph_tests::random::Random;
 
 /// Returns a field of boxes; the first, which moves, stands in front of the camera.
 fn field(device: &wgpu::Device, count: usize, half_m: f64) -> Boxes {
@@ -68,7 +68,7 @@ fn a_still_world_draws_no_shadow_pass() {
 }
 
 /// Returns the fraction of its texels into which static casters are drawn, by what the plan says about a tile.
-fn redrawn(note: &str, tile_px: u32) -> f64 {
+pub(crate) fn redrawn(note: &str, tile_px: u32) -> f64 {
     if note.contains(" drawn: ") && !note.contains(" kept: ") || note.contains(" stored: ") {
         return 1.0;
     }
@@ -95,7 +95,7 @@ fn walk(distance_m: f32, receivers_half_m: f64) -> f64 {
         view.settings.distance_m = distance_m;
         let drawn = frames.draw(&boxes, &view, false);
         let said = notes(&drawn.plan, "cascades");
-        assert_eq!(said.len(), 4);
+        assert!((3..=4).contains(&said.len()), "{said:?}");
         let tile_px = view.settings.cascades.map_size_px / 2;
         sum += said.iter().map(|note| redrawn(note, tile_px)).sum::<f64>() / 4.0;
     }

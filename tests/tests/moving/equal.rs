@@ -2,10 +2,11 @@
 
 use crate::boxes::{Block, Boxes};
 use crate::maps::{Frames, View, camera, light, sun};
-use crate::{Random, frames, gpu};
+use crate::{frames, gpu};
 use glam::DVec3;
 use shadowgraph::scene::{Aabb, Light, LightKind};
 use shadowgraph::shadows::{CullSettings, DepthFormat, Mobility, ShadowSettings};
+use shadowgraph_tests::random::Random;
 
 /// The number of boxes.
 const BOXES: usize = 60;
@@ -83,7 +84,7 @@ fn kept_maps_are_equal_to_the_bit_over_random_motions_of_casters_lights_and_sett
     let Some(gpu) = gpu() else { return };
     let (mut kept_tiles, mut stored) = (0, 0);
     for scene in 0..frames().div_ceil(SCENE) {
-        let random = &mut Random::new(scene);
+        let random = &mut Random::new(scene as u32);
         let mut boxes = Boxes::new(&gpu.device, BOXES);
         for index in 0..BOXES {
             let moves = if index % 12 == 0 { Mobility::Moving } else { Mobility::Static };

@@ -2,10 +2,11 @@
 
 use crate::boxes::Boxes;
 use crate::maps::{Drawn, Frames, View, camera, notes, sun};
-use crate::{Random, frames, gpu};
+use crate::{frames, gpu};
 use glam::DVec3;
 use shadowgraph::scene::Aabb;
 use shadowgraph::shadows::{CullSettings, Mobility, ShadowSettings};
+use shadowgraph_tests::random::Random;
 
 /// Depth by which a texel may differ: rounding in f32 of positions some hundred metres from the origin.
 const ROUNDING: f32 = 2e-6;

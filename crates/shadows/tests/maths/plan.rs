@@ -444,13 +444,17 @@ fn the_end_of_the_cascades_changes_in_steps_and_not_back_at_once() {
         let plan = plan_shadows_after(&inputs, state.as_ref(), &Requirements::NONE).unwrap();
         state = Some(plan.state.clone());
         let farthest = DVec3::new(half_m + x.abs(), half_m, half_m).length();
-        assert!(plan.state.receivers_end_m >= farthest, "it contains all receivers");
-        plan.state.receivers_end_m
+        assert!(plan.state.receivers_end.distance_m >= farthest, "it contains all receivers");
+        plan.state.receivers_end.distance_m
     };
     // A step ends at 2^(21/4) m, 38.05 m: at 5.46 m.
     let ends = [5.0, 5.2, 6.4, 5.3, 6.2, 5.1].map(&mut end_at);
     assert!(ends[0] == ends[1] && ends[1] < ends[2], "{ends:?}");
     assert!(ends[2..].iter().all(|end| *end == ends[2]), "{ends:?}");
+    // The end is that of a fresh start a while after it was last needed.
+    let rests = [5.1; 120].map(&mut end_at);
+    assert_eq!(rests.windows(2).filter(|ends| ends[0] != ends[1]).count(), 1);
+    assert_eq!(rests[119], ends[0]);
     // Two steps nearer it follows.
     assert!(end_at(60.0) > ends[2]);
     assert_eq!(end_at(0.0), ends[0]);
