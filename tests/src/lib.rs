@@ -3,6 +3,7 @@
 pub mod edits;
 mod program;
 pub mod random;
+pub mod shares;
 pub mod watch;
 
 pub use program::{ProgramError, on_path, program};

@@ -9,9 +9,9 @@ use shadowgraph::shadows::Technique;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_tests::random::Random;
+use shadowgraph_tests::shares::in_shares;
 use shadowgraph_tests::{edits, skip};
 use std::io::Write;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
@@ -169,45 +169,14 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
     }
 }
 
-/// Runs this program for each share of the frames, at most one per core and at most four at once: each takes some GiB.
-fn in_processes(frames: u32) {
-    let processes = frames.div_ceil(SHARE);
-    let next = AtomicU32::new(0);
-    let work = || {
-        loop {
-            let seed = next.fetch_add(1, Ordering::Relaxed);
-            if seed >= processes {
-                return;
-            }
-            // The first processes render the remainder.
-            in_process(seed, frames / processes + u32::from(seed < frames % processes));
-        }
-    };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| (0..cores.min(4)).for_each(|_| drop(scope.spawn(work))));
-    println!("soak: {frames} frames without an error");
-}
-
-fn in_process(seed: u32, share: u32) {
-    let mut program = std::process::Command::new(std::env::current_exe().unwrap());
-    let variables = [("SHADOWGRAPH_SOAK", share), ("SHADOWGRAPH_SOAK_SEED", seed)];
-    program.arg("--nocapture").envs(variables.map(|(name, number)| (name, number.to_string())));
-    let done = program.output().unwrap();
-    let text = String::from_utf8_lossy(&done.stdout);
-    let lines: Vec<_> =
-        text.lines().filter_map(|line| line.split_once("soak: ")).map(|(_, lines)| lines).collect();
-    println!("soak: seed {seed}: {}", lines.join("; "));
-    let said = String::from_utf8_lossy(&done.stderr);
-    assert!(done.status.success(), "{variables:?}\n{text}\n{said}");
-}
-
 /// On the noop device, the process's memory is that of this project and wgpu: it must not grow. On a software driver, the device's memory
 /// must be freed; that of the process is not checked, as Mesa keeps the code of shaders whose pipelines were destroyed.
 #[test]
 fn changing_pipelines_sizes_techniques_lights_and_objects_leaks_no_memory() {
     let frames = from_env("SHADOWGRAPH_SOAK", FRAMES);
     if frames > SHARE {
-        return in_processes(frames);
+        let test = "changing_pipelines_sizes_techniques_lights_and_objects_leaks_no_memory";
+        return in_shares(test, frames, SHARE);
     }
     let mut most = [0; 4];
     let note = |quarter: usize| most[quarter] = most[quarter].max(memory_mib().unwrap_or_default());

@@ -2,7 +2,7 @@
 
 use crate::maps::notes;
 use crate::worlds::{Pair, SIZE_PX, camera, different_pixels, edit_lights, edit_material, scene, settings};
-use crate::{frames, gpu};
+use crate::{frames, gpu, seed};
 use glam::DVec3;
 use shadowgraph::ViewOptions;
 use shadowgraph::core::Plan;
@@ -10,12 +10,21 @@ use shadowgraph::scene::Scene;
 use shadowgraph::shadows::{AtlasTiles, EVSM, PCF, PCSS, TechniqueKind};
 use shadowgraph_tests::edits;
 use shadowgraph_tests::random::Random;
+use shadowgraph_tests::shares::in_shares;
 
 /// The number of frames after which renderers start afresh with another scene.
 const SCENE: u64 = 40;
 
+/// The largest number of frames of one process.
+const SHARE: u64 = 120;
+
 /// The techniques of the scenes, in turn.
 const TECHNIQUES: [TechniqueKind; 4] = [PCF, PCF, EVSM, PCSS];
+
+/// Returns the technique of a scene.
+fn technique(number: u64) -> TechniqueKind {
+    TECHNIQUES[(u64::from(seed() / 100) + number) as usize % TECHNIQUES.len()]
+}
 
 /// Counts what the plans of frames say about their tiles.
 #[derive(Debug, Default)]
@@ -60,16 +69,20 @@ fn change(scene: &mut Scene, random: &mut Random) {
 #[test]
 fn images_are_equal_to_the_bit_over_random_motions_of_casters_lights_materials_and_settings() {
     let Some(gpu) = gpu() else { return };
+    if frames() > SHARE {
+        let test = "images::images_are_equal_to_the_bit_over_random_motions_of_casters_lights_materials_and_settings";
+        return in_shares(test, frames() as u32, SHARE as u32);
+    }
     let mut pairs: Vec<(TechniqueKind, Pair)> = Vec::new();
     let (mut counts, mut images) = (Counts::default(), Vec::new());
     for number in 0..frames().div_ceil(SCENE) {
-        let technique = TECHNIQUES[number as usize % TECHNIQUES.len()];
+        let technique = technique(number);
         let index = pairs.iter().position(|(of, _)| of.name == technique.name).unwrap_or_else(|| {
             pairs.push((technique, Pair::new(gpu, technique)));
             pairs.len() - 1
         });
         let pair = &mut pairs[index].1;
-        let random = &mut Random::new(number as u32);
+        let random = &mut Random::new(seed() + number as u32);
         pair.restart(gpu, &scene(random));
         let eye = DVec3::new(random.between(-7.0, 7.0), random.between(1.5, 5.0), random.between(4.0, 8.0));
         let mut options = ViewOptions {
@@ -106,7 +119,7 @@ fn images_are_equal_to_the_bit_over_random_motions_of_casters_lights_materials_a
     }
     let count = images.len();
     images.dedup();
-    println!("{count} equal frames, {} of them unlike the one before; tiles: {counts:?}", images.len());
+    println!("soak: {count} equal frames, {} of them unlike the one before; tiles: {counts:?}", images.len());
     assert!(images.len() * 2 > count, "the changes are visible");
     assert!(counts.kept > count && counts.moved > count / 4 && counts.drawn > count / 4, "{counts:?}");
 }
@@ -127,42 +140,42 @@ fn walk(eye: &mut DVec3, heading: &mut f64, random: &mut Random) -> ViewOptions 
 #[test]
 fn images_are_those_of_a_fresh_start_after_a_walk_but_for_rounding() {
     let Some(gpu) = gpu() else { return };
-    let mut pair = Pair::new(gpu, PCF);
-    let (mut counts, mut differ, mut pixels) = (Counts::default(), 0, 0);
-    let (mut differ_at_end, mut ends) = (0, 0);
-    let length = frames().clamp(100, 400);
-    for number in 0..frames().div_ceil(length) {
-        let random = &mut Random::new(number as u32);
-        pair.restart(gpu, &scene(random));
-        let (mut eye, mut heading) = (DVec3::new(0.0, 1.7, 7.0), 0.0);
-        let mut shadows = settings(random);
-        shadows.cascades.count = 4;
-        // Others keep the sizes of their tiles as lights' shares of the image change.
-        shadows.atlas.tiles = AtlasTiles::Even;
-        for _ in 0..length {
-            let options = ViewOptions { shadows: shadows.clone(), ..walk(&mut eye, &mut heading, random) };
-            if random.below(4) == 0 {
-                pair.edit(random, change);
-            }
-            let [with, without] = pair.draw(gpu, &options);
-            counts.add(&with.plan);
-            differ += different_pixels(&with, &without, 2);
-            pixels += u64::from(SIZE_PX[0] * SIZE_PX[1]);
-        }
-        let options = ViewOptions { shadows, ..walk(&mut eye, &mut heading, random) };
-        // Cascades keep an end that is farther than needed for some frames.
-        let mut with = pair.kept.draw(gpu, &options).unwrap();
-        for _ in 0..60 {
-            with = pair.kept.draw(gpu, &options).unwrap();
-        }
-        let scene = pair.kept.scene().clone();
-        pair.drawn.set_scene(gpu, scene).unwrap();
-        let fresh = pair.drawn.draw(gpu, &options).unwrap();
-        differ_at_end += different_pixels(&with, &fresh, 2);
-        ends += u64::from(SIZE_PX[0] * SIZE_PX[1]);
+    if frames() > SHARE {
+        let test = "images::images_are_those_of_a_fresh_start_after_a_walk_but_for_rounding";
+        return in_shares(test, frames() as u32, SHARE as u32);
     }
+    let mut pair = Pair::new(gpu, technique(0));
+    let (mut counts, mut differ, mut pixels) = (Counts::default(), 0, 0);
+    let random = &mut Random::new(seed());
+    pair.restart(gpu, &scene(random));
+    let (mut eye, mut heading) = (DVec3::new(0.0, 1.7, 7.0), 0.0);
+    let mut shadows = settings(random);
+    shadows.cascades.count = 4;
+    // Others keep the sizes of their tiles as lights' shares of the image change.
+    shadows.atlas.tiles = AtlasTiles::Even;
+    for _ in 0..frames() {
+        let options = ViewOptions { shadows: shadows.clone(), ..walk(&mut eye, &mut heading, random) };
+        if random.below(4) == 0 {
+            pair.edit(random, change);
+        }
+        let [with, without] = pair.draw(gpu, &options);
+        counts.add(&with.plan);
+        differ += different_pixels(&with, &without, 2);
+        pixels += u64::from(SIZE_PX[0] * SIZE_PX[1]);
+    }
+    let options = ViewOptions { shadows, ..walk(&mut eye, &mut heading, random) };
+    // Cascades keep an end that is farther than needed for some frames.
+    let mut with = pair.kept.draw(gpu, &options).unwrap();
+    for _ in 0..60 {
+        with = pair.kept.draw(gpu, &options).unwrap();
+    }
+    let scene = pair.kept.scene().clone();
+    pair.drawn.set_scene(gpu, scene).unwrap();
+    let fresh = pair.drawn.draw(gpu, &options).unwrap();
+    let differ_at_end = different_pixels(&with, &fresh, 2);
+    let ends = u64::from(SIZE_PX[0] * SIZE_PX[1]);
     println!(
-        "{differ} of {pixels} pixels differ, {differ_at_end} of {ends} from a fresh start; tiles: {counts:?}"
+        "soak: {differ} of {pixels} pixels differ, {differ_at_end} of {ends} from a fresh start; tiles: {counts:?}"
     );
     assert!(counts.scrolled as u64 > frames() / 2, "{counts:?}");
     assert!(differ as u64 * 100_000 <= pixels, "{differ} of {pixels} pixels differ");

@@ -1,5 +1,6 @@
 //! Shadow maps that keep what did not change: equal to maps that are drawn every frame, at a cost in proportion to what moved.
-//! `SHADOWGRAPH_SOAK` is the number of random frames.
+//! `SHADOWGRAPH_SOAK` is the number of random frames, and
+//! `SHADOWGRAPH_SOAK_SEED` the seed of images.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod boxes;
@@ -29,5 +30,14 @@ fn gpu() -> Option<&'static Gpu> {
 
 /// Returns the number of frames to draw.
 fn frames() -> u64 {
-    std::env::var("SHADOWGRAPH_SOAK").ok().and_then(|frames| frames.parse().ok()).unwrap_or(120)
+    from_env("SHADOWGRAPH_SOAK").unwrap_or(120)
+}
+
+/// Returns the seed of the first random numbers.
+fn seed() -> u32 {
+    100 * from_env("SHADOWGRAPH_SOAK_SEED").unwrap_or(0) as u32
+}
+
+fn from_env(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|value| value.parse().ok())
 }
