@@ -66,6 +66,10 @@ impl ShadowCasters for SceneCasters {
         if self.scene.is_moving(caster) { Mobility::Moving } else { Mobility::Static }
     }
 
+    fn caster_name(&self, caster: u32) -> Option<&str> {
+        self.scene.name(caster)
+    }
+
     fn tints(&self, caster: u32) -> bool {
         self.scene.draw_for(caster).is_some_and(|draw| draw.casts == CasterMode::Tint)
     }
@@ -92,5 +96,96 @@ impl ShadowCasters for SceneCasters {
             CasterPass::TintDepth => Some(pipelines.solid()),
             CasterPass::Tint => Some(pipelines.tint()),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use glam::{DAffine3, DVec3};
+    use shadowgraph_scene::{AlphaMode, Image, Instance, InstanceKey, Material, Mesh, Scene, TextureRef};
+
+    /// A scene and its casters on a device that does nothing.
+    struct Followed {
+        gpu: (wgpu::Device, wgpu::Queue),
+        scene: Scene,
+        casters: SceneCasters,
+    }
+
+    impl Followed {
+        fn new(mut scene: Scene) -> Self {
+            let gpu = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+            let uploaded = GpuScene::new(&gpu.0, &gpu.1, &scene, DVec3::ZERO).unwrap();
+            let _ = scene.take_changes();
+            Self { casters: SceneCasters::new(&gpu.0, uploaded).unwrap(), gpu, scene }
+        }
+
+        /// Draws a frame, and returns for each instance whether its version changed.
+        fn follow(&mut self, keys: &[InstanceKey]) -> Vec<bool> {
+            let versions = |casters: &SceneCasters| -> Vec<_> {
+                keys.iter().map(|key| casters.version(casters.scene.number(*key).unwrap())).collect()
+            };
+            let before = versions(&self.casters);
+            let changes = self.scene.take_changes();
+            self.casters.scene.update(&self.gpu.0, &self.gpu.1, &self.scene, &changes).unwrap();
+            before.into_iter().zip(versions(&self.casters)).map(|(before, after)| before != after).collect()
+        }
+
+        fn mobility(&self, key: InstanceKey) -> Mobility {
+            self.casters.mobility(self.casters.scene.number(key).unwrap())
+        }
+    }
+
+    #[test]
+    fn casters_have_names_versions_of_what_they_draw_and_move_for_a_while_after_they_moved() {
+        let mut scene = Scene::default();
+        let [cube, ball] =
+            [1.0, 2.0].map(|size| scene.insert_mesh(Mesh::cuboid(DVec3::ZERO, DVec3::splat(size))));
+        let dot = |value| Image { name: "dot".into(), width: 1, height: 1, rgba8: vec![value; 4] };
+        let image = scene.insert_image(dot(1)).unwrap();
+        let texture = Some(TextureRef::new(image));
+        let leaf = Material { base_color_texture: texture, ..Material::default() };
+        let [leaf, plain] =
+            [leaf, Material::default()].map(|material| scene.insert_material(material).unwrap());
+        let mut add = |name, mesh, material| {
+            scene.insert_instance(Instance::new(mesh, material, DAffine3::IDENTITY).with_name(name)).unwrap()
+        };
+        let keys = [add("Fox", cube, leaf), add("Rock", ball, plain), add("", cube, plain)];
+        let mut followed = Followed::new(scene);
+        let numbers = keys.map(|key| followed.casters.scene.number(key).unwrap());
+        assert_eq!(
+            numbers.map(|number| followed.casters.caster_name(number)),
+            [Some("Fox"), Some("Rock"), None]
+        );
+        assert_eq!(followed.casters.caster_name(99), None);
+
+        let leaf_edits: [fn(&mut Material); 4] = [
+            |material| material.alpha = AlphaMode::Mask { cutoff: 0.7 },
+            |material| material.double_sided = true,
+            |material| material.receives_shadows = false,
+            |material| material.base_color.w = 0.5,
+        ];
+        for edit in leaf_edits {
+            followed.scene.edit_material(leaf, edit).unwrap();
+            assert_eq!(followed.follow(&keys), [true, false, false]);
+        }
+        followed.scene.replace_image(image, dot(2)).unwrap();
+        assert_eq!(followed.follow(&keys), [true, false, false]);
+        followed.scene.replace_mesh(cube, Mesh::cuboid(DVec3::ZERO, DVec3::splat(3.0))).unwrap();
+        assert_eq!(followed.follow(&keys), [true, false, true]);
+        followed.scene.edit_instance(keys[1], |rock| rock.receives_shadows = false).unwrap();
+        assert_eq!(followed.follow(&keys), [false, true, false]);
+        assert!(keys.iter().all(|key| followed.mobility(*key) == Mobility::Static));
+
+        followed.scene.move_instance(keys[0], DAffine3::from_translation(DVec3::X)).unwrap();
+        assert_eq!(followed.follow(&keys), [true, false, false]);
+        let frames = (0..100).take_while(|_| {
+            assert_eq!(followed.mobility(keys[1]), Mobility::Static);
+            let moves = followed.mobility(keys[0]) == Mobility::Moving;
+            assert_eq!(followed.follow(&keys), [false; 3]);
+            moves
+        });
+        assert_eq!(frames.count(), 60);
     }
 }

@@ -1,5 +1,7 @@
 //! The GPU copy of a scene.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::draw_list::{Draw, DrawList, DrawPipeline, squared_distance};
@@ -51,6 +53,8 @@ pub struct GpuScene {
 #[derive(Clone, Debug)]
 pub(super) struct Slot {
     pub(super) key: InstanceKey,
+    /// The instance's name.
+    pub(super) name: Arc<str>,
     pub(super) draw: Draw,
     /// Whether cameras see it.
     pub(super) is_seen: bool,
@@ -142,7 +146,14 @@ impl GpuScene {
         self.numbers.get(key)
     }
 
-    /// Returns a version of an instance, its mesh and its material: it changes whenever one of them does, and is never used again.
+    /// Returns the name of the instance with a number; `None` if it is empty.
+    #[must_use]
+    pub fn name(&self, number: u32) -> Option<&str> {
+        self.slot(number).map(|slot| &*slot.name).filter(|name| !name.is_empty())
+    }
+
+    /// Returns a version of an instance, its mesh and its material: it changes whenever one of them or the
+    /// number does, and is never used again.
     #[must_use]
     pub fn version(&self, number: u32) -> Option<u64> {
         let slot = self.slot(number)?;

@@ -148,7 +148,11 @@ impl GpuScene {
         if self.slots[index].as_ref().map(|slot| slot.draw) != Some(draw) {
             self.unsorted += 1;
         }
-        let slot = Slot { key, draw, is_seen: instance.is_seen(), version, stands_from };
+        let name = match &self.slots[index] {
+            Some(slot) if *slot.name == *instance.name => slot.name.clone(),
+            _ => instance.name.as_str().into(),
+        };
+        let slot = Slot { key, name, draw, is_seen: instance.is_seen(), version, stands_from };
         edits.set(number, split_bounds(&slot, scene.instance_bounds(key)));
         self.slots[index] = Some(slot);
         Ok(())
@@ -260,7 +264,11 @@ impl GpuScene {
         self.caster_tree = CullTree::new(&caster_bounds);
         self.numbers = Numbers::default();
         for slot in &mut slots {
-            slot.draw.instance = self.numbers.insert(slot.key);
+            let number = self.numbers.insert(slot.key);
+            if std::mem::replace(&mut slot.draw.instance, number) != number {
+                self.versions += 1;
+                slot.version = self.versions;
+            }
         }
         self.slots = slots.into_iter().map(Some).collect();
         self.unsorted = 0;

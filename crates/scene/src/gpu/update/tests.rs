@@ -55,6 +55,20 @@ impl Copied {
         self.scene.instances().map(describe).collect()
     }
 
+    /// Returns what each instance draws by its number and version.
+    fn versions(&self) -> Vec<((u32, u64), String)> {
+        let describe = |(key, instance): (InstanceKey, &Instance)| {
+            let (number, mesh) = (self.number(key), self.scene.mesh(instance.mesh).unwrap());
+            let material = self.scene.material(instance.material).unwrap();
+            let images = material.textures().into_iter().flatten().map(|used| self.scene.image(used.image));
+            let images: Vec<_> = images.collect();
+            let corner = mesh.vertices.last().map(|vertex| vertex.position);
+            let version = self.gpu.version(number).unwrap();
+            ((number, version), format!("{key:?} {instance:?} {corner:?} {material:?} {images:?}"))
+        };
+        self.scene.instances().map(describe).collect()
+    }
+
     fn cull(&self, volume: &CullVolume) -> [Vec<InstanceKey>; 2] {
         let (mut seen, mut casters) = (Vec::new(), Vec::new());
         self.gpu.cull(volume, &mut seen);
@@ -336,12 +350,17 @@ proptest! {
             scene.insert_image(dot(value)).unwrap();
         }
         let mut copied = Copied::new(scene);
+        let mut known = BTreeMap::new();
         for edit in edits {
             apply(&mut copied.scene, &edit);
             if !matches!(edit, Edit::Frame) {
                 continue;
             }
             copied.follow();
+            for (version, drawn) in copied.versions() {
+                let known = known.entry(version).or_insert_with(|| drawn.clone());
+                prop_assert_eq!(&*known, &drawn, "a version that was never used");
+            }
             let fresh = Copied::new(copied.scene.clone());
             prop_assert_eq!(copied.instances(), fresh.instances());
             prop_assert_eq!(copied.gpu.all_bounds(), fresh.gpu.all_bounds());
