@@ -1,5 +1,6 @@
 //! Shared by the tests of the whole workspace: paths, skips, the built program.
 
+pub mod animated;
 pub mod edits;
 mod program;
 pub mod random;

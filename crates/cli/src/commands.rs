@@ -31,7 +31,7 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let Options { aov, timings, .. } = input.options.clone();
     let [width, height] = view_options(&input).size_px;
-    let drawn = draw_frames(&gpu, input, args.frames, &mut |number, image| {
+    let drawn = draw_frames(&gpu, input, args.frames, args.fps, &mut |number, image| {
         let Some(file) = files.file(number, args.frames) else { return Ok(()) };
         let (pixels, bytes) = file_pixels(&aov, image);
         Ok(write_png(&file, width, height, pixels, &bytes)?)
@@ -52,19 +52,20 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
 
 /// Draws one frame.
 pub(super) fn draw(gpu: &Gpu, input: Input) -> Result<RenderedFrame, Failure> {
-    draw_frames(gpu, input, 1, &mut |_, _| Ok(()))
+    draw_frames(gpu, input, 1, 1.0, &mut |_, _| Ok(()))
 }
 
-/// Draws a number of frames, and returns the last. Each image is passed to `keep` with the number of its frame.
+/// Draws a number of frames while the animations play, and returns the last. Each image is passed to `keep` with the number of its frame.
 fn draw_frames(
     gpu: &Gpu,
     input: Input,
     frames: u32,
+    fps: f64,
     keep: &mut dyn FnMut(u32, RenderedImage) -> Result<(), Failure>,
 ) -> Result<RenderedFrame, Failure> {
     let drawing = Progress::if_slow("drawing");
-    let Options { aov, timings, .. } = input.options.clone();
-    let (view, config) = (view_options(&input), input.options.render_config());
+    let (aov, timings) = (input.options.aov.clone(), input.options.timings);
+    let (mut view, config) = (view_options(&input), input.options.render_config());
     let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
     let mut timer = timings.then(Timer::new);
     if timings {
@@ -74,11 +75,23 @@ fn draw_frames(
     for number in 1..frames {
         keep(number - 1, renderer.draw(gpu, &view)?.image)?;
         drawing.set(&format!("frame {number} of {frames}"), number as f32 / frames as f32);
+        let time_s = input.options.time.0 + f64::from(number) / fps;
+        view.camera = pose(renderer.scene_mut(), &input.options, time_s, view.camera)?;
     }
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
     report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
     keep(frames - 1, drawn.image.clone())?;
     Ok(drawn)
+}
+
+/// Moves a scene to a time of its animations, and returns the camera, which moves along if it is one of the scene.
+fn pose(scene: &mut Scene, options: &Options, time_s: f64, camera: Camera) -> Result<Camera, Failure> {
+    scene.set_time(options.animation.resolve(&scene.hierarchy)?, time_s)?;
+    if scene.cameras.is_empty() {
+        // The one that framed the scene in the first frame stays.
+        return Ok(camera);
+    }
+    Ok(options.camera.resolve(scene, options.size.aspect())?)
 }
 
 /// Checks before drawing that the output is a PNG file.

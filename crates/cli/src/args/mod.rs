@@ -49,12 +49,12 @@ pub(crate) enum Command {
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// Number of frames; the last one is written, or all if the file has a number. Nodes that accumulate frames, such as taa,
-    /// need several
+    /// Number of frames; the last one is written, or all if the file has a number. The animations play from --time on. Nodes that
+    /// accumulate frames, such as taa, need several
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) frames: u32,
-    /// Frames per second
+    /// Frames per second of the animations
     #[arg(long, value_name = "F", default_value_t = 60.0, allow_negative_numbers = true)]
     #[arg(value_parser = frames_per_second)]
     pub(crate) fps: f64,

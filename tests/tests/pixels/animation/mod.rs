@@ -1,10 +1,8 @@
 //! Animated files: transforms and vertices agree with a reference in f64, and images with those of meshes that are deformed on the CPU.
 
-mod kinds;
-mod written;
+mod sequence;
 
 use glam::{DAffine3, DVec3};
-use kinds::{CUBIC, Kind, MORPHED, RIGID, SKINNED, SKINNED_BY_EIGHT};
 use shadowgraph::lighting::PosePass;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::GpuScene;
@@ -12,6 +10,7 @@ use shadowgraph::scene::{AnimationSelection, LightKind, Scene};
 use shadowgraph::shadows::{RAYTRACED, VertexBuffers};
 use shadowgraph::{Gpu, Renderer};
 use shadowgraph_core::{Graph, Subresource};
+use shadowgraph_tests::animated::{self, CUBIC, MORPHED, RIGID, SKINNED, SKINNED_BY_EIGHT};
 
 use crate::raytraced::traced_by;
 use crate::scenes::real_scenes;
@@ -180,7 +179,7 @@ fn a_deformed_mesh_far_from_where_it_rests_is_drawn_with_its_shadow() {
     let near = draw(staged((SKINNED.file)().load()));
     // The mesh rests 500 m away; its joints move it back.
     let mut file = (SKINNED.file)();
-    kinds::move_rest(&mut file, 500.0);
+    animated::move_rest(&mut file, 500.0);
     let far = draw(staged(file.load()));
     let differing =
         near.as_chunks::<4>().0.iter().zip(far.as_chunks::<4>().0).filter(|(a, b)| a != b).count();
@@ -203,12 +202,5 @@ fn the_wheels_of_the_truck_turn_and_its_shadow_with_them() {
         let image = renderer.draw(gpu, &options).unwrap().image.rgba8;
         assert!(!images.contains(&image), "at {time_s} s");
         images.push(image);
-    }
-}
-
-/// Kinds of written files, for messages.
-impl std::fmt::Debug for Kind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name)
     }
 }

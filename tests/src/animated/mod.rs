@@ -1,27 +1,43 @@
 //! A written file of each kind of animation, and where its vertices are at a time, computed from what the file means.
 
+mod file;
+
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 use glam::{DAffine3, DQuat, DVec3};
 use serde_json::json;
 
-use super::written::File;
+pub use file::File;
 
 /// A kind of animation; it lasts from 0 to 1 s.
 #[derive(Clone, Copy)]
-pub(super) struct Kind {
-    pub(super) name: &'static str,
-    pub(super) file: fn() -> File,
+pub struct Kind {
+    /// The name, for messages.
+    pub name: &'static str,
+    /// Creates the file.
+    pub file: fn() -> File,
     /// Returns the position and the normal of each vertex in the world at a time from 0 to 1 s.
-    pub(super) vertices: fn(f64) -> Vec<[DVec3; 2]>,
+    pub vertices: fn(f64) -> Vec<[DVec3; 2]>,
 }
 
-pub(super) const RIGID: Kind = Kind { name: "rigid", file: rigid, vertices: rigid_vertices };
-pub(super) const CUBIC: Kind = Kind { name: "cubic spline", file: cubic, vertices: cubic_vertices };
-pub(super) const SKINNED: Kind = Kind { name: "skinned", file: || skinned(4), vertices: skinned_vertices };
-pub(super) const SKINNED_BY_EIGHT: Kind =
+/// Kinds of written files, for messages.
+impl std::fmt::Debug for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// A column whose transform is animated.
+pub const RIGID: Kind = Kind { name: "rigid", file: rigid, vertices: rigid_vertices };
+/// A column whose transform is a cubic spline.
+pub const CUBIC: Kind = Kind { name: "cubic spline", file: cubic, vertices: cubic_vertices };
+/// A column that two joints bend.
+pub const SKINNED: Kind = Kind { name: "skinned", file: || skinned(4), vertices: skinned_vertices };
+/// The same with eight influences a vertex.
+pub const SKINNED_BY_EIGHT: Kind =
     Kind { name: "skinned by eight", file: || skinned(8), vertices: skinned_vertices };
-pub(super) const MORPHED: Kind = Kind { name: "morphed", file: morphed, vertices: morphed_vertices };
+/// A column that two morph targets bend and thicken.
+pub const MORPHED: Kind = Kind { name: "morphed", file: morphed, vertices: morphed_vertices };
 
 /// Rings of the column, and vertices of each.
 const RINGS: usize = 13;
@@ -186,8 +202,25 @@ fn skinned_vertices(time_s: f64) -> Vec<[DVec3; 2]> {
     column().map(vertex).collect()
 }
 
+/// Adds a square floor below the column, and a camera that sees both.
+pub fn add_floor_and_camera(file: &mut File) {
+    let corners =
+        [[-20.0, 20.0], [20.0, 20.0], [20.0, -20.0], [-20.0, -20.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
+    let positions = file.floats("VEC3", 3, &floats(corners.into_iter()));
+    let normals = file.floats("VEC3", 3, &floats([DVec3::Y; 4].into_iter()));
+    let indices: Vec<u8> = [0u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes).collect();
+    let indices = file.accessor(&indices, 5123, "SCALAR", 6);
+    let attributes = json!({"POSITION": positions, "NORMAL": normals});
+    file.add_mesh(json!({"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}));
+    file.add_root(json!({"mesh": 1}));
+    file.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}]);
+    // Turned down by 0.3 radians.
+    let rotation = DQuat::from_rotation_x(-0.3).to_array();
+    file.add_root(json!({"camera": 0, "translation": [0.5, 3.5, 8], "rotation": rotation}));
+}
+
 /// Moves the mesh of the skinned file at rest along X; its joints move it back.
-pub(super) fn move_rest(file: &mut File, distance_m: f64) {
+pub fn move_rest(file: &mut File, distance_m: f64) {
     let moved = column().map(|(_, position, _)| position + DVec3::X * distance_m);
     let positions = file.floats("VEC3", 3, &floats(moved));
     file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(positions);

@@ -1,17 +1,22 @@
 //! Small animated glTF files built in code.
+#![allow(clippy::unwrap_used, clippy::missing_panics_doc, clippy::must_use_candidate, reason = "tests")]
+
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use shadowgraph::scene::{Scene, gltf};
 
 /// A file with one binary buffer.
-pub(super) struct File {
-    pub(super) json: Value,
+#[derive(Clone, Debug)]
+pub struct File {
+    /// The document.
+    pub json: Value,
     bytes: Vec<u8>,
 }
 
 impl File {
     /// Creates a file with one scene that has these nodes; the first `roots` of them are roots.
-    pub(super) fn new(nodes: Value, roots: usize) -> Self {
+    pub fn new(nodes: Value, roots: usize) -> Self {
         let roots: Vec<usize> = (0..roots).collect();
         let json = json!({
             "asset": {"version": "2.0"}, "scenes": [{"nodes": roots}], "nodes": nodes,
@@ -21,13 +26,13 @@ impl File {
     }
 
     /// Adds an accessor of floats, and returns its index.
-    pub(super) fn floats(&mut self, kind: &str, width: usize, values: &[f32]) -> usize {
+    pub fn floats(&mut self, kind: &str, width: usize, values: &[f32]) -> usize {
         let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         self.accessor(&bytes, 5126, kind, values.len() / width)
     }
 
     /// Adds an accessor, and returns its index.
-    pub(super) fn accessor(&mut self, bytes: &[u8], component: u32, kind: &str, count: usize) -> usize {
+    pub fn accessor(&mut self, bytes: &[u8], component: u32, kind: &str, count: usize) -> usize {
         let view = json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()});
         self.bytes.extend(bytes);
         let view = push(&mut self.json["bufferViews"], view);
@@ -35,8 +40,20 @@ impl File {
         push(&mut self.json["accessors"], accessor)
     }
 
+    /// Adds a mesh.
+    pub fn add_mesh(&mut self, mesh: Value) {
+        push(&mut self.json["meshes"], mesh);
+    }
+
+    /// Adds a root, and returns its index.
+    pub fn add_root(&mut self, node: Value) -> usize {
+        let node = push(&mut self.json["nodes"], node);
+        push(&mut self.json["scenes"][0]["nodes"], json!(node));
+        node
+    }
+
     /// Adds a channel to the only animation.
-    pub(super) fn animate(&mut self, node: usize, path: &str, sampler: Value) {
+    pub fn animate(&mut self, node: usize, path: &str, sampler: Value) {
         if self.json.get("animations").is_none() {
             self.json["animations"] = json!([{"channels": [], "samplers": []}]);
         }
@@ -45,14 +62,19 @@ impl File {
         push(&mut self.json["animations"][0]["channels"], channel);
     }
 
-    /// Writes the file and loads it.
-    pub(super) fn load(mut self) -> Scene {
-        let directory = tempfile::tempdir().unwrap();
+    /// Writes the file `scene.gltf` and its buffer into a directory, and returns its path.
+    pub fn write(mut self, directory: &Path) -> PathBuf {
         self.json["buffers"][0] = json!({"uri": "data.bin", "byteLength": self.bytes.len()});
-        std::fs::write(directory.path().join("data.bin"), &self.bytes).unwrap();
-        let path = directory.path().join("scene.gltf");
+        std::fs::write(directory.join("data.bin"), &self.bytes).unwrap();
+        let path = directory.join("scene.gltf");
         std::fs::write(&path, self.json.to_string()).unwrap();
-        gltf::load(&path).unwrap()
+        path
+    }
+
+    /// Writes the file and loads it.
+    pub fn load(self) -> Scene {
+        let directory = tempfile::tempdir().unwrap();
+        gltf::load(&self.write(directory.path())).unwrap()
     }
 }
 
