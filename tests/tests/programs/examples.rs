@@ -1,6 +1,7 @@
 //! The examples run and render what they promise.
 
 use serde_json::Value;
+use shadowgraph_tests::animated::SKINNED;
 use shadowgraph_tests::watch::{self, Limits, Outcome};
 use shadowgraph_tests::{on_path, repository, skip};
 use std::path::PathBuf;
@@ -42,7 +43,7 @@ fn run(command: &mut Command) -> Outcome {
 }
 
 /// The examples that can render into a window.
-const IN_WINDOWS: [&str; 10] = [
+const IN_WINDOWS: [&str; 11] = [
     "minimal_graph",
     "post_chain",
     "compute_only",
@@ -50,6 +51,7 @@ const IN_WINDOWS: [&str; 10] = [
     "many_lights",
     "day_cycle",
     "edit_scene",
+    "animate",
     "temporal",
     "custom_pipeline",
     "custom_engine",
@@ -102,6 +104,16 @@ fn every_small_example_runs_and_writes_its_image() {
     output_of("edit_scene", &[]);
     let edited = [0, 35, 71].map(|number| read(&format!("edit_scene/{number:02}.png")));
     assert!(edited[0] != edited[1] && edited[1] != edited[2], "every frame is edited");
+
+    output_of("animate", &["--frames", "25"]);
+    let played = [0, 12, 24].map(|number| read(&format!("animate/{number:02}.png")));
+    assert!(played[0] != played[1] && played[1] != played[2], "the stalks sway");
+    let dir_of_file = tempfile::tempdir().unwrap();
+    let file = (SKINNED.file)().write(dir_of_file.path());
+    output_of("animate", &[file.to_str().unwrap(), "--frames", "13"]);
+    // The file's animation lasts 1 s, and starts again.
+    let played = [0, 6, 12].map(|number| read(&format!("animate/{number:02}.png")));
+    assert!(played[0] != played[1] && played[0] == played[2], "the column bends");
 
     // In the penumbra one frame is black or white, and many are grey.
     let [one, many] = [&["--frames", "1"][..], &[]].map(|arguments| {
