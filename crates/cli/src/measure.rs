@@ -17,8 +17,9 @@ use shadowgraph_quality::report::{
     table,
 };
 use shadowgraph_quality::{
-    Case, CaseImages, CaseSet, MOTION_FRAMES, MOTION_SIZE_PX, Measured, MeasuredScene, MotionMeasured,
-    MotionTask, Task, Variant, VariantSet, automatic_views, built_in_cases, measure, measure_motion,
+    Case, CaseImages, CaseSet, MOTION_FRAMES, MOTION_RAYS, MOTION_SIZE_PX, Measured, MeasuredScene,
+    MotionMeasured, MotionTask, Task, Variant, VariantSet, automatic_views, built_in_cases, measure,
+    measure_motion,
 };
 
 /// Directory of the images in the output directory.
@@ -92,6 +93,7 @@ fn motion_command(args: &MeasureArgs, motion: MotionArg, known: &Techniques) -> 
             MotionArg::All => Moving::ALL.to_vec(),
         },
         frames: MOTION_FRAMES,
+        soft_rays: MOTION_RAYS,
     };
     let adapter = args.adapter.as_deref().map_or(Ok(AdapterChoice::default()), str::parse)?;
     let work = work(args, size)?;

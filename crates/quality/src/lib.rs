@@ -40,7 +40,7 @@ pub use noise::{NoiseErrors, NoiseTask, Noisy, RootMeanSquare, measure_noise, no
 pub use probe::{Points, Probe, Query, Results};
 pub use run::{CaseImages, Measured, Task, measure};
 pub use seam::measure_seam;
-pub use stability::{MOTION_FRAMES, MOTION_SIZE_PX, MotionMeasured, MotionTask, measure_motion};
+pub use stability::{MOTION_FRAMES, MOTION_RAYS, MOTION_SIZE_PX, MotionMeasured, MotionTask, measure_motion};
 pub use subpixel::{SUBPIXEL_GRID, SUBPIXEL_RADIUS_PX};
 pub use surfaces::{SurfaceReader, Surfaces};
 pub use texels::{NO_VIEW, Texels};

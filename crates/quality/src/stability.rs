@@ -1,4 +1,4 @@
-//! Stability: how much shadows change while the camera, the sun or objects move, beyond what the ray-traced truth changes.
+//! Stability: how much shadows change while the camera, the sun or objects move, beyond what the soft reference changes.
 
 use glam::{DAffine3, DVec3};
 use shadowgraph::options::{Aov, ShadowDistance};
@@ -7,7 +7,7 @@ use shadowgraph_scene::{InstanceKey, Light, LightKind, Scene};
 use shadowgraph_shadows::{ShadowSettings, Technique};
 
 use super::comparator::pixel_m_at_1m;
-use super::metrics::stability;
+use super::metrics::{Truths, stability};
 use super::motion::{STEP_PX, camera_walk, turned_sun};
 use super::report::{MotionCase, Moving};
 use super::{Comparator, MeasuredLight, MeasuredScene, Points, Probe, Query, Reference};
@@ -18,6 +18,10 @@ pub const MOTION_SIZE_PX: [u32; 2] = [480, 270];
 
 /// Number of frames of a path.
 pub const MOTION_FRAMES: u32 = 32;
+
+/// Default number of rays of the soft reference of [`measure_motion`]. They are the same in each frame, and one more or less is far below
+/// [`CHANGE`](super::metrics::CHANGE).
+pub const MOTION_RAYS: u32 = 256;
 
 /// Excess per step that is drawn in full red.
 const FULL_RED: f32 = 0.1;
@@ -37,6 +41,8 @@ pub struct MotionTask {
     pub moving: Vec<Moving>,
     /// Number of frames of a path, at least 2.
     pub frames: u32,
+    /// Number of rays per pixel of the soft reference, at least 1.
+    pub soft_rays: u32,
 }
 
 /// Result of one technique along one path.
@@ -140,32 +146,37 @@ impl<'a> Run<'a> {
         let start = comparator.reference(first, &options, 0)?;
         let path = path(moving, &options, self.light, &start, &self.measured_scene.scene, self.task.frames);
         let Some(origin) = path.first() else { return Ok(Vec::new()) };
-        let mut truths = Vec::with_capacity(path.len());
+        let mut truths = Truths::default();
         let mut points = vec![Points::new(self.gpu, &start.surfaces)];
         let mut counts: Vec<bool> =
             (0..start.truth.hard.len()).map(|pixel| start.is_receiver(pixel)).collect();
         for moment in &path {
             // While only the camera moves, the truth at a world point is constant.
             if moving == Moving::Camera {
-                truths.push(start.truth.hard.clone());
+                truths.soft.push(start.truth.hard.clone());
+                truths.hard.push(start.truth.hard.clone());
                 continue;
             }
             moment.apply(self.gpu, first)?;
-            let reference = comparator.reference(first, &moment.options, 0)?;
+            let reference = comparator.reference(first, &moment.options, self.task.soft_rays)?;
             for (pixel, counts) in counts.iter_mut().enumerate() {
                 *counts &= reference.is_receiver(pixel);
             }
             if moving == Moving::Objects {
                 points.push(Points::new(self.gpu, &reference.surfaces));
             }
-            truths.push(reference.truth.hard);
+            truths.soft.extend(reference.soft);
+            truths.hard.push(reference.truth.hard);
         }
         if moving == Moving::Objects {
             points.remove(0);
         }
         let pixels: Vec<usize> = (0..counts.len()).filter(|&pixel| counts[pixel]).collect();
         let chosen = |values: &Vec<f32>| pixels.iter().map(|&pixel| values[pixel]).collect::<Vec<_>>();
-        let truths: Vec<Vec<f32>> = truths.iter().map(chosen).collect();
+        let truths = Truths {
+            soft: truths.soft.iter().map(chosen).collect(),
+            hard: truths.hard.iter().map(chosen).collect(),
+        };
         let mut results = Vec::with_capacity(self.renderers.len());
         for (technique, renderer, probe) in &mut self.renderers {
             let visibilities = visibilities(self.gpu, renderer, probe, &path, &points, self.light.index)?;

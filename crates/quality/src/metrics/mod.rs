@@ -25,7 +25,7 @@ pub use band::{BAND_PX, BAND_TEXELS, Band, band};
 pub use edge_error::{EdgeError, PENUMBRA, edge_error};
 pub use peter_panning::{CONTACT_M, PeterPanning, peter_panning};
 pub use samples::{CREASE_COS, Images, MetricsError, RECEIVER_N_DOT_L, STEP_PX, Samples, TowardsLight};
-pub use stability::{CHANGE, Stability, stability};
+pub use stability::{CHANGE, Stability, Truths, stability};
 pub use visibility::{
     AcneBin, MeanError, Misclassified, MisclassifiedCounts, MissingContacts, N_DOT_L_BINS, NEAR_BLOCKER_M,
     Summary, flicker, mean_error, misclassified, missing_contacts, percentile, seam,

@@ -8,7 +8,7 @@ use crate::text_table::TextTable;
 const WIDTH: usize = 130;
 
 /// Headings of the numbers.
-const NUMBERS: [&str; 5] = ["mean", "p99", "changed", "of truth", "ratio"];
+const NUMBERS: [&str; 7] = ["mean", "p99", "changed", "soft truth", "ratio", "hard truth", "ratio"];
 
 /// Returns a report as a table for a terminal, at most 130 columns wide: a row for each case, and the means of each technique.
 #[must_use]
@@ -17,7 +17,7 @@ pub fn motion_table(report: &MotionReport) -> String {
     let count = report.cases.len();
     let head = format!("{width_px}x{height_px} pixels, {}, {count} cases\n\n", report.adapter);
     let names = |names: [&str; 5]| names.map(|name| name.replace(char::is_control, "\u{fffd}"));
-    let row = |first: [&str; 5], numbers: [String; 5]| [names(first), numbers].concat();
+    let row = |first: [&str; 5], numbers: [String; 7]| [&names(first)[..], &numbers].concat();
     let case = |case: &MotionCase| {
         row([&case.scene, &case.light, &case.view, &case.technique, case.moving.name()], numbers(&[case]))
     };
@@ -25,15 +25,15 @@ pub fn motion_table(report: &MotionReport) -> String {
         .map(|(technique, moving, cases)| row(["mean", "", "", technique, moving.name()], numbers(&cases)));
     let heading = row(["scene", "light", "view", "technique", "moving"], NUMBERS.map(str::to_owned));
     let rows = std::iter::once(heading).chain(report.cases.iter().map(case)).chain([Vec::new()]).chain(means);
-    head + &TextTable { alignment: "lllllrrrrr", indent: 0, width: WIDTH }.format(rows)
+    head + &TextTable { alignment: "lllllrrrrrrr", indent: 0, width: WIDTH }.format(rows)
 }
 
 /// Returns the means of each technique on each path as a Markdown table.
 #[must_use]
 pub fn motion_markdown(report: &MotionReport) -> String {
     let heading = format!(
-        "| technique | moving | excess, mean | excess, p99 | pixels changed by more than {:.0} % | of the truth | ratio |\n\
-         | --- | --- | --- | --- | --- | --- | --- |\n",
+        "| technique | moving | excess, mean | excess, p99 | pixels changed by more than {:.0} % | soft truth | ratio | hard truth | ratio |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         CHANGE * 100.0
     );
     let row = |(technique, moving, cases): (&str, Moving, Vec<&MotionCase>)| {
@@ -60,18 +60,23 @@ fn groups(report: &MotionReport) -> impl Iterator<Item = (&str, Moving, Vec<&Mot
     })
 }
 
-/// Returns the means over cases: mean and 99th percentile of the excess, pixels that changed, those of the truth, and their ratio.
-fn numbers(cases: &[&MotionCase]) -> [String; 5] {
+/// Returns the means over cases: mean and 99th percentile of the excess, pixels that changed, and those of each
+/// truth with their ratio.
+fn numbers(cases: &[&MotionCase]) -> [String; 7] {
     let mean = |value: fn(&MotionCase) -> f64| {
         cases.iter().map(|case| value(case)).sum::<f64>() / cases.len().max(1) as f64
     };
-    let (changed, truth) = (mean(|case| case.stability.changed), mean(|case| case.stability.truth_changed));
+    let changed = mean(|case| case.stability.changed);
+    let [soft, hard] = [mean(|case| case.stability.truth_changed), mean(|case| case.stability.hard_changed)];
+    let ratio = |truth: f64| if truth > 0.0 { format!("{:.1}", changed / truth) } else { "-".to_owned() };
     [
         format!("{:.5}", mean(|case| case.stability.excess.mean)),
         format!("{:.4}", mean(|case| case.stability.excess.p99)),
         format!("{changed:.1}"),
-        format!("{truth:.1}"),
-        if truth > 0.0 { format!("{:.1}", changed / truth) } else { "-".to_owned() },
+        format!("{soft:.1}"),
+        ratio(soft),
+        format!("{hard:.1}"),
+        ratio(hard),
     ]
 }
 
@@ -85,6 +90,7 @@ mod tests {
             excess: Summary { count: 10, mean: 0.001, p99: 0.05 },
             changed,
             truth_changed: if moving == Moving::Sun { 4.0 } else { 0.0 },
+            hard_changed: if moving == Moving::Sun { 1.0 } else { 0.0 },
         };
         let (scene, technique) = (scene.to_owned(), technique.to_owned());
         MotionCase { scene, light: "sun 30\u{b0}".into(), view: "near".into(), technique, moving, stability }
@@ -121,9 +127,9 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "| `pcf` | camera | 0.00100 | 0.0500 | 0.0 | 0.0 | - |",
-                "| `pcf` | sun | 0.00100 | 0.0500 | 16.0 | 4.0 | 4.0 |",
-                "| `raytraced` | sun | 0.00100 | 0.0500 | 4.0 | 4.0 | 1.0 |",
+                "| `pcf` | camera | 0.00100 | 0.0500 | 0.0 | 0.0 | - | 0.0 | - |",
+                "| `pcf` | sun | 0.00100 | 0.0500 | 16.0 | 4.0 | 4.0 | 1.0 | 16.0 |",
+                "| `raytraced` | sun | 0.00100 | 0.0500 | 4.0 | 4.0 | 1.0 | 1.0 | 4.0 |",
             ]
         );
     }
