@@ -38,14 +38,13 @@ struct Shared<K> {
 }
 
 /// An instance of the ray scene.
-#[derive(Clone, Copy)]
 struct Placed {
     key: RayInstanceKey,
     mesh: MeshKey,
     material: MaterialKey,
     has_surfaces: bool,
-    /// Its own mesh, if it is deformed.
-    posed: Option<RayMeshKey>,
+    /// Its own mesh and the pose of it, if it is deformed.
+    posed: Option<(RayMeshKey, MeshPose)>,
 }
 
 /// An image, how it is sampled, and the number of channels.
@@ -108,8 +107,8 @@ impl SceneRays {
         Ok(())
     }
 
-    /// Removes the instances whose surfaces depend on edited meshes, materials or images, and returns all that may have to be placed
-    /// again.
+    /// Removes the instances whose surfaces or pose depend on edited meshes, materials or images, and returns all that may have to be
+    /// placed again.
     fn release_users(&mut self, scene: &Scene, changes: &Changes) -> Result<Vec<InstanceKey>, Error> {
         let images: BTreeSet<_> = changes.images.iter().collect();
         let meshes: BTreeSet<_> = changes.meshes.iter().collect();
@@ -119,7 +118,8 @@ impl SceneRays {
         let mut materials: BTreeSet<_> = changes.materials.iter().copied().collect();
         materials.extend(scene.materials().filter(|(_, material)| is_drawn(material)).map(|(key, _)| key));
         let stale = |placed: &Placed| {
-            materials.contains(&placed.material) || placed.has_surfaces && meshes.contains(&placed.mesh)
+            let is_copied = placed.has_surfaces || placed.posed.is_some();
+            materials.contains(&placed.material) || is_copied && meshes.contains(&placed.mesh)
         };
         let stale: Vec<_> =
             self.instances.iter().filter(|(_, placed)| stale(placed)).map(|(key, _)| *key).collect();
@@ -138,11 +138,15 @@ impl SceneRays {
         });
         let Some((instance, mesh, material)) = casting else { return self.remove(key) };
         let world_from_mesh = instance.world_from_local;
-        let same = |placed: &&Placed| (placed.mesh, placed.material) == (instance.mesh, instance.material);
-        if let Some(placed) = self.instances.get(&key).filter(same) {
-            match (placed.posed, &instance.pose) {
-                (Some(posed), Some(pose)) => {
-                    self.rays.replace_mesh(posed, &posed_corners(mesh, pose))?;
+        let same =
+            |placed: &&mut Placed| (placed.mesh, placed.material) == (instance.mesh, instance.material);
+        if let Some(placed) = self.instances.get_mut(&key).filter(same) {
+            match (&mut placed.posed, &instance.pose) {
+                (Some((posed, known)), Some(pose)) => {
+                    if known != pose {
+                        self.rays.replace_mesh(*posed, &posed_corners(mesh, pose))?;
+                        known.clone_from(pose);
+                    }
                     return Ok(self.rays.set_transform(placed.key, world_from_mesh)?);
                 }
                 (None, None) => return Ok(self.rays.set_transform(placed.key, world_from_mesh)?),
@@ -151,10 +155,11 @@ impl SceneRays {
         }
         self.remove(key)?;
         let posed = match &instance.pose {
-            Some(pose) => Some(self.rays.insert_mesh(&posed_corners(mesh, pose))?),
+            Some(pose) => Some((self.rays.insert_mesh(&posed_corners(mesh, pose))?, pose.clone())),
             None => None,
         };
-        let ray_mesh = match posed.or(self.meshes.get(&instance.mesh).copied()) {
+        let own_mesh = posed.as_ref().map(|(mesh, _)| *mesh);
+        let ray_mesh = match own_mesh.or(self.meshes.get(&instance.mesh).copied()) {
             Some(known) => known,
             None => self.rays.insert_mesh(&corners(mesh, &mesh.vertices))?,
         };
@@ -240,7 +245,7 @@ impl SceneRays {
     fn remove(&mut self, key: InstanceKey) -> Result<(), Error> {
         let Some(placed) = self.instances.remove(&key) else { return Ok(()) };
         self.rays.remove_instance(placed.key)?;
-        if let Some(posed) = placed.posed {
+        if let Some((posed, _)) = placed.posed {
             self.rays.remove_mesh(posed)?;
         }
         let key = (placed.mesh, placed.material);
