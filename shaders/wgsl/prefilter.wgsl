@@ -18,18 +18,19 @@
 
 @group(1) @binding(0) var finer: texture_2d<u32>;
 
-const NO_TILE: u32 = 0xffffffffu;
+// The texel of an invocation: each layer of workgroups computes a tile.
+struct TileTexel {
+    shadow_view: ShadowView,
+    // First texel and size of the tile.
+    rect: vec4u,
+    texel: vec2u,
+    is_inside: bool,
+}
 
-// The index of the tile of a texel.
-fn tile_at(texel: vec2u) -> u32 {
-    for (var i = 0u; i < arrayLength(&tiles); i++) {
-        let rect = shadow_views[tiles[i]].tile_px / settings.downscale;
-        // Left of or above the tile the difference wraps to a large number.
-        if all(texel - rect.xy < rect.zw) {
-            return i;
-        }
-    }
-    return NO_TILE;
+fn tile_texel(id: vec3u) -> TileTexel {
+    let shadow_view = shadow_views[tiles[id.z]];
+    let rect = shadow_view.tile_px / settings.downscale;
+    return TileTexel(shadow_view, rect, rect.xy + id.xy, all(id.xy < rect.zw));
 }
 
 // The weight of a texel at an offset from the centre.
@@ -52,54 +53,38 @@ fn resolved(shadow_view: ShadowView, texel: vec2u) -> vec4f {
 
 @compute @workgroup_size(8, 8)
 fn cs_resolve(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= textureDimensions(halfway)) {
-        return;
+    let at = tile_texel(id);
+    if at.is_inside {
+        textureStore(halfway, at.texel, resolved(at.shadow_view, at.texel));
     }
-    let tile = tile_at(id.xy);
-    if tile == NO_TILE {
-        // Outside all tiles the depth is the farthest.
-        textureStore(halfway, id.xy, moments_of(settings, 1.0));
-        return;
-    }
-    textureStore(halfway, id.xy, resolved(shadow_views[tiles[tile]], id.xy));
-}
-
-// The first and last texel of a texel's row or column in its tile.
-fn ends(texel: vec2u, axis: u32) -> vec2i {
-    let tile = tile_at(texel);
-    if tile == NO_TILE {
-        return vec2i(i32(texel[axis]));
-    }
-    let rect = vec4i(shadow_views[tiles[tile]].tile_px / settings.downscale);
-    return vec2i(rect[axis], rect[axis] + rect[axis + 2u] - 1);
 }
 
 @compute @workgroup_size(8, 8)
 fn cs_across(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= textureDimensions(halfway)) {
+    let at = tile_texel(id);
+    if !at.is_inside {
         return;
     }
-    let ends = ends(id.xy, 0u);
     var sum = vec4f(0.0);
     for (var offset = -i32(settings.blur_texels); offset <= i32(settings.blur_texels); offset++) {
-        let x = clamp(i32(id.x) + offset, ends.x, ends.y);
-        sum += tent(offset) * textureLoad(blurred, vec2u(u32(x), id.y), 0);
+        let x = clamp(i32(at.texel.x) + offset, i32(at.rect.x), i32(at.rect.x + at.rect.z) - 1);
+        sum += tent(offset) * textureLoad(blurred, vec2u(u32(x), at.texel.y), 0);
     }
-    textureStore(halfway, id.xy, sum);
+    textureStore(halfway, at.texel, sum);
 }
 
 @compute @workgroup_size(8, 8)
 fn cs_down(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= textureDimensions(moments)) {
+    let at = tile_texel(id);
+    if !at.is_inside {
         return;
     }
-    let ends = ends(id.xy, 1u);
     var sum = vec4f(0.0);
     for (var offset = -i32(settings.blur_texels); offset <= i32(settings.blur_texels); offset++) {
-        let y = clamp(i32(id.y) + offset, ends.x, ends.y);
-        sum += tent(offset) * textureLoad(blurred, vec2u(id.x, u32(y)), 0);
+        let y = clamp(i32(at.texel.y) + offset, i32(at.rect.y), i32(at.rect.y + at.rect.w) - 1);
+        sum += tent(offset) * textureLoad(blurred, vec2u(at.texel.x, u32(y)), 0);
     }
-    textureStore(moments, id.xy, packed(sum));
+    textureStore(moments, at.texel, packed(sum));
 }
 
 // Tiles begin and end at even texels.

@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3};
 use shadowgraph::core::{Plan, Timer};
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::scene::{Instance, InstanceKey, Light, LightKind, Material, Mesh, Scene};
+use shadowgraph::shadows::{EVSM, MSM, PCF, PCSS, TechniqueKind};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_tests::random::Random;
 
@@ -45,8 +46,8 @@ fn view(eye: DVec3, heading: f64) -> ViewOptions {
     ViewOptions { camera: camera(eye, eye + ahead), size_px: [320, 180], shadows: Default::default() }
 }
 
-fn renderer(gpu: &Gpu, scene: Scene) -> Renderer {
-    Renderer::new(gpu, scene, &view(DVec3::Y, 0.0).camera, Aov::Color).unwrap()
+fn renderer(gpu: &Gpu, scene: Scene, technique: TechniqueKind) -> Renderer {
+    Renderer::with_config(gpu, scene, &view(DVec3::Y, 0.0).camera, Aov::Color, technique).unwrap()
 }
 
 /// Returns the draw calls of the passes that draw casters into maps.
@@ -57,10 +58,10 @@ fn shadow_draws(gpu: &Gpu, renderer: &mut Renderer, options: &ViewOptions) -> u3
 }
 
 fn is_of_map(path: &str) -> bool {
-    path.contains("/cascades/") || path.contains("/atlas/")
+    ["/cascades/", "/atlas/", "moments/"].iter().any(|node| path.contains(node))
 }
 
-/// Returns the number of passes that draw into maps.
+/// Returns the number of passes that draw into maps or compute their moments.
 fn map_passes(plan: &Plan) -> usize {
     plan.order().iter().filter(|&&pass| is_of_map(&plan.pass_path(pass).to_string())).count()
 }
@@ -69,7 +70,7 @@ fn map_passes(plan: &Plan) -> usize {
 fn one_moving_instance_among_10_000_costs_at_most_a_fiftieth_of_the_draws_of_a_redraw() {
     let gpu = Gpu::noop().unwrap();
     let (scene, fox) = field(10_000, 40.0);
-    let mut renderer = renderer(&gpu, scene);
+    let mut renderer = renderer(&gpu, scene, PCF);
     let options = view(DVec3::new(0.0, 3.0, 8.0), 0.0);
     let redraw = shadow_draws(&gpu, &mut renderer, &options);
     assert!(redraw > 3_000, "{redraw} draws");
@@ -90,12 +91,18 @@ fn a_still_scene_draws_no_shadow_pass() {
     let gpu = Gpu::noop().unwrap();
     let (scene, _) = field(200, 20.0);
     let mut options = view(DVec3::new(0.0, 3.0, 8.0), 0.0);
-    for distance in [ShadowDistance::Metres(150.0), ShadowDistance::Auto] {
+    for (distance, technique) in [
+        (ShadowDistance::Metres(150.0), PCF),
+        (ShadowDistance::Auto, PCF),
+        (ShadowDistance::Auto, PCSS),
+        (ShadowDistance::Auto, EVSM),
+        (ShadowDistance::Auto, MSM),
+    ] {
         options = options.with_shadow_distance(distance, &scene);
-        let mut renderer = renderer(&gpu, scene.clone());
+        let mut renderer = renderer(&gpu, scene.clone(), technique);
         let passes: Vec<_> =
             (0..70).map(|_| map_passes(&renderer.draw(&gpu, &options).unwrap().plan)).collect();
-        assert!(passes[0] > 0 && passes[1..] == [0; 69], "{passes:?}");
+        assert!(passes[0] > 0 && passes[1..] == [0; 69], "{}: {passes:?}", technique.name);
     }
 }
 
@@ -103,7 +110,7 @@ fn a_still_scene_draws_no_shadow_pass() {
 /// cascades' texels into which static casters are drawn.
 fn walk(distance: ShadowDistance) -> f64 {
     let gpu = Gpu::noop().unwrap();
-    let mut renderer = renderer(&gpu, field(400, 100.0).0);
+    let mut renderer = renderer(&gpu, field(400, 100.0).0, PCF);
     let (mut options, mut sum) = (view(DVec3::Y, 0.0), 0.0);
     let count = 600;
     for frame in 0..count {

@@ -5,6 +5,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use super::contents::{Held, Stored};
 use crate::atlas::TileRect;
 
+/// A number for the contents of a tile: contents that were drawn again have another one. Without casters it is 0.
+pub(crate) type Revision = u64;
+
 /// A kept map.
 pub(super) struct CachedMap {
     pub(super) texture: wgpu::Texture,
@@ -16,7 +19,7 @@ pub(super) struct CachedMap {
 struct State {
     /// Whether a pass has drawn into the map.
     drawn: bool,
-    tiles: Vec<(TileRect, Held)>,
+    tiles: Vec<(TileRect, (Held, Revision))>,
     store: Option<Store>,
 }
 
@@ -63,7 +66,12 @@ impl CachedMap {
     ) -> R {
         let state = self.state();
         let stored = state.store.as_ref().and_then(|store| find(&store.tiles, rect));
-        read(find(&state.tiles, rect), stored)
+        read(find(&state.tiles, rect).map(|(held, _)| held), stored)
+    }
+
+    /// Returns the revision of a tile's contents.
+    pub(super) fn revision(&self, rect: TileRect) -> Option<Revision> {
+        find(&self.state().tiles, rect).map(|(_, revision)| *revision)
     }
 
     /// Marks the whole map as cleared.
@@ -72,16 +80,16 @@ impl CachedMap {
     }
 
     /// Stores the contents of a tile.
-    pub(super) fn set_tile(&self, rect: TileRect, held: Held) {
+    pub(super) fn set_tile(&self, rect: TileRect, held: Held, revision: Revision) {
         let mut state = self.state();
         // Where the tiles of a frame cover the whole map, the graph culls its clear.
         state.drawn = true;
-        replace(&mut state.tiles, rect, held);
+        replace(&mut state.tiles, rect, (held, revision));
     }
 
     /// Stores the contents of a tile of a new map in which nothing is drawn.
     pub(super) fn set_empty(&self, rect: TileRect, held: Held) {
-        replace(&mut self.state().tiles, rect, held);
+        replace(&mut self.state().tiles, rect, (held, 0));
     }
 
     /// Returns the store for a frame that needs it; it is created by the first.
@@ -116,11 +124,11 @@ impl CachedMap {
     }
 }
 
-fn find<T>(tiles: &[(TileRect, T)], rect: TileRect) -> Option<&T> {
+pub(crate) fn find<T>(tiles: &[(TileRect, T)], rect: TileRect) -> Option<&T> {
     tiles.iter().find(|(other, _)| *other == rect).map(|(_, contents)| contents)
 }
 
-fn replace<T>(tiles: &mut Vec<(TileRect, T)>, rect: TileRect, contents: T) {
+pub(crate) fn replace<T>(tiles: &mut Vec<(TileRect, T)>, rect: TileRect, contents: T) {
     tiles.retain(|(other, _)| !other.overlaps(&rect));
     tiles.push((rect, contents));
 }

@@ -110,6 +110,8 @@ pub(super) enum Because {
     Changed,
     /// There are more moving casters than static ones.
     Moving,
+    /// Translucent casters, or those that hide them, have changed.
+    Hidden,
 }
 
 /// What is missing in a tile of the store.
@@ -164,7 +166,7 @@ pub(super) fn work_of_tints(held: Option<&Held>, wanted: &Wanted) -> Work {
     let because = match held {
         None => Because::New,
         Some(held) if held.location != wanted.location => Because::Refitted,
-        Some(held) if held.statics != wanted.seen || !wanted.moving.is_empty() => Because::Changed,
+        Some(held) if held.statics != wanted.seen || !wanted.moving.is_empty() => Because::Hidden,
         Some(_) => return Work::Nothing,
     };
     Work::All { whole: false, because }

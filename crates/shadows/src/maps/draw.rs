@@ -5,6 +5,7 @@ use shadowgraph_core::{
     Texture, TextureDesc,
 };
 
+use super::cache::Revision;
 use super::reasons::tile_name;
 use super::{DrawnMap, ShadowMaps, Views};
 use crate::casters::{CasterPass, CasterView, ShadowCasters, TINT_FORMAT};
@@ -109,23 +110,25 @@ impl ShadowMaps {
             Some(plan) => self.map_texture(frame, &MapTexture { name, pass, plan }, depth, source),
             None => {
                 self.evict(source.view, name);
-                Ok(frame.import_texture(format_args!("no {name}"), lit, true))
+                Ok((frame.import_texture(format_args!("no {name}"), lit, true), Vec::new()))
             }
         };
-        let texture = texture_or_lit(names.depth, CasterPass::Depth, plan, &self.lit, None)?;
-        let tint_depths = texture_or_lit(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None)?;
-        let tints = texture_or_lit(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture))?;
-        Ok(DrawnMap { texture, tints, tint_depths, tiles })
+        let (texture, revisions) = texture_or_lit(names.depth, CasterPass::Depth, plan, &self.lit, None)?;
+        let (tint_depths, _) =
+            texture_or_lit(names.tint_depth, CasterPass::TintDepth, tinted, &self.lit, None)?;
+        let (tints, _) =
+            texture_or_lit(names.tint, CasterPass::Tint, tinted, &self.untinted, Some(&texture))?;
+        Ok(DrawnMap { texture, tints, tint_depths, tiles, revisions })
     }
 
-    /// Draws one of a map's textures, or what has changed in it if it is kept.
+    /// Draws one of a map's textures, or what has changed in it if it is kept, and then returns the revisions of its tiles too.
     fn map_texture<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         map: &MapTexture<'_>,
         depth: Option<&Texture>,
         source: Source<'_, 'f>,
-    ) -> Result<Texture, Error> {
+    ) -> Result<(Texture, Vec<Revision>), Error> {
         if map.plan.cache {
             return self.update(frame, map, depth, source);
         }
@@ -143,7 +146,7 @@ impl ShadowMaps {
                 pass.body(move |ctx| draws.record(ctx));
             }
         });
-        Ok(texture)
+        Ok((texture, Vec::new()))
     }
 
     /// Adds the pass that draws casters into a tile, without its body.

@@ -1,11 +1,12 @@
 //! The passes that bring kept maps up to date.
 
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
 
 use shadowgraph_core::{Bind, Buffer, Contents, Frame, Subresource, Texture};
 
 use super::ShadowMaps;
-use super::cache::CachedMap;
+use super::cache::{CachedMap, Revision};
 use super::contents::{Fill, Work};
 use super::draw::{MapTexture, Source, Target, TileDraws};
 use super::reasons::tile_name;
@@ -24,14 +25,14 @@ struct Store {
 }
 
 impl ShadowMaps {
-    /// Adds the passes that bring a kept texture up to date.
+    /// Adds the passes that bring a kept texture up to date, and returns it with the revisions of its tiles.
     pub(super) fn update<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         map: &MapTexture<'_>,
         depth: Option<&Texture>,
         source: Source<'_, 'f>,
-    ) -> Result<Texture, Error> {
+    ) -> Result<(Texture, Vec<Revision>), Error> {
         let cached = self.cached(source.view, map);
         let tiles: Vec<_> = map.plan.tiles.iter().map(|tile| plan_tile(&cached, map, tile, source)).collect();
         let is_defined = map.pass != CasterPass::Tint || !cached.is_new();
@@ -42,10 +43,12 @@ impl ShadowMaps {
         frame.node(map.name, |frame| {
             self.clear(frame, map, &cached, &mut texture, &tiles);
             let store = self.update_store(frame, map, &cached, source, &tiles)?;
+            let mut revisions = Vec::with_capacity(tiles.len());
             for tile in &tiles {
-                self.update_tile(frame, map, (&mut texture, depth, store.as_ref()), source, tile, &cached);
+                let target = (&mut texture, depth, store.as_ref());
+                revisions.push(self.update_tile(frame, map, target, source, tile, &cached));
             }
-            Ok(texture)
+            Ok((texture, revisions))
         })
     }
 
@@ -158,7 +161,7 @@ impl ShadowMaps {
         });
     }
 
-    /// Adds the pass that brings a tile of the map up to date, if it needs one.
+    /// Adds the pass that brings a tile of the map up to date, if it needs one, and returns the revision of its contents.
     fn update_tile<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -167,11 +170,12 @@ impl ShadowMaps {
         source: Source<'_, 'f>,
         tile: &Tile<'_>,
         cached: &Arc<CachedMap>,
-    ) {
+    ) -> Revision {
         let is_new = cached.is_new();
+        let kept = cached.revision(tile.plan.rect).unwrap_or_default();
         let copied = match (&tile.work, store) {
-            (Work::Nothing, _) => return,
-            (Work::All { .. }, _) if is_new && tile.is_empty(map) => return,
+            (Work::Nothing, _) => return kept,
+            (Work::All { .. }, _) if is_new && tile.is_empty(map) => return kept,
             (Work::OverStore(fill), Some(store)) => {
                 let block = tile.restore_block(fill);
                 Some((store, frame.uniform(bytemuck::bytes_of(&block))))
@@ -187,6 +191,7 @@ impl ShadowMaps {
             (store, restore.clone(), block)
         });
         // The contents are stored when the pass is recorded, not when it is declared.
+        let revision = 1 + self.revisions.fetch_add(1, Ordering::Relaxed);
         let (cached, rect, held) = (cached.clone(), tile.plan.rect, tile.held());
         pass.body(move |ctx| {
             if let Some((store, restore, block)) = copied {
@@ -196,9 +201,10 @@ impl ShadowMaps {
                 ctx.pass.draw(0..3, 0..1);
             }
             draws.record(ctx)?;
-            cached.set_tile(rect, held);
+            cached.set_tile(rect, held, revision);
             Ok(())
         });
+        revision
     }
 
     fn cached(&self, view: u32, map: &MapTexture<'_>) -> Arc<CachedMap> {

@@ -1,6 +1,6 @@
 //! The shadow maps of a frame: planned, drawn, and cached where the settings say so.
 
-mod cache;
+pub(crate) mod cache;
 mod contents;
 mod draw;
 mod kept;
@@ -11,9 +11,10 @@ mod store_draws;
 mod tile;
 
 use std::collections::BTreeMap;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use cache::CachedMap;
+use cache::{CachedMap, Revision};
 use draw::{ATLAS, CASCADES, Source};
 use restore::Restore;
 use shadowgraph_core::{Buffer, Frame, Texture};
@@ -46,6 +47,8 @@ pub struct ShadowMaps {
     states: Mutex<BTreeMap<u32, PlanState>>,
     /// The cached maps, by view and name.
     cached: Mutex<BTreeMap<(u32, &'static str), Arc<CachedMap>>>,
+    /// The number of revisions so far.
+    revisions: AtomicU64,
     /// Pipelines that copy kept depth, by format.
     restore: Mutex<Vec<(wgpu::TextureFormat, Arc<Restore>)>>,
 }
@@ -78,6 +81,8 @@ pub struct DrawnMap {
     pub tint_depths: Texture,
     /// The tiles and the indices of their views; empty without a map.
     pub tiles: Vec<(TileRect, u32)>,
+    /// The revisions of the contents of the tiles; empty if the map is not kept.
+    pub(crate) revisions: Vec<Revision>,
 }
 
 impl ShadowMaps {
@@ -96,6 +101,7 @@ impl ShadowMaps {
             device: device.clone(),
             states: Mutex::default(),
             cached: Mutex::default(),
+            revisions: AtomicU64::default(),
             restore: Mutex::default(),
         }
     }

@@ -33,6 +33,7 @@ pub(super) fn reason(
                 Because::New => "nothing is kept of it",
                 Because::Refitted => "its light has moved or its range has changed",
                 Because::Changed => "casters have changed, or others matter",
+                Because::Hidden => "casters have changed, and tints depend on all that hide them",
                 Because::Moving => "more casters move than stand still",
             };
             format!("drawn: {because}")

@@ -4,6 +4,7 @@
 //! four texels and compute an upper bound of how much of the light is blocked (`shadows/moments.wgsl`).
 
 mod evsm;
+mod kept;
 mod msm;
 mod prefilter;
 
@@ -22,7 +23,7 @@ use crate::settings::{NamedSettings, Setting, refused};
 use crate::technique::binding::UNIFORM;
 use crate::technique::{GpuData, GpuStruct};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use prefilter::Prefilter;
+use prefilter::{Prefilter, Settings};
 
 /// `evsm`: two or four exponentially warped moments (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008).
 pub type Evsm = MomentShadows<EvsmSettings>;
@@ -138,9 +139,11 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
         let (layout, sizes) = (own.layout(), own.moment_map());
         frame.node("shadows", |frame| {
             let maps = self.maps.add_to(frame, inputs, requirements)?;
-            let block = frame.uniform(&own.bytes());
+            let bytes = own.bytes();
+            let block = frame.uniform(&bytes);
+            let settings = Settings { encoding: layout, sizes, bytes: &bytes, block };
             let mut moments =
-                |name, map| self.prefilter.add_to(frame, name, map, &maps.views, (layout, sizes, block));
+                |name, map| self.prefilter.add_to(frame, (inputs.view, name), map, &maps.views, &settings);
             let cascades = moments("cascade moments", &maps.cascades);
             let atlas = moments("atlas moments", &maps.atlas);
             let mut bindings = maps.bindings();
