@@ -184,7 +184,9 @@ fn skinned(influences: usize) -> File {
     file
 }
 
-fn skinned_vertices(time_s: f64) -> Vec<[DVec3; 2]> {
+/// Returns how each joint of the skinned file moves the vertices at rest into the world, at a time from 0 to 1 s.
+#[must_use]
+pub fn skinned_joints(time_s: f64) -> [DAffine3; 2] {
     let moved = DAffine3::from_translation(DVec3::X * time_s);
     let middle = DVec3::Y * HEIGHT_M / 2.0;
     let turned = DAffine3::from_rotation_x(FRAC_PI_2 * time_s);
@@ -192,6 +194,11 @@ fn skinned_vertices(time_s: f64) -> Vec<[DVec3; 2]> {
         * DAffine3::from_translation(middle)
         * turned
         * DAffine3::from_translation(DVec3::Y * -f64::from(HEIGHT_M as f32 / 2.0));
+    [moved, upper]
+}
+
+fn skinned_vertices(time_s: f64) -> Vec<[DVec3; 2]> {
+    let [moved, upper] = skinned_joints(time_s);
     let vertex = |(height, position, normal): (f64, DVec3, DVec3)| {
         let weight = upper_weight(height);
         let matrix = moved.matrix3 * (1.0 - weight) + upper.matrix3 * weight;
