@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use super::*;
 use crate::light::LightKind;
 use crate::material::TextureRef;
-use crate::mesh::Vertex;
+use crate::mesh::{Influence, MeshPose, SkinWeights, Vertex};
 
 const SUN: LightKind = LightKind::Directional { direction: DVec3::NEG_Y };
 const POINT: LightKind = LightKind::Point { position_world: DVec3::ZERO, range: None };
@@ -276,6 +276,36 @@ fn transforms_that_are_not_finite_are_errors_and_change_nothing() {
         text,
         "instance \"tree\": its transform has a value that is not finite (allowed: finite numbers)"
     );
+}
+
+#[test]
+fn poses_with_too_few_joints_are_errors_and_change_nothing() {
+    let One { mut scene, material, .. } = one();
+    let mut skinned = triangle();
+    let influence = |joint| Influence { joint, weight: 1.0 };
+    let weights = SkinWeights::new([0, 2, 1].map(influence).to_vec(), 1, &skinned.vertices).unwrap();
+    skinned.skin = Some(weights);
+    let mesh = scene.insert_mesh(skinned);
+    let pose = |joints| MeshPose { joints: vec![DAffine3::IDENTITY; joints].into(), weights: Vec::new() };
+    let new = |joints| Instance {
+        pose: Some(pose(joints)),
+        ..Instance::new(mesh, material, DAffine3::IDENTITY).with_name("fox")
+    };
+    let key = scene.insert_instance(new(3)).unwrap();
+    let _ = scene.take_changes();
+    let before = scene.clone();
+    for joints in [1, 2] {
+        let error = EditError::TooFewJoints { what: "instance \"fox\"".into(), joints, needed: 3 };
+        assert_eq!(scene.insert_instance(new(joints)), Err(error.clone()));
+        assert_eq!(scene.replace_instance(key, new(joints)), Err(error.clone()));
+        assert_eq!(scene.pose_instance(key, DAffine3::IDENTITY, Some(pose(joints))), Err(error));
+    }
+    assert_eq!(scene, before);
+    assert!(scene.take_changes().is_empty());
+    // More than are needed, and none, which is at rest.
+    for pose in [Some(pose(65_536)), Some(pose(0)), None] {
+        assert_eq!(scene.pose_instance(key, DAffine3::IDENTITY, pose), Ok(()));
+    }
 }
 
 #[test]
