@@ -163,12 +163,14 @@ fn round_up(value: f64, steps: f64) -> f64 {
     (value / step).ceil() * step
 }
 
-/// Absolute cosine to the vertical above which a light's up axis is computed from the world's -Z instead of +Y.
-const STEEP: f64 = 0.999;
+/// Angle of the axes around the light, radians: the arc tangent of 1/2. Edges of buildings are vertical or along the world's axes. If
+/// they were parallel to texels, a whole edge would move from one row of texels to the next at once.
+const ROLL: f64 = 0.463_647_609_000_806_1;
 
-/// Returns the rotation from world to light space: +Z towards the light, +Y as close to the world's up as possible
-/// (the world's -Z for lights from straight above or below). It depends only on the direction, so it
-/// is constant while the camera moves. `None` for a direction that is zero or not finite.
+/// Returns the rotation from world to light space, +Z towards the light: that of a light from straight above, turned along the
+/// shortest arc, so that the axes turn as little as possible with the light, and do not jump, except for lights from straight
+/// below. No axis across the light is along the world's. It depends only on the direction, so it is constant while the camera moves.
+/// `None` for a direction that is zero or not finite.
 ///
 /// ```
 /// use glam::DVec3;
@@ -180,8 +182,24 @@ const STEEP: f64 = 0.999;
 #[must_use]
 pub fn light_from_world(direction: DVec3) -> Option<DMat3> {
     let towards_light = -direction.try_normalize()?;
+    // The world's +X on that arc.
+    let sum = DVec3::Y + towards_light;
+    let along = DVec3::X - sum * (towards_light.x / sum.y.max(f64::EPSILON));
+    let up = towards_light.cross(along).try_normalize()?;
+    let right = up.cross(towards_light);
+    let (sin, cos) = ROLL.sin_cos();
+    // Rows of the result: a transposed matrix of the axes is its inverse, exactly.
+    Some(DMat3::from_cols(right * cos + up * sin, up * cos - right * sin, towards_light).transpose())
+}
+
+/// Absolute cosine to the vertical above which the up axis of [`upright_from_world`] is computed from the world's -Z instead of +Y.
+const STEEP: f64 = 0.999;
+
+/// Returns the rotation for a tile of a spot or point light: +Z towards the light, +Y as close to the world's up as possible, so the
+/// axes of a point light's tiles are those of the world. Otherwise as [`light_from_world`].
+pub(crate) fn upright_from_world(direction: DVec3) -> Option<DMat3> {
+    let towards_light = -direction.try_normalize()?;
     let up = if towards_light.y.abs() > STEEP { DVec3::NEG_Z } else { DVec3::Y };
     let right = up.cross(towards_light).try_normalize()?;
-    // Rows of the result: a transposed matrix of the axes is its inverse, exactly.
     Some(DMat3::from_cols(right, towards_light.cross(right), towards_light).transpose())
 }

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_4;
 use glam::{DMat3, DVec3, Vec3};
 use shadowgraph_scene::{Aabb, BoundingSphere, Camera, ConvexVolume, Light, LightKind, Plane};
 
-use crate::ortho::light_from_world;
+use crate::ortho::{light_from_world, upright_from_world};
 use crate::settings::LightShadows;
 use crate::spot::SpotCone;
 
@@ -102,7 +102,7 @@ impl Shape {
 pub(crate) fn point_face(position_world: DVec3, range_m: f64, face: usize) -> (SpotCone, DMat3) {
     let direction = POINT_FACES[face];
     // An axis is never zero.
-    let rotation = light_from_world(direction).unwrap_or(DMat3::IDENTITY);
+    let rotation = upright_from_world(direction).unwrap_or(DMat3::IDENTITY);
     (SpotCone { position_world, direction, half_angle: FRAC_PI_4, range_m }, rotation)
 }
 
@@ -152,11 +152,13 @@ pub(crate) fn candidate<'s>(
 
 fn shape(source: &Light) -> Result<Shape, UnshadowedReason> {
     let range_m = source.effective_range().unwrap_or(f64::INFINITY);
-    let rotation = |direction| light_from_world(direction).ok_or(UnshadowedReason::InvalidLight);
+    let invalid = UnshadowedReason::InvalidLight;
     Ok(match source.kind {
-        LightKind::Directional { direction } => Shape::Directional { light_from_world: rotation(direction)? },
+        LightKind::Directional { direction } => {
+            Shape::Directional { light_from_world: light_from_world(direction).ok_or(invalid)? }
+        }
         LightKind::Spot { position_world, direction, outer_angle: half_angle, .. } => {
-            let light_from_world = rotation(direction)?;
+            let light_from_world = upright_from_world(direction).ok_or(invalid)?;
             let direction = direction.normalize();
             Shape::Spot {
                 cone: SpotCone { position_world, direction, half_angle, range_m },

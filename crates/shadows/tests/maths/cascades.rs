@@ -185,6 +185,22 @@ fn a_light_from_straight_above_or_below_has_axes() {
 }
 
 #[test]
+fn axes_turn_no_faster_than_a_high_light_also_near_the_vertical() {
+    let direction = |elevation_deg: f64, heading: f64| {
+        let (sin, cos) = elevation_deg.to_radians().sin_cos();
+        DVec3::new(cos * heading.cos(), -sin, cos * heading.sin())
+    };
+    for step in 0..200 {
+        // Over the zenith, past the former threshold of 2.6 degrees, along several meridians.
+        let (elevation_deg, heading) = (80.0 + 0.1 * f64::from(step), f64::from(step % 7));
+        let (before, after) = (direction(elevation_deg, heading), direction(elevation_deg + 0.05, heading));
+        let turn = light_from_world(after).unwrap() * light_from_world(before).unwrap().transpose();
+        let angle = ((turn.x_axis.x + turn.y_axis.y + turn.z_axis.z - 1.0) * 0.5).clamp(-1.0, 1.0).acos();
+        assert!(angle.to_degrees() < 0.0501, "{elevation_deg}: {}", angle.to_degrees());
+    }
+}
+
+#[test]
 fn the_radius_does_not_depend_on_the_camera() {
     let projection = Projection::Perspective { fov_y: 1.0, near: 0.1, far: None };
     let radius = |eye: DVec3, forward: DVec3| {
