@@ -260,7 +260,16 @@ impl Renderer {
     }
 
     /// Culls and sorts the geometry of a view, for [`add`](Self::add) and for other passes over it. `target` is the target of a colour
-    /// image.
+    /// image. The view borrows the renderer, so that the scene cannot be edited while a frame is recorded:
+    ///
+    /// ```compile_fail,E0502
+    /// # use shadowgraph::{Renderer, ViewOptions};
+    /// fn record(renderer: &mut Renderer, options: &ViewOptions) {
+    ///     let view = renderer.view(options, None);
+    ///     let scene = renderer.scene_mut();
+    ///     drop(view);
+    /// }
+    /// ```
     pub fn view<'v>(&'v self, options: &'v ViewOptions, target: Option<&'v wgpu::Texture>) -> RenderView<'v> {
         let gpu_scene = &self.casters.scene;
         let mut visible = Vec::new();

@@ -1,13 +1,15 @@
 //! `shadowgraph view` in a window on a virtual display.
 
+use shadowgraph_tests::animated::{SKINNED, add_floor_and_camera};
 use shadowgraph_tests::{on_path, program, repository, skip};
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{
-    AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, ImageFormat, InputFocus,
-    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, Window,
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConfigureWindowAux,
+    ConnectionExt as _, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT,
+    MOTION_NOTIFY_EVENT, Window,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -56,15 +58,21 @@ struct View {
     x: RustConnection,
     root: Window,
     window: Window,
+    size_px: [u16; 2],
 }
 
 type Screenshot = image::RgbImage;
 
 impl View {
-    /// Starts the program on the demo scene and waits for its window.
+    /// Starts the program and waits for its window.
     fn start(display: &Display, arguments: &[&str]) -> Self {
+        Self::start_with_size(display, [640, 360], arguments)
+    }
+
+    fn start_with_size(display: &Display, size_px: [u16; 2], arguments: &[&str]) -> Self {
+        let [width, height] = size_px;
         let child = Command::new(program().unwrap())
-            .args(["view", "--size", "640x360", "--adapter", "cpu"])
+            .args(["view", "--size", &format!("{width}x{height}"), "--adapter", "cpu"])
             .args(arguments)
             .env("DISPLAY", &display.name)
             .env_remove("WAYLAND_DISPLAY")
@@ -73,7 +81,7 @@ impl View {
             .unwrap();
         let (x, screen) = x11rb::connect(Some(&display.name)).unwrap();
         let root = x.setup().roots[screen].root;
-        let mut view = Self { child, x, root, window: 0 };
+        let mut view = Self { child, x, root, window: 0, size_px };
         view.until("a window", |view| {
             let children = view.x.query_tree(view.root).unwrap().reply().unwrap().children;
             let named = children.into_iter().find(|&window| view.title(window).starts_with("Shadowgraph"));
@@ -113,7 +121,7 @@ impl View {
     }
 
     fn screenshot(&self) -> Screenshot {
-        let [width, height] = [640u16, 360];
+        let [width, height] = self.size_px;
         let image = self.x.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, !0).unwrap();
         let bytes = image.reply().unwrap().data;
         let rgb: Vec<u8> = bytes.chunks_exact(4).flat_map(|bgrx| [bgrx[2], bgrx[1], bgrx[0]]).collect();
@@ -144,6 +152,25 @@ impl View {
         self.key(keysym, KEY_PRESS_EVENT);
         std::thread::sleep(Duration::from_millis(30));
         self.key(keysym, KEY_RELEASE_EVENT);
+    }
+
+    /// Moves the pointer.
+    fn point(&self, [x, y]: [i16; 2]) {
+        self.x.xtest_fake_input(MOTION_NOTIFY_EVENT, 0, 0, self.root, x, y, 0).unwrap();
+        self.x.flush().unwrap();
+    }
+
+    fn button(&self, kind: u8) {
+        self.x.xtest_fake_input(kind, 1, 0, self.root, 0, 0, 0).unwrap();
+        self.x.flush().unwrap();
+    }
+
+    /// Presses the button of the mouse at a point until a condition holds, and releases it.
+    fn press_until(&mut self, at: [i16; 2], what: &str, holds: impl FnMut(&mut Self) -> bool) {
+        self.point(at);
+        self.button(BUTTON_PRESS_EVENT);
+        self.until(what, holds);
+        self.button(BUTTON_RELEASE_EVENT);
     }
 
     fn resize(&self, width: u32, height: u32) {
@@ -199,6 +226,19 @@ fn changed(a: &Screenshot, b: &Screenshot) -> f64 {
     let differs = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| a[c].abs_diff(b[c]) > 12);
     let count = a.pixels().zip(b.pixels()).filter(|&pair| differs(pair)).count();
     count as f64 / f64::from(a.width() * a.height())
+}
+
+/// Returns the column of pixels in which the panel begins.
+fn panel_left(screenshot: &Screenshot) -> u32 {
+    // The row between the names of the pages and their contents.
+    let is_panel = |x: &u32| (*x..*x + 40).all(|x| screenshot.get_pixel(x, 34).0.iter().all(|&c| c < 40));
+    (100..400).find(is_panel).unwrap()
+}
+
+/// The image of the scene next to the panel.
+fn scene(screenshot: &Screenshot) -> Screenshot {
+    let (width, height) = (panel_left(screenshot), screenshot.height());
+    image::imageops::crop_imm(screenshot, 0, 0, width - 4, height).to_image()
 }
 
 /// Returns whether the scene is visible left of the panel.
@@ -264,6 +304,101 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
 
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
+}
+
+/// Controls on the first page of the panel, from its left edge.
+mod controls {
+    // While it is placed by direction.
+    pub(super) const AZIMUTH: [i16; 2] = [27, 200];
+    pub(super) const ELEVATION: [i16; 2] = [27, 223];
+    /// The time of the animations.
+    pub(super) const TIME: [i16; 2] = [9, 315];
+    // While the sun is placed by time.
+    pub(super) const HOUR: [i16; 2] = [27, 200];
+    pub(super) const DAY: [i16; 2] = [27, 223];
+    pub(super) const LATITUDE: [i16; 2] = [27, 246];
+}
+
+#[test]
+fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
+    let Some(display) = Display::open() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let mut file = (SKINNED.file)();
+    add_floor_and_camera(&mut file);
+    let file = file.write(dir.path());
+    let arguments = [file.to_str().unwrap(), "--sun", "dir=-0.6,-1,-0.3 lux=40000"];
+    let mut view = View::start_with_size(&display, [640, 440], &arguments);
+    view.until("the scene", |view| lit(&view.screenshot()));
+
+    let started = Instant::now();
+    let (mut poses, mut last) = (0, scene(&view.keep("10 play")));
+    while started.elapsed() < Duration::from_secs(60) {
+        let before = last.clone();
+        view.until("the next pose", |view| {
+            last = scene(&view.screenshot());
+            changed(&before, &last) > 0.002
+        });
+        poses += 1;
+    }
+    assert!(poses > 10, "{poses} poses in a minute");
+
+    // The times in the panel change, but the scene does not.
+    let stands = |view: &mut View, what: &str| {
+        std::thread::sleep(Duration::from_secs(2));
+        let before = scene(&view.screenshot());
+        std::thread::sleep(Duration::from_secs(3));
+        assert!(changed(&before, &scene(&view.screenshot())) < 0.0005, "{what}");
+    };
+    let left = panel_left(&view.screenshot()) as i16;
+    // The point of a slider at a fraction of its range.
+    let along = |[x, y]: [i16; 2], fraction: f64| [left + x + (8.0 + 84.0 * fraction) as i16, y];
+    let another =
+        |before: Screenshot| move |view: &mut View| changed(&before, &scene(&view.screenshot())) > 0.005;
+    let now = |view: &View| scene(&view.screenshot());
+
+    view.tap(u32::from('p'));
+    stands(&mut view, "P pauses");
+    for fraction in [0.1, 0.9, 0.3] {
+        let before = now(&view);
+        view.press_until(along(controls::TIME, fraction), "another time", another(before));
+    }
+    view.keep("11 scrubbed");
+    stands(&mut view, "a time stands");
+
+    let before = now(&view);
+    view.tap(u32::from('p'));
+    view.until("it to play again", another(before));
+    view.tap(u32::from('p'));
+    stands(&mut view, "P pauses again");
+
+    for (control, fraction) in
+        [(controls::AZIMUTH, 0.2), (controls::ELEVATION, 0.65), (controls::AZIMUTH, 0.9)]
+    {
+        let before = now(&view);
+        view.press_until(along(control, fraction), "another sun", another(before));
+    }
+    stands(&mut view, "the sun stands");
+    view.keep("12 sun by direction");
+
+    // A day that plays places the sun by time.
+    let before = now(&view);
+    view.tap(u32::from('l'));
+    view.until("the day to pass", another(before));
+    view.tap(u32::from('l'));
+    stands(&mut view, "the day is paused");
+    view.keep("13 day played");
+    for (control, fraction) in [(controls::HOUR, 0.4), (controls::LATITUDE, 0.7), (controls::DAY, 0.1)] {
+        let before = now(&view);
+        view.press_until(along(control, fraction), "another sun", another(before));
+    }
+    stands(&mut view, "the sun of a time stands");
+    view.keep("14 sun by time");
+
+    let (status, errors) = view.close();
+    assert!(
+        status.success() && !errors.contains("error") && !errors.contains("panicked"),
+        "{status}: {errors}"
+    );
 }
 
 #[test]
