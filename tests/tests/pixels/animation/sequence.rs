@@ -1,4 +1,4 @@
-//! `render --frames`: every frame is the image of its own time.
+//! `render --frames`: every frame is the image at its time.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
