@@ -1,6 +1,6 @@
 //! The parameters of one light's shadows: the settings of its map, and the light's own.
 
-use crate::requirements::Requirements;
+use crate::requirements::{Requirements, snapping_px};
 use crate::settings::{BiasSettings, LightShadows, NormalBias, ShadowFilter, ShadowSettings};
 
 /// The parameters of one light's shadows.
@@ -10,6 +10,8 @@ pub(crate) struct LightShadowParams {
     pub(crate) filter: ShadowFilter,
     /// Radius around a point that the technique reads, texels.
     pub(crate) kernel_radius_texels: f32,
+    /// Step in which tiles of directional lights move, texels.
+    pub(crate) step_texels: u32,
     /// Distance beyond that at which a blocker still matters, metres.
     pub(crate) blocker_reach_m: f64,
     pub(crate) strength: f32,
@@ -29,6 +31,7 @@ impl LightShadowParams {
                 bias,
                 filter,
                 kernel_radius_texels: filter.kernel_radius_texels(),
+                step_texels: 1,
                 blocker_reach_m: 0.0,
                 strength: 1.0,
                 fade_fraction,
@@ -47,6 +50,7 @@ impl LightShadowParams {
             bias,
             filter,
             kernel_radius_texels: filter.kernel_radius_texels(),
+            step_texels: 1,
             blocker_reach_m: 0.0,
             strength: own.strength,
             fade_fraction,
@@ -58,7 +62,9 @@ impl LightShadowParams {
     /// Adds a technique's requirements.
     pub(crate) fn with_requirements(self, requirements: &Requirements) -> Self {
         let kernel_radius_texels = self.kernel_radius_texels.max(requirements.kernel_radius_texels);
-        Self { kernel_radius_texels, blocker_reach_m: f64::from(requirements.blocker_reach_m), ..self }
+        let (step_texels, blocker_reach_m) =
+            (requirements.step_texels, f64::from(requirements.blocker_reach_m));
+        Self { kernel_radius_texels, step_texels, blocker_reach_m, ..self }
     }
 
     /// Returns the distance around a point within which casters matter, metres, for texels of width `texel_m`.
@@ -85,10 +91,10 @@ impl LightShadowParams {
         self.bias.normal_texels * scale
     }
 
-    /// Returns the margin inside each edge of a tile that points must keep, pixels: filter, bias, and the texel by which
-    /// snapping can be off.
+    /// Returns the margin inside each edge of a tile that points must keep, pixels: filter, bias, and what snapping can be off.
     pub(crate) fn margin_px(&self, bias_scale: f32) -> f64 {
-        f64::from(self.kernel_radius_texels + self.normal_texels() * bias_scale.max(1.0)) + 1.0
+        f64::from(self.kernel_radius_texels + self.normal_texels() * bias_scale.max(1.0))
+            + snapping_px(self.step_texels)
     }
 }
 

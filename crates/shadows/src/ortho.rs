@@ -65,6 +65,15 @@ impl OrthoFit {
         Self { sphere, ..fit }.deepened(half.z / fit.half_extent_m())
     }
 
+    /// Moves the centre to a multiple of `step_texels`, a power of two, in texels from the world's origin. So it moves in steps of as many.
+    /// Points may be half of that nearer to the tile's edges.
+    #[must_use]
+    pub fn in_steps_of(self, step_texels: u32) -> Self {
+        let step = f64::from(step_texels.max(1));
+        let across = (self.center_texels.truncate() / step).round() * step;
+        Self { center_texels: across.extend(self.center_texels.z), ..self }
+    }
+
     /// Extends the depth range by at least `offset_m` (metres, 0 or more) towards the light.
     #[must_use]
     pub fn with_near_offset(self, offset_m: f64) -> Self {

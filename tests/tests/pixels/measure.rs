@@ -4,8 +4,9 @@
 use crate::stage::{SIZE_PX, gpu, move_instances};
 use glam::DVec3;
 use shadowgraph::options::Aov;
-use shadowgraph::shadows::{BiasSettings, PCF, ShadowSettings, SplitScheme};
-use shadowgraph::{Renderer, ViewOptions};
+use shadowgraph::shadows::{BiasSettings, EVSM, MSM, PCF, ShadowSettings, SplitScheme, TechniqueKind};
+use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph_quality::metrics::Stability;
 use shadowgraph_quality::report::{Motion, Moving};
 use shadowgraph_quality::{
     Comparator, MeasuredScene, MotionMeasured, MotionTask, Points, Probe, Query, ViewErrors, built_in_cases,
@@ -153,38 +154,53 @@ fn cascades_of_different_resolution_are_measured_at_their_seam() {
     assert!(coarse.mean > 2.0 * fine.mean && coarse.p99 > 0.5, "{fine:?} {coarse:?}");
 }
 
+/// Measures the slats from afar, moved by an offset, while something moves.
+fn stability(gpu: &Gpu, technique: TechniqueKind, moving: Moving, offset: DVec3) -> Stability {
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
+    let mut scene = test_scene("slats").unwrap();
+    scene.insert_light(case.sun(52.0));
+    move_instances(&mut scene, offset);
+    let mut camera = case.views[1].camera();
+    camera.world_from_view.translation += offset;
+    let scene = MeasuredScene::new("slats", scene, vec![("far".to_owned(), camera)]).unwrap();
+    let task = MotionTask {
+        techniques: vec![technique.into()],
+        size_px: [240, 135],
+        settings: ShadowSettings::default(),
+        distance: None,
+        moving: vec![moving],
+        frames: 6,
+        soft_rays: 128,
+    };
+    let mut found = Vec::new();
+    let keep = &mut |measured: MotionMeasured| {
+        found.push(measured.report.stability);
+        Ok::<_, shadowgraph_quality::Error>(())
+    };
+    measure_motion(gpu, &scene, &task, keep).unwrap();
+    println!("{}, {moving:?}, {offset}: {found:?}", technique.name);
+    assert_eq!(found.len(), 1);
+    found.remove(0)
+}
+
 #[test]
 fn a_turn_of_the_sun_changes_at_most_thrice_the_pixels_that_the_truth_changes_far_from_the_origin_too() {
     let Some(gpu) = gpu() else { return };
-    let cases = built_in_cases().unwrap().cases;
-    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
     // The axes turn around the world's origin: 10 km away from it, texels are somewhere else in each frame.
     for (offset, most) in [(DVec3::ZERO, 1.5), (DVec3::new(8_000.0, 0.0, 6_000.0), 3.0)] {
-        let mut scene = test_scene("slats").unwrap();
-        scene.insert_light(case.sun(52.0));
-        move_instances(&mut scene, offset);
-        let mut camera = case.views[1].camera();
-        camera.world_from_view.translation += offset;
-        let scene = MeasuredScene::new("slats", scene, vec![("far".to_owned(), camera)]).unwrap();
-        let task = MotionTask {
-            techniques: vec![PCF.into()],
-            size_px: [240, 135],
-            settings: ShadowSettings::default(),
-            distance: None,
-            moving: vec![Moving::Sun],
-            frames: 6,
-            soft_rays: 128,
-        };
-        let mut found = Vec::new();
-        let keep = &mut |measured: MotionMeasured| {
-            found.push(measured.report.stability);
-            Ok::<_, shadowgraph_quality::Error>(())
-        };
-        measure_motion(gpu, &scene, &task, keep).unwrap();
-        println!("{offset}: {found:?}");
-        assert_eq!(found.len(), 1);
-        let ratio = found[0].ratio().unwrap();
-        assert!(found[0].truth_changed > 20.0 && ratio < most, "{ratio} {found:?}");
-        assert!(found[0].excess.mean < 0.0005, "{found:?}");
+        let found = stability(gpu, PCF, Moving::Sun, offset);
+        let ratio = found.ratio().unwrap();
+        assert!(found.truth_changed > 20.0 && ratio < most, "{ratio} {found:?}");
+        assert!(found.excess.mean < 0.0005, "{found:?}");
+    }
+}
+
+#[test]
+fn moments_of_several_texels_stay_the_same_as_the_camera_moves() {
+    let Some(gpu) = gpu() else { return };
+    for technique in [EVSM, MSM] {
+        let found = stability(gpu, technique, Moving::Camera, DVec3::ZERO);
+        assert!(found.excess.count > 1_000 && found.changed < 1.0, "{found:?}");
     }
 }

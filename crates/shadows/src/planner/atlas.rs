@@ -168,7 +168,8 @@ impl<'a> Planner<'a> {
                 let ShadowRange { camera, aspect, near_m, fit_m, .. } = self.range;
                 let sphere = slice_sphere(&Slice { camera, aspect, near_m, far_m: fit_m });
                 let fit = OrthoFit::new(light_from_world, sphere, tile_px, margin_px);
-                TileFit::Directional(fit.with_near_offset(params.near_m.unwrap_or(0.0)))
+                let fit = fit.with_near_offset(params.near_m.unwrap_or(0.0));
+                TileFit::Directional(fit.in_steps_of(params.step_texels))
             }
         }
     }

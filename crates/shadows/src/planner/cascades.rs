@@ -93,10 +93,11 @@ impl<'a> Planner<'a> {
             // The last cascade covers the whole view.
             *last = fit(&[range.fit_m])[0];
         }
+        let near_offset_m = params.near_m.unwrap_or(0.0);
         fits.into_iter()
-            .map(|cascade| match params.near_m {
-                Some(offset_m) => CascadeFit { fit: cascade.fit.with_near_offset(offset_m), ..cascade },
-                None => cascade,
+            .map(|cascade| {
+                let fit = cascade.fit.with_near_offset(near_offset_m).in_steps_of(params.step_texels);
+                CascadeFit { fit, ..cascade }
             })
             .collect()
     }

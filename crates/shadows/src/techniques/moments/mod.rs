@@ -70,8 +70,12 @@ pub struct MomentMap {
 impl MomentMap {
     /// Returns the radius around a point within which the depth map is read, texels.
     fn kernel_radius_texels(&self) -> f32 {
-        let coarsest = 1 << (self.mips - 1);
-        self.downscale as f32 * (self.blur_texels as f32 + 1.5 * coarsest as f32)
+        self.downscale as f32 * self.blur_texels as f32 + 1.5 * self.coarsest_texels() as f32
+    }
+
+    /// Returns the width of a texel of the smallest mip level, texels of the depth map.
+    fn coarsest_texels(&self) -> u32 {
+        self.downscale << (self.mips - 1)
     }
 
     /// Returns the requirements of a technique with such a map.
@@ -79,6 +83,7 @@ impl MomentMap {
         let base = settings_requirements(inputs.settings);
         Requirements {
             kernel_radius_texels: base.kernel_radius_texels.max(self.kernel_radius_texels()),
+            step_texels: self.coarsest_texels(),
             ..base
         }
     }
