@@ -1,4 +1,4 @@
-//! Animations: a glTF file's, or without one those of a scene made here, in which skinned stalks sway around a lamp that circles.
+//! Animations: a glTF file's, or without one those of a scene made here, in which skinned stalks sway around a point light.
 //!
 //! `cargo run -p shadowgraph-examples --example animate` writes out/animate/00.png to 47.png; `-- --window` plays on, and
 //! `-- truck.glb` plays a file.
@@ -80,7 +80,7 @@ fn add_stalk(scene: &mut Scene, stalk: Instance, place: DVec3, phase: f64) -> Re
     Ok(())
 }
 
-/// Returns stalks around a lamp that circles between them, in the light of the evening.
+/// Returns stalks around a point light that moves between them, under a low sun.
 fn stalks() -> Result<Scene, Failure> {
     let mut scene = Scene::default();
     scene.hierarchy.animations.push(Animation::default());
@@ -89,8 +89,8 @@ fn stalks() -> Result<Scene, Failure> {
     let node = add_node(&mut scene, Some(centre), DVec3::new(0.8, 1.1, 0.0));
     let evening = Light::sun(DVec3::new(-0.8, -0.7, -0.5), 2_500.0);
     let kind = LightKind::Point { position_world: DVec3::ZERO, range: Some(12.0) };
-    let lamp = Light { kind, color: Vec3::new(1.0, 0.75, 0.45), intensity: 9_000.0, ..evening.clone() };
-    let object = scene.insert_light(lamp);
+    let point = Light { kind, color: Vec3::new(1.0, 0.75, 0.45), intensity: 9_000.0, ..evening.clone() };
+    let object = scene.insert_light(point);
     scene.hierarchy.lights.push(Attachment { node, object });
     scene.insert_light(evening);
     let base_color = Vec4::new(0.45, 0.75, 0.25, 1.0);

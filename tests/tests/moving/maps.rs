@@ -8,7 +8,7 @@ use shadowgraph::shadows::{Requirements, ShadowInputs, ShadowMaps, ShadowSetting
 use shadowgraph::wgpu;
 use std::sync::Arc;
 
-/// What is seen of a world.
+/// A view of a world, with its lights and settings.
 pub(crate) struct View {
     pub(crate) camera: Camera,
     pub(crate) lights: Vec<Light>,

@@ -36,7 +36,7 @@ pub(crate) fn scene(random: &mut Random) -> Scene {
     let [floor, cube] = [floor, cube].map(|mesh| scene.insert_mesh(mesh));
     scene.insert_instance(Instance::new(floor, materials[0], glam::DAffine3::IDENTITY)).unwrap();
     for index in 0..16 {
-        // Half of them are far away: an edit brings them near.
+        // Eight are far away: an edit brings them near.
         let mut at = edits::transform(random);
         at.translation *= if index < 8 { 1.0 } else { 3.0 };
         at.translation.y = at.translation.y.min(2.0);

@@ -128,12 +128,12 @@ pub(super) struct Fill {
 }
 
 /// Decides what has to be drawn into a tile. `whole` returns the static casters in the whole tile.
-pub(super) fn work(
+pub(super) fn work<'w>(
     tile: &TilePlan,
     held: Option<&Held>,
     stored: Option<&Stored>,
     wanted: &Wanted,
-    whole: &mut dyn FnMut() -> Versions,
+    whole: &dyn Fn() -> &'w Versions,
     bounds: &dyn Fn(u32) -> Aabb,
 ) -> Work {
     let Some(held) = held else { return Work::All { whole: false, because: Because::New } };
@@ -149,7 +149,7 @@ pub(super) fn work(
         return Work::Nothing;
     }
     let whole = whole();
-    if stays && rests && held.whole && held.statics == whole {
+    if stays && rests && held.whole && held.statics == *whole {
         return Work::Nothing;
     }
     if stays && wanted.moving.is_empty() && stored.is_none() {
@@ -158,7 +158,7 @@ pub(super) fn work(
     if whole.len() < wanted.moving.len().max(1) {
         return Work::All { whole: false, because: Because::Moving };
     }
-    Work::OverStore(fill(tile, stored, &wanted.location, &whole, bounds))
+    Work::OverStore(fill(tile, stored, &wanted.location, whole, bounds))
 }
 
 /// Decides the same for tints and their depths: they depend on the opaque casters that hide them, and are drawn again as a whole.

@@ -1,5 +1,7 @@
 //! A tile of a kept map in a frame, and what has to be drawn into it.
 
+use std::cell::OnceCell;
+
 use shadowgraph_scene::CullVolume;
 
 use super::cache::CachedMap;
@@ -44,16 +46,16 @@ pub(super) fn plan_tile<'p>(
         }
     }
     cached.with_tile(tile.rect, |held, stored| {
-        let mut whole = None;
+        let whole = OnceCell::new();
         let work = if map.pass == CasterPass::Depth {
-            let all = &mut || whole.get_or_insert_with(|| statics(casters, &tile.fit.volume())).clone();
-            contents::work(tile, held, stored, &wanted, all, &|caster| casters.caster_bounds(caster))
+            let all = || whole.get_or_init(|| statics(casters, &tile.fit.volume()));
+            contents::work(tile, held, stored, &wanted, &all, &|caster| casters.caster_bounds(caster))
         } else {
             contents::work_of_tints(held, &wanted)
         };
-        let static_count = whole.as_ref().map_or(wanted.seen.len(), Vec::len);
+        let static_count = whole.get().map_or(wanted.seen.len(), Vec::len);
         let reason = reason(&work, held, &wanted, static_count, casters);
-        Tile { plan: tile, whole: whole.unwrap_or_default(), reason, work, wanted }
+        Tile { plan: tile, whole: whole.into_inner().unwrap_or_default(), reason, work, wanted }
     })
 }
 
