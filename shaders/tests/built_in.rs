@@ -197,11 +197,12 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
         ("normal_scale", 36),
         ("occlusion_strength", 40),
         ("alpha_cutoff", 44),
-        ("flags", 48),
-        ("uv_sets", 52),
+        ("uv_sets", 48),
+        ("flags_index", 52),
         ("uv_transforms", 64),
+        ("flags", 224),
     ];
-    layout::check(&forward, "Material", 224, &material).unwrap();
+    layout::check(&forward, "Material", 256, &material).unwrap();
     // The members of a ShadowView that it reads.
     let of_shadows = [("clip_from_world", 0), ("of_shadows", 64), ("noise_px", 232)];
     layout::check(&composed("depth.wgsl"), "DepthView", 240, &of_shadows).unwrap();

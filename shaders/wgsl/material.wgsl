@@ -16,7 +16,7 @@ const NORMAL: u32 = 2u;
 const OCCLUSION: u32 = 3u;
 const EMISSIVE: u32 = 4u;
 
-// 224 bytes.
+// 256 bytes.
 struct Material {
     base_color: vec4f,
     // Factor times strength.
@@ -27,12 +27,14 @@ struct Material {
     occlusion_strength: f32,
     // Fragments of a masked material below this alpha are holes.
     alpha_cutoff: f32,
-    // MATERIAL_* bits.
-    flags: u32,
     // Bit i: texture i reads the second uv set.
     uv_sets: u32,
+    // The element of `flags` to read: 0.
+    flags_index: u32,
     // Two rows a texture (w unused): uv' = (dot(row, (u, v, 1)), dot(next row, (u, v, 1))).
     uv_transforms: array<vec4f, 10>,
+    // x: MATERIAL_* bits. Read them with material_flags.
+    flags: array<vec4u, 2>,
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -53,9 +55,15 @@ struct TextureCoordinates {
     second: vec2f,
 }
 
+// MATERIAL_* bits, uniform over a draw. Where a branch depends on a uniform at a constant offset, Mesa's software driver
+// compiles the shader again whenever the value changes from draw to draw; so the offset is not constant.
+fn material_flags() -> u32 {
+    return material.flags[material.flags_index].x;
+}
+
 // Whether all of `bits` (MATERIAL_*) are set. The result is uniform over a draw.
 fn material_has(bits: u32) -> bool {
-    return (material.flags & bits) == bits;
+    return (material_flags() & bits) == bits;
 }
 
 fn texture_uv(slot: u32, uv: TextureCoordinates) -> vec2f {
@@ -104,7 +112,7 @@ fn emissive(uv: TextureCoordinates) -> vec3f {
 // Whether an alpha below the cutoff makes a hole. Blended surfaces are cut at one half where they must be either opaque or
 // a hole (in depth).
 fn is_hole(alpha: f32) -> bool {
-    return (material.flags & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u && alpha < hole_cutoff();
+    return (material_flags() & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u && alpha < hole_cutoff();
 }
 
 fn hole_cutoff() -> f32 {

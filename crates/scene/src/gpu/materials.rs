@@ -40,10 +40,11 @@ struct MaterialUniform {
     normal_scale: f32,
     occlusion_strength: f32,
     alpha_cutoff: f32,
-    flags: u32,
     uv_sets: u32,
+    flags_index: u32,
     pad: [u32; 2],
     uv_transforms: [[f32; 4]; 2 * TEXTURES],
+    flags: [[u32; 4]; 2],
 }
 
 /// The layouts of the bind groups that draws need.
@@ -297,6 +298,11 @@ fn uniform(material: &Material, receives: bool) -> MaterialUniform {
         }
         uv_sets |= flag(reference.is_some_and(|used| used.uv_set == 1), 1 << slot);
     }
+    let flags = alpha_flag
+        | flag(material.unlit, UNLIT)
+        | flag(material.double_sided, DOUBLE_SIDED)
+        | flag(material.normal_texture.is_some(), NORMAL_MAP)
+        | flag(!(receives && material.receives_shadows), UNSHADOWED);
     MaterialUniform {
         base_color: material.base_color,
         emissive: material.emissive,
@@ -305,14 +311,11 @@ fn uniform(material: &Material, receives: bool) -> MaterialUniform {
         normal_scale: material.normal_scale,
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff,
-        flags: alpha_flag
-            | flag(material.unlit, UNLIT)
-            | flag(material.double_sided, DOUBLE_SIDED)
-            | flag(material.normal_texture.is_some(), NORMAL_MAP)
-            | flag(!(receives && material.receives_shadows), UNSHADOWED),
         uv_sets,
+        flags_index: 0,
         pad: [0; 2],
         uv_transforms,
+        flags: [[flags, 0, 0, 0]; 2],
     }
 }
 
@@ -338,9 +341,10 @@ mod tests {
             normal_scale,
             occlusion_strength,
             alpha_cutoff,
-            flags,
             uv_sets,
-            uv_transforms
+            flags_index,
+            uv_transforms,
+            flags
         ];
         shadowgraph_shaders::layout::check(&module, "Material", size_of::<MaterialUniform>(), fields)
             .unwrap();
@@ -376,8 +380,8 @@ mod tests {
             ..Material::default()
         };
         let uniform = uniform(&material, true);
-        assert_eq!(uniform.flags, MASK | DOUBLE_SIDED | NORMAL_MAP);
-        assert_eq!(super::uniform(&material, false).flags, uniform.flags | UNSHADOWED);
+        assert_eq!(uniform.flags[0][0], MASK | DOUBLE_SIDED | NORMAL_MAP);
+        assert_eq!(super::uniform(&material, false).flags[0][0], uniform.flags[0][0] | UNSHADOWED);
         assert_eq!(uniform.alpha_cutoff, 0.3);
         assert_eq!(uniform.uv_sets, 0b00100);
         assert_eq!(uniform.uv_transforms[4..6], [[2.0, 0.0, 0.5, 0.0], [0.0, 3.0, 0.25, 0.0]]);
