@@ -1,20 +1,18 @@
 //! Cascades: the split of the shadow distance, and the bounding sphere of each slice of the view frustum.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use shadowgraph_scene::{BoundingSphere, Camera};
 
 use crate::ortho::OrthoFit;
-use crate::settings::{CascadeFitting, CascadeSettings, SplitScheme};
+use crate::settings::SplitScheme;
 
-/// The slice of the view frustum of one cascade, and its fitted box.
+/// The end of a cascade's slice of the view frustum, and the fitted box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CascadeFit {
-    /// Start of the slice, metres of view depth.
-    pub near_m: f64,
+pub(crate) struct CascadeFit {
     /// End of the slice, metres of view depth.
-    pub far_m: f64,
+    pub(crate) far_m: f64,
     /// The box that the tile covers.
-    pub fit: OrthoFit,
+    pub(crate) fit: OrthoFit,
 }
 
 /// A slice of a view frustum between two view depths.
@@ -113,36 +111,58 @@ pub fn slice_sphere(slice: &Slice<'_>) -> BoundingSphere {
     BoundingSphere { center_world, radius_m }
 }
 
-/// Fits a box for each cascade. `ends_m` are their far ends in view depth (see [`split_distances`]); the first
-/// begins at the camera's near plane, the others overlap the previous one as the settings say. `tile` is the width of a
-/// tile in pixels and the margin of [`OrthoFit::new`].
-#[must_use]
-pub fn fit_cascades(
-    camera: &Camera,
-    aspect: f64,
+/// Returns where the slice of each cascade begins and ends, metres of view depth. `ends_m` are their ends (see [`split_distances`]); the
+/// first begins at `near_m`, and the others overlap the previous one by a fraction of its length.
+pub(crate) fn slices(near_m: f64, ends_m: &[f64], overlap: f64) -> impl Iterator<Item = [f64; 2]> {
+    let mut last = [near_m; 2];
+    ends_m.iter().map(move |&far_m| {
+        let [begin_m, end_m] = last;
+        last = [end_m, far_m];
+        [end_m - (end_m - begin_m) * overlap, far_m]
+    })
+}
+
+/// Returns the ends of the cascades after those that cover the same receivers are merged: of all with the same sphere, `whole_m`, the first
+/// remains; and a single cascade remains if that gives finer texels than the finest of them. `radii_m` are the radii of the cascades'
+/// spheres, `whole_m` that of a single one; `tile_px` returns the width of a tile for a number of cascades.
+pub(crate) fn merged(
     ends_m: &[f64],
-    light_from_world: DMat3,
-    tile: (u32, f64),
-    settings: &CascadeSettings,
-) -> Vec<CascadeFit> {
-    let (tile_px, margin_px) = tile;
-    let mut last = (camera.near(), camera.near());
-    let fit = |&far_m: &f64| {
-        let near_m = last.1 - (last.1 - last.0) * settings.slice_overlap();
-        last = (last.1, far_m);
-        let slice = Slice { camera, aspect, near_m, far_m };
-        let fit = match settings.fit {
-            CascadeFitting::Stable => {
-                OrthoFit::new(light_from_world, slice_sphere(&slice), tile_px, margin_px)
-            }
-            CascadeFitting::Tight => {
-                let corners = camera.slice_corners_view(aspect, near_m, far_m);
-                let corners = corners.map(|corner| camera.world_from_view.transform_point3(corner));
-                OrthoFit::tight(light_from_world, &corners, tile_px, margin_px)
-            }
-        };
-        let fit = fit.with_near_offset(f64::from(settings.near_offset_m));
-        CascadeFit { near_m, far_m, fit }
+    radii_m: &[f64],
+    whole_m: f64,
+    tile_px: impl Fn(usize) -> u32,
+) -> Vec<f64> {
+    let texel = |radius_m: f64, count: usize| radius_m / f64::from(tile_px(count));
+    let finest_m = radii_m.iter().copied().fold(f64::INFINITY, f64::min);
+    let count = if texel(whole_m, 1) <= texel(finest_m, ends_m.len()) {
+        1
+    } else {
+        radii_m.iter().take_while(|&&radius_m| radius_m < whole_m).count() + 1
     };
-    ends_m.iter().map(fit).collect()
+    let (Some(&end_m), true) = (ends_m.last(), count < ends_m.len()) else { return ends_m.to_vec() };
+    ends_m[..count - 1].iter().copied().chain([end_m]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the ends of the cascades of one light.
+    fn ends(radii_m: [f64; 4], whole_m: f64) -> Vec<f64> {
+        merged(&[10.0, 20.0, 40.0, 80.0], &radii_m, whole_m, |count| if count == 1 { 4096 } else { 2048 })
+    }
+
+    #[test]
+    fn cascades_with_the_same_receivers_are_merged() {
+        assert_eq!(ends([8.0, 16.0, 32.0, 64.0], 90.0), [10.0, 20.0, 40.0, 80.0]);
+        assert_eq!(ends([8.0, 16.0, 32.0, 40.0], 40.0), [10.0, 20.0, 40.0, 80.0]);
+        assert_eq!(ends([8.0, 16.0, 30.0, 30.0], 30.0), [10.0, 20.0, 80.0]);
+        assert_eq!(ends([8.0, 17.0, 17.0, 17.0], 17.0), [10.0, 80.0]);
+    }
+
+    #[test]
+    fn one_cascade_remains_if_its_texels_are_finer() {
+        assert_eq!(ends([8.0, 15.0, 15.0, 15.0], 15.0), [80.0]);
+        assert_eq!(ends([8.0; 4], 8.0), [80.0]);
+        assert_eq!(merged(&[80.0], &[90.0], 90.0, |_| 4096), [80.0]);
+    }
 }

@@ -50,8 +50,8 @@ pub trait ShadowCasters: Sync {
         false
     }
 
-    /// Returns the bounds of all receivers: cascades end there if that is nearer than the shadow
-    /// distance. The default is the bounds of all casters; add those of surfaces that receive shadows and cast none.
+    /// Returns the bounds of all receivers: cascades cover no more than that. The default is the bounds of all casters; add
+    /// those of surfaces that receive shadows and cast none.
     fn receivers(&self) -> Aabb {
         self.bounds()
     }

@@ -28,6 +28,7 @@ mod pcf_variant;
 mod plan;
 mod planner;
 pub mod rays;
+mod receivers;
 mod registry;
 mod requirements;
 mod select;
@@ -42,7 +43,7 @@ mod views;
 pub use allocation::{AtlasAllocation, AtlasConfig, TileAllocation, TileRequest, allocate_tiles};
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
 pub use budget::{BudgetConfig, QualityController, QualityLevel};
-pub use cascades::{CascadeFit, Slice, fit_cascades, slice_sphere, split_distances};
+pub use cascades::{Slice, slice_sphere, split_distances};
 pub use casters::{
     CasterPass, CasterTarget, CasterView, Mobility, ShadowCasters, TINT_FORMAT, TileKind, caster_view_layout,
 };
@@ -51,8 +52,9 @@ pub use error::Error;
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};
 pub use pcf_variant::PcfVariant;
-pub use plan::{MapPlan, PlanState, ReceiversEnd, ShadowInputs, ShadowPlan, TilePlan};
+pub use plan::{MapPlan, PlanState, ShadowInputs, ShadowPlan, TilePlan};
 pub use planner::{plan_shadows, plan_shadows_after};
+pub use receivers::{ReceiverRange, SteppedDistance};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,
     TechniqueModifier, Techniques,

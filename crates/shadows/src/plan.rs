@@ -9,6 +9,7 @@ use crate::atlas::TileRect;
 use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TileKind};
 use crate::light_params::settings_requirements;
 use crate::pcf_variant::PcfVariant;
+use crate::receivers::ReceiverRange;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
 use crate::settings::{DepthFormat, ShadowSettings};
@@ -59,17 +60,8 @@ pub struct ShadowPlan {
 pub struct PlanState {
     /// The tiles of lights in the atlas.
     pub atlas_allocation: AtlasAllocation,
-    /// The end of all receivers. Cascades end there if that is nearer than the shadow distance.
-    pub receivers_end: ReceiversEnd,
-}
-
-/// The distance at which all receivers end, in steps: a step too far is kept for some frames.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ReceiversEnd {
-    /// Distance from the camera, metres; 0 before the first frame.
-    pub distance_m: f64,
-    /// Number of frames for which it has been a step farther than needed.
-    pub spare_frames: u32,
+    /// The distances between which the receivers are. Cascades begin and end there if that is within the shadow distance.
+    pub receivers: ReceiverRange,
 }
 
 /// A shadow map.

@@ -4,14 +4,15 @@ mod atlas;
 mod cascades;
 mod culling;
 
-use shadowgraph_scene::{Aabb, Camera, CullVolume};
+use shadowgraph_scene::CullVolume;
 
 use culling::VisibleReceivers;
 
 use crate::atlas::TileRect;
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
-use crate::plan::{PlanState, ReceiversEnd, ShadowInputs, ShadowPlan};
+use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
+use crate::receivers::ReceiverRange;
 use crate::requirements::Requirements;
 use crate::select::{Candidate, ShadowRange, Shape, candidate};
 use crate::select::{Unshadowed, UnshadowedReason};
@@ -50,7 +51,7 @@ use crate::views::{ShadowLight, TilePlacement};
 ///     camera: &camera,
 ///     aspect: 16.0 / 9.0,
 ///     lights: &[sun],
-///     casters: &OneBox(Aabb { min: DVec3::splat(-1.0), max: DVec3::ONE }),
+///     casters: &OneBox(Aabb { min: DVec3::splat(-100.0), max: DVec3::new(100.0, 0.0, 100.0) }),
 ///     origin_world: origin_near(camera.position_world()),
 ///     settings: &ShadowSettings::default(),
 /// })?;
@@ -82,12 +83,6 @@ pub fn plan_shadows_after(
     Ok(Planner::new(inputs, previous, requirements)?.plan())
 }
 
-/// Number of steps per factor of two of the distance at which receivers end.
-const END_STEPS: f64 = 4.0;
-
-/// Number of frames for which cascades keep an end that is a step farther than needed.
-const SPARE_FRAMES: u32 = 60;
-
 /// A plan under construction.
 struct Planner<'a> {
     inputs: ShadowInputs<'a>,
@@ -116,13 +111,15 @@ impl<'a> Planner<'a> {
         let distance_m = f64::from(settings.distance_m);
         let distance_m = camera.far().map_or(distance_m, |far| far.min(distance_m));
         let near_m = camera.near();
+        let receivers = previous.map_or_else(ReceiverRange::default, |previous| previous.receivers);
+        let receivers = receivers.next(inputs.casters.receivers(), camera);
         // Never in front of the near plane, however small the scene.
-        let previous_end = previous.map_or_else(ReceiversEnd::default, |previous| previous.receivers_end);
-        let receivers_end = receivers_end(&inputs.casters.receivers(), camera, previous_end);
-        let fit_m = receivers_end.distance_m.max(near_m * 1.01 + 1e-3).min(distance_m);
-        let range = ShadowRange { camera, aspect, near_m, distance_m, fit_m };
+        let fit_m = receivers.end.distance_m.max(near_m * 1.01 + 1e-3).min(distance_m);
+        let begin_m = receivers.begin_m(camera, aspect).min(0.5 * (near_m + fit_m));
+        let range =
+            ShadowRange { camera, aspect, near_m, distance_m, begin_m, fit_m, receivers: receivers.sphere() };
         let mut plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
-        plan.state.receivers_end = receivers_end;
+        plan.state.receivers = receivers;
         let visible = VisibleReceivers::new(inputs, &range);
         Ok(Self { inputs: *inputs, range, visible, own, previous, requirements: *requirements, plan })
     }
@@ -207,21 +204,4 @@ fn placement(
     depth_step: f32,
 ) -> TilePlacement {
     TilePlacement { rect, map_size_px, border_px: params.border_px(), depth_step }
-}
-
-/// Returns the distance from the camera to the farthest point of the bounds, rounded up to one of four steps per factor of two:
-/// it does not change as the camera turns, and rarely as it moves. A distance that is a step too far stays for some frames, so
-/// it does not flip back and forth, and a camera that rests has the distance of a fresh start. Infinite for empty bounds.
-fn receivers_end(bounds: &Aabb, camera: &Camera, previous: ReceiversEnd) -> ReceiversEnd {
-    if bounds.is_empty() {
-        return ReceiversEnd { distance_m: f64::INFINITY, spare_frames: 0 };
-    }
-    let eye = camera.position_world();
-    let farthest = bounds.corners().map(|corner| corner.distance(eye)).into_iter().fold(0.0, f64::max);
-    let step = (farthest.log2() * END_STEPS).ceil();
-    let [needed_m, spare_m] = [step, step + 1.0].map(|step| (step / END_STEPS).exp2());
-    if previous.distance_m == spare_m && previous.spare_frames < SPARE_FRAMES {
-        return ReceiversEnd { spare_frames: previous.spare_frames + 1, ..previous };
-    }
-    ReceiversEnd { distance_m: needed_m, spare_frames: 0 }
 }

@@ -6,7 +6,8 @@ use std::f64::consts::FRAC_PI_4;
 use glam::{DMat3, DVec3, Vec3};
 use shadowgraph_scene::{Aabb, BoundingSphere, Camera, ConvexVolume, Light, LightKind, Plane};
 
-use crate::ortho::{light_from_world, upright_from_world};
+use crate::cascades::{Slice, slice_sphere};
+use crate::ortho::{OrthoFit, light_from_world, upright_from_world};
 use crate::settings::LightShadows;
 use crate::spot::SpotCone;
 
@@ -55,11 +56,32 @@ pub(crate) struct ShadowRange<'a> {
     pub(crate) aspect: f64,
     pub(crate) near_m: f64,
     pub(crate) distance_m: f64,
+    /// Start of the cascades, metres of view depth: the near plane, or more if there are no receivers before.
+    pub(crate) begin_m: f64,
     /// End of the cascades, metres of view depth: the shadow distance, or less if there are no receivers beyond.
     pub(crate) fit_m: f64,
+    /// A sphere around all receivers.
+    pub(crate) receivers: BoundingSphere,
 }
 
 impl ShadowRange<'_> {
+    /// Returns a sphere around the receivers between two view depths: that of the slice, or that of all receivers if it is smaller.
+    pub(crate) fn sphere(&self, near_m: f64, far_m: f64) -> BoundingSphere {
+        let slice = slice_sphere(&Slice { camera: self.camera, aspect: self.aspect, near_m, far_m });
+        if self.receivers.radius_m <= slice.radius_m { self.receivers } else { slice }
+    }
+
+    /// Returns the corners of the slice between two view depths, world space.
+    pub(crate) fn corners(&self, near_m: f64, far_m: f64) -> [DVec3; 8] {
+        let corners = self.camera.slice_corners_view(self.aspect, near_m, far_m);
+        corners.map(|corner| self.camera.world_from_view.transform_point3(corner))
+    }
+
+    /// Returns whether a box covers all receivers.
+    pub(crate) fn is_whole(&self, fit: &OrthoFit) -> bool {
+        fit.sphere == self.receivers
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.near_m >= self.distance_m
     }

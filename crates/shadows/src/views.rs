@@ -56,8 +56,10 @@ pub struct ShadowView {
     pub noise_px: [u32; 2],
     /// 1 if translucent casters are drawn into it and its tints are read, else 0.
     pub is_tinted: u32,
+    /// 1 if no caster is beyond depth 0, so points there are looked up too, at depth 0; else 0.
+    pub is_open: u32,
     /// Reserved, zero.
-    pub reserved: [u32; 3],
+    pub reserved: [u32; 2],
 }
 
 /// The views of a light and how they are read, 80 bytes. One for each light of the scene, in its order.

@@ -50,7 +50,9 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     // Neighbours of the receiver that are clamped to the near plane would count as blockers.
     let rise = f32(light.filter_taps) * (abs(slope.x) + abs(slope.y));
     let inside = all(lookup.uv >= shadow_view.uv_min) && all(lookup.uv <= shadow_view.uv_max);
-    lookup.covered = inside && depth > 0.0 && depth + rise < MAX_SHADOW_DEPTH;
+    let before_end = depth > 0.0 || shadow_view.is_open == 1u;
+    lookup.covered = inside && before_end && depth + rise < MAX_SHADOW_DEPTH;
+    depth = max(depth, 0.0);
     depth += scale * light.depth_bias_texels * depth_per_texel + shadow_view.depth_step;
     lookup.plane.depth = depth;
     if light.bias_method == BIAS_PLANE {

@@ -41,7 +41,9 @@ struct ShadowView {
     noise_px: vec2u,
     // 1: translucent casters are drawn into it.
     is_tinted: u32,
-    reserved: array<u32, 3>,
+    // 1: no caster is beyond depth 0, so points there are looked up too, at depth 0.
+    is_open: u32,
+    reserved: array<u32, 2>,
 }
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;

@@ -3,13 +3,12 @@
 use super::{Planner, placement};
 use crate::allocation::{AtlasConfig, TileRequest, allocate_tiles};
 use crate::atlas::{MAX_ATLAS_TILES, TileRect, even_tiles, smallest_atlas_tile_px};
-use crate::cascades::{Slice, slice_sphere};
 use crate::casters::TileKind;
 use crate::light_params::LightShadowParams;
 use crate::ortho::OrthoFit;
 use crate::plan::{MapPlan, TilePlan};
 use crate::select::UnshadowedReason;
-use crate::select::{Candidate, ShadowRange, Shape, point_face};
+use crate::select::{Candidate, Shape, point_face};
 use crate::settings::AtlasTiles;
 use crate::spot::SpotFit;
 use crate::tile_fit::TileFit;
@@ -147,7 +146,9 @@ impl<'a> Planner<'a> {
             let tile = placement(rect, tiles.map_size_px, &params, depth_step);
             let (casters, tints) = self.opaque_and_tints(casters);
             let is_tinted = u32::from(!tints.is_empty());
-            self.plan.views.push(ShadowView { is_tinted, ..fit.view(&tile, self.inputs.origin_world) });
+            let is_open = matches!(&fit, TileFit::Directional(fit) if self.range.is_whole(fit));
+            let view = fit.view(&tile, self.inputs.origin_world);
+            self.plan.views.push(ShadowView { is_tinted, is_open: u32::from(is_open), ..view });
             let kind = if is_point { TileKind::Face(index) } else { TileKind::Whole };
             let (light, view) = (candidate.light, first_view + index);
             planned.push(TilePlan { light, view, kind, rect, fit, casters, tints });
@@ -165,8 +166,7 @@ impl<'a> Planner<'a> {
             Shape::Spot { cone, light_from_world } => spot((cone, light_from_world)),
             Shape::Point { position_world, range_m } => spot(point_face(position_world, range_m, tile)),
             Shape::Directional { light_from_world } => {
-                let ShadowRange { camera, aspect, near_m, fit_m, .. } = self.range;
-                let sphere = slice_sphere(&Slice { camera, aspect, near_m, far_m: fit_m });
+                let sphere = self.range.sphere(self.range.begin_m, self.range.fit_m);
                 let fit = OrthoFit::new(light_from_world, sphere, tile_px, margin_px);
                 let fit = fit.with_near_offset(params.near_m.unwrap_or(0.0));
                 TileFit::Directional(fit.in_steps_of(params.step_texels))

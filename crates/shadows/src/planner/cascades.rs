@@ -4,13 +4,14 @@ use glam::DMat3;
 
 use super::{Planner, placement};
 use crate::atlas::{TileLayout, even_tiles};
-use crate::cascades::{CascadeFit, fit_cascades, split_distances};
+use crate::cascades::{CascadeFit, merged, slices, split_distances};
 use crate::casters::TileKind;
 use crate::light_params::LightShadowParams;
+use crate::ortho::OrthoFit;
 use crate::plan::{MapPlan, TilePlan};
 use crate::select::UnshadowedReason;
 use crate::select::{Candidate, Shape};
-use crate::settings::CascadeSelection;
+use crate::settings::{CascadeFitting, CascadeSelection};
 use crate::tile_fit::TileFit;
 use crate::views::{MAP_CASCADES, ShadowView};
 
@@ -28,20 +29,21 @@ impl<'a> Planner<'a> {
     pub(super) fn add_cascades(&mut self, mut lights: Vec<Candidate<'a>>) {
         let settings = &self.inputs.settings.cascades;
         // Lights without casters leave larger tiles for the others.
-        let (layout, planned) = loop {
+        let (layout, count, planned) = loop {
             if lights.is_empty() {
                 return;
             }
-            let layout = even_tiles(lights.len() * settings.count as usize, settings.map_size_px);
+            let ends_m = self.cascade_ends(lights.len());
+            let layout = even_tiles(lights.len() * ends_m.len(), settings.map_size_px);
             let (kept, idle): (Vec<_>, Vec<_>) = lights
                 .into_iter()
-                .map(|light| self.cascades(light, layout.tile_px))
+                .map(|light| self.cascades(light, &ends_m, layout.tile_px))
                 .partition(|cascades| cascades.casters.iter().any(|casters| !casters.is_empty()));
             for cascades in &idle {
                 self.reject(cascades.candidate.light, UnshadowedReason::NoCasterInRange);
             }
             if idle.is_empty() {
-                break (layout, kept);
+                break (layout, ends_m.len(), kept);
             }
             lights = kept.into_iter().map(|cascades| cascades.candidate).collect();
         };
@@ -51,20 +53,35 @@ impl<'a> Planner<'a> {
             cache: settings.cache && !self.requirements.fits_on_gpu,
             tiles: Vec::new(),
         };
-        for (cascades, rects) in planned.into_iter().zip(layout.tiles.chunks(settings.count as usize)) {
+        for (cascades, rects) in planned.into_iter().zip(layout.tiles.chunks(count)) {
             let layout = TileLayout { tiles: rects.to_vec(), ..layout };
             map.tiles.extend(self.add_light(cascades, layout));
         }
         self.plan.cascades = Some(map);
     }
 
-    fn cascades(&self, candidate: Candidate<'a>, tile_px: u32) -> Cascades<'a> {
+    /// Returns the ends of the cascades of each of `lights` lights, metres of view depth.
+    fn cascade_ends(&self, lights: usize) -> Vec<f64> {
+        let range = &self.range;
+        let settings = &self.inputs.settings.cascades;
+        let ends_m = split_distances(&settings.split, settings.count, range.begin_m, range.fit_m);
+        if self.requirements.fits_on_gpu || settings.fit != CascadeFitting::Stable {
+            return ends_m;
+        }
+        let radius = |[near_m, far_m]: [f64; 2]| range.sphere(near_m, far_m).radius_m;
+        let radii_m: Vec<f64> =
+            slices(range.begin_m, &ends_m, settings.slice_overlap()).map(radius).collect();
+        let tile_px = |count: usize| even_tiles(lights * count, settings.map_size_px).tile_px;
+        merged(&ends_m, &radii_m, radius([range.begin_m, range.fit_m]), tile_px)
+    }
+
+    fn cascades(&self, candidate: Candidate<'a>, ends_m: &[f64], tile_px: u32) -> Cascades<'a> {
         let Shape::Directional { light_from_world } = candidate.shape else {
             let params = self.light_params(&candidate, true);
             return Cascades { candidate, params, fits: Vec::new(), casters: Vec::new() };
         };
         let params = self.light_params(&candidate, true);
-        let fits = self.fit_cascades(light_from_world, tile_px, &params);
+        let fits = self.fit_cascades(light_from_world, ends_m, tile_px, &params);
         let mut casters = self.cull_cascades(&fits, &params);
         if self.requirements.fits_on_gpu {
             let mut all = casters.concat();
@@ -75,31 +92,38 @@ impl<'a> Planner<'a> {
         Cascades { candidate, params, fits, casters }
     }
 
+    /// Fits a box for each cascade.
     fn fit_cascades(
         &self,
         light_from_world: DMat3,
+        ends_m: &[f64],
         tile_px: u32,
         params: &LightShadowParams,
     ) -> Vec<CascadeFit> {
         let range = &self.range;
         let settings = &self.inputs.settings.cascades;
-        let ends = split_distances(&settings.split, settings.count, range.near_m, range.fit_m);
         let largest_scale = settings.bias_scales.iter().copied().fold(1.0, f32::max);
-        let tile = (tile_px, params.margin_px(largest_scale));
-        let fit =
-            |ends: &[f64]| fit_cascades(range.camera, range.aspect, ends, light_from_world, tile, settings);
-        let mut fits = fit(&ends);
-        if let Some(last) = fits.last_mut().filter(|_| self.requirements.fits_on_gpu) {
-            // The last cascade covers the whole view.
-            *last = fit(&[range.fit_m])[0];
-        }
-        let near_offset_m = params.near_m.unwrap_or(0.0);
-        fits.into_iter()
-            .map(|cascade| {
-                let fit = cascade.fit.with_near_offset(near_offset_m).in_steps_of(params.step_texels);
-                CascadeFit { fit, ..cascade }
-            })
-            .collect()
+        let margin_px = params.margin_px(largest_scale);
+        let near_offsets_m = [f64::from(settings.near_offset_m), params.near_m.unwrap_or(0.0)];
+        let fit = |[near_m, far_m]: [f64; 2]| {
+            let fit = match settings.fit {
+                CascadeFitting::Stable => {
+                    OrthoFit::new(light_from_world, range.sphere(near_m, far_m), tile_px, margin_px)
+                }
+                CascadeFitting::Tight => {
+                    OrthoFit::tight(light_from_world, &range.corners(near_m, far_m), tile_px, margin_px)
+                }
+            };
+            let fit = near_offsets_m.into_iter().fold(fit, OrthoFit::with_near_offset);
+            fit.in_steps_of(params.step_texels)
+        };
+        let cascade = |[near_m, far_m]: [f64; 2]| {
+            // Where fits are on the GPU, the last cascade covers the whole view.
+            let is_whole = self.requirements.fits_on_gpu && far_m == range.fit_m;
+            let begin_m = if is_whole { range.begin_m } else { near_m };
+            CascadeFit { far_m, fit: fit([begin_m, far_m]) }
+        };
+        slices(range.begin_m, ends_m, settings.slice_overlap()).map(cascade).collect()
     }
 
     /// Adds a light's views, and returns its tiles.
@@ -109,8 +133,12 @@ impl<'a> Planner<'a> {
         if self.requirements.fits_on_gpu {
             settings.select = CascadeSelection::Map;
         }
+        if fits.last().is_some_and(|last| self.range.is_whole(&last.fit)) {
+            // Nothing is beyond its edge.
+            settings.edge_fade = 0.0;
+        }
         let first_view = self.plan.views.len() as u32;
-        let mut begin_m = self.range.near_m;
+        let mut begin_m = self.range.begin_m;
         let mut tiles = Vec::new();
         for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
             let tile = placement(rect, layout.size_px, &params, settings.depth.step());
@@ -118,6 +146,7 @@ impl<'a> Planner<'a> {
             self.plan.views.push(ShadowView {
                 cascade,
                 is_tinted: u32::from(!tints.is_empty()),
+                is_open: u32::from(self.range.is_whole(&fit.fit)),
                 begin_m: begin_m as f32,
                 end_m: fit.far_m as f32,
                 bias_scale: settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0),

@@ -106,7 +106,7 @@ impl Planner<'_> {
         let settings = &self.inputs.settings.cascades;
         let blend = f64::from(settings.blend.fraction());
         let scale = f64::from(largest_scale(settings));
-        let mut begin_m = self.range.near_m;
+        let mut begin_m = self.range.begin_m;
         let covered = |fit: &CascadeFit| {
             let OrthoFit { light_from_world, texel_m, .. } = fit.fit;
             let slack_m =

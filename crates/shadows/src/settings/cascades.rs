@@ -10,7 +10,8 @@ declare_settings! {
     /// The cascades of the brightest directional lights that cast shadows.
     #[check(CascadeSettings::check_split)]
     pub struct CascadeSettings {
-        /// Cascades of each light. With 0 every directional light has one tile of the atlas.
+        /// Cascades of each light; fewer in a small scene, if that gives finer texels. With 0 every directional light has one tile of
+        /// the atlas.
         count: u32 = 4, 0..=8;
         /// Lights that have cascades, the brightest first. Other directional lights have one tile of the atlas.
         lights: u32 = 1, 1..=4;
@@ -32,7 +33,8 @@ declare_settings! {
         select: CascadeSelection = CascadeSelection::Map;
         /// Transition from one cascade to the next.
         blend: CascadeBlend = CascadeBlend::Hard;
-        /// Outer part of the last cascade over which its shadows fade out, in addition to the fade at the end of the shadow distance.
+        /// Outer part of the last cascade over which its shadows fade out, in addition to the fade at the end of the shadow distance; not
+        /// if it covers the whole scene.
         edge_fade: f32 = 0.0, 0..=1, in "fraction of the last cascade";
         /// Filter of shadow edges.
         filter: ShadowFilter = ShadowFilter::Tent5;
@@ -81,8 +83,8 @@ declare_settings! {
     #[derive(Copy, Eq, Hash)]
     #[default(Stable)]
     pub enum CascadeFitting {
-        /// The sphere around its slice of the view. Its size does not depend on the view direction, and it moves by whole texels
-        /// only, so shadows do not shimmer.
+        /// The sphere around its slice of the view, or around all receivers if that is smaller. Its size does not depend on the view
+        /// direction, and it moves by whole texels only, so shadows do not shimmer.
         Stable;
         /// The box around its slice of the view on the light's axes: texels are finer, but change as the camera turns.
         Tight;

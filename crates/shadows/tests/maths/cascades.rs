@@ -42,9 +42,19 @@ fn any_camera() -> impl Strategy<Value = Camera> {
 }
 
 fn plan(camera: &Camera, aspect: f64, light: Light, settings: &ShadowSettings) -> (ShadowPlan, DVec3) {
-    let origin_world = origin_near(camera.position_world());
     // A large caster: everything is in range.
-    let casters = Boxes(vec![cube(camera.position_world(), 1e5)]);
+    plan_of(cube(camera.position_world(), 1e5), camera, aspect, light, settings)
+}
+
+fn plan_of(
+    caster: Aabb,
+    camera: &Camera,
+    aspect: f64,
+    light: Light,
+    settings: &ShadowSettings,
+) -> (ShadowPlan, DVec3) {
+    let origin_world = origin_near(camera.position_world());
+    let casters = Boxes(vec![caster]);
     let lights = [light];
     let inputs =
         ShadowInputs { view: 0, camera, aspect, lights: &lights, casters: &casters, origin_world, settings };
@@ -106,6 +116,31 @@ proptest! {
         let receiver = Receiver { position: position.as_vec3().as_dvec3(), normal };
         let found = plan.views.iter().find_map(|view| Lookup::new(view, &plan.lights[0], receiver));
         prop_assert!(found.is_some(), "no cascade at {view}");
+    }
+
+    #[test]
+    fn every_receiver_in_the_image_has_a_cascade_in_a_scene_of_any_size(
+        camera in any_camera(), aspect in 0.3..4.0f64, direction in any_direction(), normal in any_direction(),
+        at in (-1.0..=1.0f64, -1.0..=1.0f64, 0.0..=1.0f64), within in (0.0..=1.0f64, 0.0..=1.0f64, 0.0..=1.0f64),
+        size in (-3.0..3.0f64, -3.0..3.0f64, -3.0..3.0f64), count in 1u32..=8,
+    ) {
+        let mut settings = ShadowSettings::default();
+        settings.cascades.count = count;
+        settings.bias.normal_texels = 1.5;
+        let far = camera.far().unwrap_or(150.0).min(150.0);
+        let depth = camera.near() + (far - camera.near()) * at.2 * at.2;
+        let corner = camera.slice_corners_view(aspect, depth, far)[3];
+        let view = DVec3::new(corner.x * at.0, corner.y * at.1, -depth);
+        let position = camera.world_from_view.transform_point3(view);
+        // Boxes of millimetres to kilometres that contain the point.
+        let size = DVec3::from(size).map(|exponent| 10f64.powf(exponent));
+        let min = position - size * DVec3::from(within);
+        let bounds = Aabb { min, max: min + size };
+        let (plan, origin_world) = plan_of(bounds, &camera, aspect, sun(direction, 1.0), &settings);
+        let receiver = Receiver { position: (position - origin_world).as_vec3().as_dvec3(), normal };
+        let found = plan.views.iter().find_map(|view| Lookup::new(view, &plan.lights[0], receiver));
+        let has_views = plan.lights[0].view_count > 0;
+        prop_assert!(found.is_some() || !has_views, "no cascade at {view} of {bounds:?}");
     }
 
     #[test]

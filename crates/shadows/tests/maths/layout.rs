@@ -27,7 +27,7 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
     let module = compose_source(&ModuleSource::new("touch.wgsl", ENTRY), &[]).unwrap();
     let view = fields!(ShadowView: clip_from_world, map_from_world, uv_min, uv_max, light, center, radius,
         texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, begin_m, end_m, tile_px,
-        bias_scale, depth_step, noise_px, is_tinted, reserved);
+        bias_scale, depth_step, noise_px, is_tinted, is_open, reserved);
     layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
     assert_eq!(size_of::<ShadowView>(), 256);
     // `depth.wgsl` declares these two offsets.

@@ -38,7 +38,12 @@ fn plan_even(lights: &[Light], casters: Vec<shadowgraph_scene::Aabb>) -> ShadowP
 }
 
 fn plan(lights: &[Light]) -> ShadowPlan {
-    plan_with(lights, vec![cube(DVec3::ZERO, 1.0)])
+    plan_with(lights, cube_in_a_wide_world())
+}
+
+/// Returns a cube at the origin, and one so far away that all cascades are needed.
+fn cube_in_a_wide_world() -> Vec<Aabb> {
+    vec![cube(DVec3::ZERO, 1.0), cube(DVec3::X * 5000.0, 1.0)]
 }
 
 fn spot_at(x: f64) -> Light {
@@ -66,7 +71,7 @@ fn the_brightest_directional_light_gets_the_cascades_and_others_a_tile() {
     let plan = plan(&[sun(DOWN, 10.0), sun(DVec3::NEG_Y, 90.0), sun(-DVec3::ONE, 20.0), spot_at(2.0)]);
     let cascades = plan.cascades.as_ref().unwrap();
     assert!(cascades.tiles.iter().all(|tile| tile.light == 1));
-    assert_eq!(cascades.tiles[3].casters, [0]);
+    assert_eq!(cascades.tiles[0].casters, [0]);
     assert_eq!(
         cascades.tiles.iter().map(|tile| tile.kind).collect::<Vec<_>>(),
         [0, 1, 2, 3].map(TileKind::Cascade)
@@ -186,11 +191,56 @@ fn one_to_four_cascades_have_their_maps() {
         let mut settings = ShadowSettings::default();
         settings.cascades.count = count;
         settings.cascades.map_size_px = 512;
-        let casters = Boxes(vec![cube(DVec3::ZERO, 1.0)]);
+        let casters = Boxes(cube_in_a_wide_world());
         let map =
             try_plan(&default_camera(), &[sun(DOWN, 1.0)], &casters, &settings).unwrap().cascades.unwrap();
         assert_eq!((map.size_px, map.tiles.len()), (size_px, count as usize));
     }
+}
+
+#[test]
+fn one_cascade_covers_a_small_scene_with_finer_texels() {
+    let casters = Boxes(vec![cube(DVec3::ZERO, 2.0)]);
+    let settings = ShadowSettings::default();
+    let lights = [sun(DOWN, 1.0)];
+    let wide = plan(&lights);
+    for eye in [DVec3::new(0.0, 2.0, 8.0), DVec3::new(-30.0, 20.0, 6.0)] {
+        let small = try_plan(&camera(eye, DVec3::ZERO), &lights, &casters, &settings).unwrap();
+        let [tile] = &small.cascades.as_ref().unwrap().tiles[..] else { panic!("one tile") };
+        assert_eq!((tile.rect.width, tile.rect.height), (4096, 4096));
+        let view = &small.views[tile.view as usize];
+        assert!(view.texel_world < 0.5 * wide.views[0].texel_world);
+        assert_eq!(view.is_open, 1);
+        for corner in cube(DVec3::ZERO, 2.0).corners() {
+            let at = view.map_from_world * (corner - origin_near(eye)).as_vec3().extend(1.0);
+            assert!(at.truncate().truncate().cmpgt(view.uv_min).all(), "{corner}: {at}");
+            assert!(at.truncate().truncate().cmplt(view.uv_max).all(), "{corner}: {at}");
+            assert!(at.z > 0.0 && at.z < 1.0, "{corner}: {at}");
+        }
+    }
+}
+
+#[test]
+fn no_cascade_covers_more_than_the_scene() {
+    let mut counts = [0; 5];
+    let mut last = 0;
+    for half_m in [0.5, 2.0, 10.0, 20.0, 40.0, 80.0, 300.0] {
+        let casters = vec![cube(DVec3::ZERO, 2.0 * half_m)];
+        let plan = plan_with(&[sun(DOWN, 1.0)], casters);
+        let tiles = plan.cascades.unwrap().tiles;
+        assert!(tiles.len() >= last, "{half_m} m");
+        last = tiles.len();
+        counts[last] += 1;
+        // Texels are finer nearby, and none is wider than a tile around the whole scene needs.
+        let radius_m = 3f64.sqrt() * half_m;
+        let widest_m = 2.0 * radius_m * 1.1 / (f64::from(tiles[0].rect.width) - 16.0);
+        let texels: Vec<_> = plan.views[..last].iter().map(|view| f64::from(view.texel_world)).collect();
+        assert!(texels.windows(2).all(|pair| pair[0] < pair[1]), "{half_m} m: {texels:?}");
+        assert!(texels.iter().all(|texel| *texel < widest_m), "{half_m} m: {texels:?}, {widest_m}");
+        let ends: Vec<_> = plan.views[..last].iter().map(|view| view.end_m).collect();
+        assert!(ends.is_sorted(), "{ends:?}");
+    }
+    assert!(counts[1] > 1 && counts[4] > 1, "{counts:?}");
 }
 
 #[test]
@@ -444,8 +494,8 @@ fn the_end_of_the_cascades_changes_in_steps_and_not_back_at_once() {
         let plan = plan_shadows_after(&inputs, state.as_ref(), &Requirements::NONE).unwrap();
         state = Some(plan.state.clone());
         let farthest = DVec3::new(half_m + x.abs(), half_m, half_m).length();
-        assert!(plan.state.receivers_end.distance_m >= farthest, "it contains all receivers");
-        plan.state.receivers_end.distance_m
+        assert!(plan.state.receivers.end.distance_m >= farthest, "it contains all receivers");
+        plan.state.receivers.end.distance_m
     };
     // A step ends at 2^(21/4) m, 38.05 m: at 5.46 m.
     let ends = [5.0, 5.2, 6.4, 5.3, 6.2, 5.1].map(&mut end_at);

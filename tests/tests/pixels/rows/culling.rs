@@ -4,9 +4,9 @@ use super::{greys, pillar_view, pillars, plan};
 use crate::stage::{
     SIZE_PX, add_instance, add_mesh, box_mesh, camera, floor_mesh, gpu, material, nth_instance, sun, view,
 };
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use shadowgraph::ViewOptions;
-use shadowgraph::scene::{LightKind, Scene};
+use shadowgraph::scene::{Instance, LightKind, Scene};
 use shadowgraph::shadows::{
     CascadeBlend, CascadeFitting, CascadeSelection, CullSettings, MapPlan, PCF, ShadowPlan, SplitScheme,
 };
@@ -122,6 +122,9 @@ fn row_33_a_cascade_without_receivers_has_no_pass() {
     let mut scene = pillars(3);
     scene.insert_light(sun(crate::stage::sun_direction(60.0, 60.0)));
     scene.remove_instance(nth_instance(&scene, 0)).unwrap();
+    let behind = scene.instance(nth_instance(&scene, 0)).unwrap().clone();
+    let at = DAffine3::from_translation(DVec3::Z * 8.0);
+    scene.insert_instance(Instance { world_from_local: at, ..behind }).unwrap();
     let options = pillar_view(|_| ());
     let tiles = plan(&scene, &options).cascades.unwrap().tiles;
     // The first 6 m of the view are empty.
