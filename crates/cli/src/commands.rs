@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::args::{DrawArgs, RenderArgs};
+use super::args::{DrawArgs, FramesArgs, RenderArgs};
 use super::console;
 use super::failure::Failure;
 use super::frame_files::FrameFiles;
@@ -31,15 +31,16 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let Options { aov, timings, .. } = input.options.clone();
     let [width, height] = view_options(&input).size_px;
-    let drawn = draw_frames(&gpu, input, args.frames, args.fps, &mut |number, image| {
-        let Some(file) = files.file(number, args.frames) else { return Ok(()) };
+    let FramesArgs { count, fps } = args.frames;
+    let drawn = draw_frames(&gpu, input, args.frames, &mut |number, image| {
+        let Some(file) = files.file(number, count) else { return Ok(()) };
         let (pixels, bytes) = file_pixels(&aov, image);
         Ok(write_png(&file, width, height, pixels, &bytes)?)
     })?;
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
     let sequence = match files {
         FrameFiles::Each { .. } => {
-            format!("{} frames, {:.2} s, ", args.frames, f64::from(args.frames) / args.fps)
+            format!("{count} frames, {:.2} s, ", f64::from(count) / fps)
         }
         FrameFiles::Last(_) => String::new(),
     };
@@ -50,38 +51,48 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     Ok(())
 }
 
-/// Draws one frame.
-pub(super) fn draw(gpu: &Gpu, input: Input) -> Result<RenderedFrame, Failure> {
-    draw_frames(gpu, input, 1, 1.0, &mut |_, _| Ok(()))
-}
+/// Takes the image of a frame and the frame's number.
+type Keep<'k> = dyn FnMut(u32, RenderedImage) -> Result<(), Failure> + 'k;
 
-/// Draws a number of frames while the animations play, and returns the last. Each image is passed to `keep` with the number of its frame.
-fn draw_frames(
+/// Draws frames while the animations play, and returns the last.
+pub(super) fn draw_frames(
     gpu: &Gpu,
     input: Input,
-    frames: u32,
-    fps: f64,
-    keep: &mut dyn FnMut(u32, RenderedImage) -> Result<(), Failure>,
+    frames: FramesArgs,
+    keep: &mut Keep<'_>,
 ) -> Result<RenderedFrame, Failure> {
-    let drawing = Progress::if_slow("drawing");
-    let (aov, timings) = (input.options.aov.clone(), input.options.timings);
-    let (mut view, config) = (view_options(&input), input.options.render_config());
-    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
+    let timings = input.options.timings;
+    let (mut renderer, view) = play(gpu, input, frames, keep)?;
     let mut timer = timings.then(Timer::new);
-    if timings {
+    if timings && frames.count == 1 {
         // A software driver compiles shaders at the first draw.
         renderer.draw(gpu, &view)?;
     }
-    for number in 1..frames {
+    let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
+    report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
+    keep(frames.count - 1, drawn.image.clone())?;
+    Ok(drawn)
+}
+
+/// Draws all frames but the last, and returns the renderer and the view for the last.
+pub(super) fn play(
+    gpu: &Gpu,
+    input: Input,
+    frames: FramesArgs,
+    keep: &mut Keep<'_>,
+) -> Result<(Renderer, ViewOptions), Failure> {
+    let drawing = Progress::if_slow("drawing");
+    let (aov, mut view, config) =
+        (input.options.aov.clone(), view_options(&input), input.options.render_config());
+    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
+    let FramesArgs { count, fps } = frames;
+    for number in 1..count {
         keep(number - 1, renderer.draw(gpu, &view)?.image)?;
-        drawing.set(&format!("frame {number} of {frames}"), number as f32 / frames as f32);
+        drawing.set(&format!("frame {number} of {count}"), number as f32 / count as f32);
         let time_s = input.options.time.0 + f64::from(number) / fps;
         view.camera = pose(renderer.scene_mut(), &input.options, time_s, view.camera)?;
     }
-    let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
-    report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
-    keep(frames - 1, drawn.image.clone())?;
-    Ok(drawn)
+    Ok((renderer, view))
 }
 
 /// Moves a scene to a time of its animations, and returns the camera, which moves along if it is one of the scene.

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{DrawArgs, DumpArgs, ExplainArgs, Format};
-use super::commands::{Input, draw, input, view_options};
+use super::args::{DrawArgs, DumpArgs, ExplainArgs, Format, FramesArgs};
+use super::commands::{Input, draw_frames, input, play, view_options};
 use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, Planned};
 use shadowgraph::inspect::{self, Dump, HtmlPage, lights, trace_json};
 use shadowgraph::output::write_text;
-use shadowgraph::{Gpu, Pipeline, Registry, RenderedFrame, Renderer};
+use shadowgraph::{Gpu, Pipeline, Registry, RenderedFrame};
 
 /// Title of pages, followed by the file of the scene.
 const TITLE: &str = "Shadowgraph frame";
@@ -19,7 +19,7 @@ const TITLE: &str = "Shadowgraph frame";
 pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> {
     let text = match (&args.diff, args.format()?) {
         (Some(files), format) => diff(files, format)?,
-        (None, Format::Html) => page(&args.draw, input(&args.draw, registry)?)?,
+        (None, Format::Html) => page(args, input(&args.draw, registry)?)?,
         (None, format) => plan_text(args, format, input(&args.draw, registry)?)?,
     };
     match &args.output {
@@ -34,7 +34,7 @@ pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> 
 fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String, Failure> {
     input.options.timings |= format == Format::Trace;
     let lights = input.scene.lights().to_vec();
-    let (gpu, drawn) = planned(&args.draw, input)?;
+    let (gpu, drawn) = planned(&args.draw, args.frames, input)?;
     Ok(match format {
         Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
         Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
@@ -47,9 +47,10 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
 }
 
 /// Returns the page of a frame, with images if there is a GPU.
-fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
+fn page(args: &DumpArgs, input: Input) -> Result<String, Failure> {
+    let DumpArgs { draw: args, frames, .. } = args;
     let view = view_options(&input);
-    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
+    let config = input.options.render_config();
     let (scene_lights, mut notes) = (input.scene.lights().to_vec(), input.scene.notes.clone());
     let [width, height] = view.size_px;
     notes.insert(
@@ -72,18 +73,20 @@ fn page(args: &DrawArgs, input: Input) -> Result<String, Failure> {
         Err(error) => {
             let missing = format!("no images and no times: {error}");
             console::warning(&missing);
-            let (_, Planned { plan, unshadowed, .. }) = planned(args, input)?;
+            let (_, Planned { plan, unshadowed, .. }) = planned(args, *frames, input)?;
             let mut page = lights::page(&plan, &[], &scene_lights, &unshadowed);
             page.notes.push(missing);
             return Ok(finish(page));
         }
     };
     let _drawing = Progress::if_slow("drawing");
-    let mut renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
+    let (mut renderer, view) = play(&gpu, input, *frames, &mut |_, _| Ok(()))?;
     let inspected = renderer.inspect(&gpu, &view)?;
     let mut page = inspected.page(&scene_lights, &view);
     page.notes.push(format!("Rendered by {}.", gpu.adapter.name));
     page.notes.extend(report::unshadowed(&inspected.frame.unshadowed));
+    let kept = "Shadow maps are drawn as in a first frame; `explain cascades --frames 3` says what the third one keeps.";
+    page.notes.push(kept.into());
     Ok(finish(page))
 }
 
@@ -118,7 +121,7 @@ fn usage(message: &str) -> Failure {
 pub(crate) fn explain(args: &ExplainArgs, registry: &Registry) -> Result<(), Failure> {
     let input = input(&args.draw, registry)?;
     let pipeline = input.options.render_config().pipeline;
-    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, input)?;
+    let (gpu, Planned { plan, mut times, .. }) = planned(&args.draw, args.frames, input)?;
     let explanation = match &args.before {
         Some(after) => inspect::explain_order(&plan, &args.name, after),
         None => inspect::explain(&plan, &args.name),
@@ -142,11 +145,12 @@ fn disabled(node: &str, pipeline: &Pipeline) -> String {
     format!("the node `{node}` of {name} is disabled: its condition `when` is false; see --set")
 }
 
-/// Plans a frame. That needs no GPU, unless times or an adapter are requested.
-fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
+/// Plans the last of some frames. That needs no GPU, unless times or an adapter are requested.
+fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let RenderedFrame { plan, times, unshadowed, .. } = draw(&gpu, input)?;
+        let RenderedFrame { plan, times, unshadowed, .. } =
+            draw_frames(&gpu, input, frames, &mut |_, _| Ok(()))?;
         return Ok((gpu, Planned { plan, times, unshadowed }));
     }
     let gpu = if args.names_adapter() {
@@ -154,9 +158,8 @@ fn planned(args: &DrawArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     } else {
         Gpu::noop()?
     };
-    let view = view_options(&input);
-    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
-    let renderer = Renderer::with_config(&gpu, input.scene, &input.camera, aov, config)?;
+    let (mut renderer, view) = play(&gpu, input, frames, &mut |_, _| Ok(()))?;
+    renderer.begin_frame(&gpu, &view)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
 }

@@ -19,6 +19,7 @@ mod report;
 mod view;
 
 use args::{Cli, Command};
+use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use failure::Failure;
 use shadowgraph::Registry;
@@ -83,11 +84,13 @@ fn runtime_dir() {
     }
 }
 
-/// Help and version go to standard output with code 0, wrong usage to standard error with code 2.
+/// Help and version go to standard output with code 0, wrong usage to standard error with code 2, and so do invalid values of options, with
+/// code 1.
 fn print_usage_error(usage: &clap::Error) -> ExitCode {
     if usage.use_stderr() {
         console::error(&usage_error(usage));
-        return ExitCode::from(Failure::USAGE);
+        let is_value = matches!(usage.kind(), ErrorKind::InvalidValue | ErrorKind::ValueValidation);
+        return ExitCode::from(if is_value { Failure::INPUT } else { Failure::USAGE });
     }
     // Standard output may be closed.
     let _unread = usage.print();

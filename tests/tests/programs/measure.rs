@@ -195,7 +195,7 @@ fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
         (vec!["--cases", "no/such.ron"], 1, "no/such.ron: cannot be read"),
         (vec!["no/such.glb"], 1, "no/such.glb"),
         (vec!["-o", &cases], 1, "is a file; expected a directory"),
-        (vec!["--views", "0", "x.glb"], 2, "--views"),
+        (vec!["--views", "0", "x.glb"], 1, "--views"),
         (vec!["--quick", "--full"], 2, "--full"),
     ] {
         let output = run(&arguments);

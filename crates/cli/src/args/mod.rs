@@ -44,21 +44,29 @@ pub(crate) enum Command {
     Measure(MeasureArgs),
 }
 
+/// The frames that are drawn.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct FramesArgs {
+    /// Number of frames, of which the last is the result. The animations play from --time on. Nodes that accumulate frames, such as
+    /// taa, need several, and shadow maps are kept from the second on
+    #[arg(long = "frames", value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) count: u32,
+    /// Frames per second of the animations
+    #[arg(long, value_name = "F", default_value_t = 60.0, allow_negative_numbers = true)]
+    #[arg(value_parser = frames_per_second)]
+    pub(crate) fps: f64,
+}
+
 /// `shadowgraph render`
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// Number of frames; the last one is written, or all if the file has a number. The animations play from --time on. Nodes that
-    /// accumulate frames, such as taa, need several
-    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub(crate) frames: u32,
-    /// Frames per second of the animations
-    #[arg(long, value_name = "F", default_value_t = 60.0, allow_negative_numbers = true)]
-    #[arg(value_parser = frames_per_second)]
-    pub(crate) fps: f64,
-    /// The PNG file; missing directories are created. %04d stands for the number of the frame, from 0, with at least 4 digits
+    #[command(flatten)]
+    pub(crate) frames: FramesArgs,
+    /// The PNG file; missing directories are created. %04d stands for the number of the frame, from 0, with at least 4 digits: all
+    /// frames are written
     #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
     pub(crate) output: PathBuf,
 }
@@ -68,6 +76,8 @@ pub(crate) struct RenderArgs {
 pub(crate) struct DumpArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
+    #[command(flatten)]
+    pub(crate) frames: FramesArgs,
     /// Format of the dump. Default: by the extension of --output (html, json, dot or mmd), otherwise text
     #[arg(long, value_enum)]
     format: Option<Format>,
@@ -140,6 +150,8 @@ pub(crate) struct ExplainArgs {
     pub(crate) before: Option<String>,
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
+    #[command(flatten)]
+    pub(crate) frames: FramesArgs,
 }
 
 /// `shadowgraph bench`

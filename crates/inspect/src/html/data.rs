@@ -37,6 +37,9 @@ struct PassData<'p> {
     culled: Option<String>,
     /// Reason why the pass runs.
     live: Option<String>,
+    /// What the declaration says about it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<&'p str>,
     place: Option<PlaceData>,
     waits: Vec<String>,
     accesses: Vec<AccessData>,
@@ -91,6 +94,9 @@ struct ResourceData<'p> {
     slot: Option<SlotId>,
     /// Reason why the resource is in its slot, or in none.
     why: String,
+    /// What the declaration says about it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<&'p str>,
 }
 
 #[derive(Serialize)]
@@ -161,6 +167,7 @@ fn pass_data<'p>(
         keep: pass.keep,
         culled: pass.culled.map(|reason| plan.describe_cull(reason)),
         live: position.map(|_| plan.explain_live(id)),
+        notes: plan.pass_notes(id).collect(),
         place: position.map(|position| PlaceData {
             order: position.order,
             step: position.step,
@@ -208,5 +215,6 @@ fn resource_data(plan: &Plan, id: ResourceId) -> ResourceData<'_> {
         steps: resource.steps,
         slot: resource.slot,
         why: plan.explain_slot(id),
+        notes: plan.resource_notes(id).collect(),
     }
 }

@@ -72,18 +72,18 @@ fn a_sequence_without_frames_or_with_a_wrong_time_is_refused_in_one_line() {
     let file = written(directory.path(), false);
     let fps = "expected frames per second, 0.01 to 10000";
     let time = "expected -1000000000 to 1000000000 seconds";
-    for (options, code, expected) in [
-        ("--frames 2 --fps 0", 2, fps),
-        ("--frames 2 --fps -24", 2, fps),
-        ("--frames 2 --fps NaN", 2, fps),
-        ("--frames 2 --fps inf", 2, fps),
-        ("--frames 0 --fps 24", 2, "0 is not in 1..=100000"),
-        ("--frames 2 --time 1e10", 1, time),
-        ("--frames 2 --time soon", 1, time),
-        ("--frames 2 --animation walk", 1, "unknown animation `walk`; expected all, none, or one of: 0"),
+    for (options, expected) in [
+        ("--frames 2 --fps 0", fps),
+        ("--frames 2 --fps -24", fps),
+        ("--frames 2 --fps NaN", fps),
+        ("--frames 2 --fps inf", fps),
+        ("--frames 0 --fps 24", "0 is not in 1..=100000"),
+        ("--frames 2 --time 1e10", time),
+        ("--frames 2 --time soon", time),
+        ("--frames 2 --animation walk", "unknown animation `walk`; expected all, none, or one of: 0"),
     ] {
         let (found, errors) = render(&file, options, &directory.path().join("%d.png"));
-        assert_eq!((found, errors.lines().count()), (Some(code), 1), "{options}: {errors}");
+        assert_eq!((found, errors.lines().count()), (Some(1), 1), "{options}: {errors}");
         assert!(errors.contains(expected), "{options}: {errors}");
     }
     assert!(!directory.path().join("0.png").exists(), "nothing is written");

@@ -1,7 +1,7 @@
 // Details of the selected pass or resource.
 
 function passDetails(pass) {
-  const { place, culled, live, kind, waits, accesses, time, keep } = passes[pass];
+  const { place, culled, live, kind, notes = [], waits, accesses, time, keep } = passes[pass];
   const lines = (list) => h('ul', {}, list.map((item) => h('li', {}, item)));
   return [
     h('h2', {}, passPath(pass)),
@@ -13,6 +13,7 @@ function passDetails(pass) {
       place.of > 1 && h('p', {}, `Pass ${place.within + 1} of ${place.of} in this render pass.`),
       waits.length > 0 && [h('h3', {}, 'Waits for'), lines(waits)],
     ],
+    notes.map((note) => h('p', {}, note)),
     time && h('p', {}, describeTime(time)),
     h('h3', {}, 'Accesses'),
     h('ul', {}, accesses.map((access) => h('li', {},
@@ -42,6 +43,7 @@ function resourceDetails(index) {
     h('h2', {}, resourcePath(index)),
     h('p', {}, `${resource.shape}, ${bytes(resource.bytes)}`),
     h('p', {}, `It ${resource.origin}.`),
+    (resource.notes ?? []).map((note) => h('p', {}, note)),
     h('p', {}, resource.slot == null ? 'No slot: ' : `Slot ${resource.slot}${resource.steps ? `, steps ${resource.steps[0]} to ${resource.steps[1]}` : ''}: `, h('span', { class: 'why' }, resource.why)),
     resource.slot != null && slots[resource.slot].resources.length > 1 && h('p', {}, 'Shares the slot with ',
       slots[resource.slot].resources.filter((other) => other !== index).flatMap((other) => [resourceLink(other), ' '])),

@@ -4,7 +4,7 @@ function decisions() {
   const all = [];
   const add = (kind, subject, text) => all.push({ kind, subject, text });
   for (const pass of passes.map((_, index) => index).sort((a, b) => rank[a] - rank[b])) {
-    const { place, culled, live, accesses } = passes[pass];
+    const { place, culled, live, notes = [], accesses } = passes[pass];
     const subject = { pass };
     if (!place) add('culled', subject, `does not run: ${culled}`);
     else {
@@ -12,6 +12,7 @@ function decisions() {
       add('placed', subject, `step ${place.step}: ${place.why}`);
       add('merged', subject, `${place.within ? 'merged with the previous pass' : 'not merged'}: ${place.merged}`);
     }
+    for (const note of notes) add('note', subject, note);
     for (const access of accesses) {
       const name = `${access.part ? `${access.part} of ` : ''}“${resourceName(access.resource)}”`;
       if (access.load) add('load', subject, `${name}, ${access.load[0]}: ${access.load[1]}`);
@@ -21,6 +22,7 @@ function decisions() {
   }
   resources.forEach((resource, index) => {
     add('slot', { resource: index }, `${resource.slot == null ? 'no slot' : `slot ${resource.slot}`}: ${resource.why}`);
+    for (const note of resource.notes ?? []) add('note', { resource: index }, note);
     for (const usage of resource.usages) add('usage', { resource: index }, usage);
   });
   return all;
