@@ -61,8 +61,9 @@ pub(super) fn draw_frames(
     frames: FramesArgs,
     keep: &mut Keep<'_>,
 ) -> Result<RenderedFrame, Failure> {
+    let drawing = Progress::if_slow("drawing");
     let timings = input.options.timings;
-    let (mut renderer, view) = play(gpu, input, frames, keep)?;
+    let (mut renderer, view) = play(gpu, input, frames, &drawing, keep)?;
     let mut timer = timings.then(Timer::new);
     if timings && frames.count == 1 {
         // A software driver compiles shaders at the first draw.
@@ -79,9 +80,9 @@ pub(super) fn play(
     gpu: &Gpu,
     input: Input,
     frames: FramesArgs,
+    drawing: &Progress,
     keep: &mut Keep<'_>,
 ) -> Result<(Renderer, ViewOptions), Failure> {
-    let drawing = Progress::if_slow("drawing");
     let (aov, mut view, config) =
         (input.options.aov.clone(), view_options(&input), input.options.render_config());
     let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;

@@ -79,8 +79,8 @@ fn page(args: &DumpArgs, input: Input) -> Result<String, Failure> {
             return Ok(finish(page));
         }
     };
-    let _drawing = Progress::if_slow("drawing");
-    let (mut renderer, view) = play(&gpu, input, *frames, &mut |_, _| Ok(()))?;
+    let drawing = Progress::if_slow("drawing");
+    let (mut renderer, view) = play(&gpu, input, *frames, &drawing, &mut |_, _| Ok(()))?;
     let inspected = renderer.inspect(&gpu, &view)?;
     let mut page = inspected.page(&scene_lights, &view);
     page.notes.push(format!("Rendered by {}.", gpu.adapter.name));
@@ -158,7 +158,8 @@ fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Pl
     } else {
         Gpu::noop()?
     };
-    let (mut renderer, view) = play(&gpu, input, frames, &mut |_, _| Ok(()))?;
+    let drawing = Progress::if_slow("drawing");
+    let (mut renderer, view) = play(&gpu, input, frames, &drawing, &mut |_, _| Ok(()))?;
     renderer.begin_frame(&gpu, &view)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
     Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))

@@ -133,7 +133,9 @@ impl<'a> Planner<'a> {
         if self.requirements.fits_on_gpu {
             settings.select = CascadeSelection::Map;
         }
-        if fits.last().is_some_and(|last| self.range.is_whole(&last.fit)) {
+        // The others may be fitted again, on the GPU.
+        let is_open = fits.last().is_some_and(|last| self.range.is_whole(&last.fit));
+        if is_open {
             // Nothing is beyond its edge.
             settings.edge_fade = 0.0;
         }
@@ -146,7 +148,7 @@ impl<'a> Planner<'a> {
             self.plan.views.push(ShadowView {
                 cascade,
                 is_tinted: u32::from(!tints.is_empty()),
-                is_open: u32::from(self.range.is_whole(&fit.fit)),
+                is_open: u32::from(is_open && cascade as usize + 1 == fits.len()),
                 begin_m: begin_m as f32,
                 end_m: fit.far_m as f32,
                 bias_scale: settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0),

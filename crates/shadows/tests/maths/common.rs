@@ -101,9 +101,10 @@ impl Lookup {
         let slope = slope * f64::from(light.slope_bias) * steepest / slope.length().max(steepest);
         let inside = uv.cmpge(view.uv_min.as_dvec2()).all() && uv.cmple(view.uv_max.as_dvec2()).all();
         let rise = f64::from(light.filter_taps) * (slope.x.abs() + slope.y.abs());
-        if !(inside && depth > 0.0 && depth + rise < 0.999_999) {
+        if !(inside && (depth > 0.0 || view.is_open == 1) && depth + rise < 0.999_999) {
             return None;
         }
+        let depth = depth.max(0.0);
         Some(Self {
             uv,
             depth: depth + f64::from(light.depth_bias_texels) * depth_per_texel,

@@ -3,6 +3,7 @@
 
 mod atlas;
 mod bias;
+mod cascade_plan;
 mod cascades;
 mod common;
 mod documents;
