@@ -88,6 +88,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/evsm_layout.wgsl"),
     file!("shadows/layers.wgsl"),
     file!("shadows/linear_depth.wgsl"),
+    file!("shadows/footprint.wgsl"),
     file!("shadows/lookup.wgsl"),
     file!("shadows/maps.wgsl"),
     file!("shadows/pcf.wgsl"),

@@ -26,7 +26,7 @@ struct Receiver {
     shading_normal: vec3f,
     // Pixel centre in the target: (0.5, 0.5) is the first.
     pixel: vec2f,
-    // Change of position to the next pixel right and down on the surface's plane, metres.
+    // Change of position to the next pixel right and down on the surface's plane, metres; 0 at points that are not on a surface.
     ddx_position: vec3f,
     ddy_position: vec3f,
 }

@@ -15,6 +15,7 @@ pub(crate) struct LightShadowParams {
     /// Distance beyond that at which a blocker still matters, metres.
     pub(crate) blocker_reach_m: f64,
     pub(crate) strength: f32,
+    pub(crate) supersample: bool,
     pub(crate) fade_fraction: f32,
     pub(crate) near_m: Option<f64>,
     pub(crate) importance: f64,
@@ -25,7 +26,7 @@ impl LightShadowParams {
     pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
         let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
         let bias = settings.bias.clone();
-        let fade_fraction = settings.fade_fraction;
+        let (fade_fraction, supersample) = (settings.fade_fraction, settings.supersample);
         let Some(own) = own else {
             return Self {
                 bias,
@@ -34,6 +35,7 @@ impl LightShadowParams {
                 step_texels: 1,
                 blocker_reach_m: 0.0,
                 strength: 1.0,
+                supersample,
                 fade_fraction,
                 near_m: None,
                 importance: 1.0,
@@ -53,6 +55,7 @@ impl LightShadowParams {
             step_texels: 1,
             blocker_reach_m: 0.0,
             strength: own.strength,
+            supersample,
             fade_fraction,
             near_m: own.near_m.map(f64::from),
             importance: f64::from(own.importance),

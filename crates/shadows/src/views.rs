@@ -62,7 +62,7 @@ pub struct ShadowView {
     pub reserved: [u32; 2],
 }
 
-/// The views of a light and how they are read, 80 bytes. One for each light of the scene, in its order.
+/// The views of a light and how they are read, 84 bytes. One for each light of the scene, in its order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ShadowLight {
@@ -106,6 +106,8 @@ pub struct ShadowLight {
     pub filter_half: f32,
     /// Rate at which it shrinks up to `fade_end_m`, texels per metre.
     pub filter_falloff: f32,
+    /// 1 if shadows are evaluated at several points of a wide pixel, else 0.
+    pub supersample: u32,
 }
 
 /// [`ShadowView::cascade`] of a tile that is not a cascade.
@@ -250,6 +252,7 @@ impl ShadowLight {
             fade_end_m: distance_m as f32,
             fade_per_m: (1.0 / (distance_m * f64::from(params.fade_fraction))) as f32,
             filter_half: half as f32,
+            supersample: u32::from(params.supersample),
             ..Self::default()
         }
     }

@@ -1,6 +1,6 @@
 // Light that thin fog scatters to the camera, with shadows: light shafts. Marches along each pixel's ray, with the phase
 // function of Henyey and Greenstein (1941).
-#import shadowgraph::view::{view, lights, view_depth_of, to_neighbour, LIGHT_DIRECTIONAL}
+#import shadowgraph::view::{view, lights, view_depth_of, LIGHT_DIRECTIONAL}
 #import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::fullscreen::{FullscreenVertex, fullscreen_vertex}
 #import shadowgraph::lighting::arriving_light
@@ -57,8 +57,8 @@ fn scattered(position: vec3f, direction: vec3f, pixel: vec2f) -> vec3f {
         RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN | noise_flags(pixel),
         -direction,
         pixel,
-        to_neighbour(position, -direction, view_depth, 0),
-        -to_neighbour(position, -direction, view_depth, 1),
+        vec3f(0.0),
+        vec3f(0.0),
     );
     var sum = (view.ambient_sky + view.ambient_ground) * 0.5;
     for (var word = 0u; word * 32u < view.light_count; word++) {

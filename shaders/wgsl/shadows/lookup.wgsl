@@ -12,8 +12,14 @@ struct Lookup {
     covered: bool,
     // The index of the view among those of the light.
     view: u32,
-    // Texture coordinates in the map.
+    // Texture coordinates in the map, depth without biases, and w, by which they were divided.
     uv: vec2f,
+    depth: f32,
+    w: f32,
+    // For one of several lookups of a pixel: half the width of the pixel, texels, which is the least radius of filters that adapt
+    // theirs, and an offset of the noise, 0 to below 1.
+    min_radius: f32,
+    turn: f32,
     plane: TentPlane,
     // For gradient biases: the largest gradient that is followed, in depth per texel, and its factor.
     max_gradient: f32,
@@ -37,6 +43,8 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     }
     lookup.uv = position.xy / position.w;
     var depth = position.z / position.w;
+    lookup.depth = depth;
+    lookup.w = position.w;
     let depth_per_texel = shadow_view.depth_per_texel / position.w;
     // On a plane, depth is linear in the map for both kinds of light: its change per texel follows from the normal relative to the
     // light's axes and the direction to the light.

@@ -3,6 +3,7 @@
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::filter::filtered
+#import shadowgraph::shadows::footprint::{SAMPLES, footprint_of, sampled}
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::tints::tint
 #import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, blend_at, shadow_fade, edge_fade}
@@ -27,12 +28,33 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     var weight = blend.weight;
     for (var i = 0u; i < 2u; i++) {
         if weight > 0.0 {
-            visibility += weight * filtered(shadow, receiver, lookup) * tint(shadow, receiver, lookup);
+            visibility += weight * pixel_visibility(shadow, receiver, lookup);
         }
         lookup = blend.next;
         weight = 1.0 - blend.weight;
     }
     return mix(vec3f(1.0), visibility, strength * edge_fade(shadow, receiver, blend.first));
+}
+
+// The visibility in one view: at a receiver, or the mean over its pixel where that is wider than texels.
+fn pixel_visibility(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
+    if light.supersample == 0u {
+        return tinted(light, receiver, lookup);
+    }
+    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let footprint = footprint_of(shadow_view, light, receiver, lookup);
+    if footprint.spread <= 0.0 {
+        return tinted(light, receiver, lookup);
+    }
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < SAMPLES; i++) {
+        sum += tinted(light, receiver, sampled(shadow_view, light, lookup, footprint, i));
+    }
+    return sum / f32(SAMPLES);
+}
+
+fn tinted(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
+    return filtered(light, receiver, lookup) * tint(light, receiver, lookup);
 }
 
 fn cascade_tint(cascade: u32) -> vec3f {

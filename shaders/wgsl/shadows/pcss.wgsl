@@ -63,7 +63,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let size_px = map_size(light.map);
     let at = lookup.uv * size_px;
-    let rotation = TAU * receiver_noise(receiver);
+    let rotation = TAU * (receiver_noise(receiver) + lookup.turn);
 
     // Blocker search: the mean depth of the blockers.
     let widest = clamp(penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, pcss.max_radius_texels);
@@ -82,7 +82,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     }
 
     let penumbra = penumbra_texels(shadow_view, lookup.plane.depth, depths / blockers);
-    let radius = clamp(penumbra, MIN_TEXELS, pcss.max_radius_texels);
+    let radius = min(max(penumbra, max(MIN_TEXELS, lookup.min_radius)), pcss.max_radius_texels);
     var visibility = 0.0;
     for (var i = 0u; i < pcss.filter_taps; i++) {
         let tap = radius * spiral(i, pcss.filter_taps, rotation);

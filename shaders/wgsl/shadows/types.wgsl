@@ -48,7 +48,7 @@ struct ShadowView {
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;
 
-// 80 bytes. One for each light of the scene.
+// 84 bytes. One for each light of the scene.
 struct ShadowLight {
     first_view: u32,
     // 0: no shadows.
@@ -88,6 +88,8 @@ struct ShadowLight {
     // Half the width of the filter's tent at the camera, texels, and its decrease per metre of view depth.
     filter_half: f32,
     filter_falloff: f32,
+    // 1: shadows are evaluated at several points of a pixel that is wider than texels.
+    supersample: u32,
 }
 
 const MAP_CASCADES: u32 = 0u;

@@ -17,7 +17,7 @@ declare_settings! {
         /// darkening the ground at its foot.
         min_slope: f32 = 0.5, 0..=4, in "texels of depth per texel";
         /// Steepest depth slope that is followed.
-        max_slope: f32 = 10.0, 1..=100, in "texels of depth per texel";
+        max_slope: f32 = 20.0, 1..=100, in "texels of depth per texel";
         /// Constant bias: distance by which every tap is moved towards the light.
         depth_texels: f32 = 0.25, 0..=16, in "texels";
     }

@@ -51,6 +51,8 @@ declare_settings! {
         distance_m: f32 = 150.0, 0.001..=1000000, in "metres";
         /// Last fraction of the distance, over which shadows fade out.
         fade_fraction: f32 = 0.1, 0.001..=1, in "fraction of the distance";
+        /// Whether shadows are evaluated at four points of a pixel instead of one, where it is wider than two shadow texels.
+        supersample: bool = true;
         /// Cascades of the brightest directional lights.
         cascades: CascadeSettings = CascadeSettings::default();
         /// Map that holds all other lights.

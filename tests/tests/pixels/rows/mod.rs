@@ -11,6 +11,7 @@ mod materials;
 mod own_casters;
 mod points;
 mod screen;
+mod supersampling;
 mod views;
 
 use crate::stage::{
