@@ -68,8 +68,8 @@ fn motion_is_measured_against_the_truth_for_each_technique_on_each_path() {
             assert!(soft > 5.0 * hard && soft < 11.0 * hard && stability.changed < 3.0 * soft, "{case:?}");
         }
         if case.moving == Moving::Camera {
-            // The maps move by whole texels; weights of filters are rounded.
-            assert!(stability.excess.p99 < 1e-6 && stability.changed == 0.0, "{case:?}");
+            // The maps move by whole texels; weights of filters are rounded, and pixels get wider with the distance.
+            assert!(stability.excess.p99 < 1e-6 && stability.changed < 0.5, "{case:?}");
         }
     }
     assert_eq!(read("motion.md").lines().count(), 2 + 6);
@@ -114,7 +114,7 @@ fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_o
     std::fs::write(&cases, columns).unwrap();
     let cases = cases.to_str().unwrap();
     let techniques = ["--techniques", "pcf,pcss,raytraced"];
-    let arguments = [&["--quick", "--size", "320x180", "--cases", cases][..], &techniques, &["-o"]].concat();
+    let arguments = [&["--quick", "--size", "640x360", "--cases", cases][..], &techniques, &["-o"]].concat();
     let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
     assert!(output.status.success(), "{}", text(&output.stderr));
     let json = std::fs::read_to_string(out.join("report.json")).unwrap();
