@@ -32,6 +32,9 @@ fn change_over(shadow_view: ShadowView, lookup: Lookup, offset: vec3f, size_px: 
 
 fn footprint_of(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver, lookup: Lookup) -> Footprint {
     var footprint: Footprint;
+    if light.supersample == 0u {
+        return footprint;
+    }
     let size_px = map_size(light.map);
     footprint.right = change_over(shadow_view, lookup, receiver.ddx_position, size_px);
     footprint.down = change_over(shadow_view, lookup, receiver.ddy_position, size_px);
@@ -42,7 +45,7 @@ fn footprint_of(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver,
     return footprint;
 }
 
-// The lookup at a sample. Like the taps of a tent filter it is nearer to the light on either side of the centre: otherwise the foot
+// The lookup at a sample; without spread that of the receiver. Like the taps of a tent filter it is nearer to the light on either side of the centre: otherwise the foot
 // of a lit wall would be dark.
 fn sampled(shadow_view: ShadowView, light: ShadowLight, lookup: Lookup, footprint: Footprint, i: u32) -> Lookup {
     let point = SAMPLE_POINTS[i] * footprint.spread;

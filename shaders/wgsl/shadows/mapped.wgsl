@@ -38,23 +38,16 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
 
 // The visibility in one view: at a receiver, or the mean over its pixel where that is wider than texels.
 fn pixel_visibility(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
-    if light.supersample == 0u {
-        return tinted(light, receiver, lookup);
-    }
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let footprint = footprint_of(shadow_view, light, receiver, lookup);
-    if footprint.spread <= 0.0 {
-        return tinted(light, receiver, lookup);
-    }
+    // One loop for both: drivers inline each call of a filter.
+    let samples = select(1u, SAMPLES, footprint.spread > 0.0);
     var sum = vec3f(0.0);
-    for (var i = 0u; i < SAMPLES; i++) {
-        sum += tinted(light, receiver, sampled(shadow_view, light, lookup, footprint, i));
+    for (var i = 0u; i < samples; i++) {
+        let moved = sampled(shadow_view, light, lookup, footprint, i);
+        sum += filtered(light, receiver, moved) * tint(light, receiver, moved);
     }
-    return sum / f32(SAMPLES);
-}
-
-fn tinted(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
-    return filtered(light, receiver, lookup) * tint(light, receiver, lookup);
+    return sum / f32(samples);
 }
 
 fn cascade_tint(cascade: u32) -> vec3f {

@@ -9,7 +9,7 @@ use shadowgraph::{Gpu, Renderer, SceneCasters, ViewOptions};
 use shadowgraph_samples::test_scenes::stained_glass;
 
 use crate::maps::draw_map;
-use crate::stage::{gpu, hard, view};
+use crate::stage::{draw_with, gpu, hard, view};
 
 /// Returns the scene with one of its lights, 0 the sun or 1 the spot light, and a view from its camera.
 fn lit_by(light: usize) -> (Scene, ViewOptions) {
@@ -33,10 +33,7 @@ fn mask(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: Technique) -
 
 /// Returns which pixels show surfaces that face the light; the others do not count.
 fn facing(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> Vec<bool> {
-    let mut renderer =
-        Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), Technique::from(NONE))
-            .unwrap();
-    let image = renderer.draw(gpu, options).unwrap().image;
+    let image = draw_with(gpu, scene, Aov::Visibility(0), options, NONE).image;
     image.rgba8.chunks_exact(4).map(|rgba| rgba[3] == 255).collect()
 }
 

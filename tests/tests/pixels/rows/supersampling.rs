@@ -1,41 +1,34 @@
 //! Shadows in pixels that are wider than the texels of a map, compared with the mean of rays over each pixel.
 
 use glam::DVec3;
-use shadowgraph::options::Aov;
+use shadowgraph::ViewOptions;
 use shadowgraph::scene::{Light, LightKind, Scene};
-use shadowgraph::shadows::{PCF, PCSS, RAYTRACED, Technique};
-use shadowgraph::{Gpu, ViewOptions};
+use shadowgraph::shadows::{PCF, PCSS, RAYTRACED};
 use shadowgraph_samples::test_scenes::test_scene;
 
-use crate::stage::{SIZE_PX, camera, draw_with, gpu, hard, light, sun, sun_direction, view};
+use super::{Greys, greys_with};
+use crate::stage::{SIZE_PX, camera, gpu, light, sun, sun_direction, view};
 
 /// Pixels of the large image along each axis of a pixel of the small one.
 const RATIO: u32 = 4;
 
-/// Returns the visibility at each pixel; -1 where there is no surface.
-fn visibility(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: impl Into<Technique>) -> Vec<f64> {
-    let frame = draw_with(gpu, scene, Aov::Visibility(0), options, technique.into());
-    let value = |rgba: &[u8]| if rgba[3] == 255 { f64::from(rgba[0]) / 255.0 } else { -1.0 };
-    frame.image.rgba8.chunks_exact(4).map(value).collect()
-}
-
-/// Returns the mean over each block of pixels; -1 where a pixel has no surface.
-fn means(pixels: &[f64]) -> Vec<f64> {
+/// Returns the mean over each block of pixels; `None` where a pixel has none.
+fn means(greys: &Greys) -> Vec<Option<f64>> {
     let [width, height] = SIZE_PX.map(|size| size / RATIO);
     let mean = |i: u32| {
         let (x, y) = (i % width * RATIO, i / width * RATIO);
-        let block =
-            (0..RATIO * RATIO).map(|j| pixels[((y + j / RATIO) * SIZE_PX[0] + x + j % RATIO) as usize]);
-        let has_surface = block.clone().all(|value| value >= 0.0);
-        if has_surface { block.sum::<f64>() / f64::from(RATIO * RATIO) } else { -1.0 }
+        let grey = |j: u32| greys[((y + j / RATIO) * SIZE_PX[0] + x + j % RATIO) as usize].map(f64::from);
+        let sum = (0..RATIO * RATIO).map(grey).sum::<Option<f64>>()?;
+        Some(sum / f64::from(RATIO * RATIO))
     };
     (0..width * height).map(mean).collect()
 }
 
-/// Returns the root mean square difference of pixels that show surfaces in both images.
-fn rmse(image: &[f64], truth: &[f64]) -> f64 {
-    let pairs = image.iter().zip(truth).filter(|(a, b)| **a >= 0.0 && **b >= 0.0);
-    (pairs.clone().map(|(a, b)| (a - b).powi(2)).sum::<f64>() / pairs.count() as f64).sqrt()
+/// Returns the root mean square difference of the pixels that both images have.
+fn rmse(greys: &Greys, truth: &[Option<f64>]) -> f64 {
+    let difference = |(grey, truth): (&Option<u8>, &Option<f64>)| Some(f64::from((*grey)?) - (*truth)?);
+    let differences: Vec<f64> = greys.iter().zip(truth).filter_map(difference).collect();
+    (differences.iter().map(|d| d * d).sum::<f64>() / differences.len() as f64).sqrt()
 }
 
 /// Returns the ground behind a fence, with narrow shadows.
@@ -63,11 +56,11 @@ fn row_42_wide_pixels_show_the_mean_of_their_shadows() {
     for (light, technique) in lights().into_iter().flat_map(|light| [(light.clone(), PCF), (light, PCSS)]) {
         let (scene, mut options) = fence(light);
         (options.shadows.cascades.map_size_px, options.shadows.atlas.map_size_px) = (8192, 4096);
-        let truth = means(&visibility(gpu, &scene, &hard(&options), RAYTRACED));
+        let truth = means(&greys_with(gpu, &scene, 0, &options, RAYTRACED));
         options.size_px = SIZE_PX.map(|size| size / RATIO);
-        let with = rmse(&visibility(gpu, &scene, &options, technique), &truth);
+        let with = rmse(&greys_with(gpu, &scene, 0, &options, technique), &truth);
         options.shadows.supersample = false;
-        let without = rmse(&visibility(gpu, &scene, &options, technique), &truth);
+        let without = rmse(&greys_with(gpu, &scene, 0, &options, technique), &truth);
         println!("{:?}, {technique:?}: {with:.4}, one lookup {without:.4}", scene.lights()[0].kind);
         assert!(with < 0.7 * without, "{technique:?}: {with} {without}");
     }
@@ -79,8 +72,8 @@ fn row_42_narrow_pixels_have_one_lookup() {
     for light in lights() {
         let (scene, mut options) = fence(light);
         (options.shadows.cascades.map_size_px, options.shadows.atlas.map_size_px) = (256, 256);
-        let with = visibility(gpu, &scene, &options, PCF);
+        let with = greys_with(gpu, &scene, 0, &options, PCF);
         options.shadows.supersample = false;
-        assert_eq!(with, visibility(gpu, &scene, &options, PCF));
+        assert_eq!(with, greys_with(gpu, &scene, 0, &options, PCF));
     }
 }
