@@ -45,8 +45,8 @@ fn footprint_of(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver,
     return footprint;
 }
 
-// The lookup at a sample; without spread that of the receiver. Like the taps of a tent filter it is nearer to the light on either side of the centre: otherwise the foot
-// of a lit wall would be dark.
+// The lookup at a sample; without spread that of the receiver. Like the taps of a tent filter it is nearer to the light on either
+// side of the centre: otherwise the foot of a lit wall would be dark.
 fn sampled(shadow_view: ShadowView, light: ShadowLight, lookup: Lookup, footprint: Footprint, i: u32) -> Lookup {
     let point = SAMPLE_POINTS[i] * footprint.spread;
     let offset = point.x * footprint.right + point.y * footprint.down;

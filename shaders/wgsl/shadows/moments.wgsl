@@ -8,6 +8,9 @@
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
 
+// The largest distance of the taps in wide pixels from the centre, along each axis, in texels of the finest mip.
+const TAP_TEXELS: f32 = 0.75;
+
 @group(1) @binding(8) var cascade_moments: texture_2d<u32>;
 @group(1) @binding(9) var atlas_moments: texture_2d<u32>;
 @group(1) @binding(10) var<uniform> settings: MomentSettings;
@@ -56,14 +59,23 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let texels_per_pixel = texels_per_pixel_at(shadow_view, receiver);
     let level = select(0.0, min(log2(texels_per_pixel), f32(settings.mips - 1u)), texels_per_pixel > 1.0);
     let mip = u32(level);
-    var moments = bilinear(light.map, lookup.uv, mip);
-    if level > f32(mip) {
-        moments = mix(moments, bilinear(light.map, lookup.uv, mip + 1u), level - f32(mip));
+    // In wide pixels more texels: a moment texel is the mean of few depths, and would change in large steps as the light turns.
+    let taps = select(1u, 4u, lookup.min_radius > 0.0);
+    let reach_uv = TAP_TEXELS * min(lookup.min_radius, 1.0) / size_of(light.map, 0u);
+    var sum = vec4f(0.0);
+    for (var tap = 0u; tap < taps; tap++) {
+        let corner = vec2f(f32(tap & 1u), f32(tap >> 1u)) * 2.0 - 1.0;
+        let uv = clamp(lookup.uv + corner * reach_uv, shadow_view.uv_min, shadow_view.uv_max);
+        var moments = bilinear(light.map, uv, mip);
+        if level > f32(mip) {
+            moments = mix(moments, bilinear(light.map, uv, mip + 1u), level - f32(mip));
+        }
+        sum += moments;
     }
     // Bias by a quarter of the filter radius for the receiver's plane and for the foot of lit walls; tent filters need more.
     let bias_texels = 0.25 * f32(settings.downscale * (settings.blur_texels + 1u)) * exp2(level);
     let slope = lookup.plane.slope;
     let rise = bias_texels * max(abs(slope.x) + abs(slope.y), lookup.plane.min_slope);
     let depth = min(lookup.plane.depth + rise, 1.0);
-    return visibility_of(settings, moments, linear_depth(shadow_view, depth));
+    return visibility_of(settings, sum / f32(taps), linear_depth(shadow_view, depth));
 }

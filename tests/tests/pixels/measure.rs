@@ -155,7 +155,13 @@ fn cascades_of_different_resolution_are_measured_at_their_seam() {
 }
 
 /// Measures the slats from afar, moved by an offset, while something moves.
-fn stability(gpu: &Gpu, technique: TechniqueKind, moving: Moving, offset: DVec3) -> Stability {
+fn stability(
+    gpu: &Gpu,
+    technique: TechniqueKind,
+    moving: Moving,
+    offset: DVec3,
+    settings: ShadowSettings,
+) -> Stability {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == "slats").unwrap();
     let mut scene = test_scene("slats").unwrap();
@@ -167,7 +173,7 @@ fn stability(gpu: &Gpu, technique: TechniqueKind, moving: Moving, offset: DVec3)
     let task = MotionTask {
         techniques: vec![technique.into()],
         size_px: [240, 135],
-        settings: ShadowSettings::default(),
+        settings,
         distance: None,
         moving: vec![moving],
         frames: 6,
@@ -189,7 +195,7 @@ fn a_turn_of_the_sun_changes_at_most_thrice_the_pixels_that_the_truth_changes_fa
     let Some(gpu) = gpu() else { return };
     // The axes turn around the world's origin: 10 km away from it, texels are somewhere else in each frame.
     for (offset, most) in [(DVec3::ZERO, 1.5), (DVec3::new(8_000.0, 0.0, 6_000.0), 3.0)] {
-        let found = stability(gpu, PCF, Moving::Sun, offset);
+        let found = stability(gpu, PCF, Moving::Sun, offset, ShadowSettings::default());
         let ratio = found.ratio().unwrap();
         assert!(found.truth_changed > 20.0 && ratio < most, "{ratio} {found:?}");
         assert!(found.excess.mean < 0.0005, "{found:?}");
@@ -197,10 +203,21 @@ fn a_turn_of_the_sun_changes_at_most_thrice_the_pixels_that_the_truth_changes_fa
 }
 
 #[test]
+fn moments_in_wide_pixels_are_steady_as_the_sun_turns() {
+    let Some(gpu) = gpu() else { return };
+    for technique in [EVSM, MSM] {
+        let mut settings = ShadowSettings::default();
+        settings.cascades.map_size_px = 2048;
+        let found = stability(gpu, technique, Moving::Sun, DVec3::ZERO, settings);
+        assert!(found.truth_changed > 20.0 && found.changed < 0.2 * found.truth_changed, "{found:?}");
+    }
+}
+
+#[test]
 fn moments_of_several_texels_stay_the_same_as_the_camera_moves() {
     let Some(gpu) = gpu() else { return };
     for technique in [EVSM, MSM] {
-        let found = stability(gpu, technique, Moving::Camera, DVec3::ZERO);
+        let found = stability(gpu, technique, Moving::Camera, DVec3::ZERO, ShadowSettings::default());
         assert!(found.excess.count > 1_000 && found.changed < 1.0, "{found:?}");
     }
 }
