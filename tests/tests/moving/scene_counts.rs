@@ -5,9 +5,12 @@ use crate::maps::{camera, notes};
 use glam::{DAffine3, DVec3};
 use shadowgraph::core::{Plan, Timer};
 use shadowgraph::options::{Aov, ShadowDistance};
-use shadowgraph::scene::{Instance, InstanceKey, Light, LightKind, Material, Mesh, Scene};
+use shadowgraph::scene::{
+    AnimationSelection, Instance, InstanceKey, Light, LightKind, Material, Mesh, Scene,
+};
 use shadowgraph::shadows::{EVSM, MSM, PCF, PCSS, TechniqueKind};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph_tests::animated::SKINNED;
 use shadowgraph_tests::random::Random;
 
 /// Returns a floor with boxes, each with its own mesh so that they share no draw calls, in a sun, a spot light and a point light.
@@ -104,6 +107,20 @@ fn a_still_scene_draws_no_shadow_pass() {
             (0..70).map(|_| map_passes(&renderer.draw(&gpu, &options).unwrap().plan)).collect();
         assert!(passes[0] > 0 && passes[1..] == [0; 69], "{}: {passes:?}", technique.name);
     }
+}
+
+#[test]
+fn a_mesh_is_deformed_only_in_frames_in_which_its_pose_changes() {
+    let gpu = Gpu::noop().unwrap();
+    let mut renderer = renderer(&gpu, (SKINNED.file)().load(), PCF);
+    let options = view(DVec3::new(0.0, 1.0, 5.0), 0.0);
+    let mut poses = |time_s: f64| {
+        renderer.scene_mut().set_time(AnimationSelection::All, time_s).unwrap();
+        let plan = renderer.draw(&gpu, &options).unwrap().plan;
+        plan.order().iter().filter(|&&pass| plan.pass_path(pass).to_string().ends_with("pose/pose")).count()
+    };
+    // The frame after a move still has one: positions in the previous frame change.
+    assert_eq!([0.0, 0.0, 0.5, 0.5, 0.5, 0.6, 0.6, 0.6].map(&mut poses), [1, 0, 1, 1, 0, 1, 1, 0]);
 }
 
 /// Walks for ten seconds, 60 frames each, along a bend, with the head going up and down, and returns the mean fraction of the

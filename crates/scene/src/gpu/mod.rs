@@ -49,5 +49,5 @@ pub use draw_list::{Draw, DrawList, DrawPipeline};
 pub use geometry::{previous_vertex_layout, vertex_layout};
 pub use key::{AlphaKey, PipelineKey};
 pub use materials::MaterialLayouts;
-pub use posed::PoseInputs;
+pub use posed::{PoseDone, PoseInputs};
 pub use scene::GpuScene;

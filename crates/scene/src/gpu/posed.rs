@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::iter;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, Vec4};
@@ -40,9 +41,9 @@ struct Job {
 }
 
 /// What the pass that deforms meshes reads and writes. All bytes are those of arrays of at least one element.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct PoseInputs<'a> {
-    /// The deformed meshes.
+    /// The meshes that are to be deformed.
     pub jobs: &'a [u8],
     /// The job and the first vertex of each workgroup.
     pub workgroups: &'a [u8],
@@ -60,6 +61,23 @@ pub struct PoseInputs<'a> {
     pub deltas: &'a wgpu::Buffer,
     /// The vertices that the pass writes and draws read. What is not deformed, such as texture coordinates, is there already.
     pub vertices: &'a wgpu::Buffer,
+    /// Tells the scene that the pass is recorded.
+    pub done: PoseDone,
+}
+
+/// Tells a scene that the pass that deforms its meshes is recorded, so that the next one deforms only what changed since.
+#[derive(Clone, Debug)]
+pub struct PoseDone {
+    recorded: Arc<AtomicU64>,
+    revision: u64,
+}
+
+impl PoseDone {
+    /// Notes that the pass is recorded, in a command buffer that is submitted before the next
+    /// [update](super::GpuScene::update).
+    pub fn note(&self) {
+        self.recorded.fetch_max(self.revision, Ordering::Relaxed);
+    }
 }
 
 /// A mesh that instances deform.
@@ -85,6 +103,8 @@ struct DeformedInstance {
     pose: MeshPose,
     /// The pose in the previous frame.
     previous: MeshPose,
+    /// The revision of the inputs since which its vertices are the same.
+    revision: u64,
 }
 
 /// All deformed meshes.
@@ -99,6 +119,10 @@ pub(super) struct PosedGeometry {
     moved: Vec<InstanceKey>,
     /// Whether an instance has changed since the inputs were computed.
     changed: bool,
+    /// The number of times that the inputs were computed.
+    revision: u64,
+    /// The revision of the last inputs whose pass was recorded.
+    recorded: Arc<AtomicU64>,
     jobs: Vec<Job>,
     workgroups: Vec<[u32; 2]>,
     dispatch: [u32; 3],
@@ -123,6 +147,8 @@ impl PosedGeometry {
             instances: SecondaryMap::new(),
             moved: Vec::new(),
             changed: false,
+            revision: 0,
+            recorded: Arc::default(),
             jobs: Vec::new(),
             workgroups: Vec::new(),
             dispatch: [0; 3],
@@ -136,6 +162,7 @@ impl PosedGeometry {
         for key in std::mem::take(&mut self.moved) {
             if let Some(instance) = self.instances.get_mut(key) {
                 instance.previous.clone_from(&instance.pose);
+                instance.revision = self.revision + 1;
                 self.changed = true;
             }
         }
@@ -162,6 +189,7 @@ impl PosedGeometry {
                 instance.previous.clone_from(pose);
             }
             if moved {
+                instance.revision = self.revision + 1;
                 self.moved.push(key);
                 self.changed = true;
             }
@@ -177,7 +205,8 @@ impl PosedGeometry {
         self.meshes[mesh_key].users += 1;
         let first = vertices.start as u32;
         let (pose, previous) = (pose.clone(), pose.clone());
-        let instance = DeformedInstance { mesh: mesh_key, version, vertices, pose, previous };
+        let revision = self.revision + 1;
+        let instance = DeformedInstance { mesh: mesh_key, version, vertices, pose, previous, revision };
         self.instances.insert(key, instance);
         self.changed = true;
         Ok((first, true))
@@ -243,7 +272,8 @@ impl PosedGeometry {
         Ok(())
     }
 
-    /// Computes the inputs of the pass if an instance has changed, and sends pending writes to the queue.
+    /// Computes the inputs of the pass if an instance has changed, of all that have changed since a pass was recorded, and sends
+    /// pending writes to the queue.
     ///
     /// # Errors
     /// The deformed meshes are larger than the device can bind.
@@ -254,13 +284,15 @@ impl PosedGeometry {
         if !std::mem::take(&mut self.changed) {
             return Ok(());
         }
+        self.revision += 1;
+        let recorded = self.recorded.load(Ordering::Relaxed);
         self.jobs.clear();
         self.workgroups.clear();
         self.joints.clear();
         self.weights.clear();
         // Meshes of one skin share its joints.
         let mut first_joints = BTreeMap::new();
-        for instance in self.instances.values() {
+        for instance in self.instances.values().filter(|instance| instance.revision > recorded) {
             let Some(mesh) = self.meshes.get(instance.mesh) else { continue };
             let mut first_joint = |joints: &Arc<[DAffine3]>| {
                 *first_joints.entry(joints.as_ptr().addr()).or_insert_with(|| {
@@ -327,9 +359,9 @@ impl PosedGeometry {
         Ok(())
     }
 
-    /// Returns what the pass reads and writes; `None` if no mesh is deformed.
+    /// Returns what the pass reads and writes; `None` if no mesh has changed since it was recorded.
     pub(super) fn inputs(&self) -> Option<PoseInputs<'_>> {
-        if self.dispatch[0] == 0 {
+        if self.dispatch[0] == 0 || self.recorded.load(Ordering::Relaxed) == self.revision {
             return None;
         }
         Some(PoseInputs {
@@ -342,6 +374,7 @@ impl PosedGeometry {
             influences: &self.influences.buffer,
             deltas: &self.deltas.buffer,
             vertices: &self.vertices.buffer,
+            done: PoseDone { recorded: self.recorded.clone(), revision: self.revision },
         })
     }
 
@@ -455,6 +488,43 @@ mod tests {
         posed.remove(second);
         posed.flush(&device, &queue).unwrap();
         assert!(posed.inputs().is_none() && posed.meshes.is_empty());
+    }
+
+    #[test]
+    fn only_what_changed_since_the_last_recorded_pass_is_deformed() {
+        let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+        let mut scene = crate::Scene::default();
+        let mesh_key = scene.insert_mesh(mesh(64));
+        let material = scene.insert_material(crate::Material::default()).unwrap();
+        let keys = [(); 3].map(|()| {
+            scene.insert_instance(crate::Instance::new(mesh_key, material, DAffine3::IDENTITY)).unwrap()
+        });
+        let mut posed = PosedGeometry::new(&device).unwrap();
+        let rest = mesh(64);
+        // Returns the jobs of a frame in which an instance is given a pose.
+        let mut frame = |moves: &[(usize, f64)], is_recorded: bool| {
+            posed.begin_frame();
+            for &(index, x) in moves {
+                posed.update((&device, &queue), keys[index], (mesh_key, &rest, 1), &pose(x)).unwrap();
+            }
+            posed.flush(&device, &queue).unwrap();
+            let inputs = posed.inputs();
+            if let Some(inputs) = inputs.as_ref().filter(|_| is_recorded) {
+                inputs.done.note();
+            }
+            inputs.map_or(0, |inputs| inputs.jobs.len() / size_of::<Job>())
+        };
+        assert_eq!(frame(&[(0, 0.0), (1, 0.0), (2, 0.0)], true), 3);
+        assert_eq!(frame(&[], true), 0);
+        assert_eq!(frame(&[(1, 1.0)], true), 1);
+        // Its previous pose changes once more.
+        assert_eq!(frame(&[], true), 1);
+        assert_eq!(frame(&[], true), 0);
+        // What was not recorded remains.
+        assert_eq!(frame(&[(0, 2.0)], false), 1);
+        assert_eq!(frame(&[(2, 2.0)], true), 2);
+        assert_eq!(frame(&[], true), 1);
+        assert_eq!(frame(&[(2, 2.0)], true), 0);
     }
 
     #[test]

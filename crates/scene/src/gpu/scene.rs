@@ -178,7 +178,7 @@ impl GpuScene {
     }
 
     /// Returns what a pass reads and writes to deform meshes by skins and morph targets, before anything draws them; `None` if no
-    /// mesh is deformed.
+    /// mesh has changed since it was recorded ([`PoseDone`](super::PoseDone)).
     #[must_use]
     pub fn pose_inputs(&self) -> Option<PoseInputs<'_>> {
         self.posed.inputs()
