@@ -40,7 +40,8 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
     let sequence = match files {
         FrameFiles::Each { .. } => {
-            format!("{count} frames, {:.2} s, ", f64::from(count) / fps)
+            let frames = if count == 1 { "frame" } else { "frames" };
+            format!("{count} {frames}, {:.2} s, ", f64::from(count) / fps)
         }
         FrameFiles::Last(_) => String::new(),
     };

@@ -22,6 +22,9 @@ use shadowgraph_quality::{
     measure_motion,
 };
 
+/// Number of views that are chosen automatically for a scene.
+const AUTOMATIC_VIEWS: u32 = 4;
+
 /// Directory of the images in the output directory.
 const IMAGES: &str = "images";
 
@@ -118,6 +121,10 @@ fn motion_command(args: &MeasureArgs, motion: MotionArg, known: &Techniques) -> 
         })
     })?;
     drop(progress);
+    if report.cases.is_empty() {
+        let message = "--motion: nothing moves; objects are instances smaller than half of the scene".into();
+        return Err(Failure { code: Failure::INPUT, message });
+    }
     console::print(&motion_table(&report))?;
     if let Some(output) = output {
         write_text(&output.folder.join("motion.md"), &motion_markdown(&report))?;
@@ -193,7 +200,7 @@ pub(super) fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
     };
     let mut views = args.camera.iter().map(view).collect::<Result<Vec<_>, _>>()?;
     if views.is_empty() {
-        views = automatic_views(&scene, args.views as usize)?;
+        views = automatic_views(&scene, args.views.unwrap_or(AUTOMATIC_VIEWS) as usize)?;
     }
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let measured_scene = MeasuredScene::new(name, scene, views)?;
@@ -201,7 +208,8 @@ pub(super) fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
         let message = format!("{}: the scene has no light that casts shadows; see --sun", file.display());
         return Err(Failure { code: Failure::INPUT, message });
     }
-    Ok(Work::Scene { measured_scene: Box::new(measured_scene), views_named: !args.camera.is_empty() })
+    let views_named = args.views.is_some() || !args.camera.is_empty();
+    Ok(Work::Scene { measured_scene: Box::new(measured_scene), views_named })
 }
 
 impl Work {

@@ -3,6 +3,7 @@
 use shadowgraph::Gpu;
 use shadowgraph::options::AdapterChoice;
 use shadowgraph_quality::report::{CaseReport, MotionReport, Moving, Report};
+use shadowgraph_tests::animated::RIGID;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -204,4 +205,18 @@ fn invalid_input_is_an_error_of_one_line_before_anything_renders() {
         assert!(error.contains(expected), "{arguments:?}: {error}");
         assert!(code == 2 || error.trim_end().lines().count() == 1, "{error}");
     }
+}
+
+#[test]
+fn motion_of_objects_in_a_scene_without_small_ones_is_refused_in_one_line() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = (RIGID.file)().write(dir.path());
+    let arguments = ["--motion", "objects", "--size", "32x18", file.to_str().unwrap()];
+    let Some(output) = measure(&arguments) else { return };
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("error: --motion: nothing moves; objects are instances smaller than half"),
+        "{error}"
+    );
 }

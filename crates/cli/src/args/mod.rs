@@ -181,11 +181,11 @@ pub(crate) struct MeasureArgs {
     /// A RON file with scenes, suns and views
     #[arg(long, value_name = "FILE")]
     pub(crate) cases: Option<PathBuf>,
-    /// Number of views that are chosen automatically for the SCENE
-    #[arg(long, value_name = "N", default_value_t = 4, requires = "scene", allow_negative_numbers = true)]
+    /// Number of views that are chosen automatically for the SCENE. Default: 4, with --quick or --motion 1
+    #[arg(long, value_name = "N", requires = "scene", allow_negative_numbers = true)]
     #[arg(conflicts_with = "cases")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub(crate) views: u32,
+    pub(crate) views: Option<u32>,
     /// A view of the SCENE, as for render; can be repeated. Default: views that are chosen automatically (see --views)
     #[arg(long, value_name = "CAMERA", requires = "scene", conflicts_with = "cases")]
     pub(crate) camera: Vec<String>,
@@ -207,7 +207,7 @@ pub(crate) struct MeasureArgs {
     /// The GPU by name; cpu forces a software adapter. Default: auto
     #[arg(long, value_name = "auto|NAME|cpu")]
     pub(crate) adapter: Option<String>,
-    /// Measure one light of each scene, and one view unless --camera is given
+    /// Measure one light of each scene, and one view unless --views or --camera is given
     #[arg(long)]
     pub(crate) quick: bool,
     /// Measure flicker over 64 frames in every case, and use twice as many rays; takes half an hour without a GPU
@@ -221,7 +221,7 @@ pub(crate) struct MeasureArgs {
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
     /// Measure instead how much shadows change over 32 frames beyond the ray-traced truth while the camera walks, the sun turns by
-    /// 0.05 degrees a frame, objects move, or each of these; the default size is 480x270. Without --full, one light and view of each scene
+    /// 0.05 degrees a frame, objects move, or each of these; the default size is 480x270. Without --full, one light of each scene, and one view unless --views or --camera is given
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with_all = ["variants", "check", "quick"])]
     pub(crate) motion: Option<MotionArg>,
     /// A RON file with bounds to check the results against; violations are listed, and the exit code is 1
