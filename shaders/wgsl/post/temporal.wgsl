@@ -24,6 +24,9 @@ struct Settings {
 
 // A surface that was nearer by more than this factor hid what lies behind it.
 const HIDING_FACTOR: f32 = 1.1;
+// The history is clipped to this many standard deviations around the mean of the neighbourhood. With fewer, the mean of noise in
+// smooth shadows is clipped as well.
+const CLIP_DEVIATIONS: f32 = 2.0;
 
 fn to_ycocg(color: vec3f) -> vec3f {
     return vec3f(
@@ -93,8 +96,8 @@ fn blended(current: vec3f, history_uv: vec2f, around: Neighbourhood, weight: f32
     let old = to_ycocg(luma_weighted(textureSampleLevel(history, linear, history_uv, 0.0).rgb));
     // With this frame's colour within the range, an image that does not change stays as it is.
     let own = to_ycocg(weighted);
-    let lowest = min(own, around.mean - 1.25 * around.deviation);
-    let highest = max(own, around.mean + 1.25 * around.deviation);
+    let lowest = min(own, around.mean - CLIP_DEVIATIONS * around.deviation);
+    let highest = max(own, around.mean + CLIP_DEVIATIONS * around.deviation);
     return luma_unweighted(mix(from_ycocg(clamp(old, lowest, highest)), weighted, weight));
 }
 
