@@ -16,14 +16,13 @@ fn averaging_removes_noise_and_brings_no_error() {
     let (name, text) = (Path::new("noise.ron"), include_str!("../../../docs/noise.ron"));
     let cases = CaseSet::parse(text, name).unwrap().cases;
     let MeasuredScene { mut scene, lights, views, .. } =
-        MeasuredScene::from_case(&cases[0], Path::new("")).unwrap();
+        MeasuredScene::from_case(&cases[1], Path::new("")).unwrap();
     scene.set_lights(lights[0].all.clone());
     let camera = &views[0].1;
     let task = NoiseTask { frames: 16, mean_frames: 48, soft_rays: 24, jitters: false };
     for noisy in noisy_techniques(&ShadowSettings::default(), SUN_RADIUS_RAD).unwrap() {
-        let mut options =
+        let options =
             ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows: noisy.settings.clone() };
-        options.shadows.cascades.map_size_px = 1024;
         let aov = Aov::Visibility(0);
         let mut renderer = Renderer::with_config(gpu, scene.clone(), camera, aov, noisy.technique).unwrap();
         let errors = measure_noise(gpu, &mut renderer, &options, (0, SUN_RADIUS_RAD), task).unwrap();
@@ -31,7 +30,7 @@ fn averaging_removes_noise_and_brings_no_error() {
         let [fixed, soft] = [errors.fixed_to_soft, errors.averaged_to_soft].map(|error| error.value());
         println!("{}: one frame {one:.4}, averaged {averaged:.4}, to soft {fixed:.4}, {soft:.4}", noisy.name);
         // Half floats do not resolve less.
-        assert!(one > 0.0 && averaged < (one / 3.0).max(0.001), "{}: {averaged} of {one}", noisy.name);
+        assert!(one > 0.0 && averaged < (one / 3.0).max(0.0005), "{}: {averaged} of {one}", noisy.name);
         assert!(soft < fixed + 0.0005, "{}: {soft} instead of {fixed}", noisy.name);
     }
 }
