@@ -51,6 +51,7 @@ impl PosePass {
             let [rest, influences, deltas] =
                 [inputs.rest, inputs.influences, inputs.deltas].map(Bind::ExternalBuffer);
             let bindings = [jobs, workgroups, joints, weights, rest, influences, deltas, vertices];
+            // A body, since a pass of one shader cannot note that it is recorded.
             pass.body(move |ctx| {
                 let group = ctx.bind_group(&pipeline.get_bind_group_layout(0), &bindings)?;
                 ctx.pass.set_pipeline(&pipeline);

@@ -221,7 +221,8 @@ pub(crate) struct MeasureArgs {
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
     /// Measure instead how much shadows change over 32 frames beyond the ray-traced truth while the camera walks, the sun turns by
-    /// 0.05 degrees a frame, objects move, or each of these; the default size is 480x270. Without --full, one light of each scene, and one view unless --views or --camera is given
+    /// 0.05 degrees a frame, objects move, or each of these; the default size is 480x270. Without --full, one light of each scene,
+    /// and one view unless --views or --camera is given
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with_all = ["variants", "check", "quick"])]
     pub(crate) motion: Option<MotionArg>,
     /// A RON file with bounds to check the results against; violations are listed, and the exit code is 1
