@@ -9,7 +9,10 @@ mod screen;
 mod stage;
 mod sun;
 
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use app::App;
 use stage::Stage;
@@ -35,8 +38,28 @@ pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> 
     let size_px = view.size_px;
     let stage = Stage::new(input, view, registry.clone(), args)?;
     let mut app = App::new(instance, adapter, size_px, stage);
-    event_loop.run_app(&mut app)?;
+    run(event_loop, &mut app)?;
     app.end()
+}
+
+/// Runs the window until it is closed. winit panics if the display goes away in the middle of a frame: that is an error of one line.
+fn run(event_loop: EventLoop<()>, app: &mut App) -> Result<(), Failure> {
+    let is_lost = Arc::new(AtomicBool::new(false));
+    let (lost, report) = (is_lost.clone(), panic::take_hook());
+    panic::set_hook(Box::new(move |info| {
+        if info.location().is_some_and(|location| location.file().contains("winit")) {
+            lost.store(true, Ordering::Relaxed);
+        } else {
+            report(info);
+        }
+    }));
+    match panic::catch_unwind(AssertUnwindSafe(|| event_loop.run_app(app))) {
+        Ok(ended) => Ok(ended?),
+        Err(_) if is_lost.load(Ordering::Relaxed) => {
+            Err(Failure { code: Failure::INPUT, message: "the display of the window is gone".into() })
+        }
+        Err(panicked) => panic::resume_unwind(panicked),
+    }
 }
 
 fn check_folder(folder: &Path) -> Result<(), Failure> {
