@@ -1,5 +1,7 @@
 //! Typed reading of accessors: every offset, count and index is checked against the available bytes.
 
+use std::borrow::Cow;
+
 use ::gltf::json;
 use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
@@ -9,15 +11,15 @@ use super::buffers::Buffers;
 /// The elements of an accessor, before sparse replacement.
 struct Elements<'a> {
     /// The bytes from the first element on; `None`: all zeros.
-    bytes: Option<&'a [u8]>,
+    bytes: Option<Cow<'a, [u8]>>,
     stride: usize,
 }
 
 impl<'a> Elements<'a> {
     /// Returns the bytes of an element of `size` bytes.
-    fn get(&self, index: usize, size: usize) -> &'a [u8] {
+    fn get(&self, index: usize, size: usize) -> &[u8] {
         const ZEROS: [u8; 64] = [0; 64];
-        let bytes = match self.bytes {
+        let bytes = match &self.bytes {
             None => ZEROS.get(..size),
             Some(bytes) => bytes.get(index * self.stride..).and_then(|bytes| bytes.get(..size)),
         };
@@ -25,21 +27,43 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// The checked layout of an accessor.
-#[derive(Clone, Copy)]
-struct Layout {
-    count: usize,
-    component: ComponentType,
-    kind: Type,
-    /// Number of components of an element.
-    width: usize,
-    normalized: bool,
+/// The layout of an accessor.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    pub(super) count: usize,
+    pub(super) component: ComponentType,
+    pub(super) kind: Type,
+    pub(super) normalized: bool,
 }
 
 impl Layout {
-    fn element_bytes(&self) -> usize {
-        self.component.size() * self.width
+    /// Returns the number of components of an element.
+    fn width(&self) -> usize {
+        self.kind.multiplicity()
     }
+
+    /// Returns the number of bytes of an element.
+    pub(super) fn element_bytes(&self) -> usize {
+        self.component.size() * self.width()
+    }
+
+    fn is_matrix(&self) -> bool {
+        matches!(self.kind, Type::Mat2 | Type::Mat3 | Type::Mat4)
+    }
+}
+
+/// An accessor whose elements all lie in the available bytes.
+pub(super) struct Accessor<'a> {
+    layout: Layout,
+    base: Elements<'a>,
+    sparse: Option<Sparse<'a>>,
+}
+
+/// The elements of an accessor that are replaced.
+struct Sparse<'a> {
+    /// Indices of the elements, each below their number.
+    targets: Vec<usize>,
+    values: Elements<'a>,
 }
 
 impl Buffers<'_> {
@@ -48,191 +72,38 @@ impl Buffers<'_> {
     /// # Errors
     /// The accessor does not exist.
     pub(super) fn accessor_count(&self, index: usize) -> Result<u64, String> {
-        Ok(self.accessor(index)?.count.0)
+        Ok(self.json_accessor(index)?.count.0)
     }
 
-    /// Reads an accessor of vectors as f32, normalised integers as glTF says; at most `max_count` elements.
-    ///
-    /// Vectors of at least `min` components are filled up to `N` from `fill`.
+    /// Returns an accessor of at most `max_count` elements. Elements without data in the file are zero bytes.
     ///
     /// # Errors
     /// The message says what in the accessor is invalid and what is allowed.
-    pub(super) fn vectors<const N: usize>(
-        &self,
-        index: usize,
-        min: usize,
-        fill: [f32; N],
-        max_count: usize,
-    ) -> Result<Vec<[f32; N]>, String> {
-        let layout = self.layout(index, max_count)?;
-        if !(min..=N).contains(&layout.width) {
-            let range = if min == N { format!("{N}") } else { format!("{min} or {N}") };
-            return Err(format!("has {} components per element (allowed: {range})", layout.width));
-        }
-        if layout.component == ComponentType::U32 {
-            return Err("contains 32-bit integers (allowed: floats, 8-bit and 16-bit integers)".into());
-        }
-        self.values(index, layout, fill)
-    }
-
-    /// Reads an accessor of single floats; at most `max_count`.
-    ///
-    /// # Errors
-    /// The message says what in the accessor is invalid and what is allowed.
-    pub(super) fn floats(&self, index: usize, max_count: usize) -> Result<Vec<f32>, String> {
-        let layout = self.layout(index, max_count)?;
-        if (layout.kind, layout.component) != (Type::Scalar, ComponentType::F32) {
-            return Err("does not contain single floats (allowed: SCALAR of 5126)".into());
-        }
-        Ok(self.values::<1>(index, layout, [0.0])?.into_flattened())
-    }
-
-    /// Reads an accessor of matrices, column by column; at most `max_count`.
-    ///
-    /// # Errors
-    /// The message says what in the accessor is invalid and what is allowed.
-    pub(super) fn matrices(&self, index: usize, max_count: usize) -> Result<Vec<[f32; 16]>, String> {
-        let layout = self.any_layout(index, max_count)?;
-        if (layout.kind, layout.component) != (Type::Mat4, ComponentType::F32) {
-            return Err("does not contain matrices of 4 x 4 floats (allowed: MAT4 of 5126)".into());
-        }
-        self.values(index, layout, [0.0; 16])
-    }
-
-    /// Reads an accessor of four joints per element; at most `max_count` elements.
-    ///
-    /// # Errors
-    /// The message says what in the accessor is invalid and what is allowed.
-    pub(super) fn joints(&self, index: usize, max_count: usize) -> Result<Vec<[u16; 4]>, String> {
-        let layout = self.layout(index, max_count)?;
-        let unsigned = matches!(layout.component, ComponentType::U8 | ComponentType::U16);
-        if layout.kind != Type::Vec4 || !unsigned || layout.normalized {
-            return Err("does not contain joints (allowed: VEC4 of 5121 or 5123, not normalized)".into());
-        }
-        let mut joints = vec![[0; 4]; layout.count];
-        self.for_each(index, layout, |i, bytes| {
-            let components = bytes.chunks_exact(layout.component.size());
-            for (joint, bytes) in joints.get_mut(i).into_iter().flatten().zip(components) {
-                *joint = unsigned_integer(bytes) as u16;
-            }
-        })?;
-        Ok(joints)
-    }
-
-    /// Reads elements as f32; components that they lack are those of `fill`.
-    fn values<const N: usize>(
-        &self,
-        index: usize,
-        layout: Layout,
-        fill: [f32; N],
-    ) -> Result<Vec<[f32; N]>, String> {
-        let mut vectors = vec![fill; layout.count];
-        let read = |vector: &mut [f32; N], bytes: &[u8]| {
-            for (value, bytes) in vector.iter_mut().zip(bytes.chunks_exact(layout.component.size())) {
-                *value = component_f32(&layout, bytes);
-            }
-        };
-        self.for_each(index, layout, |i, bytes| {
-            if let Some(vector) = vectors.get_mut(i) {
-                read(vector, bytes);
-            }
-        })?;
-        Ok(vectors)
-    }
-
-    /// Reads an accessor of indices; at most `max_count`.
-    ///
-    /// # Errors
-    /// The message says what in the accessor is invalid and what is allowed.
-    pub(super) fn indices(&self, index: usize, max_count: usize) -> Result<Vec<u32>, String> {
-        let layout = self.layout(index, max_count)?;
-        let unsigned =
-            matches!(layout.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
-        if layout.width != 1 || !unsigned {
-            return Err("does not contain indices (allowed: SCALAR of unsigned integers)".into());
-        }
-        let mut indices = vec![0u32; layout.count];
-        self.for_each(index, layout, |i, bytes| {
-            if let Some(value) = indices.get_mut(i) {
-                *value = unsigned_integer(bytes);
-            }
-        })?;
-        Ok(indices)
-    }
-
-    fn accessor(&self, index: usize) -> Result<&json::Accessor, String> {
-        self.document().accessors.get(index).ok_or_else(|| "does not exist".to_owned())
-    }
-
-    /// Returns the layout of an accessor without matrices.
-    fn layout(&self, index: usize, max_count: usize) -> Result<Layout, String> {
-        let layout = self.any_layout(index, max_count)?;
-        match layout.kind {
-            Type::Mat2 | Type::Mat3 | Type::Mat4 => {
-                Err("contains matrices (allowed: SCALAR, VEC2, VEC3, VEC4)".into())
-            }
-            _ => Ok(layout),
-        }
-    }
-
-    fn any_layout(&self, index: usize, max_count: usize) -> Result<Layout, String> {
-        let accessor = self.accessor(index)?;
-        let Checked::Valid(component) = accessor.component_type else {
-            return Err("has an unknown componentType (allowed: 5120 to 5123, 5125, 5126)".into());
-        };
-        let Checked::Valid(kind) = accessor.type_ else {
-            return Err("has an unknown type (allowed: SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4)".into());
-        };
-        let count = usize::try_from(accessor.count.0).ok().filter(|count| *count <= max_count);
-        let Some(count) = count else {
-            let count = accessor.count.0;
-            return Err(format!(
-                "has {count} elements, more than the scene may still have (allowed: up to {max_count})"
-            ));
-        };
-        Ok(Layout {
-            count,
-            component: component.0,
-            kind,
-            width: kind.multiplicity(),
-            normalized: accessor.normalized,
-        })
-    }
-
-    /// Calls `visit` with every element's bytes, sparse replacements last. Elements without data in the file are
-    /// zero bytes.
-    fn for_each(
-        &self,
-        index: usize,
-        layout: Layout,
-        mut visit: impl FnMut(usize, &[u8]),
-    ) -> Result<(), String> {
-        let accessor = self.accessor(index)?;
+    pub(super) fn accessor(&self, index: usize, max_count: usize) -> Result<Accessor<'_>, String> {
+        let json = self.json_accessor(index)?;
+        let layout = layout(json, max_count)?;
         let size = layout.element_bytes();
-        let base = match accessor.buffer_view {
+        let base = match json.buffer_view {
             None => Elements { bytes: None, stride: size },
             Some(view) => {
-                let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+                let offset = json.byte_offset.map_or(0, |offset| offset.0);
                 self.elements(view.value(), offset, layout.count, size)?
             }
         };
-        for i in 0..layout.count {
-            visit(i, base.get(i, size));
-        }
-        match &accessor.sparse {
-            None => Ok(()),
-            Some(sparse) => {
-                self.for_each_sparse(sparse, layout, visit).map_err(|reason| format!("sparse: {reason}"))
-            }
-        }
+        let sparse = json.sparse.as_ref().map(|sparse| self.sparse(sparse, layout));
+        let sparse = sparse.transpose().map_err(|reason| format!("sparse: {reason}"))?;
+        Ok(Accessor { layout, base, sparse })
     }
 
-    fn for_each_sparse(
+    fn json_accessor(&self, index: usize) -> Result<&json::Accessor, String> {
+        self.document().accessors.get(index).ok_or_else(|| "does not exist".to_owned())
+    }
+
+    fn sparse(
         &self,
         sparse: &json::accessor::sparse::Sparse,
         layout: Layout,
-        mut visit: impl FnMut(usize, &[u8]),
-    ) -> Result<(), String> {
+    ) -> Result<Sparse<'_>, String> {
         let count = usize::try_from(sparse.count.0).ok().filter(|count| *count <= layout.count);
         let Some(count) = count else {
             return Err(format!("count is {} (allowed: up to {})", sparse.count.0, layout.count));
@@ -245,16 +116,12 @@ impl Buffers<'_> {
         let indices = self.elements(indices.buffer_view.value(), indices.byte_offset.0, count, index_size)?;
         let values = &sparse.values;
         let values = self.elements(values.buffer_view.value(), values.byte_offset.0, count, size)?;
-        for i in 0..count {
+        let target = |i| {
             let target = unsigned_integer(indices.get(i, index_size));
-            match usize::try_from(target).ok().filter(|target| *target < layout.count) {
-                None => {
-                    return Err(format!("index {target} does not exist (allowed: below {})", layout.count));
-                }
-                Some(target) => visit(target, values.get(i, size)),
-            }
-        }
-        Ok(())
+            let existing = usize::try_from(target).ok().filter(|target| *target < layout.count);
+            existing.ok_or_else(|| format!("index {target} does not exist (allowed: below {})", layout.count))
+        };
+        Ok(Sparse { targets: (0..count).map(target).collect::<Result<_, _>>()?, values })
     }
 
     /// Returns `count` elements of `size` bytes in a buffer view after checking that they all lie in it.
@@ -270,13 +137,148 @@ impl Buffers<'_> {
         };
         let bytes = usize::try_from(offset).ok().and_then(|offset| found.bytes.get(offset..));
         match bytes.filter(|bytes| span.is_some_and(|span| span <= bytes.len())) {
-            Some(bytes) => Ok(Elements { bytes: Some(bytes), stride }),
+            Some(bytes) => Ok(Elements { bytes: Some(Cow::Borrowed(bytes)), stride }),
             None => Err(format!(
                 "{count} elements of {size} bytes (byteOffset {offset}, stride {stride}) do not fit in bufferView {view} of {} bytes",
                 found.bytes.len()
             )),
         }
     }
+}
+
+impl Accessor<'_> {
+    /// Creates an accessor of elements that follow each other in `bytes`, which has all of them.
+    pub(super) fn packed(layout: Layout, bytes: Vec<u8>) -> Self {
+        let base = Elements { bytes: Some(Cow::Owned(bytes)), stride: layout.element_bytes() };
+        Self { layout, base, sparse: None }
+    }
+
+    /// Returns the number of elements.
+    pub(super) fn count(&self) -> usize {
+        self.layout.count
+    }
+
+    /// Reads vectors as f32, normalised integers as glTF says.
+    ///
+    /// Vectors of at least `min` components are filled up to `N` from `fill`.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn vectors<const N: usize>(&self, min: usize, fill: [f32; N]) -> Result<Vec<[f32; N]>, String> {
+        let width = self.layout.width();
+        self.check_no_matrix()?;
+        if !(min..=N).contains(&width) {
+            let range = if min == N { format!("{N}") } else { format!("{min} or {N}") };
+            return Err(format!("has {width} components per element (allowed: {range})"));
+        }
+        if self.layout.component == ComponentType::U32 {
+            return Err("contains 32-bit integers (allowed: floats, 8-bit and 16-bit integers)".into());
+        }
+        Ok(self.values(fill))
+    }
+
+    /// Reads single floats.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn floats(&self) -> Result<Vec<f32>, String> {
+        if (self.layout.kind, self.layout.component) != (Type::Scalar, ComponentType::F32) {
+            return Err("does not contain single floats (allowed: SCALAR of 5126)".into());
+        }
+        Ok(self.values([0.0; 1]).into_flattened())
+    }
+
+    /// Reads matrices, column by column.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn matrices(&self) -> Result<Vec<[f32; 16]>, String> {
+        if (self.layout.kind, self.layout.component) != (Type::Mat4, ComponentType::F32) {
+            return Err("does not contain matrices of 4 x 4 floats (allowed: MAT4 of 5126)".into());
+        }
+        Ok(self.values([0.0; 16]))
+    }
+
+    /// Reads four joints per element.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn joints(&self) -> Result<Vec<[u16; 4]>, String> {
+        let unsigned = matches!(self.layout.component, ComponentType::U8 | ComponentType::U16);
+        if self.layout.kind != Type::Vec4 || !unsigned || self.layout.normalized {
+            return Err("does not contain joints (allowed: VEC4 of 5121 or 5123, not normalized)".into());
+        }
+        Ok(self.collect([0; 4], |joints: &mut [u16; 4], bytes| {
+            for (joint, bytes) in joints.iter_mut().zip(bytes.chunks_exact(self.layout.component.size())) {
+                *joint = unsigned_integer(bytes) as u16;
+            }
+        }))
+    }
+
+    /// Reads indices.
+    ///
+    /// # Errors
+    /// The message says what in the accessor is invalid and what is allowed.
+    pub(super) fn indices(&self) -> Result<Vec<u32>, String> {
+        self.check_no_matrix()?;
+        let unsigned = matches!(
+            self.layout.component,
+            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
+        );
+        if self.layout.width() != 1 || !unsigned {
+            return Err("does not contain indices (allowed: SCALAR of unsigned integers)".into());
+        }
+        Ok(self.collect(0, |index: &mut u32, bytes| *index = unsigned_integer(bytes)))
+    }
+
+    fn check_no_matrix(&self) -> Result<(), String> {
+        if self.layout.is_matrix() {
+            return Err("contains matrices (allowed: SCALAR, VEC2, VEC3, VEC4)".into());
+        }
+        Ok(())
+    }
+
+    /// Reads elements as f32; components that they lack are those of `fill`.
+    fn values<const N: usize>(&self, fill: [f32; N]) -> Vec<[f32; N]> {
+        self.collect(fill, |vector: &mut [f32; N], bytes| {
+            for (value, bytes) in vector.iter_mut().zip(bytes.chunks_exact(self.layout.component.size())) {
+                *value = component_f32(&self.layout, bytes);
+            }
+        })
+    }
+
+    /// Reads every element over `fill`, the replaced ones last.
+    fn collect<T: Copy>(&self, fill: T, read: impl Fn(&mut T, &[u8])) -> Vec<T> {
+        let (count, size) = (self.layout.count, self.layout.element_bytes());
+        let mut elements = vec![fill; count];
+        for (i, element) in elements.iter_mut().enumerate() {
+            read(element, self.base.get(i, size));
+        }
+        if let Some(Sparse { targets, values }) = &self.sparse {
+            for (i, target) in targets.iter().enumerate() {
+                elements.get_mut(*target).into_iter().for_each(|element| read(element, values.get(i, size)));
+            }
+        }
+        elements
+    }
+}
+
+/// Reads the layout of an accessor of at most `max_count` elements.
+fn layout(accessor: &json::Accessor, max_count: usize) -> Result<Layout, String> {
+    let Checked::Valid(component) = accessor.component_type else {
+        return Err("has an unknown componentType (allowed: 5120 to 5123, 5125, 5126)".into());
+    };
+    let Checked::Valid(kind) = accessor.type_ else {
+        return Err("has an unknown type (allowed: SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4)".into());
+    };
+    let count = usize::try_from(accessor.count.0).ok().filter(|count| *count <= max_count);
+    let Some(count) = count else {
+        let count = accessor.count.0;
+        return Err(format!(
+            "has {count} elements, more than the scene may still have (allowed: up to {max_count})"
+        ));
+    };
+    Ok(Layout { count, component: component.0, kind, normalized: accessor.normalized })
 }
 
 /// Decodes a component; integers are scaled to 0..1 or -1..1 if the accessor is normalised.

@@ -96,7 +96,8 @@ impl<'a> Reader<'a> {
         }
         let (input, output) = (sampler.input.value(), sampler.output.value());
         let at = |what, accessor| move |reason| format!("{what} (accessor {accessor}) {reason}");
-        let times_s = self.buffers.floats(input, self.values_left).map_err(at("input", input))?;
+        let times_s = self.buffers.accessor(input, self.values_left).and_then(|accessor| accessor.floats());
+        let times_s = times_s.map_err(at("input", input))?;
         self.values_left -= times_s.len();
         let left = self.values_left;
         let per_element = if property == Property::Weights { width } else { 1 };
@@ -108,15 +109,14 @@ impl<'a> Reader<'a> {
                 "output (accessor {output}) has {given} elements for {keys} keyframes (allowed: {expected})"
             ));
         }
-        let values = match property {
+        let components = if property == Property::Weights { 1 } else { width };
+        let values = self.buffers.accessor(output, left / components).and_then(|accessor| match property {
             Property::Translation | Property::Scale => {
-                self.buffers.vectors(output, 3, [0.0; 3], left / 3).map(Vec::into_flattened)
+                accessor.vectors(3, [0.0; 3]).map(Vec::into_flattened)
             }
-            Property::Rotation => {
-                self.buffers.vectors(output, 4, [0.0; 4], left / 4).map(Vec::into_flattened)
-            }
-            Property::Weights => self.buffers.vectors(output, 1, [0.0; 1], left).map(Vec::into_flattened),
-        };
+            Property::Rotation => accessor.vectors(4, [0.0; 4]).map(Vec::into_flattened),
+            Property::Weights => accessor.vectors(1, [0.0; 1]).map(Vec::into_flattened),
+        });
         let values = values.map_err(at("output", output))?;
         self.values_left -= values.len();
         Curve::new(times_s, values, width, interpolation)

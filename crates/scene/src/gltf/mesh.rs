@@ -7,7 +7,9 @@ use ::gltf::json;
 use json::mesh::{Mode, Primitive, Semantic};
 use json::validation::Checked;
 
+use super::accessors::Accessor;
 use super::buffers::Buffers;
+use super::draco;
 use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
 use super::validate::{MAX_INDICES, MAX_VERTICES};
@@ -29,6 +31,8 @@ struct Source<'a> {
     location: String,
     /// Number of vertices.
     count: usize,
+    /// The geometry, if it is compressed.
+    draco: Option<draco::Geometry>,
 }
 
 impl<'a> Reader<'a> {
@@ -54,7 +58,7 @@ impl<'a> Reader<'a> {
         let Some(primitive) = found.and_then(|mesh| mesh.primitives.get(primitive)) else {
             return Err(ImportError::new(location, "does not exist"));
         };
-        let mut source = Source { primitive, location, count: 0 };
+        let mut source = Source { primitive, location, count: 0, draco: None };
         let Checked::Valid(mode) = primitive.mode else {
             return Err(ImportError::new(source.location, "unknown mode (allowed: 0 to 6)"));
         };
@@ -62,6 +66,10 @@ impl<'a> Reader<'a> {
             self.notes.add(source.location, "points and lines are not drawn");
             return Ok(None);
         }
+        let draco =
+            draco::Geometry::read(self.buffers, primitive, self.vertices_left, self.indices_left).transpose();
+        source.draco =
+            draco.with_location(|| format!("{} {}", source.location, draco::NAME))?;
         let Some(mut vertices) = self.positions(&mut source)? else { return Ok(None) };
         let indices = self.indices(&source, mode)?;
         if indices.is_empty() {
@@ -87,8 +95,10 @@ impl<'a> Reader<'a> {
             return Ok(None);
         };
         let location = || source.attribute_location("POSITION", accessor);
+        let compressed = self.compressed(source, accessor);
+        let positions = compressed.unwrap_or_else(|| self.buffers.accessor(accessor, self.vertices_left));
         let positions =
-            self.buffers.vectors(accessor, 3, [0.0; 3], self.vertices_left).with_location(location)?;
+            positions.and_then(|positions| positions.vectors(3, [0.0; 3])).with_location(location)?;
         if let Some(vertex) = positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
             let reason = format!("the position of vertex {vertex} is not finite (allowed: finite numbers)");
             return Err(ImportError::new(location(), reason));
@@ -100,22 +110,26 @@ impl<'a> Reader<'a> {
 
     /// Reads the indices as a triangle list.
     fn indices(&mut self, source: &Source<'_>, mode: Mode) -> Result<Vec<u32>, ImportError> {
-        let indices = match source.primitive.indices.map(|accessor| accessor.value()) {
-            None => (0u32..).take(source.count).collect(),
-            Some(accessor) => {
-                let location = || source.attribute_location("indices", accessor);
-                let indices = self.buffers.indices(accessor, self.indices_left).with_location(location)?;
-                if let Some(position) = indices.iter().position(|index| *index as usize >= source.count) {
-                    let index = indices.get(position).copied().unwrap_or_default();
-                    let reason = format!(
-                        "index {index} at {position} is out of range (allowed: below {})",
-                        source.count
-                    );
-                    return Err(ImportError::new(location(), reason));
-                }
-                indices
+        let accessor = source.primitive.indices.map(|accessor| accessor.value());
+        let location = || match accessor {
+            Some(accessor) => source.attribute_location("indices", accessor),
+            None => source.location.clone(),
+        };
+        // Compressed geometry is a triangle list.
+        let (mode, indices) = match (&source.draco, accessor) {
+            (Some(draco), _) => (Mode::Triangles, draco.indices()),
+            (None, None) => (mode, (0u32..).take(source.count).collect()),
+            (None, Some(accessor)) => {
+                let indices = self.buffers.accessor(accessor, self.indices_left);
+                (mode, indices.and_then(|indices| indices.indices()).with_location(location)?)
             }
         };
+        if let Some(position) = indices.iter().position(|index| *index as usize >= source.count) {
+            let index = indices.get(position).copied().unwrap_or_default();
+            let reason =
+                format!("index {index} at {position} is out of range (allowed: below {})", source.count);
+            return Err(ImportError::new(location(), reason));
+        }
         let needed = triangle_count(mode, indices.len()).unwrap_or(0).saturating_mul(3);
         match self.indices_left.checked_sub(needed) {
             Some(left) => self.indices_left = left,
@@ -221,20 +235,34 @@ impl<'a> Reader<'a> {
         fill: [f32; N],
     ) -> Result<Option<Vec<[f32; N]>>, ImportError> {
         let Some(accessor) = source.accessor(semantic) else { return Ok(None) };
-        let location = || source.attribute_location(&semantic.to_string(), accessor);
-        self.check_count(source, accessor).with_location(location)?;
-        Ok(Some(self.buffers.vectors(accessor, min, fill, source.count).with_location(location)?))
+        let values = self.vertex_elements(source, accessor).and_then(|accessor| accessor.vectors(min, fill));
+        Ok(Some(values.with_location(|| source.attribute_location(&semantic.to_string(), accessor))?))
     }
 
-    /// Checks that an accessor has one element per vertex.
-    fn check_count(&self, source: &Source<'_>, accessor: usize) -> Result<(), String> {
-        match self.buffers.accessor_count(accessor)? {
-            count if count == source.count as u64 => Ok(()),
-            count => Err(format!(
+    /// Returns an accessor that has one element per vertex.
+    fn vertex_elements<'s>(&'s self, source: &Source<'_>, accessor: usize) -> Result<Accessor<'s>, String> {
+        let compressed = self.compressed(source, accessor).transpose()?;
+        let count = match &compressed {
+            Some(compressed) => compressed.count() as u64,
+            None => self.buffers.accessor_count(accessor)?,
+        };
+        if count != source.count as u64 {
+            return Err(format!(
                 "has {count} elements for {} positions (allowed: as many as positions)",
                 source.count
-            )),
+            ));
         }
+        compressed.map_or_else(|| self.buffers.accessor(accessor, source.count), Ok)
+    }
+
+    /// Returns an accessor of the compressed geometry, if it has it.
+    fn compressed(
+        &self,
+        source: &Source<'_>,
+        accessor: usize,
+    ) -> Option<Result<Accessor<'static>, String>> {
+        let json = self.buffers.document().accessors.get(accessor)?;
+        source.draco.as_ref()?.accessor(accessor, json.normalized)
     }
 }
 

@@ -89,7 +89,7 @@ fn inverse_bind(buffers: &Buffers<'_>, accessor: usize, count: usize) -> Result<
         ));
     }
     let matrices =
-        buffers.matrices(accessor, usize::try_from(given).unwrap_or(usize::MAX).min(MAX_JOINTS))?;
+        buffers.accessor(accessor, usize::try_from(given).unwrap_or(usize::MAX).min(MAX_JOINTS))?.matrices()?;
     let affine = |(joint, matrix): (usize, [f32; 16])| {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
         if !matrix.is_finite() {

@@ -6,11 +6,14 @@ use super::document::{Document, Header};
 use super::error::{ImportError, describe};
 
 /// The supported extensions; requiring another one is an error.
-pub const SUPPORTED_EXTENSIONS: [&str; 5] = [
+pub const SUPPORTED_EXTENSIONS: [&str; 8] = [
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_texture_transform",
 ];
 
@@ -44,11 +47,19 @@ pub(super) fn check_header(header: &Header) -> Result<(), ImportError> {
             format!("minVersion {min:?} is not supported (allowed: \"2.0\")"),
         ));
     }
-    let unknown = |name: &&String| !SUPPORTED_EXTENSIONS.contains(&name.as_str());
-    match header.extensions_required.iter().find(unknown) {
-        None => Ok(()),
-        Some(name) => Err(ImportError::new("extensionsRequired", format!("{name:?} is not supported"))),
-    }
+    check_required_extensions(&header.extensions_required)
+}
+
+fn check_required_extensions(required: &[String]) -> Result<(), ImportError> {
+    let unsupported = required.iter().filter(|name| !SUPPORTED_EXTENSIONS.contains(&name.as_str()));
+    let names: Vec<_> = unsupported.map(|name| format!("{name:?}")).collect();
+    let Some(first) = names.first() else { return Ok(()) };
+    let (names, verb) =
+        if names.len() > 1 { (names.join(", "), "are") } else { (first.clone(), "is") };
+    let reason = format!(
+        "{names} {verb} not supported (to convert the file, import it in Blender and export it as glTF)"
+    );
+    Err(ImportError::new("extensionsRequired", reason))
 }
 
 /// Checks that everything that the file refers to by index exists.

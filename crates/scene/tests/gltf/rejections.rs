@@ -155,7 +155,7 @@ fn views_and_accessors_beyond_their_bytes_are_rejected() {
             |file| file.json["accessors"][0]["type"] = json!("VEC2"),
             &["POSITION", "2 components", "allowed: 3"],
         ),
-        (|file| file.json["accessors"][1]["componentType"] = json!(5126), &["indices", "unsigned"]),
+        (|file| file.json["accessors"][1]["componentType"] = json!(5122), &["indices", "unsigned"]),
         (|file| file.json["accessors"][1]["componentType"] = json!(1), &["indices", "componentType"]),
     ];
     for (change, texts) in changes {

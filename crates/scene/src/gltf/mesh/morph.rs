@@ -44,8 +44,8 @@ impl Reader<'_> {
         accessor: usize,
     ) -> Result<Vec<[f32; 3]>, ImportError> {
         let location = || source.attribute_location(attribute, accessor);
-        self.check_count(source, accessor).with_location(location)?;
-        let values = self.buffers.vectors(accessor, 3, [0.0; 3], source.count).with_location(location)?;
+        let values = self.vertex_elements(source, accessor).and_then(|accessor| accessor.vectors(3, [0.0; 3]));
+        let values = values.with_location(location)?;
         match values.iter().position(|value| !value.iter().all(|x| x.is_finite())) {
             None => Ok(values),
             Some(vertex) => {

@@ -43,8 +43,8 @@ impl Reader<'_> {
         })?;
         let Some(accessor) = source.accessor(&Semantic::Joints(set)) else { return Ok(Vec::new()) };
         let location = || source.attribute_location(&format!("JOINTS_{set}"), accessor);
-        self.check_count(source, accessor).with_location(location)?;
-        let joints = self.buffers.joints(accessor, source.count).with_location(location)?;
+        let joints = self.vertex_elements(source, accessor).and_then(|accessor| accessor.joints());
+        let joints = joints.with_location(location)?;
         let influences = |(joints, weights): ([u16; 4], [f32; 4])| -> [Influence; 4] {
             std::array::from_fn(|i| Influence { joint: joints[i].into(), weight: weights[i] })
         };
