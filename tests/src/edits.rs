@@ -61,7 +61,7 @@ pub fn edit(scene: &mut Scene, random: &mut Random) -> Result<(), EditError> {
             let Some(image) = scene.images().next().map(|(key, _)| key) else { return Ok(()) };
             let value = random.below(256) as u8;
             let rgba8 = vec![value, 255, 255, 255, 255, 255, value, 0];
-            scene.replace_image(image, Image { name: "two".into(), width: 2, height: 1, rgba8 })?;
+            scene.replace_image(image, Image::new("two", 2, 1, rgba8))?;
         }
     }
     Ok(())

@@ -1,5 +1,8 @@
 //! Metallic-roughness materials, textures and images.
 
+use std::fmt;
+use std::sync::Arc;
+
 use glam::{Vec3, Vec4};
 
 use crate::keys::ImageKey;
@@ -207,7 +210,7 @@ pub enum Filter {
 }
 
 /// A decoded image.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     /// The name in the file, else the name of the image's own file; empty if it has neither.
     pub name: String,
@@ -217,6 +220,23 @@ pub struct Image {
     pub height: u32,
     /// Rows from the top, `width * height * 4` bytes; the use determines whether they are sRGB or linear.
     pub rgba8: Vec<u8>,
+    /// The KTX2 file (ETC1S or UASTC) that the pixels are from. Devices with a block-compressed format draw its mip levels
+    /// in that format.
+    pub ktx2: Option<Arc<[u8]>>,
+}
+
+impl Image {
+    /// Creates an image of RGBA pixels, `width * height * 4` bytes.
+    #[must_use]
+    pub fn new(name: impl Into<String>, width: u32, height: u32, rgba8: Vec<u8>) -> Self {
+        Self { name: name.into(), width, height, rgba8, ktx2: None }
+    }
+}
+
+impl fmt::Debug for Image {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "Image({:?}, {}x{})", self.name, self.width, self.height)
+    }
 }
 
 /// Decodes a colour channel from sRGB (IEC 61966-2-1) to linear light, 0 to 1. Alpha is always linear.

@@ -142,7 +142,7 @@ mod tests {
         let mut scene = Scene::default();
         let [cube, ball] =
             [1.0, 2.0].map(|size| scene.insert_mesh(Mesh::cuboid(DVec3::ZERO, DVec3::splat(size))));
-        let dot = |value| Image { name: "dot".into(), width: 1, height: 1, rgba8: vec![value; 4] };
+        let dot = |value| Image::new("dot", 1, 1, vec![value; 4]);
         let image = scene.insert_image(dot(1)).unwrap();
         let texture = Some(TextureRef::new(image));
         let leaf = Material { base_color_texture: texture, ..Material::default() };

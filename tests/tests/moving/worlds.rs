@@ -20,7 +20,7 @@ pub(crate) fn scene(random: &mut Random) -> Scene {
     let mut scene = Scene::default();
     let grey = Material { base_color: Vec4::new(0.8, 0.8, 0.8, 1.0), metallic: 0.0, ..Material::default() };
     let rgba8 = (0..64).flat_map(|i| [255, 255, 255, if (i / 2 + i / 16) % 2 == 0 { 255 } else { 0 }]);
-    let image = Image { name: "checks".into(), width: 8, height: 8, rgba8: rgba8.collect() };
+    let image = Image::new("checks", 8, 8, rgba8.collect());
     let base_color_texture = Some(TextureRef::new(scene.insert_image(image).unwrap()));
     let holes = Material { alpha: AlphaMode::Mask { cutoff: 0.5 }, base_color_texture, ..grey.clone() };
     let glass =

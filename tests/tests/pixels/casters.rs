@@ -21,7 +21,7 @@ fn half_cut_sheet(alpha: AlphaMode) -> Scene {
     }
     let sheet = Mesh::new("sheet", vertices.to_vec(), vec![0, 1, 2, 0, 2, 3]);
     let rgba8 = (0..64).flat_map(|i| [255, 255, 255, if i % 8 < 4 { 0 } else { 255 }]).collect();
-    let image = Image { name: "half".into(), width: 8, height: 8, rgba8 };
+    let image = Image::new("half", 8, 8, rgba8);
     let mut scene = Scene::default();
     scene.insert_material(material()).unwrap();
     add_mesh(&mut scene, floor_mesh(20.0), DVec3::ZERO);

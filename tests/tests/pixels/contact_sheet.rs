@@ -128,7 +128,7 @@ fn add_panels(scene: &mut Scene) {
     };
     let alpha = |x: u32| [255, 153, 102, 0][x as usize / 16];
     let rgba8 = (0..64 * 64).flat_map(|i| [220, 60, 40, alpha(i % 64)]).collect();
-    let stripes = Image { name: "stripes".into(), width: 64, height: 64, rgba8 };
+    let stripes = Image::new("stripes", 64, 64, rgba8);
     let image = scene.insert_image(stripes).unwrap();
     let mesh = scene.insert_mesh(Mesh::new("panel", corners.map(vertex).to_vec(), vec![0, 1, 2, 0, 2, 3]));
     let kinds = [

@@ -14,7 +14,7 @@ fn scene() -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
     let rgba8 =
         (0..64).flat_map(|i| [255, 255, 255, if (i / 2 + i / 16) % 2 == 0 { 255 } else { 0 }]).collect();
-    let image = scene.insert_image(Image { name: "checks".into(), width: 8, height: 8, rgba8 }).unwrap();
+    let image = scene.insert_image(Image::new("checks", 8, 8, rgba8)).unwrap();
     let texture = Some(TextureRef::new(image));
     let clip = Material { alpha: AlphaMode::Mask { cutoff: 0.5 }, base_color_texture: texture, ..material() };
     let glass = Material { alpha: AlphaMode::Blend, base_color: Vec4::new(0.2, 0.7, 0.9, 0.5), ..material() };

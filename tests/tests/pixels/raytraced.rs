@@ -127,7 +127,7 @@ fn leaf_scene() -> Scene {
     let texel =
         |index: u32| [255, 255, 255, if (index % 8 + index / 8).is_multiple_of(2) { 255 } else { 30 }];
     let rgba8 = (0..64).flat_map(texel).collect();
-    let checkered = Image { name: String::new(), width: 8, height: 8, rgba8 };
+    let checkered = Image::new("", 8, 8, rgba8);
     let mut scene = Scene::default();
     scene.insert_material(material()).unwrap();
     add_mesh(&mut scene, floor_mesh(6.0), DVec3::ZERO);

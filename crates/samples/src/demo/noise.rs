@@ -14,7 +14,7 @@ pub(super) fn texture(name: &str, color: impl Fn(f64, f64) -> [f64; 4]) -> Image
     let byte = |value: f64| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     let pixels = (0..SIZE).flat_map(|row| (0..SIZE).map(move |column| (column, row)));
     let rgba8 = pixels.flat_map(|(column, row)| color(at(column), at(row)).map(byte)).collect();
-    Image { name: name.to_owned(), width: SIZE, height: SIZE, rgba8 }
+    Image::new(name, SIZE, SIZE, rgba8)
 }
 
 /// Creates the normal map of a tiling height field; `strength` is its depth relative to the width of the texture.

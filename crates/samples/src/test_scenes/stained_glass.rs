@@ -144,10 +144,5 @@ fn rings_texture() -> Image {
             |phase: f64| (127.5 + 127.5 * ((radius * 0.8 + phase) * std::f64::consts::TAU).cos()) as u8;
         [channel(0.0), channel(0.33), channel(0.67), (150.0 + 60.0 * radius.min(1.0)) as u8]
     };
-    Image {
-        name: "rings".into(),
-        width: SIDE,
-        height: SIDE,
-        rgba8: (0..SIDE * SIDE).flat_map(texel).collect(),
-    }
+    Image::new("rings", SIDE, SIDE, (0..SIDE * SIDE).flat_map(texel).collect())
 }

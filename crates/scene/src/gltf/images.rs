@@ -1,12 +1,14 @@
-//! Decoding of PNG and JPEG images on several threads.
+//! Decoding of PNG, JPEG, WebP and KTX2 images on several threads.
 
 use std::borrow::Cow;
 use std::io::Cursor;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use basisu::{DecodeFlags, TargetFormat, Transcoder};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use super::buffers::Buffers;
 use super::error::{ImportError, WithLocation, clean_name, describe};
@@ -18,34 +20,32 @@ use crate::material::Image;
 pub const MAX_IMAGE_SIZE_PX: u32 = 16_384;
 /// The maximum number of bytes of decoded images in a scene.
 pub const MAX_IMAGE_BYTES: u64 = 1 << 32;
+/// The first bytes of a KTX2 file.
+const KTX2_IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 /// The maximum memory for decoding one image, bytes.
 const MAX_DECODE_BYTES: u64 = 1 << 30;
 
-/// Decodes the images with these indices in the file, and reports progress, 0 to 1.
-///
-/// # Errors
-/// The location names the first image that is missing, corrupt or too large.
+/// Decodes the images with these indices in the file, and reports progress, 0 to 1. The location of an error names an image
+/// that is missing, corrupt or too large.
 pub(super) fn read(
     buffers: &Buffers<'_>,
     files: &Files,
     wanted: &[usize],
     progress: &mut dyn FnMut(f32),
-) -> Result<Vec<Image>, ImportError> {
+) -> Vec<Result<Image, ImportError>> {
     let decoder = Decoder { buffers, files, budget_bytes: AtomicU64::new(MAX_IMAGE_BYTES) };
-    let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let next = AtomicUsize::new(0);
     let threads = thread::available_parallelism().map_or(1, usize::from).min(8).min(wanted.len());
     let mut results: Vec<Option<Result<Image, ImportError>>> = wanted.iter().map(|_| None).collect();
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..threads {
-            let (sender, decoder, next, failed) = (sender.clone(), &decoder, &next, &failed);
+            let (sender, decoder, next) = (sender.clone(), &decoder, &next);
             scope.spawn(move || {
-                while !failed.load(Ordering::Relaxed) {
+                loop {
                     let slot = next.fetch_add(1, Ordering::Relaxed);
                     let Some(index) = wanted.get(slot) else { break };
-                    let result = decoder.image(*index);
-                    failed.fetch_or(result.is_err(), Ordering::Relaxed);
-                    if sender.send((slot, result)).is_err() {
+                    if sender.send((slot, decoder.image(*index))).is_err() {
                         break;
                     }
                 }
@@ -59,9 +59,7 @@ pub(super) fn read(
             }
         }
     });
-    // Images are started in order, so the first error does not depend on the threads. Images after it may be
-    // missing.
-    results.into_iter().map_while(|result| result).collect()
+    results.into_iter().flatten().collect()
 }
 
 struct Decoder<'a> {
@@ -91,38 +89,61 @@ impl Decoder<'_> {
             let path = uri::relative_path(image.uri.as_deref()?).ok()?;
             Some(path.file_name()?.to_string_lossy().into_owned())
         };
-        let pixels = self.decode(&bytes).with_location(location)?;
         let name = image.name.clone().or_else(file_name);
-        let (width, height) = (pixels.width(), pixels.height());
-        Ok(Image { name: clean_name(name.as_deref()), width, height, rgba8: pixels.into_rgba8().into_raw() })
+        self.decode(&clean_name(name.as_deref()), &bytes).with_location(location)
     }
 
-    fn decode(&self, bytes: &[u8]) -> Result<DynamicImage, String> {
+    fn decode(&self, name: &str, bytes: &[u8]) -> Result<Image, String> {
+        if bytes.starts_with(KTX2_IDENTIFIER) { self.ktx2(name, bytes) } else { self.raster(name, bytes) }
+    }
+
+    /// Decodes the largest level of a KTX2 file, and keeps the file for devices with block-compressed formats.
+    fn ktx2(&self, name: &str, bytes: &[u8]) -> Result<Image, String> {
+        let invalid = |error: basisu::Error| format!("is not a KTX2 file of ETC1S or UASTC: {error:?}");
+        let transcoder = Transcoder::new(bytes).map_err(invalid)?;
+        if transcoder.layer_count() > 1 || transcoder.face_count() > 1 || transcoder.is_video() {
+            return Err("is a KTX2 file of several images (allowed: one 2D image)".into());
+        }
+        if !transcoder.supports(TargetFormat::Rgba32) {
+            return Err("is a KTX2 file of HDR colours (allowed: ETC1S and UASTC)".into());
+        }
+        let (width, height) = transcoder.base_dimensions();
+        self.take_budget(width, height)?;
+        let rgba8 = transcoder.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(invalid)?;
+        Ok(Image { ktx2: Some(Arc::from(bytes)), ..Image::new(name, width, height, rgba8) })
+    }
+
+    fn raster(&self, name: &str, bytes: &[u8]) -> Result<Image, String> {
         let decode_error = |error: image::ImageError| format!("cannot be decoded: {error}");
         let mut limits = Limits::default();
         limits.max_alloc = Some(MAX_DECODE_BYTES);
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
         let mut reader = reader.map_err(|error| format!("cannot be decoded: {error}"))?;
-        if !matches!(reader.format(), Some(image::ImageFormat::Png | image::ImageFormat::Jpeg)) {
-            return Err("is neither PNG nor JPEG".into());
+        if !matches!(reader.format(), Some(ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) {
+            return Err("is neither PNG, JPEG, WebP nor KTX2".into());
         }
         reader.limits(limits);
         let decoder = reader.into_decoder().map_err(decode_error)?;
         let (width, height) = decoder.dimensions();
+        if decoder.total_bytes() > MAX_DECODE_BYTES {
+            return Err(format!("needs more than {MAX_DECODE_BYTES} bytes, the limit for one image"));
+        }
+        self.take_budget(width, height)?;
+        let pixels = DynamicImage::from_decoder(decoder).map_err(decode_error)?;
+        Ok(Image::new(name, width, height, pixels.into_rgba8().into_raw()))
+    }
+
+    /// Checks the size of an image, and counts its pixels against the limit of a scene.
+    fn take_budget(&self, width: u32, height: u32) -> Result<(), String> {
         let allowed = 1..=MAX_IMAGE_SIZE_PX;
         if !allowed.contains(&width) || !allowed.contains(&height) {
             return Err(format!("is {width}x{height} pixels large (allowed: 1 to {MAX_IMAGE_SIZE_PX})"));
         }
         let size_bytes = u64::from(width) * u64::from(height) * 4;
         let take = |left: u64| left.checked_sub(size_bytes);
-        if decoder.total_bytes() > MAX_DECODE_BYTES {
-            return Err(format!("needs more than {MAX_DECODE_BYTES} bytes, the limit for one image"));
-        }
-        if self.budget_bytes.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_err() {
-            return Err(format!(
-                "brings the images of the scene to more than {MAX_IMAGE_BYTES} bytes, the limit"
-            ));
-        }
-        DynamicImage::from_decoder(decoder).map_err(decode_error)
+        let taken = self.budget_bytes.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take);
+        taken.map(|_| ()).map_err(|_| {
+            format!("brings the images of the scene to more than {MAX_IMAGE_BYTES} bytes, the limit")
+        })
     }
 }

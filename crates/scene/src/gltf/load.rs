@@ -16,7 +16,7 @@ use super::validate::{
 use super::{animations, container, hierarchy, images, materials};
 use crate::error::Error;
 use crate::keys::{InstanceKey, MaterialKey};
-use crate::material::{Image, Material};
+use crate::material::{Image, Material, TextureRef};
 use crate::mesh::Mesh;
 use crate::scene::{Attachment, EditError, Hierarchy, Instance, Scene};
 
@@ -86,7 +86,8 @@ fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Re
     geometry.check_range(&document, &nodes)?;
     geometry.check_deformed(&document, &nodes, &skins)?;
     let decoded = |fraction| progress(Progress { stage: "images", fraction });
-    let images = images::read(&buffers, files, &images, &mut { decoded })?;
+    let images = images::read(&buffers, files, &images, &mut { decoded });
+    let images = images.into_iter().map(|image| usable(image, &mut notes)).collect();
     let mut scene = Scene::default();
     scene.notes = notes.into_lines();
     let inserted = insert_materials(&mut scene, images, materials)
@@ -105,19 +106,23 @@ fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Re
     Ok(scene)
 }
 
-/// Inserts the images and the materials, and returns the keys of the materials.
+/// Returns an image that could be read; otherwise adds a note.
+fn usable(image: Result<Image, ImportError>, notes: &mut Notes) -> Option<Image> {
+    image.inspect_err(|error| notes.add(&error.location, format!("{}; it is not drawn", error.reason))).ok()
+}
+
+/// Inserts the images and the materials, and returns the keys of the materials. Textures without an image are left out.
 fn insert_materials(
     scene: &mut Scene,
-    images: Vec<Image>,
+    images: Vec<Option<Image>>,
     materials: Vec<(Material, [Option<usize>; 5])>,
 ) -> Result<Vec<MaterialKey>, EditError> {
-    let images: Vec<_> =
-        images.into_iter().map(|image| scene.insert_image(image)).collect::<Result<_, _>>()?;
+    let insert_image = |image: Option<Image>| image.map(|image| scene.insert_image(image)).transpose();
+    let images: Vec<_> = images.into_iter().map(insert_image).collect::<Result<_, _>>()?;
     let insert = |(mut material, used): (Material, [Option<usize>; 5])| {
         for (texture, used) in material.textures_mut().into_iter().zip(used) {
-            if let (Some(texture), Some(&image)) = (texture, used.and_then(|index| images.get(index))) {
-                texture.image = image;
-            }
+            let image = used.and_then(|index| images.get(index).copied().flatten());
+            *texture = texture.zip(image).map(|(texture, image)| TextureRef { image, ..texture });
         }
         scene.insert_material(material)
     };

@@ -1,5 +1,7 @@
 //! Conversion of materials, and the images that they use.
 
+use std::collections::BTreeSet;
+
 use ::gltf::json;
 use glam::{Vec3, Vec4};
 use json::validation::Checked;
@@ -7,7 +9,7 @@ use json::validation::Checked;
 use super::document::Document;
 use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
-use super::textures::TextureUse;
+use super::textures::{self, TextureUse};
 use crate::material::{AlphaMode, Material, TextureRef};
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
@@ -21,44 +23,72 @@ pub(super) struct Materials {
     pub(super) images: Vec<usize>,
 }
 
-/// Converts all materials of a file.
+/// Converts all materials of a file. A texture without an image is left out with a note.
 ///
 /// # Errors
 /// The location names the material or sampler with a value that glTF does not allow.
 pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, ImportError> {
-    let textures = |(i, material)| Textures::read(material).with_location(|| describe_material(i, material));
-    let textures: Vec<Textures> =
-        document.materials.iter().enumerate().map(textures).collect::<Result<_, _>>()?;
-    let mut images: Vec<usize> = textures
-        .iter()
-        .flat_map(|textures| textures.all.iter().flatten())
-        .filter_map(|texture| texture.image(document))
-        .collect();
+    let mut textures = Vec::with_capacity(document.materials.len());
+    for (i, material) in document.materials.iter().enumerate() {
+        let location = describe_material(i, material);
+        textures.push(Textures::read(document, material, &location, notes)?);
+    }
+    let used = textures.iter().flat_map(|textures| textures.all.iter().flatten());
+    let mut images: Vec<usize> = used.map(|(_, image)| *image).collect();
     images.sort_unstable();
     images.dedup();
     let materials = document.materials.iter().zip(&textures).enumerate().map(|(i, (material, textures))| {
         let location = describe_material(i, material);
-        let textures = textures.convert(document, &images, &location, notes)?;
-        let references = textures.map(|texture| texture.map(|(reference, _)| reference));
-        Ok((
-            convert(material, references, &location)?,
-            textures.map(|texture| texture.map(|(_, image)| image)),
-        ))
+        let references = textures.convert(document, &location, notes)?;
+        let used = textures.images().map(|image| images.binary_search(&image?).ok());
+        Ok((convert(material, references, &location)?, used))
     });
-    Ok(Materials { materials: materials.collect::<Result<_, _>>()?, images })
+    let materials = materials.collect::<Result<_, _>>()?;
+    note_unused_textures(document, notes);
+    Ok(Materials { materials, images })
+}
+
+/// Adds a note for each texture without an image that no material uses.
+fn note_unused_textures(document: &Document, notes: &mut Notes) {
+    let infos = document.materials.iter().flat_map(|material| Textures::infos(material).into_iter().flatten());
+    let used: BTreeSet<usize> = infos.flatten().map(|info| info.texture()).collect();
+    for (i, texture) in document.textures.iter().enumerate().filter(|(i, _)| !used.contains(i)) {
+        if let Err(reason) = textures::image_index(document, i) {
+            let location = describe("texture", i, texture.name.as_deref());
+            notes.add(location, format!("is not used by a material, and {reason}"));
+        }
+    }
 }
 
 fn describe_material(index: usize, material: &json::Material) -> String {
     describe("material", index, material.name.as_deref())
 }
 
-/// The textures of a material: base colour, metallic and roughness, normal, occlusion, emissive.
+/// The textures of a material, each with the index of its image in the file: base colour, metallic and roughness, normal,
+/// occlusion, emissive.
 struct Textures {
-    all: [Option<TextureUse>; 5],
+    all: [Option<(TextureUse, usize)>; 5],
 }
 
 impl Textures {
-    fn read(material: &json::Material) -> Result<Self, json::Error> {
+    fn read(
+        document: &Document,
+        material: &json::Material,
+        location: &str,
+        notes: &mut Notes,
+    ) -> Result<Self, ImportError> {
+        let mut all = [const { None }; 5];
+        for (texture, found) in Self::infos(material).into_iter().zip(&mut all) {
+            let Some(texture) = texture.transpose().with_location(|| location)? else { continue };
+            match textures::image_index(document, texture.texture()) {
+                Ok(image) => *found = Some((texture, image)),
+                Err(reason) => notes.add(location, format!("{reason}; it is drawn without this texture")),
+            }
+        }
+        Ok(Self { all })
+    }
+
+    fn infos(material: &json::Material) -> [Option<Result<TextureUse, json::Error>>; 5] {
         let pbr = &material.pbr_metallic_roughness;
         let normal = material.normal_texture.as_ref().map(|info| {
             let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
@@ -68,30 +98,30 @@ impl Textures {
             let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
             TextureUse::with_raw_transform(info.index.value(), info.tex_coord, transform)
         });
-        let all = [
-            pbr.base_color_texture.as_ref().map(TextureUse::from),
-            pbr.metallic_roughness_texture.as_ref().map(TextureUse::from),
-            normal.transpose()?,
-            occlusion.transpose()?,
-            material.emissive_texture.as_ref().map(TextureUse::from),
-        ];
-        Ok(Self { all })
+        let plain = |info: &Option<json::texture::Info>| info.as_ref().map(|info| Ok(TextureUse::from(info)));
+        [
+            plain(&pbr.base_color_texture),
+            plain(&pbr.metallic_roughness_texture),
+            normal,
+            occlusion,
+            plain(&material.emissive_texture),
+        ]
+    }
+
+    fn images(&self) -> [Option<usize>; 5] {
+        self.all.each_ref().map(|texture| texture.as_ref().map(|(_, image)| *image))
     }
 
     fn convert(
         &self,
         document: &Document,
-        images: &[usize],
         location: &str,
         notes: &mut Notes,
-    ) -> Result<[Option<(TextureRef, usize)>; 5], ImportError> {
+    ) -> Result<[Option<TextureRef>; 5], ImportError> {
         let mut references = [None; 5];
         for (texture, reference) in self.all.iter().zip(&mut references) {
-            let Some(texture) = texture else { continue };
-            let image = texture.image(document).and_then(|image| images.binary_search(&image).ok());
-            let image =
-                image.ok_or_else(|| ImportError::new(location, "uses a texture that does not exist"))?;
-            *reference = Some((texture.convert(document, location, notes)?, image));
+            let Some((texture, _)) = texture else { continue };
+            *reference = Some(texture.convert(document, location, notes)?);
         }
         Ok(references)
     }

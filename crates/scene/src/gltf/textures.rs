@@ -36,9 +36,9 @@ impl TextureUse {
         Ok(Self { texture, uv_set, transform })
     }
 
-    /// Returns the index of the image in the file, if the texture exists.
-    pub(super) fn image(&self, document: &Document) -> Option<usize> {
-        Some(document.textures.get(self.texture)?.source.value())
+    /// Returns the index of the texture in the file.
+    pub(super) fn texture(&self) -> usize {
+        self.texture
     }
 
     /// Converts to a [`TextureRef`] without the key of its image.
@@ -51,13 +51,16 @@ impl TextureUse {
         location: &str,
         notes: &mut Notes,
     ) -> Result<TextureRef, ImportError> {
-        let sampler = document.textures.get(self.texture).and_then(|texture| texture.sampler);
-        let sampler =
-            match sampler.and_then(|sampler| document.samplers.get(sampler.value()).zip(Some(sampler))) {
-                None => Sampler::default(),
-                Some((sampler, index)) => convert_sampler(sampler)
-                    .with_location(|| describe("sampler", index.value(), sampler.name.as_deref()))?,
-            };
+        let index = document.textures.get(self.texture).and_then(|texture| texture.sampler);
+        let sampler = match index.map(|index| (index.value(), document.samplers.get(index.value()))) {
+            None => Sampler::default(),
+            Some((index, Some(sampler))) => convert_sampler(sampler)
+                .with_location(|| describe("sampler", index, sampler.name.as_deref()))?,
+            Some((index, None)) => {
+                notes.add(location, format!("sampler {index} does not exist, the default is used"));
+                Sampler::default()
+            }
+        };
         let uv_set = self.transform.as_ref().and_then(|transform| transform.tex_coord).unwrap_or(self.uv_set);
         let uv_set = u8::try_from(uv_set).ok().filter(|set| *set < 2).unwrap_or_else(|| {
             notes.add(location, "texture coordinates above TEXCOORD_1 are not supported, TEXCOORD_0 is used");
@@ -69,6 +72,27 @@ impl TextureUse {
         }
         Ok(TextureRef { image: ImageKey::default(), sampler, uv_set, uv_transform })
     }
+}
+
+/// The extensions that name another image of a texture, the preferred one first.
+const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
+
+/// Returns the index in the file of the image of a texture.
+///
+/// # Errors
+/// The message says why the texture has no image.
+pub(super) fn image_index(document: &Document, texture: usize) -> Result<usize, String> {
+    let Some(json) = document.textures.get(texture) else {
+        return Err(format!("texture {texture} does not exist"));
+    };
+    let extension = |name: &&str| json.extensions.as_ref()?.others.get(*name)?.get("source")?.as_u64();
+    let source = SOURCES.iter().find_map(extension).unwrap_or(json.source.value() as u64);
+    // The value of the gltf crate for a missing source.
+    if source == u64::from(u32::MAX) {
+        return Err(format!("texture {texture} has no image that can be read"));
+    }
+    let image = usize::try_from(source).ok().filter(|image| *image < document.images.len());
+    image.ok_or_else(|| format!("texture {texture} has image {source}, which does not exist"))
 }
 
 /// Combines scale, rotation and offset, applied in this order.

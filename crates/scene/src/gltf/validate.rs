@@ -6,14 +6,16 @@ use super::document::{Document, Header};
 use super::error::{ImportError, describe};
 
 /// The supported extensions; requiring another one is an error.
-pub const SUPPORTED_EXTENSIONS: [&str; 8] = [
+pub const SUPPORTED_EXTENSIONS: [&str; 10] = [
     "EXT_meshopt_compression",
+    "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 
@@ -68,28 +70,7 @@ pub(super) fn check_references(document: &Document) -> Result<(), ImportError> {
     check_meshes(document)?;
     check_nodes(document)?;
     check_skins(document)?;
-    check_animations(document)?;
-    for (i, texture) in document.textures.iter().enumerate() {
-        let object = Object { kind: "texture", index: i, name: texture.name.as_deref() };
-        // The value of the gltf crate for a missing source.
-        if texture.source.value() == u32::MAX as usize {
-            return Err(ImportError::new(object.describe(), "has no image (allowed: PNG or JPEG)"));
-        }
-        object.check("source", Some(texture.source), document.images.len())?;
-        object.check("sampler", texture.sampler, document.samplers.len())?;
-    }
-    for (i, material) in document.materials.iter().enumerate() {
-        let object = Object { kind: "material", index: i, name: material.name.as_deref() };
-        let count = document.textures.len();
-        let pbr = &material.pbr_metallic_roughness;
-        object.check("baseColorTexture", pbr.base_color_texture.as_ref().map(|t| t.index), count)?;
-        let texture = pbr.metallic_roughness_texture.as_ref().map(|t| t.index);
-        object.check("metallicRoughnessTexture", texture, count)?;
-        object.check("normalTexture", material.normal_texture.as_ref().map(|t| t.index), count)?;
-        object.check("occlusionTexture", material.occlusion_texture.as_ref().map(|t| t.index), count)?;
-        object.check("emissiveTexture", material.emissive_texture.as_ref().map(|t| t.index), count)?;
-    }
-    Ok(())
+    check_animations(document)
 }
 
 fn check_buffers(document: &Document) -> Result<(), ImportError> {

@@ -83,7 +83,7 @@ mod tests {
     fn image(size: u32, alpha: impl Fn(u32, u32) -> u8) -> Image {
         let texel = |i: u32| [0, 0, 0, alpha(i % size, i / size)];
         let rgba8 = (0..size * size).flat_map(texel).collect();
-        Image { name: String::new(), width: size, height: size, rgba8 }
+        Image::new("", size, size, rgba8)
     }
 
     /// Returns the fraction of each level that reaches half alpha.

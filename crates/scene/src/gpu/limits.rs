@@ -43,7 +43,7 @@ mod tests {
 
     fn bark(width: u32, height: u32) -> Image {
         let rgba8 = vec![0; (width * height * 4) as usize];
-        Image { name: "bark".to_owned(), width, height, rgba8 }
+        Image::new("bark", width, height, rgba8)
     }
 
     #[test]

@@ -142,7 +142,7 @@ mod tests {
     fn image(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
         let rgba8 = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let rgba8 = rgba8.flat_map(|(x, y)| pixel(x, y)).collect();
-        Image { name: String::new(), width, height, rgba8 }
+        Image::new("", width, height, rgba8)
     }
 
     #[test]

@@ -27,6 +27,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "gltf")]
+mod block_texture;
 mod coverage;
 mod depth;
 mod draw_list;

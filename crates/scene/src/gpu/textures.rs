@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Weak};
 
+#[cfg(feature = "gltf")]
+use super::block_texture::{self, BlockTexture};
 use super::limits;
 use super::mips::{Encoding, Level, for_each_level, level_count};
 use crate::error::Error;
@@ -78,7 +80,7 @@ impl Textures {
 
     /// Creates a texture of one pixel, for materials without an image.
     pub(super) fn single(&mut self, name: &str, rgba: [u8; 4]) -> Arc<wgpu::TextureView> {
-        let image = Image { name: name.to_owned(), width: 1, height: 1, rgba8: rgba.to_vec() };
+        let image = Image::new(name, 1, 1, rgba.to_vec());
         Arc::new(self.upload(&image, Reading { encoding: Encoding::Linear, cutoff: None }))
     }
 
@@ -93,11 +95,38 @@ impl Textures {
     }
 
     fn upload(&mut self, image: &Image, reading: Reading) -> wgpu::TextureView {
+        // The levels of alpha-tested textures are computed, so that they keep their coverage.
+        #[cfg(feature = "gltf")]
+        if reading.cutoff.is_none()
+            && let Some(blocks) = BlockTexture::transcode(self.device.features(), image, reading.encoding)
+        {
+            return self.upload_blocks(image, &blocks);
+        }
         let format = match reading.encoding {
             Encoding::Linear => wgpu::TextureFormat::Rgba8Unorm,
             Encoding::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
         };
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+        let texture = self.create(image, format);
+        for_each_level(image, reading.encoding, reading.cutoff, |Level { number, width, height, rgba8 }| {
+            self.write(&texture, number, rgba8, width * 4, extent(width, height));
+        });
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
+    #[cfg(feature = "gltf")]
+    fn upload_blocks(&mut self, image: &Image, blocks: &BlockTexture) -> wgpu::TextureView {
+        let texture = self.create(image, blocks.format);
+        for (number, bytes) in (0..).zip(&blocks.levels) {
+            let [width, height] = [image.width, image.height].map(|size| (size >> number).max(1));
+            let size = extent(block_texture::physical_size(width), block_texture::physical_size(height));
+            self.write(&texture, number, bytes, block_texture::bytes_per_row(width), size);
+        }
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
+    /// Creates the texture of an image with all mip levels.
+    fn create(&self, image: &Image, format: wgpu::TextureFormat) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(&image.name),
             size: extent(image.width, image.height),
             mip_level_count: level_count(image.width, image.height),
@@ -106,25 +135,26 @@ impl Textures {
             format,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
-        });
-        for_each_level(image, reading.encoding, reading.cutoff, |level| self.write(&texture, level));
-        texture.create_view(&wgpu::TextureViewDescriptor::default())
+        })
     }
 
-    fn write(&mut self, texture: &wgpu::Texture, level: Level<'_>) {
-        let target = wgpu::TexelCopyTextureInfo {
-            texture,
-            mip_level: level.number,
-            origin: wgpu::Origin3d::ZERO,
-            aspect: wgpu::TextureAspect::All,
-        };
+    fn write(
+        &mut self,
+        texture: &wgpu::Texture,
+        mip_level: u32,
+        bytes: &[u8],
+        bytes_per_row: u32,
+        size: wgpu::Extent3d,
+    ) {
+        let (origin, aspect) = (wgpu::Origin3d::ZERO, wgpu::TextureAspect::All);
+        let target = wgpu::TexelCopyTextureInfo { texture, mip_level, origin, aspect };
         let rows = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(level.width * 4),
+            bytes_per_row: Some(bytes_per_row),
             rows_per_image: None,
         };
-        self.queue.write_texture(target, level.rgba8, rows, extent(level.width, level.height));
-        self.bytes_in_flight += level.rgba8.len();
+        self.queue.write_texture(target, bytes, rows, size);
+        self.bytes_in_flight += bytes.len();
         if self.bytes_in_flight > BYTES_IN_FLIGHT {
             self.queue.submit([]);
             self.bytes_in_flight = 0;

@@ -41,7 +41,7 @@ fn translated(translation: DVec3) -> DAffine3 {
 }
 
 fn pixel(name: &str) -> Image {
-    Image { name: name.into(), width: 1, height: 1, rgba8: vec![255; 4] }
+    Image::new(name, 1, 1, vec![255; 4])
 }
 
 fn textured(name: &str, image: ImageKey) -> Material {
@@ -316,7 +316,7 @@ fn images_without_the_bytes_of_their_size_are_errors_and_change_nothing() {
     for (width, height, bytes) in
         [(0, 1, 0), (1, 0, 0), (0, 0, 4), (1, 1, 3), (2, 2, 17), (2, 1, 4), (1 << 31, 1 << 31, 0)]
     {
-        let wrong = Image { name: "moss".into(), width, height, rgba8: vec![0; bytes] };
+        let wrong = Image::new("moss", width, height, vec![0; bytes]);
         let error = EditError::ImageSize { what: "image \"moss\"".into(), width, height, bytes };
         assert_eq!(scene.insert_image(wrong.clone()), Err(error.clone()));
         assert_eq!(scene.replace_image(image, wrong), Err(error));

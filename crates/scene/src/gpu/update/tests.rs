@@ -90,7 +90,7 @@ fn cube(size: f64) -> Mesh {
 }
 
 fn dot(value: u8) -> Image {
-    Image { name: "dot".into(), width: 1, height: 1, rgba8: vec![value; 4] }
+    Image::new("dot", 1, 1, vec![value; 4])
 }
 
 /// Returns `count` cubes in a row, with one mesh and one material.
