@@ -9,7 +9,7 @@
 //     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp, fs_dither_clamp or fs_tint_clamp
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
-#import shadowgraph::material::{TextureCoordinates, base_color, hole_cutoff}
+#import shadowgraph::material::{MATERIAL_TRANSMIT, material_has, TextureCoordinates, base_color, hole_cutoff}
 
 // The used members of a ShadowView, or of a View if nothing is dithered; bound at a dynamic offset.
 struct DepthView {
@@ -57,11 +57,12 @@ fn alpha_of(in: DepthVertex) -> f32 {
     return color_of(in).a;
 }
 
-// The transmitted fraction of the light, tinted more by denser surfaces.
+// The transmitted fraction of the light, tinted more by denser surfaces, and wholly by glass.
 fn transmitted(in: DepthVertex) -> vec4f {
     let color = color_of(in);
     let alpha = saturate(color.a);
-    return vec4f((1.0 - alpha) * mix(vec3f(1.0), saturate(color.rgb), alpha * (2.0 - alpha)), 1.0);
+    let density = select(alpha * (2.0 - alpha), 1.0, material_has(MATERIAL_TRANSMIT));
+    return vec4f((1.0 - alpha) * mix(vec3f(1.0), saturate(color.rgb), density), 1.0);
 }
 
 fn covers(in: DepthVertex) -> bool {

@@ -2,7 +2,7 @@
 #import shadowgraph::view::view
 #import shadowgraph::draw::Vertex
 #import shadowgraph::mesh::{MeshVertex, mesh_vertex, mesh_surface}
-#import shadowgraph::material::{MATERIAL_BLEND, MATERIAL_UNLIT, MATERIAL_UNSHADOWED, material_has}
+#import shadowgraph::material::{MATERIAL_BLEND, MATERIAL_TRANSMIT, MATERIAL_UNLIT, MATERIAL_UNSHADOWED, material_has}
 #import shadowgraph::surface::pack_normal
 #import shadowgraph::lighting::surface_of
 #import shadowgraph::shade::{shade_surface, visibility_output, debug_output}
@@ -46,10 +46,17 @@ fn fs_forward(in: MeshVertex, @builtin(front_facing) front_facing: bool) -> @loc
 
     // Exposure adapts to the lights, so it does not apply to unlit colours and emission.
     var radiance = mesh.color.rgb;
+    let alpha = select(1.0, saturate(mesh.color.a), blended);
+    let transmits = material_has(MATERIAL_TRANSMIT);
     if !material_has(MATERIAL_UNLIT) {
-        let surface = surface_of(mesh.color.rgb, mesh.metal_rough, mesh.ambient_occlusion, mesh.normal, mesh.to_camera);
+        var surface = surface_of(mesh.color.rgb, mesh.metal_rough, mesh.ambient_occlusion, mesh.normal, mesh.to_camera);
+        surface.diffuse_color *= select(1.0, alpha, transmits);
         radiance = shade_surface(surface, receiver, unshadowed) * view.exposure + mesh.emission;
     }
-    let alpha = select(1.0, saturate(mesh.color.a), blended);
-    return vec4f(min(radiance, vec3f(MAX_RADIANCE)) * alpha, alpha);
+    radiance = min(radiance, vec3f(MAX_RADIANCE));
+    if transmits {
+        // Blending has one factor for all channels: that of the mean of the tint.
+        return vec4f(radiance, 1.0 - (1.0 - alpha) * dot(saturate(mesh.color.rgb), vec3f(1.0 / 3.0)));
+    }
+    return vec4f(radiance * alpha, alpha);
 }

@@ -9,6 +9,8 @@ const MATERIAL_DOUBLE_SIDED: u32 = 8u;
 const MATERIAL_NORMAL_MAP: u32 = 16u;
 // It receives no shadows.
 const MATERIAL_UNSHADOWED: u32 = 32u;
+// With MATERIAL_BLEND: highlights do not fade with alpha, and what is behind is tinted by the colour.
+const MATERIAL_TRANSMIT: u32 = 64u;
 
 const BASE_COLOR: u32 = 0u;
 const METALLIC_ROUGHNESS: u32 = 1u;

@@ -2,7 +2,7 @@
 // positions in the previous frame.
 
 // Words of a vertex, and of the displacement of one.
-const VERTEX_WORDS = 15u;
+const VERTEX_WORDS = 16u;
 const DELTA_WORDS = 9u;
 const NO_JOB = 0xffffffffu;
 

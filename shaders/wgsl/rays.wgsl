@@ -54,7 +54,8 @@ struct RaySurface {
     cutoff: f32,
     // The factor of each corner.
     alpha: vec3f,
-    unused_alpha: u32,
+    // If not 0, light is tinted wholly, not by alpha.
+    transmits: u32,
     // The factor of each corner: red in the lowest byte, green, blue.
     color: vec3u,
     unused_color: u32,
@@ -234,7 +235,8 @@ fn ray_stops(first_surface: u32, triangle: u32, weights: vec3f, passed: ptr<func
     let corners = mat3x3f(
         unpack4x8unorm(surface.color.x).rgb, unpack4x8unorm(surface.color.y).rgb, unpack4x8unorm(surface.color.z).rgb);
     alpha = saturate(alpha);
-    *passed *= (1.0 - alpha) * mix(vec3f(1.0), corners * weights * texture, alpha * (2.0 - alpha));
+    let density = select(alpha * (2.0 - alpha), 1.0, surface.transmits != 0u);
+    *passed *= (1.0 - alpha) * mix(vec3f(1.0), corners * weights * texture, density);
     return false;
 }
 

@@ -10,9 +10,9 @@ use super::progress::Progress;
 use super::report;
 use crate::args::options::Options;
 use shadowgraph::core::Timer;
-use shadowgraph::options::Aov;
+use shadowgraph::options::{Aov, OptionError};
 use shadowgraph::output::{Pixels, write_png};
-use shadowgraph::scene::gltf::Progress as LoadProgress;
+use shadowgraph::scene::gltf::{self, LoadOptions, Progress as LoadProgress};
 use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::{Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
 
@@ -125,7 +125,7 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     if !matches!(options.aov, Aov::Texture(_)) {
         options.pipeline.warnings().iter().for_each(|note| console::warning(&note.to_string()));
     }
-    let mut scene = load(args.scene.as_deref())?;
+    let mut scene = load(args.scene.as_deref(), args.variant.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
     scene.set_time(options.animation.resolve(&scene.hierarchy)?, options.time.0)?;
     if let Some(note) = options.sun.apply(&mut scene) {
@@ -136,16 +136,24 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     Ok(Input { options, scene, camera })
 }
 
-/// Loads a scene; without a file, the built-in one.
-pub(crate) fn load(file: Option<&Path>) -> Result<Scene, Failure> {
-    match file {
-        Some(file) => {
-            let loading = Progress::now(&format!("loading {}", file.display()));
-            let report = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
-            Ok(shadowgraph::scene::gltf::load_with_progress(file, report)?)
-        }
-        None => Ok(shadowgraph_samples::demo::demo_scene()),
+/// Loads a scene with a variant of its materials; without a file, the built-in one.
+pub(crate) fn load(file: Option<&Path>, variant: Option<&str>) -> Result<Scene, Failure> {
+    let Some(file) = file else {
+        return match variant {
+            None => Ok(shadowgraph_samples::demo::demo_scene()),
+            Some(_) => Err(OptionError::new("--variant", "the built-in scene has no variants").into()),
+        };
+    };
+    let loading = Progress::now(&format!("loading {}", file.display()));
+    let report = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
+    let options = LoadOptions { variant: variant.map(str::to_owned) };
+    let scene = gltf::load_with(file, &options, report)?;
+    if scene.instances().len() > 0 {
+        return Ok(scene);
     }
+    let reason = scene.notes.first().map_or("the scene has no meshes", String::as_str);
+    let message = format!("{}: nothing to draw: {reason}", file.display());
+    Err(Failure { code: Failure::INPUT, message })
 }
 
 /// Returns the view according to the options.

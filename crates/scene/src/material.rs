@@ -78,7 +78,7 @@ impl Material {
         self.casts.unwrap_or(match self.alpha {
             AlphaMode::Opaque => CasterMode::On,
             AlphaMode::Mask { .. } => CasterMode::Clip,
-            AlphaMode::Blend => CasterMode::Tint,
+            AlphaMode::Blend | AlphaMode::Transmit => CasterMode::Tint,
         })
     }
 
@@ -116,7 +116,8 @@ pub enum CasterMode {
     /// The shadow is as dense as alpha: a noise pattern selects the texels of the shadow map that are filled.
     Dither,
     /// The shadow is coloured: for alpha a and colour c, the surface transmits the fraction `(1 - a) * mix(1, c, a * (2 - a))`
-    /// of the light. Higher alpha transmits less light with more of the colour; an alpha of 1 blocks all of it.
+    /// of the light, `(1 - a) * c` with [`AlphaMode::Transmit`]. Higher alpha transmits less light with more of the colour; an
+    /// alpha of 1 blocks all of it.
     Tint,
     /// The material casts no shadow.
     Off,
@@ -135,6 +136,9 @@ pub enum AlphaMode {
     },
     /// Blended over what is behind.
     Blend,
+    /// Blended like thin glass: what is behind is seen through the fraction `1 - alpha`, tinted by the base colour, and highlights
+    /// do not fade with alpha.
+    Transmit,
 }
 
 /// The use of an image by a material.
@@ -249,4 +253,11 @@ impl fmt::Debug for Image {
 pub fn linear_from_srgb(channel: u8) -> f64 {
     let value = f64::from(channel) / 255.0;
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Encodes linear light, 0 to 1, as a colour channel in sRGB. Values out of range are clamped.
+pub(crate) fn srgb_from_linear(light: f64) -> u8 {
+    let light = light.clamp(0.0, 1.0);
+    let value = if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
+    (value * 255.0).round() as u8
 }

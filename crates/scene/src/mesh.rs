@@ -18,7 +18,7 @@ pub use morph::{MorphDelta, MorphTarget};
 pub use pose::MeshPose;
 pub use skin::{Influence, SkinWeights};
 
-/// A vertex, 60 bytes, as the GPU reads it.
+/// A vertex, 64 bytes, as the GPU reads it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
@@ -32,8 +32,8 @@ pub struct Vertex {
     pub uv0: [f32; 2],
     /// Texture coordinates 1, v downwards.
     pub uv1: [f32; 2],
-    /// Linear RGBA, 255 is 1; multiplies the base colour.
-    pub color: [u8; 4],
+    /// Linear RGBA, 65,535 is 1; multiplies the base colour.
+    pub color: [u16; 4],
 }
 
 impl Default for Vertex {
@@ -45,7 +45,7 @@ impl Default for Vertex {
             tangent: [1.0, 0.0, 0.0, 1.0],
             uv0: [0.0; 2],
             uv1: [0.0; 2],
-            color: [255; 4],
+            color: [u16::MAX; 4],
         }
     }
 }

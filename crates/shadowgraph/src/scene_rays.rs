@@ -196,9 +196,7 @@ impl SceneRays {
             None => None,
         };
         let surfaces: Vec<Surface> = triangles(mesh, &mesh.vertices)
-            .map(|vertices| {
-                surface(vertices, material.base_color, cutoff, texture.map(|((_, key), used)| (key, used)))
-            })
+            .map(|vertices| surface(vertices, material, cutoff, texture.map(|((_, key), used)| (key, used))))
             .collect();
         let key = self.rays.insert_surfaces(&surfaces)?;
         let shared = Shared { key, users: 1, texture: texture.map(|((key, _), _)| key) };
@@ -337,16 +335,17 @@ fn cutoff(material: &Material) -> Option<Option<f32>> {
 /// Returns the surface of a triangle.
 fn surface(
     vertices: [&Vertex; 3],
-    base_color: Vec4,
+    material: &Material,
     cutoff: Option<f32>,
     used: Option<(RayTextureKey, TextureRef)>,
 ) -> Surface {
     let texture = used.map(|(key, _)| key);
     let uv = vertices.map(|vertex| used.map_or(Vec2::ZERO, |(_, used)| uv(vertex, &used)));
-    let color = vertices.map(|vertex| base_color * Vec4::from(vertex.color.map(f32::from)) / 255.0);
+    let color = vertices
+        .map(|vertex| material.base_color * Vec4::from(vertex.color.map(f32::from)) / f32::from(u16::MAX));
     match cutoff {
         Some(cutoff) => Surface::Cutout(Cutout { texture, uv, alpha: color.map(|color| color.w), cutoff }),
-        None => Surface::Tint(Tint { texture, uv, color }),
+        None => Surface::Tint(Tint { texture, uv, color, transmits: material.alpha == AlphaMode::Transmit }),
     }
 }
 

@@ -44,7 +44,7 @@ fn wall() -> Mesh {
         for (x, y) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
             let at = DVec3::new(f64::from(column + x) * 0.1, f64::from(row + y) * 0.1, -2.0);
             let mut corner = vertex(at, [0.0, 0.0, 1.0]);
-            corner.color = [shade, shade, 255 - shade, 255];
+            corner.color = [shade, shade, 255 - shade, 255].map(|channel| u16::from(channel) * 257);
             vertices.push(corner);
         }
         indices.extend([0, 1, 2, 0, 2, 3].map(|index| base + index));

@@ -17,6 +17,9 @@ use std::str::FromStr;
 pub(crate) struct DrawArgs {
     /// A glTF or GLB file. Default: the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
+    /// The variant of the file's materials (KHR_materials_variants). Default: its default materials
+    #[arg(long, value_name = "NAME")]
+    pub(crate) variant: Option<String>,
     /// The pipeline: the name of a built-in one (see `nodes`), or a .ron file
     #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
     pipeline: String,

@@ -101,7 +101,7 @@ impl Stage {
 
     /// Opens a scene, or the built-in one without a file, at its first camera. A failure changes nothing.
     pub(super) fn open(&mut self, file: Option<&Path>) {
-        let mut scene = match load(file) {
+        let mut scene = match load(file, None) {
             Ok(scene) => scene,
             Err(failure) => return self.file_error = Some(failure.message),
         };

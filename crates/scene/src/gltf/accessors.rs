@@ -99,11 +99,7 @@ impl Buffers<'_> {
         self.document().accessors.get(index).ok_or_else(|| "does not exist".to_owned())
     }
 
-    fn sparse(
-        &self,
-        sparse: &json::accessor::sparse::Sparse,
-        layout: Layout,
-    ) -> Result<Sparse<'_>, String> {
+    fn sparse(&self, sparse: &json::accessor::sparse::Sparse, layout: Layout) -> Result<Sparse<'_>, String> {
         let count = usize::try_from(sparse.count.0).ok().filter(|count| *count <= layout.count);
         let Some(count) = count else {
             return Err(format!("count is {} (allowed: up to {})", sparse.count.0, layout.count));
@@ -164,7 +160,11 @@ impl Accessor<'_> {
     ///
     /// # Errors
     /// The message says what in the accessor is invalid and what is allowed.
-    pub(super) fn vectors<const N: usize>(&self, min: usize, fill: [f32; N]) -> Result<Vec<[f32; N]>, String> {
+    pub(super) fn vectors<const N: usize>(
+        &self,
+        min: usize,
+        fill: [f32; N],
+    ) -> Result<Vec<[f32; N]>, String> {
         let width = self.layout.width();
         self.check_no_matrix()?;
         if !(min..=N).contains(&width) {
@@ -221,10 +221,8 @@ impl Accessor<'_> {
     /// The message says what in the accessor is invalid and what is allowed.
     pub(super) fn indices(&self) -> Result<Vec<u32>, String> {
         self.check_no_matrix()?;
-        let unsigned = matches!(
-            self.layout.component,
-            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-        );
+        let unsigned =
+            matches!(self.layout.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
         if self.layout.width() != 1 || !unsigned {
             return Err("does not contain indices (allowed: SCALAR of unsigned integers)".into());
         }

@@ -111,9 +111,7 @@ impl<'a> Reader<'a> {
         }
         let components = if property == Property::Weights { 1 } else { width };
         let values = self.buffers.accessor(output, left / components).and_then(|accessor| match property {
-            Property::Translation | Property::Scale => {
-                accessor.vectors(3, [0.0; 3]).map(Vec::into_flattened)
-            }
+            Property::Translation | Property::Scale => accessor.vectors(3, [0.0; 3]).map(Vec::into_flattened),
             Property::Rotation => accessor.vectors(4, [0.0; 4]).map(Vec::into_flattened),
             Property::Weights => accessor.vectors(1, [0.0; 1]).map(Vec::into_flattened),
         });

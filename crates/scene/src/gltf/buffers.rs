@@ -143,6 +143,8 @@ impl<'a> Buffers<'a> {
                 "bufferView {index} brings the decompressed bytes to more than {MAX_DECOMPRESSED_BYTES}, the limit"
             ));
         }
-        compressed.decode(source).map_err(|error| format!("bufferView {index} cannot be decompressed: {error}"))
+        compressed
+            .decode(source)
+            .map_err(|error| format!("bufferView {index} cannot be decompressed: {error}"))
     }
 }

@@ -98,6 +98,21 @@ pub(super) struct Scene {
 pub(super) struct Extensions {
     #[serde(default, rename = "KHR_lights_punctual")]
     lights_punctual: Option<Lights>,
+    #[serde(default, rename = "KHR_materials_variants")]
+    materials_variants: Option<Variants>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(expecting = "an object with variants")]
+struct Variants {
+    variants: Vec<Variant>,
+}
+
+/// A choice of materials for the whole file.
+#[derive(Debug, Deserialize)]
+#[serde(expecting = "a variant object")]
+pub(super) struct Variant {
+    pub(super) name: String,
 }
 
 #[derive(Debug, Deserialize)]
@@ -141,6 +156,11 @@ impl Document {
     /// The text is not JSON, or a value in it has the wrong type.
     pub(super) fn from_json(text: &[u8]) -> Result<Self, ImportError> {
         serde_json::from_slice(text).map_err(|error| ImportError::new("JSON", error))
+    }
+
+    /// Returns the variants of the materials.
+    pub(super) fn variants(&self) -> &[Variant] {
+        self.extensions.materials_variants.as_ref().map_or(&[], |variants| &variants.variants)
     }
 
     /// Returns the lights of the file.

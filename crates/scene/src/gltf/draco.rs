@@ -94,11 +94,7 @@ fn decode(bytes: &[u8], max_vertices: usize, max_indices: usize) -> Result<Mesh,
 }
 
 /// Copies the elements of an attribute in the order of the vertices.
-fn elements(
-    attribute: &PointAttribute,
-    count: usize,
-    normalized: bool,
-) -> Result<Accessor<'static>, String> {
+fn elements(attribute: &PointAttribute, count: usize, normalized: bool) -> Result<Accessor<'static>, String> {
     let component = match attribute.data_type() {
         DataType::Int8 => ComponentType::I8,
         DataType::Uint8 => ComponentType::U8,

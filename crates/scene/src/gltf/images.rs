@@ -125,10 +125,10 @@ impl Decoder<'_> {
         reader.limits(limits);
         let decoder = reader.into_decoder().map_err(decode_error)?;
         let (width, height) = decoder.dimensions();
+        self.take_budget(width, height)?;
         if decoder.total_bytes() > MAX_DECODE_BYTES {
             return Err(format!("needs more than {MAX_DECODE_BYTES} bytes, the limit for one image"));
         }
-        self.take_budget(width, height)?;
         let pixels = DynamicImage::from_decoder(decoder).map_err(decode_error)?;
         Ok(Image::new(name, width, height, pixels.into_rgba8().into_raw()))
     }

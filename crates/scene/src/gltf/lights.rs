@@ -7,6 +7,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Type};
 use json::validation::Checked;
 
+use super::notes::Notes;
 use crate::light::{Light, LightKind};
 
 /// A light of the file, before a node positions it.
@@ -28,7 +29,7 @@ enum PunctualLightKind {
 ///
 /// # Errors
 /// The message says which value is out of range and what is allowed.
-pub(super) fn convert(light: &JsonLight) -> Result<PunctualLight, String> {
+pub(super) fn convert(light: &JsonLight, location: &str, notes: &mut Notes) -> Result<PunctualLight, String> {
     let color = Vec3::from(light.color);
     if !(color.is_finite() && color.cmpge(Vec3::ZERO).all()) {
         return Err(format!("color is {color} (allowed: 0 or more)"));
@@ -50,12 +51,15 @@ pub(super) fn convert(light: &JsonLight) -> Result<PunctualLight, String> {
             if !(outer > 0.0 && outer <= FRAC_PI_2 + 1e-6) {
                 return Err(format!("outerConeAngle is {outer} (allowed: above 0 up to pi/2, radians)"));
             }
-            if !(inner >= 0.0 && inner <= outer) {
+            if !(inner >= 0.0 && inner.is_finite()) {
                 return Err(format!("innerConeAngle is {inner} (allowed: 0 to outerConeAngle, {outer})"));
+            }
+            if inner > outer {
+                notes.add(location, "innerConeAngle is larger than outerConeAngle, which is used for both");
             }
             PunctualLightKind::Spot {
                 range,
-                inner_angle: inner.min(FRAC_PI_2),
+                inner_angle: inner.min(outer).min(FRAC_PI_2),
                 outer_angle: outer.min(FRAC_PI_2),
             }
         }

@@ -6,17 +6,18 @@ use super::buffers::Buffers;
 use super::document::{Document, Header};
 use super::error::{ImportError, clean_name, describe};
 use super::files::{Files, read_file};
+use super::materials::FileMaterial;
 use super::mesh::Reader;
-use super::nodes::{self, SceneNode};
+use super::nodes::{self, Role, SceneNode};
 use super::notes::Notes;
 use super::skins::Skins;
 use super::validate::{
     MAX_BYTES, MAX_INSTANCES, MAX_VERTICES, MAX_WORLD_M, SUPPORTED_EXTENSIONS, check_header, check_references,
 };
-use super::{animations, container, hierarchy, images, materials};
+use super::{animations, container, conversions, hierarchy, images, instancing, materials, variants};
 use crate::error::Error;
 use crate::keys::{InstanceKey, MaterialKey};
-use crate::material::{Image, Material, TextureRef};
+use crate::material::{Image, TextureRef};
 use crate::mesh::Mesh;
 use crate::scene::{Attachment, EditError, Hierarchy, Instance, Scene};
 
@@ -45,49 +46,69 @@ pub struct Progress {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load(path: &Path) -> Result<Scene, Error> {
-    load_with_progress(path, &mut |_| {})
+    load_with(path, &LoadOptions::default(), &mut |_| {})
 }
 
-/// Loads a glTF or GLB file, and reports its progress, always on the calling thread.
+/// What is loaded of a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LoadOptions {
+    /// The name of the variant of KHR_materials_variants; `None` for the default materials.
+    pub variant: Option<String>,
+}
+
+/// Loads a glTF or GLB file with options, and reports its progress, always on the calling thread.
 ///
 /// # Errors
-/// The same as [`load`].
-pub fn load_with_progress(path: &Path, progress: &mut dyn FnMut(Progress)) -> Result<Scene, Error> {
+/// The same as [`load`]; the file has no variant with the name.
+pub fn load_with(
+    path: &Path,
+    options: &LoadOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Scene, Error> {
     let unreadable = |source| Error::Read { file: path.to_owned(), source };
     progress(Progress { stage: "reading", fraction: 0.0 });
     let bytes = read_file(path, MAX_BYTES).map_err(unreadable)?;
     let files =
         Files::in_directory_of(path, MAX_BYTES.saturating_sub(bytes.len() as u64)).map_err(unreadable)?;
     progress(Progress { stage: "reading", fraction: 1.0 });
-    import(&bytes, &files, progress).map_err(|ImportError { location, reason }| Error::Invalid {
+    import(&bytes, &files, options, progress).map_err(|ImportError { location, reason }| Error::Invalid {
         file: path.to_owned(),
         location,
         reason,
     })
 }
 
-fn import(bytes: &[u8], files: &Files, progress: &mut dyn FnMut(Progress)) -> Result<Scene, ImportError> {
+fn import(
+    bytes: &[u8],
+    files: &Files,
+    options: &LoadOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Scene, ImportError> {
     let chunks = container::split(bytes)?;
     check_header(&Header::from_json(chunks.json)?)?;
     let document = Document::from_json(chunks.json)?;
     check_references(&document)?;
     let mut notes = Notes::default();
     note_unsupported_extensions(&document, &mut notes);
-    let nodes = nodes::walk(&document, &mut notes)?;
-    check_instance_count(&document, &nodes)?;
-    let lights = nodes::lights(&document, &nodes)?;
+    let variant = variants::find(&document, options.variant.as_deref(), &mut notes)?;
+    let mut nodes = nodes::walk(&document, &mut notes)?;
+    let lights = nodes::lights(&document, &nodes, &mut notes)?;
     let cameras = nodes::cameras(&document, &nodes)?;
     let materials::Materials { mut materials, images } = materials::read(&document, &mut notes)?;
     let buffers = Buffers::read(&document, chunks.bin, files)?;
+    instancing::add_copies(&buffers, &mut nodes)?;
+    check_instance_count(&document, &nodes)?;
     let skins = Skins::read(&buffers, &nodes)?;
     let hierarchy_nodes = hierarchy::nodes(&document, &nodes, &skins)?;
     let animations = animations::Reader::new(&buffers, &nodes, &hierarchy_nodes, &mut notes).animations()?;
-    let geometry = Geometry::read(&buffers, &nodes, &mut materials, &mut notes, progress)?;
+    let geometry = Geometry::read(&buffers, &nodes, variant, &mut materials, &mut notes, progress)?;
     geometry.check_range(&document, &nodes)?;
     geometry.check_deformed(&document, &nodes, &skins)?;
     let decoded = |fraction| progress(Progress { stage: "images", fraction });
     let images = images::read(&buffers, files, &images, &mut { decoded });
-    let images = images.into_iter().map(|image| usable(image, &mut notes)).collect();
+    let mut images: Vec<_> = images.into_iter().map(|image| usable(image, &mut notes)).collect();
+    let mut converted = conversions::Images::new(&mut images);
+    materials.iter_mut().for_each(|material| converted.convert(material, &mut notes));
     let mut scene = Scene::default();
     scene.notes = notes.into_lines();
     let inserted = insert_materials(&mut scene, images, materials)
@@ -115,11 +136,11 @@ fn usable(image: Result<Image, ImportError>, notes: &mut Notes) -> Option<Image>
 fn insert_materials(
     scene: &mut Scene,
     images: Vec<Option<Image>>,
-    materials: Vec<(Material, [Option<usize>; 5])>,
+    materials: Vec<FileMaterial>,
 ) -> Result<Vec<MaterialKey>, EditError> {
     let insert_image = |image: Option<Image>| image.map(|image| scene.insert_image(image)).transpose();
     let images: Vec<_> = images.into_iter().map(insert_image).collect::<Result<_, _>>()?;
-    let insert = |(mut material, used): (Material, [Option<usize>; 5])| {
+    let insert = |FileMaterial { mut material, images: used, .. }: FileMaterial| {
         for (texture, used) in material.textures_mut().into_iter().zip(used) {
             let image = used.and_then(|index| images.get(index).copied().flatten());
             *texture = texture.zip(image).map(|(texture, image)| TextureRef { image, ..texture });
@@ -141,7 +162,8 @@ fn check_instance_count(document: &Document, nodes: &[SceneNode]) -> Result<(), 
         let mesh = document.nodes.get(scene_node.node)?.mesh?;
         Some(document.meshes.get(mesh.value())?.primitives.len())
     };
-    let count = nodes.iter().filter_map(primitives).fold(0usize, usize::saturating_add);
+    let drawing = nodes.iter().filter(|node| node.role != Role::Instanced);
+    let count = drawing.filter_map(primitives).fold(0usize, usize::saturating_add);
     if count > MAX_INSTANCES {
         return Err(ImportError::new(
             "nodes",
@@ -164,7 +186,8 @@ impl Geometry {
     fn read(
         buffers: &Buffers<'_>,
         nodes: &[SceneNode],
-        materials: &mut Vec<(Material, [Option<usize>; 5])>,
+        variant: Option<u32>,
+        materials: &mut Vec<FileMaterial>,
         notes: &mut Notes,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<Self, ImportError> {
@@ -180,11 +203,12 @@ impl Geometry {
         for (i, ((mesh, used), primitives)) in meshes {
             progress(Progress { stage: "meshes", fraction: i as f32 / document.meshes.len() as f32 });
             for (j, primitive) in mesh.primitives.iter().enumerate().filter(|_| used) {
-                let material = primitive.material.map_or(default_material, |material| material.value());
-                let normal_map = materials.get(material).and_then(|(material, _)| material.normal_texture);
+                let material = variants::material(primitive, variant).unwrap_or(default_material);
+                let normal_map =
+                    materials.get(material).and_then(|material| material.material.normal_texture);
                 let Some(mesh) = reader.primitive(i, j, normal_map.as_ref())? else { continue };
                 if material == materials.len() {
-                    materials.push((Material::default(), [None; 5]));
+                    materials.push(FileMaterial::default());
                 }
                 primitives.push((geometry.meshes.len(), material));
                 geometry.meshes.push(mesh);
@@ -200,7 +224,8 @@ impl Geometry {
         document: &'a Document,
         nodes: &'a [SceneNode],
     ) -> impl Iterator<Item = (usize, &'a SceneNode, String, usize, usize)> {
-        nodes.iter().enumerate().flat_map(move |(number, scene_node)| {
+        let nodes = nodes.iter().enumerate().filter(|(_, node)| node.role != Role::Instanced);
+        nodes.flat_map(move |(number, scene_node)| {
             let node = document.nodes.get(scene_node.node);
             let primitives = node.and_then(|node| self.primitives.get(node.mesh?.value()));
             let name = clean_name(node.and_then(|node| node.name.as_deref()));

@@ -4,23 +4,40 @@ use std::collections::BTreeSet;
 
 use ::gltf::json;
 use glam::{Vec3, Vec4};
+use json::extensions::material::PbrSpecularGlossiness;
 use json::validation::Checked;
 
+use super::conversions::Conversion;
 use super::document::Document;
 use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
+use super::specular_glossiness::SpecularGlossiness;
 use super::textures::{self, TextureUse};
+use super::transmission::Transmission;
 use crate::material::{AlphaMode, Material, TextureRef};
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
+/// Number of textures of a material.
+const SLOTS: usize = 6;
+/// The last of them.
+const TRANSMISSION: usize = 5;
 
 /// The materials of a file.
 #[derive(Debug)]
 pub(super) struct Materials {
-    /// The materials, with the indices in `images` of their textures, whose own keys are not set yet.
-    pub(super) materials: Vec<(Material, [Option<usize>; 5])>,
-    /// Indices in the file of the images that the materials use, ascending: the scene's images.
+    pub(super) materials: Vec<FileMaterial>,
+    /// Indices in the file of the images that the materials use, ascending.
     pub(super) images: Vec<usize>,
+}
+
+/// A material, before its images are decoded.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FileMaterial {
+    /// The material. The keys of the images of its textures are not set.
+    pub(super) material: Material,
+    /// Index of the image of each texture among the images that the materials use.
+    pub(super) images: [Option<usize>; 5],
+    pub(super) conversion: Option<Conversion>,
 }
 
 /// Converts all materials of a file. A texture without an image is left out with a note.
@@ -37,20 +54,68 @@ pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, 
     let mut images: Vec<usize> = used.map(|(_, image)| *image).collect();
     images.sort_unstable();
     images.dedup();
-    let materials = document.materials.iter().zip(&textures).enumerate().map(|(i, (material, textures))| {
-        let location = describe_material(i, material);
-        let references = textures.convert(document, &location, notes)?;
-        let used = textures.images().map(|image| images.binary_search(&image?).ok());
-        Ok((convert(material, references, &location)?, used))
-    });
-    let materials = materials.collect::<Result<_, _>>()?;
+    let mut materials = Vec::with_capacity(textures.len());
+    for (i, (json, textures)) in document.materials.iter().zip(&textures).enumerate() {
+        let location = describe_material(i, json);
+        let [base_color, metallic_roughness, normal, occlusion, emissive, mask] =
+            textures.convert(document, &location, notes)?;
+        let references = [base_color, metallic_roughness, normal, occlusion, emissive];
+        let mut used = textures.images().map(|image| images.binary_search(&image?).ok());
+        let mask = mask.zip(used[TRANSMISSION].take());
+        let [base_color, metallic_roughness, normal, occlusion, emissive, _] = used;
+        let mut material = FileMaterial {
+            material: convert(json, references, &location)?,
+            images: [base_color, metallic_roughness, normal, occlusion, emissive],
+            conversion: None,
+        };
+        material.extend(json, mask, notes).with_location(|| location)?;
+        materials.push(material);
+    }
     note_unused_textures(document, notes);
     Ok(Materials { materials, images })
 }
 
+impl FileMaterial {
+    /// Applies the extensions that need a conversion. `mask` is the texture of transmission.
+    fn extend(
+        &mut self,
+        json: &json::Material,
+        mask: Option<(TextureRef, usize)>,
+        notes: &mut Notes,
+    ) -> Result<(), String> {
+        let material = &mut self.material;
+        if let Some(extension) = specular_glossiness(json) {
+            let factors = SpecularGlossiness::read(extension)?;
+            let converted = factors.convert(Vec4::ONE, Vec4::ONE);
+            material.base_color = converted.base_color;
+            (material.metallic, material.roughness) = (converted.metallic, converted.roughness);
+            self.conversion = Some(Conversion::SpecularGlossiness(factors));
+        }
+        let Some(transmission) = Transmission::read(json).transpose()? else { return Ok(()) };
+        if matches!(material.alpha, AlphaMode::Mask { .. }) || self.conversion.is_some() {
+            let location = format!("material {:?}", material.name);
+            notes.add(location, "transmission through masked and specular-glossiness materials is not drawn");
+            return Ok(());
+        }
+        let alpha = if material.alpha == AlphaMode::Opaque { 1.0 } else { material.base_color.w };
+        let color = material.base_color.truncate() * transmission.tint;
+        material.base_color = color.extend(alpha * (1.0 - transmission.factor));
+        if material.alpha == AlphaMode::Opaque {
+            self.conversion = Some(Conversion::Transmission { transmission, mask });
+        }
+        material.alpha = AlphaMode::Transmit;
+        Ok(())
+    }
+}
+
+fn specular_glossiness(material: &json::Material) -> Option<&PbrSpecularGlossiness> {
+    material.extensions.as_ref()?.pbr_specular_glossiness.as_ref()
+}
+
 /// Adds a note for each texture without an image that no material uses.
 fn note_unused_textures(document: &Document, notes: &mut Notes) {
-    let infos = document.materials.iter().flat_map(|material| Textures::infos(material).into_iter().flatten());
+    let infos =
+        document.materials.iter().flat_map(|material| Textures::infos(material).into_iter().flatten());
     let used: BTreeSet<usize> = infos.flatten().map(|info| info.texture()).collect();
     for (i, texture) in document.textures.iter().enumerate().filter(|(i, _)| !used.contains(i)) {
         if let Err(reason) = textures::image_index(document, i) {
@@ -64,10 +129,10 @@ fn describe_material(index: usize, material: &json::Material) -> String {
     describe("material", index, material.name.as_deref())
 }
 
-/// The textures of a material, each with the index of its image in the file: base colour, metallic and roughness, normal,
-/// occlusion, emissive.
+/// The textures of a material, each with the index of its image in the file: base colour or diffuse colour, metallic and
+/// roughness or specular and glossiness, normal, occlusion, emissive, transmission.
 struct Textures {
-    all: [Option<(TextureUse, usize)>; 5],
+    all: [Option<(TextureUse, usize)>; SLOTS],
 }
 
 impl Textures {
@@ -77,7 +142,7 @@ impl Textures {
         location: &str,
         notes: &mut Notes,
     ) -> Result<Self, ImportError> {
-        let mut all = [const { None }; 5];
+        let mut all = [const { None }; SLOTS];
         for (texture, found) in Self::infos(material).into_iter().zip(&mut all) {
             let Some(texture) = texture.transpose().with_location(|| location)? else { continue };
             match textures::image_index(document, texture.texture()) {
@@ -88,7 +153,7 @@ impl Textures {
         Ok(Self { all })
     }
 
-    fn infos(material: &json::Material) -> [Option<Result<TextureUse, json::Error>>; 5] {
+    fn infos(material: &json::Material) -> [Option<Result<TextureUse, json::Error>>; SLOTS] {
         let pbr = &material.pbr_metallic_roughness;
         let normal = material.normal_texture.as_ref().map(|info| {
             let transform = info.extensions.as_ref().and_then(|e| e.others.get(TEXTURE_TRANSFORM));
@@ -99,16 +164,22 @@ impl Textures {
             TextureUse::with_raw_transform(info.index.value(), info.tex_coord, transform)
         });
         let plain = |info: &Option<json::texture::Info>| info.as_ref().map(|info| Ok(TextureUse::from(info)));
+        let (base_color, metallic_roughness) = match specular_glossiness(material) {
+            Some(extension) => (&extension.diffuse_texture, &extension.specular_glossiness_texture),
+            None => (&pbr.base_color_texture, &pbr.metallic_roughness_texture),
+        };
+        let transmission = material.extensions.as_ref().and_then(|e| e.transmission.as_ref());
         [
-            plain(&pbr.base_color_texture),
-            plain(&pbr.metallic_roughness_texture),
+            plain(base_color),
+            plain(metallic_roughness),
             normal,
             occlusion,
             plain(&material.emissive_texture),
+            transmission.and_then(|transmission| plain(&transmission.transmission_texture)),
         ]
     }
 
-    fn images(&self) -> [Option<usize>; 5] {
+    fn images(&self) -> [Option<usize>; SLOTS] {
         self.all.each_ref().map(|texture| texture.as_ref().map(|(_, image)| *image))
     }
 
@@ -117,8 +188,8 @@ impl Textures {
         document: &Document,
         location: &str,
         notes: &mut Notes,
-    ) -> Result<[Option<TextureRef>; 5], ImportError> {
-        let mut references = [None; 5];
+    ) -> Result<[Option<TextureRef>; SLOTS], ImportError> {
+        let mut references = [None; SLOTS];
         for (texture, reference) in self.all.iter().zip(&mut references) {
             let Some((texture, _)) = texture else { continue };
             *reference = Some(texture.convert(document, location, notes)?);

@@ -68,8 +68,7 @@ impl<'a> Reader<'a> {
         }
         let draco =
             draco::Geometry::read(self.buffers, primitive, self.vertices_left, self.indices_left).transpose();
-        source.draco =
-            draco.with_location(|| format!("{} {}", source.location, draco::NAME))?;
+        source.draco = draco.with_location(|| format!("{} {}", source.location, draco::NAME))?;
         let Some(mut vertices) = self.positions(&mut source)? else { return Ok(None) };
         let indices = self.indices(&source, mode)?;
         if indices.is_empty() {
@@ -169,7 +168,7 @@ impl<'a> Reader<'a> {
         let Some(colors) = self.attribute(source, &Semantic::Colors(0), 3, [1.0; 4])? else { return Ok(()) };
         for (vertex, color) in vertices.iter_mut().zip(colors) {
             // The cast is exact, and turns NaN into 0.
-            vertex.color = color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8);
+            vertex.color = color.map(|value| (value.clamp(0.0, 1.0) * 65535.0).round() as u16);
         }
         Ok(())
     }
@@ -256,11 +255,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Returns an accessor of the compressed geometry, if it has it.
-    fn compressed(
-        &self,
-        source: &Source<'_>,
-        accessor: usize,
-    ) -> Option<Result<Accessor<'static>, String>> {
+    fn compressed(&self, source: &Source<'_>, accessor: usize) -> Option<Result<Accessor<'static>, String>> {
         let json = self.buffers.document().accessors.get(accessor)?;
         source.draco.as_ref()?.accessor(accessor, json.normalized)
     }

@@ -14,12 +14,14 @@ mod animations;
 mod buffers;
 mod cameras;
 mod container;
+mod conversions;
 mod document;
 mod draco;
 mod error;
 mod files;
 mod hierarchy;
 mod images;
+mod instancing;
 mod lights;
 mod load;
 mod materials;
@@ -28,12 +30,15 @@ mod meshopt;
 mod nodes;
 mod notes;
 mod skins;
+mod specular_glossiness;
 mod textures;
+mod transmission;
 mod uri;
 mod validate;
+mod variants;
 
 pub use images::{MAX_IMAGE_BYTES, MAX_IMAGE_SIZE_PX};
-pub use load::{Progress, load, load_with_progress};
+pub use load::{LoadOptions, Progress, load, load_with};
 pub use validate::{
     MAX_BYTES, MAX_INDICES, MAX_INSTANCES, MAX_JOINTS, MAX_KEYFRAME_VALUES, MAX_MORPH_WEIGHTS, MAX_VERTICES,
     MAX_WORLD_M, SUPPORTED_EXTENSIONS,

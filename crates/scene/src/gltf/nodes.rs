@@ -17,16 +17,28 @@ use crate::light::Light;
 pub(super) struct SceneNode {
     /// Index of the node in the file.
     pub(super) node: usize,
+    pub(super) role: Role,
     /// Index of the parent among the nodes of the drawn scene.
     pub(super) parent: Option<usize>,
     pub(super) local: LocalTransform,
     pub(super) world_from_node: DAffine3,
 }
 
+/// What draws the mesh of a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Role {
+    /// The node itself.
+    Node,
+    /// The copies of the node.
+    Instanced,
+    /// This copy of a node, which is not in the file.
+    Copy,
+}
+
 /// Returns the index of each node of the file among the nodes of the drawn scene.
 pub(super) fn numbers(document: &Document, nodes: &[SceneNode]) -> Vec<Option<usize>> {
     let mut numbers = vec![None; document.nodes.len()];
-    for (number, scene_node) in nodes.iter().enumerate() {
+    for (number, scene_node) in nodes.iter().enumerate().filter(|(_, node)| node.role != Role::Copy) {
         numbers.get_mut(scene_node.node).into_iter().for_each(|slot| *slot = Some(number));
     }
     numbers
@@ -50,7 +62,7 @@ pub(super) fn walk(document: &Document, notes: &mut Notes) -> Result<Vec<SceneNo
         let world_from_node = world_from_parent * local.to_affine();
         check_range(&world_from_node).with_location(location)?;
         let number = found.len();
-        found.push(SceneNode { node: index, parent, local, world_from_node });
+        found.push(SceneNode { node: index, role: Role::Node, parent, local, world_from_node });
         let children = node.children.iter().flatten().rev();
         stack.extend(children.map(|child| (child.value(), Some(number), world_from_node)));
     }
@@ -146,7 +158,8 @@ fn local_transform(node: &json::Node) -> Result<LocalTransform, String> {
     Ok(LocalTransform::Parts { translation, rotation: rotation / length, scale })
 }
 
-fn check_range(world: &DAffine3) -> Result<(), String> {
+/// Checks that a transform is finite and within the supported range.
+pub(super) fn check_range(world: &DAffine3) -> Result<(), String> {
     let extent = |vector: DVec3| if vector.is_nan() { f64::NAN } else { vector.abs().max_element() };
     let axes = [world.matrix3.x_axis, world.matrix3.y_axis, world.matrix3.z_axis, world.translation];
     match axes.into_iter().map(extent).find(|extent| extent.is_nan() || *extent > MAX_WORLD_M) {
@@ -161,9 +174,14 @@ fn check_range(world: &DAffine3) -> Result<(), String> {
 ///
 /// # Errors
 /// The location names the light with a value that is not allowed, or the node that gives it no direction.
-pub(super) fn lights(document: &Document, nodes: &[SceneNode]) -> Result<Vec<(usize, Light)>, ImportError> {
+pub(super) fn lights(
+    document: &Document,
+    nodes: &[SceneNode],
+    notes: &mut Notes,
+) -> Result<Vec<(usize, Light)>, ImportError> {
     let punctual = document.lights().iter().enumerate().map(|(i, light)| {
-        lights::convert(light).with_location(|| describe("light", i, light.name.as_deref()))
+        let location = describe("light", i, light.name.as_deref());
+        lights::convert(light, &location, notes).with_location(|| location)
     });
     let punctual: Vec<lights::PunctualLight> = punctual.collect::<Result<_, _>>()?;
     let mut found = Vec::new();

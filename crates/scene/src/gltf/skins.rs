@@ -88,8 +88,9 @@ fn inverse_bind(buffers: &Buffers<'_>, accessor: usize, count: usize) -> Result<
             "has {given} matrices for {count} joints (allowed: at least one for each joint)"
         ));
     }
-    let matrices =
-        buffers.accessor(accessor, usize::try_from(given).unwrap_or(usize::MAX).min(MAX_JOINTS))?.matrices()?;
+    let matrices = buffers
+        .accessor(accessor, usize::try_from(given).unwrap_or(usize::MAX).min(MAX_JOINTS))?
+        .matrices()?;
     let affine = |(joint, matrix): (usize, [f32; 16])| {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
         if !matrix.is_finite() {

@@ -6,13 +6,19 @@ use super::document::{Document, Header};
 use super::error::{ImportError, describe};
 
 /// The supported extensions; requiring another one is an error.
-pub const SUPPORTED_EXTENSIONS: [&str; 10] = [
+pub const SUPPORTED_EXTENSIONS: [&str; 16] = [
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "KHR_texture_basisu",
@@ -56,8 +62,7 @@ fn check_required_extensions(required: &[String]) -> Result<(), ImportError> {
     let unsupported = required.iter().filter(|name| !SUPPORTED_EXTENSIONS.contains(&name.as_str()));
     let names: Vec<_> = unsupported.map(|name| format!("{name:?}")).collect();
     let Some(first) = names.first() else { return Ok(()) };
-    let (names, verb) =
-        if names.len() > 1 { (names.join(", "), "are") } else { (first.clone(), "is") };
+    let (names, verb) = if names.len() > 1 { (names.join(", "), "are") } else { (first.clone(), "is") };
     let reason = format!(
         "{names} {verb} not supported (to convert the file, import it in Blender and export it as glTF)"
     );
@@ -102,6 +107,11 @@ fn check_meshes(document: &Document) -> Result<(), ImportError> {
             let object = Object { kind: "mesh", index: i, name: mesh.name.as_deref() };
             object.check(&field("indices"), primitive.indices, count)?;
             object.check(&field("material"), primitive.material, document.materials.len())?;
+            let variants = primitive.extensions.as_ref().and_then(|e| e.khr_materials_variants.as_ref());
+            for mapping in variants.iter().flat_map(|variants| &variants.mappings) {
+                let material = json::Index::<json::Material>::new(mapping.material);
+                object.check(&field("material of a variant"), Some(material), document.materials.len())?;
+            }
             for accessor in primitive.attributes.values() {
                 object.check(&field("attribute"), Some(*accessor), count)?;
             }

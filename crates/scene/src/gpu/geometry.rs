@@ -10,7 +10,7 @@ use crate::mesh::{Mesh, Vertex};
 use crate::scene::Scene;
 
 const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
-    0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Float32x2, 5 => Unorm8x4
+    0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Float32x2, 5 => Unorm16x4
 ];
 
 /// Returns the layout of the vertex buffer: locations 0 to 5 are position, normal, tangent, both texture coordinates
@@ -172,7 +172,7 @@ mod tests {
             offset_of!(Vertex, color),
         ];
         assert_eq!(offsets, expected);
-        assert_eq!(vertex_layout().array_stride, 60);
+        assert_eq!(vertex_layout().array_stride, 64);
     }
 
     #[test]
@@ -194,6 +194,6 @@ mod tests {
         let other = scene.insert_mesh(mesh(3, &[0, 1, 2]));
         geometry.update((&gpu.0, &gpu.1), other, scene.mesh(other), 2).unwrap();
         assert_eq!(draw(&geometry, other), (0..3, 0));
-        assert_eq!(geometry.vertices.buffer.size(), 7 * 60);
+        assert_eq!(geometry.vertices.buffer.size(), 7 * 64);
     }
 }

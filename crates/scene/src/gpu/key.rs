@@ -34,7 +34,7 @@ impl PipelineKey {
         let alpha = match material.alpha {
             AlphaMode::Opaque => AlphaKey::Opaque,
             AlphaMode::Mask { .. } => AlphaKey::Mask,
-            AlphaMode::Blend => AlphaKey::Blend,
+            AlphaMode::Blend | AlphaMode::Transmit => AlphaKey::Blend,
         };
         Self { alpha, double_sided: material.double_sided, mirrored }
     }

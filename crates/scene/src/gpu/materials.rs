@@ -28,6 +28,7 @@ const UNLIT: u32 = 4;
 const DOUBLE_SIDED: u32 = 8;
 const NORMAL_MAP: u32 = 16;
 const UNSHADOWED: u32 = 32;
+const TRANSMIT: u32 = 64;
 
 /// `Material` of `material.wgsl`.
 #[repr(C)]
@@ -287,6 +288,7 @@ fn uniform(material: &Material, receives: bool) -> MaterialUniform {
         AlphaMode::Opaque => (0, 0.0),
         AlphaMode::Mask { cutoff } => (MASK, cutoff),
         AlphaMode::Blend => (BLEND, 0.5),
+        AlphaMode::Transmit => (BLEND | TRANSMIT, 0.5),
     };
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
     let mut uv_sets = 0;

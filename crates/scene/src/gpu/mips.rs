@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use super::coverage::Coverage;
-use crate::material::{Image, linear_from_srgb};
+use crate::material::{Image, linear_from_srgb, srgb_from_linear};
 
 /// The colour encoding of an image. Alpha is always linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,12 +86,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(Tables::new);
 impl Tables {
     fn new() -> Self {
         let light = |byte: usize| (linear_from_srgb(byte as u8) * 65535.0).round() as u32;
-        let byte = |step: usize| {
-            let light = (step as f64 + 0.5) / 16384.0;
-            let value =
-                if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
-            (value * 255.0).round() as u8
-        };
+        let byte = |step: usize| srgb_from_linear((step as f64 + 0.5) / 16384.0);
         Self { light: std::array::from_fn(light), byte: (0..16384).map(byte).collect() }
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use serde_json::json;
-use shadowgraph_scene::gltf::{Progress, load_with_progress};
+use shadowgraph_scene::gltf::{LoadOptions, Progress, load_with};
 use shadowgraph_scene::{LightKind, Mesh, Projection, Scene};
 
 use crate::builder::File;
@@ -112,7 +112,7 @@ fn interleaved_and_normalised_attributes_are_read() {
     let scene = file.load().unwrap();
     let vertices = &mesh(&scene).vertices;
     assert_eq!(vertices[0].uv1, [0.0, 1.0]);
-    assert_eq!((vertices[0].color, vertices[1].color), ([255, 0, 51, 255], [0, 255, 0, 255]));
+    assert_eq!((vertices[0].color, vertices[1].color), ([65535, 0, 13107, 65535], [0, 65535, 0, 65535]));
     assert_eq!(vertices[2].normal, [0.0, 0.0, 1.0], "normalized");
 }
 
@@ -125,7 +125,7 @@ fn colors_are_clamped_and_invalid_values_are_replaced() {
     file.attribute("TEXCOORD_0", "VEC2", &[f32::INFINITY, 0.5, 0.0, 0.0, 1.0, 1.0]);
     let scene = file.load().unwrap();
     let vertices = &mesh(&scene).vertices;
-    assert_eq!((vertices[0].color, vertices[1].color[0]), ([255, 0, 128, 255], 0));
+    assert_eq!((vertices[0].color, vertices[1].color[0]), ([65535, 0, 32768, 65535], 0));
     assert!(vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
     assert_eq!(vertices[0].uv0, [0.0, 0.5]);
     assert_eq!(scene.notes.len(), 2, "{:?}", scene.notes);
@@ -247,8 +247,10 @@ fn progress_runs_from_zero_to_one_in_each_stage() {
     let file = File::triangle();
     file.load().unwrap();
     let mut reported: Vec<Progress> = Vec::new();
-    load_with_progress(&file.directory.path().join("scene.gltf"), &mut |progress| reported.push(progress))
-        .unwrap();
+    load_with(&file.directory.path().join("scene.gltf"), &LoadOptions::default(), &mut |progress| {
+        reported.push(progress)
+    })
+    .unwrap();
     assert!(reported.iter().all(|progress| (0.0..=1.0).contains(&progress.fraction)));
     let sorted = |pair: &[Progress]| pair[0].stage != pair[1].stage || pair[0].fraction <= pair[1].fraction;
     assert!(reported.windows(2).all(sorted), "{reported:?}");

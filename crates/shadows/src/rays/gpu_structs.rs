@@ -82,8 +82,8 @@ pub struct RaySurface {
     pub cutoff: f32,
     /// Alpha factor of each corner.
     pub alpha: Vec3,
-    /// Padding.
-    pub unused_alpha: u32,
+    /// Whether a translucent surface tints light wholly, not by alpha: 0 or 1.
+    pub transmits: u32,
     /// Colour factor of each corner: red in the lowest byte, then green and blue.
     pub color: [u32; 3],
     /// Padding.
@@ -168,9 +168,10 @@ impl RaySurface {
             Surface::Cutout(Cutout { uv: [uv_a, uv_b, uv_c], alpha, cutoff, .. }) => {
                 Self { uv_a, uv_b, uv_c, texture, cutoff, alpha: alpha.into(), ..open }
             }
-            Surface::Tint(Tint { uv: [uv_a, uv_b, uv_c], color, .. }) => {
-                let alpha = color.map(|color| color.w).into();
-                Self { uv_a, uv_b, uv_c, texture, cutoff: TINT, alpha, color: color.map(packed), ..open }
+            Surface::Tint(Tint { uv: [uv_a, uv_b, uv_c], color, transmits, .. }) => {
+                let (alpha, transmits) = (color.map(|color| color.w).into(), transmits.into());
+                let color = color.map(packed);
+                Self { uv_a, uv_b, uv_c, texture, cutoff: TINT, alpha, transmits, color, ..open }
             }
         }
     }

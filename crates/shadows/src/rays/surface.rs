@@ -32,9 +32,10 @@ pub struct Cutout {
     pub cutoff: f32,
 }
 
-/// Coloured transmittance: with alpha a and colour c, the light is multiplied by `(1 - a) * mix(1, c, a * (2 - a))`.
+/// Coloured transmittance: with alpha a and colour c, the light is multiplied by `(1 - a) * mix(1, c, a * (2 - a))`, or by
+/// `(1 - a) * c` if the surface transmits.
 ///
-/// Both are the channels' values times the factor, interpolated over the triangle.
+/// Alpha and colour are the channels' values times the factor, interpolated over the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tint {
     /// The texture, with four channels: alpha and linear red, green and blue; `None` for the factor alone.
@@ -43,6 +44,8 @@ pub struct Tint {
     pub uv: [Vec2; 3],
     /// The material's linear colour and alpha times the vertex's, at each corner. Colours are rounded to 1/255.
     pub color: [Vec4; 3],
+    /// Whether light is tinted wholly, as by glass, and not by alpha.
+    pub transmits: bool,
 }
 
 impl Surface {

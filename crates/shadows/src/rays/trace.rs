@@ -167,8 +167,8 @@ impl RayScene {
             return (alpha >= surface.cutoff).then_some(Hit { distance_m, transmittance: None });
         }
         let alpha = alpha.clamp(0.0, 1.0);
-        let transmittance =
-            (1.0 - alpha) * Vec3::ONE.lerp(self.color(&surface, weights), alpha * (2.0 - alpha));
+        let density = if surface.transmits == 0 { alpha * (2.0 - alpha) } else { 1.0 };
+        let transmittance = (1.0 - alpha) * Vec3::ONE.lerp(self.color(&surface, weights), density);
         Some(Hit { distance_m, transmittance: Some(transmittance) })
     }
 

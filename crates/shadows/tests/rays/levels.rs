@@ -42,7 +42,8 @@ fn surface() -> impl Strategy<Value = (Surface, Option<usize>)> {
     let cutout = (uv(), prop::array::uniform3(0.3f32..1.5))
         .prop_map(move |(uv, alpha)| Surface::Cutout(Cutout { texture, uv, alpha, cutoff: 0.5 }));
     let color = prop::array::uniform3(prop::array::uniform4(0f32..1.0).prop_map(Vec4::from));
-    let tint = (uv(), color).prop_map(move |(uv, color)| Surface::Tint(Tint { texture, uv, color }));
+    let tint = (uv(), color, any::<bool>())
+        .prop_map(move |(uv, color, transmits)| Surface::Tint(Tint { texture, uv, color, transmits }));
     (prop_oneof![Just(Surface::Opaque), cutout, tint], prop::option::weighted(0.8, 0usize..2))
 }
 

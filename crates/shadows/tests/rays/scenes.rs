@@ -29,7 +29,7 @@ fn triangles_without_area_or_with_invalid_numbers_are_not_hit() {
 fn rays_pass_through_surfaces_with_invalid_numbers() {
     let (texture, uv) = (None, [Vec2::ZERO; 3]);
     let cutout = Cutout { texture, uv, alpha: [1.0; 3], cutoff: f32::NAN };
-    let tint = Tint { texture, uv: [Vec2::NAN; 3], color: [glam::Vec4::ONE; 3] };
+    let tint = Tint { texture, uv: [Vec2::NAN; 3], color: [glam::Vec4::ONE; 3], transmits: false };
     for surface in [Surface::Cutout(cutout), Surface::Tint(tint)] {
         let square: Vec<_> =
             level_square(1.0, 1.0).iter().map(|occluder| Occluder { surface, ..*occluder }).collect();

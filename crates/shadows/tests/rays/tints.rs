@@ -11,7 +11,7 @@ use crate::common::{Occluder, insert, level_square, on_floor, ray, scene, textur
 fn pane(height: f32, texture: Option<RayTextureKey>, color: Vec4) -> Vec<Occluder> {
     let uv = |p: Vec3| Vec2::new(p.x + 1.0, p.z + 1.0) / 2.0;
     let tint = |o: Occluder| {
-        let tint = Tint { texture, uv: o.corners.map(uv), color: [color; 3] };
+        let tint = Tint { texture, uv: o.corners.map(uv), color: [color; 3], transmits: false };
         Occluder { surface: Surface::Tint(tint), ..o }
     };
     level_square(height, 1.0).into_iter().map(tint).collect()

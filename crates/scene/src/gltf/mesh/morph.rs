@@ -44,7 +44,8 @@ impl Reader<'_> {
         accessor: usize,
     ) -> Result<Vec<[f32; 3]>, ImportError> {
         let location = || source.attribute_location(attribute, accessor);
-        let values = self.vertex_elements(source, accessor).and_then(|accessor| accessor.vectors(3, [0.0; 3]));
+        let values =
+            self.vertex_elements(source, accessor).and_then(|accessor| accessor.vectors(3, [0.0; 3]));
         let values = values.with_location(location)?;
         match values.iter().position(|value| !value.iter().all(|x| x.is_finite())) {
             None => Ok(values),
