@@ -38,8 +38,8 @@ fn posed(gpu: &Gpu, scene: &Scene, pass: &PosePass) -> Vec<[DVec3; 2]> {
     let words: Vec<f32> = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
     let vector = |word: usize| DVec3::new(words[word].into(), words[word + 1].into(), words[word + 2].into());
     let vertex = |index: usize| {
-        let normal = instance.world_from_local.transform_vector3(vector(index * 15 + 3));
-        [instance.world_from_local.transform_point3(vector(index * 15)), normal]
+        let normal = instance.world_from_local.transform_vector3(vector(index * 16 + 3));
+        [instance.world_from_local.transform_point3(vector(index * 16)), normal]
     };
     (first..first + count).map(vertex).collect()
 }
