@@ -2,6 +2,9 @@
 
 pub mod animated;
 pub mod edits;
+pub mod features;
+pub mod gltf_file;
+pub mod ktx2;
 mod program;
 pub mod random;
 pub mod shares;

@@ -109,7 +109,7 @@ impl MeshBuilder {
             tangent,
             uv0: point.uv.as_vec2().to_array(),
             uv1: [0.0; 2],
-            color: [255; 4],
+            color: Vertex::WHITE,
         });
         Mesh::new(name, vertices.collect(), self.indices)
     }

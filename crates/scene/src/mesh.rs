@@ -36,6 +36,11 @@ pub struct Vertex {
     pub color: [u16; 4],
 }
 
+impl Vertex {
+    /// The colour that leaves the base colour as it is.
+    pub const WHITE: [u16; 4] = [u16::MAX; 4];
+}
+
 impl Default for Vertex {
     /// Returns a white vertex at the origin with its normal along +Z.
     fn default() -> Self {
@@ -45,7 +50,7 @@ impl Default for Vertex {
             tangent: [1.0, 0.0, 0.0, 1.0],
             uv0: [0.0; 2],
             uv1: [0.0; 2],
-            color: [u16::MAX; 4],
+            color: Self::WHITE,
         }
     }
 }

@@ -280,7 +280,7 @@ fn quad() -> Mesh {
         tangent: [1.0, 0.0, 0.0, 1.0],
         uv0: [x, y],
         uv1: [0.0; 2],
-        color: [u16::MAX; 4],
+        color: Vertex::WHITE,
     };
     Mesh::new("quad", corners.map(vertex).to_vec(), vec![0, 1, 2, 0, 2, 3])
 }

@@ -1,13 +1,11 @@
 //! A written file of each kind of animation, and where its vertices are at a time, computed from what the file means.
 
-mod file;
-
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 use glam::{DAffine3, DQuat, DVec3};
 use serde_json::json;
 
-pub use file::File;
+pub use crate::gltf_file::File;
 
 /// A kind of animation; it lasts from 0 to 1 s.
 #[derive(Clone, Copy)]

@@ -124,7 +124,7 @@ fn add_panels(scene: &mut Scene) {
         tangent: [1.0, 0.0, 0.0, 1.0],
         uv0: [x / 1.6 + 0.5, y / 1.6],
         uv1: [0.0; 2],
-        color: [255; 4],
+        color: Vertex::WHITE,
     };
     let alpha = |x: u32| [255, 153, 102, 0][x as usize / 16];
     let rgba8 = (0..64 * 64).flat_map(|i| [220, 60, 40, alpha(i % 64)]).collect();

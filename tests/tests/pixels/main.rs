@@ -8,6 +8,7 @@ mod captured;
 mod casters;
 mod contact_sheet;
 mod edits;
+mod files;
 mod hostile;
 mod lost;
 mod maps;

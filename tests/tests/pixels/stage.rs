@@ -95,7 +95,7 @@ pub(crate) fn vertex(position: DVec3, normal: [f32; 3]) -> Vertex {
         tangent: [1.0, 0.0, 0.0, 1.0],
         uv0: [position.x as f32, position.z as f32],
         uv1: [0.0; 2],
-        color: [255; 4],
+        color: Vertex::WHITE,
     }
 }
 

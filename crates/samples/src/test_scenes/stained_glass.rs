@@ -98,7 +98,7 @@ fn add_panes(scene: &mut Scene) {
                 let corners =
                     [[255, 20, 20, 255], [20, 255, 20, 255], [20, 20, 255, 255], [255, 255, 255, 80]];
                 for (vertex, color) in mesh.vertices.iter_mut().zip(corners) {
-                    vertex.color = color;
+                    vertex.color = color.map(|channel: u16| channel * 257);
                 }
             }
             _ => {}
