@@ -3,6 +3,7 @@
 
 use shadowgraph::options::SettingsFile;
 use shadowgraph::shadows::Techniques;
+use shadowgraph_tests::features::{FEATURES, Feature, PLAIN};
 use shadowgraph_tests::repository;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -217,4 +218,13 @@ fn every_node_kind_and_every_example_is_documented() {
         let name = path.file_stem().unwrap().to_string_lossy();
         assert!(examples.contains(&format!("| `{name}` |")), "{name} is not in examples.md");
     }
+}
+
+#[test]
+fn the_page_of_files_lists_every_feature_that_is_drawn() {
+    let page = std::fs::read_to_string(repository().join("docs/files.md")).unwrap();
+    let rows = page.lines().filter(|line| line.starts_with("| `")).collect::<Vec<_>>();
+    let row =
+        |feature: &Feature| format!("| `{}` | {} | {} |", feature.name, feature.extension, feature.drawn);
+    assert_eq!(rows, [PLAIN].iter().chain(&FEATURES).map(row).collect::<Vec<_>>());
 }

@@ -139,7 +139,7 @@ fn data_format_descriptor(texture: &Texture) -> Vec<u8> {
             (166, 16, vec![Sample { bit_offset: 0, bit_length: 128, channel }])
         }
     };
-    // Data that is no colour, such as normals, has no primaries; glTF insists on that. The others have
+    // Data that is no colour, such as normals, has no primaries; glTF requires that. The others have
     // those of BT.709.
     let (primaries, transfer) = if texture.srgb { (1, 2) } else { (0, 1) };
     let block_size = 24 + 16 * samples.len() as u32;

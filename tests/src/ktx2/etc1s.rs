@@ -30,7 +30,7 @@ pub(super) struct Endpoint {
 pub(super) type Selectors = [u8; 4];
 
 /// Encodes mip levels (the largest first; each level a quarter of the pixels of the one above) as ETC1S
-/// with BasisLZ. Alpha has slices of its own if any pixel of any level is not opaque.
+/// with BasisLZ. Alpha has separate slices if any pixel of any level is not opaque.
 ///
 /// # Panics
 ///
@@ -72,7 +72,7 @@ pub(super) fn fit(block: &Block) -> (Endpoint, Selectors) {
     let mut best = (Endpoint::default(), Selectors::default());
     let mut least_error = i32::MAX;
     for (table, intensities) in (0..).zip(INTENSITIES) {
-        // No table has an intensity of zero, so the base colour of a flat block has to lie beside its
+        // No table has an intensity of zero, so the base colour of a flat block has to differ from its
         // colour by one of the intensities.
         for shift in intensities.into_iter().chain([0]) {
             let endpoint = Endpoint { colour: mean.map(|value| five_bits(value - shift)), table };

@@ -12,7 +12,7 @@ pub(super) const MAX_SYMBOLS: usize = 16128;
 /// The longest code of a symbol that a table can describe.
 const MAX_LENGTH: u32 = 16;
 
-/// The order in which a table lists the symbols of its own code: the codes for runs, which are not used
+/// The order in which a table lists the symbols of its code: the codes for runs, which are not used
 /// here, and then the lengths from the likely ones to the rare ones.
 const LENGTH_ORDER: [usize; 21] = [17, 18, 19, 20, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15, 16];
 
@@ -51,7 +51,7 @@ impl Code {
             // The only symbol of a code still needs a bit.
             lengths[symbol] = length.max(1);
         }
-        let words = canonical_words(&lengths);
+        let words = canonical_codes(&lengths);
         Self { lengths, words }
     }
 
@@ -75,7 +75,7 @@ impl Code {
 }
 
 /// Returns the code words: shorter ones count up before longer ones, and equal lengths in symbol order.
-fn canonical_words(lengths: &[u32]) -> Vec<u32> {
+fn canonical_codes(lengths: &[u32]) -> Vec<u32> {
     let mut words = vec![0; lengths.len()];
     let mut next: u32 = 0;
     for length in 1..=MAX_LENGTH {

@@ -1,13 +1,14 @@
 //! A drawn file for each feature of glTF files.
 
 use glam::DVec3;
+use image::RgbaImage;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gltf::{self, LoadOptions};
 use shadowgraph::scene::{Camera, LightKind, Scene};
 use shadowgraph::{Gpu, RenderedFrame};
 use shadowgraph_tests::features::{FEATURES, Feature, PLAIN};
 
-use crate::stage::{draw, gpu, view};
+use crate::stage::{SIZE_PX, draw, gpu, view};
 
 fn feature(name: &str) -> Feature {
     *FEATURES.iter().find(|feature| feature.name == name).unwrap()
@@ -193,4 +194,24 @@ fn what_is_not_drawn_is_a_note() {
         let notes = load(feature(name), None).notes;
         assert!(notes.len() == 1 && notes[0].contains(text), "{name}: {notes:?}");
     }
+}
+
+#[test]
+fn a_sheet_of_every_feature() {
+    const COLUMNS: u32 = 6;
+    let Some(gpu) = gpu() else { return };
+    let features: Vec<_> = [PLAIN].into_iter().chain(FEATURES).collect();
+    let [width, height] = SIZE_PX;
+    let rows = (features.len() as u32).div_ceil(COLUMNS);
+    let mut sheet = RgbaImage::new(COLUMNS * width, rows * height);
+    for (place, feature) in (0..).zip(features) {
+        let frame = drawn(gpu, load(feature, None));
+        let image = RgbaImage::from_raw(width, height, frame.image.rgba8).unwrap();
+        let (x, y) = (place % COLUMNS * width, place / COLUMNS * height);
+        image::imageops::replace(&mut sheet, &image, x.into(), y.into());
+    }
+    let dir = shadowgraph_tests::images().unwrap_or_else(|| env!("CARGO_TARGET_TMPDIR").into());
+    let file = dir.join("files.png");
+    sheet.save(&file).unwrap();
+    println!("wrote {}", file.display());
 }

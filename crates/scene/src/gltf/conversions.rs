@@ -1,6 +1,6 @@
 //! Materials whose images are computed from those of the file.
 
-use super::materials::FileMaterial;
+use super::materials::{Conversion, FileMaterial};
 use super::notes::Notes;
 use super::specular_glossiness::{SpecularGlossiness, converted_size};
 use super::transmission::Transmission;
@@ -8,15 +8,6 @@ use crate::material::{AlphaMode, Image, TextureRef};
 
 /// The maximum number of bytes of computed images in a scene.
 const MAX_BYTES: usize = 1 << 30;
-
-/// A conversion of decoded images.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Conversion {
-    /// The textures of base colour and of metalness and roughness are those of diffuse colour and of specular and glossiness.
-    SpecularGlossiness(SpecularGlossiness),
-    /// The alpha of the base colour texture has no meaning. `mask` is the texture of transmission and the index of its image.
-    Transmission { transmission: Transmission, mask: Option<(TextureRef, usize)> },
-}
 
 /// The decoded images of a file, and those that are computed from them.
 pub(super) struct Images<'a> {

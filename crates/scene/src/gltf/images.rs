@@ -2,26 +2,22 @@
 
 use std::borrow::Cow;
 use std::io::Cursor;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use basisu::{DecodeFlags, TargetFormat, Transcoder};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use super::buffers::Buffers;
 use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::files::Files;
-use super::uri;
+use super::{ktx2, uri};
 use crate::material::Image;
 
 /// The largest width and height of an image, pixels.
 pub const MAX_IMAGE_SIZE_PX: u32 = 16_384;
 /// The maximum number of bytes of decoded images in a scene.
 pub const MAX_IMAGE_BYTES: u64 = 1 << 32;
-/// The first bytes of a KTX2 file.
-const KTX2_IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 /// The maximum memory for decoding one image, bytes.
 const MAX_DECODE_BYTES: u64 = 1 << 30;
 
@@ -94,23 +90,10 @@ impl Decoder<'_> {
     }
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<Image, String> {
-        if bytes.starts_with(KTX2_IDENTIFIER) { self.ktx2(name, bytes) } else { self.raster(name, bytes) }
-    }
-
-    /// Decodes the largest level of a KTX2 file, and keeps the file for devices with block-compressed formats.
-    fn ktx2(&self, name: &str, bytes: &[u8]) -> Result<Image, String> {
-        let invalid = |error: basisu::Error| format!("is not a KTX2 file of ETC1S or UASTC: {error:?}");
-        let transcoder = Transcoder::new(bytes).map_err(invalid)?;
-        if transcoder.layer_count() > 1 || transcoder.face_count() > 1 || transcoder.is_video() {
-            return Err("is a KTX2 file of several images (allowed: one 2D image)".into());
+        if ktx2::is_ktx2(bytes) {
+            return ktx2::decode(name, bytes, |width, height| self.take_budget(width, height));
         }
-        if !transcoder.supports(TargetFormat::Rgba32) {
-            return Err("is a KTX2 file of HDR colours (allowed: ETC1S and UASTC)".into());
-        }
-        let (width, height) = transcoder.base_dimensions();
-        self.take_budget(width, height)?;
-        let rgba8 = transcoder.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(invalid)?;
-        Ok(Image { ktx2: Some(Arc::from(bytes)), ..Image::new(name, width, height, rgba8) })
+        self.raster(name, bytes)
     }
 
     fn raster(&self, name: &str, bytes: &[u8]) -> Result<Image, String> {

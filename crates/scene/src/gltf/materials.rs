@@ -7,7 +7,6 @@ use glam::{Vec3, Vec4};
 use json::extensions::material::PbrSpecularGlossiness;
 use json::validation::Checked;
 
-use super::conversions::Conversion;
 use super::document::Document;
 use super::error::{ImportError, WithLocation, clean_name, describe};
 use super::notes::Notes;
@@ -38,6 +37,15 @@ pub(super) struct FileMaterial {
     /// Index of the image of each texture among the images that the materials use.
     pub(super) images: [Option<usize>; 5],
     pub(super) conversion: Option<Conversion>,
+}
+
+/// A conversion of decoded images.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Conversion {
+    /// The textures of base colour and of metalness and roughness are those of diffuse colour and of specular and glossiness.
+    SpecularGlossiness(SpecularGlossiness),
+    /// The alpha of the base colour texture has no meaning. `mask` is the texture of transmission and the index of its image.
+    Transmission { transmission: Transmission, mask: Option<(TextureRef, usize)> },
 }
 
 /// Converts all materials of a file. A texture without an image is left out with a note.

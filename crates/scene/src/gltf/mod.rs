@@ -1,7 +1,7 @@
 //! Import of glTF 2.0 and GLB files.
 //!
 //! Drawn: meshes (triangles, strips and fans) and their instances, metallic-roughness materials,
-//! PNG and JPEG images, cameras, animations, skins, morph targets, and the extensions [`SUPPORTED_EXTENSIONS`]. Everything that is
+//! PNG, JPEG, WebP and KTX2 images, cameras, animations, skins, morph targets, and the extensions [`SUPPORTED_EXTENSIONS`]. Everything that is
 //! not drawn as the file says adds a line to `Scene::notes`.
 //! Meshes that no drawn node uses, and images that no material uses, are not read.
 //!
@@ -22,6 +22,7 @@ mod files;
 mod hierarchy;
 mod images;
 mod instancing;
+mod ktx2;
 mod lights;
 mod load;
 mod materials;
