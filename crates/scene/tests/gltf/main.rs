@@ -4,6 +4,7 @@
 
 mod animations;
 mod builder;
+mod extensions;
 mod features;
 mod materials;
 mod rejected_values;
