@@ -2,10 +2,13 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod compressed;
+mod damage;
 mod images;
 mod instances;
 mod materials;
 mod model;
+
+pub use damage::damaged;
 
 use crate::gltf_file::File;
 
@@ -54,7 +57,7 @@ const fn other(
     drawn: &'static str,
     file: fn() -> File,
 ) -> Feature {
-    Feature { name, extension, drawn, file, equals_plain: false }
+    Feature { equals_plain: false, ..same(name, extension, drawn, file) }
 }
 
 /// All features.

@@ -1,5 +1,7 @@
 //! Malformed and hostile glTF files: each renders or fails with one line, quickly and in little memory.
 
+use shadowgraph_tests::features::{FEATURES, damaged};
+use shadowgraph_tests::random::Random;
 use shadowgraph_tests::watch::{Limits, Outcome, run};
 use shadowgraph_tests::{program, shared, skip};
 use std::path::{Path, PathBuf};
@@ -12,6 +14,9 @@ const LIMITS: Limits = Limits { time: Duration::from_secs(10), memory_bytes: 2 <
 const AT_A_TIME: usize = 2;
 const SIZE: (u32, u32) = (64, 36);
 
+/// Number of damaged variations of each encoded file.
+const VARIATIONS: usize = 3;
+
 #[test]
 fn every_malformed_file_renders_or_fails_with_one_line() {
     let Some(dir) = shared("bad-gltf") else {
@@ -20,9 +25,33 @@ fn every_malformed_file_renders_or_fails_with_one_line() {
             "no directory bad-gltf in $SHADOWGRAPH_SHARED or in shared next to the repository",
         );
     };
-    let program = program().unwrap();
     let cases = cases(&dir);
     assert!(!cases.is_empty(), "{} has no case", dir.display());
+    check_all(&cases);
+}
+
+#[test]
+fn every_damaged_file_renders_or_fails_with_one_line() {
+    const ENCODED: [&str; 7] =
+        ["draco", "draco_sequential", "meshopt", "meshopt_1", "webp", "ktx2_uastc", "ktx2_etc1s"];
+    let dir = tempfile::tempdir().unwrap();
+    let mut random = Random::new(3);
+    let mut cases = Vec::new();
+    for feature in FEATURES.iter().filter(|feature| ENCODED.contains(&feature.name)) {
+        let file = (feature.file)();
+        for variation in 0..VARIATIONS {
+            let case = dir.path().join(format!("{}_{variation}.glb", feature.name));
+            std::fs::write(&case, damaged(&file, &mut random).glb()).unwrap();
+            cases.push(case);
+        }
+    }
+    assert_eq!(cases.len(), ENCODED.len() * VARIATIONS);
+    check_all(&cases);
+}
+
+/// Runs all cases, and asserts what is expected of each.
+fn check_all(cases: &[PathBuf]) {
+    let program = program().unwrap();
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::new());
     std::thread::scope(|scope| {

@@ -90,13 +90,13 @@ impl<'a> Buffers<'a> {
     pub(super) fn view(&self, index: usize) -> Result<View<'_>, String> {
         let views = self.document.buffer_views.get(index).zip(self.decompressed.get(index));
         let (view, decompressed) = views.ok_or_else(|| format!("bufferView {index} does not exist"))?;
-        let bytes = match Compressed::read(view) {
+        let bytes = match meshopt::extension(view) {
             None => {
                 let offset = view.byte_offset.map_or(0, |offset| offset.0);
                 self.range(index, view.buffer.value(), offset, view.byte_length.0)?
             }
-            Some(compressed) => {
-                let decompress = || self.decompress(index, view, &compressed?);
+            Some(extension) => {
+                let decompress = || self.decompress(index, view, &Compressed::read(extension)?);
                 decompressed.get_or_init(decompress).as_deref().map_err(String::clone)?
             }
         };

@@ -54,10 +54,12 @@ pub(super) enum Conversion {
 /// The location names the material or sampler with a value that glTF does not allow.
 pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, ImportError> {
     let mut textures = Vec::with_capacity(document.materials.len());
+    let mut used = BTreeSet::new();
     for (i, material) in document.materials.iter().enumerate() {
         let location = describe_material(i, material);
-        textures.push(Textures::read(document, material, &location, notes)?);
+        textures.push(Textures::read(document, material, &location, &mut used, notes)?);
     }
+    note_unused_textures(document, &used, notes);
     let used = textures.iter().flat_map(|textures| textures.all.iter().flatten());
     let mut images: Vec<usize> = used.map(|(_, image)| *image).collect();
     images.sort_unstable();
@@ -79,7 +81,6 @@ pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, 
         material.extend(json, mask, notes).with_location(|| location)?;
         materials.push(material);
     }
-    note_unused_textures(document, notes);
     Ok(Materials { materials, images })
 }
 
@@ -121,10 +122,7 @@ fn specular_glossiness(material: &json::Material) -> Option<&PbrSpecularGlossine
 }
 
 /// Adds a note for each texture without an image that no material uses.
-fn note_unused_textures(document: &Document, notes: &mut Notes) {
-    let infos =
-        document.materials.iter().flat_map(|material| Textures::infos(material).into_iter().flatten());
-    let used: BTreeSet<usize> = infos.flatten().map(|info| info.texture()).collect();
+fn note_unused_textures(document: &Document, used: &BTreeSet<usize>, notes: &mut Notes) {
     for (i, texture) in document.textures.iter().enumerate().filter(|(i, _)| !used.contains(i)) {
         if let Err(reason) = textures::image_index(document, i) {
             let location = describe("texture", i, texture.name.as_deref());
@@ -144,15 +142,18 @@ struct Textures {
 }
 
 impl Textures {
+    /// Reads the textures of a material, and adds the indices of those that it names to `used`.
     fn read(
         document: &Document,
         material: &json::Material,
         location: &str,
+        used: &mut BTreeSet<usize>,
         notes: &mut Notes,
     ) -> Result<Self, ImportError> {
         let mut all = [const { None }; SLOTS];
         for (texture, found) in Self::infos(material).into_iter().zip(&mut all) {
             let Some(texture) = texture.transpose().with_location(|| location)? else { continue };
+            used.insert(texture.texture());
             match textures::image_index(document, texture.texture()) {
                 Ok(image) => *found = Some((texture, image)),
                 Err(reason) => notes.add(location, format!("{reason}; it is drawn without this texture")),

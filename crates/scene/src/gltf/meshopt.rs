@@ -48,14 +48,12 @@ enum Filter {
 }
 
 impl Compressed {
-    /// Reads the extension of a buffer view; `None` if its bytes are not compressed.
+    /// Reads the extension of a buffer view.
     ///
     /// # Errors
     /// A value has the wrong type.
-    pub(super) fn read(view: &json::buffer::View) -> Option<Result<Self, String>> {
-        let extensions = &view.extensions.as_ref()?.others;
-        let (name, value) = NAMES.iter().find_map(|name| Some((name, extensions.get(*name)?)))?;
-        Some(Self::deserialize(value).map_err(|error| format!("{name}: {error}")))
+    pub(super) fn read((name, value): (&str, &json::Value)) -> Result<Self, String> {
+        Self::deserialize(value).map_err(|error| format!("{name}: {error}"))
     }
 
     /// Returns the number of decoded bytes; `None` if it exceeds the address space.
@@ -89,6 +87,12 @@ impl Compressed {
         filter(&mut bytes, count, stride, &mut workspace)?;
         Ok(bytes)
     }
+}
+
+/// Returns the extension of a buffer view and its name; `None` if its bytes are not compressed.
+pub(super) fn extension(view: &json::buffer::View) -> Option<(&'static str, &json::Value)> {
+    let extensions = &view.extensions.as_ref()?.others;
+    NAMES.iter().find_map(|name| Some((*name, extensions.get(*name)?)))
 }
 
 /// Returns whether a buffer only holds bytes for programs without the extension. Its bytes may be missing.

@@ -64,10 +64,13 @@ impl SpecularGlossiness {
         }
     }
 
-    /// Converts the textures to a base colour texture and a metallic and roughness texture, both as large as the larger
-    /// one. The factors are in them.
-    pub(super) fn convert_images(&self, diffuse: Option<&Image>, specular_glossiness: &Image) -> [Image; 2] {
-        let (width, height) = converted_size(diffuse, specular_glossiness);
+    /// Converts the textures to a base colour texture and a metallic and roughness texture of a size. The factors are in them.
+    pub(super) fn convert_images(
+        &self,
+        diffuse: Option<&Image>,
+        specular_glossiness: &Image,
+        [width, height]: [u32; 2],
+    ) -> [Image; 2] {
         let bytes = width as usize * height as usize * 4;
         let (mut base_color, mut metallic_roughness) = (Vec::with_capacity(bytes), Vec::with_capacity(bytes));
         for y in 0..height {
@@ -89,12 +92,6 @@ impl SpecularGlossiness {
         };
         [image("base colour", base_color), image("metallic and roughness", metallic_roughness)]
     }
-}
-
-/// Returns the width and height of converted textures.
-pub(super) fn converted_size(diffuse: Option<&Image>, specular_glossiness: &Image) -> (u32, u32) {
-    let other = diffuse.unwrap_or(specular_glossiness);
-    (specular_glossiness.width.max(other.width), specular_glossiness.height.max(other.height))
 }
 
 fn byte(value: f32) -> u8 {
@@ -145,7 +142,7 @@ mod tests {
         let diffuse = Image::new("diffuse", 1, 1, vec![255, 0, 0, 128]);
         // Black highlights: rough on the left, glossy on the right.
         let glossiness = Image::new("gloss", 2, 1, vec![0, 0, 0, 0, 0, 0, 0, 255]);
-        let [base_color, metallic_roughness] = factors.convert_images(Some(&diffuse), &glossiness);
+        let [base_color, metallic_roughness] = factors.convert_images(Some(&diffuse), &glossiness, [2, 1]);
         assert_eq!(base_color.rgba8, [255, 0, 0, 128, 255, 0, 0, 128]);
         assert_eq!(metallic_roughness.rgba8, [255, 255, 0, 255, 255, 0, 0, 255]);
     }

@@ -32,26 +32,30 @@ impl Transmission {
         // The extension uses 0 for a surface that reflects all light at grazing angles only; below 1 is not allowed.
         let reflected = if ior >= 1.0 { ((ior - 1.0) / (ior + 1.0)).powi(2) } else { 0.0 };
         let tint = extensions.volume.as_ref().map_or(Vec3::ONE, |volume| {
-            let color = Vec3::from(volume.attenuation_color.0).clamp(Vec3::ZERO, Vec3::ONE);
             let (thickness, distance) = (volume.thickness_factor.0, volume.attenuation_distance.0);
-            let attenuated = color.powf(thickness / distance);
-            if distance > 0.0 && thickness > 0.0 && attenuated.is_finite() { attenuated } else { Vec3::ONE }
+            let color = Vec3::from(volume.attenuation_color.0).clamp(Vec3::ZERO, Vec3::ONE);
+            let exponent = thickness / distance;
+            if exponent > 0.0 && color.is_finite() { color.powf(exponent) } else { Vec3::ONE }
         });
         Some(Ok(Self { factor: factor.clamp(0.0, 1.0) * (1.0 - reflected), tint }))
     }
 
-    /// Returns a base colour image whose alpha is what the transmission texture does not let through. Without a base colour
-    /// image it is white.
-    pub(super) fn masked(&self, base_color: Option<&Image>, transmission: &Image) -> Image {
-        let larger = base_color.filter(|image| image.width > transmission.width).unwrap_or(transmission);
-        let size = [larger.width, larger.height];
+    /// Returns a base colour image of a size whose alpha is what the transmission texture does not let through, and opaque without
+    /// one. Without a base colour image it is white.
+    pub(super) fn base_color(
+        &self,
+        base_color: Option<&Image>,
+        transmission: Option<&Image>,
+        size: [u32; 2],
+    ) -> Image {
         let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
         let rgba8 = pixels.flat_map(|pixel| {
             let [r, g, b, _] = base_color.map_or([255; 4], |image| texel(image, pixel, size));
-            let [transmitted, ..] = texel(transmission, pixel, size);
+            let [transmitted, ..] = transmission.map_or([0; 4], |image| texel(image, pixel, size));
             [r, g, b, (255.0 - self.factor * f32::from(transmitted)).round() as u8]
         });
-        Image::new(format!("{} (transmission)", transmission.name), size[0], size[1], rgba8.collect())
+        let name = base_color.or(transmission).map_or("", |image| &image.name);
+        Image::new(format!("{name} (transmission)"), size[0], size[1], rgba8.collect())
     }
 }
 
@@ -89,7 +93,14 @@ mod tests {
         let transmission = Transmission { factor: 1.0, tint: Vec3::ONE };
         let mask = Image::new("mask", 2, 1, vec![255, 9, 9, 9, 0, 9, 9, 9]);
         let red = Image::new("red", 1, 1, vec![255, 0, 0, 7]);
-        assert_eq!(transmission.masked(Some(&red), &mask).rgba8, [255, 0, 0, 0, 255, 0, 0, 255]);
-        assert_eq!(transmission.masked(None, &mask).rgba8, [255, 255, 255, 0, 255, 255, 255, 255]);
+        assert_eq!(
+            transmission.base_color(Some(&red), Some(&mask), [2, 1]).rgba8,
+            [255, 0, 0, 0, 255, 0, 0, 255]
+        );
+        assert_eq!(
+            transmission.base_color(None, Some(&mask), [2, 1]).rgba8,
+            [255, 255, 255, 0, 255, 255, 255, 255]
+        );
+        assert_eq!(transmission.base_color(Some(&red), None, [1, 1]).rgba8, [255, 0, 0, 255]);
     }
 }

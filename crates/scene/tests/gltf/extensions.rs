@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::builder::File;
+use crate::materials::write_png;
 use crate::rejections::assert_rejected;
 
 fn with_primitive_extension(name: &str, extension: &Value) -> File {
@@ -96,4 +97,24 @@ fn materials_of_extensions_that_are_not_finite_are_named() {
     assert_rejected(&with(glossy), &["material 0 \"pane\"", "not finite"]);
     let glass = json!({"KHR_materials_transmission": {"transmissionFactor": 1e39}});
     assert_rejected(&with(glass), &["material 0 \"pane\"", "transmissionFactor"]);
+}
+
+#[test]
+fn a_transmission_texture_that_is_placed_differently_is_a_note() {
+    let glass = |uv_set: u32| {
+        let mut file = File::triangle();
+        write_png(&file, "color.png", [255, 0, 0, 255]);
+        write_png(&file, "mask.png", [255; 4]);
+        file.json["images"] = json!([{"uri": "color.png"}, {"uri": "mask.png"}]);
+        file.json["textures"] = json!([{"source": 0}, {"source": 1}]);
+        file.json["materials"] = json!([{
+            "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+            "extensions": {"KHR_materials_transmission": {
+                "transmissionFactor": 0.5, "transmissionTexture": {"index": 1, "texCoord": uv_set}}},
+        }]);
+        file.load().unwrap()
+    };
+    assert_eq!(glass(0).notes, [""; 0]);
+    let notes = glass(1).notes;
+    assert!(notes.len() == 1 && notes[0].contains("placed differently"), "{notes:?}");
 }

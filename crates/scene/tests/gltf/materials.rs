@@ -7,7 +7,7 @@ use shadowgraph_scene::{AlphaMode, Filter, Wrap};
 use crate::builder::File;
 
 /// Writes a PNG of one pixel.
-fn write_png(file: &File, name: &str, color: [u8; 4]) {
+pub(crate) fn write_png(file: &File, name: &str, color: [u8; 4]) {
     image::RgbaImage::from_pixel(1, 1, image::Rgba(color)).save(file.directory.path().join(name)).unwrap();
 }
 
