@@ -1,8 +1,8 @@
 //! A thousand point lights. With the pipeline `forward_plus` each pixel visits only the lights near it, and the image is equal to the bit
-//! to that of `forward`, which visits all.
+//! to that of `minimal_lit`, which visits all.
 //!
 //! `cargo run -p shadowgraph-examples --example many_lights` writes out/many_lights.png and prints the GPU time of the
-//! lighting of an image of half its width and height; `-- forward` draws with that pipeline, and `-- --window` opens a window.
+//! lighting of an image of half its width and height; `-- minimal_lit` draws with that pipeline, and `-- --window` opens a window.
 #![allow(clippy::print_stdout, reason = "an example is a program")]
 
 use glam::{DVec3, Vec3};

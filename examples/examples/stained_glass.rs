@@ -5,7 +5,7 @@
 
 use shadowgraph::options::Aov;
 use shadowgraph::shadows::Techniques;
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Pipeline, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_examples::{Canvas, Example, Failure, run_example};
 use shadowgraph_samples::test_scenes::stained_glass;
 use std::process::ExitCode;
@@ -25,7 +25,9 @@ impl Example for StainedGlass {
         let scene = stained_glass();
         let camera = scene.cameras[0].clone();
         let options = ViewOptions { camera, size_px: Self::SIZE_PX, shadows: Default::default() };
-        let renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, technique)?;
+        // The pipeline without a sky, whose light would fade the colours.
+        let config = RenderConfig { pipeline: Pipeline::minimal_lit(), ..RenderConfig::from(technique) };
+        let renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config)?;
         Ok(Self { renderer, options })
     }
 

@@ -29,6 +29,23 @@ pub(crate) fn with_folder(extra: &[ModuleSource]) -> Vec<ModuleSource> {
     all
 }
 
+impl ModuleSource {
+    /// Returns the file, as [`set_folder`] has it, with a placeholder replaced.
+    ///
+    /// ```
+    /// use shadowgraph_shaders::OCCLUDED;
+    /// let module = OCCLUDED.with_value("OCCLUSION", "2");
+    /// assert!(module.source.contains("@binding(2)"));
+    /// assert_eq!(module.file, "occluded.wgsl (OCCLUSION = 2)");
+    /// ```
+    #[must_use]
+    pub fn with_value(&self, placeholder: &str, value: &str) -> Self {
+        let current = current(self);
+        let file = format!("{} ({placeholder} = {value})", current.file);
+        Self::new(file, current.source.replace(placeholder, value))
+    }
+}
+
 fn read(module: &ModuleSource) -> Option<ModuleSource> {
     let folder = FOLDER.read().unwrap_or_else(PoisonError::into_inner);
     let source = std::fs::read_to_string(folder.as_ref()?.join(module.file.as_ref())).ok()?;

@@ -34,7 +34,7 @@ pub use folder::set_folder;
 pub use naga;
 pub use source::{
     CLUSTERED, EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, OCCLUDED, PCSS, PREFILTER,
-    RAYTRACED, SCREEN, builtin, builtin_files,
+    RAYTRACED, SCREEN, SKY_LIGHT, builtin, builtin_files,
 };
 
 #[cfg(doctest)]

@@ -65,6 +65,10 @@ pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
 /// number of its binding in group 0.
 pub const OCCLUDED: ModuleSource = file!("occluded.wgsl");
 
+/// The light of a sky, and the background; it replaces the built-in module of a colour from above and one from below. Replace
+/// `ENVIRONMENT` by the number of its binding in group 0.
+pub const SKY_LIGHT: ModuleSource = file!("sky_light.wgsl");
+
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
 pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 
@@ -72,9 +76,12 @@ pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 pub(crate) const MODULES: &[ModuleSource] = &[
     file!("cluster_grid.wgsl"),
     file!("draw.wgsl"),
+    file!("environment.wgsl"),
+    file!("exposure_bins.wgsl"),
     file!("frame_noise.wgsl"),
     file!("fullscreen.wgsl"),
     file!("gbuffer_layout.wgsl"),
+    file!("ground_depth.wgsl"),
     file!("light_list.wgsl"),
     file!("lighting.wgsl"),
     file!("material.wgsl"),

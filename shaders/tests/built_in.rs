@@ -98,7 +98,10 @@ fn entry_points_have_the_names_that_pipelines_use() {
         ]
     );
     assert_eq!(names("forward.wgsl"), ["vs_forward", "fs_forward"]);
-    assert_eq!(names("tonemap.wgsl"), ["vs_tonemap", "fs_tonemap"]);
+    assert_eq!(
+        names("tonemap.wgsl"),
+        ["vs_tonemap", "fs_tonemap", "fs_tonemap_background", "fs_tonemap_exposed"]
+    );
     let show = [
         "vs_show_depth",
         "vs_show_texture",
@@ -133,7 +136,7 @@ fn bindings_are_where_bind_group_layouts_have_them() {
         "3.0 instances",
     ];
     assert_eq!(forward, expected);
-    assert_eq!(bindings(&composed("tonemap.wgsl")), ["0.0 hdr_texture"]);
+    assert_eq!(bindings(&composed("tonemap.wgsl")), ["0.0 hdr_texture", "0.1 settings", "0.2 exposure"]);
     assert_eq!(bindings(&composed("show.wgsl")), ["0.0 view", "1.0 depth_texture", "1.0 float_texture"]);
 }
 

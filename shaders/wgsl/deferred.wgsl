@@ -8,6 +8,7 @@
 }
 #import shadowgraph::receiver::{Receiver, RECEIVER_BACK_FACE}
 #import shadowgraph::lighting::surface_of
+#import shadowgraph::environment::{HAS_BACKGROUND, background_light}
 #import shadowgraph::shade::{shade_surface, visibility_output, debug_output}
 
 override AOV: u32 = 0u;
@@ -41,7 +42,10 @@ fn fs_deferred(in: FullscreenVertex) -> @location(0) vec4f {
     let texel = vec2u(in.position.xy);
     let depth = textureLoad(depth_texture, texel, 0);
     if depth == 0.0 {
-        discard;
+        if !HAS_BACKGROUND || AOV != 0u {
+            discard;
+        }
+        return background_light(in.position.xy);
     }
     let base_color = textureLoad(base_color_texture, texel, 0);
     let material = textureLoad(material_texture, texel, 0);

@@ -3,7 +3,8 @@
 #import shadowgraph::view::{view, lights, Light}
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT}
 #import shadowgraph::screen_occlusion::screen_occlusion
-#import shadowgraph::lighting::{Surface, arriving_light, reflected, ambient}
+#import shadowgraph::lighting::{Surface, arriving_light, reflected}
+#import shadowgraph::environment::environment_light
 #import shadowgraph::light_list::light_mask
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
 
@@ -18,7 +19,7 @@ fn visibility_of(light: u32, receiver: Receiver, unshadowed: bool) -> vec3f {
 fn shade_surface(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3f {
     let transparent = (receiver.flags & RECEIVER_TRANSPARENT) != 0u;
     let ambient_occlusion = screen_occlusion(receiver.pixel, transparent);
-    var sum = ambient(surface, view.ambient_sky, view.ambient_ground) * ambient_occlusion;
+    var sum = environment_light(surface) * ambient_occlusion;
     for (var word = 0u; word * 32u < view.light_count; word++) {
         var mask = light_mask(word, receiver.pixel, receiver.view_depth);
         while mask != 0u {

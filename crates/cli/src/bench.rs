@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
-use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
     Comparison, FrameTime, INSTANCES, MovingFrameTime, MovingFrames, Stats, compare, moving_frames,
@@ -21,7 +21,7 @@ const GPU_FRAMES: u32 = 20;
 
 /// Measures and prints, a table at a time.
 pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure> {
-    let input = commands::input(&args.draw, registry)?;
+    let input = commands::input(&args.draw.with_default_pipeline(Pipeline::minimal_lit().name()), registry)?;
     let view = commands::view_options(&input);
     if cfg!(debug_assertions) {
         console::warning("debug build: measure with `cargo run --release`");
@@ -41,10 +41,10 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         return console::print(&moving_table(&runs));
     }
     let measuring = Progress::if_slow("measuring");
-    let comparison = match input.options.render_config() == RenderConfig::default() {
+    let comparison = match input.options.render_config() == RenderConfig::from(Pipeline::minimal_lit()) {
         true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
         false => {
-            "Only the pipeline forward with pcf and one sample has hand-written passes to compare with.\n"
+            "Only the pipeline minimal_lit with pcf and one sample has hand-written passes to compare with.\n"
                 .into()
         }
     };

@@ -10,11 +10,11 @@ use super::progress::Progress;
 use super::report;
 use crate::args::options::Options;
 use shadowgraph::core::Timer;
-use shadowgraph::options::{Aov, OptionError};
+use shadowgraph::options::{Aov, CameraChoice, OptionError};
 use shadowgraph::output::{Pixels, write_png};
 use shadowgraph::scene::gltf::{self, LoadOptions, Progress as LoadProgress};
 use shadowgraph::scene::{Camera, Scene};
-use shadowgraph::{Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
+use shadowgraph::{Background, Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
 
 /// The input of every drawing command.
 pub(crate) struct Input {
@@ -29,12 +29,12 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let files = FrameFiles::parse(&args.output)?;
     let input = input(&args.draw, registry)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-    let Options { aov, timings, .. } = input.options.clone();
+    let Options { aov, background, timings, .. } = input.options.clone();
     let [width, height] = view_options(&input).size_px;
     let FramesArgs { count, fps } = args.frames;
     let drawn = draw_frames(&gpu, input, args.frames, &mut |number, image| {
         let Some(file) = files.file(number, count) else { return Ok(()) };
-        let (pixels, bytes) = file_pixels(&aov, image);
+        let (pixels, bytes) = file_pixels(&aov, background, image);
         Ok(write_png(&file, width, height, pixels, &bytes)?)
     })?;
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
@@ -127,12 +127,18 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     }
     let mut scene = load(args.scene.as_deref(), args.variant.as_deref())?;
     scene.notes.iter().for_each(|note| console::warning(note));
+    let shows_ground = options.aov == Aov::Color && options.pipeline.has_sky();
+    let ground = options.ground.place(&scene, shows_ground);
     scene.set_time(options.animation.resolve(&scene.hierarchy)?, options.time.0)?;
     if let Some(note) = options.sun.apply(&mut scene) {
         console::warning(&note);
     }
     args.check_lights(&options.settings, &scene)?;
-    let camera = options.camera.resolve(&scene, options.size.aspect())?;
+    let mut camera = options.camera.resolve(&scene, options.size.aspect())?;
+    let frames = scene.cameras.is_empty() && options.camera == CameraChoice::Default;
+    if ground.add_to(&mut scene) && frames {
+        camera.set_far(None);
+    }
     Ok(Input { options, scene, camera })
 }
 
@@ -165,10 +171,11 @@ pub(crate) fn view_options(input: &Input) -> ViewOptions {
 }
 
 /// Returns the channels of an image that are written to the file.
-fn file_pixels(aov: &Aov, image: RenderedImage) -> (Pixels, Vec<u8>) {
+fn file_pixels(aov: &Aov, background: Background, image: RenderedImage) -> (Pixels, Vec<u8>) {
     let pixels = image.rgba8.chunks_exact(4);
     match aov {
         Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),
+        Aov::Color if background == Background::Transparent => (Pixels::Rgba, image.straight_alpha()),
         _ => (Pixels::Rgb, pixels.flat_map(|p| [p[0], p[1], p[2]]).collect()),
     }
 }

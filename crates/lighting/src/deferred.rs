@@ -4,8 +4,8 @@ use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc};
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique};
 
 use crate::error::Error;
-use crate::forward::LitTarget;
 use crate::gbuffer::GBuffer;
+use crate::lit_target::LitTarget;
 use crate::screen_pass::{PipelineKey, ScreenPass, ScreenShader, texels};
 use crate::uniforms::ViewBuffers;
 
@@ -42,7 +42,7 @@ impl Deferred {
     }
 
     /// Adds the pass that lights the G-buffer into a new texture, and returns it. Where nothing is drawn the texture contains
-    /// `background`, in its own encoding.
+    /// `background`, in its own encoding, or the sky if `view` has one.
     ///
     /// # Errors
     /// [`Error::Shader`] if the technique's WGSL does not compose in the variant that the frame needs.

@@ -32,6 +32,11 @@ impl KeyLight {
         let local_lx = illuminances.get(illuminances.len() / 2).map_or(0.0, |middle| *middle as f32);
         Self { directional_lx, local_lx }
     }
+
+    /// Returns the illuminance by ambient light that the lights cause, lux: spot and point lights contribute little to it.
+    pub fn ambient_lx(&self) -> f32 {
+        (self.directional_lx + LOCAL_AMBIENT_FRACTION * self.local_lx).max(MIN_LX)
+    }
 }
 
 /// Returns the illuminance of an object by a spot or point light of one candela, lux.
@@ -80,7 +85,7 @@ impl AmbientLight {
         let KeyLight { directional_lx, local_lx } = key;
         // The radiance of white in one lux.
         let white = std::f32::consts::FRAC_1_PI;
-        let ambient = (directional_lx + LOCAL_AMBIENT_FRACTION * local_lx).max(MIN_LX) * white;
+        let ambient = key.ambient_lx() * white;
         Self {
             sky: Vec3::new(0.80, 0.95, 1.20) * (ambient * 0.20),
             ground: Vec3::new(1.05, 0.95, 0.85) * (ambient * 0.08),

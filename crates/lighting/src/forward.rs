@@ -3,34 +3,18 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_core::{Contents, Frame, RenderContext, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, VertexBuffers, shadow_layout};
 
+use crate::background::Background;
 use crate::error::Error;
+use crate::lit_target::{LitOutput, LitTarget};
 use crate::prepass::{DEPTH_FORMAT, Geometry};
 use crate::shader::module;
 use crate::uniforms::ViewBuffers;
 use crate::view_group::{OptionalBindings, ViewLayouts};
-
-/// The output of a lit pass.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LitOutput {
-    /// Light, scene-linear, exposure applied.
-    #[default]
-    Light,
-    /// The visibility of this light as grey, with alpha 0 where nothing is drawn or the surface faces away. Blended
-    /// geometry is not drawn, here and in the outputs below.
-    Visibility(u32),
-    /// The technique's debug colours for [`ShadowOutputs::debug_light`].
-    Debug,
-    /// The shading normal, each axis mapped from -1..1 to 0..1.
-    Normal,
-    /// Positions relative to the frame's origin, metres, and in `w` the geometric normal in octahedral encoding:
-    /// 1 + 4096 x + y, each axis 0 to 4095. 0 where nothing is drawn. Requires `Rgba32Float`.
-    Surface,
-}
 
 /// The pipelines and passes of forward lighting with one shadow technique.
 pub struct Forward {
@@ -39,6 +23,7 @@ pub struct Forward {
     modules: Vec<Vec<ModuleSource>>,
     /// The pipelines that frames have used.
     lit: Mutex<BTreeMap<LitKey, Arc<LitPipelines>>>,
+    background: Background,
 }
 
 /// The properties that distinguish the pipelines of lit passes.
@@ -81,18 +66,6 @@ struct PipelineBuilder {
     target: LitTarget,
 }
 
-/// The target of a lit pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LitTarget {
-    /// The format of the texture.
-    pub format: Format,
-    /// The output that is written.
-    pub output: LitOutput,
-    /// Samples per pixel while drawing, 1 or 4; they are resolved to one. Shadows are evaluated once per pixel and surface,
-    /// and a screen mask has one value for all surfaces of a pixel.
-    pub samples: u32,
-}
-
 impl Forward {
     /// Creates the pipelines that light materials of these layouts with the shadows of `technique`.
     ///
@@ -114,10 +87,26 @@ impl Forward {
             }),
             modules: (0..technique.variant_count()).map(|variant| technique.modules(variant)).collect(),
             lit: Mutex::default(),
+            background: Background::default(),
         };
         // WGSL that does not compose is reported now and not in a later frame.
         shadowgraph_shaders::compose("forward.wgsl", forward.modules_for(0))?;
         Ok(forward)
+    }
+
+    /// Returns the pipeline of the background, if the view has a sky and light is drawn.
+    fn background(
+        &self,
+        variant: u32,
+        bindings: OptionalBindings,
+    ) -> Result<Option<wgpu::RenderPipeline>, Error> {
+        let PipelineBuilder { device, view_layouts, shadow_layout, target, .. } = &*self.builder;
+        if !bindings.sky || target.output != LitOutput::Light {
+            return Ok(None);
+        }
+        let layouts = [view_layouts.get(bindings), shadow_layout];
+        let modules = self.modules_for(variant);
+        self.background.pipeline(device, (variant, bindings), layouts, modules, target).map(Some)
     }
 
     fn modules_for(&self, variant: u32) -> &[ModuleSource] {
@@ -164,7 +153,7 @@ impl Forward {
     }
 
     /// Adds the pass that draws the scene, lit and shadowed, into a new texture, and returns it. Where nothing is drawn
-    /// the texture contains `background`, in its own encoding. `depth` is the depth of the prepass.
+    /// the texture contains `background`, in its own encoding, or the sky if `view` has one. `depth` is the depth of the prepass.
     ///
     /// # Errors
     /// [`Error::Shader`] if the technique's WGSL does not compose in the variant that the frame needs.
@@ -251,6 +240,7 @@ impl Forward {
         let writes_depth = matches!(depth, Depth::Written(_));
         let bindings = view.optional_bindings();
         let pipelines = self.pipelines_for(LitKey { variant, debug_light, writes_depth, bindings })?;
+        let background_pipeline = self.background(variant, bindings)?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.builder.target.output {
             LitOutput::Surface => ("surfaces", "surfaces"),
@@ -283,38 +273,22 @@ impl Forward {
             let shadows = shadows.bind_group(ctx, &self.builder.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
-            let blend: &[Draw] =
-                if self.builder.target.output == LitOutput::Light { &geometry.draws.blend } else { &[] };
-            for draws in [&geometry.draws.solid, blend] {
+            let draw = |ctx: &mut RenderContext<'_>, draws: &[Draw]| {
                 let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
                 ctx.report_draws(draws);
+            };
+            draw(ctx, &geometry.draws.solid);
+            if let Some(pipeline) = &background_pipeline {
+                ctx.pass.set_pipeline(pipeline);
+                ctx.pass.draw(0..3, 0..1);
+                ctx.report_draws(1);
+            }
+            if self.builder.target.output == LitOutput::Light {
+                draw(ctx, &geometry.draws.blend);
             }
             Ok(())
         });
         Ok(color)
-    }
-}
-
-impl LitTarget {
-    /// Returns the variant of the technique that a pass needs, and the light whose debug colours it shows. Only variant 0
-    /// has debug colours.
-    pub(crate) fn variant(&self, shadows: &ShadowOutputs<'_>) -> (u32, u32) {
-        match self.output {
-            LitOutput::Debug => (0, shadows.debug_light),
-            _ => (shadows.variant, 0),
-        }
-    }
-
-    /// Returns the values of `AOV` and `AOV_LIGHT` in the shaders.
-    pub(crate) fn constants(&self, debug_light: u32) -> [(&'static str, f64); 2] {
-        let (aov, light) = match self.output {
-            LitOutput::Light => (0, 0),
-            LitOutput::Visibility(light) => (1, light),
-            LitOutput::Debug => (2, debug_light),
-            LitOutput::Normal => (3, 0),
-            LitOutput::Surface => (4, 0),
-        };
-        [("AOV", f64::from(aov)), ("AOV_LIGHT", f64::from(light))]
     }
 }
 

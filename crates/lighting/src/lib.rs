@@ -11,6 +11,7 @@
 //! Nothing here depends on how a shadow technique works. Cameras are those of `shadowgraph_scene`, depth is reversed,
 //! and colours are scene-linear until the tonemap.
 
+mod background;
 mod clusters;
 mod deferred;
 mod error;
@@ -18,6 +19,7 @@ mod exposure;
 mod forward;
 mod gbuffer;
 mod jitter;
+mod lit_target;
 mod motion;
 mod noise;
 mod pose;
@@ -25,6 +27,7 @@ pub mod post;
 mod prepass;
 mod screen_pass;
 mod shader;
+mod sky;
 mod tonemap;
 mod uniforms;
 mod velocity;
@@ -34,13 +37,15 @@ pub use clusters::Clusters;
 pub use deferred::Deferred;
 pub use error::Error;
 pub use exposure::{AmbientLight, KeyLight};
-pub use forward::{Forward, LitOutput, LitPipelines, LitTarget};
+pub use forward::{Forward, LitPipelines};
 pub use gbuffer::{GBuffer, GBufferPass};
+pub use lit_target::{LitOutput, LitTarget};
 pub use motion::{CameraMotion, PreviousCameras};
 pub use pose::PosePass;
 pub use prepass::{Geometry, Prepass};
 pub use shader::fullscreen as fullscreen_shader;
-pub use tonemap::Tonemap;
+pub use sky::{Backdrop, SkyLight, SkySettings};
+pub use tonemap::{Tonemap, TonemapSettings};
 pub use uniforms::{GpuLight, GpuView, ViewBuffers, ViewUniforms};
 pub use velocity::Velocity;
 

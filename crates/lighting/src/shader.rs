@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use shadowgraph_core::FullscreenShader;
-use shadowgraph_shaders::ModuleSource;
+use shadowgraph_shaders::{ModuleSource, builtin};
 
 use crate::error::Error;
 
@@ -30,6 +30,22 @@ pub fn fullscreen(
     entry: &'static str,
 ) -> Result<FullscreenShader, Error> {
     let module = module(device, file, &[])?;
+    Ok(FullscreenShader::module(file, &module).entry_point(entry))
+}
+
+/// Composes a built-in file like [`fullscreen`], with a placeholder replaced.
+pub(crate) fn fullscreen_with(
+    device: &wgpu::Device,
+    file: &'static str,
+    entry: &'static str,
+    (placeholder, value): (&str, &str),
+) -> Result<FullscreenShader, Error> {
+    let source = builtin(file).unwrap_or_else(|| ModuleSource::new(file, "")).with_value(placeholder, value);
+    let module = shadowgraph_shaders::compose_source(&source, &[])?;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(file),
+        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+    });
     Ok(FullscreenShader::module(file, &module).entry_point(entry))
 }
 

@@ -89,6 +89,10 @@ pub struct ViewBuffers {
     pub clusters: Option<Texture>,
     /// Ambient occlusion, if it was computed ([`Occlusion`](crate::post::Occlusion)).
     pub occlusion: Option<Texture>,
+    /// The light of the sky, if it was computed ([`SkyLight`](crate::SkyLight)).
+    pub sky: Option<Buffer>,
+    /// The height of the plane that receives shadows, if there is one, metres relative to the frame's origin.
+    pub ground_height: Option<f32>,
     /// The jitter of sample positions in this frame, pixels ([`Jitter`]).
     pub jitter_px: Vec2,
     /// The camera's motion since the view's previous frame.
@@ -154,6 +158,8 @@ impl ViewUniforms {
             lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
             clusters: None,
             occlusion: None,
+            sky: None,
+            ground_height: None,
             jitter_px: self.jitter_px,
             motion: self.motion.clone(),
         })

@@ -94,12 +94,18 @@ impl Camera {
     /// box. Empty bounds are replaced by a box of 1 m around the origin.
     #[must_use]
     pub fn framing(bounds: &Aabb, aspect: f64) -> Self {
+        Self::framing_points(bounds.corners(), bounds, aspect)
+    }
+
+    /// Creates a camera like [`framing`](Self::framing), but as near as possible with every one of some points in the image, all of
+    /// them within `bounds`.
+    #[must_use]
+    pub fn framing_points(points: impl IntoIterator<Item = DVec3>, bounds: &Aabb, aspect: f64) -> Self {
         let fov_y = 45f64.to_radians();
-        let bounds = if bounds.is_empty() {
-            Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) }
-        } else {
-            *bounds
-        };
+        if bounds.is_empty() {
+            let bounds = Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) };
+            return Self::framing(&bounds, aspect);
+        }
         let center = bounds.center();
         // A single point needs some distance too, relative to its coordinates.
         let radius = bounds.radius().max(1e-3).max(center.abs().max_element() * 1e-6);
@@ -113,9 +119,10 @@ impl Camera {
             DVec3::Y,
             Projection::Perspective { fov_y, near, far: None },
         );
-        let fit = fit(&bounds, &aim, fov_y, aspect, radius);
+        let fit = fit(points, center, &aim, fov_y, aspect, radius);
         let eye = center + aim.world_from_view.transform_vector3(fit.eye_from_center);
-        let far = (fit.farthest * 1.05).max(near * 2.0);
+        // Beyond the points are their shadows on the ground.
+        let far = (fit.farthest + FAR_RADII * radius).max(near * 2.0);
         let near = near.max(fit.nearest * 0.5);
         Self {
             world_from_view: DAffine3::from_mat3_translation(aim.world_from_view.matrix3, eye),
@@ -233,6 +240,13 @@ impl Camera {
         }
     }
 
+    /// Moves the far plane of a perspective camera; `None`: infinitely far. An orthographic camera keeps its own.
+    pub fn set_far(&mut self, distance: Option<f64>) {
+        if let Projection::Perspective { far, .. } = &mut self.projection {
+            *far = distance;
+        }
+    }
+
     /// Returns half of the visible width and height at a distance, metres.
     fn half_size(&self, aspect: f64, distance: f64) -> DVec2 {
         match self.projection {
@@ -247,35 +261,48 @@ impl Camera {
     }
 }
 
-/// The eye position that frames a box, and the depth range of the box from there.
+/// The distance of the far plane behind the points that a camera frames, in their radii.
+const FAR_RADII: f64 = 6.0;
+
+/// The eye position that frames some points, and their depth range from there.
 struct Fit {
     /// The eye relative to the centre, in the axes of the camera, metres.
     eye_from_center: DVec3,
-    /// The distances of the nearest and the farthest corner along the view, metres.
+    /// The distances of the nearest and the farthest point along the view, metres.
     nearest: f64,
     farthest: f64,
 }
 
-/// Finds the nearest eye that sees every corner, shifted sideways so that the box is centred.
-fn fit(bounds: &Aabb, aim: &Camera, fov_y: f64, aspect: f64, radius: f64) -> Fit {
+/// Finds the nearest eye that sees every point, shifted sideways so that they are centred.
+fn fit(
+    points: impl IntoIterator<Item = DVec3>,
+    center: DVec3,
+    aim: &Camera,
+    fov_y: f64,
+    aspect: f64,
+    radius: f64,
+) -> Fit {
     const MARGIN: f64 = 1.06;
     let tan_y = (fov_y * 0.5).tan() / MARGIN;
     let tan = DVec2::new(tan_y * aspect, tan_y);
     let to_view = aim.world_from_view.matrix3.transpose();
-    let corners = bounds.corners().map(|corner| to_view * (corner - bounds.center()));
-    // Along an axis the edges of the frustum are lines of slope ±tan. The eye lies where the tangent to the box
+    // Along an axis the edges of the frustum are lines of slope ±tan. The eye lies where the tangent to the points
     // from above meets the tangent from below.
-    let axis = |pick: fn(DVec3) -> f64, tan: f64| {
-        let tangent = |side: f64| {
-            corners.iter().map(|corner| side * pick(*corner) + tan * corner.z).fold(f64::MIN, f64::max)
-        };
-        let (above, below) = (tangent(1.0), tangent(-1.0));
-        ((above - below) * 0.5, (above + below) * 0.5 / tan)
+    let [mut right, mut left, mut above, mut below] = [f64::MIN; 4];
+    let (mut highest_z, mut lowest_z) = (f64::MIN, f64::MAX);
+    for point in points {
+        let point = to_view * (point - center);
+        right = right.max(point.x + tan.x * point.z);
+        left = left.max(tan.x * point.z - point.x);
+        above = above.max(point.y + tan.y * point.z);
+        below = below.max(tan.y * point.z - point.y);
+        (highest_z, lowest_z) = (highest_z.max(point.z), lowest_z.min(point.z));
+    }
+    let eye = |positive: f64, negative: f64, tan: f64| {
+        ((positive - negative) * 0.5, (positive + negative) * 0.5 / tan)
     };
-    let (x, distance_x) = axis(|corner| corner.x, tan.x);
-    let (y, distance_y) = axis(|corner| corner.y, tan.y);
-    let highest_z = corners.iter().map(|corner| corner.z).fold(f64::MIN, f64::max);
-    let lowest_z = corners.iter().map(|corner| corner.z).fold(f64::MAX, f64::min);
+    let (x, distance_x) = eye(right, left, tan.x);
+    let (y, distance_y) = eye(above, below, tan.y);
     let distance = distance_x.max(distance_y).max(highest_z + radius * 0.1);
     Fit {
         eye_from_center: DVec3::new(x, y, distance),

@@ -13,10 +13,13 @@ mod bounds;
 mod camera;
 mod cull;
 mod error;
+mod floor;
+mod framing;
 #[cfg(feature = "gltf")]
 pub mod gltf;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod ground;
 mod keys;
 mod light;
 mod material;
@@ -29,10 +32,12 @@ pub use bounds::{Aabb, ConvexVolume, Plane};
 pub use camera::{Camera, CameraError, Projection};
 pub use cull::{BoundingSphere, Cone, CullTree, CullVolume};
 pub use error::Error;
+pub use ground::GroundPlane;
 pub use keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 pub use light::{Light, LightKind, MIN_ILLUMINANCE_LX};
 pub use material::{
     AlphaMode, CasterMode, Filter, Image, Material, Sampler, TextureRef, Wrap, linear_from_srgb,
+    srgb_from_linear,
 };
 pub use mesh::{Influence, Mesh, MeshPose, MorphDelta, MorphTarget, SkinWeights, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};

@@ -256,7 +256,7 @@ pub fn linear_from_srgb(channel: u8) -> f64 {
 }
 
 /// Encodes linear light, 0 to 1, as a colour channel in sRGB. Values out of range are clamped.
-pub(crate) fn srgb_from_linear(light: f64) -> u8 {
+pub fn srgb_from_linear(light: f64) -> u8 {
     let light = light.clamp(0.0, 1.0);
     let value = if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
     (value * 255.0).round() as u8

@@ -145,7 +145,7 @@ fn overdraw() -> Result<(), Failure> {
     println!("a frame at 640x360 by layers of overdraw, 5x5 filter, on {}", gpu.adapter.name);
     println!(
         "  {:>6}{:>12}{:>12}{:>16}{:>22}",
-        "layers", "minimal", "forward", "screen_shadows", "screen / forward"
+        "layers", "minimal", "minimal_lit", "screen_shadows", "screen / minimal_lit"
     );
     for layers in [1, 2, 4, 8] {
         let scene = layered(layers)?;
@@ -153,7 +153,7 @@ fn overdraw() -> Result<(), Failure> {
         let camera = Camera::look_at(DVec3::new(0.0, 0.0, 6.0), DVec3::ZERO, DVec3::Y, projection);
         let shadows = ShadowSettings { distance_m: 30.0, ..ShadowSettings::default() };
         let options = ViewOptions { camera, size_px: [640, 360], shadows };
-        let pipelines = [Pipeline::minimal(), Pipeline::forward(), Pipeline::screen_shadows()];
+        let pipelines = [Pipeline::minimal(), Pipeline::minimal_lit(), Pipeline::screen_shadows()];
         let mut renderers = Vec::new();
         for pipeline in pipelines {
             let config = RenderConfig::from(pipeline);

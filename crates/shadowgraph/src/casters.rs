@@ -16,6 +16,8 @@ pub struct SceneCasters {
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
     /// The triangles, if the technique traces rays.
     pub(crate) rays: Option<UploadedRays>,
+    /// The bounds of the shadows on the ground; empty without one.
+    pub(crate) ground_shadows: Aabb,
 }
 
 impl SceneCasters {
@@ -39,7 +41,7 @@ impl SceneCasters {
             Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        Ok(Self { scene, pipelines, rays: None })
+        Ok(Self { scene, pipelines, rays: None, ground_shadows: Aabb::EMPTY })
     }
 
     /// Returns the number of triangles of some casters.
@@ -75,7 +77,7 @@ impl ShadowCasters for SceneCasters {
     }
 
     fn receivers(&self) -> Aabb {
-        self.scene.all_bounds()
+        self.scene.all_bounds().union(&self.ground_shadows)
     }
 
     fn caster_bounds(&self, caster: u32) -> Aabb {

@@ -42,6 +42,7 @@
 //! # }
 //! ```
 
+mod background;
 mod build_context;
 mod casters;
 mod debug_blit;
@@ -63,6 +64,7 @@ mod scene_rays;
 mod surfaces;
 mod view_options;
 
+pub use background::Background;
 pub use build_context::BuildContext;
 pub use casters::SceneCasters;
 pub use debug_blit::DebugBlit;

@@ -2,6 +2,7 @@
 
 use shadowgraph_shadows::{Technique, TechniqueKind};
 
+use crate::background::Background;
 use crate::pipelines::pipeline::Pipeline;
 
 /// Configuration of rendering.
@@ -13,11 +14,13 @@ pub struct RenderConfig {
     pub pipeline: Pipeline,
     /// Samples per pixel of colour images: 1, or 4 for smooth edges.
     pub samples: u32,
+    /// What is drawn behind the scene.
+    pub background: Background,
 }
 
 impl Default for RenderConfig {
     fn default() -> Self {
-        Self { technique: None, pipeline: Pipeline::default(), samples: 1 }
+        Self { technique: None, pipeline: Pipeline::default(), samples: 1, background: Background::Sky }
     }
 }
 

@@ -1,13 +1,16 @@
 //! One view of a frame.
 
+use glam::Vec4;
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{
-    AmbientLight, Geometry, LitOutput, PosePass, PreviousCameras, Tonemap, ViewUniforms,
+    AmbientLight, Backdrop, Geometry, KeyLight, LitOutput, PosePass, PreviousCameras, SkyLight, Tonemap,
+    TonemapSettings, ViewBuffers, ViewUniforms,
 };
 use shadowgraph_scene::gpu::DrawList;
-use shadowgraph_scene::{Camera, Light};
+use shadowgraph_scene::{Camera, GroundPlane, Light};
 use shadowgraph_shadows::{ShadowInputs, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
 
+use crate::background::Background;
 use crate::casters::SceneCasters;
 use crate::error::Error;
 use crate::view_options::ViewOptions;
@@ -23,10 +26,16 @@ pub struct RenderView<'v> {
     pub options: &'v ViewOptions,
     /// The visible geometry.
     pub draws: DrawList,
-    /// The ambient light and the exposure.
+    /// The illuminance of the scene by its lights.
+    pub key_light: KeyLight,
+    /// The ambient light without a sky, and the exposure.
     pub ambient_light: AmbientLight,
     /// The scene's lights.
     pub lights: &'v [Light],
+    /// The ground of the scene, if the image is one in colour.
+    pub ground: Option<GroundPlane>,
+    /// What is drawn behind the scene.
+    pub background: Background,
     /// The scene on the GPU.
     pub casters: &'v SceneCasters,
     /// The pass that deforms meshes.
@@ -54,6 +63,14 @@ impl<'v> RenderView<'v> {
         ViewUniforms::new(camera, *size_px, self.lights, origin_world, &self.ambient_light)
             .moving(motion)
             .with_noise(self.noise_frame)
+    }
+
+    /// Returns the buffers of the view with the light of a sky above the ground of the scene, for ambient occlusion and lit passes.
+    pub fn with_sky(&self, frame: &mut Frame<'_>, buffers: &ViewBuffers, sky: &SkyLight) -> ViewBuffers {
+        let origin_world = self.casters.scene.origin_world();
+        let light = sky.upload(frame, self.ground.as_ref(), self.backdrop(), origin_world);
+        let ground_height = self.ground.map(|ground| (ground.height_world - origin_world.y) as f32);
+        ViewBuffers { sky: Some(light), ground_height, ..buffers.clone() }
     }
 
     /// Returns the visible geometry.
@@ -91,9 +108,20 @@ impl<'v> RenderView<'v> {
         }
     }
 
-    /// Returns the clear colour of lit passes: the sky, or nothing if they write data.
-    pub fn background(&self) -> [f64; 4] {
-        if self.lit_output == LitOutput::Light { self.ambient_light.background() } else { [0.0; 4] }
+    /// Returns the clear colour of lit passes: the colour of the sky, or nothing if they write data or the background comes later.
+    pub fn clear_color(&self) -> [f64; 4] {
+        match self.background {
+            Background::Sky if self.lit_output == LitOutput::Light => self.ambient_light.background(),
+            _ => [0.0; 4],
+        }
+    }
+
+    /// Returns what pipelines with a sky draw where there is no geometry.
+    fn backdrop(&self) -> Backdrop {
+        match self.background {
+            Background::Sky => Backdrop::Sky,
+            Background::Color(_) | Background::Transparent => Backdrop::Shadows,
+        }
     }
 
     /// Returns the descriptor of a texture as large as the view.
@@ -106,9 +134,19 @@ impl<'v> RenderView<'v> {
     pub fn add_tonemap(&self, frame: &mut Frame<'_>, tonemap: &Tonemap, light: &Texture) -> Texture {
         frame.node("tonemap", |frame| {
             let mut image = self.target_texture(frame);
-            tonemap.add_to(frame, light, &mut image);
+            tonemap.add_to(frame, light, &mut image, &self.tonemap_settings(None));
             image
         })
+    }
+
+    /// Returns the settings of the tonemap, with the background behind the scene. `exposure` is one texel, a factor of all light.
+    pub fn tonemap_settings(&self, exposure: Option<Texture>) -> TonemapSettings {
+        let background = match self.background {
+            Background::Sky => None,
+            Background::Color(color) => Some(color.extend(1.0)),
+            Background::Transparent => Some(Vec4::ZERO),
+        };
+        TonemapSettings { exposure, background }
     }
 
     /// Imports the target of the view's image, or creates a texture of the frame.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use shadowgraph_core::{PassTime, Plan};
+use shadowgraph_scene::{linear_from_srgb, srgb_from_linear};
 use shadowgraph_shadows::Unshadowed;
 
 /// An image: 8 bit red, green, blue and alpha, rows from the top without padding.
@@ -20,6 +21,18 @@ impl RenderedImage {
         let [width, height] = self.size_px;
         let start = (x < width && y < height).then(|| (y as usize * width as usize + x as usize) * 4)?;
         self.rgba8.get(start..start + 4)?.try_into().ok()
+    }
+
+    /// Returns the pixels of an image whose colours are multiplied by alpha in linear light, with straight alpha, as PNG files have
+    /// them.
+    pub fn straight_alpha(&self) -> Vec<u8> {
+        let divided = |channel: u8, alpha: u8| match alpha {
+            0 => 0,
+            u8::MAX => channel,
+            _ => srgb_from_linear(linear_from_srgb(channel) * 255.0 / f64::from(alpha)),
+        };
+        let pixels = self.rgba8.as_chunks::<4>().0.iter();
+        pixels.flat_map(|&[r, g, b, a]| [divided(r, a), divided(g, a), divided(b, a), a]).collect()
     }
 }
 

@@ -12,9 +12,10 @@ use glam::DVec3;
 use shadowgraph_core::{Graph, Plan};
 use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget, PosePass, PreviousCameras};
 use shadowgraph_scene::gpu::GpuScene;
-use shadowgraph_scene::{Camera, Changes, Scene, origin_near};
+use shadowgraph_scene::{Aabb, Camera, Changes, GroundPlane, Scene, origin_near};
 use shadowgraph_shadows::{ShadowTechnique, TechniqueContext, Unshadowed};
 
+use crate::background::Background;
 use crate::build_context::BuildContext;
 use crate::casters::SceneCasters;
 use crate::debug_blit::DebugBlit;
@@ -143,7 +144,7 @@ impl Renderer {
             config.pipeline.build(&BuildContext { device, layouts, technique: technique.as_ref(), lit })?;
         let mut casters = SceneCasters::new(device, uploaded)?;
         casters.rays = rays;
-        Ok(Self {
+        let mut renderer = Self {
             casters,
             technique,
             config,
@@ -157,7 +158,9 @@ impl Renderer {
             previous_cameras: PreviousCameras::default(),
             frames: 0,
             graph: Mutex::default(),
-        })
+        };
+        renderer.follow_ground();
+        Ok(renderer)
     }
 
     /// Returns the scene.
@@ -208,6 +211,7 @@ impl Renderer {
         (self.scene, self.lit_output) = (scene, lit_output);
         (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
         self.frames = 0;
+        self.follow_ground();
         Ok(())
     }
 
@@ -280,8 +284,11 @@ impl Renderer {
             index: 0,
             options,
             draws,
+            key_light: key,
             ambient_light: AmbientLight::for_key_light(key),
             lights: self.scene.lights(),
+            ground: self.ground(),
+            background: self.background(),
             casters: &self.casters,
             pose: &self.pose,
             technique: self.technique.as_ref(),
@@ -291,6 +298,16 @@ impl Renderer {
             noise_frame: self.instance.is_temporal().then_some(self.frames),
             target: target.filter(|_| self.aov == Aov::Color),
         }
+    }
+
+    /// Returns the ground of the scene, if the images show it.
+    fn ground(&self) -> Option<GroundPlane> {
+        self.scene.ground.filter(|_| self.aov == Aov::Color && self.config.pipeline.has_sky())
+    }
+
+    /// Returns what is drawn behind the scene; in images that are not in colour, the sky.
+    fn background(&self) -> Background {
+        if self.aov == Aov::Color { self.config.background } else { Background::Sky }
     }
 
     /// Begins a frame: checks the camera, follows the edits of the scene, and moves the origin of GPU space to the camera.
@@ -308,7 +325,16 @@ impl Renderer {
         if followed.is_err() {
             self.scene.restore_changes(changes);
         }
+        self.follow_ground();
         followed
+    }
+
+    /// Lets shadows cover the ground where the scene casts them.
+    fn follow_ground(&mut self) {
+        let casters = self.casters.scene.all_caster_bounds();
+        let lights = self.scene.lights();
+        self.casters.ground_shadows =
+            self.ground().map_or(Aabb::EMPTY, |ground| ground.shadow_bounds(&casters, lights));
     }
 
     /// Follows edits, and moves the origin.

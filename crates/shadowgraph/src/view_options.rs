@@ -54,6 +54,9 @@ impl ViewOptions {
         let view_from_world = self.camera.view_from_world();
         let volume = self.camera.frustum(self.aspect());
         let corners = scene.visible_instances(&volume).flat_map(|key| scene.instance_bounds(key).corners());
+        let on_ground = scene.ground.map(|ground| ground.shadow_bounds(&scene.bounds(), scene.lights()));
+        let on_ground = on_ground.filter(|shadows| volume.intersects(shadows));
+        let corners = corners.chain(on_ground.into_iter().flat_map(|shadows| shadows.corners()));
         let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
         let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
         let step = (with_fade.log2() * DISTANCE_STEPS).ceil();

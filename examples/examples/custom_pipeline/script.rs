@@ -2,8 +2,8 @@
 
 use crate::vignette::Vignette;
 use shadowgraph::core::{Format, Frame};
-use shadowgraph::lighting::post::{Bloom, Jitters, Occlusion, OcclusionSettings, Sky, SkySettings, Temporal};
-use shadowgraph::lighting::{Forward, Tonemap, Velocity};
+use shadowgraph::lighting::post::{Bloom, Jitters, Occlusion, OcclusionSettings, Temporal};
+use shadowgraph::lighting::{Forward, SkyLight, SkySettings, Tonemap, Velocity};
 use shadowgraph::nodes::GeometryNode;
 use shadowgraph::pipelines::{PipelineInstance, PipelineOutput};
 use shadowgraph::{BuildContext, Error, RenderView};
@@ -15,7 +15,6 @@ pub(crate) struct Script {
     velocity: Velocity,
     occlusion: Occlusion,
     lighting: Forward,
-    sky: Sky,
     temporal: Temporal,
     bloom: Bloom,
     vignette: Vignette,
@@ -30,7 +29,6 @@ impl Script {
             velocity: Velocity::new(context.device, context.layouts)?,
             occlusion: Occlusion::new(context.device)?,
             lighting: Forward::new(context.device, context.layouts, context.technique, context.lit)?,
-            sky: Sky::new(context.device)?,
             temporal: Temporal::new(context.device)?,
             bloom: Bloom::new(context.device)?,
             vignette: Vignette::with_strength(0.6),
@@ -50,6 +48,8 @@ impl PipelineInstance for Script {
             |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
 
         let buffers = view.uniforms().jittered(self.jitters.next(view.index)).upload(frame);
+        let sky = SkyLight::new(view.lights, view.key_light, &SkySettings::default());
+        let buffers = frame.node("sky", |frame| view.with_sky(frame, &buffers, &sky));
         let (depth, surfaces, velocity) = frame.node("geometry", |frame| {
             let (depth, surfaces) = self.geometry.add_to(frame, view, &buffers)?;
             let velocity = self.velocity.add_to(frame, &buffers, &depth, geometry);
@@ -59,11 +59,9 @@ impl PipelineInstance for Script {
         let occluded = frame.node("occlusion", |frame| {
             self.occlusion.add_to(frame, &buffers, &depth, &OcclusionSettings::default())
         });
-        let mut lit = frame.node("lighting", |frame| {
-            self.lighting.lit(frame, &occluded, &shadows, &depth, geometry, view.background())
+        let lit = frame.node("lighting", |frame| {
+            self.lighting.lit(frame, &occluded, &shadows, &depth, geometry, view.clear_color())
         })?;
-        frame
-            .node("sky", |frame| self.sky.add_to(frame, &buffers, &depth, &mut lit, &SkySettings::default()));
         let accumulated = frame.node("temporal", |frame| {
             self.temporal.add_to(frame, [&lit, &depth], Some(&velocity), &buffers, 0.1)
         });

@@ -69,5 +69,5 @@ fn fs_fxaa(@location(0) uv: vec2f) -> @location(0) vec4f {
     let subpixel = smoothstep(0.0, 1.0, saturate(abs(average - m) / range));
     let shift = max(edge_shift, subpixel * subpixel * 0.75) * side;
     let at = uv + select(vec2f(shift, 0.0), vec2f(0.0, shift), horizontal);
-    return vec4f(textureSampleLevel(image, linear, at, 0.0).rgb, center.a);
+    return textureSampleLevel(image, linear, at, 0.0);
 }

@@ -1,15 +1,17 @@
 // Ground-truth ambient occlusion: how much of the hemisphere above each pixel is unoccluded, from the horizons in slices of
 // the screen (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
-#import shadowgraph::view::{view, view_depth_from_depth}
+#import shadowgraph::view::view
+#import shadowgraph::ground_depth::{GroundPlane, surface_view_depth}
 #import shadowgraph::noise::pixel_noise
 
 struct Settings {
-    // Radius within which occluders count, metres.
+    // Radius within which occluders count, metres; 0: RADIUS_HEIGHTS of the image's height at the pixel's depth.
     radius_m: f32,
     // Exponent: 1 is physical, more is darker.
     power: f32,
     slices: u32,
     steps: u32,
+    ground: GroundPlane,
 }
 
 @group(0) @binding(1) var depth_texture: texture_depth_2d;
@@ -18,6 +20,7 @@ struct Settings {
 const PI: f32 = 3.14159265358979;
 // The largest radius on the screen, pixels.
 const MAX_RADIUS_PX: f32 = 96.0;
+const RADIUS_HEIGHTS: f32 = 0.1;
 
 fn projection_scale() -> vec2f {
     let c = view.clip_from_world;
@@ -29,7 +32,8 @@ fn position_at(texel: vec2i) -> vec3f {
     let size = vec2i(view.size_px);
     let inside = clamp(texel, vec2i(0), size - 1);
     let depth = textureLoad(depth_texture, inside, 0);
-    let view_depth = select(1e6, view_depth_from_depth(depth), depth > 0.0);
+    let surface_depth = surface_view_depth(depth, vec2f(inside) + 0.5, settings.ground);
+    let view_depth = select(1e6, surface_depth, surface_depth > 0.0);
     let ndc = (vec2f(inside) + 0.5) / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
     let depth_scale = select(view_depth, 1.0, view.orthographic == 1u);
     return vec3f(ndc / projection_scale() * depth_scale, -view_depth);
@@ -48,14 +52,16 @@ fn slope(texel: vec2i, along: vec2i, center: vec3f) -> vec3f {
 @fragment
 fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let texel = vec2i(position.xy);
-    if textureLoad(depth_texture, texel, 0) == 0.0 {
+    if surface_view_depth(textureLoad(depth_texture, texel, 0), position.xy, settings.ground) == 0.0 {
         return vec4f(1.0);
     }
     let center = position_at(texel);
     let to_camera = select(normalize(-center), vec3f(0.0, 0.0, 1.0), view.orthographic == 1u);
     let normal = normalize(cross(slope(texel, vec2i(1, 0), center), slope(texel, vec2i(0, -1), center)));
     let depth_scale = select(-center.z, 1.0, view.orthographic == 1u);
-    let radius_px = clamp(settings.radius_m * projection_scale().x / depth_scale * view.size_px.x * 0.5, 1.0, MAX_RADIUS_PX);
+    let image_height = 2.0 * depth_scale / projection_scale().y;
+    let radius_m = select(settings.radius_m, image_height * RADIUS_HEIGHTS, settings.radius_m == 0.0);
+    let radius_px = clamp(radius_m * projection_scale().x / depth_scale * view.size_px.x * 0.5, 1.0, MAX_RADIUS_PX);
     let noise = pixel_noise(position.xy);
     var visibility = 0.0;
     for (var slice = 0u; slice < settings.slices; slice++) {
@@ -78,7 +84,7 @@ fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
                 let delta = other - center;
                 let distance = max(length(delta), 1e-5);
                 // Occluders fade out with distance.
-                let weight = saturate(1.0 - (distance - 0.5 * settings.radius_m) / (0.5 * settings.radius_m));
+                let weight = saturate(1.0 - (distance - 0.5 * radius_m) / (0.5 * radius_m));
                 let horizon = mix(-1.0, dot(delta / distance, to_camera), weight);
                 horizons[end] = max(horizons[end], horizon);
             }

@@ -35,6 +35,12 @@ fn configs() -> Vec<(String, RenderConfig)> {
         Technique::from(RAYTRACED).with_contact(),
     ];
     configs.extend(on_top.map(|technique| (technique.name(), technique.into())));
+    for (_, config) in &mut configs {
+        // Images without exposure of their brightness are comparable.
+        if config.pipeline == Pipeline::default() {
+            config.pipeline = Pipeline::minimal_lit();
+        }
+    }
     configs
 }
 

@@ -1,11 +1,13 @@
 //! Invalid and extreme inputs: a clear error or a correct image.
 
-use crate::stage::{camera, cube_on_floor, draw, gpu, light, sun, sun_direction, view};
+use crate::stage::{camera, cube_on_floor, gpu, light, sun, sun_direction, view};
 use glam::DVec3;
 use shadowgraph::Pipeline;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Camera, Light, LightKind, Projection, Scene};
-use shadowgraph::shadows::{AtlasTiles, NONE, PCF, RAYTRACED, ShadowSettings, UnshadowedReason};
+use shadowgraph::shadows::{
+    AtlasTiles, NONE, PCF, RAYTRACED, ShadowSettings, TechniqueKind, UnshadowedReason,
+};
 use shadowgraph::{Gpu, RenderConfig, RenderedFrame, Renderer, ViewOptions};
 
 fn eye() -> Camera {
@@ -33,11 +35,11 @@ struct Renderers(Vec<Renderer>);
 impl Renderers {
     fn new(gpu: &Gpu) -> Self {
         let configs: [RenderConfig; 5] = [
-            PCF.into(),
+            lit_by_technique(PCF),
             Pipeline::screen_shadows().into(),
             Pipeline::minimal().into(),
-            RAYTRACED.into(),
-            NONE.into(),
+            lit_by_technique(RAYTRACED),
+            lit_by_technique(NONE),
         ];
         let renderer =
             |config| Renderer::with_config(gpu, lit_by(Vec::new()), &eye(), Aov::Color, config).unwrap();
@@ -51,6 +53,11 @@ impl Renderers {
         };
         self.0.iter_mut().map(draw).collect()
     }
+}
+
+/// Returns the pipeline that others build on, with a technique.
+fn lit_by_technique(kind: TechniqueKind) -> RenderConfig {
+    RenderConfig { pipeline: Pipeline::minimal_lit(), ..kind.into() }
 }
 
 /// Counts the pixels that differ by more than a quarter of white.
@@ -106,7 +113,9 @@ fn seventeen_spot_lights_share_the_atlas_and_with_even_tiles_the_last_is_reporte
     agree(&by_importance);
     assert!(by_importance[0].unshadowed.is_empty());
     options.shadows.atlas.tiles = AtlasTiles::Even;
-    let even = draw(gpu, lit_by(lights), Aov::Color, &options);
+    let config = lit_by_technique(PCF);
+    let mut renderer = Renderer::with_config(gpu, lit_by(lights), &eye(), Aov::Color, config).unwrap();
+    let even = renderer.draw(gpu, &options).unwrap();
     let reasons: Vec<_> = even.unshadowed.iter().map(|light| light.reason).collect();
     assert_eq!(reasons, [UnshadowedReason::AtlasFull]);
     assert!(different(&even, &by_importance[3]) < 2000);

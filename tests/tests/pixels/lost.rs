@@ -37,7 +37,7 @@ impl PipelineInstance for Breaks {
 fn breaks(frames: u32) -> Pipeline {
     let frames = Arc::new(AtomicU32::new(frames));
     Pipeline::script("forward", move |context: &BuildContext<'_>| {
-        let (forward, device) = (Pipeline::forward().build(context)?, context.device.clone());
+        let (forward, device) = (Pipeline::minimal_lit().build(context)?, context.device.clone());
         Ok(Box::new(Breaks { forward, device, frames: frames.clone() }))
     })
 }
@@ -55,7 +55,7 @@ fn a_device_lost_during_a_frame_is_an_error_and_another_device_renders_the_same_
     let make = |gpu: &Gpu, pipeline: Pipeline| {
         Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Color, pipeline)
     };
-    let expected = make(known, Pipeline::forward()).unwrap().draw(known, &options).unwrap().image;
+    let expected = make(known, Pipeline::minimal_lit()).unwrap().draw(known, &options).unwrap().image;
 
     let choice = AdapterChoice::Name(known.adapter.name.clone());
     for frames in [1, 3] {
@@ -66,7 +66,7 @@ fn a_device_lost_during_a_frame_is_an_error_and_another_device_renders_the_same_
         }
         assert!(is_lost(renderer.draw(&gpu, &options)));
         assert!(is_lost(renderer.draw(&gpu, &options)), "it stays lost");
-        assert!(is_lost(make(&gpu, Pipeline::forward())), "nothing is made on it");
+        assert!(is_lost(make(&gpu, Pipeline::minimal_lit())), "nothing is made on it");
         assert!(is_lost(renderer.recreate_on(&gpu)), "nothing is moved to it");
 
         gpu = Gpu::open(&choice).unwrap();

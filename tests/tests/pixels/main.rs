@@ -9,6 +9,7 @@ mod casters;
 mod contact_sheet;
 mod edits;
 mod files;
+mod first_look;
 mod hostile;
 mod lost;
 mod maps;

@@ -91,7 +91,7 @@ fn every_small_example_runs_and_writes_its_image() {
     output_of("split_screen", &[]);
     assert_eq!(read("split_screen.png").dimensions(), (640, 360));
 
-    let lights = ["forward", "forward_plus"].map(|pipeline| {
+    let lights = ["minimal_lit", "forward_plus"].map(|pipeline| {
         assert!(output_of("many_lights", &[pipeline]).starts_with(&format!("{pipeline}: ")));
         read("many_lights.png")
     });

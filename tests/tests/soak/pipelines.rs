@@ -29,14 +29,13 @@ fn pipeline(random: &mut Random) -> String {
     ];
     let mut lit_by = "view";
     for (name, kind, inputs) in [
-        ("clusters", "clusters", "\"view\": \"view\""),
+        ("sky", "sky", "\"view\": \"view\""),
+        ("clusters", "clusters", "\"view\": [\"sky\", \"view\"]"),
         ("occlusion", "ssao", "\"view\": [\"clusters\", \"view\"], \"depth\": \"geometry\""),
     ] {
-        let inputs = if name == "occlusion" {
-            inputs.replace("[\"clusters\", \"view\"]", &format!("\"{lit_by}\""))
-        } else {
-            inputs.into()
-        };
+        // An optional node before it, or the view.
+        let inputs = inputs.replace("[\"sky\", \"view\"]", &format!("\"{lit_by}\""));
+        let inputs = inputs.replace("[\"clusters\", \"view\"]", &format!("\"{lit_by}\""));
         if random.flip() {
             nodes.push(format!("(name: \"{name}\", kind: \"{kind}\", inputs: {{{inputs}}})"));
             lit_by = name;
@@ -55,12 +54,11 @@ fn pipeline(random: &mut Random) -> String {
         nodes.push(format!("(name: \"lit\", kind: \"forward\", inputs: {{{lit}}})"));
     }
     let mut light = "lit".to_owned();
-    for kind in ["sky", "fog", "taa", "bloom"] {
+    for kind in ["fog", "taa", "bloom"] {
         if !random.flip() {
             continue;
         }
         let more = match kind {
-            "sky" => ", \"view\": \"view\", \"depth\": \"geometry\"",
             "taa" => ", \"view\": \"view\", \"depth\": \"geometry\", \"velocity\": \"geometry\"",
             "fog" => ", \"view\": \"view\", \"depth\": \"geometry\", \"shadows\": \"shadows\"",
             _ => "",
@@ -71,7 +69,16 @@ fn pipeline(random: &mut Random) -> String {
         ));
         light = kind.into();
     }
-    nodes.push(format!("(name: \"tonemap\", kind: \"tonemap\", inputs: {{\"light\": \"{light}.light\"}})"));
+    let mut exposure = "";
+    if random.flip() {
+        nodes.push(format!(
+            "(name: \"exposure\", kind: \"auto_exposure\", inputs: {{\"light\": \"{light}.light\"}})"
+        ));
+        exposure = ", \"exposure\": \"exposure\"";
+    }
+    nodes.push(format!(
+        "(name: \"tonemap\", kind: \"tonemap\", inputs: {{\"light\": \"{light}.light\"{exposure}}})"
+    ));
     let mut output = "tonemap";
     if random.flip() {
         nodes.push("(name: \"smooth\", kind: \"fxaa\", inputs: {\"image\": \"tonemap\"})".into());
@@ -99,7 +106,7 @@ fn soak(gpu: &Gpu, frames: u32, mut each: impl FnMut(usize)) {
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
         let name = names[random.below(names.len() as u64) as usize];
         let technique: Technique = techniques.find(name).unwrap();
-        let config = RenderConfig { technique: Some(technique), pipeline, samples: 1 };
+        let config = RenderConfig { technique: Some(technique), pipeline, ..RenderConfig::default() };
         let mut own = scene.clone();
         let lights = random.below(scene.lights().len() as u64 + 1) as usize;
         own.set_lights(scene.lights()[..lights].to_vec());

@@ -20,9 +20,9 @@ pub(crate) struct DrawArgs {
     /// The variant of the file's materials (KHR_materials_variants). Default: its default materials
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
-    /// The pipeline: the name of a built-in one (see `nodes`), or a .ron file
-    #[arg(long, value_name = "NAME_OR_FILE", default_value = "forward")]
-    pipeline: String,
+    /// The pipeline: the name of a built-in one (see `nodes`), or a .ron file. Default: forward; for bench minimal_lit
+    #[arg(long, value_name = "NAME_OR_FILE")]
+    pipeline: Option<String>,
     /// Set a parameter of the pipeline; can be repeated
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -47,6 +47,13 @@ pub(crate) struct DrawArgs {
     /// +X; or none for no directional lights
     #[arg(long, value_name = "SUN")]
     sun: Option<String>,
+    /// The ground under the scene: auto, a plane that receives shadows where the scene has no floor, in colour images by pipelines with
+    /// a sky; none; or a plane of a colour, #RRGGBB or R,G,B (linear, each 0 to 1), which is part of the scene
+    #[arg(long, value_name = "auto|none|COLOR", default_value = "auto")]
+    ground: String,
+    /// The background of colour images: sky, the sky of the pipeline; transparent; or a colour, #RRGGBB or R,G,B (linear, each 0 to 1)
+    #[arg(long, value_name = "sky|COLOR|transparent", default_value = "sky")]
+    background: String,
     /// The moment of the animations in seconds; before their start and after their end, the scene stands still
     #[arg(long, value_name = "S", default_value = "0", allow_negative_numbers = true)]
     time: String,
@@ -69,6 +76,12 @@ pub(crate) struct DrawArgs {
 }
 
 impl DrawArgs {
+    /// Returns the arguments with this pipeline unless one is given.
+    pub(crate) fn with_default_pipeline(&self, name: &str) -> Self {
+        let pipeline = Some(self.pipeline.clone().unwrap_or_else(|| name.to_owned()));
+        Self { pipeline, ..self.clone() }
+    }
+
     /// Returns whether an adapter is requested.
     pub(crate) fn names_adapter(&self) -> bool {
         self.adapter.is_some()
@@ -117,6 +130,8 @@ impl DrawArgs {
             size: self.size.parse()?,
             camera: or_default(self.camera.as_deref())?,
             sun: or_default(self.sun.as_deref())?,
+            ground: self.ground.parse()?,
+            background: self.background.parse()?,
             animation: self.animation.parse()?,
             time: self.time.parse()?,
             shadow_distance,
@@ -133,15 +148,16 @@ impl DrawArgs {
     pub(crate) fn pipeline(&self, registry: &Registry) -> Result<Pipeline, OptionError> {
         let parameters = self.set.iter().map(|text| parameter(text)).collect::<Result<_, _>>()?;
         let parameters = Parameters(parameters);
-        let file = Path::new(&self.pipeline);
+        let name = self.pipeline.as_deref().unwrap_or(BUILT_IN[0]);
+        let file = Path::new(name);
         let is_file = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         let pipeline = if is_file {
             Pipeline::load(file, &registry.nodes, &registry.techniques, &parameters)
-        } else if BUILT_IN.contains(&self.pipeline.as_str()) {
-            Pipeline::built_in(&self.pipeline, &parameters)
+        } else if BUILT_IN.contains(&name) {
+            Pipeline::built_in(name, &parameters)
         } else {
-            let hint = did_you_mean(&self.pipeline, BUILT_IN.iter().copied());
-            let reason = format!("unknown pipeline `{}` (files end in .ron){hint}", self.pipeline);
+            let hint = did_you_mean(name, BUILT_IN.iter().copied());
+            let reason = format!("unknown pipeline `{name}` (files end in .ron){hint}");
             return Err(OptionError::new("pipeline", reason));
         };
         pipeline.map_err(|error| OptionError::new("pipeline", error.to_string()))
@@ -150,7 +166,7 @@ impl DrawArgs {
     /// Returns the file of the pipeline, if it is not built in.
     #[cfg(feature = "view")]
     pub(crate) fn pipeline_file(&self) -> Option<&Path> {
-        let file = Path::new(&self.pipeline);
+        let file = Path::new(self.pipeline.as_deref()?);
         file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron")).then_some(file)
     }
 }

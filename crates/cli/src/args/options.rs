@@ -1,10 +1,11 @@
 //! The values of a drawing command's options.
 
 use shadowgraph::options::{
-    AdapterChoice, AnimationChoice, AnimationTime, Aov, CameraChoice, ShadowDistance, Size, SunChoice,
+    AdapterChoice, AnimationChoice, AnimationTime, Aov, CameraChoice, GroundChoice, ShadowDistance, Size,
+    SunChoice,
 };
 use shadowgraph::shadows::{ShadowSettings, Technique};
-use shadowgraph::{Pipeline, RenderConfig};
+use shadowgraph::{Background, Pipeline, RenderConfig};
 
 /// The options of a drawing command, without the files of the scene and the output.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,10 @@ pub(crate) struct Options {
     pub(crate) camera: CameraChoice,
     /// The directional lights.
     pub(crate) sun: SunChoice,
+    /// The ground under the scene.
+    pub(crate) ground: GroundChoice,
+    /// What is drawn behind the scene.
+    pub(crate) background: Background,
     /// The animations that are played.
     pub(crate) animation: AnimationChoice,
     /// The moment of the animations.
@@ -40,7 +45,12 @@ pub(crate) struct Options {
 impl Options {
     /// Returns the configuration of the renderer.
     pub(crate) fn render_config(&self) -> RenderConfig {
-        RenderConfig { technique: self.technique, pipeline: self.pipeline.clone(), samples: self.samples }
+        RenderConfig {
+            technique: self.technique,
+            pipeline: self.pipeline.clone(),
+            samples: self.samples,
+            background: self.background,
+        }
     }
 }
 
@@ -54,6 +64,8 @@ impl Default for Options {
             size: Size::default(),
             camera: CameraChoice::default(),
             sun: SunChoice::default(),
+            ground: GroundChoice::default(),
+            background: Background::default(),
             animation: AnimationChoice::default(),
             time: AnimationTime::default(),
             shadow_distance: ShadowDistance::default(),

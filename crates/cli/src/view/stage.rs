@@ -11,10 +11,12 @@ use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load};
 use crate::failure::Failure;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
-use shadowgraph::options::{Aov, OptionError, SettingsFile, ShadowDistance, SunChoice};
+use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowDistance, SunChoice};
 use shadowgraph::scene::{AnimationSelection, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, ShadowSettings, Technique};
-use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu};
+use shadowgraph::{
+    Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu,
+};
 
 /// Number of frames in the history of times.
 const FRAMES: usize = 60;
@@ -27,6 +29,8 @@ pub(super) struct Stage {
     pub(super) technique: Technique,
     pub(super) pipeline: Pipeline,
     samples: u32,
+    background: Background,
+    ground: GroundChoice,
     pub(super) aov: Aov,
     pub(super) settings: ShadowSettings,
     /// Lowers the quality of shadows while they exceed a time budget.
@@ -81,6 +85,8 @@ impl Stage {
             draw: args.draw.clone(),
             pipeline: input.options.pipeline,
             samples: input.options.samples,
+            background: input.options.background,
+            ground: input.options.ground,
             aov: input.options.aov,
             settings: view.shadows,
             controller: args.budget_ms.map(controller).transpose()?,
@@ -105,6 +111,7 @@ impl Stage {
             Ok(scene) => scene,
             Err(failure) => return self.file_error = Some(failure.message),
         };
+        self.ground.place(&scene, true).add_to(&mut scene);
         let name = file.map_or("the built-in scene".into(), |file| file.display().to_string());
         self.note = SunChoice::default().apply(&mut scene).unwrap_or(name);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
@@ -234,7 +241,7 @@ impl Stage {
             return created.clone().map_err(shadowgraph::Error::Gpu);
         }
         let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
-        let config = RenderConfig { technique, pipeline, samples: self.samples };
+        let config = RenderConfig { technique, pipeline, samples: self.samples, background: self.background };
         let created = gpu.checked(|| {
             Renderer::with_config(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), config)
         });

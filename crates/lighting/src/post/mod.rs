@@ -1,21 +1,21 @@
 //! Post-processing before and after tonemapping.
 
+mod auto_exposure;
 mod bloom;
 mod fog;
 mod fxaa;
 mod occlusion;
 mod overlay;
 mod pyramid;
-mod sky;
 mod temporal;
 
+pub use auto_exposure::{AutoExposure, AutoExposureSettings};
 pub use bloom::Bloom;
 pub use fog::{Fog, FogSettings};
 pub use fxaa::Fxaa;
 pub use occlusion::{Occlusion, OcclusionSettings};
 pub use overlay::Overlay;
 pub use pyramid::DepthPyramid;
-pub use sky::{Sky, SkySettings};
 pub use temporal::Temporal;
 
 pub use crate::jitter::{Jitter, Jitters};

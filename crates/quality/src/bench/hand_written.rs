@@ -1,4 +1,4 @@
-//! The passes of `forward` without the graph, hand-written for exactly this frame: textures, views and bind groups are
+//! The passes of `minimal_lit` without the graph, hand-written for exactly this frame: textures, views and bind groups are
 //! created once, and a frame only writes buffers and encodes.
 
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 use super::*;
-use shadowgraph::RenderedImage;
 use shadowgraph::options::{AdapterChoice, ShadowDistance};
+use shadowgraph::{Pipeline, RenderedImage};
 use shadowgraph_core::{Frame, PassKind, Plan, Subresource};
 use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_scene::{Camera, Light, Scene};
@@ -17,11 +17,15 @@ fn options(scene: &Scene, camera: &Camera) -> ViewOptions {
         .with_shadow_distance(ShadowDistance::Auto, scene)
 }
 
+fn renderer(gpu: &Gpu, scene: Scene, camera: &Camera, aov: Aov) -> Renderer {
+    Renderer::with_config(gpu, scene, camera, aov, Pipeline::minimal_lit()).unwrap()
+}
+
 fn demo(gpu: &Gpu) -> (Renderer, ViewOptions) {
     let scene = demo_scene();
     let camera = scene.cameras[0].clone();
     let options = options(&scene, &camera);
-    (Renderer::new(gpu, scene, &camera, Aov::Color).unwrap(), options)
+    (renderer(gpu, scene, &camera, Aov::Color), options)
 }
 
 /// Returns the passes that each render pass consists of.
@@ -62,7 +66,7 @@ fn without_shadows_there_are_two_passes_fewer_on_both_sides() {
     scene.set_lights(lights);
     let camera = scene.cameras[0].clone();
     let options = options(&scene, &camera);
-    let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();
+    let mut renderer = renderer(&gpu, scene, &camera, Aov::Color);
     let (plan, _) = renderer.plan(&options).unwrap();
     let counts = compare(&gpu, &mut renderer, &options, 1).unwrap().counts;
     assert_eq!((counts.passes, render_passes(&plan).len()), (3, 3));
@@ -89,7 +93,7 @@ fn only_the_output_color_is_measured() {
     let gpu = Gpu::noop().unwrap();
     let (renderer, options) = demo(&gpu);
     let camera = options.camera.clone();
-    let mut renderer = Renderer::new(&gpu, renderer.scene().clone(), &camera, Aov::Normal).unwrap();
+    let mut renderer = self::renderer(&gpu, renderer.scene().clone(), &camera, Aov::Normal);
     assert!(matches!(compare(&gpu, &mut renderer, &options, 1), Err(Error::BenchAov)));
 }
 

@@ -20,6 +20,7 @@ use store::Store;
 
 use crate::bounds::{Aabb, ConvexVolume};
 use crate::camera::Camera;
+use crate::ground::GroundPlane;
 use crate::keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 use crate::light::Light;
 use crate::material::{Image, Material};
@@ -53,6 +54,8 @@ pub struct Scene {
     images: Store<ImageKey, Image>,
     instances: Store<InstanceKey, Instance>,
     lights: Lights,
+    /// The ground under a scene without a floor.
+    pub ground: Option<GroundPlane>,
     /// The cameras of the file.
     pub cameras: Vec<Camera>,
     /// The contents of the file that are not drawn as it says, one line each.
@@ -146,14 +149,6 @@ impl Scene {
     pub fn visible_instances(&self, volume: &ConvexVolume) -> impl Iterator<Item = InstanceKey> {
         let visible = |key: &InstanceKey| volume.intersects(&self.instance_bounds(*key));
         self.instances().map(|(key, _)| key).filter(visible)
-    }
-
-    /// Returns a camera that frames the bounds from the front, the right and above.
-    ///
-    /// `aspect` is the image's width over its height, above 0.
-    #[must_use]
-    pub fn framing_camera(&self, aspect: f64) -> Camera {
-        Camera::framing(&self.bounds(), aspect)
     }
 
     /// Returns the number of triangles over all instances.

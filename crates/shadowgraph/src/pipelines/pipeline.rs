@@ -19,6 +19,7 @@ use crate::options::error::OptionError;
 /// Names and files of the built-in pipelines, the default first.
 const FILES: &[(&str, &str)] = &[
     ("forward", include_str!("../../pipelines/forward.ron")),
+    ("minimal_lit", include_str!("../../pipelines/minimal_lit.ron")),
     ("forward_plus", include_str!("../../pipelines/forward_plus.ron")),
     ("deferred", include_str!("../../pipelines/deferred.ron")),
     ("screen_shadows", include_str!("../../pipelines/screen_shadows.ron")),
@@ -28,7 +29,7 @@ const FILES: &[(&str, &str)] = &[
 
 /// The names of the built-in pipelines, the default first.
 pub const BUILT_IN: &[&str] =
-    &["forward", "forward_plus", "deferred", "screen_shadows", "minimal", "debug_cascades"];
+    &["forward", "minimal_lit", "forward_plus", "deferred", "screen_shadows", "minimal", "debug_cascades"];
 
 type BuildFn = dyn Fn(&BuildContext<'_>) -> Result<Box<dyn PipelineInstance>, Error> + Send + Sync;
 
@@ -102,9 +103,15 @@ impl Pipeline {
         find_built_in(name).map(|(_, text)| text)
     }
 
-    /// Returns the default pipeline: a depth prepass, then one lit pass that looks shadows up per pixel.
+    /// Returns the default pipeline: a sky, ambient occlusion, one lit pass that looks shadows up per pixel, automatic exposure and
+    /// smooth edges.
     pub fn forward() -> Self {
         Self::known("forward")
+    }
+
+    /// Returns the built-in pipeline of a depth prepass, shadows, one lit pass and tonemapping, for measurements.
+    pub fn minimal_lit() -> Self {
+        Self::known("minimal_lit")
     }
 
     /// Returns the built-in pipeline with clustered lights: each pixel visits only the lights that reach its cluster.
@@ -179,6 +186,14 @@ impl Pipeline {
         match &*self.0 {
             Source::File { file, .. } => file.screen_shadows,
             Source::Script { screen_shadows, .. } => *screen_shadows,
+        }
+    }
+
+    /// Returns whether the pipeline draws the sky and the ground as background; scripts may.
+    pub fn has_sky(&self) -> bool {
+        match &*self.0 {
+            Source::File { file, .. } => file.has_sky,
+            Source::Script { .. } => true,
         }
     }
 

@@ -21,7 +21,8 @@ fn every_built_in_pipeline_has_a_plan_with_every_kind_of_technique() {
         }
         for (technique, samples, aov) in cases {
             let technique = Some(techniques.find(technique).unwrap());
-            let config = RenderConfig { technique, pipeline: pipeline.clone(), samples };
+            let config =
+                RenderConfig { technique, pipeline: pipeline.clone(), samples, ..RenderConfig::default() };
             let scene = demo_scene();
             let camera = scene.cameras[0].clone();
             let renderer = Renderer::with_config(&gpu, scene, &camera, aov, config).unwrap();

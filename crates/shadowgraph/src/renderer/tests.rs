@@ -39,7 +39,7 @@ fn colours_are_drawn_straight_into_the_target_and_are_as_large_as_it() {
     let executed = record(&gpu, Aov::Color, &target).unwrap();
     let plan = executed.plan();
     let last = *plan.order().last().unwrap();
-    assert_eq!(plan.pass(last).name, "tonemap");
+    assert_eq!(plan.pass(last).name, "fxaa");
     let reasons: Vec<_> = plan.accesses(last).filter_map(|access| access.ops).collect();
     assert_eq!(reasons[0].store_reason, StoreReason::Imported);
     let lit = plan.resource(plan.find_resource("lit").unwrap());

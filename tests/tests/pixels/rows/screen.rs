@@ -33,8 +33,9 @@ fn pillars_in_sun() -> Scene {
 fn row_15_three_pipelines_render_the_same_image() {
     let Some(gpu) = gpu() else { return };
     let (scene, options) = (pillars_in_sun(), pillar_view(|_| ()));
-    let [forward, screen, minimal] = [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()]
-        .map(|pipeline| render(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
+    let [forward, screen, minimal] =
+        [Pipeline::minimal_lit(), Pipeline::screen_shadows(), Pipeline::minimal()]
+            .map(|pipeline| render(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
     let differ = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| a.abs_diff(**b) > 3).count();
     let pixels = (SIZE_PX[0] * SIZE_PX[1]) as usize;
     assert_eq!(differ(&forward, &minimal), 0);
@@ -163,7 +164,7 @@ fn row_36_blended_geometry_receives_shadows() {
     crate::stage::add_instance(&mut scene, floor, glass, DVec3::new(0.0, 0.02, 0.0));
     scene.insert_light(sun(sun_direction(40.0, 130.0)));
     let options = cube_view(|_| ());
-    let [forward, screen] = [Pipeline::forward(), Pipeline::screen_shadows()]
+    let [forward, screen] = [Pipeline::minimal_lit(), Pipeline::screen_shadows()]
         .map(|pipeline| render(gpu, &scene, Aov::Color, &options, pipeline).rgba8);
     let differ = forward.iter().zip(&screen).filter(|(a, b)| a.abs_diff(**b) > 3).count();
     assert!(differ < forward.len() / 1000, "{differ}");

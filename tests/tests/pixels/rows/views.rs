@@ -20,7 +20,7 @@ fn pillars_in_sun() -> Scene {
 fn row_40_four_samples_smooth_edges_and_change_nothing_else() {
     let Some(gpu) = gpu() else { return };
     let options = pillar_view(|_| ());
-    for pipeline in [Pipeline::forward(), Pipeline::screen_shadows(), Pipeline::minimal()] {
+    for pipeline in [Pipeline::minimal_lit(), Pipeline::screen_shadows(), Pipeline::minimal()] {
         let draw = |samples| {
             let config = RenderConfig { pipeline: pipeline.clone(), samples, ..RenderConfig::default() };
             let mut renderer =
@@ -68,7 +68,7 @@ fn row_40_two_cameras_in_one_frame_have_their_own_shadows() {
     let mut right = left.clone();
     right.camera = crate::stage::camera(DVec3::new(8.0, 6.0, -10.0), DVec3::new(0.0, 0.0, -14.0));
     right.size_px = [160, 120];
-    for pipeline in [Pipeline::forward(), Pipeline::screen_shadows()] {
+    for pipeline in [Pipeline::minimal_lit(), Pipeline::screen_shadows()] {
         let make = || {
             let aov = Aov::Visibility(0);
             Renderer::with_config(gpu, pillars_in_sun(), &left.camera, aov, pipeline.clone()).unwrap()

@@ -8,7 +8,10 @@ use std::process::{Command, Stdio};
 
 fn dump(format: &str) -> String {
     let program = shadowgraph_tests::program().unwrap();
-    let output = Command::new(program).args(["dump", "--format", format]).output().unwrap();
+    let output = Command::new(program)
+        .args(["dump", "--pipeline", "minimal_lit", "--format", format])
+        .output()
+        .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
@@ -74,8 +77,11 @@ fn json_has_the_plan_its_reasons_and_the_lights() {
 #[test]
 fn explain_describes_a_pass_a_resource_and_an_order() {
     let explain = |args: &[&str]| {
-        let output =
-            Command::new(shadowgraph_tests::program().unwrap()).arg("explain").args(args).output().unwrap();
+        let output = Command::new(shadowgraph_tests::program().unwrap())
+            .args(["explain", "--pipeline", "minimal_lit"])
+            .args(args)
+            .output()
+            .unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         (output.status.code(), text(output.stdout), text(output.stderr))
     };

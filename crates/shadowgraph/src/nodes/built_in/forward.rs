@@ -45,7 +45,7 @@ impl Node for Forward {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);
-        let (geometry, background) = (view.geometry(), view.background());
+        let (geometry, background) = (view.geometry(), view.clear_color());
         let (light, depth) = if ports.is_connected("depth") {
             let depth = ports.texture("depth")?;
             (self.passes.lit(frame, &buffers, shadows, &depth, geometry, background)?, depth)

@@ -1,5 +1,6 @@
 //! The built-in kinds, a file each.
 
+mod auto_exposure;
 mod bloom;
 mod clusters;
 mod deferred;
@@ -12,7 +13,7 @@ mod hi_z;
 mod overlay;
 mod shadow_debug;
 pub(crate) mod shadows;
-mod sky;
+pub(crate) mod sky;
 mod ssao;
 mod surfaces;
 pub(crate) mod taa;
@@ -22,22 +23,23 @@ pub(crate) mod view;
 
 use super::kind::NodeKind;
 
-pub(super) fn kinds() -> [NodeKind; 18] {
+pub(super) fn kinds() -> [NodeKind; 19] {
     [
         NodeKind::new::<view::ViewNode>(),
         NodeKind::new::<geometry::Geometry>(),
         NodeKind::new::<surfaces::Surfaces>(),
         NodeKind::new::<shadows::Shadows>(),
+        NodeKind::new::<sky::Sky>(),
         NodeKind::new::<clusters::Clusters>(),
         NodeKind::new::<forward::Forward>(),
         NodeKind::new::<gbuffer::GBuffer>(),
         NodeKind::new::<deferred::Deferred>(),
         NodeKind::new::<ssao::Ssao>(),
-        NodeKind::new::<sky::Sky>(),
         NodeKind::new::<fog::Fog>(),
         NodeKind::new::<hi_z::HiZ>(),
         NodeKind::new::<bloom::Bloom>(),
         NodeKind::new::<taa::Taa>(),
+        NodeKind::new::<auto_exposure::AutoExposure>(),
         NodeKind::new::<tonemap::Tonemap>(),
         NodeKind::new::<fxaa::Fxaa>(),
         NodeKind::new::<shadow_debug::ShadowDebug>(),

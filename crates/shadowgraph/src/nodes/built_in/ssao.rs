@@ -21,8 +21,7 @@ impl Node for Ssao {
     const ABOUT: &'static str = "computes screen-space ambient occlusion from depth";
     const INPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the camera"),
-        Port::texture("depth", "the depth of `geometry` with one sample per pixel")
-            .with_format(Format::Depth32Float),
+        Port::texture("depth", "the depth of `geometry`").with_format(Format::Depth32Float),
     ];
     const OUTPUTS: &'static [Port] = &[
         Port::new("view", PortKind::View, "the same with the occlusion, for lighting nodes"),
@@ -32,8 +31,8 @@ impl Node for Ssao {
     const SETTINGS: &'static [Setting] = &[
         Setting::new(
             "radius_m",
-            SettingType::Number(0.8, 0.01, 100.0),
-            "radius within which geometry occludes",
+            SettingType::Number(0.8, 0.0, 100.0),
+            "radius within which geometry occludes; 0: a tenth of the image's height at each pixel's depth",
         )
         .in_units("metres"),
         Setting::new("power", SettingType::Number(1.0, 0.1, 8.0), "exponent; values above 1 darken corners"),
@@ -42,7 +41,6 @@ impl Node for Ssao {
     ];
 
     fn new(context: &BuildContext<'_>, settings: &Settings) -> Result<Self, Error> {
-        context.require_single_sample(Self::NAME)?;
         let settings = OcclusionSettings {
             radius_m: settings.number("radius_m")?,
             power: settings.number("power")?,

@@ -18,8 +18,12 @@ pub(super) struct Tonemap {
 impl Node for Tonemap {
     const NAME: &'static str = "tonemap";
     const ABOUT: &'static str = "tonemaps light with a filmic curve";
-    const INPUTS: &'static [Port] =
-        &[Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float)];
+    const INPUTS: &'static [Port] = &[
+        Port::texture("light", "scene-linear, exposure applied").with_format(Format::Rgba16Float),
+        Port::texture("exposure", "one texel, a further factor of all light")
+            .with_format(Format::R32Float)
+            .optional(),
+    ];
     const OUTPUTS: &'static [Port] = &[Port::texture("image", "the tonemapped image, 8 bits per channel")
         .with_format(Format::Rgba8UnormSrgb)];
 
@@ -34,7 +38,8 @@ impl Node for Tonemap {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let mut image = ports.create("image", frame, view.texture_desc(Format::Rgba8UnormSrgb));
-        self.pass.add_to(frame, &ports.texture("light")?, &mut image);
+        let exposure = ports.is_connected("exposure").then(|| ports.texture("exposure")).transpose()?;
+        self.pass.add_to(frame, &ports.texture("light")?, &mut image, &view.tonemap_settings(exposure));
         ports.set("image", image);
         Ok(())
     }

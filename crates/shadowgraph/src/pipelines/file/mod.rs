@@ -30,6 +30,7 @@ use super::instance::PipelineInstance;
 use crate::build_context::BuildContext;
 use crate::error::{Error, PipelineError};
 use crate::nodes::built_in::shadows::Shadows;
+use crate::nodes::built_in::sky::Sky;
 use crate::nodes::node::Node;
 use crate::nodes::registry::Nodes;
 
@@ -45,6 +46,8 @@ pub(super) struct PipelineFile {
     pub(super) technique: Option<Technique>,
     /// Whether shadows are computed in a screen-space mask.
     pub(super) screen_shadows: bool,
+    /// Whether it has a node `sky`.
+    pub(super) has_sky: bool,
 }
 
 impl PipelineFile {
@@ -100,6 +103,7 @@ impl PipelineFile {
         let technique = shadows.map(|node| technique(document, node, techniques)).transpose()?.flatten();
         let screen_shadows =
             shadows.is_some_and(|node| node.settings.toggle(Shadows::SCREEN_SPACE).unwrap_or_default());
+        let has_sky = resolved.nodes.iter().any(|node| node.kind.name == Sky::NAME);
         Ok(Self {
             name: name.to_owned(),
             document: document.clone(),
@@ -108,6 +112,7 @@ impl PipelineFile {
             resolved: Arc::new(resolved),
             technique,
             screen_shadows,
+            has_sky,
         })
     }
 

@@ -6,7 +6,7 @@ use serde_json::json;
 
 mod warnings;
 
-const FORWARD: &str = include_str!("../../../pipelines/forward.ron");
+const FORWARD: &str = include_str!("../../../pipelines/minimal_lit.ron");
 
 fn load_with(text: &str, parameters: &Parameters) -> Result<Pipeline, String> {
     let directory = tempfile::tempdir().unwrap();
@@ -23,7 +23,7 @@ fn load(text: &str) -> Result<Pipeline, String> {
     load_with(text, &Parameters::default())
 }
 
-/// The file of `forward` with parts of it replaced.
+/// The file of `minimal_lit` with parts of it replaced.
 fn changed(changes: &[(&str, &str)]) -> String {
     changes.iter().fold(FORWARD.to_owned(), |text, (old, new)| {
         assert!(text.contains(old), "{old} is not in the file");
@@ -160,9 +160,9 @@ fn an_unknown_parameter_or_one_of_another_type_is_refused() {
 
 #[test]
 fn what_is_overwritten_in_place_is_read_before_and_outputs_name_the_last_node() {
-    let sky = |name: &str, from: &str| {
+    let fog = |name: &str, from: &str| {
         format!(
-            "(name: \"{name}\", kind: \"sky\", inputs: {{\"view\": \"view\", \"depth\": \"geometry\", \"light\": \"{from}\"}}),\n        "
+            "(name: \"{name}\", kind: \"fog\", inputs: {{\"view\": \"view\", \"shadows\": \"shadows\", \"depth\": \"geometry\", \"light\": \"{from}\"}}),\n        "
         )
     };
     let with = |nodes: &str, light: &str| {
@@ -171,11 +171,11 @@ fn what_is_overwritten_in_place_is_read_before_and_outputs_name_the_last_node() 
             ("\"light\": \"lighting\", \"depth\"", &format!("\"light\": \"{light}\", \"depth\"")),
         ])
     };
-    let two = sky("late", "early") + &sky("early", "lighting");
+    let two = fog("late", "early") + &fog("early", "lighting");
     assert!(load(&with(&two, "late")).is_ok());
     let error = load(&with(&two, "lighting")).err().unwrap();
     assert!(error.contains("`lighting.light` is overwritten in place: name `late.light`"), "{error}");
-    let twice = sky("one", "lighting") + &sky("other", "lighting");
+    let twice = fog("one", "lighting") + &fog("other", "lighting");
     let error = load(&with(&twice, "one")).err().unwrap();
     assert!(error.contains("overwrites its input `light` in place, and so does `one`"), "{error}");
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Subresource, Texture, TextureDesc, Uniform};
-use shadowgraph_shaders::{ModuleSource, PREFILTER, compose_source};
+use shadowgraph_shaders::{PREFILTER, compose_source};
 
 use super::kept::{AllMoments, KeptMoments, TileRevisions};
 use super::{MomentMap, Moments};
@@ -212,8 +212,8 @@ impl Encoding {
             Format::Rg32Uint => "rg32uint",
             _ => "rgba32uint",
         };
-        let source = PREFILTER.source.replace("FORMAT, write", &format!("{format_name}, write"));
-        let module = compose_source(&ModuleSource::new(PREFILTER.file, source), &S::modules(encoding))?;
+        let source = PREFILTER.with_value("FORMAT, write", &format!("{format_name}, write"));
+        let module = compose_source(&source, &S::modules(encoding))?;
         let shader = shader(device, "prefilter.wgsl", module);
         let step = |entry, from, to| Step::new(device, &shader, entry, map_layout, [from, written(to)]);
         Ok(Self {

@@ -120,9 +120,8 @@ impl ShadowTechnique for ScreenShadows {
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
         let first = self.inner.binding_types().len();
         let numbered = |module: ModuleSource| {
-            let source = module.source.replace("@binding(MASK)", &format!("@binding({first})"));
-            let source = source.replace("@binding(LAYERS)", &format!("@binding({})", first + 1));
-            ModuleSource::new(module.file, source)
+            let module = module.with_value("(MASK)", &format!("({first})"));
+            module.with_value("(LAYERS)", &format!("({})", first + 1))
         };
         if variant >= self.mask_only() {
             return vec![numbered(MASK_ONLY)];

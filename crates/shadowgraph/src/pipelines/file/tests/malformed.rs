@@ -1,4 +1,4 @@
-// Changes to the file of `forward`, each a common error, and what the error contains.
+// Changes to the file of `minimal_lit`, each a common error, and what the error contains.
 &[
     // Invalid syntax.
     (&[("(\n", "\n")], "mine.ron:2:"),
