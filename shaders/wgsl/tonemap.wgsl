@@ -36,13 +36,11 @@ fn opaque(light: vec4f) -> vec4f {
     return vec4f(filmic(desaturate_highlights(max(light.rgb, vec3f(0.0)))), 1.0);
 }
 
+// Without a branch: Mesa's software driver compiles a shader again for each draw if a branch depends on a uniform.
 fn over_background(light: vec4f) -> vec4f {
-    if settings.has_background == 0u {
-        return opaque(light);
-    }
-    let alpha = saturate(light.a);
-    let color = filmic(desaturate_highlights(max(light.rgb, vec3f(0.0)) / max(alpha, 1e-3))) * alpha;
-    return vec4f(color, alpha) + settings.background * (1.0 - alpha);
+    let alpha = select(1.0, saturate(light.a), settings.has_background == 1u);
+    let color = filmic(desaturate_highlights(max(light.rgb, vec3f(0.0)) / max(alpha, 1e-3)));
+    return vec4f(color * alpha, alpha) + settings.background * (1.0 - alpha);
 }
 
 @fragment
