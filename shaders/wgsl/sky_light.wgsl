@@ -1,11 +1,10 @@
 // The light of a sky and of the ground below it.
 #define_import_path shadowgraph::environment
-#import shadowgraph::view::{view, lights, view_depth_of}
+#import shadowgraph::view::{view, lights, view_depth_of, view_ray, to_neighbour}
 #import shadowgraph::lighting::{Surface, arriving_light, environment_reflectance}
 #import shadowgraph::receiver::{Receiver, RECEIVER_OFF_SCREEN}
 #import shadowgraph::screen_occlusion::screen_occlusion
 #import shadowgraph::light_list::light_mask
-#import shadowgraph::view::to_neighbour
 #import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::technique::shadow_visibility
 
@@ -91,7 +90,7 @@ fn environment_light(surface: Surface) -> vec3f {
     return (surface.diffuse_color * diffuse_light + specular * reflected_light) * surface.occlusion;
 }
 
-// The light that the plane reflects at a point, and the part of it that the sum of all lights without shadows would give.
+// The light that the plane reflects at a point, and what it would reflect without shadows and occlusion.
 fn ground_light(position: vec3f, pixel: vec2f) -> array<vec3f, 2> {
     let up = vec3f(0.0, 1.0, 0.0);
     let depth = view_depth_of(position);
@@ -128,18 +127,15 @@ fn ground_light(position: vec3f, pixel: vec2f) -> array<vec3f, 2> {
 }
 
 fn background_light(pixel: vec2f) -> vec4f {
-    let ndc = pixel / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
-    let near = view.world_from_clip * vec4f(ndc, 1.0, 1.0);
-    let far = view.world_from_clip * vec4f(ndc, 0.5, 1.0);
-    let start = near.xyz / near.w;
-    let direction = normalize(far.xyz / far.w - start);
+    let ray = view_ray(pixel);
+    let direction = ray.direction;
     let shows_sky = sky.backdrop == BACKDROP_SKY;
     var ground = sky.ground;
     var darkened = 0.0;
-    let distance = (sky.ground_height - start.y) / direction.y;
+    let distance = (sky.ground_height - ray.start.y) / direction.y;
     let share = ground_share(direction.y);
     if sky.has_ground == 1u && direction.y < 0.0 && distance > 0.0 {
-        let light = ground_light(start + direction * distance, pixel);
+        let light = ground_light(ray.start + direction * distance, pixel);
         ground = light[0];
         let luminance = vec3f(0.2126, 0.7152, 0.0722);
         darkened = share * (1.0 - dot(light[0], luminance) / max(dot(light[1], luminance), 1e-9));

@@ -63,6 +63,22 @@ fn view_depth_from_depth(depth: f32) -> f32 {
     return view.near * view.far / (view.near + depth * (view.far - view.near));
 }
 
+// A ray into the scene, from the near plane.
+struct ViewRay {
+    start: vec3f,
+    // Unit length.
+    direction: vec3f,
+}
+
+// The ray through a point of the image, in pixels.
+fn view_ray(pixel: vec2f) -> ViewRay {
+    let ndc = pixel / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
+    let near = view.world_from_clip * vec4f(ndc, 1.0, 1.0);
+    let far = view.world_from_clip * vec4f(ndc, 0.5, 1.0);
+    let start = near.xyz / near.w;
+    return ViewRay(start, normalize(far.xyz / far.w - start));
+}
+
 // The direction to the camera, unit length, from a point relative to the camera.
 fn direction_to_camera(from_camera: vec3f) -> vec3f {
     if view.orthographic == 1u {

@@ -214,7 +214,7 @@ fn sky_and_ambient_light_follow_the_sun() {
 fn exposure_brings_dark_and_bright_images_nearer_to_each_other() {
     let Some(gpu) = gpu() else { return };
     let (scene, _) = cube();
-    // The key light is that of the sun, but what is seen is dark or white.
+    // The key light is that of the sun, but the visible surface is dark or white.
     let with = |base: f32, pipeline: Pipeline| {
         let mut scene = scene.clone();
         let keys: Vec<_> = scene.materials().map(|(key, _)| key).collect();

@@ -28,7 +28,7 @@ pub struct SkySettings {
     pub turbidity: f32,
     /// Angular radius of the sun's disc, radians; the sun's is 0.00465.
     pub disc_rad: f32,
-    /// The colour of the ground where there is no [`GroundPlane`], linear RGB, each 0 to 1.
+    /// The albedo of the ground, linear RGB, each 0 to 1.
     pub ground_albedo: Vec3,
 }
 
