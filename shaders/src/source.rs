@@ -31,8 +31,8 @@ macro_rules! file {
 /// The technique `none`: no shadows, no bindings.
 pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 
-/// The module of shadow map techniques: it finds the tiles that a point is read from, and evaluates the function `filtered` of
-/// the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
+/// The module of shadow map techniques: it finds the tiles that a point is read from, and evaluates the functions `filtered` and
+/// `filter_radius` of the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
 pub const MAPPED: ModuleSource = file!("shadows/mapped.wgsl");
 
 /// The filter of the technique `pcss`, for [`MAPPED`].
@@ -101,6 +101,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/pcf.wgsl"),
     file!("shadows/raytraced_settings.wgsl"),
     file!("shadows/tent.wgsl"),
+    file!("shadows/crease.wgsl"),
     file!("shadows/tiles.wgsl"),
     file!("shadows/tints.wgsl"),
     file!("shadows/traced.wgsl"),

@@ -1,7 +1,7 @@
 // Blurs a screen mask over surfaces with a Poisson disc, rotated per pixel and wider nearby, that skips samples on other
 // surfaces. After Pranckevičius, "Deferred Cascaded Shadow Maps" (2009), and Mitchell, "Poisson Shadow Blur" (ShaderX3,
 // 2005).
-#import shadowgraph::view::{view, view_depth_of}
+#import shadowgraph::view::{view_depth_of, pixels_per_metre}
 #import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::surface::unpack_normal
 
@@ -27,14 +27,6 @@ const DISC = array<vec2f, TAPS>(
     vec2f(0.4068, -0.0604), vec2f(0.4008, -0.8943), vec2f(-0.2267, 0.4629), vec2f(-0.6761, -0.7094),
     vec2f(-0.9559, 0.2160), vec2f(0.3309, 0.9224), vec2f(0.7644, 0.6133), vec2f(0.1279, -0.4753),
 );
-
-// Pixels per metre at this view depth.
-fn pixels_per_metre(depth: f32) -> f32 {
-    // The second row of the projection: one unit of height at depth 1, in halves of the image's height.
-    let m = view.clip_from_world;
-    let up = length(vec3f(m[0].y, m[1].y, m[2].y)) * 0.5 * view.size_px.y;
-    return select(up / max(depth, 1e-6), up, view.orthographic == 1u);
-}
 
 @compute @workgroup_size(8, 8)
 fn cs_blur(@builtin(global_invocation_id) id: vec3u) {

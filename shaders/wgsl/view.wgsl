@@ -63,6 +63,14 @@ fn view_depth_from_depth(depth: f32) -> f32 {
     return view.near * view.far / (view.near + depth * (view.far - view.near));
 }
 
+// Pixels per metre at this view depth.
+fn pixels_per_metre(depth: f32) -> f32 {
+    // The second row of the projection: one unit of height at depth 1, in halves of the image's height.
+    let m = view.clip_from_world;
+    let up = length(vec3f(m[0].y, m[1].y, m[2].y)) * 0.5 * view.size_px.y;
+    return select(up / max(depth, 1e-6), up, view.orthographic == 1u);
+}
+
 // A ray into the scene, from the near plane.
 struct ViewRay {
     start: vec3f,

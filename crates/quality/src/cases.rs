@@ -92,7 +92,7 @@ impl Case {
     }
 }
 
-/// Returns the built-in cases: eight test scenes, four suns, a near and a far view each.
+/// Returns the built-in cases: nine test scenes, four suns, a near and a far view each.
 ///
 /// # Errors
 /// None in practice: a test reads them.

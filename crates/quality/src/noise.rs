@@ -7,8 +7,8 @@ use shadowgraph::lighting::{Forward, LitOutput, LitTarget, Prepass, Velocity};
 use shadowgraph::{Gpu, RenderView, Renderer, SurfaceDrawer, ViewOptions};
 use shadowgraph_core::{Format, FullscreenShader, Graph, Subresource};
 use shadowgraph_shadows::{
-    CascadeBlend, PCF, PCSS, PcssSettings, RAYTRACED, RaytracedSettings, ScreenSettings, ShadowSettings,
-    Technique,
+    CascadeBlend, ContactSettings, PCF, PCSS, PcssSettings, RAYTRACED, RaytracedSettings, ScreenSettings,
+    ShadowSettings, Technique,
 };
 
 use super::metrics::RECEIVER_N_DOT_L;
@@ -61,13 +61,16 @@ pub fn noisy_techniques(settings: &ShadowSettings, sun_radius_rad: f32) -> Resul
     dithered.cascades.blend = CascadeBlend::Dither(0.5);
     let mut blurred = soft.clone();
     blurred.techniques.set(&ScreenSettings { blur_m: 0.1, ..ScreenSettings::default() })?;
+    // Fewer samples than pixels.
+    let mut sparse = soft.clone();
+    sparse.techniques.set(&ContactSettings { max_steps: 4, ..ContactSettings::default() })?;
     let noisy =
         |name, technique, settings: &ShadowSettings| Noisy { name, technique, settings: settings.clone() };
     let pcf = Technique::from(PCF);
     Ok(vec![
         noisy("pcf, dithered blend", pcf, &dithered),
         noisy("pcf+screen, blurred", pcf.with_screen(), &blurred),
-        noisy("pcf+contact", pcf.with_contact(), &soft),
+        noisy("pcf+contact", pcf.with_contact(), &sparse),
         noisy("pcss", PCSS.into(), &soft),
         noisy("raytraced", RAYTRACED.into(), &soft),
     ])

@@ -4,7 +4,7 @@ mod stained_glass;
 
 pub use stained_glass::stained_glass;
 
-use glam::{DAffine3, DVec2, DVec3, Vec3, Vec4};
+use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3, Vec4};
 
 use crate::insert::{insert_instance, insert_material};
 use crate::mesh_builder::{MeshBuilder, box_on_ground, cuboid};
@@ -12,8 +12,8 @@ use crate::round::{lathe, sphere};
 use shadowgraph_scene::{Light, LightKind, Material, Scene};
 
 /// The names of all test scenes.
-pub const TEST_SCENES: [&str; 8] =
-    ["cube", "slats", "stairs", "columns", "eaves", "spheres", "tower", "interior"];
+pub const TEST_SCENES: [&str; 9] =
+    ["cube", "slats", "stairs", "columns", "eaves", "spheres", "tower", "interior", "cornell"];
 
 /// The heading of the sunlight at which the tower's shadow falls on the boxes, from east towards north, degrees.
 pub const TOWER_SUN_HEADING_DEG: f64 = 40.0;
@@ -28,6 +28,7 @@ pub const TOWER_SUN_HEADING_DEG: f64 = 40.0;
 /// - `spheres`: balls of 10 cm to 1 m that touch the ground, and one that does not.
 /// - `tower`: boxes of 30 cm at the edge of the shadow of a tower of 60 m, 90 m away towards the sun.
 /// - `interior`: a room with walls of 5 cm, two windows and a doorway.
+/// - `cornell`: a Cornell box of planes without thickness, open to the front, with two boxes of planes in it.
 ///
 /// ```
 /// use shadowgraph_samples::test_scenes::{TEST_SCENES, test_scene};
@@ -45,6 +46,7 @@ pub fn test_scene(name: &str) -> Option<Scene> {
         "spheres" => spheres(),
         "tower" => tower(),
         "interior" => interior(),
+        "cornell" => cornell(),
         _ => return None,
     };
     let base_color = Vec4::new(0.6, 0.6, 0.6, 1.0);
@@ -196,6 +198,26 @@ fn interior() -> Objects {
     }
     room.append_translated(&box_on_ground(1.6, 0.75, 0.9), DVec3::new(-0.8, 0.0, 0.0));
     vec![ground(30.0), ("room", room)]
+}
+
+fn cornell() -> Objects {
+    let (width, height, depth) = (DVec3::X * 4.0, DVec3::Y * 3.0, DVec3::Z * 4.0);
+    let corner = DVec3::new(-2.0, 0.0, -2.0);
+    let mut room = MeshBuilder::default();
+    room.parallelogram(corner, depth, width);
+    room.parallelogram(corner, width, height);
+    room.parallelogram(corner, height, depth);
+    room.parallelogram(corner + width, depth, height);
+    // The ceiling covers the back half.
+    room.parallelogram(corner + height, width, depth * 0.5);
+    let mut boxes = MeshBuilder::default();
+    boxes.append(&box_on_ground(1.2, 1.2, 1.2), turned_to(DVec3::new(0.75, 0.0, 0.6), -18.0));
+    boxes.append(&box_on_ground(1.2, 2.4, 1.2), turned_to(DVec3::new(-0.7, 0.0, -0.7), 20.0));
+    vec![("room", room), ("boxes", boxes)]
+}
+
+fn turned_to(position: DVec3, degrees: f64) -> DAffine3 {
+    DAffine3::from_rotation_translation(DQuat::from_rotation_y(degrees.to_radians()), position)
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@ pub(crate) struct LightShadowParams {
     pub(crate) blocker_reach_m: f64,
     pub(crate) strength: f32,
     pub(crate) supersample: bool,
+    pub(crate) close_creases: bool,
     pub(crate) fade_fraction: f32,
     pub(crate) near_m: Option<f64>,
     pub(crate) importance: f64,
@@ -26,7 +27,7 @@ impl LightShadowParams {
     pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
         let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
         let bias = settings.bias.clone();
-        let (fade_fraction, supersample) = (settings.fade_fraction, settings.supersample);
+        let ShadowSettings { fade_fraction, supersample, close_creases, .. } = *settings;
         let Some(own) = own else {
             return Self {
                 bias,
@@ -36,6 +37,7 @@ impl LightShadowParams {
                 blocker_reach_m: 0.0,
                 strength: 1.0,
                 supersample,
+                close_creases,
                 fade_fraction,
                 near_m: None,
                 importance: 1.0,
@@ -56,6 +58,7 @@ impl LightShadowParams {
             blocker_reach_m: 0.0,
             strength: own.strength,
             supersample,
+            close_creases,
             fade_fraction,
             near_m: own.near_m.map(f64::from),
             importance: f64::from(own.importance),

@@ -108,6 +108,8 @@ pub struct ShadowLight {
     pub filter_falloff: f32,
     /// 1 if shadows are evaluated at several points of a wide pixel, else 0.
     pub supersample: u32,
+    /// 1 if points behind a crease are dark, else 0.
+    pub close_creases: u32,
 }
 
 /// [`ShadowView::cascade`] of a tile that is not a cascade.
@@ -253,6 +255,7 @@ impl ShadowLight {
             fade_per_m: (1.0 / (distance_m * f64::from(params.fade_fraction))) as f32,
             filter_half: half as f32,
             supersample: u32::from(params.supersample),
+            close_creases: u32::from(params.close_creases),
             ..Self::default()
         }
     }

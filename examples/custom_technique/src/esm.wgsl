@@ -20,6 +20,11 @@ fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
     return shadow_view.near_m * far / (shadow_view.near_m + depth * shadow_view.depth_range_m);
 }
 
+// The radius of the filter, texels.
+fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    return 1.0;
+}
+
 // Visibility of a point: 0 to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];

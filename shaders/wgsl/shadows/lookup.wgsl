@@ -6,6 +6,9 @@
 
 // The cosine below which a surface is edge-on to the light.
 const EDGE_ON: f32 = 1e-4;
+// The error of a receiver's plane, in texels, and of depths that are extended to the point, in steps of the map's depth.
+const PLANE_ERROR: f32 = 0.05;
+const PLANE_ERROR_STEPS: f32 = 4.0;
 
 struct Lookup {
     // Whether the view covers the point.
@@ -21,9 +24,19 @@ struct Lookup {
     min_radius: f32,
     turn: f32,
     plane: TentPlane,
+    unbiased: ReceiverPlane,
     // For gradient biases: the largest gradient that is followed, in depth per texel, and its factor.
     max_gradient: f32,
     gradient_bias: f32,
+}
+
+// The receiver's plane in map space at uv, without biases.
+struct ReceiverPlane {
+    depth: f32,
+    // Change of depth per texel right and down.
+    slope: vec2f,
+    // The error of differences from the plane; 0 if it is too steep to be followed.
+    error: f32,
 }
 
 fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> Lookup {
@@ -53,6 +66,11 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     var slope = vec2f(-normal_in_light.x, normal_in_light.y) * shadow_view.depth_per_texel / facing;
     let max_slope = light.max_slope * depth_per_texel;
     lookup.max_gradient = max_slope;
+    // The bias along the normal moves the point towards the light by this change of depth, seen along the light.
+    let lift = scale * light.normal_bias_texels * sine * depth_per_texel / max(cosine, EDGE_ON);
+    let followed = length(slope) < max_slope && cosine > EDGE_ON;
+    let error = PLANE_ERROR * (depth_per_texel + length(slope)) + PLANE_ERROR_STEPS * shadow_view.depth_step;
+    lookup.unbiased = ReceiverPlane(depth - lift, slope, select(0.0, error, followed));
     lookup.gradient_bias = scale * light.slope_bias;
     slope *= scale * light.slope_bias * max_slope / max(length(slope), max_slope);
     // Neighbours of the receiver that are clamped to the near plane would count as blockers.

@@ -2,7 +2,8 @@
 // shadowgraph::shadows::filter; its bindings start at 8.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
-#import shadowgraph::shadows::filter::filtered
+#import shadowgraph::shadows::crease::is_behind_crease
+#import shadowgraph::shadows::filter::{filtered, filter_radius}
 #import shadowgraph::shadows::footprint::{SAMPLES, footprint_of, sampled}
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::tints::tint
@@ -46,6 +47,9 @@ fn pixel_visibility(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> v
     for (var i = 0u; i < samples; i++) {
         let moved = sampled(shadow_view, light, lookup, footprint, i);
         sum += filtered(light, receiver, moved) * tint(light, receiver, moved);
+    }
+    if any(sum > vec3f(0.0)) && is_behind_crease(light, lookup, filter_radius(light, receiver, lookup)) {
+        return vec3f(0.0);
     }
     return sum / f32(samples);
 }

@@ -42,22 +42,28 @@ fn bilinear(map: u32, uv: vec2f, mip: u32) -> vec4f {
     return mix(top, bottom, fraction.y);
 }
 
-// Moment texels texels_per_pixel a pixel of the screen: the geometric mean of both axes.
-fn texels_per_pixel_at(shadow_view: ShadowView, receiver: Receiver) -> f32 {
+// The mip whose texels are as wide as a pixel of the screen: the geometric mean of both axes.
+fn mip_level(shadow_view: ShadowView, receiver: Receiver) -> f32 {
     var distance = 1.0;
     if shadow_view.light.w != 0.0 {
         distance = length(shadow_view.light.xyz - receiver.position);
     }
     let texel_world = shadow_view.texel_world * distance * f32(settings.downscale);
     let pixel_world = sqrt(length(receiver.ddx_position) * length(receiver.ddy_position));
-    return pixel_world / max(texel_world, 1e-9);
+    let texels_per_pixel = pixel_world / max(texel_world, 1e-9);
+    return select(0.0, min(log2(texels_per_pixel), f32(settings.mips - 1u)), texels_per_pixel > 1.0);
+}
+
+// The radius of the filter where blockers are near, texels of the depth map.
+fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    let level = mip_level(shadow_views[light.first_view + lookup.view], receiver);
+    return f32(settings.downscale * (settings.blur_texels + 2u)) * exp2(level);
 }
 
 // The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let shadow_view = shadow_views[light.first_view + lookup.view];
-    let texels_per_pixel = texels_per_pixel_at(shadow_view, receiver);
-    let level = select(0.0, min(log2(texels_per_pixel), f32(settings.mips - 1u)), texels_per_pixel > 1.0);
+    let level = mip_level(shadow_view, receiver);
     let mip = u32(level);
     // In wide pixels more texels: a moment texel is the mean of few depths, and would change in large steps as the light turns.
     let taps = select(1u, 4u, lookup.min_radius > 0.0);

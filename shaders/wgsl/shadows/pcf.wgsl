@@ -10,6 +10,11 @@
 // Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
 @group(1) @binding(8) var shadow_sampler: sampler_comparison;
 
+// The radius of the filter where blockers are near, texels of the depth map.
+fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    return light.filter_half;
+}
+
 // The visibility of the light from a point, the fraction of the filter that is not nearer to the light: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;

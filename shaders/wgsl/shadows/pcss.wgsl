@@ -57,6 +57,11 @@ fn tap_depth(lookup: Lookup, tap: vec2f) -> f32 {
     return tent_depth(lookup.plane, abs(dot(slope, tap)) + 0.5 * (abs(slope.x) + abs(slope.y)), tap);
 }
 
+// The radius of the filter where blockers are near, texels of the depth map.
+fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
+    return pcss.max_radius_texels;
+}
+
 // The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;

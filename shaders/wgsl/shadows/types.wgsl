@@ -48,7 +48,7 @@ struct ShadowView {
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;
 
-// 84 bytes. One for each light of the scene.
+// 88 bytes. One for each light of the scene.
 struct ShadowLight {
     first_view: u32,
     // 0: no shadows.
@@ -90,6 +90,8 @@ struct ShadowLight {
     filter_falloff: f32,
     // 1: shadows are evaluated at several points of a pixel that is wider than texels.
     supersample: u32,
+    // 1: points behind a crease are dark.
+    close_creases: u32,
 }
 
 const MAP_CASCADES: u32 = 0u;

@@ -138,8 +138,8 @@ fn contact_shadows_add_shadows_that_maps_are_too_coarse_for() {
     let with = differing(&greys(gpu, &scene, &options, Technique::from(PCF).with_contact()), &truth, 127);
     println!("wrong without {alone:.4}, with contact shadows {with:.4}");
     assert!(with < 0.7 * alone, "{with} {alone}");
-    // A march of a millimetre finds no occluder.
-    let short = ContactSettings { length_m: 0.001, ..ContactSettings::default() };
+    // Such a short march finds no occluder.
+    let short = ContactSettings { length_texels: 0.1, ..ContactSettings::default() };
     options.shadows.techniques.set(&short).unwrap();
     let short = differing(&greys(gpu, &scene, &options, Technique::from(PCF).with_contact()), &truth, 127);
     assert!((short - alone).abs() < 0.1 * alone, "{short} {alone}");

@@ -32,7 +32,7 @@ fn nodes_describes_a_node_a_pipeline_a_technique_and_the_shared_settings() {
     assert!(
         text.contains("technique pcf: ")
             && text.contains("technique +contact: ")
-            && text.contains("length_m"),
+            && text.contains("length_texels"),
         "{text}"
     );
     let (_, text, _) = nodes(&["settings"]);

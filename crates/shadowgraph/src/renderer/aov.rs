@@ -21,7 +21,7 @@ impl Renderer {
         let output = self.instance.add(frame, view)?;
         self.previous_cameras.set(view.index, &view.options.camera, view.options.aspect());
         let image = self.aov_image(frame, view, &output)?;
-        let ShadowOutputs { debug_buffers: shadow_buffers, unshadowed, .. } = output.shadows;
+        let ShadowOutputs { map_buffers: shadow_buffers, unshadowed, .. } = output.shadows;
         Ok(ViewOutput { image, shadow_buffers, unshadowed })
     }
 

@@ -34,7 +34,7 @@ use crate::views::ShadowView;
 /// The common part of techniques with shadow maps: it plans the maps of each frame, and draws casters into their tiles.
 ///
 /// A technique adds passes that process the maps, and its own way to read them: the modules [`MAPPED`](shadowgraph_shaders::MAPPED)
-/// and, as `shadowgraph::shadows::filter`, its own with the function `filtered`.
+/// and, as `shadowgraph::shadows::filter`, its own with the functions `filtered` and `filter_radius`.
 pub struct ShadowMaps {
     /// Group 0 of the passes that draw casters.
     view_layout: wgpu::BindGroupLayout,
@@ -183,7 +183,7 @@ impl DrawnMaps {
             bindings,
             debug_light: self.main_light,
             debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
-            debug_buffers: Some([self.views, self.lights]),
+            map_buffers: Some([self.views, self.lights]),
             unshadowed: self.unshadowed,
             ..ShadowOutputs::default()
         }

@@ -244,7 +244,7 @@ fn settings_of_techniques_are_checked_with_the_others() {
     assert!(error("(distance_m: 0.0)").starts_with("invalid value: `distance_m`"));
     let out_of_range = error(r#"(techniques: {"pcss": (filter_taps: 0)})"#);
     assert!(out_of_range.contains("`techniques.pcss.filter_taps` is 0"), "{out_of_range}");
-    assert!(error(r#"(techniques: {"contact": (steps: 99)})"#).contains("1 to 64"));
+    assert!(error(r#"(techniques: {"contact": (max_steps: 999)})"#).contains("1 to 256"));
     assert!(error(r#"(techniques: {"none": ()})"#).contains("it has no settings"));
     assert!(error(r#"(techniques: {"soft": ()})"#).starts_with("unknown technique `soft`"));
     let kind = error(r#"(techniques: {"pcss": (filter_taps: 2.5)})"#);

@@ -53,6 +53,8 @@ declare_settings! {
         fade_fraction: f32 = 0.1, 0.001..=1, in "fraction of the distance";
         /// Whether shadows are evaluated at four points of a pixel instead of one, where it is wider than two shadow texels.
         supersample: bool = true;
+        /// Whether light is kept from leaking along the crease where a surface in shadow meets the one that hides it.
+        close_creases: bool = true;
         /// Cascades of the brightest directional lights.
         cascades: CascadeSettings = CascadeSettings::default();
         /// Map that holds all other lights.

@@ -193,10 +193,10 @@ mod tests {
 
     #[test]
     fn a_field_of_another_type_in_wgsl_is_an_error() {
-        let wgsl = "struct Contact { length_m: f32, thickness_m: f32, steps: f32 }\n\
+        let wgsl = "struct Contact { length_texels: f32, thickness: f32, max_steps: f32 }\n\
             @group(0) @binding(0) var<uniform> contact: Contact;";
         let module = naga::front::wgsl::parse_str(wgsl).unwrap();
         let error = GpuStruct::new::<ContactSettings>("Contact").check(&module).unwrap_err().to_string();
-        assert_eq!(error, "field `steps` of WGSL struct `Contact` is of type `f32`, expected `u32`");
+        assert_eq!(error, "field `max_steps` of WGSL struct `Contact` is of type `f32`, expected `u32`");
     }
 }

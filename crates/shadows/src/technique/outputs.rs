@@ -21,9 +21,9 @@ pub struct ShadowOutputs<'f> {
     pub mask: Option<Texture>,
     /// Textures for debugging, by name.
     pub debug: Vec<(&'static str, Texture)>,
-    /// The buffers of the [`ShadowView`](crate::ShadowView)s and [`ShadowLight`](crate::ShadowLight)s of its maps, for tools that
-    /// show them; `None` for a technique without maps.
-    pub debug_buffers: Option<[Buffer; 2]>,
+    /// The buffers of the [`ShadowView`](crate::ShadowView)s and [`ShadowLight`](crate::ShadowLight)s of its maps; `None` for a
+    /// technique without maps.
+    pub map_buffers: Option<[Buffer; 2]>,
     /// The lights with `casts_shadow` that have no shadows in this frame, and why.
     pub unshadowed: Vec<Unshadowed>,
 }

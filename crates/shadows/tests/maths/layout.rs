@@ -34,7 +34,7 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
     assert_eq!((offset_of!(ShadowView, clip_from_world), offset_of!(ShadowView, noise_px)), (0, 232));
     let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
         normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
-        fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff, supersample);
+        fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases);
     layout::check(&module, "ShadowLight", size_of::<ShadowLight>(), &light).unwrap();
 }
 

@@ -5,6 +5,7 @@ mod bias;
 mod budget;
 mod caching;
 mod cascades;
+mod creases;
 mod culling;
 mod filters;
 mod materials;

@@ -51,7 +51,7 @@ fn lights() -> [Light; 2] {
 }
 
 #[test]
-fn row_42_wide_pixels_show_the_mean_of_their_shadows() {
+fn row_59_wide_pixels_show_the_mean_of_their_shadows() {
     let Some(gpu) = gpu() else { return };
     for (light, technique) in lights().into_iter().flat_map(|light| [(light.clone(), PCF), (light, PCSS)]) {
         let (scene, mut options) = fence(light);
@@ -67,7 +67,7 @@ fn row_42_wide_pixels_show_the_mean_of_their_shadows() {
 }
 
 #[test]
-fn row_42_narrow_pixels_have_one_lookup() {
+fn row_59_narrow_pixels_have_one_lookup() {
     let Some(gpu) = gpu() else { return };
     for light in lights() {
         let (scene, mut options) = fence(light);

@@ -1,6 +1,6 @@
 //! Passes over a screen mask.
 
-use shadowgraph_core::{Bind, Contents, Frame, Texture, TextureDesc, Uniform};
+use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture, TextureDesc, Uniform};
 use shadowgraph_scene::Light;
 use shadowgraph_shaders::compose;
 
@@ -36,28 +36,36 @@ impl Layers {
 pub(in crate::techniques) struct MaskPass {
     name: &'static str,
     view_layout: wgpu::BindGroupLayout,
+    /// Group 1 of a pass that reads the shadow views; its own group is then group 2.
+    shadow_views_layout: Option<wgpu::BindGroupLayout>,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
 }
 
 impl MaskPass {
-    /// Creates the pipeline for an entry point of a built-in file. `own` is the struct of its uniform block.
+    /// Creates the pipeline for an entry point of a built-in file. `own` is the struct of its uniform block. `has_views`: it reads
+    /// the shadow views and lights.
     pub(in crate::techniques) fn new(
         device: &wgpu::Device,
         name: &'static str,
         (file, entry): (&str, &str),
         own: &GpuStruct,
+        has_views: bool,
     ) -> Result<Self, Error> {
         let view_layout = layout(device, "view", &[STORAGE; 2]);
+        let shadow_views_layout = has_views.then(|| layout(device, "shadow views", &[STORAGE; 2]));
         let own_layout = layout(device, name, &[FLOAT_MAP, MASK, TARGET, UNIFORM, UNIFORM]);
         let module = compose(file, &[])?;
         own.check(&module)?;
         let shader = shader(device, file, module);
-        let pipeline = pipeline(device, &shader, entry, &[&view_layout, &own_layout]);
-        Ok(Self { name, view_layout, layout: own_layout, pipeline })
+        let groups = [Some(&view_layout), shadow_views_layout.as_ref(), Some(&own_layout)];
+        let groups: Vec<_> = groups.into_iter().flatten().collect();
+        let pipeline = pipeline(device, &shader, entry, &groups);
+        Ok(Self { name, view_layout, shadow_views_layout, layout: own_layout, pipeline })
     }
 
-    /// Adds the pass, and returns the new mask.
+    /// Adds the pass, and returns the new mask. `shadow_views`: the buffers of shadow views and lights, for
+    /// a pass that reads them.
     pub(in crate::techniques) fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -65,10 +73,14 @@ impl MaskPass {
         mask: &Texture,
         layers: Layers,
         own: Uniform,
+        shadow_views: Option<&[Buffer; 2]>,
     ) -> Texture {
         let mut output = mask_texture(frame, format_args!("shadow mask, {}", self.name), buffers, layers);
         let mut pass = frame.compute_pass(self.name);
         let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let shadow_views = self.shadow_views_layout.as_ref().zip(shadow_views);
+        let shadow_views = shadow_views
+            .map(|(layout, buffers)| (layout, buffers.each_ref().map(|buffer| pass.storage_buffer(buffer))));
         let (surfaces, mask) = (pass.sample(&buffers.surfaces), pass.sample(mask));
         let target = pass.storage_texture_mut(&mut output, Contents::Overwrite);
         let size_px = buffers.size_px;
@@ -80,10 +92,12 @@ impl MaskPass {
                 Bind::Uniform(layers.block),
                 Bind::Uniform(own),
             ];
-            let groups = [
-                ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
-                ctx.bind_group(&self.layout, &own)?,
-            ];
+            let mut groups =
+                vec![ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?];
+            if let Some((layout, buffers)) = shadow_views {
+                groups.push(ctx.bind_group(layout, &buffers.map(Bind::Buffer))?);
+            }
+            groups.push(ctx.bind_group(&self.layout, &own)?);
             dispatch(&mut ctx.pass, &self.pipeline, &groups, workgroups(size_px, layers));
             Ok(())
         });

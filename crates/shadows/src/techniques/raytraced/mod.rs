@@ -62,7 +62,13 @@ impl Raytraced {
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         Ok(Self {
             trace: Trace::new(device)?,
-            denoise: MaskPass::new(device, "denoise", ("denoise.wgsl", "cs_denoise"), &settings_struct())?,
+            denoise: MaskPass::new(
+                device,
+                "denoise",
+                ("denoise.wgsl", "cs_denoise"),
+                &settings_struct(),
+                false,
+            )?,
             no_rays: GpuRayScene::new(device),
             no_mask: no_mask(device),
         })
@@ -117,7 +123,7 @@ impl Raytraced {
             return Ok(Some(mask));
         }
         let own = frame.uniform(&settings.bytes());
-        Ok(Some(self.denoise.add_to(frame, buffers, &mask, layers, own)))
+        Ok(Some(self.denoise.add_to(frame, buffers, &mask, layers, own, None)))
     }
 
     /// Returns the triangles of the casters, or none where there is no caster.

@@ -6,7 +6,7 @@ mod settings;
 
 pub use settings::{ContactSettings, ScreenSettings};
 
-use shadowgraph_core::{Frame, Texture};
+use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
 
 use super::mask::pass::{Layers, MaskPass};
@@ -18,6 +18,7 @@ use crate::settings::{NamedSettings, ShadowSettings};
 use crate::technique::binding::UNIFORM;
 use crate::technique::{GpuData, GpuStruct};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};
+use crate::views::{ShadowLight, ShadowView};
 use evaluate::EvaluatePass;
 
 /// Evaluates another technique once per pixel and light in a compute pass, and blurs the result; the mask of a technique that
@@ -45,7 +46,7 @@ impl ScreenShadows {
         Ok(Self {
             name: format!("{}+{}", inner.name(), ScreenSettings::NAME),
             evaluate: EvaluatePass::new(device, inner.as_ref())?,
-            blur: MaskPass::new(device, "blur", ("blur.wgsl", "cs_blur"), &settings)?,
+            blur: MaskPass::new(device, "blur", ("blur.wgsl", "cs_blur"), &settings, false)?,
             contact: None,
             no_mask: no_mask(device),
             inner,
@@ -60,7 +61,7 @@ impl ScreenShadows {
     pub fn with_contact(device: &wgpu::Device, inner: Box<dyn ShadowTechnique>) -> Result<Self, Error> {
         let base = Self::new(device, inner)?;
         let settings = GpuStruct::new::<ContactSettings>("ContactSettings");
-        let contact = MaskPass::new(device, "contact", ("contact.wgsl", "cs_contact"), &settings)?;
+        let contact = MaskPass::new(device, "contact", ("contact.wgsl", "cs_contact"), &settings, true)?;
         Ok(Self {
             name: format!("{}+{}", base.inner.name(), ContactSettings::NAME),
             contact: Some(contact),
@@ -81,16 +82,17 @@ impl ScreenShadows {
         buffers: &SurfaceBuffers,
         mut mask: Texture,
         layers: Layers,
+        shadow_views: &[Buffer; 2],
     ) -> Result<Texture, Error> {
         let blur: ScreenSettings = settings.techniques.get()?;
         if blur.blur_m > 0.0 {
             let own = frame.uniform(&blur.bytes());
-            mask = self.blur.add_to(frame, buffers, &mask, layers, own);
+            mask = self.blur.add_to(frame, buffers, &mask, layers, own, None);
         }
         if let Some(contact) = &self.contact {
             let settings: ContactSettings = settings.techniques.get()?;
             let own = frame.uniform(&settings.bytes());
-            mask = contact.add_to(frame, buffers, &mask, layers, own);
+            mask = contact.add_to(frame, buffers, &mask, layers, own, Some(shadow_views));
         }
         Ok(mask)
     }
@@ -165,7 +167,11 @@ impl ShadowTechnique for ScreenShadows {
                 Some(mask) => mask,
                 None => self.evaluate.add_to(frame, inner, buffers, &outputs, layers)?,
             };
-            self.passes(frame, inputs.settings, buffers, mask, layers).map(Some)
+            let shadow_views = match &outputs.map_buffers {
+                Some(buffers) => buffers.clone(),
+                None => without_maps(frame),
+            };
+            self.passes(frame, inputs.settings, buffers, mask, layers, &shadow_views).map(Some)
         })?;
         let bound = outputs.mask.clone();
         let bound = bound.unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
@@ -179,4 +185,10 @@ impl ShadowTechnique for ScreenShadows {
         }
         Ok(outputs)
     }
+}
+
+/// Creates the buffers of views and lights of a technique without maps: a light without views.
+fn without_maps(frame: &mut Frame<'_>) -> [Buffer; 2] {
+    let view = frame.upload_buffer("no shadow views", bytemuck::bytes_of(&ShadowView::empty()).to_vec());
+    [view, frame.upload_buffer("no shadow lights", bytemuck::bytes_of(&ShadowLight::default()).to_vec())]
 }

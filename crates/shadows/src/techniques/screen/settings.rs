@@ -22,12 +22,12 @@ impl NamedSettings for ScreenSettings {
 declare_settings! {
     /// Contact shadows: short shadows found by ray marching on screen.
     pub struct ContactSettings {
-        /// Length of the rays.
-        length_m: f32 = 0.2, 0.001..=10, in "metres";
+        /// Length of the rays, in texels of the shadow map or in pixels, whichever are wider.
+        length_texels: f32 = 16.0, 0.1..=256, in "texels";
         /// Assumed thickness of visible surfaces: a ray that passes farther behind a surface is not blocked by it.
-        thickness_m: f32 = 0.2, 0.001..=10, in "metres";
-        /// Samples along each ray.
-        steps: u32 = 16, 1..=64;
+        thickness: f32 = 0.1, 0.001..=100, in "lengths of the ray";
+        /// Maximum number of samples along each ray; one for each pixel that it passes is enough.
+        max_steps: u32 = 32, 1..=256;
     }
 }
 
