@@ -11,6 +11,9 @@
 
 // The largest difference of texels from a plane, relative to its gradient.
 const TOLERANCE: f32 = 0.1;
+// The least gradient of the surface's height, relative to the error of the receiver's plane. At a right angle it is at least 16;
+// between facets of one shape it is small, and rounding would decide.
+const MIN_GRADIENT: f32 = 10.0;
 
 // The height of the surface in a texel above the receiver's plane, in depth; `at`: the receiver, in texels.
 fn height_in(map: u32, texel: vec2f, plane: ReceiverPlane, at: vec2f) -> f32 {
@@ -45,7 +48,8 @@ fn is_behind_crease(light: ShadowLight, lookup: Lookup, radius_texels: f32) -> b
     let tolerance = plane.error + TOLERANCE * (abs(gradient.x) + abs(gradient.y));
     // Of the surface's plane at the point.
     let height = 0.25 * dot(heights, vec4f(1.0)) - dot(gradient, nearest + 0.5 + 0.5 * side - at);
-    if twist > tolerance || height < plane.error || height > radius_texels * length(gradient) {
+    let is_steep = length(gradient) > MIN_GRADIENT * plane.error;
+    if !is_steep || twist > tolerance || height < plane.error || height > radius_texels * length(gradient) {
         return false;
     }
     // The surface begins at the crease: texels before it show the surface, those past it do not.

@@ -82,7 +82,7 @@ impl ScreenShadows {
         buffers: &SurfaceBuffers,
         mut mask: Texture,
         layers: Layers,
-        shadow_views: &[Buffer; 2],
+        map_buffers: Option<&[Buffer; 2]>,
     ) -> Result<Texture, Error> {
         let blur: ScreenSettings = settings.techniques.get()?;
         if blur.blur_m > 0.0 {
@@ -92,7 +92,8 @@ impl ScreenShadows {
         if let Some(contact) = &self.contact {
             let settings: ContactSettings = settings.techniques.get()?;
             let own = frame.uniform(&settings.bytes());
-            mask = contact.add_to(frame, buffers, &mask, layers, own, Some(shadow_views));
+            let views = map_buffers.cloned().unwrap_or_else(|| without_maps(frame));
+            mask = contact.add_to(frame, buffers, &mask, layers, own, Some(&views));
         }
         Ok(mask)
     }
@@ -167,11 +168,8 @@ impl ShadowTechnique for ScreenShadows {
                 Some(mask) => mask,
                 None => self.evaluate.add_to(frame, inner, buffers, &outputs, layers)?,
             };
-            let shadow_views = match &outputs.map_buffers {
-                Some(buffers) => buffers.clone(),
-                None => without_maps(frame),
-            };
-            self.passes(frame, inputs.settings, buffers, mask, layers, &shadow_views).map(Some)
+            let maps = outputs.map_buffers.as_ref();
+            self.passes(frame, inputs.settings, buffers, mask, layers, maps).map(Some)
         })?;
         let bound = outputs.mask.clone();
         let bound = bound.unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
