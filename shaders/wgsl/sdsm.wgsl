@@ -18,7 +18,7 @@ struct Fit {
     lights: u32,
     map_width_px: f32,
     map_height_px: f32,
-    // View depths where shadows begin and end, metres.
+    // View depths where the first cascade begins and shadows end, metres.
     nearest: f32,
     farthest: f32,
 }
@@ -55,7 +55,7 @@ fn decoded(code: u32) -> f32 {
     return bitcast<f32>(select(~code, code & 0x7fffffffu, (code >> 31u) == 1u));
 }
 
-// The view depth of a pixel's surface; 0 where there is none within the shadow range.
+// The view depth of a pixel's surface, at least that where the first cascade begins; 0 where there is none within the shadow distance.
 fn depth_at(pixel: vec2u) -> f32 {
     if any(pixel >= textureDimensions(surfaces)) {
         return 0.0;
@@ -96,8 +96,9 @@ fn split(index: u32) -> f32 {
 // The light's axes in the world.
 fn axes(shadow_view: ShadowView) -> mat3x3f {
     let m = shadow_view.clip_from_world;
-    let right = vec3f(m[0].x, m[1].x, m[2].x) * shadow_view.axis_scale;
-    let up = vec3f(m[0].y, m[1].y, m[2].y) * shadow_view.axis_scale;
+    let scale = shadow_view.axis_scale * shadow_view.texel_scale;
+    let right = vec3f(m[0].x, m[1].x, m[2].x) * scale.x;
+    let up = vec3f(m[0].y, m[1].y, m[2].y) * scale.y;
     return mat3x3f(right, up, shadow_view.light.xyz);
 }
 
@@ -115,8 +116,9 @@ fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
         while cascade + 1u < fit.cascades && depth >= split(cascade) {
             cascade++;
         }
-        // Surfaces in the farthest split are left to the cascade that covers the whole view.
-        let lights = select(0u, fit.lights, cascade + 1u < fit.cascades);
+        // Surfaces in the farthest split, and those in front of the first, are left to the cascade that covers the whole view.
+        let is_fitted = cascade + 1u < fit.cascades && view_depth_of(position) >= fit.nearest;
+        let lights = select(0u, fit.lights, is_fitted);
         for (var light = 0u; light < lights; light++) {
             let index = light * fit.cascades + cascade;
             let at = position * axes(planned[index]);
@@ -191,6 +193,7 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
     result.center = axes * vec3f(snapped * texel, center.z);
     result.radius = length(half);
     result.texel_world = texel;
+    result.texel_scale = vec2f(1.0);
     result.depth_per_texel = texel / range;
     result.axis_scale = extent;
     result.depth_range_m = range;

@@ -59,6 +59,10 @@ impl ShadowCasters for CountingCasters<'_> {
         self.casters.receivers()
     }
 
+    fn has_receiver_in(&self, volume: &CullVolume) -> bool {
+        self.casters.has_receiver_in(volume)
+    }
+
     fn rays(&self) -> Option<&GpuRayScene> {
         self.casters.rays()
     }

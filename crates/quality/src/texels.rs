@@ -40,7 +40,7 @@ impl Texels {
             camera.clip_from_view(options.aspect()) * camera.view_from_world() * from_origin;
         let screen =
             ScreenProjection { clip_from_position, size_px: DVec2::from(options.size_px.map(f64::from)) };
-        let selection = ViewSelection::new(plan.lights.get(light), options, origin_world);
+        let selection = ViewSelection::new(plan.lights.get(light), views, options, origin_world);
         let pixels = surfaces.positions.iter().zip(&surfaces.normals);
         let mut texels = Self { side_m: Vec::new(), extent_px: Vec::new(), views: Vec::new() };
         for (position, normal) in pixels {
@@ -76,19 +76,33 @@ fn side_m(view: &ShadowView, position: Vec3) -> Option<(f32, Vec3)> {
 struct ViewSelection {
     select: u32,
     view_from_position: DMat4,
+    /// View depth at which the first cascade begins, metres.
+    begin_m: f32,
+    /// The last cascade.
+    last: u32,
 }
 
 impl ViewSelection {
-    fn new(light: Option<&ShadowLight>, options: &ViewOptions, origin_world: DVec3) -> Self {
-        let view_from_position = options.camera.view_from_world() * DMat4::from_translation(origin_world);
-        Self { select: light.map_or(SELECT_MAP, |light| light.select), view_from_position }
+    fn new(
+        light: Option<&ShadowLight>,
+        views: &[ShadowView],
+        options: &ViewOptions,
+        origin_world: DVec3,
+    ) -> Self {
+        Self {
+            select: light.map_or(SELECT_MAP, |light| light.select),
+            view_from_position: options.camera.view_from_world() * DMat4::from_translation(origin_world),
+            begin_m: views.first().map_or(0.0, |view| view.begin_m),
+            last: views.last().map_or(0, |view| view.cascade),
+        }
     }
 
     fn allows(&self, view: &ShadowView, position: Vec3) -> bool {
         match self.select {
             SELECT_SPHERE => position.distance(view.center) < view.radius,
             SELECT_DEPTH => {
-                -self.view_from_position.transform_point3(position.as_dvec3()).z < f64::from(view.end_m)
+                let depth_m = -self.view_from_position.transform_point3(position.as_dvec3()).z as f32;
+                depth_m < view.end_m && (depth_m >= self.begin_m || view.cascade == self.last)
             }
             _ => true,
         }

@@ -80,6 +80,10 @@ impl ShadowCasters for SceneCasters {
         self.scene.all_bounds().union(&self.ground_shadows)
     }
 
+    fn has_receiver_in(&self, volume: &CullVolume) -> bool {
+        self.scene.any_in(volume) || volume.intersects(&self.ground_shadows)
+    }
+
     fn caster_bounds(&self, caster: u32) -> Aabb {
         self.scene.caster_bounds(caster)
     }

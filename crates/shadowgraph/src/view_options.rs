@@ -1,7 +1,8 @@
 //! Options of a view.
 
+use glam::DVec3;
 use shadowgraph_scene::{Camera, Scene};
-use shadowgraph_shadows::ShadowSettings;
+use shadowgraph_shadows::{DistanceMeasure, ShadowSettings};
 
 use crate::options::distance::ShadowDistance;
 
@@ -57,7 +58,14 @@ impl ViewOptions {
         let on_ground = scene.ground.map(|ground| ground.shadow_bounds(&scene.bounds(), scene.lights()));
         let on_ground = on_ground.filter(|shadows| volume.intersects(shadows));
         let corners = corners.chain(on_ground.into_iter().flat_map(|shadows| shadows.corners()));
-        let farthest = corners.map(|corner| -view_from_world.transform_point3(corner).z).fold(0.0, f64::max);
+        let distance = |corner: DVec3| {
+            let in_view = view_from_world.transform_point3(corner);
+            match self.shadows.measure {
+                DistanceMeasure::ViewDepth => -in_view.z,
+                DistanceMeasure::Radius => in_view.length(),
+            }
+        };
+        let farthest = corners.map(distance).fold(0.0, f64::max);
         let with_fade = farthest / (1.0 - f64::from(self.shadows.fade_fraction)).max(0.1);
         let step = (with_fade.log2() * DISTANCE_STEPS).ceil();
         let [needed_m, spare_m] = [step, step + 1.0].map(|step| (step / DISTANCE_STEPS).exp2());

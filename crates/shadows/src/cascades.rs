@@ -4,7 +4,7 @@ use glam::DVec3;
 use shadowgraph_scene::{BoundingSphere, Camera};
 
 use crate::ortho::OrthoFit;
-use crate::settings::SplitScheme;
+use crate::settings::{CascadeSettings, SplitScheme};
 
 /// The end of a cascade's slice of the view frustum, and the fitted box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,22 @@ pub fn split_distances(scheme: &SplitScheme, count: u32, near_m: f64, far_m: f64
         begin_m
     };
     (0..count).map(end).collect()
+}
+
+/// The most slices that are skipped.
+const MAX_SKIPPED: usize = 16;
+
+/// Returns where the first cascade begins, metres of view depth, if one slice, two and so on are skipped that would be that of the first cascade.
+/// All are between `near_m` and `latest_m`, which is before the end of the last at `far_m`.
+pub(crate) fn late_begins(
+    settings: &CascadeSettings,
+    [near_m, latest_m]: [f64; 2],
+    far_m: f64,
+) -> impl Iterator<Item = f64> {
+    let end_m = move |begin_m: f64| split_distances(&settings.split, settings.count, begin_m, far_m)[0];
+    std::iter::successors(Some(end_m(near_m)), move |&begin_m| Some(end_m(begin_m)))
+        .take_while(move |&begin_m| begin_m < latest_m)
+        .take(MAX_SKIPPED)
 }
 
 /// Returns the end of cascade `i` of `count`, which is not the last.

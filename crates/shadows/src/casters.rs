@@ -56,6 +56,12 @@ pub trait ShadowCasters: Sync {
         self.bounds()
     }
 
+    /// Returns whether a receiver may intersect the volume. Cascades begin where the first receiver is in view. The default is whether the
+    /// bounds of all receivers do; a [`CullTree`](shadowgraph_scene::CullTree) knows better.
+    fn has_receiver_in(&self, volume: &CullVolume) -> bool {
+        volume.intersects(&self.receivers())
+    }
+
     /// Returns the casters' triangles, for techniques that [trace rays](crate::ShadowTechnique::traces_rays). Keep it up to date from frame to
     /// frame.
     fn rays(&self) -> Option<&GpuRayScene> {

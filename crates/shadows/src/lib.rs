@@ -54,7 +54,7 @@ pub use ortho::{OrthoFit, light_from_world};
 pub use pcf_variant::PcfVariant;
 pub use plan::{MapPlan, PlanState, ShadowInputs, ShadowPlan, TilePlan};
 pub use planner::{plan_shadows, plan_shadows_after};
-pub use receivers::{ReceiverRange, SteppedDistance};
+pub use receivers::{ReceiverRange, SkippedSlices, SteppedDistance};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,
     TechniqueModifier, Techniques,
@@ -63,9 +63,10 @@ pub use requirements::Requirements;
 pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
-    CascadeSettings, CullSettings, DepthFormat, DescribeSettings, LightRef, LightShadows, MAX_CASCADE_LIGHTS,
-    MAX_CASCADES, NamedSettings, NormalBias, Payload, Setting, SettingType, SettingValue, ShadowFilter,
-    ShadowSettings, SplitScheme, TechniqueSettings, Variant, color, defaults, filter_taps, settings_file,
+    CascadeSettings, CullSettings, DepthFormat, DescribeSettings, DistanceMeasure, LightRef, LightShadows,
+    MAX_CASCADE_LIGHTS, MAX_CASCADES, NamedSettings, NormalBias, Payload, Setting, SettingType, SettingValue,
+    ShadowFilter, ShadowSettings, SplitScheme, TechniqueSettings, Variant, color, defaults, filter_taps,
+    settings_file,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{

@@ -1,7 +1,9 @@
 //! The parameters of one light's shadows: the settings of its map, and the light's own.
 
 use crate::requirements::{Requirements, snapping_px};
-use crate::settings::{BiasSettings, LightShadows, NormalBias, ShadowFilter, ShadowSettings};
+use crate::settings::{
+    BiasSettings, DistanceMeasure, LightShadows, NormalBias, ShadowFilter, ShadowSettings,
+};
 
 /// The parameters of one light's shadows.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +20,7 @@ pub(crate) struct LightShadowParams {
     pub(crate) supersample: bool,
     pub(crate) close_creases: bool,
     pub(crate) fade_fraction: f32,
+    pub(crate) measure: DistanceMeasure,
     pub(crate) near_m: Option<f64>,
     pub(crate) importance: f64,
 }
@@ -27,7 +30,7 @@ impl LightShadowParams {
     pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
         let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
         let bias = settings.bias.clone();
-        let ShadowSettings { fade_fraction, supersample, close_creases, .. } = *settings;
+        let ShadowSettings { fade_fraction, measure, supersample, close_creases, .. } = *settings;
         let Some(own) = own else {
             return Self {
                 bias,
@@ -39,6 +42,7 @@ impl LightShadowParams {
                 supersample,
                 close_creases,
                 fade_fraction,
+                measure,
                 near_m: None,
                 importance: 1.0,
             };
@@ -60,6 +64,7 @@ impl LightShadowParams {
             supersample,
             close_creases,
             fade_fraction,
+            measure,
             near_m: own.near_m.map(f64::from),
             importance: f64::from(own.importance),
         }

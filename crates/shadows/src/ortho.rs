@@ -1,11 +1,11 @@
 //! The axes of light space, and the box in it that a directional light's tile covers, fixed to whole texels of the world.
 
-use glam::{DMat3, DMat4, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use shadowgraph_scene::{Aabb, BoundingSphere, ConvexVolume, Plane};
 
 /// A box around a sphere in light space that moves through the world in whole texels only.
 ///
-/// Width and height are `texel_m * tile_px`; the depth range is twice that, so that the surroundings of the
+/// Width and height are those of `tile_px` texels; the depth range is twice that, so that the surroundings of the
 /// sphere are not clamped to the near plane even where they slope steeply towards the light. The centre is a whole
 /// number of texels from the world's origin across the light, so while rotation and radius are constant, each texel covers
 /// the same area of the world. Along the light it moves in steps of a quarter of the radius, so depths rarely change as the
@@ -16,8 +16,10 @@ pub struct OrthoFit {
     pub light_from_world: DMat3,
     /// The centre in light space, in texels from the world's origin: integers across the light.
     pub center_texels: DVec3,
-    /// The width of a texel in the world, metres.
+    /// The longer side of a texel in the world, metres.
     pub texel_m: f64,
+    /// The width and the height of a texel, as fractions of `texel_m`.
+    pub texel_scale: DVec2,
     /// The width of the tile with its border, pixels.
     pub tile_px: u32,
     /// Factor of the depth range: a power of two, so that steps of whole texels stay exact.
@@ -36,6 +38,9 @@ const PHASE_STEPS: f64 = 16.0;
 /// Step along the light, in radii. It is the same for tiles of all sizes, so larger tiles cover no more than smaller ones.
 const DEPTH_STEP: f64 = 0.25;
 
+/// The shortest side of a tight box's texels, as a fraction of the other: filters are as wide in texels on both axes.
+const MIN_TEXEL_SCALE: f64 = 0.25;
+
 /// Distance from the centre to the far end, in half widths: half a step along the light more than the sphere needs.
 const FAR: f64 = 1.0 + 0.5 * DEPTH_STEP;
 
@@ -45,24 +50,41 @@ impl OrthoFit {
     /// `margin_px` must be below half of `tile_px`.
     #[must_use]
     pub fn new(light_from_world: DMat3, sphere: BoundingSphere, tile_px: u32, margin_px: f64) -> Self {
-        let radius_m = round_up(sphere.radius_m.max(f64::MIN_POSITIVE.sqrt()), RADIUS_STEPS);
-        let texel_m = 2.0 * radius_m / (f64::from(tile_px) - 2.0 * margin_px);
-        let center = light_from_world * sphere.center_world / texel_m;
-        let step = DEPTH_STEP * radius_m / texel_m;
-        let center_texels = DVec3::new(center.x.round(), center.y.round(), (center.z / step).round() * step);
-        Self { light_from_world, center_texels, texel_m, tile_px, depth_scale: 1.0, sphere }
+        let center = light_from_world * sphere.center_world;
+        Self::around(light_from_world, center, DVec2::splat(sphere.radius_m), tile_px, margin_px, sphere)
     }
 
-    /// Fits the box tightly to points: its texels change with them. Otherwise as [`new`](Self::new).
+    /// Fits the box tightly to points: it is as wide and as high as they are, and its texels change with them. Texels are at most four
+    /// times as long as wide. Otherwise as [`new`](Self::new).
     #[must_use]
     pub fn tight(light_from_world: DMat3, points_world: &[DVec3], tile_px: u32, margin_px: f64) -> Self {
         let bounds = Aabb::from_points(points_world.iter().map(|&point| light_from_world * point));
         let half = bounds.half_extent();
         let center_world = light_from_world.transpose() * bounds.center();
-        let across = BoundingSphere { center_world, radius_m: half.x.max(half.y) };
-        let fit = Self::new(light_from_world, across, tile_px, margin_px);
         let sphere = BoundingSphere { center_world, radius_m: half.length() };
-        Self { sphere, ..fit }.deepened(half.z / fit.half_extent_m())
+        let across = half.truncate().max(DVec2::splat(half.truncate().max_element() * MIN_TEXEL_SCALE));
+        let fit = Self::around(light_from_world, bounds.center(), across, tile_px, margin_px, sphere);
+        fit.deepened(half.z / fit.half_extent_m())
+    }
+
+    /// Fits the box to what is at most `half_m` away from a point in light space, on each axis across the light.
+    fn around(
+        light_from_world: DMat3,
+        center: DVec3,
+        half_m: DVec2,
+        tile_px: u32,
+        margin_px: f64,
+        sphere: BoundingSphere,
+    ) -> Self {
+        let half_m =
+            half_m.max(DVec2::splat(f64::MIN_POSITIVE.sqrt())).map(|half| round_up(half, RADIUS_STEPS));
+        let texel = 2.0 * half_m / (f64::from(tile_px) - 2.0 * margin_px);
+        let texel_m = texel.max_element();
+        let across = (center.truncate() / texel).round();
+        let step = DEPTH_STEP * half_m.max_element() / texel_m;
+        let along = (center.z / texel_m / step).round() * step;
+        let (center_texels, texel_scale) = (across.extend(along), texel / texel_m);
+        Self { light_from_world, center_texels, texel_m, texel_scale, tile_px, depth_scale: 1.0, sphere }
     }
 
     /// Moves the centre to a multiple of `step_texels`, a power of two, in texels from the world's origin. So it moves in steps of as many.
@@ -86,10 +108,22 @@ impl OrthoFit {
         Self { depth_scale, ..self }
     }
 
-    /// Returns half the width and height of the box, metres.
+    /// Returns the longer one of half the width and half the height of the box, metres.
     #[must_use]
     pub fn half_extent_m(&self) -> f64 {
         self.texel_m * f64::from(self.tile_px) * 0.5
+    }
+
+    /// Returns the size of a texel, metres: its width, its height, and the unit of `center_texels` along the light.
+    #[must_use]
+    pub fn texel_size_m(&self) -> DVec3 {
+        (self.texel_m * self.texel_scale).extend(self.texel_m)
+    }
+
+    /// Returns the centre in light space, metres from the world's origin.
+    #[must_use]
+    pub fn center_m(&self) -> DVec3 {
+        self.center_texels * self.texel_size_m()
     }
 
     /// Returns the matrix from world space relative to `origin_world` to the tile: x right and y up from -1 to 1, z 1
@@ -99,13 +133,13 @@ impl OrthoFit {
         let half_px = f64::from(self.tile_px) * 0.5;
         let rotation = DMat4::from_mat3(self.light_from_world);
         // In texels, every step of the camera adds integers.
-        let origin_texels = self.light_from_world * origin_world / self.texel_m;
+        let origin_texels = self.light_from_world * origin_world / self.texel_size_m();
         let phase = (origin_texels * PHASE_STEPS).round() / PHASE_STEPS;
         let translation = DMat4::from_translation((phase - self.center_texels) / half_px);
         // x and y unchanged; four units of z, times the scale, to 0..1.
         let z = DVec4::Z * (0.25 / self.depth_scale);
         let depth = DMat4::from_cols(DVec4::X, DVec4::Y, z, DVec4::new(0.0, 0.0, 0.25 * FAR, 1.0));
-        let scale = DMat4::from_scale(DVec3::splat(1.0 / self.half_extent_m()));
+        let scale = DMat4::from_scale(1.0 / (self.texel_size_m() * half_px));
         depth * translation * scale * rotation
     }
 
@@ -119,12 +153,12 @@ impl OrthoFit {
     /// to the light cast shadows into it as well.
     #[must_use]
     pub fn cull_volume(&self) -> ConvexVolume {
-        let center = self.center_texels * self.texel_m;
-        let half = self.half_extent_m();
+        let center = self.center_m();
+        let half = self.half_extent_m() * self.texel_scale;
         let axes = self.light_from_world.transpose();
-        let sides = [(axes.x_axis, center.x), (axes.y_axis, center.y)];
+        let sides = [(axes.x_axis, center.x, half.x), (axes.y_axis, center.y, half.y)];
         let mut planes = Vec::with_capacity(5);
-        for (axis, middle) in sides {
+        for (axis, middle, half) in sides {
             planes.push(Plane { normal: axis, distance: half - middle });
             planes.push(Plane { normal: -axis, distance: half + middle });
         }
@@ -154,7 +188,8 @@ impl OrthoFit {
             let first = first[i] as f64;
             [first - pad_texels, first + f64::from(size[i]) + pad_texels]
         };
-        let [[left, right], [top, bottom]] = [0, 1].map(|i| ends(i).map(|texel| texel * self.texel_m));
+        let texel = self.texel_size_m();
+        let [[left, right], [top, bottom]] = [0, 1].map(|i| ends(i).map(|end| end * texel[i]));
         let planes = vec![
             Plane { normal: axes.x_axis, distance: -left },
             Plane { normal: -axes.x_axis, distance: right },

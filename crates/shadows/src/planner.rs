@@ -4,11 +4,13 @@ mod atlas;
 mod cascades;
 mod culling;
 
-use shadowgraph_scene::CullVolume;
+use glam::DVec3;
+use shadowgraph_scene::{Aabb, Camera, CullVolume, Plane};
 
 use culling::VisibleReceivers;
 
 use crate::atlas::TileRect;
+use crate::cascades::late_begins;
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
 use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
@@ -83,6 +85,9 @@ pub fn plan_shadows_after(
     Ok(Planner::new(inputs, previous, requirements)?.plan())
 }
 
+/// The latest begin of the first cascade, as a fraction of the way to the end of the last.
+const LATEST_BEGIN: f64 = 0.9;
+
 /// A plan under construction.
 struct Planner<'a> {
     inputs: ShadowInputs<'a>,
@@ -115,9 +120,28 @@ impl<'a> Planner<'a> {
         let receivers = receivers.next(inputs.casters.receivers(), camera);
         // Never in front of the near plane, however small the scene.
         let fit_m = receivers.end.distance_m.max(near_m * 1.01 + 1e-3).min(distance_m);
-        let begin_m = receivers.begin_m(camera, aspect).min(0.5 * (near_m + fit_m));
-        let range =
-            ShadowRange { camera, aspect, near_m, distance_m, begin_m, fit_m, receivers: receivers.sphere() };
+        let nearest_m = receivers.begin_m(camera, aspect).min(0.5 * (near_m + fit_m));
+        let latest_m = nearest_m + LATEST_BEGIN * (fit_m - nearest_m).max(0.0);
+        let begins_m = || late_begins(&settings.cascades, [nearest_m, latest_m], fit_m);
+        let is_empty = |far_m: &f64| !inputs.casters.has_receiver_in(&view_volume(camera, aspect, *far_m));
+        // Ends that the user chose stay.
+        let is_free = settings.cascades.split.is_relative_to_near();
+        let skippable = if is_free { begins_m().take_while(is_empty).count() } else { 0 };
+        let receivers = receivers.skipping(skippable, camera);
+        let skipped = receivers.skipped.map_or(0, |skipped| skipped.count);
+        let visible_m = begins_m().take(skipped).last().unwrap_or(nearest_m);
+        let range = ShadowRange {
+            camera,
+            aspect,
+            near_m,
+            distance_m,
+            measure: settings.measure,
+            nearest_m,
+            visible_m,
+            begin_m: visible_m.max(f64::from(settings.cascades.begin_m)).min(latest_m),
+            fit_m,
+            receivers: receivers.sphere(),
+        };
         let mut plan = ShadowPlan::all_lit(inputs.lights.len(), settings);
         plan.state.receivers = receivers;
         let visible = VisibleReceivers::new(inputs, &range);
@@ -189,11 +213,28 @@ impl<'a> Planner<'a> {
         (map, first_view, view_count): (u32, u32, u32),
     ) -> &mut ShadowLight {
         let gpu_light = &mut self.plan.lights[light as usize];
-        let distance_m = self.range.distance_m;
-        *gpu_light =
-            ShadowLight { map, first_view, view_count, ..ShadowLight::with_params(params, distance_m) };
+        let with_params = ShadowLight::with_params(params, self.range.distance_m);
+        let eye = self.range.camera.position_world() - self.inputs.origin_world;
+        let eye = if with_params.fades_by_radius == 1 { eye.as_vec3().to_array() } else { [0.0; 3] };
+        *gpu_light = ShadowLight { map, first_view, view_count, eye, ..with_params };
         gpu_light
     }
+}
+
+/// Returns the part of the view up to a view depth. Boxes that intersect it intersect its bounds.
+fn view_volume(camera: &Camera, aspect: f64, far_m: f64) -> CullVolume {
+    let mut planes = camera.frustum(aspect);
+    let corners = camera.slice_corners_view(aspect, camera.near(), far_m);
+    let corners = corners.map(|corner| camera.world_from_view.transform_point3(corner));
+    let forward = camera.forward_world();
+    let end = camera.position_world() + forward * far_m;
+    planes.planes.push(Plane::through(end, -forward));
+    let bounds = Aabb::from_points(corners);
+    for axis in DVec3::AXES {
+        planes.planes.push(Plane::through(bounds.min, axis));
+        planes.planes.push(Plane::through(bounds.max, -axis));
+    }
+    planes.into()
 }
 
 /// Returns the placement of a tile.

@@ -1,5 +1,6 @@
 //! Where receivers are, in steps.
 
+use glam::DAffine3;
 use shadowgraph_scene::{Aabb, BoundingSphere, Camera, Projection};
 
 /// Number of steps per factor of two of the distances between which receivers are.
@@ -11,8 +12,7 @@ const RADIUS_STEPS: f64 = 8.0;
 /// Number of frames for which a distance is kept that is a step off.
 const SPARE_FRAMES: u32 = 60;
 
-/// The distances from the camera between which all receivers are. They do not change as the camera turns, and rarely as it moves. When the
-/// bounds change, they are those of a fresh start.
+/// The distances from the camera between which receivers are. When the bounds change, they are those of a fresh start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReceiverRange {
     /// The bounds of all receivers.
@@ -21,11 +21,14 @@ pub struct ReceiverRange {
     pub begin: SteppedDistance,
     /// The distance at which they end; infinite if there are none.
     pub end: SteppedDistance,
+    /// The slices that are skipped in front of the first cascade; `None` before the first frame.
+    pub skipped: Option<SkippedSlices>,
 }
 
 impl Default for ReceiverRange {
     fn default() -> Self {
-        Self { bounds: Aabb::EMPTY, begin: SteppedDistance::default(), end: SteppedDistance::default() }
+        let [begin, end] = [SteppedDistance::default(); 2];
+        Self { bounds: Aabb::EMPTY, begin, end, skipped: None }
     }
 }
 
@@ -42,7 +45,22 @@ impl ReceiverRange {
             (nearest.distance(eye), corners.into_iter().fold(0.0, f64::max))
         };
         let (begin, end) = (previous.begin.at_most(nearest_m), previous.end.at_least(farthest_m));
-        Self { bounds, begin, end }
+        Self { bounds, begin, end, skipped: self.skipped }
+    }
+
+    /// Skips that many empty slices in front of the first cascade: fewer than before at once, but more only after a while if the camera moves,
+    /// so cascades rarely change as it turns.
+    pub(crate) fn skipping(self, count: usize, camera: &Camera) -> Self {
+        let world_from_view = camera.world_from_view;
+        let keeps = |before: &SkippedSlices| {
+            let moves = before.world_from_view != world_from_view;
+            moves && before.count < count && before.spare_frames < SPARE_FRAMES
+        };
+        let (count, spare_frames) = match self.skipped.filter(keeps) {
+            Some(before) => (before.count, before.spare_frames + 1),
+            None => (count, 0),
+        };
+        Self { skipped: Some(SkippedSlices { count, spare_frames, world_from_view }), ..self }
     }
 
     /// Returns the view depth before which an image of this aspect shows no receiver, metres, or that of the near plane if it is farther.
@@ -60,12 +78,23 @@ impl ReceiverRange {
     }
 }
 
-/// A distance in steps. It may be a step off that of a fresh start for some frames, so it does not flip back and forth.
+/// Slices in front of the first cascade in which the view has no receivers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkippedSlices {
+    /// Their number.
+    pub count: usize,
+    /// Number of frames for which more could have been skipped.
+    pub spare_frames: u32,
+    /// The transform of the camera.
+    pub world_from_view: DAffine3,
+}
+
+/// A distance in steps. It may be off that of a fresh start for some frames, so it does not flip back and forth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SteppedDistance {
     /// Metres; 0 before the first frame.
     pub distance_m: f64,
-    /// Number of frames for which it has been a step off.
+    /// Number of frames for which it has been off.
     pub spare_frames: u32,
 }
 

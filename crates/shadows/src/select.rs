@@ -8,7 +8,7 @@ use shadowgraph_scene::{Aabb, BoundingSphere, Camera, ConvexVolume, Light, Light
 
 use crate::cascades::{Slice, slice_sphere};
 use crate::ortho::{OrthoFit, light_from_world, upright_from_world};
-use crate::settings::LightShadows;
+use crate::settings::{DistanceMeasure, LightShadows};
 use crate::spot::SpotCone;
 
 /// A light with `casts_shadow` that has no shadows in this frame.
@@ -56,7 +56,12 @@ pub(crate) struct ShadowRange<'a> {
     pub(crate) aspect: f64,
     pub(crate) near_m: f64,
     pub(crate) distance_m: f64,
-    /// Start of the cascades, metres of view depth: the near plane, or more if there are no receivers before.
+    pub(crate) measure: DistanceMeasure,
+    /// View depth before which there are no receivers, metres: the near plane, or more.
+    pub(crate) nearest_m: f64,
+    /// View depth before which no receiver is in the view, metres.
+    pub(crate) visible_m: f64,
+    /// Start of the first cascade, metres of view depth.
     pub(crate) begin_m: f64,
     /// End of the cascades, metres of view depth: the shadow distance, or less if there are no receivers beyond.
     pub(crate) fit_m: f64,
@@ -65,10 +70,26 @@ pub(crate) struct ShadowRange<'a> {
 }
 
 impl ShadowRange<'_> {
-    /// Returns a sphere around the receivers between two view depths: that of the slice, or that of all receivers if it is smaller.
+    /// Returns a sphere around the receivers between two view depths: that of the slice, or that of all receivers or of the whole shadow
+    /// distance if it is smaller.
     pub(crate) fn sphere(&self, near_m: f64, far_m: f64) -> BoundingSphere {
         let slice = slice_sphere(&Slice { camera: self.camera, aspect: self.aspect, near_m, far_m });
-        if self.receivers.radius_m <= slice.radius_m { self.receivers } else { slice }
+        let sphere = if self.receivers.radius_m <= slice.radius_m { self.receivers } else { slice };
+        if self.measure == DistanceMeasure::Radius && self.distance_m < sphere.radius_m {
+            return BoundingSphere { center_world: self.camera.position_world(), radius_m: self.distance_m };
+        }
+        sphere
+    }
+
+    /// Returns the slice of view depths that a cascade covers, metres: the last one also what is in front of the first.
+    pub(crate) fn covered(&self, [near_m, far_m]: [f64; 2]) -> [f64; 2] {
+        let is_last = far_m == self.fit_m && self.begin_m > self.nearest_m;
+        [if is_last { self.nearest_m } else { near_m }, far_m]
+    }
+
+    /// Returns whether the view has receivers in front of the first cascade.
+    pub(crate) fn begins_late(&self) -> bool {
+        self.begin_m > self.visible_m
     }
 
     /// Returns the corners of the slice between two view depths, world space.
@@ -88,9 +109,15 @@ impl ShadowRange<'_> {
 
     /// Returns whether a sphere may intersect it.
     fn touches(&self, sphere: BoundingSphere) -> bool {
+        let eye = self.camera.position_world();
+        if self.measure == DistanceMeasure::Radius
+            && eye.distance(sphere.center_world) - sphere.radius_m > self.distance_m
+        {
+            return false;
+        }
         let mut volume: ConvexVolume = self.camera.frustum(self.aspect);
         let forward = self.camera.forward_world();
-        let end = self.camera.position_world() + forward * self.distance_m;
+        let end = eye + forward * self.distance_m;
         volume.planes.push(Plane::through(end, -forward));
         let half = DVec3::splat(sphere.radius_m);
         volume.intersects(&Aabb { min: sphere.center_world - half, max: sphere.center_world + half })

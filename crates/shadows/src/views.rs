@@ -7,7 +7,7 @@ use shadowgraph_scene::BoundingSphere;
 use crate::atlas::TileRect;
 use crate::light_params::LightShadowParams;
 use crate::ortho::OrthoFit;
-use crate::settings::{BiasMethod, CascadeBlend, CascadeSelection, ShadowSettings};
+use crate::settings::{BiasMethod, CascadeBlend, CascadeSelection, DistanceMeasure, ShadowSettings};
 use crate::spot::SpotFit;
 
 /// The view of a tile, 256 bytes, the alignment of the dynamic offset with which it is bound for drawing. Shaders also look
@@ -29,11 +29,11 @@ pub struct ShadowView {
     pub center: Vec3,
     /// Radius of that sphere, metres.
     pub radius: f32,
-    /// Width of a texel in the world, metres; for a spot light at 1 m along its axis.
+    /// Longer side of a texel in the world, metres; for a spot light at 1 m along its axis.
     pub texel_world: f32,
-    /// Change of depth over the width of a texel towards the light; for a spot light times the distance.
+    /// Change of depth over that length towards the light; for a spot light times the distance.
     pub depth_per_texel: f32,
-    /// Factor that makes rows 0 and 1 of `clip_from_world` the light's unit axes.
+    /// Factor that makes rows 0 and 1 of `clip_from_world`, times `texel_scale`, the light's unit axes.
     pub axis_scale: f32,
     /// Distance between depth 1 and depth 0, metres.
     pub depth_range_m: f32,
@@ -58,11 +58,11 @@ pub struct ShadowView {
     pub is_tinted: u32,
     /// 1 if no caster is beyond depth 0, so points there are looked up too, at depth 0; else 0.
     pub is_open: u32,
-    /// Reserved, zero.
-    pub reserved: [u32; 2],
+    /// Width and height of a texel, as fractions of `texel_world`.
+    pub texel_scale: Vec2,
 }
 
-/// The views of a light and how they are read, 84 bytes. One for each light of the scene, in its order.
+/// The views of a light and how they are read, 104 bytes. One for each light of the scene, in its order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ShadowLight {
@@ -94,7 +94,7 @@ pub struct ShadowLight {
     pub max_slope: f32,
     /// See [`BiasSettings::depth_texels`](crate::BiasSettings::depth_texels).
     pub depth_bias_texels: f32,
-    /// View depth at which shadows have faded out, metres.
+    /// Distance at which shadows have faded out, metres.
     pub fade_end_m: f32,
     /// Rate at which they fade before that, per metre.
     pub fade_per_m: f32,
@@ -110,6 +110,10 @@ pub struct ShadowLight {
     pub supersample: u32,
     /// 1 if points behind a crease are dark, else 0.
     pub close_creases: u32,
+    /// 1 if the distance at which shadows fade is that from the camera, 0 if it is the view depth.
+    pub fades_by_radius: u32,
+    /// The camera's position, if `fades_by_radius`.
+    pub eye: [f32; 3],
 }
 
 /// [`ShadowView::cascade`] of a tile that is not a cascade.
@@ -158,6 +162,7 @@ impl ShadowView {
         Self {
             light: towards_light.as_vec3().extend(0.0),
             texel_world: fit.texel_m as f32,
+            texel_scale: fit.texel_scale.as_vec2(),
             depth_per_texel: (fit.texel_m / fit.depth_range_m()) as f32,
             axis_scale: fit.half_extent_m() as f32,
             depth_range_m: fit.depth_range_m() as f32,
@@ -174,6 +179,7 @@ impl ShadowView {
         Self {
             light: (fit.cone.position_world - origin_world).as_vec3().extend(1.0),
             texel_world: fit.texel_per_m() as f32,
+            texel_scale: Vec2::ONE,
             depth_per_texel: (fit.depth_scale_m() * fit.texel_per_m()) as f32,
             axis_scale: fit.tan_half as f32,
             depth_range_m: (fit.far_m - fit.near_m) as f32,
@@ -256,6 +262,7 @@ impl ShadowLight {
             filter_half: half as f32,
             supersample: u32::from(params.supersample),
             close_creases: u32::from(params.close_creases),
+            fades_by_radius: u32::from(params.measure == DistanceMeasure::Radius),
             ..Self::default()
         }
     }
@@ -281,10 +288,10 @@ impl ShadowLight {
         }
     }
 
-    /// Returns the remaining strength of the shadow at a view depth: 1 before the fade begins, 0 from its end on.
+    /// Returns the remaining strength of the shadow at a distance: 1 before the fade begins, 0 from its end on.
     /// The reference implementation of `tiles.wgsl`.
     #[must_use]
-    pub fn fade(&self, view_depth_m: f32) -> f32 {
-        ((self.fade_end_m - view_depth_m) * self.fade_per_m).clamp(0.0, 1.0)
+    pub fn fade(&self, distance_m: f32) -> f32 {
+        ((self.fade_end_m - distance_m) * self.fade_per_m).clamp(0.0, 1.0)
     }
 }

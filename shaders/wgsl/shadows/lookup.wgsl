@@ -61,9 +61,10 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     let depth_per_texel = shadow_view.depth_per_texel / position.w;
     // On a plane, depth is linear in the map for both kinds of light: its change per texel follows from the normal relative to the
     // light's axes and the direction to the light.
-    let normal_in_light = (shadow_view.clip_from_world * vec4f(normal, 0.0)).xy * shadow_view.axis_scale;
+    let axis_scale = shadow_view.axis_scale * shadow_view.texel_scale;
+    let normal_in_light = (shadow_view.clip_from_world * vec4f(normal, 0.0)).xy * axis_scale;
     let facing = max(dot(normal, to_light), EDGE_ON);
-    var slope = vec2f(-normal_in_light.x, normal_in_light.y) * shadow_view.depth_per_texel / facing;
+    var slope = vec2f(-normal_in_light.x, normal_in_light.y) * shadow_view.texel_scale * shadow_view.depth_per_texel / facing;
     let max_slope = light.max_slope * depth_per_texel;
     lookup.max_gradient = max_slope;
     // The bias along the normal moves the point towards the light by this change of depth, seen along the light.

@@ -16,7 +16,7 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
         return vec3f(1.0);
     }
     let shadow = shadow_lights[light];
-    let strength = shadow_fade(shadow, receiver.view_depth);
+    let strength = shadow_fade(shadow, receiver);
     if shadow.view_count == 0u || strength <= 0.0 {
         return vec3f(1.0);
     }
@@ -80,7 +80,7 @@ fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
         return vec3f(1.0);
     }
     let color = mix(view_tint(shadow, blend.next), view_tint(shadow, blend.first), blend.weight);
-    let fade = shadow_fade(shadow, receiver.view_depth) * edge_fade(shadow, receiver, blend.first);
+    let fade = shadow_fade(shadow, receiver) * edge_fade(shadow, receiver, blend.first);
     return mix(vec3f(1.0), color, fade);
 }
 

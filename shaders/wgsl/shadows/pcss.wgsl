@@ -40,7 +40,7 @@ fn axis_distance(shadow_view: ShadowView, depth: f32) -> f32 {
     return shadow_view.near_m * far / (shadow_view.near_m + depth * shadow_view.depth_range_m);
 }
 
-// The half width of the penumbra in texels, for a blocker at this depth.
+// The half width of the penumbra, in units of the longer side of a texel, for a blocker at this depth.
 fn penumbra_texels(shadow_view: ShadowView, point: f32, blocker: f32) -> f32 {
     if shadow_view.light.w == 0.0 {
         let distance_m = (blocker - point) * shadow_view.depth_range_m;
@@ -62,6 +62,11 @@ fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 
     return pcss.max_radius_texels;
 }
 
+// The radii of a disc along both axes, texels, that is as wide as the penumbra in both.
+fn radii(shadow_view: ShadowView, penumbra: f32, least: f32) -> vec2f {
+    return min(max(penumbra / shadow_view.texel_scale, vec2f(least)), vec2f(pcss.max_radius_texels));
+}
+
 // The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = light.map == MAP_CASCADES;
@@ -71,7 +76,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let rotation = TAU * (receiver_noise(receiver) + lookup.turn);
 
     // Blocker search: the mean depth of the blockers.
-    let widest = clamp(penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0, pcss.max_radius_texels);
+    let widest = radii(shadow_view, penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0);
     var blockers = 0.0;
     var depths = 0.0;
     for (var i = 0u; i < pcss.blocker_taps; i++) {
@@ -87,7 +92,7 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     }
 
     let penumbra = penumbra_texels(shadow_view, lookup.plane.depth, depths / blockers);
-    let radius = min(max(penumbra, max(MIN_TEXELS, lookup.min_radius)), pcss.max_radius_texels);
+    let radius = radii(shadow_view, penumbra, max(MIN_TEXELS, lookup.min_radius));
     var visibility = 0.0;
     for (var i = 0u; i < pcss.filter_taps; i++) {
         let tap = radius * spiral(i, pcss.filter_taps, rotation);

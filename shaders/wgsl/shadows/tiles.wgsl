@@ -41,7 +41,9 @@ fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
     for (var i = 0u; i < light.view_count; i++) {
         chosen += select(0u, 1u, receiver.view_depth >= shadow_views[light.first_view + i].end_m);
     }
-    return max(chosen, first);
+    // Points in front of the first view, which can begin late, are in the last one: it covers all.
+    let is_before = receiver.view_depth < shadow_views[light.first_view].begin_m;
+    return max(select(chosen, light.view_count - 1u, is_before), first);
 }
 
 // The lookup of a point in the light's views, from `first` on.
@@ -82,9 +84,11 @@ fn inner_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction
     return saturate(2.0 * min(min(to_edge.x, to_edge.y), min(depth, 1.0 - depth)) / fraction);
 }
 
-// The strength of shadows at this view depth: full before the fade begins, 0 at its end.
-fn shadow_fade(light: ShadowLight, view_depth: f32) -> f32 {
-    return light.strength * saturate((light.fade_end_m - view_depth) * light.fade_per_m);
+// The strength of shadows at this distance: full before the fade begins, 0 at its end.
+fn shadow_fade(light: ShadowLight, receiver: Receiver) -> f32 {
+    let to_eye = vec3f(light.eye[0], light.eye[1], light.eye[2]) - receiver.position;
+    let distance_m = select(receiver.view_depth, length(to_eye), light.fades_by_radius == 1u);
+    return light.strength * saturate((light.fade_end_m - distance_m) * light.fade_per_m);
 }
 
 // The strength of shadows at the outer edge of the last view.

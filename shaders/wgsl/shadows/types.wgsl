@@ -16,11 +16,11 @@ struct ShadowView {
     // The bounding sphere that the tile covers.
     center: vec3f,
     radius: f32,
-    // Width of a texel, metres; for a spot light at 1 m along its axis.
+    // Longer side of a texel, metres; for a spot light at 1 m along its axis.
     texel_world: f32,
-    // Change of depth over the width of a texel towards the light; for a spot light multiplied by the distance.
+    // Change of depth over that length towards the light; for a spot light multiplied by the distance.
     depth_per_texel: f32,
-    // Factor of rows 0 and 1 of clip_from_world that gives the light's unit axes.
+    // Factor of rows 0 and 1 of clip_from_world, times texel_scale, that gives the light's unit axes.
     axis_scale: f32,
     // Metres from depth 1 to depth 0.
     depth_range_m: f32,
@@ -43,12 +43,13 @@ struct ShadowView {
     is_tinted: u32,
     // 1: no caster is beyond depth 0, so points there are looked up too, at depth 0.
     is_open: u32,
-    reserved: array<u32, 2>,
+    // Width and height of a texel, as fractions of texel_world.
+    texel_scale: vec2f,
 }
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;
 
-// 88 bytes. One for each light of the scene.
+// 104 bytes. One for each light of the scene.
 struct ShadowLight {
     first_view: u32,
     // 0: no shadows.
@@ -77,7 +78,7 @@ struct ShadowLight {
     max_slope: f32,
     // Constant offset of all taps towards the light, texels.
     depth_bias_texels: f32,
-    // View depth where the shadows end, metres.
+    // Distance where the shadows end, metres.
     fade_end_m: f32,
     // Rate of the fade before that.
     fade_per_m: f32,
@@ -92,6 +93,10 @@ struct ShadowLight {
     supersample: u32,
     // 1: points behind a crease are dark.
     close_creases: u32,
+    // 1: the distance of the fade is that from the camera, 0: the view depth.
+    fades_by_radius: u32,
+    // The camera's position.
+    eye: array<f32, 3>,
 }
 
 const MAP_CASCADES: u32 = 0u;

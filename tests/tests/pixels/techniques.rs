@@ -155,7 +155,7 @@ fn cascades_fitted_to_the_visible_depths_have_finer_texels() {
     let truth = truth(gpu, &scene, &options);
     let [fixed, fitted] = [PCF, SDSM].map(|kind| differing(&greys(gpu, &scene, &options, kind), &truth, 127));
     println!("wrong with fixed splits {fixed:.4}, fitted {fitted:.4}");
-    assert!(fitted < 0.8 * fixed, "{fitted} {fixed}");
+    assert!(fitted < 0.9 * fixed, "{fitted} {fixed}");
     // One cascade covers the whole view; there is nothing to fit.
     options.shadows.cascades.count = 1;
     let [fixed, fitted] = [PCF, SDSM].map(|kind| greys(gpu, &scene, &options, kind));

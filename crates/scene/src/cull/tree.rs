@@ -62,6 +62,12 @@ impl CullTree {
         sort_distinct(found, start, self.items.len());
     }
 
+    /// Returns whether any item's box intersects the volume.
+    #[must_use]
+    pub fn any(&self, volume: &CullVolume) -> bool {
+        self.root().is_some_and(|root| self.finds(root, &PreparedVolume::new(volume), ShapeMask::default()))
+    }
+
     /// Returns the number of items.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -123,6 +129,20 @@ impl CullTree {
 
     fn root(&self) -> Option<Node> {
         Node::root(self.items.len())
+    }
+
+    /// Returns whether an item of a node intersects the volume.
+    fn finds(&self, node: Node, volume: &PreparedVolume<'_>, inside: ShapeMask) -> bool {
+        match volume.classify(&self.nodes[node.number], inside) {
+            Containment::Outside => false,
+            Containment::Inside => true,
+            Containment::Partial(inside) => match node.children() {
+                Some(children) => children.into_iter().any(|child| self.finds(child, volume, inside)),
+                None => self.boxes[node.slots(self.items.len())]
+                    .iter()
+                    .any(|bounds| volume.intersects(bounds, inside)),
+            },
+        }
     }
 
     /// Appends the items of a node that intersect the volume, in the order of slots.

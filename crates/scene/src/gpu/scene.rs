@@ -172,6 +172,12 @@ impl GpuScene {
         self.tree.query(volume, numbers);
     }
 
+    /// Returns whether any instance intersects a volume.
+    #[must_use]
+    pub fn any_in(&self, volume: &CullVolume) -> bool {
+        self.tree.any(volume)
+    }
+
     /// Appends the numbers of the instances that cast shadows and intersect a volume, ascending.
     pub fn cull_casters(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
         self.caster_tree.query(volume, numbers);

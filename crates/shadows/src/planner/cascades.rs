@@ -69,10 +69,10 @@ impl<'a> Planner<'a> {
             return ends_m;
         }
         let radius = |[near_m, far_m]: [f64; 2]| range.sphere(near_m, far_m).radius_m;
-        let radii_m: Vec<f64> =
-            slices(range.begin_m, &ends_m, settings.slice_overlap()).map(radius).collect();
+        let slices = slices(range.begin_m, &ends_m, settings.slice_overlap());
+        let radii_m: Vec<f64> = slices.map(|slice| radius(range.covered(slice))).collect();
         let tile_px = |count: usize| even_tiles(lights * count, settings.map_size_px).tile_px;
-        merged(&ends_m, &radii_m, radius([range.begin_m, range.fit_m]), tile_px)
+        merged(&ends_m, &radii_m, radius([range.nearest_m, range.fit_m]), tile_px)
     }
 
     fn cascades(&self, candidate: Candidate<'a>, ends_m: &[f64], tile_px: u32) -> Cascades<'a> {
@@ -117,10 +117,11 @@ impl<'a> Planner<'a> {
             let fit = near_offsets_m.into_iter().fold(fit, OrthoFit::with_near_offset);
             fit.in_steps_of(params.step_texels)
         };
-        let cascade = |[near_m, far_m]: [f64; 2]| {
+        let cascade = |slice: [f64; 2]| {
+            let [near_m, far_m] = range.covered(slice);
             // Where fits are on the GPU, the last cascade covers the whole view.
             let is_whole = self.requirements.fits_on_gpu && far_m == range.fit_m;
-            let begin_m = if is_whole { range.begin_m } else { near_m };
+            let begin_m = if is_whole { range.nearest_m } else { near_m };
             CascadeFit { far_m, fit: fit([begin_m, far_m]) }
         };
         slices(range.begin_m, ends_m, settings.slice_overlap()).map(cascade).collect()

@@ -122,8 +122,13 @@ impl Planner<'_> {
                     radius_m: fit.fit.sphere.radius_m * (1.0 - blend) - slack_m,
                 },
                 CascadeSelection::Depth => {
-                    let from_m = fit.far_m - blend * length_m - slack_m;
                     let range = &self.range;
+                    // Points in front of the first cascade are looked up in the last.
+                    let from_m = if range.begins_late() {
+                        range.nearest_m
+                    } else {
+                        fit.far_m - blend * length_m - slack_m
+                    };
                     let beyond =
                         ReceiverHull::from_view(range.camera, range.aspect, from_m, range.distance_m);
                     CoveredByFinerCascade::Depth {
@@ -139,15 +144,15 @@ impl Planner<'_> {
 /// Returns the points in light space that a cascade's map covers completely: without its border and its blend, and without
 /// the points for which bias or the near plane may select the next cascade.
 fn inner_box(fit: &OrthoFit, params: &LightShadowParams, slack_m: f64, blend: f64, scale: f64) -> Aabb {
-    let center = fit.center_texels * fit.texel_m;
-    let half = fit.half_extent_m();
-    let inner = (half - f64::from(params.border_px()) * fit.texel_m) * (1.0 - blend) - slack_m;
+    let center = fit.center_m();
+    let half_texels = 0.5 * f64::from(fit.tile_px) - f64::from(params.border_px());
+    let inner = half_texels * (1.0 - blend) * fit.texel_size_m().truncate() - slack_m;
     let steepest = f64::from(params.kernel_radius_texels * params.bias.slope * params.bias.max_slope) * scale;
     let rise_m = std::f64::consts::SQRT_2 * steepest * fit.texel_m;
     let depth_m = fit.depth_range_m();
     let faded_m = 0.5 * blend * depth_m + slack_m + 1e-5 * depth_m;
     let far = fit.far_z_m();
-    let across = DVec3::new(inner, inner, 0.0);
+    let across = inner.extend(0.0);
     Aabb {
         min: (center.with_z(far + faded_m)) - across,
         max: (center.with_z(far + depth_m - faded_m - rise_m)) + across,

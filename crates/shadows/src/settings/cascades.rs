@@ -25,6 +25,9 @@ declare_settings! {
         depth: DepthFormat = DepthFormat::Depth32;
         /// View depths at which the cascades end.
         split: SplitScheme = SplitScheme::Practical { lambda: 0.85 };
+        /// View depth at which the first cascade begins at the earliest; at most nine tenths of the way to the end of the last. Points in front of
+        /// it are looked up in coarser cascades.
+        begin_m: f32 = 0.0, 0..=100000, in "metres";
         /// Fraction of a slice's length by which it extends into the previous slice.
         overlap: f32 = 0.0, 0..=0.5, in "fraction of the slice's length";
         /// Volume that a cascade's tile covers.
@@ -86,7 +89,8 @@ declare_settings! {
         /// The sphere around its slice of the view, or around all receivers if that is smaller. Its size does not depend on the view
         /// direction, and it moves by whole texels only, so shadows do not shimmer.
         Stable;
-        /// The box around its slice of the view on the light's axes: texels are finer, but change as the camera turns.
+        /// The box around its slice of the view on the light's axes, as wide and as high as the slice: texels are finer, and not square, but
+        /// change as the camera turns.
         Tight;
     }
 }
@@ -135,6 +139,14 @@ pub const MAX_CASCADES: u32 = 8;
 
 /// The most lights that can have cascades.
 pub const MAX_CASCADE_LIGHTS: u32 = 4;
+
+impl SplitScheme {
+    /// Returns whether the ends of cascades depend on the near plane. Then the first cascade does not end in front of all visible receivers.
+    #[must_use]
+    pub fn is_relative_to_near(&self) -> bool {
+        matches!(self, Self::Logarithmic | Self::Practical { .. })
+    }
+}
 
 impl CascadeSettings {
     /// Returns the fraction of a slice's length by which it extends into the previous slice, at least the blended fraction.

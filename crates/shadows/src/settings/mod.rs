@@ -9,6 +9,7 @@ mod cull;
 mod declare;
 mod depth;
 mod describe;
+mod distance;
 mod file;
 mod filter;
 mod lights;
@@ -25,6 +26,7 @@ pub use declare::{DescribeSettings, Given, SettingValue, json};
 pub use depth::DepthFormat;
 pub use describe::{Payload, Setting, SettingType, Variant, color, defaults};
 pub(crate) use describe::{fields_schema, refused};
+pub use distance::DistanceMeasure;
 pub use file::settings_file;
 pub use filter::{ShadowFilter, filter_taps};
 pub use lights::{LightRef, LightShadows};
@@ -47,8 +49,10 @@ declare_settings! {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub struct ShadowSettings {
-        /// View depth at which the shadows of all lights end, at most the camera's far plane.
+        /// Distance from the camera at which the shadows of all lights end, at most its far plane.
         distance_m: f32 = 150.0, 0.001..=1000000, in "metres";
+        /// How the distance from the camera is measured.
+        measure: DistanceMeasure = DistanceMeasure::ViewDepth;
         /// Last fraction of the distance, over which shadows fade out.
         fade_fraction: f32 = 0.1, 0.001..=1, in "fraction of the distance";
         /// Whether shadows are evaluated at four points of a pixel instead of one, where it is wider than two shadow texels.

@@ -194,7 +194,7 @@ proptest! {
             (OrthoFit::new(rotation, sphere, 512, 4.0), OrthoFit::new(rotation, sphere, large_px, 4.0));
         let sign = |bit: i32| f64::from(2 * bit - 1);
         let corner = DVec3::new(sign(corner.0), sign(corner.1), sign(corner.2)) * large.half_extent_m();
-        let world = rotation.transpose() * (large.center_texels * large.texel_m + corner * (1.0 - 1e-12));
+        let world = rotation.transpose() * (large.center_m() + corner * (1.0 - 1e-12));
         prop_assert!(small.cull_volume().planes.iter().all(|p| p.signed_distance(world) > -1e-6 * radius_m));
     }
 

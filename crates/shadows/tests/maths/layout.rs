@@ -27,14 +27,15 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
     let module = compose_source(&ModuleSource::new("touch.wgsl", ENTRY), &[]).unwrap();
     let view = fields!(ShadowView: clip_from_world, map_from_world, uv_min, uv_max, light, center, radius,
         texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, begin_m, end_m, tile_px,
-        bias_scale, depth_step, noise_px, is_tinted, is_open, reserved);
+        bias_scale, depth_step, noise_px, is_tinted, is_open, texel_scale);
     layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
     assert_eq!(size_of::<ShadowView>(), 256);
     // `depth.wgsl` declares these two offsets.
     assert_eq!((offset_of!(ShadowView, clip_from_world), offset_of!(ShadowView, noise_px)), (0, 232));
     let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
         normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
-        fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases);
+        fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases,
+        fades_by_radius, eye);
     layout::check(&module, "ShadowLight", size_of::<ShadowLight>(), &light).unwrap();
 }
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use shadowgraph_shadows::{
     BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection, CascadeSettings, DepthFormat,
-    LightRef, LightShadows, NormalBias, ShadowFilter, ShadowSettings, SplitScheme,
+    DistanceMeasure, LightRef, LightShadows, NormalBias, ShadowFilter, ShadowSettings, SplitScheme,
 };
 
 fn read(text: &str) -> Result<ShadowSettings, String> {
@@ -188,14 +188,14 @@ prop_compose! {
             (0.001f32..=0.5).prop_map(CascadeBlend::Soft),
             (0.001f32..=0.5).prop_map(CascadeBlend::Dither),
         ],
-        numbers in (0f32..=1.0, 0.2f32..=1.0, 0f32..=1e4),
+        numbers in (0f32..=1.0, 0.2f32..=1.0, 0f32..=1e4, 0f32..=1e5),
         filter in prop::sample::select(&ShadowFilter::ALL[..]),
         bias_scales in prop::collection::vec(0f32..=16.0, 0..4),
     ) -> CascadeSettings {
-        let (edge_fade, far_filter, near_offset_m) = numbers;
+        let (edge_fade, far_filter, near_offset_m, begin_m) = numbers;
         CascadeSettings {
             count, lights, map_size_px: 1 << exponent, cache: exponent == 9, depth, split, overlap, fit, select, blend,
-            edge_fade, far_filter, near_offset_m, filter, bias_scales,
+            edge_fade, far_filter, near_offset_m, begin_m, filter, bias_scales,
         }
     }
 }
@@ -218,10 +218,11 @@ proptest! {
     fn row_25_valid_settings_survive_a_round_trip(
         distance_m in 0.001f32..1e6, cascades in any_cascades(), lights in prop::collection::vec(any_light(), 0..3),
         normal in prop::sample::select(vec![NormalBias::Sine, NormalBias::Filter]),
+        measure in prop::sample::select(vec![DistanceMeasure::ViewDepth, DistanceMeasure::Radius]),
         method in prop::sample::select(vec![BiasMethod::Plane, BiasMethod::Slope, BiasMethod::Gradient]),
     ) {
         let bias = BiasSettings { normal, method, ..BiasSettings::default() };
-        let settings = ShadowSettings { distance_m, cascades, bias, lights, ..ShadowSettings::default() };
+        let settings = ShadowSettings { distance_m, measure, cascades, bias, lights, ..ShadowSettings::default() };
         prop_assert_eq!(read(&ron::to_string(&settings).unwrap()), Ok(settings));
     }
 }

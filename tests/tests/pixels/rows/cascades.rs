@@ -1,15 +1,15 @@
 //! Cascades: number, splits, selection, blending.
 
-use super::{Greys, count, cube_view, different, greys, pillar_view, pillars, plan, wrong};
+use super::{Greys, count, cube_view, different, greys, greys_with, pillar_view, pillars, plan, wrong};
 use crate::stage::{cube_on_floor, gpu, light, sun, sun_direction};
 use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
 use shadowgraph::shadows::{
-    CascadeBlend, CascadeFitting, CascadeSelection, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES,
-    ShadowSettings, SplitScheme,
+    CascadeBlend, CascadeFitting, CascadeSelection, EVSM, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES,
+    PCF, PCSS, RAYTRACED, SDSM, ShadowSettings, SplitScheme,
 };
-use shadowgraph::{RenderedImage, Renderer};
+use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions};
 
 fn pillars_in_sun() -> Scene {
     let mut scene = pillars(12);
@@ -63,31 +63,34 @@ fn row_12_points_outside_all_cascade_spheres_are_lit() {
     assert_eq!(dark(CascadeSelection::Map).0, None, "the edges of the map are its limit");
 }
 
+/// Counts the colours of cascades that more than `pixels` pixels of an image have.
+pub(super) fn colours(gpu: &Gpu, scene: Scene, options: &ViewOptions, pixels: usize) -> usize {
+    let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Cascade).unwrap();
+    let image: RenderedImage = renderer.draw(gpu, options).unwrap().image;
+    // Colours are shaded: they differ in the strongest channel and in the ratios of the others.
+    let hue = |rgba: &[u8]| {
+        let most = f32::from(*rgba[..3].iter().max().unwrap());
+        [0, 1, 2].map(|i| (f32::from(rgba[i]) / most * 8.0).round() as u8)
+    };
+    let mut hues = std::collections::BTreeMap::<_, usize>::new();
+    for rgba in image.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255) {
+        *hues.entry(hue(rgba)).or_default() += 1;
+    }
+    // White has no cascade; a few pixels of other colours are where shadows fade.
+    hues.remove(&[8, 8, 8]);
+    hues.values().filter(|found| **found > pixels).count()
+}
+
 #[test]
 fn row_13_cascades_are_shown_in_colour() {
     let Some(gpu) = gpu() else { return };
-    let colours = |change: fn(&mut ShadowSettings)| {
-        let options = pillar_view(change);
-        let mut renderer = Renderer::new(gpu, pillars_in_sun(), &options.camera, Aov::Cascade).unwrap();
-        let image: RenderedImage = renderer.draw(gpu, &options).unwrap().image;
-        // Colours are shaded: they differ in the strongest channel and in the ratios of the others.
-        let hue = |rgba: &[u8]| {
-            let most = f32::from(*rgba[..3].iter().max().unwrap());
-            [0, 1, 2].map(|i| (f32::from(rgba[i]) / most * 8.0).round() as u8)
-        };
-        let mut hues = std::collections::BTreeMap::<_, usize>::new();
-        for rgba in image.rgba8.chunks_exact(4).filter(|rgba| rgba[3] == 255) {
-            *hues.entry(hue(rgba)).or_default() += 1;
-        }
-        // White has no cascade; a few pixels of other colours are where shadows fade.
-        hues.remove(&[8, 8, 8]);
-        hues.values().filter(|pixels| **pixels > 100).count()
-    };
-    let two = colours(|s| {
-        s.cascades.count = 2;
-        s.fade_fraction = 0.001;
+    let [two, four] = [2, 4].map(|cascades| {
+        let options = pillar_view(|settings| {
+            settings.cascades.count = cascades;
+            settings.fade_fraction = 0.001;
+        });
+        colours(gpu, pillars_in_sun(), &options, 100)
     });
-    let four = colours(|s| s.fade_fraction = 0.001);
     assert_eq!((two, four), (2, 4));
 }
 
@@ -148,6 +151,8 @@ fn row_18_the_last_cascade_fades_at_its_edge() {
             let options = pillar_view(|settings| {
                 settings.cascades.select = select;
                 settings.cascades.edge_fade = edge_fade;
+                settings.cascades.split = SplitScheme::Metres(vec![6.0, 8.0]);
+                settings.cascades.count = 3;
                 settings.distance_m = 25.0;
                 settings.fade_fraction = 0.001;
             });
@@ -237,6 +242,38 @@ fn row_27_a_tight_fit_has_finer_texels_that_change_as_the_camera_turns() {
 }
 
 #[test]
+fn row_47_a_tight_fit_is_as_wide_and_as_high_as_the_view() {
+    let scene = pillars_in_sun();
+    let options = |fit| {
+        pillar_view(|settings| {
+            settings.cascades.fit = fit;
+            settings.cascades.map_size_px = 512;
+        })
+    };
+    let area = |fit| {
+        let views = plan(&scene, &options(fit)).views;
+        views
+            .iter()
+            .map(|view| view.texel_world.powi(2) * view.texel_scale.element_product())
+            .collect::<Vec<_>>()
+    };
+    let (stable, tight) = (area(CascadeFitting::Stable), area(CascadeFitting::Tight));
+    assert!(stable.iter().zip(&tight).all(|(stable, tight)| 2.0 * tight < *stable), "{stable:?} {tight:?}");
+    let views = plan(&scene, &options(CascadeFitting::Tight)).views;
+    assert!(views.iter().all(|view| view.texel_scale.max_element() == 1.0));
+    assert!(views.iter().all(|view| view.texel_scale.min_element() < 0.8));
+    let Some(gpu) = gpu() else { return };
+    for technique in [PCF, PCSS, EVSM, SDSM] {
+        let wrong = [CascadeFitting::Stable, CascadeFitting::Tight].map(|fit| {
+            let truth = greys_with(gpu, &scene, 0, &options(fit), RAYTRACED);
+            different(&greys_with(gpu, &scene, 0, &options(fit), technique), &truth, 127)
+        });
+        let [stable, tight] = wrong;
+        assert!(tight < 150 && tight <= stable, "{technique:?} {wrong:?}");
+    }
+}
+
+#[test]
 fn row_27_slices_overlap() {
     let scene = pillars_in_sun();
     let radius = |overlap| {
@@ -248,7 +285,8 @@ fn row_27_slices_overlap() {
     };
     let (apart, overlapping) = (radius(0.0), radius(0.5));
     assert_eq!(apart[0], overlapping[0]);
-    assert!(apart[1..].iter().zip(&overlapping[1..]).all(|(a, b)| a < b), "{apart:?} {overlapping:?}");
+    // The last one covers the whole view.
+    assert!(apart[1..3].iter().zip(&overlapping[1..3]).all(|(a, b)| a < b), "{apart:?} {overlapping:?}");
 }
 
 #[test]

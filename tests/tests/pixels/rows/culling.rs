@@ -125,7 +125,7 @@ fn row_33_a_cascade_without_receivers_has_no_pass() {
     let behind = scene.instance(nth_instance(&scene, 0)).unwrap().clone();
     let at = DAffine3::from_translation(DVec3::Z * 8.0);
     scene.insert_instance(Instance { world_from_local: at, ..behind }).unwrap();
-    let options = pillar_view(|_| ());
+    let options = pillar_view(|settings| settings.cascades.split = SplitScheme::Standard);
     let tiles = plan(&scene, &options).cascades.unwrap().tiles;
     // The first 6 m of the view are empty.
     assert!(tiles[0].casters.is_empty() && !tiles[2].casters.is_empty(), "{tiles:?}");

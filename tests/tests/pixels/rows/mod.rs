@@ -7,6 +7,7 @@ mod caching;
 mod cascades;
 mod creases;
 mod culling;
+mod distance;
 mod filters;
 mod materials;
 mod own_casters;

@@ -88,7 +88,7 @@ impl GpuFit {
             lights: map.tiles.len() as u32 / count,
             map_width_px,
             map_height_px,
-            nearest: inputs.camera.near() as f32,
+            nearest: (inputs.camera.near() as f32).max(inputs.settings.cascades.begin_m),
             farthest: plan.lights.iter().map(|light| light.fade_end_m).fold(0.0, f32::max),
         };
         // Minimum and maximum, initialized for atomic min and max.
