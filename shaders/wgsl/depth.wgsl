@@ -9,7 +9,7 @@
 //     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp, fs_dither_clamp or fs_tint_clamp
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
-#import shadowgraph::material::{MATERIAL_TRANSMIT, material_has, TextureCoordinates, base_color, hole_cutoff}
+#import shadowgraph::material::{MATERIAL_TRANSMIT, material_has, TextureCoordinates, base_color, hole_cutoff, caster_cutoff}
 
 // The used members of a ShadowView, or of a View if nothing is dithered; bound at a dynamic offset.
 struct DepthView {
@@ -23,6 +23,8 @@ struct DepthView {
 // fs_clamp and fs_mask_clamp write the depth themselves, so the pipeline's slope bias does not apply: they add this times the
 // depth's steepest change per pixel. Depth is reversed: negative pushes away.
 override SLOPE_BIAS: f32 = 0.0;
+// Whether holes are those of casters, not those that cameras see.
+override CASTS: bool = false;
 
 struct DepthVertex {
     @invariant @builtin(position) position: vec4f,
@@ -66,7 +68,7 @@ fn transmitted(in: DepthVertex) -> vec4f {
 }
 
 fn covers(in: DepthVertex) -> bool {
-    return alpha_of(in) >= hole_cutoff();
+    return alpha_of(in) >= select(hole_cutoff(), caster_cutoff(), CASTS);
 }
 
 // Whether the dithered alpha covers a pixel.

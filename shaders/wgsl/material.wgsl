@@ -33,6 +33,8 @@ struct Material {
     uv_sets: u32,
     // The element of `flags` to read: 0.
     flags_index: u32,
+    // Where the material clips its shadow, surfaces below this alpha cast none.
+    caster_cutoff: f32,
     // Two rows a texture (w unused): uv' = (dot(row, (u, v, 1)), dot(next row, (u, v, 1))).
     uv_transforms: array<vec4f, 10>,
     // x: MATERIAL_* bits. Read them with material_flags.
@@ -119,4 +121,8 @@ fn is_hole(alpha: f32) -> bool {
 
 fn hole_cutoff() -> f32 {
     return select(0.5, material.alpha_cutoff, material_has(MATERIAL_MASK));
+}
+
+fn caster_cutoff() -> f32 {
+    return material.caster_cutoff;
 }

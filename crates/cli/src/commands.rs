@@ -14,6 +14,7 @@ use shadowgraph::options::{Aov, CameraChoice, OptionError};
 use shadowgraph::output::{Pixels, write_png};
 use shadowgraph::scene::gltf::{self, LoadOptions, Progress as LoadProgress};
 use shadowgraph::scene::{Camera, Scene};
+use shadowgraph::shadows::ShadowSettings;
 use shadowgraph::{Background, Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
 
 /// The input of every drawing command.
@@ -84,8 +85,9 @@ pub(super) fn play(
     drawing: &Progress,
     keep: &mut Keep<'_>,
 ) -> Result<(Renderer, ViewOptions), Failure> {
-    let (aov, mut view, config) =
+    let (aov, base, config) =
         (input.options.aov.clone(), view_options(&input), input.options.render_config());
+    let mut view = tracked(&base, &input.options, input.options.time.0)?;
     let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
     let FramesArgs { count, fps } = frames;
     for number in 1..count {
@@ -93,8 +95,15 @@ pub(super) fn play(
         drawing.set(&format!("frame {number} of {count}"), number as f32 / count as f32);
         let time_s = input.options.time.0 + f64::from(number) / fps;
         view.camera = pose(renderer.scene_mut(), &input.options, time_s, view.camera)?;
+        view = tracked(&ViewOptions { camera: view.camera, ..base.clone() }, &input.options, time_s)?;
     }
     Ok((renderer, view))
+}
+
+/// Returns a view with the settings of a time and of the place of its camera.
+pub(crate) fn tracked(view: &ViewOptions, options: &Options, time_s: f64) -> Result<ViewOptions, Failure> {
+    let shadows = options.tracks.at(&view.shadows, time_s, view.camera.position_world());
+    Ok(ViewOptions { shadows: shadows.map_err(shadowgraph::Error::from)?, ..view.clone() })
 }
 
 /// Moves a scene to a time of its animations, and returns the camera, which moves along if it is one of the scene.
@@ -134,12 +143,24 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
         console::warning(&note);
     }
     args.check_lights(&options.settings, &scene)?;
+    apply_shadow_modes(&options.settings, &mut scene);
     let mut camera = options.camera.resolve(&scene, options.size.aspect())?;
     let frames = scene.cameras.is_empty() && options.camera == CameraChoice::Default;
     if ground.add_to(&mut scene) && frames {
         camera.set_far(None);
     }
     Ok(Input { options, scene, camera })
+}
+
+/// Applies the shadow modes by name, and warns of names that nothing has.
+fn apply_shadow_modes(settings: &ShadowSettings, scene: &mut Scene) {
+    let materials = scene.materials().map(|(_, material)| &*material.name);
+    let objects = scene.instances().map(|(_, instance)| &*instance.name);
+    let materials = settings.materials.unused(materials).map(|name| ("materials", name));
+    for (setting, name) in materials.chain(settings.objects.unused(objects).map(|name| ("objects", name))) {
+        console::warning(&format!("settings: `{setting}.{name:?}` matches no name of the scene"));
+    }
+    scene.set_shadow_modes(settings.shadow_modes());
 }
 
 /// Loads a scene with a variant of its materials; without a file, the built-in one.

@@ -42,7 +42,8 @@ pub use material::{
 pub use mesh::{Influence, Mesh, MeshPose, MorphDelta, MorphTarget, SkinWeights, Vertex};
 pub use origin::{ORIGIN_GRID_M, origin_near};
 pub use scene::{
-    AnimationSelection, Attachment, Changes, EditError, Hierarchy, Instance, Scene, ShadowCasting,
+    AnimationSelection, Attachment, ByName, Changes, EditError, Hierarchy, Instance, MaterialCasts,
+    MaterialShadows, ObjectShadows, Scene, ShadowCasting, ShadowModes,
 };
 pub use sun::{SkyDirection, SolarTime};
 

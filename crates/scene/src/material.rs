@@ -32,6 +32,9 @@ pub struct Material {
     pub unlit: bool,
     /// Kind of shadow that it casts; `None`: by its alpha mode, `On` for opaque, `Clip` for mask, `Tint` for blend.
     pub casts: Option<CasterMode>,
+    /// Alpha below which [`CasterMode::Clip`] leaves holes in the shadow, 0 to 1; `None`: the cutoff of [`AlphaMode::Mask`], or one half in
+    /// other modes.
+    pub shadow_cutoff: Option<f32>,
     /// Whether it receives shadows.
     pub receives_shadows: bool,
     /// RGB in sRGB, alpha linear.
@@ -61,6 +64,7 @@ impl Default for Material {
             double_sided: false,
             unlit: false,
             casts: None,
+            shadow_cutoff: None,
             receives_shadows: true,
             base_color_texture: None,
             metallic_roughness_texture: None,
@@ -79,6 +83,15 @@ impl Material {
             AlphaMode::Opaque => CasterMode::On,
             AlphaMode::Mask { .. } => CasterMode::Clip,
             AlphaMode::Blend | AlphaMode::Transmit => CasterMode::Tint,
+        })
+    }
+
+    /// Returns the alpha below which [`CasterMode::Clip`] leaves holes in the shadow.
+    #[must_use]
+    pub fn caster_cutoff(&self) -> f32 {
+        self.shadow_cutoff.unwrap_or(match self.alpha {
+            AlphaMode::Mask { cutoff } => cutoff,
+            _ => 0.5,
         })
     }
 
@@ -111,7 +124,7 @@ impl Material {
 pub enum CasterMode {
     /// The whole surface casts a shadow, regardless of alpha.
     On,
-    /// The surface casts a shadow where alpha is at least the cutoff of [`AlphaMode::Mask`], or one half in other modes.
+    /// The surface casts a shadow where alpha is at least [`Material::caster_cutoff`].
     Clip,
     /// The shadow is as dense as alpha: a noise pattern selects the texels of the shadow map that are filled.
     Dither,

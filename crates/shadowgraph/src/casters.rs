@@ -1,24 +1,38 @@
 //! A scene's instances as shadow casters.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::rays::GpuRayScene;
-use shadowgraph_shadows::{CasterPass, CasterView, DepthFormat, Mobility, ShadowCasters, TINT_FORMAT};
+use shadowgraph_shadows::{
+    CasterPass, CasterTarget, CasterView, DepthFormat, Mobility, ShadowCasters, TINT_FORMAT,
+};
 
 use crate::error::Error;
 use crate::scene_rays::UploadedRays;
+
+/// Number of biases whose pipelines are kept: those of the lights that have their own, and more while a bias is adjusted.
+const MAX_BIASED: usize = 16;
 
 /// The instances of a scene on the GPU as casters, by the same numbers. Their flags and materials decide how they cast shadows.
 pub struct SceneCasters {
     /// The scene.
     pub scene: GpuScene,
+    device: wgpu::Device,
+    target: DepthTarget,
     /// Pipelines by map format.
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
+    /// Pipelines with a slope-scaled bias, by format and bias; the last used ones.
+    biased: Mutex<Vec<BiasedPipelines>>,
     /// The triangles, if the technique traces rays.
     pub(crate) rays: Option<UploadedRays>,
     /// The bounds of the shadows on the ground; empty without one.
     pub(crate) ground_shadows: Aabb,
 }
+
+/// Pipelines with a slope-scaled bias, and the format and the bias.
+type BiasedPipelines = ((wgpu::TextureFormat, u32), Arc<CasterPipelines>);
 
 impl SceneCasters {
     /// Creates the pipelines that draw the casters.
@@ -35,13 +49,33 @@ impl SceneCasters {
     /// # Errors
     /// For a shader that does not compose.
     pub fn with_target(device: &wgpu::Device, scene: GpuScene, target: &DepthTarget) -> Result<Self, Error> {
+        let target = DepthTarget { tint_format: TINT_FORMAT, ..*target };
         let pipelines = |depth: DepthFormat| {
             let format = depth.texture_format();
-            let target = DepthTarget { format, tint_format: TINT_FORMAT, ..*target };
+            let target = DepthTarget { format, ..target };
             Ok((format, CasterPipelines::new(device, scene.layouts(), &target)?))
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
-        Ok(Self { scene, pipelines, rays: None, ground_shadows: Aabb::EMPTY })
+        let (rays, ground_shadows) = (None, Aabb::EMPTY);
+        let (device, biased) = (device.clone(), Mutex::default());
+        Ok(Self { scene, device, target, pipelines, biased, rays, ground_shadows })
+    }
+
+    /// Returns the pipelines with the bias of a target, which are created as they are first used; `None` if that fails.
+    fn biased(&self, target: &CasterTarget) -> Option<Arc<CasterPipelines>> {
+        let key = (target.format, target.slope_bias_milli);
+        let mut biased = self.biased.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, pipelines)) = biased.iter().find(|(known, _)| *known == key) {
+            return Some(pipelines.clone());
+        }
+        let slope_bias = self.target.slope_bias + target.slope_scale();
+        let target = DepthTarget { format: target.format, slope_bias, ..self.target };
+        let pipelines = Arc::new(CasterPipelines::new(&self.device, self.scene.layouts(), &target).ok()?);
+        if biased.len() == MAX_BIASED {
+            biased.remove(0);
+        }
+        biased.push((key, pipelines.clone()));
+        Some(pipelines)
     }
 
     /// Returns the number of triangles of some casters.
@@ -93,9 +127,12 @@ impl ShadowCasters for SceneCasters {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
-        let pipelines = self.pipelines.iter().find(|(format, _)| *format == view.target.format);
+        let biased = (view.target.slope_bias_milli > 0).then(|| self.biased(&view.target)).flatten();
+        let unbiased = || self.pipelines.iter().find(|(format, _)| *format == view.target.format);
         // Maps have no other formats.
-        let Some((_, pipelines)) = pipelines else { return 0 };
+        let Some(pipelines) = biased.as_deref().or_else(|| unbiased().map(|(_, pipelines)| pipelines)) else {
+            return 0;
+        };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_for(number));
         self.scene.draw(pass, draws, &|draw| match view.target.pass {
             CasterPass::Depth => pipelines.get(draw.casts),

@@ -310,7 +310,7 @@ impl Renderer {
         if self.aov == Aov::Color { self.config.background } else { Background::Sky }
     }
 
-    /// Begins a frame: checks the camera, follows the edits of the scene, and moves the origin of GPU space to the camera.
+    /// Begins a frame: checks the camera, gives the scene the [shadow modes](Scene::set_shadow_modes) of the settings, follows its edits, and moves the origin of GPU space to the camera.
     /// Drawing and recording begin with it.
     ///
     /// # Errors
@@ -319,6 +319,9 @@ impl Renderer {
     pub fn begin_frame(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         options.camera.check(options.aspect())?;
         (self.lit_output, _) = lit_output(&self.aov, self.scene.lights())?;
+        if !options.shadows.has_shadow_modes(self.scene.shadow_modes()) {
+            self.scene.set_shadow_modes(options.shadows.shadow_modes());
+        }
         let changes = self.scene.take_changes();
         let origin_world = origin_near(options.camera.position_world());
         let followed = self.follow(gpu, &changes, origin_world);

@@ -323,12 +323,12 @@ fn posed_corners(mesh: &Mesh, pose: &MeshPose) -> Vec<[Vec3; 3]> {
 /// Returns the alpha below which a material has holes, `None` in it if it colours light, and `None` if no light passes.
 #[expect(clippy::option_option, reason = "no light, some light with and without holes")]
 fn cutoff(material: &Material) -> Option<Option<f32>> {
-    match (material.caster_mode(), material.alpha) {
-        (CasterMode::On | CasterMode::Off, _) => None,
-        (CasterMode::Tint, _) => Some(None),
-        (CasterMode::Clip, AlphaMode::Mask { cutoff }) => Some(Some(cutoff)),
+    match material.caster_mode() {
+        CasterMode::On | CasterMode::Off => None,
+        CasterMode::Tint => Some(None),
+        CasterMode::Clip => Some(Some(material.caster_cutoff())),
         // A ray hits or misses: dithered surfaces have holes where more than half of the pixels are discarded.
-        (CasterMode::Clip | CasterMode::Dither, _) => Some(Some(DITHER_CUTOFF)),
+        CasterMode::Dither => Some(Some(DITHER_CUTOFF)),
     }
 }
 

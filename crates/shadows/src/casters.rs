@@ -89,8 +89,7 @@ pub enum Mobility {
     Moving,
 }
 
-/// The target of a pipeline that draws casters: depth compare `GreaterEqual` (depth is reversed), one sample, no
-/// depth bias (biases are applied when the map is read).
+/// The target of a pipeline that draws casters: depth compare `GreaterEqual` (depth is reversed), one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CasterTarget {
     /// The kind of pass.
@@ -100,6 +99,18 @@ pub struct CasterTarget {
     /// Whether the view is a spot light's pyramid rather than a box. In both, casters between the light and
     /// the near plane must be kept with depth 1 (`unclipped_depth`, or its emulation).
     pub perspective: bool,
+    /// The slope-scaled depth bias, in thousandths of the depth's change per texel, by which casters are pushed away from the light; see
+    /// [`slope_scale`](Self::slope_scale). 0 but for [`BiasMethod::Raster`](crate::BiasMethod::Raster): other biases are applied when the map is
+    /// read.
+    pub slope_bias_milli: u32,
+}
+
+impl CasterTarget {
+    /// Returns `slope_bias_milli` for [`wgpu::DepthBiasState::slope_scale`]: negative, as depth is reversed.
+    #[must_use]
+    pub fn slope_scale(&self) -> f32 {
+        -0.001 * self.slope_bias_milli as f32
+    }
 }
 
 /// The format of the transmittance of translucent casters.

@@ -64,8 +64,9 @@ pub use select::{Unshadowed, UnshadowedReason};
 pub use settings::{
     AtlasSettings, AtlasTiles, BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection,
     CascadeSettings, CullSettings, DepthFormat, DescribeSettings, DistanceMeasure, LightRef, LightShadows,
-    MAX_CASCADE_LIGHTS, MAX_CASCADES, NamedSettings, NormalBias, Payload, Setting, SettingType, SettingValue,
-    ShadowFilter, ShadowSettings, SplitScheme, TechniqueSettings, Variant, color, defaults, filter_taps,
+    MAX_CASCADE_LIGHTS, MAX_CASCADES, MaterialModes, NamedSettings, NormalBias, ObjectModes, Payload,
+    Setting, SettingTrack, SettingTracks, SettingType, SettingValue, SettingZone, ShadowFilter,
+    ShadowSettings, SplitScheme, TechniqueSettings, TrackValue, Variant, color, defaults, filter_taps,
     settings_file,
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
@@ -80,9 +81,9 @@ pub use techniques::{
 pub use tile_fit::TileFit;
 pub use vertex_buffers::VertexBuffers;
 pub use views::{
-    BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
-    NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,
-    TilePlacement,
+    BIAS_GRADIENT, BIAS_PLANE, BIAS_RASTER, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS,
+    MAP_CASCADES, NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight,
+    ShadowView, TilePlacement,
 };
 
 /// Used by the expansion of `declare_settings!`.

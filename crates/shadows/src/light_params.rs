@@ -2,7 +2,7 @@
 
 use crate::requirements::{Requirements, snapping_px};
 use crate::settings::{
-    BiasSettings, DistanceMeasure, LightShadows, NormalBias, ShadowFilter, ShadowSettings,
+    BiasMethod, BiasSettings, DistanceMeasure, LightShadows, NormalBias, ShadowFilter, ShadowSettings,
 };
 
 /// The parameters of one light's shadows.
@@ -86,6 +86,14 @@ impl LightShadowParams {
     /// Returns the border on each side of a tile, pixels: the radius that is read.
     pub(crate) fn border_px(&self) -> u32 {
         self.kernel_radius_texels.ceil() as u32
+    }
+
+    /// Returns the slope-scaled depth bias with which casters are drawn; see [`CasterTarget`](crate::CasterTarget).
+    pub(crate) fn slope_bias_milli(&self, bias_scale: f32) -> u32 {
+        match self.bias.method {
+            BiasMethod::Raster => (1000.0 * self.bias.slope * bias_scale).round() as u32,
+            _ => 0,
+        }
     }
 
     pub(crate) fn normal_sine(&self) -> bool {

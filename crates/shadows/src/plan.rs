@@ -90,6 +90,8 @@ pub struct TilePlan {
     pub rect: TileRect,
     /// The tile's projection, before passes on the GPU fit it.
     pub fit: TileFit,
+    /// The slope-scaled depth bias of its casters; see [`CasterTarget::slope_bias_milli`].
+    pub slope_bias_milli: u32,
     /// The opaque casters to draw, as returned by [`ShadowCasters::cull`]. Can be empty: a cleared tile is lit.
     pub casters: Vec<u32>,
     /// The casters that tint.
@@ -112,7 +114,12 @@ impl TilePlan {
         format: wgpu::TextureFormat,
     ) -> CasterView {
         CasterView {
-            target: CasterTarget { pass, format, perspective: view.light.w != 0.0 },
+            target: CasterTarget {
+                pass,
+                format,
+                perspective: view.light.w != 0.0,
+                slope_bias_milli: self.slope_bias_milli,
+            },
             light: self.light,
             kind: self.kind,
             size_px: [self.rect.width, self.rect.height],

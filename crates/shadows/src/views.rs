@@ -5,9 +5,12 @@ use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadowgraph_scene::BoundingSphere;
 
 use crate::atlas::TileRect;
+use crate::cascades::CascadeFit;
 use crate::light_params::LightShadowParams;
 use crate::ortho::OrthoFit;
-use crate::settings::{BiasMethod, CascadeBlend, CascadeSelection, DistanceMeasure, ShadowSettings};
+use crate::settings::{
+    BiasMethod, CascadeBlend, CascadeSelection, DistanceMeasure, MAX_CASCADES, ShadowSettings,
+};
 use crate::spot::SpotFit;
 
 /// The view of a tile, 256 bytes, the alignment of the dynamic offset with which it is bound for drawing. Shaders also look
@@ -62,7 +65,7 @@ pub struct ShadowView {
     pub texel_scale: Vec2,
 }
 
-/// The views of a light and how they are read, 104 bytes. One for each light of the scene, in its order.
+/// The views of a light and how they are read, 140 bytes. One for each light of the scene, in its order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ShadowLight {
@@ -114,6 +117,10 @@ pub struct ShadowLight {
     pub fades_by_radius: u32,
     /// The camera's position, if `fades_by_radius`.
     pub eye: [f32; 3],
+    /// 1 if the view of a point is selected by `ends_m`, else 0.
+    pub branch_free: u32,
+    /// The ends of the cascades, metres of view depth; unused ones are the largest number.
+    pub ends_m: [f32; MAX_CASCADES as usize],
 }
 
 /// [`ShadowView::cascade`] of a tile that is not a cascade.
@@ -147,6 +154,8 @@ pub const BIAS_PLANE: u32 = 0;
 pub const BIAS_SLOPE: u32 = 1;
 /// [`ShadowLight::bias_method`]: by the map's own gradient.
 pub const BIAS_GRADIENT: u32 = 2;
+/// [`ShadowLight::bias_method`]: the slope of casters as they are drawn.
+pub const BIAS_RASTER: u32 = 3;
 
 impl ShadowView {
     /// Returns an empty view: lookups in it are lit.
@@ -249,6 +258,7 @@ impl ShadowLight {
                 BiasMethod::Plane => BIAS_PLANE,
                 BiasMethod::Slope => BIAS_SLOPE,
                 BiasMethod::Gradient => BIAS_GRADIENT,
+                BiasMethod::Raster => BIAS_RASTER,
             },
             normal_sine: u32::from(params.normal_sine()),
             strength: params.strength,
@@ -267,8 +277,10 @@ impl ShadowLight {
         }
     }
 
-    /// Adds the parameters of a light with cascades.
-    pub(crate) fn with_cascades(self, settings: &crate::CascadeSettings) -> Self {
+    /// Adds the parameters of a light with cascades that end at these view depths.
+    pub(crate) fn with_cascades(self, settings: &crate::CascadeSettings, ends: &[CascadeFit]) -> Self {
+        let mut ends_m = [f32::MAX; MAX_CASCADES as usize];
+        ends_m.iter_mut().zip(ends).for_each(|(end_m, cascade)| *end_m = cascade.far_m as f32);
         let shrinks = self.filter_half * (1.0 - settings.far_filter);
         Self {
             select: match settings.select {
@@ -281,6 +293,8 @@ impl ShadowLight {
                 CascadeBlend::Soft(_) => BLEND_SOFT,
                 CascadeBlend::Dither(_) => BLEND_DITHER,
             },
+            branch_free: u32::from(settings.branch_free && settings.select == CascadeSelection::Depth),
+            ends_m,
             blend_fraction: settings.blend.fraction(),
             edge_fade: settings.edge_fade,
             filter_falloff: shrinks / self.fade_end_m,

@@ -37,9 +37,17 @@ fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
         return chosen;
     }
     // The number of views that end before the point.
-    chosen = 0u;
-    for (var i = 0u; i < light.view_count; i++) {
-        chosen += select(0u, 1u, receiver.view_depth >= shadow_views[light.first_view + i].end_m);
+    if light.branch_free == 1u {
+        let ends = light.ends_m;
+        let is_behind = vec4f(receiver.view_depth) >= vec4f(ends[0], ends[1], ends[2], ends[3]);
+        let is_far_behind = vec4f(receiver.view_depth) >= vec4f(ends[4], ends[5], ends[6], ends[7]);
+        let behind = select(vec4u(0u), vec4u(1u), is_behind) + select(vec4u(0u), vec4u(1u), is_far_behind);
+        chosen = behind.x + behind.y + behind.z + behind.w;
+    } else {
+        chosen = 0u;
+        for (var i = 0u; i < light.view_count; i++) {
+            chosen += select(0u, 1u, receiver.view_depth >= shadow_views[light.first_view + i].end_m);
+        }
     }
     // Points in front of the first view, which can begin late, are in the last one: it covers all.
     let is_before = receiver.view_depth < shadow_views[light.first_view].begin_m;

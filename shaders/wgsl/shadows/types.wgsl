@@ -97,6 +97,10 @@ struct ShadowLight {
     fades_by_radius: u32,
     // The camera's position.
     eye: array<f32, 3>,
+    // 1: the view of a point is selected by ends_m.
+    branch_free: u32,
+    // The ends of the cascades, metres of view depth; unused ones are huge.
+    ends_m: array<f32, 8>,
 }
 
 const MAP_CASCADES: u32 = 0u;
@@ -117,3 +121,4 @@ const BLEND_DITHER: u32 = 2u;
 const BIAS_PLANE: u32 = 0u;
 const BIAS_SLOPE: u32 = 1u;
 const BIAS_GRADIENT: u32 = 2u;
+const BIAS_RASTER: u32 = 3u;

@@ -69,6 +69,14 @@ pub(super) fn skin() -> File {
     file
 }
 
+/// A second vase that casts its shadow alone.
+pub(super) fn shadow_only() -> File {
+    let mut file = plain();
+    file.add_root(json!({
+        "mesh": 1, "name": "hidden vase", "translation": [-0.5, 0, 0.4], "extras": {"shadow_casts": "only"}}));
+    file
+}
+
 /// Points next to the triangles of the vase.
 pub(super) fn points() -> File {
     let mut file = plain();

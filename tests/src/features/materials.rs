@@ -93,6 +93,19 @@ pub(super) fn label() -> File {
     file
 }
 
+/// Rings whose shadow is clipped at another alpha than the vase itself.
+pub(super) fn caster_modes() -> File {
+    let mut file = plain();
+    let texture = add_texture(&mut file, &rings([200, 90, 40, 255], [200, 90, 40, 150]));
+    file.json["materials"][1] = json!({
+        "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.2,
+        "pbrMetallicRoughness": {
+            "baseColorTexture": {"index": texture}, "metallicFactor": 0, "roughnessFactor": 0.4},
+        "extras": {"shadow_casts": "clip", "shadow_cutoff": 0.8},
+    });
+    file
+}
+
 /// A dark gradient of vertex colours.
 pub(super) fn vertex_colors() -> File {
     let mut file = with_primitive(|file, vase| {

@@ -61,7 +61,7 @@ const fn other(
 }
 
 /// All features.
-pub const FEATURES: [Feature; 23] = [
+pub const FEATURES: [Feature; 25] = [
     same("draco", "KHR_draco_mesh_compression", "edgebreaker connectivity", compressed::draco_edgebreaker),
     same(
         "draco_sequential",
@@ -118,6 +118,13 @@ pub const FEATURES: [Feature; 23] = [
     ),
     other("label", "KHR_materials_transmission", "glass with opaque rings", materials::label),
     other("vertex_colors", "none", "vertex colours in 16 bits, dark without bands", materials::vertex_colors),
+    other(
+        "caster_modes",
+        "extras",
+        "a shadow clipped at another alpha than the vase",
+        materials::caster_modes,
+    ),
+    other("shadow_only", "extras", "a second vase of which only the shadow is drawn", instances::shadow_only),
     other("clearcoat", "KHR_materials_clearcoat", "a note: drawn without", materials::clearcoat),
     other("points", "none", "a note: points are left out", instances::points),
 ];

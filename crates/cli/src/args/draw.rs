@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use clap::Args;
 use shadowgraph::Registry;
 use shadowgraph::core::did_you_mean;
-use shadowgraph::options::{OptionError, SettingsFile, ShadowDistance};
+use shadowgraph::options::{OptionError, SettingsFile, ShadowDistance, read_tracks};
 use shadowgraph::pipelines::{BUILT_IN, Parameters, Pipeline};
 use shadowgraph::scene::Scene;
-use shadowgraph::shadows::{ShadowSettings, Technique, Techniques};
+use shadowgraph::shadows::{SettingTracks, ShadowSettings, Technique, Techniques};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -35,6 +35,9 @@ pub(crate) struct DrawArgs {
     /// A RON file with shadow settings (see `nodes settings`)
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
+    /// A RON file with shadow settings over time (--time) and by the place of the camera
+    #[arg(long, value_name = "FILE")]
+    tracks: Option<PathBuf>,
     /// Image size in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", allow_hyphen_values = true)]
     size: String,
@@ -105,6 +108,16 @@ impl DrawArgs {
         }
     }
 
+    /// Reads the file of settings over time and place; without one, the tracks are empty.
+    ///
+    /// # Errors
+    /// One line with the file, the location and the value.
+    fn tracks(&self, settings: &ShadowSettings) -> Result<SettingTracks, OptionError> {
+        self.tracks
+            .as_deref()
+            .map_or_else(|| Ok(SettingTracks::default()), |file| read_tracks(file, settings))
+    }
+
     /// Returns whether times are requested.
     pub(crate) fn times(&self) -> bool {
         self.timings
@@ -126,6 +139,7 @@ impl DrawArgs {
             pipeline: self.pipeline(registry)?,
             technique: named.transpose()?,
             samples: self.samples,
+            tracks: self.tracks(&file.settings)?,
             settings: file.settings,
             size: self.size.parse()?,
             camera: or_default(self.camera.as_deref())?,
@@ -276,6 +290,21 @@ mod tests {
             options(&format!("{line};--shadow-distance;auto")).unwrap().shadow_distance,
             ShadowDistance::Auto
         );
+    }
+
+    #[test]
+    fn tracks_are_read_and_their_errors_have_a_location() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("tracks.ron");
+        let line = format!("--tracks;{}", file.display());
+        std::fs::write(&file, include_str!("../../../../docs/tracks.ron")).unwrap();
+        let tracks = options(&line).unwrap().tracks;
+        assert_eq!((tracks.tracks.len(), tracks.zones.len(), tracks.end_s()), (2, 1, 10.0));
+        std::fs::write(&file, "(tracks: [\n(setting: \"distance_m\", keys: [(0, -1)])])").unwrap();
+        let error = options(&line).unwrap_err();
+        let expected =
+            "tracks.ron:2:1: invalid value: `tracks.0.distance_m` is -1; allowed: 0.001 to 1000000 (metres)";
+        assert!(error.starts_with("--tracks: ") && error.ends_with(expected), "{error}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use shadowgraph::options::{
     AdapterChoice, AnimationChoice, AnimationTime, Aov, CameraChoice, GroundChoice, ShadowDistance, Size,
     SunChoice,
 };
-use shadowgraph::shadows::{ShadowSettings, Technique};
+use shadowgraph::shadows::{SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{Background, Pipeline, RenderConfig};
 
 /// The options of a drawing command, without the files of the scene and the output.
@@ -18,6 +18,8 @@ pub(crate) struct Options {
     pub(crate) samples: u32,
     /// The shadow settings.
     pub(crate) settings: ShadowSettings,
+    /// The settings that change with time and place.
+    pub(crate) tracks: SettingTracks,
     /// The size of the image.
     pub(crate) size: Size,
     /// The camera.
@@ -61,6 +63,7 @@ impl Default for Options {
             technique: None,
             samples: 1,
             settings: ShadowSettings::default(),
+            tracks: SettingTracks::default(),
             size: Size::default(),
             camera: CameraChoice::default(),
             sun: SunChoice::default(),

@@ -21,9 +21,9 @@ impl Playback {
         Self { selection, time_s, is_playing: true, speed: 1.0, shown: None }
     }
 
-    /// Advances the time.
-    pub(super) fn advance(&mut self, hierarchy: &Hierarchy, seconds: f64) {
-        let end_s = f64::from(hierarchy.end_s(self.selection));
+    /// Advances the time, which starts again after the animations and `tracks_end_s`.
+    pub(super) fn advance(&mut self, hierarchy: &Hierarchy, tracks_end_s: f64, seconds: f64) {
+        let end_s = f64::from(hierarchy.end_s(self.selection)).max(tracks_end_s);
         if self.is_playing && end_s > 0.0 {
             self.time_s = (self.time_s + seconds * self.speed).rem_euclid(end_s);
         }
@@ -60,7 +60,7 @@ mod tests {
         let mut playback = Playback::new(AnimationSelection::All, 1.5);
         let mut advanced = |change: &dyn Fn(&mut Playback)| {
             change(&mut playback);
-            playback.advance(&hierarchy(), 0.25);
+            playback.advance(&hierarchy(), 0.0, 0.25);
             playback.time_s
         };
         assert_eq!(advanced(&|_| {}), 1.75);

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
 use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowDistance, SunChoice};
 use shadowgraph::scene::{AnimationSelection, Scene};
-use shadowgraph::shadows::{BudgetConfig, QualityController, ShadowSettings, Technique};
+use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
     Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu,
 };
@@ -41,6 +41,8 @@ pub(super) struct Stage {
     pub(super) sun: Option<Sun>,
     /// Whether the shadow camera is frozen.
     pub(super) frozen: bool,
+    /// The settings that change with time and place.
+    pub(super) tracks: SettingTracks,
     pub(super) times: TimeHistory,
     /// The plan of the last valid frame.
     pub(super) plan: Option<Arc<Plan>>,
@@ -91,6 +93,7 @@ impl Stage {
             settings: view.shadows,
             controller: args.budget_ms.map(controller).transpose()?,
             frozen: false,
+            tracks: input.options.tracks,
             times: TimeHistory::new(FRAMES),
             plan: None,
             error: None,
@@ -177,13 +180,13 @@ impl Stage {
         }
     }
 
-    /// Returns the current view options; the shadow settings are limited by the time budget.
-    pub(super) fn options(&self, size_px: [u32; 2]) -> ViewOptions {
-        let shadows = match &self.controller {
-            Some(controller) => controller.apply(&self.settings),
-            None => self.settings.clone(),
-        };
-        ViewOptions { camera: self.fly.camera().clone(), size_px, shadows }
+    /// Returns the current view options: the shadow settings of this time and place, limited by the time budget.
+    fn options(&self, size_px: [u32; 2]) -> Result<ViewOptions, shadowgraph::Error> {
+        let camera = self.fly.camera().clone();
+        let shadows = self.tracks.at(&self.settings, self.playback.time_s, camera.position_world())?;
+        let shadows =
+            self.controller.as_ref().map_or(shadows.clone(), |controller| controller.apply(&shadows));
+        Ok(ViewOptions { camera, size_px, shadows })
     }
 
     /// Returns the format of the target texture.
@@ -212,7 +215,7 @@ impl Stage {
 
     fn try_draw(&mut self, gpu: &Gpu, target: &wgpu::Texture) -> Result<(), shadowgraph::Error> {
         self.update_renderer(gpu)?;
-        let options = self.options([target.width(), target.height()]);
+        let options = self.options([target.width(), target.height()])?;
         self.registry.techniques.check(&options.shadows)?;
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         if let Err(error) = self.playback.apply([&mut self.scene, renderer.scene_mut()]) {
@@ -255,7 +258,7 @@ impl Stage {
 
     /// Returns the page of the current frame.
     pub(super) fn page(&mut self, gpu: &Gpu, size_px: [u32; 2]) -> Result<String, shadowgraph::Error> {
-        let options = self.options(size_px);
+        let options = self.options(size_px)?;
         let lights = self.scene.lights().to_vec();
         let Some(renderer) = &mut self.renderer else { return Ok(String::new()) };
         Ok(renderer.inspect(gpu, &options)?.page(&lights, &options).to_html())

@@ -14,12 +14,12 @@ use super::skins::Skins;
 use super::validate::{
     MAX_BYTES, MAX_INSTANCES, MAX_VERTICES, MAX_WORLD_M, SUPPORTED_EXTENSIONS, check_header, check_references,
 };
-use super::{animations, container, conversions, hierarchy, images, instancing, materials, variants};
+use super::{animations, container, conversions, extras, hierarchy, images, instancing, materials, variants};
 use crate::error::Error;
 use crate::keys::{InstanceKey, MaterialKey};
 use crate::material::{Image, TextureRef};
 use crate::mesh::Mesh;
-use crate::scene::{Attachment, EditError, Hierarchy, Instance, Scene};
+use crate::scene::{Attachment, EditError, Hierarchy, Instance, ObjectShadows, Scene};
 
 /// The progress of loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,10 +109,11 @@ fn import(
     let mut images: Vec<_> = images.into_iter().map(|image| usable(image, &mut notes)).collect();
     let mut converted = conversions::Images::new(&mut images);
     materials.iter_mut().for_each(|material| converted.convert(material, &mut notes));
+    let shadows = extras::of_nodes(&document, &mut notes);
     let mut scene = Scene::default();
     scene.notes = notes.into_lines();
     let inserted = insert_materials(&mut scene, images, materials)
-        .and_then(|materials| geometry.insert(&mut scene, &document, &nodes, &materials));
+        .and_then(|materials| geometry.insert(&mut scene, (&document, &shadows), &nodes, &materials));
     // Everything has been checked with its location before.
     let instances = inserted.map_err(|error| ImportError::new("scene", error.to_string()))?;
     let lights =
@@ -283,7 +284,7 @@ impl Geometry {
     fn insert(
         mut self,
         scene: &mut Scene,
-        document: &Document,
+        (document, shadows): (&Document, &[ObjectShadows]),
         nodes: &[SceneNode],
         materials: &[MaterialKey],
     ) -> Result<Vec<Attachment<InstanceKey>>, EditError> {
@@ -293,6 +294,7 @@ impl Geometry {
         for (node, scene_node, name, mesh, material) in self.drawn(document, nodes) {
             if let (Some(&mesh), Some(&material)) = (meshes.get(mesh), materials.get(material)) {
                 let instance = Instance::new(mesh, material, scene_node.world_from_node).with_name(name);
+                let instance = extras::apply_to_instance(shadows.get(scene_node.node), instance);
                 attachments.push(Attachment { node, object: scene.insert_instance(instance)? });
             }
         }

@@ -9,6 +9,7 @@ use json::validation::Checked;
 
 use super::document::Document;
 use super::error::{ImportError, WithLocation, clean_name, describe};
+use super::extras;
 use super::notes::Notes;
 use super::specular_glossiness::SpecularGlossiness;
 use super::textures::{self, TextureUse};
@@ -78,7 +79,8 @@ pub(super) fn read(document: &Document, notes: &mut Notes) -> Result<Materials, 
             images: [base_color, metallic_roughness, normal, occlusion, emissive],
             conversion: None,
         };
-        material.extend(json, mask, notes).with_location(|| location)?;
+        material.extend(json, mask, notes).with_location(|| location.clone())?;
+        extras::apply_to_material(&json.extras, &mut material.material, &location, notes);
         materials.push(material);
     }
     Ok(Materials { materials, images })
@@ -235,6 +237,7 @@ fn convert(
         alpha: alpha(material).with_location(|| location)?,
         double_sided: material.double_sided,
         casts: None,
+        shadow_cutoff: None,
         receives_shadows: true,
         unlit: material.extensions.as_ref().is_some_and(|e| e.unlit.is_some()),
         base_color_texture,

@@ -18,6 +18,7 @@ mod conversions;
 mod document;
 mod draco;
 mod error;
+mod extras;
 mod files;
 mod hierarchy;
 mod images;

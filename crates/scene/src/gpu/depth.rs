@@ -64,7 +64,7 @@ impl DepthPipelines {
         layouts: &MaterialLayouts,
         target: &DepthTarget,
     ) -> Result<Self, Error> {
-        let builder = PipelineBuilder::new(device, layouts, target)?;
+        let builder = PipelineBuilder::new(device, layouts, target, false)?;
         // Keys with equal variants share a pipeline.
         let mut created: Vec<(Variant, wgpu::RenderPipeline)> = Vec::new();
         let pipeline = |key: PipelineKey| {
@@ -116,7 +116,7 @@ impl CasterPipelines {
         layouts: &MaterialLayouts,
         target: &DepthTarget,
     ) -> Result<Self, Error> {
-        let builder = PipelineBuilder::new(device, layouts, target)?;
+        let builder = PipelineBuilder::new(device, layouts, target, true)?;
         let pipeline = |alpha| builder.pipeline(device, Variant { alpha, culled: None });
         Ok(Self {
             solid: pipeline(Alpha::Ignored),
@@ -183,6 +183,8 @@ impl Variant {
 struct PipelineBuilder {
     shader: wgpu::ShaderModule,
     target: DepthTarget,
+    /// Holes are those of casters.
+    casts: bool,
     /// The device clamps depth.
     unclipped: bool,
     /// The fragment shader clamps depth.
@@ -193,7 +195,12 @@ struct PipelineBuilder {
 }
 
 impl PipelineBuilder {
-    fn new(device: &wgpu::Device, layouts: &MaterialLayouts, target: &DepthTarget) -> Result<Self, Error> {
+    fn new(
+        device: &wgpu::Device,
+        layouts: &MaterialLayouts,
+        target: &DepthTarget,
+        casts: bool,
+    ) -> Result<Self, Error> {
         let name = "depth.wgsl";
         let module = shadowgraph_shaders::compose(name, &[])
             .map_err(|error| Error::Shader { name: name.to_owned(), reason: error.to_string() })?;
@@ -213,6 +220,7 @@ impl PipelineBuilder {
                 source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
             }),
             target: *target,
+            casts,
             unclipped,
             emulated: target.clamp_near && !unclipped,
             opaque_layout: layout(None),
@@ -237,9 +245,10 @@ impl PipelineBuilder {
             dst_factor: wgpu::BlendFactor::Zero,
             operation: wgpu::BlendOperation::Add,
         };
-        let constants = [("SLOPE_BIAS", f64::from(self.target.slope_bias))];
+        let constants =
+            [("SLOPE_BIAS", f64::from(self.target.slope_bias)), ("CASTS", f64::from(u8::from(self.casts)))];
         let options = wgpu::PipelineCompilationOptions {
-            constants: if self.emulated { &constants } else { &[] },
+            constants: &constants,
             ..wgpu::PipelineCompilationOptions::default()
         };
         let tints = [Some(wgpu::ColorTargetState {

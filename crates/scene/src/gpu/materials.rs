@@ -43,7 +43,8 @@ struct MaterialUniform {
     alpha_cutoff: f32,
     uv_sets: u32,
     flags_index: u32,
-    pad: [u32; 2],
+    caster_cutoff: f32,
+    pad: u32,
     uv_transforms: [[f32; 4]; 2 * TEXTURES],
     flags: [[u32; 4]; 2],
 }
@@ -315,7 +316,8 @@ fn uniform(material: &Material, receives: bool) -> MaterialUniform {
         alpha_cutoff,
         uv_sets,
         flags_index: 0,
-        pad: [0; 2],
+        caster_cutoff: material.caster_cutoff(),
+        pad: 0,
         uv_transforms,
         flags: [[flags, 0, 0, 0]; 2],
     }
@@ -345,6 +347,7 @@ mod tests {
             alpha_cutoff,
             uv_sets,
             flags_index,
+            caster_cutoff,
             uv_transforms,
             flags
         ];
@@ -384,7 +387,10 @@ mod tests {
         let uniform = uniform(&material, true);
         assert_eq!(uniform.flags[0][0], MASK | DOUBLE_SIDED | NORMAL_MAP);
         assert_eq!(super::uniform(&material, false).flags[0][0], uniform.flags[0][0] | UNSHADOWED);
-        assert_eq!(uniform.alpha_cutoff, 0.3);
+        assert_eq!((uniform.alpha_cutoff, uniform.caster_cutoff), (0.3, 0.3));
+        let material = Material { shadow_cutoff: Some(0.7), ..material };
+        let uniform = super::uniform(&material, true);
+        assert_eq!((uniform.alpha_cutoff, uniform.caster_cutoff), (0.3, 0.7));
         assert_eq!(uniform.uv_sets, 0b00100);
         assert_eq!(uniform.uv_transforms[4..6], [[2.0, 0.0, 0.5, 0.0], [0.0, 3.0, 0.25, 0.0]]);
         assert_eq!(uniform.uv_transforms[0..2], [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]]);

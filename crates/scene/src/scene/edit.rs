@@ -3,7 +3,7 @@
 use glam::DAffine3;
 
 use super::error::EditError;
-use super::{Instance, Scene};
+use super::{Instance, Scene, ShadowModes};
 use crate::keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 use crate::light::Light;
 use crate::material::{Image, Material};
@@ -40,10 +40,13 @@ impl Scene {
     pub fn insert_material(&mut self, material: Material) -> Result<MaterialKey, EditError> {
         self.check_images(&material)?;
         image_keys(&material).for_each(|image| self.images.add_user(image));
-        Ok(self.materials.insert(material))
+        let key = self.materials.insert(material);
+        let material = self.materials.edit(key).ok_or(stale("material"))?;
+        self.shadow_modes.apply_to_material(key, material);
+        Ok(key)
     }
 
-    /// Replaces a material for all its instances, and returns the previous one.
+    /// Replaces a material for all its instances, and returns the previous one, without [shadow modes](Self::set_shadow_modes).
     ///
     /// # Errors
     /// [`EditError::StaleKey`], also if the new material refers to an image that does not exist.
@@ -51,12 +54,14 @@ impl Scene {
         self.check_images(&material)?;
         let entry = self.materials.edit(key).ok_or(stale("material"))?;
         image_keys(&material).for_each(|image| self.images.add_user(image));
-        let previous = std::mem::replace(entry, material);
+        let mut previous = std::mem::replace(entry, material);
+        self.shadow_modes.restore_material(key, &mut previous);
+        self.shadow_modes.apply_to_material(key, entry);
         image_keys(&previous).for_each(|image| self.images.remove_user(image));
         Ok(previous)
     }
 
-    /// Edits a material.
+    /// Edits a material, without [shadow modes](Self::set_shadow_modes).
     ///
     /// # Errors
     /// As [`replace_material`](Self::replace_material).
@@ -66,6 +71,7 @@ impl Scene {
         edit: impl FnOnce(&mut Material),
     ) -> Result<(), EditError> {
         let mut material = self.material(key).ok_or(stale("material"))?.clone();
+        self.shadow_modes.give_own_to_material(key, &mut material);
         edit(&mut material);
         self.replace_material(key, material).map(drop)
     }
@@ -77,7 +83,8 @@ impl Scene {
     pub fn remove_material(&mut self, key: MaterialKey) -> Result<Material, EditError> {
         let material = self.material(key).ok_or(stale("material"))?;
         unused("material", &material.name, self.materials.users(key), "instances")?;
-        let removed = self.materials.remove(key).ok_or(stale("material"))?;
+        let mut removed = self.materials.remove(key).ok_or(stale("material"))?;
+        self.shadow_modes.restore_material(key, &mut removed);
         image_keys(&removed).for_each(|image| self.images.remove_user(image));
         Ok(removed)
     }
@@ -117,7 +124,10 @@ impl Scene {
     pub fn insert_instance(&mut self, instance: Instance) -> Result<InstanceKey, EditError> {
         self.check_instance(&instance)?;
         self.add_uses(&instance);
-        Ok(self.instances.insert(instance))
+        let key = self.instances.insert(instance);
+        let instance = self.instances.edit(key).ok_or(stale("instance"))?;
+        self.shadow_modes.apply_to_instance(key, instance);
+        Ok(key)
     }
 
     /// Inserts an instance together with its own mesh and material.
@@ -179,7 +189,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Replaces an instance, and returns the previous one.
+    /// Replaces an instance, and returns the previous one, without [shadow modes](Self::set_shadow_modes).
     ///
     /// # Errors
     /// [`EditError::StaleKey`], also for its mesh and its material; [`EditError::NotFinite`].
@@ -187,14 +197,16 @@ impl Scene {
         self.check_instance(&instance)?;
         let (mesh, material) = (instance.mesh, instance.material);
         let entry = self.instances.edit(key).ok_or(stale("instance"))?;
-        let previous = std::mem::replace(entry, instance);
+        let mut previous = std::mem::replace(entry, instance);
+        self.shadow_modes.restore_instance(key, &mut previous);
+        self.shadow_modes.apply_to_instance(key, entry);
         self.meshes.add_user(mesh);
         self.materials.add_user(material);
         self.remove_uses(&previous);
         Ok(previous)
     }
 
-    /// Edits an instance, for example its flags.
+    /// Edits an instance, for example its flags, without [shadow modes](Self::set_shadow_modes).
     ///
     /// # Errors
     /// As [`replace_instance`](Self::replace_instance).
@@ -204,6 +216,7 @@ impl Scene {
         edit: impl FnOnce(&mut Instance),
     ) -> Result<(), EditError> {
         let mut instance = self.instance(key).ok_or(stale("instance"))?.clone();
+        self.shadow_modes.give_own_to_instance(key, &mut instance);
         edit(&mut instance);
         self.replace_instance(key, instance).map(drop)
     }
@@ -213,7 +226,8 @@ impl Scene {
     /// # Errors
     /// [`EditError::StaleKey`].
     pub fn remove_instance(&mut self, key: InstanceKey) -> Result<Instance, EditError> {
-        let removed = self.instances.remove(key).ok_or(stale("instance"))?;
+        let mut removed = self.instances.remove(key).ok_or(stale("instance"))?;
+        self.shadow_modes.restore_instance(key, &mut removed);
         self.remove_uses(&removed);
         Ok(removed)
     }
@@ -257,6 +271,32 @@ impl Scene {
         for light in lights {
             self.lights.insert(light);
         }
+    }
+
+    /// Returns the shadow modes by name.
+    #[must_use]
+    pub fn shadow_modes(&self) -> &ShadowModes {
+        &self.shadow_modes.modes
+    }
+
+    /// Gives shadow modes to the materials and instances with these names, present and future ones, until they are replaced. What
+    /// [`material`](Self::material) and [`instance`](Self::instance) return has them; edits see and change the own modes of a material or
+    /// an instance, which return once no name matches.
+    ///
+    /// ```
+    /// use shadowgraph_scene::{ByName, Material, MaterialCasts, MaterialShadows, Scene, ShadowModes};
+    /// let mut scene = Scene::default();
+    /// let leaf = scene.insert_material(Material { name: "leaf".into(), ..Material::default() })?;
+    /// let casts = MaterialShadows { casts: Some(MaterialCasts::Clip(0.3)), receives: Some(false) };
+    /// let materials = ByName(vec![("lea*".into(), casts)]);
+    /// scene.set_shadow_modes(ShadowModes { materials, ..ShadowModes::default() });
+    /// assert_eq!(scene.material(leaf).unwrap().shadow_cutoff, Some(0.3));
+    /// scene.set_shadow_modes(ShadowModes::default());
+    /// assert_eq!(scene.material(leaf).unwrap().shadow_cutoff, None);
+    /// # Ok::<(), shadowgraph_scene::EditError>(())
+    /// ```
+    pub fn set_shadow_modes(&mut self, modes: ShadowModes) {
+        self.shadow_modes.replace(modes, &mut self.materials, &mut self.instances);
     }
 
     fn check_instance(&self, instance: &Instance) -> Result<(), EditError> {

@@ -1,6 +1,7 @@
 //! Drawn copies of meshes.
 
 use glam::DAffine3;
+use serde::{Deserialize, Serialize};
 
 use crate::keys::{MaterialKey, MeshKey};
 use crate::material::{CasterMode, Material};
@@ -28,7 +29,7 @@ pub struct Instance {
 }
 
 /// Whether an instance casts shadows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ShadowCasting {
     /// It casts the shadows of its material.
     #[default]

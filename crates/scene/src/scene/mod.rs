@@ -6,6 +6,7 @@ mod error;
 mod hierarchy;
 mod instance;
 mod lights;
+mod shadow_modes;
 mod store;
 #[cfg(test)]
 mod tests;
@@ -14,8 +15,10 @@ pub use changes::Changes;
 pub use error::EditError;
 pub use hierarchy::{AnimationSelection, Attachment, Hierarchy};
 pub use instance::{Instance, ShadowCasting};
+pub use shadow_modes::{ByName, MaterialCasts, MaterialShadows, ObjectShadows, ShadowModes};
 
 use lights::Lights;
+use shadow_modes::AppliedModes;
 use store::Store;
 
 use crate::bounds::{Aabb, ConvexVolume};
@@ -54,6 +57,7 @@ pub struct Scene {
     images: Store<ImageKey, Image>,
     instances: Store<InstanceKey, Instance>,
     lights: Lights,
+    shadow_modes: AppliedModes,
     /// The ground under a scene without a floor.
     pub ground: Option<GroundPlane>,
     /// The cameras of the file.

@@ -2,7 +2,7 @@
 
 use glam::{Vec3, Vec4};
 use serde_json::json;
-use shadowgraph_scene::{AlphaMode, Filter, Wrap};
+use shadowgraph_scene::{AlphaMode, CasterMode, Filter, ShadowCasting, Wrap};
 
 use crate::builder::File;
 
@@ -90,4 +90,35 @@ fn tangents_are_generated_for_materials_with_a_normal_map() {
     let scene = file.load().unwrap();
     let (_, mesh) = scene.meshes().next().unwrap();
     assert!(mesh.vertices.iter().all(|vertex| vertex.tangent == [0.0, 1.0, 0.0, 1.0]));
+}
+
+#[test]
+fn shadow_modes_are_read_from_extras() {
+    let mut file = File::triangle();
+    file.json["materials"] = json!([
+        {"extras": {"shadow_casts": "Clip", "shadow_cutoff": 0.3, "shadow_receives": false, "other": [1, {}]}},
+        {"extras": {"shadow_casts": false, "shadow_receives": 1}},
+        {"name": "odd", "extras": {"shadow_casts": "maybe", "shadow_cutoff": 3, "shadow_receives": "no"}},
+        {"extras": "text"},
+    ]);
+    file.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    file.json["nodes"][0]["extras"] = json!({"shadow_casts": "only", "shadow_receives": false});
+    let scene = file.load().unwrap();
+    let modes = |n| {
+        let (_, material) = scene.materials().nth(n).unwrap();
+        (material.casts, material.shadow_cutoff, material.receives_shadows)
+    };
+    assert_eq!(modes(0), (Some(CasterMode::Clip), Some(0.3), false));
+    assert_eq!(modes(1), (Some(CasterMode::Off), None, true));
+    assert_eq!((modes(2), modes(3)), ((None, None, true), (None, None, true)));
+    let (_, instance) = scene.instances().next().unwrap();
+    assert_eq!((instance.casts, instance.receives_shadows), (ShadowCasting::ShadowOnly, false));
+    assert_eq!(
+        scene.notes,
+        [
+            "material 2 \"odd\": extras shadow_casts \"maybe\" is ignored (allowed: on, clip, dither, tint, off)",
+            "material 2 \"odd\": extras shadow_cutoff 3 is ignored (allowed: 0 to 1)",
+            "material 2 \"odd\": extras shadow_receives \"no\" is ignored (allowed: true, false)",
+        ]
+    );
 }

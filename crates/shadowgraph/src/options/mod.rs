@@ -34,6 +34,6 @@ pub use camera::CameraChoice;
 pub use distance::ShadowDistance;
 pub use error::OptionError;
 pub use ground::{GroundChoice, PlacedGround};
-pub use settings::{SettingsFile, setting_error};
+pub use settings::{SettingsFile, read_tracks, setting_error};
 pub use size::Size;
 pub use sun::{DEFAULT_SUN_LUX, SunChoice, default_sun, sun_at};

@@ -3,7 +3,7 @@
 use super::error::OptionError;
 use crate::ron_file::{self, ParseError};
 use serde::Deserialize;
-use shadowgraph_shadows::{ShadowSettings, Techniques};
+use shadowgraph_shadows::{SettingTracks, ShadowSettings, Techniques};
 use std::path::Path;
 
 const OPTION: &str = "settings";
@@ -39,6 +39,22 @@ impl SettingsFile {
         let text = std::fs::read_to_string(file).unwrap_or_default();
         OptionError::new(OPTION, setting_error(&file.display().to_string(), &text, "", error).to_string())
     }
+}
+
+/// Reads a RON file with settings over time and place, and checks them for settings that they do not change.
+///
+/// # Errors
+/// For a file that cannot be read or parsed, an unknown setting, and a value out of range: one line with the file, the location and the
+/// value.
+pub fn read_tracks(file: &Path, base: &ShadowSettings) -> Result<SettingTracks, OptionError> {
+    let name = file.display().to_string();
+    let error = |reason: String| OptionError::new("tracks", reason);
+    let text =
+        std::fs::read_to_string(file).map_err(|reason| error(format!("{name}: cannot be read: {reason}")))?;
+    let tracks: SettingTracks =
+        ron_file::parse_file(&name, &text).map_err(|reason| error(reason.to_string()))?;
+    tracks.check(base).map_err(|wrong| error(setting_error(&name, &text, "", &wrong).to_string()))?;
+    Ok(tracks)
 }
 
 /// Adds the location of the field to an error of checked settings; `parents` is the path of the settings in the file, with a dot

@@ -7,15 +7,16 @@
 //!    before is still less than a factor of 2 away.
 //! 2. *Admission.* With every tile at the smallest size, owners are admitted from the most important one on, up to the
 //!    first that does not fit. That one and all after it are rejected. The previous frame has no influence on it.
-//! 3. *Sizes.* Every admitted owner begins at the smallest size and approaches its requested size by doubling: in rounds
-//!    of one doubling each, within a round from the most important owner on, up to the first that
-//!    does not fit. So all sizes are halved k times or k - 1 times, and k - 1 times for the most important owners.
+//! 3. *Sizes.* Every admitted owner begins at the smallest size and approaches the largest that it may get, its requested size
+//!    doubled [`AtlasConfig::growth`] times, by doubling: in rounds of one doubling each, within a round from the most important
+//!    owner on, up to the first that does not fit. So all sizes are halved k times or k - 1 times, and k - 1 times for the most
+//!    important owners.
 //!    An owner that was halved further in the previous frame grows only while a tenth of the map
 //!    stays free and nobody is rejected.
 //! 4. *Placement.* Owners keep their positions while their size is unchanged. The others are put into free blocks,
 //!    largest first, each into the smallest free block that holds it. Only if that fails is the whole map repacked.
 //!
-//! The price of hysteresis: if somebody has less than requested and nobody is rejected, the free part of the map is less
+//! The price of hysteresis: if somebody has less than the most and nobody is rejected, the free part of the map is less
 //! than the slack and the next doubling together; without a previous frame, less than that doubling. Importance has no
 //! hysteresis here: two owners that swap ranks from frame to frame may also swap sizes, since the more important one is
 //! never the smaller one.
@@ -40,7 +41,7 @@ pub use types::{AtlasAllocation, AtlasConfig, TileAllocation, TileRequest};
 ///
 /// ```
 /// use shadowgraph_shadows::{AtlasConfig, TileRequest, allocate_tiles};
-/// let config = AtlasConfig { map_px: 1024, smallest_px: 32, largest_px: 512 };
+/// let config = AtlasConfig { map_px: 1024, smallest_px: 32, largest_px: 512, growth: 0 };
 /// let point = TileRequest { owner: 3, tiles: 6, size_px: 230.0, importance: 1.0 };
 /// let spot = TileRequest { owner: 1, tiles: 1, size_px: 600.0, importance: 0.5 };
 /// let allocation = allocate_tiles(&config, &[point, spot], None);
@@ -68,7 +69,7 @@ pub fn allocate_tiles(
     let mut requests: Vec<Request> =
         requests.iter().map(|request| Request::new(&levels, request, previous)).collect();
     requests.sort_unstable_by(Request::most_important_first);
-    let admitted = sizes::assign_levels(levels.cells(levels.map()), &mut requests);
+    let admitted = sizes::assign_levels(&levels, &mut requests);
     let mut rejected: Vec<u32> = excessive.iter().map(|request| request.owner).collect();
     rejected.extend(requests.drain(admitted..).map(|request| request.owner));
     rejected.sort_unstable();

@@ -82,7 +82,9 @@ pub(super) struct Request {
     pub(super) importance: f64,
     /// The level of the requested size.
     pub(super) requested: u32,
-    /// Number of halvings of the requested size in the previous frame; 0 for a new owner.
+    /// The level of the largest size that it may get.
+    pub(super) most: u32,
+    /// Number of halvings of the largest size, without limit, in the previous frame; 0 for a new owner.
     pub(super) halved_before: u32,
     /// The level of the allocated size.
     pub(super) level: u32,
@@ -99,12 +101,15 @@ impl Request {
             let size = f64::from(levels.px(level));
             size / REQUEST_HYSTERESIS < px && px < size * REQUEST_HYSTERESIS
         };
+        let growth = levels.config().growth;
+        let halvings = |requested: u32| (requested + growth).saturating_sub(level_before);
         Self {
             owner: request.owner,
             tiles: request.tiles,
             importance: request.importance,
             requested: requested_before.filter(is_kept).unwrap_or_else(|| levels.nearest(px)),
-            halved_before: requested_before.map_or(0, |requested| requested.saturating_sub(level_before)),
+            most: levels.level(levels.config().largest_px),
+            halved_before: requested_before.map_or(0, halvings),
             level: 0,
         }
     }
@@ -120,13 +125,14 @@ impl Request {
     }
 }
 
-/// Sets the levels of the requests, given most important first, in a map of `capacity` cells. Returns how many of them
-/// are admitted; the rest is rejected.
-pub(super) fn assign_levels(capacity: u64, requests: &mut [Request]) -> usize {
+/// Sets the levels of the requests, given most important first, in a map. Returns how many of them are admitted; the rest is rejected.
+pub(super) fn assign_levels(levels: &Levels, requests: &mut [Request]) -> usize {
+    let capacity = levels.cells(levels.map());
     let (admitted, total) = admit(capacity, requests);
     // Space that a rejected owner of several tiles leaves free is taken back as soon as it is admitted.
     let to_grow = if admitted == requests.len() { capacity - capacity.div_ceil(GROWTH_SLACK) } else { 0 };
-    double(Limits { to_keep: capacity, to_grow }, total, &mut requests[..admitted]);
+    let growth = levels.config().growth;
+    double(Limits { to_keep: capacity, to_grow }, growth, total, &mut requests[..admitted]);
     admitted
 }
 
@@ -153,11 +159,11 @@ fn admit(capacity: u64, requests: &[Request]) -> (usize, u64) {
 }
 
 /// Doubles sizes in rounds, up to the first that does not fit.
-fn double(limits: Limits, mut total: u64, requests: &mut [Request]) {
-    let most = requests.iter().map(|request| request.requested).max().unwrap_or(0);
+fn double(limits: Limits, growth: u32, mut total: u64, requests: &mut [Request]) {
+    let most = requests.iter().map(|request| request.requested + growth).max().unwrap_or(0);
     for halvings in (0..most).rev() {
         for request in requests.iter_mut() {
-            let level = request.requested.saturating_sub(halvings);
+            let level = (request.requested + growth).saturating_sub(halvings).min(request.most);
             if level == request.level {
                 continue;
             }

@@ -20,6 +20,8 @@ pub struct AtlasConfig {
     pub smallest_px: u32,
     /// Width and height of the largest tiles, pixels.
     pub largest_px: u32,
+    /// Number of times that a requested size may be doubled where the map has space for it; at most 8.
+    pub growth: u32,
 }
 
 impl AtlasConfig {
@@ -28,7 +30,7 @@ impl AtlasConfig {
         let map_px = floor_to_power_of_two(self.map_px)?;
         let largest_px = floor_to_power_of_two(self.largest_px.min(map_px)).unwrap_or(1);
         let smallest_px = floor_to_power_of_two(self.smallest_px.min(largest_px)).unwrap_or(1);
-        Some(Self { map_px, smallest_px, largest_px })
+        Some(Self { map_px, smallest_px, largest_px, growth: self.growth.min(8) })
     }
 }
 
@@ -97,7 +99,7 @@ pub struct TileAllocation {
     pub owner: u32,
     /// Width and height of each tile, pixels: a power of two.
     pub tile_px: u32,
-    /// The requested size, rounded to a power of two, pixels. `tile_px` is this or less.
+    /// The requested size, rounded to a power of two, pixels. `tile_px` is at most this times two to the power of [`AtlasConfig::growth`].
     pub requested_px: u32,
     /// Index of the first of its tiles in [`AtlasAllocation::rects`].
     pub first_rect: usize,

@@ -20,6 +20,7 @@ pub(super) struct Location {
     /// The matrix of the view, without what moves it by whole texels.
     clip_from_world: Mat4,
     origin_world: DVec3,
+    slope_bias_milli: u32,
     /// See [`OrthoFit::first_texel`](crate::OrthoFit::first_texel); zero for tiles that do not move so.
     pub(super) first_texel: [i64; 2],
 }
@@ -35,12 +36,14 @@ impl Location {
             }
             TileFit::Local(_) => [0; 2],
         };
-        Self { clip_from_world, origin_world, first_texel }
+        Self { clip_from_world, origin_world, slope_bias_milli: tile.slope_bias_milli, first_texel }
     }
 
     /// Returns whether the other place is the same or differs by whole texels only.
     fn is_scrolled(&self, other: &Self) -> bool {
-        self.clip_from_world == other.clip_from_world && self.origin_world == other.origin_world
+        let kept =
+            |location: &Self| (location.clip_from_world, location.origin_world, location.slope_bias_milli);
+        kept(self) == kept(other)
     }
 }
 

@@ -15,6 +15,9 @@ use crate::tile_fit::TileFit;
 use crate::views::{MAP_ATLAS, ShadowView, TilePlacement};
 use crate::views::{SELECT_FACE, SELECT_MAP};
 
+/// Doublings of a tile beyond what the light requests: the map would be empty there.
+const MAX_GROWTH: u32 = 2;
+
 /// The request of a light that casts shadows, with the casters of each of its tiles.
 struct Request<'s> {
     candidate: Candidate<'s>,
@@ -107,7 +110,7 @@ impl<'a> Planner<'a> {
         smallest_px: u32,
     ) -> Vec<(Request<'a>, Tiles)> {
         let map_px = self.inputs.settings.atlas.map_size_px;
-        let config = AtlasConfig { map_px, smallest_px, largest_px: map_px };
+        let config = AtlasConfig { map_px, smallest_px, largest_px: map_px, growth: MAX_GROWTH };
         let tile_requests: Vec<TileRequest> = (0u32..)
             .zip(&requests)
             .map(|(rank, light)| TileRequest {
@@ -151,7 +154,8 @@ impl<'a> Planner<'a> {
             self.plan.views.push(ShadowView { is_tinted, is_open: u32::from(is_open), ..view });
             let kind = if is_point { TileKind::Face(index) } else { TileKind::Whole };
             let (light, view) = (candidate.light, first_view + index);
-            planned.push(TilePlan { light, view, kind, rect, fit, casters, tints });
+            let slope_bias_milli = params.slope_bias_milli(1.0);
+            planned.push(TilePlan { light, view, kind, rect, fit, slope_bias_milli, casters, tints });
         }
         planned
     }

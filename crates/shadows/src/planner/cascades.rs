@@ -146,26 +146,28 @@ impl<'a> Planner<'a> {
         for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
             let tile = placement(rect, layout.size_px, &params, settings.depth.step());
             let (casters, tints) = self.opaque_and_tints(casters);
+            let bias_scale = settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0);
             self.plan.views.push(ShadowView {
                 cascade,
                 is_tinted: u32::from(!tints.is_empty()),
                 is_open: u32::from(is_open && cascade as usize + 1 == fits.len()),
                 begin_m: begin_m as f32,
                 end_m: fit.far_m as f32,
-                bias_scale: settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0),
+                bias_scale,
                 ..ShadowView::directional(&fit.fit, &tile, self.inputs.origin_world)
             });
             begin_m = fit.far_m;
             let (light, view, kind) = (candidate.light, first_view + cascade, TileKind::Cascade(cascade));
             let fit = TileFit::Directional(fit.fit);
-            tiles.push(TilePlan { light, view, kind, rect, fit, casters, tints });
+            let slope_bias_milli = params.slope_bias_milli(bias_scale);
+            tiles.push(TilePlan { light, view, kind, rect, fit, slope_bias_milli, casters, tints });
         }
         if settings.select != CascadeSelection::Map {
             self.plan.views.push(ShadowView::empty());
         }
         let views = (MAP_CASCADES, first_view, tiles.len() as u32);
         let gpu_light = self.set_light(candidate.light, &params, views);
-        *gpu_light = gpu_light.with_cascades(&settings);
+        *gpu_light = gpu_light.with_cascades(&settings, &fits);
         tiles
     }
 }

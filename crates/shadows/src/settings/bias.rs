@@ -37,6 +37,9 @@ declare_settings! {
         /// The gradient of the stored depths around the point, the same for the whole filter: gradient shadow maps (Schueler,
         /// "Eliminating Surface Acne with Gradient Shadow Maps", ShaderX4, 2006).
         Gradient;
+        /// The slope of the casters, which are pushed away from the light as they are drawn into the map: the slope-scaled depth bias of
+        /// graphics hardware. Steep surfaces are pushed as far as their slope says: `max_slope` does not limit it.
+        Raster;
     }
 }
 

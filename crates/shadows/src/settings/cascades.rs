@@ -34,6 +34,8 @@ declare_settings! {
         fit: CascadeFitting = CascadeFitting::Stable;
         /// Rule that selects the cascade in which a point is looked up.
         select: CascadeSelection = CascadeSelection::Map;
+        /// Whether `Depth` compares the ends of all cascades at once in place of one after the other.
+        branch_free: bool = false;
         /// Transition from one cascade to the next.
         blend: CascadeBlend = CascadeBlend::Hard;
         /// Outer part of the last cascade over which its shadows fade out, in addition to the fade at the end of the shadow distance; not

@@ -13,7 +13,9 @@ mod distance;
 mod file;
 mod filter;
 mod lights;
+mod modes;
 mod technique;
+mod tracks;
 
 pub use atlas::{AtlasSettings, AtlasTiles};
 pub use bias::{BiasMethod, BiasSettings, NormalBias};
@@ -30,8 +32,10 @@ pub use distance::DistanceMeasure;
 pub use file::settings_file;
 pub use filter::{ShadowFilter, filter_taps};
 pub use lights::{LightRef, LightShadows};
+pub use modes::{MaterialModes, ObjectModes};
 pub use technique::{NamedSettings, TechniqueSettings};
 pub(crate) use technique::{failed, validate};
+pub use tracks::{SettingTrack, SettingTracks, SettingZone, TrackValue};
 
 use shadowgraph_scene::Light;
 
@@ -71,6 +75,10 @@ declare_settings! {
         cull: CullSettings = CullSettings::default();
         /// Settings of single lights.
         lights: Vec<LightShadows> = Vec::new();
+        /// Shadows of the materials with these names, in place of their own. Of all patterns that match a name, the last counts.
+        materials: MaterialModes = MaterialModes::default();
+        /// Shadows of the objects with these names, in place of their own. Of all patterns that match a name, the last counts.
+        objects: ObjectModes = ObjectModes::default();
     }
 }
 

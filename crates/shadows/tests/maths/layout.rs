@@ -4,8 +4,9 @@ use std::mem::offset_of;
 
 use shadowgraph_shaders::{MAPPED, ModuleSource, builtin, compose, compose_source, layout};
 use shadowgraph_shadows::{
-    BIAS_GRADIENT, BIAS_PLANE, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS, MAP_CASCADES,
-    NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight, ShadowView,
+    BIAS_GRADIENT, BIAS_PLANE, BIAS_RASTER, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS,
+    MAP_CASCADES, NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight,
+    ShadowView,
 };
 
 macro_rules! fields {
@@ -35,7 +36,7 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
     let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
         normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
         fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases,
-        fades_by_radius, eye);
+        fades_by_radius, eye, branch_free, ends_m);
     layout::check(&module, "ShadowLight", size_of::<ShadowLight>(), &light).unwrap();
 }
 
@@ -55,6 +56,7 @@ fn constants_are_the_same_in_wgsl_and_rust() {
         ("BIAS_PLANE", BIAS_PLANE),
         ("BIAS_SLOPE", BIAS_SLOPE),
         ("BIAS_GRADIENT", BIAS_GRADIENT),
+        ("BIAS_RASTER", BIAS_RASTER),
     ] {
         assert!(types.contains(&format!("const {name}: u32 = {value}u;")), "{name}");
     }

@@ -1,6 +1,7 @@
 //! Settings: ranges, files, messages.
 
 use proptest::prelude::*;
+use shadowgraph_scene::{ByName, MaterialCasts, MaterialShadows, ObjectShadows, ShadowCasting};
 use shadowgraph_shadows::{
     BiasMethod, BiasSettings, CascadeBlend, CascadeFitting, CascadeSelection, CascadeSettings, DepthFormat,
     DistanceMeasure, LightRef, LightShadows, NormalBias, ShadowFilter, ShadowSettings, SplitScheme,
@@ -195,7 +196,7 @@ prop_compose! {
         let (edge_fade, far_filter, near_offset_m, begin_m) = numbers;
         CascadeSettings {
             count, lights, map_size_px: 1 << exponent, cache: exponent == 9, depth, split, overlap, fit, select, blend,
-            edge_fade, far_filter, near_offset_m, begin_m, filter, bias_scales,
+            edge_fade, far_filter, near_offset_m, begin_m, filter, bias_scales, branch_free: exponent == 10,
         }
     }
 }
@@ -213,16 +214,29 @@ prop_compose! {
     }
 }
 
+prop_compose! {
+    fn any_material()(
+        casts in prop::option::of(prop_oneof![Just(MaterialCasts::On), (0f32..=1.0).prop_map(MaterialCasts::Clip), Just(MaterialCasts::Off)]),
+        receives in prop::option::of(any::<bool>()),
+    ) -> MaterialShadows {
+        MaterialShadows { casts, receives }
+    }
+}
+
 proptest! {
     #[test]
     fn row_25_valid_settings_survive_a_round_trip(
         distance_m in 0.001f32..1e6, cascades in any_cascades(), lights in prop::collection::vec(any_light(), 0..3),
         normal in prop::sample::select(vec![NormalBias::Sine, NormalBias::Filter]),
         measure in prop::sample::select(vec![DistanceMeasure::ViewDepth, DistanceMeasure::Radius]),
-        method in prop::sample::select(vec![BiasMethod::Plane, BiasMethod::Slope, BiasMethod::Gradient]),
+        method in prop::sample::select(vec![BiasMethod::Plane, BiasMethod::Slope, BiasMethod::Gradient, BiasMethod::Raster]),
+        materials in prop::collection::vec((".{0,9}", any_material()), 0..3),
+        casts in prop::option::of(prop::sample::select(vec![ShadowCasting::On, ShadowCasting::Off, ShadowCasting::ShadowOnly])),
     ) {
+        let objects = ByName(vec![("*".into(), ObjectShadows { casts, receives: None })]);
         let bias = BiasSettings { normal, method, ..BiasSettings::default() };
-        let settings = ShadowSettings { distance_m, measure, cascades, bias, lights, ..ShadowSettings::default() };
+        let materials = ByName(materials);
+        let settings = ShadowSettings { distance_m, measure, cascades, bias, lights, materials, objects, ..ShadowSettings::default() };
         prop_assert_eq!(read(&ron::to_string(&settings).unwrap()), Ok(settings));
     }
 }

@@ -67,6 +67,28 @@ fn each_frame_of_a_sequence_is_the_image_of_its_time() {
 }
 
 #[test]
+fn row_46_tracks_play_with_the_frames_of_a_sequence() {
+    let Some(_gpu) = gpu() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    let file = written(directory.path(), false);
+    let tracks = directory.path().join("tracks.ron");
+    std::fs::write(&tracks, r#"(tracks: [(setting: "distance_m", keys: [(0.0, 2.0), (1.0, 20.0)])])"#)
+        .unwrap();
+    let with = |options: &str, count| {
+        frames(&file, &format!("--animation none --tracks {} {options}", tracks.display()), count)
+    };
+    let sequence = with("--fps 2 --frames 3", 3);
+    assert!(sequence[0] != sequence[2], "shadows reach farther");
+    for (frame, time_s) in sequence.iter().zip([0.0, 0.5, 1.0]) {
+        assert!(*frame == with(&format!("--time {time_s}"), 1)[0], "at {time_s} s");
+    }
+    assert!(
+        sequence[2] == frames(&file, "--animation none", 1)[0],
+        "the last key frame is that of the option"
+    );
+}
+
+#[test]
 fn a_sequence_without_frames_or_with_a_wrong_time_is_refused_in_one_line() {
     let directory = tempfile::tempdir().unwrap();
     let file = written(directory.path(), false);

@@ -4,7 +4,7 @@ use super::{count, cube_view, greys, pillar_view, pillars, plan, wrong};
 use crate::stage::{cube_on_floor, gpu, sun, sun_direction};
 use glam::DVec3;
 use shadowgraph::scene::Scene;
-use shadowgraph::shadows::{BiasMethod, BiasSettings, NormalBias, ShadowFilter};
+use shadowgraph::shadows::{BiasMethod, BiasSettings, LightRef, LightShadows, NormalBias, ShadowFilter};
 
 fn low_sun() -> Scene {
     let mut scene = cube_on_floor(DVec3::ZERO);
@@ -95,6 +95,44 @@ fn row_31_a_bias_that_follows_the_maps_gradient_removes_acne() {
     let with = acne(BiasSettings { slope: 3.5, ..without }, |_| ()).unwrap();
     let usual = acne(BiasSettings::default(), |_| ()).unwrap();
     assert!(with * 2 < none && with < usual + usual / 4, "{none} {with} {usual}");
+}
+
+fn raster(slope: f32) -> BiasSettings {
+    BiasSettings { method: BiasMethod::Raster, slope, depth_texels: 1.0, ..NO_BIAS }
+}
+
+#[test]
+fn row_51_casters_drawn_with_a_slope_scaled_bias_give_no_acne() {
+    let Some(none) = acne(raster(0.0), |_| ()) else { return };
+    let usual = acne(BiasSettings::default(), |_| ()).unwrap();
+    let [without_cache, with] = [false, true].map(|cache| {
+        acne(raster(3.0), |settings| (settings.cascades.cache, settings.atlas.cache) = (cache, cache))
+            .unwrap()
+    });
+    assert!(with * 2 < none && with < usual + usual / 4, "{none} {with} {usual}");
+    assert_eq!(with, without_cache);
+}
+
+#[test]
+fn row_51_tiles_are_drawn_again_with_another_bias_and_lights_may_have_their_own() {
+    let Some(gpu) = gpu() else { return };
+    let (scene, mut options) = (low_sun(), cube_view(|settings| settings.cascades.map_size_px = 1024));
+    let mut renderer = shadowgraph::Renderer::new(
+        gpu,
+        scene.clone(),
+        &options.camera,
+        shadowgraph::options::Aov::Visibility(0),
+    )
+    .unwrap();
+    let mut images = Vec::new();
+    for slope in [0.0, 3.0, 0.0] {
+        options.shadows.bias = raster(slope);
+        images.push(renderer.draw(gpu, &options).unwrap().image.rgba8);
+    }
+    assert!(images[0] != images[1] && images[0] == images[2]);
+    let own = LightShadows { slope: Some(3.0), ..LightShadows::new(LightRef::Index(0)) };
+    options.shadows.lights = vec![own];
+    assert!(renderer.draw(gpu, &options).unwrap().image.rgba8 == images[1]);
 }
 
 #[test]

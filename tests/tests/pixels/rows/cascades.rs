@@ -311,3 +311,21 @@ fn row_30_selection_by_depth_and_by_sphere_are_as_right_as_by_map() {
         .map(|select| wrong(gpu, &scene, 0, &pillar_view(|settings| settings.cascades.select = select)));
     assert!(wrong.iter().all(|wrong| *wrong < 400), "{wrong:?}");
 }
+
+#[test]
+fn row_55_selection_without_branches_gives_the_same_image() {
+    let Some(gpu) = gpu() else { return };
+    let scene = pillars_in_sun();
+    for count in [1, 4, 8] {
+        let [loops, branch_free] = [false, true].map(|branch_free| {
+            let options = pillar_view(|settings| {
+                settings.cascades.count = count;
+                settings.cascades.select = CascadeSelection::Depth;
+                settings.cascades.branch_free = branch_free;
+            });
+            assert_eq!(plan(&scene, &options).lights[0].branch_free, u32::from(branch_free));
+            greys(gpu, &scene, 0, &options)
+        });
+        assert!(loops == branch_free, "{count} cascades");
+    }
+}

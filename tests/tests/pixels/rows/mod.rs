@@ -10,10 +10,12 @@ mod culling;
 mod distance;
 mod filters;
 mod materials;
+mod modes;
 mod own_casters;
 mod points;
 mod screen;
 mod supersampling;
+mod tracks;
 mod views;
 
 use crate::stage::{

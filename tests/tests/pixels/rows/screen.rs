@@ -56,7 +56,7 @@ fn row_29_screen_space_shadows_match_per_pixel_shadows() {
 }
 
 #[test]
-fn row_34_screen_space_shadows_select_cascades_by_depth_without_branches() {
+fn row_34_screen_space_shadows_are_those_of_each_pixel() {
     let Some(gpu) = gpu() else { return };
     let scene = pillars_in_sun();
     let options = pillar_view(|settings| settings.cascades.select = CascadeSelection::Depth);

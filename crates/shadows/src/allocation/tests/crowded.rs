@@ -30,6 +30,34 @@ fn a_size_is_restored_to_nobody_after_the_first_that_it_does_not_fit_for() {
 }
 
 #[test]
+fn requests_grow_together_where_the_map_has_space() {
+    let roomy = AtlasConfig { growth: 2, largest_px: 512, ..CONFIG };
+    let pair = |importance| [request(0, 1, 64.0, 0.0), request(1, 1, 32.0, importance)];
+    // Four times as wide, and no wider.
+    assert_eq!(sizes(&allocate_tiles(&roomy, &pair(0.0), None)), [(0, 256), (1, 128)]);
+    assert_eq!(sizes(&allocate_tiles(&roomy, &pair(9.0), None)), [(0, 256), (1, 128)]);
+    // The least important are the first that get less.
+    let five: Vec<_> = (0..5).map(|owner| request(owner, 1, 64.0, -f64::from(owner))).collect();
+    let got = allocate_tiles(&roomy, &five, None);
+    assert_eq!(sizes(&got), [(0, 256), (1, 256), (2, 256), (3, 128), (4, 128)]);
+}
+
+#[test]
+fn row_53_thirteen_lamps_use_nearly_all_of_the_map() {
+    // Ten point lights and three spot lights that request a tenth of what there is.
+    let config = AtlasConfig { map_px: 2048, smallest_px: 64, largest_px: 2048, growth: 2 };
+    for size_px in [60.0, 80.0, 110.0, 150.0, 200.0, 300.0] {
+        let lamp = |owner: u32| {
+            let (tiles, nearer) = if owner < 10 { (6, 1.0) } else { (1, 2.0) };
+            request(owner, tiles, size_px * nearer, -f64::from(owner))
+        };
+        let got = allocate_tiles(&config, &(0..13).map(lamp).collect::<Vec<_>>(), None);
+        let used: u64 = got.rects.iter().map(|rect| u64::from(rect.width).pow(2)).sum();
+        assert!(used as f64 > 0.85 * 2048.0 * 2048.0, "{size_px}: {used} {:?}", sizes(&got));
+    }
+}
+
+#[test]
 fn only_the_least_important_are_rejected() {
     let got = allocate_tiles(&CONFIG, &equal(0..50, 6, 256.0), None);
     assert_eq!(got.owners.len(), 42);
@@ -54,7 +82,7 @@ fn of_equally_important_owners_the_lower_is_served_first() {
 
 #[test]
 fn a_map_of_4096_holds_64_point_and_64_spot_lights() {
-    let config = AtlasConfig { map_px: 4096, smallest_px: 32, largest_px: 1024 };
+    let config = AtlasConfig { map_px: 4096, smallest_px: 32, largest_px: 1024, growth: 0 };
     let light = |owner: u32| request(owner, if owner < 64 { 6 } else { 1 }, 1024.0, f64::from(owner % 64));
     let requests: Vec<TileRequest> = (0..128).map(light).collect();
     let got = allocate_tiles(&config, &requests, None);
@@ -72,11 +100,13 @@ proptest! {
         let mut ranked: Vec<&TileRequest> = requests.iter().filter(|request| got.for_owner(request.owner).is_some()).collect();
         ranked.sort_by(|a, b| b.importance.total_cmp(&a.importance).then(a.owner.cmp(&b.owner)));
         let entries: Vec<TileAllocation> = ranked.iter().map(|request| *got.for_owner(request.owner).unwrap()).collect();
-        let size = |one: &TileAllocation, halvings: u32| (one.requested_px >> halvings).max(config.smallest_px);
+        let size = |one: &TileAllocation, halvings: u32| {
+            ((one.requested_px << config.growth) >> halvings).clamp(config.smallest_px, config.largest_px)
+        };
         let area = |one: &TileAllocation, halvings: u32| u64::from(size(one, halvings)).pow(2) * one.tiles as u64;
         let capacity = u64::from(config.map_px).pow(2);
         let total = |k: u32| entries.iter().map(|one| area(one, k)).sum::<u64>();
-        let k = (0..10).find(|&k| total(k) <= capacity).unwrap();
+        let k = (0..12).find(|&k| total(k) <= capacity).unwrap();
         let mut left = capacity - total(k);
         let mut restored = k > 0;
         for one in &entries {

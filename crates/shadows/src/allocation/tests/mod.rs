@@ -13,7 +13,7 @@ use proptest::prelude::*;
 
 use super::*;
 
-const CONFIG: AtlasConfig = AtlasConfig { map_px: 512, smallest_px: 32, largest_px: 256 };
+const CONFIG: AtlasConfig = AtlasConfig { map_px: 512, smallest_px: 32, largest_px: 256, growth: 0 };
 
 fn request(owner: u32, tiles: u32, size_px: f64, importance: f64) -> TileRequest {
     TileRequest { owner, tiles, size_px, importance }
@@ -30,7 +30,8 @@ fn sizes(allocation: &AtlasAllocation) -> Vec<(u32, u32)> {
 /// Maps of up to 16 by 16 cells.
 fn any_config() -> impl Strategy<Value = AtlasConfig> {
     let levels = prop_oneof![1 => (0_u32..=4, 0_u32..=4), 3 => (3_u32..=4, 1_u32..=3)];
-    (0_u32..=5, levels).prop_map(|(smallest, (map, largest))| AtlasConfig {
+    (0_u32..=5, levels, 0_u32..=2).prop_map(|(smallest, (map, largest), growth)| AtlasConfig {
+        growth,
         map_px: 1 << (smallest + map),
         smallest_px: 1 << smallest,
         largest_px: 1 << (smallest + largest.min(map)),

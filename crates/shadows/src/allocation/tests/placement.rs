@@ -2,7 +2,7 @@
 
 use super::*;
 
-const SMALL: AtlasConfig = AtlasConfig { map_px: 128, smallest_px: 32, largest_px: 128 };
+const SMALL: AtlasConfig = AtlasConfig { map_px: 128, smallest_px: 32, largest_px: 128, growth: 0 };
 
 fn origin_of(allocation: &AtlasAllocation, owner: u32) -> [u32; 2] {
     let rects = allocation.rects_for(owner);

@@ -77,7 +77,7 @@ fn check_requested(
     }
 }
 
-/// The sizes are a state between all at the smallest and all as requested, and the next doubling does not fit.
+/// The sizes are those before the first doubling, from the smallest to the most, that does not fit.
 fn check_sizes(
     config: &AtlasConfig,
     requests: &[TileRequest],
@@ -92,34 +92,25 @@ fn check_sizes(
         sizes.iter().zip(&entries).map(|(&px, entry)| u64::from(px).pow(2) * entry.tiles as u64).sum()
     };
     let mut state = vec![config.smallest_px; entries.len()];
-    let mut reached = state == sizes;
-    for halvings in (0..32).rev() {
+    'rounds: for halvings in (0..32).rev() {
         for (i, owner) in entries.iter().enumerate() {
+            let most = u64::from(owner.requested_px) << config.growth;
             let mut next = state.clone();
-            next[i] = (owner.requested_px >> halvings).max(config.smallest_px);
-            if next == state {
-                continue;
+            next[i] = (most >> halvings).clamp(config.smallest_px.into(), config.largest_px.into()) as u32;
+            let may_grow = 10 * total(&next) <= 9 * area && got.rejected.is_empty();
+            let grows = next != state && halvings_before(config, previous, owner.owner) > halvings;
+            if total(&next) > area || grows && !may_grow {
+                break 'rounds;
             }
-            let fits = if halvings_before(previous, owner.owner) > halvings {
-                10 * total(&next) <= 9 * area && got.rejected.is_empty()
-            } else {
-                total(&next) <= area
-            };
-            assert!(fits || reached, "smaller than it should be: {sizes:?}");
-            if !fits {
-                return;
-            }
-            assert!(!reached, "more would have fitted: {sizes:?} {next:?}");
             state = next;
-            reached = state == sizes;
         }
     }
-    assert!(reached, "not an intermediate state: {sizes:?}");
+    assert_eq!(state, sizes);
 }
 
-fn halvings_before(previous: Option<&AtlasAllocation>, owner: u32) -> u32 {
+fn halvings_before(config: &AtlasConfig, previous: Option<&AtlasAllocation>, owner: u32) -> u32 {
     let before = previous.and_then(|previous| previous.for_owner(owner));
-    before.map_or(0, |before| (before.requested_px / before.tile_px).trailing_zeros())
+    before.map_or(0, |before| ((before.requested_px << config.growth) / before.tile_px).trailing_zeros())
 }
 
 /// The more important of two owners that request the same size is not the smaller one.
@@ -127,7 +118,9 @@ fn check_rank(requests: &[TileRequest], got: &AtlasAllocation) {
     let entries: Vec<&TileAllocation> =
         requests.iter().filter_map(|request| got.for_owner(request.owner)).collect();
     for (i, less) in entries.iter().enumerate() {
-        for more in entries[..i].iter().filter(|more| more.requested_px == less.requested_px) {
+        let same =
+            |more: &&&TileAllocation| more.requested_px == less.requested_px && more.tiles <= less.tiles;
+        for more in entries[..i].iter().filter(same) {
             assert!(more.tile_px >= less.tile_px, "{more:?} {less:?}");
         }
     }

@@ -15,7 +15,8 @@ fn any_px() -> impl Strategy<Value = u32> {
 }
 
 fn odd_config() -> impl Strategy<Value = AtlasConfig> {
-    let config = |(map_px, smallest_px, largest_px)| AtlasConfig { map_px, smallest_px, largest_px };
+    let config =
+        |(map_px, smallest_px, largest_px)| AtlasConfig { map_px, smallest_px, largest_px, growth: 0 };
     (any_px(), any_px(), any_px()).prop_map(config)
 }
 
@@ -86,20 +87,20 @@ fn a_request_for_more_tiles_than_allowed_is_rejected_and_affects_nobody() {
         None,
     );
     assert_eq!((sizes(&got), got.rejected), (vec![(1, 64), (2, 32)], vec![0]));
-    let huge = AtlasConfig { map_px: u32::MAX, smallest_px: 1, largest_px: 1 };
+    let huge = AtlasConfig { map_px: u32::MAX, smallest_px: 1, largest_px: 1, growth: 0 };
     assert_eq!(allocate_tiles(&huge, &[request(0, u32::MAX, 1.0, 0.0)], None).rejected, [0]);
 }
 
 #[test]
 fn sizes_that_are_no_powers_of_two_are_rounded_down() {
     let requests: Vec<TileRequest> = (0..9).map(|owner| request(owner, 1 + owner % 6, 90.0, 0.0)).collect();
-    let odd = AtlasConfig { map_px: 1023, smallest_px: 63, largest_px: 300 };
-    let even = AtlasConfig { map_px: 512, smallest_px: 32, largest_px: 256 };
+    let odd = AtlasConfig { map_px: 1023, smallest_px: 63, largest_px: 300, growth: 0 };
+    let even = AtlasConfig { map_px: 512, smallest_px: 32, largest_px: 256, growth: 0 };
     assert_eq!(allocate_tiles(&odd, &requests, None), allocate_tiles(&even, &requests, None));
-    let wider = AtlasConfig { map_px: 512, smallest_px: 2048, largest_px: 1024 };
-    let one = AtlasConfig { map_px: 512, smallest_px: 512, largest_px: 512 };
+    let wider = AtlasConfig { map_px: 512, smallest_px: 2048, largest_px: 1024, growth: 0 };
+    let one = AtlasConfig { map_px: 512, smallest_px: 512, largest_px: 512, growth: 0 };
     assert_eq!(allocate_tiles(&wider, &requests, None), allocate_tiles(&one, &requests, None));
-    let none = AtlasConfig { map_px: 512, smallest_px: 0, largest_px: 0 };
+    let none = AtlasConfig { map_px: 512, smallest_px: 0, largest_px: 0, growth: 0 };
     assert!(allocate_tiles(&none, &requests, None).rects.iter().all(|rect| rect.width == 1));
 }
 
@@ -112,7 +113,7 @@ fn in_a_map_without_pixels_all_requests_are_rejected() {
 
 #[test]
 fn a_previous_position_outside_the_map_is_ignored() {
-    let config = AtlasConfig { map_px: 8, smallest_px: 1, largest_px: 1 };
+    let config = AtlasConfig { map_px: 8, smallest_px: 1, largest_px: 1, growth: 0 };
     let one = [request(0, 1, 1.0, 0.0)];
     let before = allocate_tiles(&config, &one, None);
     let mut harmed = before.clone();
