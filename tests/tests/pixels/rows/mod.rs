@@ -8,6 +8,7 @@ mod cascades;
 mod creases;
 mod culling;
 mod distance;
+mod figures;
 mod filters;
 mod materials;
 mod modes;
