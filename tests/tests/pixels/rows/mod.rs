@@ -7,6 +7,7 @@ mod caching;
 mod cascades;
 mod creases;
 mod culling;
+mod day;
 mod distance;
 mod figures;
 mod filters;
