@@ -86,22 +86,19 @@ fn row_49_modes_by_name_change_from_frame_to_frame_and_leave_the_scene_as_it_is(
 #[test]
 fn row_50_objects_have_modes_by_name() {
     let Some(gpu) = gpu() else { return };
-    let (scene, options) = sheet();
-    let scene = {
-        let mut scene = scene;
-        scene.edit_material(nth_material(&scene, 1), |sheet| sheet.alpha = AlphaMode::Opaque).unwrap();
-        scene
-    };
-    let pixels = |text: &str| {
+    let (mut scene, mut options) = sheet();
+    scene.edit_material(nth_material(&scene, 1), |sheet| sheet.alpha = AlphaMode::Opaque).unwrap();
+    // From above, the sheet hides a part of its shadow.
+    options.camera = crate::stage::camera(DVec3::new(0.0, 4.0, 3.0), DVec3::ZERO);
+    let shadow = |text: &str| {
         let options = ViewOptions { shadows: settings(text), ..options.clone() };
-        let greys = greys(gpu, &scene, 0, &options);
-        (dark(&greys), greys.iter().filter(|grey| grey.is_some()).count())
+        dark(&greys(gpu, &scene, 0, &options))
     };
-    let (shadow, seen) = pixels("()");
-    assert!(shadow > 1000);
-    let (cast, without) = pixels(r#"(objects: {"sheet*": (casts: ShadowOnly)})"#);
-    assert!(cast.abs_diff(shadow) < 200 && without < seen, "{cast} {shadow}, {without} {seen}");
-    assert_eq!(pixels(r#"(objects: {"sheet*": (casts: Off)})"#), (0, seen));
-    assert_eq!(pixels(r#"(objects: {"floor": (receives: false)})"#), (0, seen));
-    assert_eq!(pixels(r#"(objects: {"sheets": (casts: Off)})"#), (shadow, seen), "another name");
+    let seen = shadow("()");
+    assert!(seen > 500);
+    let alone = shadow(r#"(objects: {"sheet*": (casts: ShadowOnly)})"#);
+    assert!(alone > seen + 500, "{alone} {seen}");
+    assert_eq!(shadow(r#"(objects: {"sheet*": (casts: Off)})"#), 0);
+    assert_eq!(shadow(r#"(objects: {"floor": (receives: false)})"#), 0);
+    assert_eq!(shadow(r#"(objects: {"sheets": (casts: Off)})"#), seen, "another name");
 }

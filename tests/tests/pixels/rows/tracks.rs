@@ -85,7 +85,7 @@ fn row_46_tracks_that_cannot_be_played_are_refused() {
 #[test]
 fn row_46_shadows_reach_farther_as_time_passes() {
     let Some(gpu) = gpu() else { return };
-    let tracks = tracks(r#"(tracks: [(setting: "distance_m", keys: [(0.0, 10.0), (4.0, 40.0)])])"#);
+    let tracks = tracks(r#"(tracks: [(setting: "distance_m", keys: [(0.0, 6.0), (4.0, 18.0)])])"#);
     let mut scene = pillars(12);
     scene.insert_light(sun(sun_direction(35.0, 60.0)));
     let dark = [0.0, 2.0, 4.0].map(|time_s| {
