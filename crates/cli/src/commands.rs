@@ -102,7 +102,7 @@ pub(super) fn play(
 
 /// Returns a view with the settings of a time and of the place of its camera.
 pub(crate) fn tracked(view: &ViewOptions, options: &Options, time_s: f64) -> Result<ViewOptions, Failure> {
-    let shadows = options.tracks.at(&view.shadows, time_s, view.camera.position_world());
+    let shadows = options.tracks.settings_for(&view.shadows, time_s, view.camera.position_world());
     Ok(ViewOptions { shadows: shadows.map_err(shadowgraph::Error::from)?, ..view.clone() })
 }
 

@@ -183,7 +183,8 @@ impl Stage {
     /// Returns the current view options: the shadow settings of this time and place, limited by the time budget.
     fn options(&self, size_px: [u32; 2]) -> Result<ViewOptions, shadowgraph::Error> {
         let camera = self.fly.camera().clone();
-        let shadows = self.tracks.at(&self.settings, self.playback.time_s, camera.position_world())?;
+        let shadows =
+            self.tracks.settings_for(&self.settings, self.playback.time_s, camera.position_world())?;
         let shadows =
             self.controller.as_ref().map_or(shadows.clone(), |controller| controller.apply(&shadows));
         Ok(ViewOptions { camera, size_px, shadows })

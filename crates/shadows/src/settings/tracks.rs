@@ -23,7 +23,7 @@ use crate::error::Error;
 /// )"#)?;
 /// let base = ShadowSettings::default();
 /// tracks.check(&base)?;
-/// let settings = tracks.at(&base, 2.5, DVec3::X * 10.0)?;
+/// let settings = tracks.settings_for(&base, 2.5, DVec3::X * 10.0)?;
 /// assert_eq!((settings.distance_m, settings.fade_fraction), (50.0, 0.3));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -126,7 +126,12 @@ impl SettingTracks {
     ///
     /// # Errors
     /// As [`check`](Self::check), but for values that are not used at this time and place.
-    pub fn at(&self, base: &ShadowSettings, time_s: f64, eye_world: DVec3) -> Result<ShadowSettings, Error> {
+    pub fn settings_for(
+        &self,
+        base: &ShadowSettings,
+        time_s: f64,
+        eye_world: DVec3,
+    ) -> Result<ShadowSettings, Error> {
         let mut values = to_json(base);
         for track in &self.tracks {
             let Some((from, to, weight)) = track.between(time_s) else { continue };

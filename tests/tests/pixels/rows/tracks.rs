@@ -27,7 +27,7 @@ fn row_46_settings_follow_key_frames_and_zones() {
         )"#,
     );
     let base = ShadowSettings::default();
-    let at = |time_s, x| tracks.at(&base, time_s, DVec3::X * x).unwrap();
+    let at = |time_s, x| tracks.settings_for(&base, time_s, DVec3::X * x).unwrap();
     let distances = [0.0, 1.0, 1.5, 2.0, 9.0].map(|time_s| at(time_s, 0.0).distance_m);
     assert_eq!(distances, [20.0, 20.0, 30.0, 40.0, 60.0]);
     let [early, late] = [1.9, 2.0].map(|time_s| at(time_s, 0.0).cascades);
@@ -90,7 +90,7 @@ fn row_46_shadows_reach_farther_as_time_passes() {
     scene.insert_light(sun(sun_direction(35.0, 60.0)));
     let dark = [0.0, 2.0, 4.0].map(|time_s| {
         let options = pillar_view(|_| ());
-        let shadows = tracks.at(&options.shadows, time_s, options.camera.position_world()).unwrap();
+        let shadows = tracks.settings_for(&options.shadows, time_s, options.camera.position_world()).unwrap();
         count(&greys(gpu, &scene, 0, &ViewOptions { shadows, ..options }), |grey| grey < 128)
     });
     assert!(dark.is_sorted_by(|a, b| a + 100 < *b), "{dark:?}");
