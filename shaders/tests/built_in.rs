@@ -149,7 +149,7 @@ fn constants_that_pipelines_set_keep_their_names() {
         names
     };
     assert_eq!(names("forward.wgsl"), ["AOV", "AOV_LIGHT"]);
-    assert_eq!(names("depth.wgsl"), ["SLOPE_BIAS"]);
+    assert_eq!(names("depth.wgsl"), ["CASTS", "SLOPE_BIAS"]);
 }
 
 #[test]
@@ -202,6 +202,7 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
         ("alpha_cutoff", 44),
         ("uv_sets", 48),
         ("flags_index", 52),
+        ("caster_cutoff", 56),
         ("uv_transforms", 64),
         ("flags", 224),
     ];
