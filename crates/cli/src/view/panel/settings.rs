@@ -41,8 +41,9 @@ fn edit_shared(ui: &mut Ui, stage: &mut Stage) {
         && let Ok(read) = serde_json::from_value::<ShadowSettings>(value)
         && read.validate().is_ok()
     {
-        let techniques = std::mem::take(&mut stage.settings.techniques);
-        stage.settings = ShadowSettings { techniques, ..read };
+        // JSON has another type for techniques, and another order of names.
+        let ShadowSettings { techniques, materials, objects, .. } = std::mem::take(&mut stage.settings);
+        stage.settings = ShadowSettings { techniques, materials, objects, ..read };
     }
 }
 
