@@ -23,7 +23,7 @@ pub struct SceneCasters {
     target: DepthTarget,
     /// Pipelines by map format.
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
-    /// Pipelines with a slope-scaled bias, by format and bias; the last used ones.
+    /// Pipelines with a slope-scaled bias, by format and bias; the last created ones.
     biased: Mutex<Vec<BiasedPipelines>>,
     /// The triangles, if the technique traces rays.
     pub(crate) rays: Option<UploadedRays>,

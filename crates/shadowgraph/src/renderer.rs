@@ -319,7 +319,7 @@ impl Renderer {
     pub fn begin_frame(&mut self, gpu: &Gpu, options: &ViewOptions) -> Result<(), Error> {
         options.camera.check(options.aspect())?;
         (self.lit_output, _) = lit_output(&self.aov, self.scene.lights())?;
-        if !options.shadows.has_shadow_modes(self.scene.shadow_modes()) {
+        if self.scene.shadow_modes() != (&options.shadows.materials, &options.shadows.objects) {
             self.scene.set_shadow_modes(options.shadows.shadow_modes());
         }
         let changes = self.scene.take_changes();

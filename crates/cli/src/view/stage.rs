@@ -185,8 +185,10 @@ impl Stage {
         let camera = self.fly.camera().clone();
         let shadows =
             self.tracks.settings_for(&self.settings, self.playback.time_s, camera.position_world())?;
-        let shadows =
-            self.controller.as_ref().map_or(shadows.clone(), |controller| controller.apply(&shadows));
+        let shadows = match &self.controller {
+            Some(controller) => controller.apply(&shadows),
+            None => shadows,
+        };
         Ok(ViewOptions { camera, size_px, shadows })
     }
 

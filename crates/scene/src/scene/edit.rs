@@ -3,7 +3,7 @@
 use glam::DAffine3;
 
 use super::error::EditError;
-use super::{Instance, Scene, ShadowModes};
+use super::{ByName, Instance, MaterialShadows, ObjectShadows, Scene, ShadowModes};
 use crate::keys::{ImageKey, InstanceKey, LightKey, MaterialKey, MeshKey};
 use crate::light::Light;
 use crate::material::{Image, Material};
@@ -41,8 +41,7 @@ impl Scene {
         self.check_images(&material)?;
         image_keys(&material).for_each(|image| self.images.add_user(image));
         let key = self.materials.insert(material);
-        let material = self.materials.edit(key).ok_or(stale("material"))?;
-        self.shadow_modes.apply_to_material(key, material);
+        self.materials.edit(key).into_iter().for_each(|material| self.material_modes.apply_to(key, material));
         Ok(key)
     }
 
@@ -55,8 +54,8 @@ impl Scene {
         let entry = self.materials.edit(key).ok_or(stale("material"))?;
         image_keys(&material).for_each(|image| self.images.add_user(image));
         let mut previous = std::mem::replace(entry, material);
-        self.shadow_modes.restore_material(key, &mut previous);
-        self.shadow_modes.apply_to_material(key, entry);
+        self.material_modes.restore(key, &mut previous);
+        self.material_modes.apply_to(key, entry);
         image_keys(&previous).for_each(|image| self.images.remove_user(image));
         Ok(previous)
     }
@@ -71,7 +70,7 @@ impl Scene {
         edit: impl FnOnce(&mut Material),
     ) -> Result<(), EditError> {
         let mut material = self.material(key).ok_or(stale("material"))?.clone();
-        self.shadow_modes.give_own_to_material(key, &mut material);
+        self.material_modes.give_own(key, &mut material);
         edit(&mut material);
         self.replace_material(key, material).map(drop)
     }
@@ -84,7 +83,7 @@ impl Scene {
         let material = self.material(key).ok_or(stale("material"))?;
         unused("material", &material.name, self.materials.users(key), "instances")?;
         let mut removed = self.materials.remove(key).ok_or(stale("material"))?;
-        self.shadow_modes.restore_material(key, &mut removed);
+        self.material_modes.restore(key, &mut removed);
         image_keys(&removed).for_each(|image| self.images.remove_user(image));
         Ok(removed)
     }
@@ -125,8 +124,7 @@ impl Scene {
         self.check_instance(&instance)?;
         self.add_uses(&instance);
         let key = self.instances.insert(instance);
-        let instance = self.instances.edit(key).ok_or(stale("instance"))?;
-        self.shadow_modes.apply_to_instance(key, instance);
+        self.instances.edit(key).into_iter().for_each(|instance| self.object_modes.apply_to(key, instance));
         Ok(key)
     }
 
@@ -198,8 +196,8 @@ impl Scene {
         let (mesh, material) = (instance.mesh, instance.material);
         let entry = self.instances.edit(key).ok_or(stale("instance"))?;
         let mut previous = std::mem::replace(entry, instance);
-        self.shadow_modes.restore_instance(key, &mut previous);
-        self.shadow_modes.apply_to_instance(key, entry);
+        self.object_modes.restore(key, &mut previous);
+        self.object_modes.apply_to(key, entry);
         self.meshes.add_user(mesh);
         self.materials.add_user(material);
         self.remove_uses(&previous);
@@ -216,7 +214,7 @@ impl Scene {
         edit: impl FnOnce(&mut Instance),
     ) -> Result<(), EditError> {
         let mut instance = self.instance(key).ok_or(stale("instance"))?.clone();
-        self.shadow_modes.give_own_to_instance(key, &mut instance);
+        self.object_modes.give_own(key, &mut instance);
         edit(&mut instance);
         self.replace_instance(key, instance).map(drop)
     }
@@ -227,7 +225,7 @@ impl Scene {
     /// [`EditError::StaleKey`].
     pub fn remove_instance(&mut self, key: InstanceKey) -> Result<Instance, EditError> {
         let mut removed = self.instances.remove(key).ok_or(stale("instance"))?;
-        self.shadow_modes.restore_instance(key, &mut removed);
+        self.object_modes.restore(key, &mut removed);
         self.remove_uses(&removed);
         Ok(removed)
     }
@@ -273,15 +271,15 @@ impl Scene {
         }
     }
 
-    /// Returns the shadow modes by name.
+    /// Returns the shadow modes of materials and of instances by name.
     #[must_use]
-    pub fn shadow_modes(&self) -> &ShadowModes {
-        &self.shadow_modes.modes
+    pub fn shadow_modes(&self) -> (&ByName<MaterialShadows>, &ByName<ObjectShadows>) {
+        (&self.material_modes.modes, &self.object_modes.modes)
     }
 
     /// Gives shadow modes to the materials and instances with these names, present and future ones, until they are replaced. What
     /// [`material`](Self::material) and [`instance`](Self::instance) return has them; edits see and change the own modes of a material or
-    /// an instance, which return once no name matches.
+    /// an instance, which return once no name matches. A renderer of the crate `shadowgraph` sets those of its shadow settings in each frame.
     ///
     /// ```
     /// use shadowgraph_scene::{ByName, Material, MaterialCasts, MaterialShadows, Scene, ShadowModes};
@@ -296,7 +294,8 @@ impl Scene {
     /// # Ok::<(), shadowgraph_scene::EditError>(())
     /// ```
     pub fn set_shadow_modes(&mut self, modes: ShadowModes) {
-        self.shadow_modes.replace(modes, &mut self.materials, &mut self.instances);
+        self.material_modes.replace(modes.materials, &mut self.materials);
+        self.object_modes.replace(modes.objects, &mut self.instances);
     }
 
     fn check_instance(&self, instance: &Instance) -> Result<(), EditError> {

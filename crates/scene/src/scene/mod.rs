@@ -1,5 +1,6 @@
 //! A scene: meshes, materials and images, their instances, lights and cameras.
 
+mod by_name;
 mod changes;
 mod edit;
 mod error;
@@ -11,14 +12,15 @@ mod store;
 #[cfg(test)]
 mod tests;
 
+pub use by_name::ByName;
 pub use changes::Changes;
 pub use error::EditError;
 pub use hierarchy::{AnimationSelection, Attachment, Hierarchy};
 pub use instance::{Instance, ShadowCasting};
-pub use shadow_modes::{ByName, MaterialCasts, MaterialShadows, ObjectShadows, ShadowModes};
+pub use shadow_modes::{MaterialCasts, MaterialShadows, ObjectShadows, ShadowModes};
 
 use lights::Lights;
-use shadow_modes::AppliedModes;
+use shadow_modes::{NamedModes, OwnOfInstance, OwnOfMaterial};
 use store::Store;
 
 use crate::bounds::{Aabb, ConvexVolume};
@@ -57,7 +59,8 @@ pub struct Scene {
     images: Store<ImageKey, Image>,
     instances: Store<InstanceKey, Instance>,
     lights: Lights,
-    shadow_modes: AppliedModes,
+    material_modes: NamedModes<MaterialKey, MaterialShadows, OwnOfMaterial>,
+    object_modes: NamedModes<InstanceKey, ObjectShadows, OwnOfInstance>,
     /// The ground under a scene without a floor.
     pub ground: Option<GroundPlane>,
     /// The cameras of the file.

@@ -1,86 +1,12 @@
 //! Shadow modes of materials and objects by name, in place of their own.
 
-use serde::de::{Deserializer, MapAccess, Visitor};
-use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
-use slotmap::SecondaryMap;
+use slotmap::{Key, SecondaryMap};
 
+use super::by_name::ByName;
 use super::instance::{Instance, ShadowCasting};
 use super::store::Store;
-use crate::keys::{InstanceKey, MaterialKey};
 use crate::material::{CasterMode, Material};
-
-/// Values by patterns of names, in which `*` stands for any text and `?` for any character. Of all patterns that match a name, the last counts.
-///
-/// In files it is a map:
-///
-/// ```
-/// use shadowgraph_scene::{ByName, MaterialShadows};
-/// let modes: ByName<MaterialShadows> = ron::from_str(r#"{"*": (receives: true), "leaves*": (casts: Clip(0.3))}"#)?;
-/// assert_eq!(modes.get("leaves of an oak").unwrap().receives, None);
-/// assert_eq!(modes.get("bark").unwrap().receives, Some(true));
-/// # Ok::<(), ron::error::SpannedError>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct ByName<T>(pub Vec<(String, T)>);
-
-impl<T> Default for ByName<T> {
-    fn default() -> Self {
-        Self(Vec::new())
-    }
-}
-
-impl<T> ByName<T> {
-    /// Returns the value for a name.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<&T> {
-        self.0.iter().rev().find(|(pattern, _)| matches(pattern, name)).map(|(_, value)| value)
-    }
-
-    /// Returns the patterns that match none of the names.
-    pub fn unused<'a>(
-        &'a self,
-        names: impl Iterator<Item = &'a str> + Clone,
-    ) -> impl Iterator<Item = &'a str> {
-        let patterns = self.0.iter().map(|(pattern, _)| pattern.as_str());
-        patterns.filter(move |pattern| !names.clone().any(|name| matches(pattern, name)))
-    }
-}
-
-/// Returns whether a pattern matches a name as a whole.
-fn matches(pattern: &str, name: &str) -> bool {
-    wildmatch::WildMatch::new(pattern).matches(name)
-}
-
-impl<T: Serialize> Serialize for ByName<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(pattern, value)| (pattern, value)))
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries<T>(std::marker::PhantomData<T>);
-
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-            type Value = ByName<T>;
-
-            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                formatter.write_str("a map from patterns of names")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(ByName(entries))
-            }
-        }
-
-        deserializer.deserialize_map(Entries(std::marker::PhantomData))
-    }
-}
 
 /// The shadows of a material, where they are not as it says itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -166,81 +92,113 @@ pub struct ShadowModes {
     pub objects: ByName<ObjectShadows>,
 }
 
-/// The shadow modes of a scene, and what they replace.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct AppliedModes {
-    pub(super) modes: ShadowModes,
-    materials: SecondaryMap<MaterialKey, (Option<CasterMode>, Option<f32>, bool)>,
-    instances: SecondaryMap<InstanceKey, (ShadowCasting, bool)>,
+/// What has shadow modes that others can replace by name.
+pub(super) trait Shadowed {
+    /// The modes by name.
+    type Modes: Copy;
+    /// Its own modes.
+    type Own: Copy;
+
+    fn name(&self) -> &str;
+    fn own(&self) -> Self::Own;
+    fn set_own(&mut self, own: Self::Own);
+    fn apply(&mut self, modes: Self::Modes);
 }
 
-impl AppliedModes {
-    /// Gives the modes for its name to a material that has its own.
-    pub(super) fn apply_to_material(&mut self, key: MaterialKey, material: &mut Material) {
-        let Some(&modes) = self.modes.materials.get(&material.name) else { return };
-        self.materials.insert(key, (material.casts, material.shadow_cutoff, material.receives_shadows));
+/// The own modes of a material: what it casts, the cutoff of [`CasterMode::Clip`], and whether it receives shadows.
+pub(super) type OwnOfMaterial = (Option<CasterMode>, Option<f32>, bool);
+
+impl Shadowed for Material {
+    type Modes = MaterialShadows;
+    type Own = OwnOfMaterial;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn own(&self) -> OwnOfMaterial {
+        (self.casts, self.shadow_cutoff, self.receives_shadows)
+    }
+
+    fn set_own(&mut self, own: OwnOfMaterial) {
+        (self.casts, self.shadow_cutoff, self.receives_shadows) = own;
+    }
+
+    fn apply(&mut self, modes: MaterialShadows) {
         if let Some(casts) = modes.casts {
-            casts.apply_to(material);
+            casts.apply_to(self);
         }
-        material.receives_shadows = modes.receives.unwrap_or(material.receives_shadows);
+        self.receives_shadows = modes.receives.unwrap_or(self.receives_shadows);
+    }
+}
+
+/// The own modes of an instance: what it casts, and whether it receives shadows.
+pub(super) type OwnOfInstance = (ShadowCasting, bool);
+
+impl Shadowed for Instance {
+    type Modes = ObjectShadows;
+    type Own = OwnOfInstance;
+
+    fn name(&self) -> &str {
+        &self.name
     }
 
-    /// Gives the modes for its name to an instance that has its own.
-    pub(super) fn apply_to_instance(&mut self, key: InstanceKey, instance: &mut Instance) {
-        let Some(&modes) = self.modes.objects.get(&instance.name) else { return };
-        self.instances.insert(key, (instance.casts, instance.receives_shadows));
-        instance.casts = modes.casts.unwrap_or(instance.casts);
-        instance.receives_shadows = modes.receives.unwrap_or(instance.receives_shadows);
+    fn own(&self) -> OwnOfInstance {
+        (self.casts, self.receives_shadows)
     }
 
-    /// Gives the own modes of a material to a copy of it.
-    pub(super) fn give_own_to_material(&self, key: MaterialKey, copy: &mut Material) {
-        if let Some(&own) = self.materials.get(key) {
-            (copy.casts, copy.shadow_cutoff, copy.receives_shadows) = own;
+    fn set_own(&mut self, own: OwnOfInstance) {
+        (self.casts, self.receives_shadows) = own;
+    }
+
+    fn apply(&mut self, modes: ObjectShadows) {
+        self.casts = modes.casts.unwrap_or(self.casts);
+        self.receives_shadows = modes.receives.unwrap_or(self.receives_shadows);
+    }
+}
+
+/// Modes by name, and the own modes of what has them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct NamedModes<K: Key, M, O> {
+    pub(super) modes: ByName<M>,
+    own: SecondaryMap<K, O>,
+}
+
+impl<K: Key, M: Copy, O: Copy> NamedModes<K, M, O> {
+    /// Gives the modes for its name to a value that has its own.
+    pub(super) fn apply_to(&mut self, key: K, value: &mut impl Shadowed<Modes = M, Own = O>) {
+        if let Some(&modes) = self.modes.get(value.name()) {
+            self.own.insert(key, value.own());
+            value.apply(modes);
         }
     }
 
-    /// Gives the own modes of an instance to a copy of it.
-    pub(super) fn give_own_to_instance(&self, key: InstanceKey, copy: &mut Instance) {
-        if let Some(&own) = self.instances.get(key) {
-            (copy.casts, copy.receives_shadows) = own;
+    /// Gives the own modes of a value to a copy of it.
+    pub(super) fn give_own(&self, key: K, copy: &mut impl Shadowed<Modes = M, Own = O>) {
+        if let Some(&own) = self.own.get(key) {
+            copy.set_own(own);
         }
     }
 
-    /// Gives a material its own modes back.
-    pub(super) fn restore_material(&mut self, key: MaterialKey, material: &mut Material) {
-        self.give_own_to_material(key, material);
-        self.materials.remove(key);
+    /// Gives a value its own modes back.
+    pub(super) fn restore(&mut self, key: K, value: &mut impl Shadowed<Modes = M, Own = O>) {
+        self.give_own(key, value);
+        self.own.remove(key);
     }
 
-    /// Gives an instance its own modes back.
-    pub(super) fn restore_instance(&mut self, key: InstanceKey, instance: &mut Instance) {
-        self.give_own_to_instance(key, instance);
-        self.instances.remove(key);
-    }
-
-    /// Replaces all modes; logs the materials and instances that had or have some.
-    pub(super) fn replace(
+    /// Replaces all modes; logs the values that had or have some.
+    pub(super) fn replace<T: Shadowed<Modes = M, Own = O>>(
         &mut self,
-        modes: ShadowModes,
-        materials: &mut Store<MaterialKey, Material>,
-        instances: &mut Store<InstanceKey, Instance>,
+        modes: ByName<M>,
+        values: &mut Store<K, T>,
     ) {
-        for key in self.materials.keys().collect::<Vec<_>>() {
-            materials.edit(key).into_iter().for_each(|material| self.restore_material(key, material));
-        }
-        for key in self.instances.keys().collect::<Vec<_>>() {
-            instances.edit(key).into_iter().for_each(|instance| self.restore_instance(key, instance));
+        for key in self.own.keys().collect::<Vec<_>>() {
+            values.edit(key).into_iter().for_each(|value| self.restore(key, value));
         }
         self.modes = modes;
-        let named =
-            materials.iter().filter(|(_, material)| self.modes.materials.get(&material.name).is_some());
+        let named = values.iter().filter(|(_, value)| self.modes.get(value.name()).is_some());
         for key in named.map(|(key, _)| key).collect::<Vec<_>>() {
-            materials.edit(key).into_iter().for_each(|material| self.apply_to_material(key, material));
-        }
-        let named = instances.iter().filter(|(_, instance)| self.modes.objects.get(&instance.name).is_some());
-        for key in named.map(|(key, _)| key).collect::<Vec<_>>() {
-            instances.edit(key).into_iter().for_each(|instance| self.apply_to_instance(key, instance));
+            values.edit(key).into_iter().for_each(|value| self.apply_to(key, value));
         }
     }
 }

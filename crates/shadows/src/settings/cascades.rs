@@ -144,8 +144,7 @@ pub const MAX_CASCADE_LIGHTS: u32 = 4;
 
 impl SplitScheme {
     /// Returns whether the ends of cascades depend on the near plane. Then the first cascade does not end in front of all visible receivers.
-    #[must_use]
-    pub fn is_relative_to_near(&self) -> bool {
+    pub(crate) fn is_relative_to_near(&self) -> bool {
         matches!(self, Self::Logarithmic | Self::Practical { .. })
     }
 }

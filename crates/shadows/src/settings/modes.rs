@@ -55,10 +55,4 @@ impl ShadowSettings {
     pub fn shadow_modes(&self) -> ShadowModes {
         ShadowModes { materials: self.materials.clone(), objects: self.objects.clone() }
     }
-
-    /// Returns whether these are the shadow modes of the settings.
-    #[must_use]
-    pub fn has_shadow_modes(&self, modes: &ShadowModes) -> bool {
-        self.materials == modes.materials && self.objects == modes.objects
-    }
 }

@@ -43,15 +43,15 @@ fn requests_grow_together_where_the_map_has_space() {
 }
 
 #[test]
-fn row_53_thirteen_lamps_use_nearly_all_of_the_map() {
+fn row_53_thirteen_lights_use_nearly_all_of_the_map() {
     // Ten point lights and three spot lights that request a tenth of what there is.
     let config = AtlasConfig { map_px: 2048, smallest_px: 64, largest_px: 2048, growth: 2 };
     for size_px in [60.0, 80.0, 110.0, 150.0, 200.0, 300.0] {
-        let lamp = |owner: u32| {
+        let light = |owner: u32| {
             let (tiles, nearer) = if owner < 10 { (6, 1.0) } else { (1, 2.0) };
             request(owner, tiles, size_px * nearer, -f64::from(owner))
         };
-        let got = allocate_tiles(&config, &(0..13).map(lamp).collect::<Vec<_>>(), None);
+        let got = allocate_tiles(&config, &(0..13).map(light).collect::<Vec<_>>(), None);
         let used: u64 = got.rects.iter().map(|rect| u64::from(rect.width).pow(2)).sum();
         assert!(used as f64 > 0.85 * 2048.0 * 2048.0, "{size_px}: {used} {:?}", sizes(&got));
     }

@@ -118,9 +118,7 @@ fn check_rank(requests: &[TileRequest], got: &AtlasAllocation) {
     let entries: Vec<&TileAllocation> =
         requests.iter().filter_map(|request| got.for_owner(request.owner)).collect();
     for (i, less) in entries.iter().enumerate() {
-        let same =
-            |more: &&&TileAllocation| more.requested_px == less.requested_px && more.tiles <= less.tiles;
-        for more in entries[..i].iter().filter(same) {
+        for more in entries[..i].iter().filter(|more| more.requested_px == less.requested_px) {
             assert!(more.tile_px >= less.tile_px, "{more:?} {less:?}");
         }
     }
