@@ -92,6 +92,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("receiver.wgsl"),
     file!("screen_occlusion.wgsl"),
     file!("shade.wgsl"),
+    file!("shadows/colors.wgsl"),
     file!("shadows/evsm_layout.wgsl"),
     file!("shadows/footprint.wgsl"),
     file!("shadows/layers.wgsl"),

@@ -22,7 +22,7 @@ const GPU_FRAMES: u32 = 20;
 /// Measures and prints, a table at a time.
 pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure> {
     let input = commands::input(&args.draw.with_default_pipeline(Pipeline::minimal_lit().name()), registry)?;
-    let view = commands::tracked(&commands::view_options(&input), &input.options, input.options.time.0)?;
+    let view = commands::tracked(&commands::view_options(&input)?, &input.options, input.options.time.0)?;
     if cfg!(debug_assertions) {
         console::warning("debug build: measure with `cargo run --release`");
     }

@@ -31,7 +31,7 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let input = input(&args.draw, registry)?;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let Options { aov, background, timings, .. } = input.options.clone();
-    let [width, height] = view_options(&input).size_px;
+    let [width, height] = view_options(&input)?.size_px;
     let FramesArgs { count, fps } = args.frames;
     let drawn = draw_frames(&gpu, input, args.frames, &mut |number, image| {
         let Some(file) = files.file(number, count) else { return Ok(()) };
@@ -86,9 +86,12 @@ pub(super) fn play(
     keep: &mut Keep<'_>,
 ) -> Result<(Renderer, ViewOptions), Failure> {
     let (aov, base, config) =
-        (input.options.aov.clone(), view_options(&input), input.options.render_config());
+        (input.options.aov.clone(), view_options(&input)?, input.options.render_config());
     let mut view = tracked(&base, &input.options, input.options.time.0)?;
+    let shadow_camera = shadow_camera(&input)?;
     let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
+    renderer.set_shadow_camera(shadow_camera);
+    renderer.set_overlay(gpu, input.options.overlay)?;
     let FramesArgs { count, fps } = frames;
     for number in 1..count {
         keep(number - 1, renderer.draw(gpu, &view)?.image)?;
@@ -184,11 +187,20 @@ pub(crate) fn load(file: Option<&Path>, variant: Option<&str>) -> Result<Scene, 
 }
 
 /// Returns the view according to the options.
-pub(crate) fn view_options(input: &Input) -> ViewOptions {
+pub(crate) fn view_options(input: &Input) -> Result<ViewOptions, Failure> {
     let Options { size, settings, shadow_distance, .. } = &input.options;
     let size_px = [size.width_px, size.height_px];
-    ViewOptions { camera: input.camera.clone(), size_px, shadows: settings.clone() }
-        .with_shadow_distance(*shadow_distance, &input.scene)
+    let camera = shadow_camera(input)?.unwrap_or_else(|| input.camera.clone());
+    let of_shadows = ViewOptions { camera, size_px, shadows: settings.clone() };
+    let of_shadows = of_shadows.with_shadow_distance(*shadow_distance, &input.scene);
+    Ok(ViewOptions { camera: input.camera.clone(), ..of_shadows })
+}
+
+/// Returns the camera that shadows are fitted to, if it is not that of the image.
+pub(crate) fn shadow_camera(input: &Input) -> Result<Option<Camera>, Failure> {
+    let Options { shadow_camera, size, .. } = &input.options;
+    let camera = shadow_camera.as_ref().map(|camera| camera.resolve(&input.scene, size.aspect()));
+    Ok(camera.transpose()?)
 }
 
 /// Returns the channels of an image that are written to the file.

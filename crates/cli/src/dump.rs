@@ -49,7 +49,7 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
 /// Returns the page of a frame, with images if there is a GPU.
 fn page(args: &DumpArgs, input: Input) -> Result<String, Failure> {
     let DumpArgs { draw: args, frames, .. } = args;
-    let view = view_options(&input);
+    let view = view_options(&input)?;
     let config = input.options.render_config();
     let (scene_lights, mut notes) = (input.scene.lights().to_vec(), input.scene.notes.clone());
     let [width, height] = view.size_px;

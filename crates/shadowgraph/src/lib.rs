@@ -61,6 +61,7 @@ mod rendered;
 mod renderer;
 pub mod ron_file;
 mod scene_rays;
+mod shadow_lines;
 mod surfaces;
 mod view_options;
 
@@ -78,6 +79,7 @@ pub use rendered::{RenderedFrame, RenderedImage, shadow_ms};
 pub use renderer::Renderer;
 pub use renderer::aov::ViewOutput;
 pub use scene_rays::SceneRays;
+pub use shadow_lines::{ShadowLines, ShadowLinesPass};
 pub use surfaces::SurfaceDrawer;
 pub use view_options::ViewOptions;
 

@@ -27,6 +27,7 @@ use crate::pipelines::pipeline::Pipeline;
 use crate::render_config::RenderConfig;
 use crate::render_view::RenderView;
 use crate::scene_rays::UploadedRays;
+use crate::shadow_lines::{ShadowLines, ShadowLinesPass};
 use crate::view_options::ViewOptions;
 
 /// Draws one scene with one configuration.
@@ -36,6 +37,8 @@ pub struct Renderer {
     config: RenderConfig,
     instance: Box<dyn PipelineInstance>,
     debug_blit: DebugBlit,
+    /// The lines over images that show what shadow maps cover.
+    overlay: Option<ShadowLinesPass>,
     pose: PosePass,
     lit_output: LitOutput,
     scene: Scene,
@@ -112,8 +115,9 @@ impl Renderer {
     pub fn recreate_on(&mut self, gpu: &Gpu) -> Result<(), Error> {
         let (scene, origin_world) = (self.scene.clone(), self.casters.scene.origin_world());
         let created = Self::create(gpu, scene, origin_world, self.aov.clone(), self.config.clone())?;
+        let overlay = self.overlay();
         *self = Self { shadow_camera: self.shadow_camera.take(), ..created };
-        Ok(())
+        self.set_overlay(gpu, overlay)
     }
 
     fn create(
@@ -150,6 +154,7 @@ impl Renderer {
             config,
             instance,
             debug_blit: DebugBlit::new(device)?,
+            overlay: None,
             pose: PosePass::new(device)?,
             lit_output,
             scene,
@@ -218,6 +223,23 @@ impl Renderer {
     /// Fits shadows to this camera instead of the view's, so that they can be seen from outside; `None` for the view's camera.
     pub fn set_shadow_camera(&mut self, camera: Option<Camera>) {
         self.shadow_camera = camera;
+    }
+
+    /// Draws lines over all images that show what shadow maps cover, or none. With [another camera for shadows](Self::set_shadow_camera) they
+    /// are seen from outside. A technique without maps has none.
+    ///
+    /// # Errors
+    /// None with the built-in WGSL.
+    pub fn set_overlay(&mut self, gpu: &Gpu, lines: Option<ShadowLines>) -> Result<(), Error> {
+        if lines != self.overlay() {
+            self.overlay = lines.map(|kind| ShadowLinesPass::new(&gpu.device, kind)).transpose()?;
+        }
+        Ok(())
+    }
+
+    /// Returns the lines that are drawn over images.
+    pub fn overlay(&self) -> Option<ShadowLines> {
+        self.overlay.as_ref().map(ShadowLinesPass::kind)
     }
 
     /// Returns the scene on the GPU, as shadow casters.

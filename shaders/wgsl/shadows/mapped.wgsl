@@ -7,6 +7,7 @@
 #import shadowgraph::shadows::footprint::{SAMPLES, footprint_of, sampled}
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::tints::tint
+#import shadowgraph::shadows::colors::cascade_tint
 #import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, blend_at, shadow_fade, edge_fade}
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::SHADOWED
@@ -52,20 +53,6 @@ fn pixel_visibility(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> v
         return vec3f(0.0);
     }
     return sum / f32(samples);
-}
-
-fn cascade_tint(cascade: u32) -> vec3f {
-    switch cascade {
-        case 0u: { return vec3f(1.0, 0.35, 0.3); }
-        case 1u: { return vec3f(0.4, 0.9, 0.35); }
-        case 2u: { return vec3f(0.35, 0.55, 1.0); }
-        case 3u: { return vec3f(1.0, 0.85, 0.3); }
-        case 4u: { return vec3f(0.3, 0.9, 0.9); }
-        case 5u: { return vec3f(1.0, 0.6, 0.25); }
-        case 6u: { return vec3f(0.6, 0.6, 0.6); }
-        case 7u: { return vec3f(1.0, 0.5, 0.8); }
-        default: { return vec3f(0.85, 0.5, 0.95); }
-    }
 }
 
 // The colour of the cascade that is read, paler where shadows fade, blended where cascades blend; violet in the atlas; white

@@ -70,6 +70,13 @@ pub(crate) struct DrawArgs {
     /// texture of the graph
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
+    /// Lines over the image that show what shadow maps cover: frusta, the slices of the view and the boxes of tiles; spheres, those of
+    /// cascades; or tiles, with their borders. With --shadow-camera they are seen from outside
+    #[arg(long, value_name = "frusta|spheres|tiles")]
+    overlay: Option<String>,
+    /// A camera, as for --camera, that shadows are fitted to in place of the one of the image
+    #[arg(long, value_name = "CAMERA")]
+    shadow_camera: Option<String>,
     /// The GPU by name; cpu forces a software adapter. Default: auto; without this option, bench measures only the CPU
     #[arg(long, value_name = "auto|NAME|cpu")]
     adapter: Option<String>,
@@ -150,6 +157,8 @@ impl DrawArgs {
             time: self.time.parse()?,
             shadow_distance,
             aov: self.aov.parse()?,
+            overlay: self.overlay.as_deref().map(str::parse).transpose()?,
+            shadow_camera: self.shadow_camera.as_deref().map(str::parse).transpose()?,
             adapter: or_default(self.adapter.as_deref())?,
             timings: self.timings,
         })

@@ -5,7 +5,7 @@ use shadowgraph::options::{
     SunChoice,
 };
 use shadowgraph::shadows::{SettingTracks, ShadowSettings, Technique};
-use shadowgraph::{Background, Pipeline, RenderConfig};
+use shadowgraph::{Background, Pipeline, RenderConfig, ShadowLines};
 
 /// The options of a drawing command, without the files of the scene and the output.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +38,10 @@ pub(crate) struct Options {
     pub(crate) shadow_distance: ShadowDistance,
     /// The AOV that the image shows.
     pub(crate) aov: Aov,
+    /// The lines over the image.
+    pub(crate) overlay: Option<ShadowLines>,
+    /// The camera that shadows are fitted to; `None` for that of the image.
+    pub(crate) shadow_camera: Option<CameraChoice>,
     /// The GPU.
     pub(crate) adapter: AdapterChoice,
     /// Whether times per pass are measured.
@@ -73,6 +77,8 @@ impl Default for Options {
             time: AnimationTime::default(),
             shadow_distance: ShadowDistance::default(),
             aov: Aov::default(),
+            overlay: None,
+            shadow_camera: None,
             adapter: AdapterChoice::default(),
             timings: false,
         }

@@ -34,7 +34,7 @@ pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> 
     let display = Box::new(event_loop.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
     let adapter = input.options.adapter.clone();
-    let view = view_options(&input);
+    let view = view_options(&input)?;
     let size_px = view.size_px;
     let stage = Stage::new(input, view, registry.clone(), args)?;
     let mut app = App::new(instance, adapter, size_px, stage);

@@ -15,7 +15,7 @@ use super::fly::FlyInput;
 use super::stage::Stage;
 use graph::GraphPanel;
 use settings::SettingsPanel;
-use shadowgraph::Pipeline;
+use shadowgraph::{Pipeline, ShadowLines};
 use shadowgraph::core::TimeSummary;
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::BUILT_IN;
@@ -162,7 +162,7 @@ impl Panel {
             stage.playback.is_playing = !stage.playback.is_playing;
         }
         if ui.input(|input| input.key_pressed(Key::F)) {
-            stage.freeze(!stage.frozen);
+            stage.freeze(!stage.is_frozen());
         }
         if let Some(sun) = stage.sun.as_mut().filter(|_| ui.input(|input| input.key_pressed(Key::L))) {
             sun.play(!sun.plays);
@@ -217,7 +217,17 @@ fn scene(ui: &mut Ui, stage: &mut Stage) -> Option<Action> {
     if let Some(sun) = &mut stage.sun {
         sun::show(ui, sun);
     }
-    let mut frozen = stage.frozen;
+    ui.horizontal(|ui| {
+        ui.label("Lines");
+        let shown = stage.overlay.map_or("none", ShadowLines::name);
+        ComboBox::from_id_salt("lines").selected_text(shown).show_ui(ui, |ui| {
+            ui.selectable_value(&mut stage.overlay, None, "none");
+            for lines in ShadowLines::ALL {
+                ui.selectable_value(&mut stage.overlay, Some(lines), lines.name());
+            }
+        });
+    });
+    let mut frozen = stage.is_frozen();
     if ui.checkbox(&mut frozen, "Freeze the shadow camera (F)").changed() {
         stage.freeze(frozen);
     }

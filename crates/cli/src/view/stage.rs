@@ -8,14 +8,14 @@ use super::playback::Playback;
 use super::reload::Watched;
 use super::sun::Sun;
 use crate::args::{DrawArgs, ViewArgs};
-use crate::commands::{Input, load};
+use crate::commands::{Input, load, shadow_camera};
 use crate::failure::Failure;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
 use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowDistance, SunChoice};
-use shadowgraph::scene::{AnimationSelection, Scene};
+use shadowgraph::scene::{AnimationSelection, Camera, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
-    Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu,
+    Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu, ShadowLines,
 };
 
 /// Number of frames in the history of times.
@@ -39,8 +39,10 @@ pub(super) struct Stage {
     pub(super) playback: Playback,
     /// `None` in a scene without directional lights.
     pub(super) sun: Option<Sun>,
-    /// Whether the shadow camera is frozen.
-    pub(super) frozen: bool,
+    /// The camera that shadows are fitted to while it is frozen.
+    shadow_camera: Option<Camera>,
+    /// The lines over the image.
+    pub(super) overlay: Option<ShadowLines>,
     /// The settings that change with time and place.
     pub(super) tracks: SettingTracks,
     pub(super) times: TimeHistory,
@@ -77,6 +79,7 @@ impl Stage {
         });
         let settings_file = args.draw.settings_file().map(PathBuf::from);
         let selection = input.options.animation.resolve(&input.scene.hierarchy)?;
+        let shadow_camera = shadow_camera(&input)?;
         Ok(Self {
             fly: FlyCamera::new(input.camera, radius_m),
             playback: Playback::new(selection, input.options.time.0),
@@ -92,7 +95,8 @@ impl Stage {
             aov: input.options.aov,
             settings: view.shadows,
             controller: args.budget_ms.map(controller).transpose()?,
-            frozen: false,
+            shadow_camera,
+            overlay: input.options.overlay,
             tracks: input.options.tracks,
             times: TimeHistory::new(FRAMES),
             plan: None,
@@ -123,7 +127,7 @@ impl Stage {
         self.fly = FlyCamera::new(camera, scene.bounds().radius());
         self.playback = Playback::new(AnimationSelection::All, 0.0);
         self.sun = Sun::from_scene(&scene, &SunChoice::default());
-        (self.scene, self.aov, self.frozen) = (scene, Aov::default(), false);
+        (self.scene, self.aov, self.shadow_camera) = (scene, Aov::default(), None);
         (self.renderer, self.created, self.file_error) = (None, None, None);
     }
 
@@ -173,11 +177,12 @@ impl Stage {
 
     /// Freezes the shadow camera, or lets it follow the camera again.
     pub(super) fn freeze(&mut self, frozen: bool) {
-        self.frozen = frozen;
-        let camera = frozen.then(|| self.fly.camera().clone());
-        if let Some(renderer) = &mut self.renderer {
-            renderer.set_shadow_camera(camera);
-        }
+        self.shadow_camera = frozen.then(|| self.fly.camera().clone());
+    }
+
+    /// Returns whether the shadow camera is frozen.
+    pub(super) fn is_frozen(&self) -> bool {
+        self.shadow_camera.is_some()
     }
 
     /// Returns the current view options: the shadow settings of this time and place, limited by the time budget.
@@ -221,6 +226,8 @@ impl Stage {
         let options = self.options([target.width(), target.height()])?;
         self.registry.techniques.check(&options.shadows)?;
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
+        renderer.set_shadow_camera(self.shadow_camera.clone());
+        renderer.set_overlay(gpu, self.overlay)?;
         if let Err(error) = self.playback.apply([&mut self.scene, renderer.scene_mut()]) {
             self.file_error = Some(error.to_string());
         }
@@ -253,9 +260,7 @@ impl Stage {
         });
         let failed = created.as_ref().err().map(ToString::to_string);
         self.created = Some((key, failed.map_or(Ok(()), Err)));
-        let renderer = created?;
-        let frozen = self.renderer.as_ref().and_then(|old| old.shadow_camera().cloned());
-        self.renderer.insert(renderer).set_shadow_camera(frozen);
+        self.renderer = Some(created?);
         Ok(())
     }
 

@@ -22,6 +22,7 @@ mod color;
 pub(crate) mod distance;
 pub(crate) mod error;
 pub(crate) mod ground;
+mod overlay;
 mod pairs;
 pub(crate) mod settings;
 pub(crate) mod size;

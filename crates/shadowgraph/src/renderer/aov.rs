@@ -1,6 +1,6 @@
 //! The image of a view, by AOV.
 
-use shadowgraph_core::{Buffer, Format, Frame, Texture, did_you_mean};
+use shadowgraph_core::{Buffer, Contents, Format, Frame, Texture, did_you_mean};
 use shadowgraph_lighting::LitOutput;
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowOutputs, Unshadowed};
@@ -20,9 +20,27 @@ impl Renderer {
         view.add_pose(frame);
         let output = self.instance.add(frame, view)?;
         self.previous_cameras.set(view.index, &view.options.camera, view.options.aspect());
-        let image = self.aov_image(frame, view, &output)?;
+        let mut image = self.aov_image(frame, view, &output)?;
+        self.add_overlay(frame, view, &output, &mut image);
         let ShadowOutputs { map_buffers: shadow_buffers, unshadowed, .. } = output.shadows;
         Ok(ViewOutput { image, shadow_buffers, unshadowed })
+    }
+
+    /// Draws the overlay over an image, if there is one.
+    fn add_overlay<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &RenderView<'f>,
+        output: &PipelineOutput<'f>,
+        image: &mut Texture,
+    ) {
+        let Some(overlay) = &self.overlay else { return };
+        let (Some(buffers), Some([views, _])) = (&output.view, &output.shadows.map_buffers) else { return };
+        let origin_world = view.casters.scene.origin_world();
+        let camera = (view.shadow_camera, view.options.aspect(), origin_world);
+        frame.node("overlay", |frame| {
+            overlay.add_to(frame, (buffers, views), camera, (image, Contents::Preserve));
+        });
     }
 
     /// Returns the image of the AOV; passes that it does not need are culled.

@@ -13,6 +13,7 @@ mod figures;
 mod filters;
 mod materials;
 mod modes;
+mod overlay;
 mod own_casters;
 mod points;
 mod screen;

@@ -12,6 +12,7 @@ pub(crate) mod geometry;
 mod hi_z;
 mod overlay;
 mod shadow_debug;
+mod shadow_lines;
 pub(crate) mod shadows;
 pub(crate) mod sky;
 mod ssao;
@@ -23,7 +24,7 @@ pub(crate) mod view;
 
 use super::kind::NodeKind;
 
-pub(super) fn kinds() -> [NodeKind; 19] {
+pub(super) fn kinds() -> [NodeKind; 20] {
     [
         NodeKind::new::<view::ViewNode>(),
         NodeKind::new::<geometry::Geometry>(),
@@ -43,6 +44,7 @@ pub(super) fn kinds() -> [NodeKind; 19] {
         NodeKind::new::<tonemap::Tonemap>(),
         NodeKind::new::<fxaa::Fxaa>(),
         NodeKind::new::<shadow_debug::ShadowDebug>(),
+        NodeKind::new::<shadow_lines::ShadowLinesNode>(),
         NodeKind::new::<overlay::Overlay>(),
     ]
 }
