@@ -211,7 +211,8 @@ mod tests {
             ($($field:ident),*) => { &[$((stringify!($field), offset_of!(ShadowCamera, $field))),*] };
         }
         let fields = fields![eye, orthographic, right, width_px, up, forward];
-        shadowgraph_shaders::layout::check(&module, "ShadowCamera", size_of::<ShadowCamera>(), fields).unwrap();
+        shadowgraph_shaders::layout::check(&module, "ShadowCamera", size_of::<ShadowCamera>(), fields)
+            .unwrap();
     }
 
     #[test]

@@ -3,7 +3,9 @@
 mod animation;
 mod edit;
 mod graph;
+mod lights;
 mod settings;
+mod split_bar;
 mod sun;
 
 use std::path::PathBuf;
@@ -15,11 +17,11 @@ use super::fly::FlyInput;
 use super::stage::Stage;
 use graph::GraphPanel;
 use settings::SettingsPanel;
-use shadowgraph::{Pipeline, ShadowLines};
 use shadowgraph::core::TimeSummary;
 use shadowgraph::options::Aov;
 use shadowgraph::pipelines::BUILT_IN;
 use shadowgraph::shadows::Technique;
+use shadowgraph::{Pipeline, ShadowLines};
 
 /// An action to perform after the frame.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,7 +15,7 @@ use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowD
 use shadowgraph::scene::{AnimationSelection, Camera, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
-    Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, shadow_ms, wgpu, ShadowLines,
+    Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines, ViewOptions, shadow_ms, wgpu,
 };
 
 /// Number of frames in the history of times.

@@ -4,9 +4,9 @@ use super::{pillar_view, pillars, plan, spot};
 use crate::stage::{camera, gpu, sun, sun_direction};
 use glam::{DVec3, Vec3, Vec4};
 use shadowgraph::options::Aov;
+use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::Camera;
 use shadowgraph::shadows::{NONE, PCF, SDSM, ShadowPlan, ShadowView, TechniqueKind};
-use shadowgraph::pipelines::Parameters;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderedImage, Renderer, ShadowLines, ViewOptions};
 
 const SIZE_PX: [u32; 2] = [640, 360];
@@ -91,16 +91,16 @@ fn row_44_lines_show_what_the_shadows_of_a_frozen_camera_cover() {
         let point = view.clip_from_world.inverse() * Vec4::new(at[0], at[1], at[2], 1.0);
         world(point.truncate() / point.w)
     };
-    let boxes: Vec<DVec3> = cascades
-        .iter()
-        .flat_map(|view| [-1.0, 0.0, 1.0].map(|x| tile_point(view, [x, 1.0, 0.0])))
-        .collect();
+    let boxes: Vec<DVec3> =
+        cascades.iter().flat_map(|view| [-1.0, 0.0, 1.0].map(|x| tile_point(view, [x, 1.0, 0.0]))).collect();
     let frusta = draw(gpu, PCF, Some(ShadowLines::Frusta));
     assert_drawn([&without, &frusta], &corners, "slices");
     assert_drawn([&without, &frusta], &boxes, "boxes");
     let around: Vec<DVec3> = cascades
         .iter()
-        .flat_map(|view| [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::Z].map(|axis| world(view.center + view.radius * axis)))
+        .flat_map(|view| {
+            [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::Z].map(|axis| world(view.center + view.radius * axis))
+        })
         .collect();
     let spheres = draw(gpu, PCF, Some(ShadowLines::Spheres));
     assert_drawn([&without, &spheres], &around, "spheres");
@@ -137,8 +137,7 @@ fn row_44_the_node_draws_the_lines_of_the_overlay() {
     let [with_node, with_overlay] = [true, false].map(|is_node| {
         let parameters = Parameters(vec![("lines".into(), is_node.into())]);
         let pipeline = Pipeline::load(&file, &nodes, &techniques, &parameters).unwrap();
-        let mut renderer =
-            Renderer::with_config(gpu, scene.clone(), &outside, Aov::Color, pipeline).unwrap();
+        let mut renderer = Renderer::with_config(gpu, scene.clone(), &outside, Aov::Color, pipeline).unwrap();
         renderer.set_shadow_camera(Some(inside.clone()));
         renderer.set_overlay(gpu, (!is_node).then_some(ShadowLines::Frusta)).unwrap();
         renderer.draw(gpu, &options(outside.clone())).unwrap().image.rgba8
