@@ -5,7 +5,7 @@
 //   vs_tiles      the tile in the middle of its box, or at the end of its pyramid (4), and the part inside its border (4)
 #import shadowgraph::view::view
 #import shadowgraph::shadows::types::{ShadowView, NOT_A_CASCADE}
-#import shadowgraph::shadows::colors::cascade_tint
+#import shadowgraph::shadows::colors::{cascade_tint, to_linear}
 
 // The camera that the shadows are fitted to. Right and up reach from the centre of the image to its edge: at a view depth of 1 m, or
 // everywhere if it is orthographic.
@@ -201,6 +201,12 @@ fn vs_tiles(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instanc
 }
 
 @fragment
-fn fs_line(in: LineVertex) -> @location(0) vec4f {
+fn fs_encoded(in: LineVertex) -> @location(0) vec4f {
     return vec4f(in.color, 1.0);
+}
+
+// For a target that encodes what is written.
+@fragment
+fn fs_linear(in: LineVertex) -> @location(0) vec4f {
+    return vec4f(to_linear(in.color), 1.0);
 }

@@ -97,7 +97,8 @@ impl Studio {
             .flat_map(|panel| &panel.arguments)
             .map(String::as_str)
             .collect();
-        let mut command = child::cargo(&["test", "--workspace", "--test", "pixels", "--"]);
+        let mut command =
+            child::cargo(&["test", "--workspace", "--test", "pixels", "--test", "programs", "--"]);
         self.start(command.args(names).env("SHADOWGRAPH_IMAGES", &self.work))
     }
 

@@ -237,7 +237,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Returns the lines that are drawn over images.
+    /// Returns the lines over images.
     pub fn overlay(&self) -> Option<ShadowLines> {
         self.overlay.as_ref().map(ShadowLinesPass::kind)
     }

@@ -162,6 +162,7 @@ fn pipeline(
     kind: ShadowLines,
     format: Format,
 ) -> wgpu::RenderPipeline {
+    let fragment = if format == Format::Rgba8UnormSrgb { "fs_linear" } else { "fs_encoded" };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shadow lines"),
         layout: Some(layout),
@@ -176,7 +177,7 @@ fn pipeline(
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module: shader,
-            entry_point: Some("fs_line"),
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
             targets: &[Some(format.into())],
         }),

@@ -1,4 +1,4 @@
-// The colours of cascades in debug images.
+// The colours of cascades in debug images, display-encoded (sRGB).
 #define_import_path shadowgraph::shadows::colors
 
 // That of a tile of the atlas is the last one.
@@ -14,4 +14,8 @@ fn cascade_tint(cascade: u32) -> vec3f {
         case 7u: { return vec3f(1.0, 0.5, 0.8); }
         default: { return vec3f(0.85, 0.5, 0.95); }
     }
+}
+
+fn to_linear(encoded: vec3f) -> vec3f {
+    return select(pow((encoded + 0.055) / 1.055, vec3f(2.4)), encoded / 12.92, encoded <= vec3f(0.04045));
 }

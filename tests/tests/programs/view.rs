@@ -466,3 +466,36 @@ fn drivers() -> bool {
     let choice = shadowgraph::options::AdapterChoice::Cpu;
     shadowgraph::Gpu::open(&choice).is_ok()
 }
+
+#[test]
+fn row_43_the_end_of_a_cascade_is_dragged_in_the_window() {
+    let Some(display) = Display::open() else { return };
+    let arguments = ["--aov", "cascade", "--camera", "courtyard"];
+    let mut view = View::start_with_size(&display, [1000, 600], &arguments);
+    let scene = |view: &View| image::imageops::crop_imm(&view.screenshot(), 0, 0, 580, 600).to_image();
+    let empty = Screenshot::new(580, 600);
+    view.until("the scene", |view| changed(&empty, &scene(view)) > 0.5);
+    view.tap(F2);
+    std::thread::sleep(Duration::from_secs(4));
+    let before = scene(&view);
+    // The end of the first cascade.
+    view.point([689, 150]);
+    view.button(BUTTON_PRESS_EVENT);
+    std::thread::sleep(Duration::from_secs(2));
+    view.point([705, 150]);
+    view.until("a longer first cascade", |view| changed(&before, &scene(view)) > 0.05);
+    view.button(BUTTON_RELEASE_EVENT);
+    // The settings of the first light, below the names of the pages.
+    for at in [[630, 86], [650, 108], [646, 131]] {
+        view.point(at);
+        for kind in [BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT] {
+            std::thread::sleep(Duration::from_millis(700));
+            view.button(kind);
+        }
+        std::thread::sleep(Duration::from_secs(2));
+    }
+    let window = view.keep("15 splits and lights");
+    if let Some(dir) = shadowgraph_tests::images() {
+        window.save(dir.join("splits_and_lights.png")).unwrap();
+    }
+}

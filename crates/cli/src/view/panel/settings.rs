@@ -25,13 +25,13 @@ impl SettingsPanel {
             }
         });
         ui.label(&stage.note);
+        CollapsingHeader::new("Lights").show(ui, |ui| lights::show(ui, stage));
         CollapsingHeader::new("Shadow maps").default_open(true).show(ui, |ui| {
             ui.label("ends of the cascades, metres").on_hover_text("Drag a border to move it");
             let (near_m, far_m) = (stage.fly.camera().near(), f64::from(stage.settings.distance_m));
             split_bar::show(ui, &mut stage.settings.cascades, near_m, far_m);
             edit_shared(ui, stage);
         });
-        CollapsingHeader::new("Lights").show(ui, |ui| lights::show(ui, stage));
         let names: Vec<&'static str> = stage.registry.techniques.with_settings().collect();
         for name in names {
             let used = stage.technique.name().split('+').any(|part| part == name);

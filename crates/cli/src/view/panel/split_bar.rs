@@ -12,14 +12,14 @@ const SHORTEST: f64 = 1e-3;
 
 /// The colours of cascades in images.
 const COLORS: [Color32; 8] = [
-    Color32::from_rgb(255, 160, 149),
-    Color32::from_rgb(169, 243, 160),
-    Color32::from_rgb(160, 196, 255),
-    Color32::from_rgb(255, 237, 149),
-    Color32::from_rgb(149, 243, 243),
-    Color32::from_rgb(255, 203, 137),
-    Color32::from_rgb(203, 203, 203),
-    Color32::from_rgb(255, 188, 231),
+    Color32::from_rgb(255, 89, 77),
+    Color32::from_rgb(102, 230, 89),
+    Color32::from_rgb(89, 140, 255),
+    Color32::from_rgb(255, 217, 77),
+    Color32::from_rgb(77, 230, 230),
+    Color32::from_rgb(255, 153, 64),
+    Color32::from_rgb(153, 153, 153),
+    Color32::from_rgb(255, 128, 204),
 ];
 
 /// The scale of the bar: nearby metres are wider.
@@ -136,7 +136,8 @@ mod tests {
                 let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
                 input.events.push(egui::Event::PointerButton { pos, button, pressed, modifiers });
             }
-            let _output = context.run_ui(input, |ui| changed |= show(ui, cascades, 0.0, 100.0));
+            let mut output = context.run_ui(input, |ui| changed |= show(ui, cascades, 0.0, 100.0));
+            output.textures_delta.clear();
         }
         changed
     }
@@ -149,8 +150,9 @@ mod tests {
         };
         // 25 m are half-way along the bar.
         assert!(drag(&mut cascades, &[0.5, 0.5, 0.55, 0.6, 0.6]));
-        let SplitScheme::Metres(ends_m) = &cascades.split else { panic!("{:?}", cascades.split) };
+        let ends_m = split_distances(&cascades.split, 4, 0.0, 100.0);
         assert!((ends_m[1] - 36.0).abs() < 1.0 && (ends_m[0], ends_m[2]) == (10.0, 50.0), "{ends_m:?}");
+        assert!(matches!(cascades.split, SplitScheme::Metres(_)));
         let before = cascades.clone();
         assert!(!drag(&mut cascades, &[0.2, 0.2, 0.25, 0.25]), "no border is there");
         assert_eq!(cascades, before);
