@@ -312,7 +312,7 @@ mod controls {
     pub(super) const AZIMUTH: [i16; 2] = [27, 200];
     pub(super) const ELEVATION: [i16; 2] = [27, 223];
     /// The time of the animations.
-    pub(super) const TIME: [i16; 2] = [9, 315];
+    pub(super) const TIME: [i16; 2] = [9, 338];
     // While the sun is placed by time.
     pub(super) const HOUR: [i16; 2] = [27, 200];
     pub(super) const DAY: [i16; 2] = [27, 223];
