@@ -5,7 +5,7 @@
 #import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::surface::unpack_normal
-#import shadowgraph::shadows::layers::MaskLayers
+#import shadowgraph::shadows::layers::{MaskLayers, COLORED, channel_visibility, with_visibility}
 #import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, find}
 
 // The settings of the modifier `contact`.
@@ -97,10 +97,16 @@ fn cs_contact(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, id.xy, 0);
     let normal = unpack_normal(surface.w);
-    var visibility = textureLoad(input_mask, id.xy, id.z, 0).rgb;
-    if any(normal != vec3f(0.0)) && any(visibility > vec3f(0.0)) {
-        let light = layers.light[id.z / 4u][id.z % 4u];
-        visibility = min(visibility, vec3f(contact_visibility(surface.xyz, normal, light, id.xy)));
+    var texel = textureLoad(input_mask, id.xy, id.z, 0);
+    if any(normal != vec3f(0.0)) {
+        let lights = layers.lights[id.z];
+        for (var channel = 0u; channel < 4u && lights[channel] < COLORED; channel++) {
+            let visibility = channel_visibility(texel, lights, channel);
+            if any(visibility > vec3f(0.0)) {
+                let contact = contact_visibility(surface.xyz, normal, lights[channel], id.xy);
+                texel = with_visibility(texel, lights, channel, min(visibility, vec3f(contact)));
+            }
+        }
     }
-    textureStore(mask, id.xy, id.z, vec4f(visibility, 1.0));
+    textureStore(mask, id.xy, id.z, texel);
 }

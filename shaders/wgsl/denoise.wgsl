@@ -12,6 +12,11 @@
 // The distance from a surface's plane, as a fraction of its view depth, above which samples belong to another surface.
 const MAX_PLANE_DISTANCE: f32 = 0.002;
 
+// The channels within a penumbra.
+fn is_edge(visibility: vec4f) -> vec4<bool> {
+    return (visibility > vec4f(0.0)) & (visibility < vec4f(1.0));
+}
+
 @compute @workgroup_size(8, 8)
 fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
     let size = vec2i(textureDimensions(surfaces));
@@ -21,9 +26,10 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
     }
     let surface = textureLoad(surfaces, pixel, 0);
     let normal = unpack_normal(surface.w);
-    var sum = textureLoad(input_mask, pixel, id.z, 0).rgb;
-    var count = 1.0;
-    if any(normal != vec3f(0.0)) && any(sum > vec3f(0.0)) && any(sum < vec3f(1.0)) {
+    let center = textureLoad(input_mask, pixel, id.z, 0);
+    var sum = center;
+    var count = vec4f(1.0);
+    if any(normal != vec3f(0.0)) && any(is_edge(center)) {
         let max_distance = MAX_PLANE_DISTANCE * view_depth_of(surface.xyz);
         let radius = i32(settings.denoise_px);
         for (var y = -radius; y <= radius; y++) {
@@ -33,14 +39,14 @@ fn cs_denoise(@builtin(global_invocation_id) id: vec3u) {
                     continue;
                 }
                 let other = textureLoad(surfaces, at, 0);
-                let visibility = textureLoad(input_mask, at, id.z, 0).rgb;
-                let is_edge = any(visibility > vec3f(0.0)) && any(visibility < vec3f(1.0));
-                if is_edge && other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < max_distance {
-                    sum += visibility;
-                    count += 1.0;
+                if other.w >= 1.0 && abs(dot(other.xyz - surface.xyz, normal)) < max_distance {
+                    let visibility = textureLoad(input_mask, at, id.z, 0);
+                    let counted = vec4f(is_edge(visibility));
+                    sum += counted * visibility;
+                    count += counted;
                 }
             }
         }
     }
-    textureStore(mask, id.xy, id.z, vec4f(sum / count, 1.0));
+    textureStore(mask, id.xy, id.z, select(center, sum / count, is_edge(center)));
 }

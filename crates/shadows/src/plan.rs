@@ -1,6 +1,8 @@
 //! The plan of a frame's shadows: the maps, their tiles, the casters of each tile, and the structs
 //! that shaders read.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 use shadowgraph_scene::{Camera, Light};
 
@@ -149,6 +151,15 @@ impl ShadowPlan {
     pub fn main_light(&self) -> Option<u32> {
         let mut tiles = self.cascades.iter().chain(&self.atlas).flat_map(|map| &map.tiles);
         tiles.next().map(|tile| tile.light)
+    }
+
+    /// Returns the lights with tiles that translucent casters are drawn into, ascending.
+    #[must_use]
+    pub fn colored_lights(&self) -> Vec<u32> {
+        let tiles = self.cascades.iter().chain(&self.atlas).flat_map(|map| &map.tiles);
+        let colored: BTreeSet<u32> =
+            tiles.filter(|tile| !tile.tints.is_empty()).map(|tile| tile.light).collect();
+        colored.into_iter().collect()
     }
 
     /// Returns the smallest variant of `pcf`'s WGSL that this frame can use.

@@ -2,18 +2,17 @@
 // technique.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::Receiver
-#import shadowgraph::shadows::layers::{MaskLayers, mask_layer, UNMASKED}
+#import shadowgraph::shadows::layers::{MaskLayers, mask_slot, slot_layer, slot_visibility, UNMASKED}
 
-// One layer per light.
 @group(1) @binding(MASK) var shadow_mask: texture_2d_array<f32>;
 @group(1) @binding(LAYERS) var<uniform> mask_layers: MaskLayers;
 
 fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
-    let layer = mask_layer(mask_layers, light);
-    if layer == UNMASKED {
+    let slot = mask_slot(mask_layers, light);
+    if slot == UNMASKED {
         return vec3f(1.0);
     }
-    return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;
+    return slot_visibility(textureLoad(shadow_mask, vec2u(receiver.pixel), slot_layer(slot), 0), slot);
 }
 
 fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {

@@ -2,19 +2,18 @@
 // inner technique.
 #define_import_path shadowgraph::technique
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN, RECEIVER_COARSER}
-#import shadowgraph::shadows::layers::{MaskLayers, mask_layer, UNMASKED}
+#import shadowgraph::shadows::layers::{MaskLayers, mask_slot, slot_layer, slot_visibility, UNMASKED}
 #import shadowgraph::inner
 
-// One layer per light.
 @group(1) @binding(MASK) var shadow_mask: texture_2d_array<f32>;
 @group(1) @binding(LAYERS) var<uniform> mask_layers: MaskLayers;
 
 fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     let off_mask = RECEIVER_TRANSPARENT | RECEIVER_OFF_SCREEN | RECEIVER_COARSER;
     if (receiver.flags & off_mask) == 0u {
-        let layer = mask_layer(mask_layers, light);
-        if layer != UNMASKED {
-            return textureLoad(shadow_mask, vec2u(receiver.pixel), layer, 0).rgb;
+        let slot = mask_slot(mask_layers, light);
+        if slot != UNMASKED {
+            return slot_visibility(textureLoad(shadow_mask, vec2u(receiver.pixel), slot_layer(slot), 0), slot);
         }
     }
     return inner::shadow_visibility(light, receiver);

@@ -11,11 +11,11 @@ struct Traced {
     sun_tangent: f32,
     // The largest coordinate of the rays' scene.
     max_coordinate: f32,
-    // The layer of each light in the screen mask, TRACED_UNMASKED, or TRACED_LIT.
-    layers: array<u32>,
+    // The place of each light in the screen mask, TRACED_UNMASKED, or TRACED_LIT.
+    slots: array<u32>,
 }
 
-// For lights with rays but without a layer: those beyond the most important ones.
+// For lights with rays but without a place: those beyond the first ones.
 const TRACED_UNMASKED: u32 = 0xfffffffeu;
 // For lights that cast no shadows.
 const TRACED_LIT: u32 = 0xffffffffu;

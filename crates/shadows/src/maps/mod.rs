@@ -67,6 +67,8 @@ pub struct DrawnMaps {
     pub variant: PcfVariant,
     /// See [`ShadowPlan::main_light`]; 0 if there is none.
     pub main_light: u32,
+    /// See [`ShadowPlan::colored_lights`].
+    pub colored_lights: Vec<u32>,
     /// The lights with `casts_shadow` that have no shadows, and why.
     pub unshadowed: Vec<Unshadowed>,
 }
@@ -147,7 +149,8 @@ impl ShadowMaps {
         };
         let cascades = self.map(frame, CASCADES, plan.cascades.as_ref(), source)?;
         let atlas = self.map(frame, ATLAS, plan.atlas.as_ref(), source)?;
-        Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, unshadowed: plan.unshadowed })
+        let (colored_lights, unshadowed) = (plan.colored_lights(), plan.unshadowed);
+        Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, colored_lights, unshadowed })
     }
 
     /// Plans a frame that follows the previous one of the same view.
@@ -184,6 +187,7 @@ impl DrawnMaps {
             debug_light: self.main_light,
             debug: vec![("cascades", self.cascades.texture), ("atlas", self.atlas.texture)],
             map_buffers: Some([self.views, self.lights]),
+            colored_lights: self.colored_lights,
             unshadowed: self.unshadowed,
             ..ShadowOutputs::default()
         }

@@ -1,9 +1,8 @@
 //! Validation of a technique's output against its declarations.
 
 use shadowgraph_core::{Frame, Texture, TextureDesc};
-use shadowgraph_scene::Light;
 
-use super::outputs::{MASK_FORMAT, masked_lights};
+use super::mask_layers::{MASK_FORMAT, MaskLayers};
 use super::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use crate::error::Error;
 use crate::plan::ShadowInputs;
@@ -37,7 +36,8 @@ pub(crate) fn add_checked<'f>(
     let failed = |reason: String| Error::Technique { technique: technique.name().to_owned(), reason };
     check_bindings(frame, &outputs.bindings, &technique.binding_types()).map_err(failed)?;
     if let Some(mask) = &outputs.mask {
-        check_mask(frame, mask, inputs.lights, buffers).map_err(failed)?;
+        let layers = MaskLayers::new(inputs.lights, &outputs.colored_lights);
+        check_mask(frame, mask, &layers, buffers).map_err(failed)?;
     }
     let (variant, count) = (outputs.variant, technique.variant_count());
     if variant >= count {
@@ -132,14 +132,14 @@ impl Actual {
 fn check_mask(
     frame: &Frame<'_>,
     mask: &Texture,
-    lights: &[Light],
+    layers: &MaskLayers,
     buffers: Option<&SurfaceBuffers>,
 ) -> Result<(), String> {
     let (Some(buffers), Some(desc)) = (buffers, frame.texture_desc(mask)) else {
         return Err("`add_to` returned a screen mask without surface buffers".into());
     };
     let [width, height] = buffers.size_px;
-    let expected = TextureDesc::d2(width, height, MASK_FORMAT).layers(masked_lights(lights).len() as u32);
+    let expected = TextureDesc::d2(width, height, MASK_FORMAT).layers(layers.count());
     if desc == expected {
         return Ok(());
     }

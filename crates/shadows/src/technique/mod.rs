@@ -3,6 +3,7 @@
 mod check;
 mod gpu_struct;
 mod layout;
+mod mask_layers;
 mod outputs;
 
 pub(crate) use check::add_checked;
@@ -10,8 +11,9 @@ pub use check::add_shadows;
 pub use gpu_struct::{GpuData, GpuField, GpuStruct};
 pub(crate) use layout::layout;
 pub use layout::{binding, shadow_layout};
-pub(crate) use outputs::MASK_FORMAT;
-pub use outputs::{MAX_MASK_LAYERS, ShadowBinding, ShadowOutputs, ShadowTokens, masked_lights};
+pub(crate) use mask_layers::MASK_FORMAT;
+pub use mask_layers::{MAX_MASK_LIGHTS, MaskLayers};
+pub use outputs::{ShadowBinding, ShadowOutputs, ShadowTokens};
 
 use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_shaders::ModuleSource;

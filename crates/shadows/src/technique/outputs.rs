@@ -1,8 +1,7 @@
-//! The output of a technique, and the shape of a screen mask.
+//! The output of a technique.
 
-use shadowgraph_core::{Bind, Error as GraphError, Format, Pass, Resources, ShaderPass};
+use shadowgraph_core::{Bind, Error as GraphError, Pass, Resources, ShaderPass};
 use shadowgraph_core::{Buffer, BufferToken, Texture, TextureToken, Uniform};
-use shadowgraph_scene::Light;
 
 use crate::select::Unshadowed;
 
@@ -16,9 +15,11 @@ pub struct ShadowOutputs<'f> {
     pub debug_light: u32,
     /// Bind group 1: the index in the list is the binding number.
     pub bindings: Vec<ShadowBinding<'f>>,
-    /// The screen mask, if there is one: `Rgba8Unorm`, as large as the image, with a layer for each of the [masked
-    /// lights](crate::masked_lights): the visibility of the light from each pixel's surface.
+    /// The screen mask, if there is one: `Rgba8Unorm`, as large as the image, with the [layers](crate::MaskLayers) of the scene's lights and
+    /// `colored_lights`: the visibility of each light from each pixel's surface.
     pub mask: Option<Texture>,
+    /// The lights whose visibility may differ between red, green and blue, ascending; those of others can share a layer of a screen mask.
+    pub colored_lights: Vec<u32>,
     /// Textures for debugging, by name.
     pub debug: Vec<(&'static str, Texture)>,
     /// The buffers of the [`ShadowView`](crate::ShadowView)s and [`ShadowLight`](crate::ShadowLight)s of its maps; `None` for a
@@ -97,18 +98,4 @@ impl ShadowTokens<'_> {
         let entries: Vec<_> = self.0.iter().map(Token::bind).collect();
         resources.bind_group(layout, &entries)
     }
-}
-
-/// The format of a screen mask: visibility in red, green and blue.
-pub(crate) const MASK_FORMAT: Format = Format::Rgba8Unorm;
-
-/// Largest number of lights with a layer in a screen mask; shadows of further lights are evaluated at each lookup.
-pub const MAX_MASK_LAYERS: usize = 16;
-
-/// Returns the lights that have a layer, in the order of the layers: the first [`MAX_MASK_LAYERS`] that cast shadows, in the
-/// scene's order (directional lights come first).
-#[must_use]
-pub fn masked_lights(lights: &[Light]) -> Vec<u32> {
-    let casting = (0u32..).zip(lights).filter(|(_, light)| light.casts_shadow);
-    casting.map(|(index, _)| index).take(MAX_MASK_LAYERS).collect()
 }

@@ -1,16 +1,15 @@
 //! Passes over a screen mask.
 
 use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture, TextureDesc, Uniform};
-use shadowgraph_scene::Light;
 use shadowgraph_shaders::compose;
 
 use super::{MASK, TARGET, WORKGROUP_PX};
 use crate::error::Error;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{GpuStruct, MASK_FORMAT, MAX_MASK_LAYERS, SurfaceBuffers, layout, masked_lights};
+use crate::technique::{GpuStruct, MASK_FORMAT, MAX_MASK_LIGHTS, MaskLayers, SurfaceBuffers, layout};
 use crate::techniques::compute::{dispatch, pipeline, shader};
 
-/// The layers of a mask.
+/// The layers of a mask on the GPU.
 #[derive(Clone, Copy)]
 pub(in crate::techniques) struct Layers {
     /// The uniform block `MaskLayers` of `layers.wgsl`.
@@ -20,16 +19,24 @@ pub(in crate::techniques) struct Layers {
 }
 
 impl Layers {
-    /// Creates the layers of the [masked lights](masked_lights).
-    pub(in crate::techniques) fn new(frame: &mut Frame<'_>, lights: &[Light]) -> Self {
-        let lights = masked_lights(lights);
-        let mut light_of_layer = [u32::MAX; MAX_MASK_LAYERS];
-        light_of_layer[..lights.len()].copy_from_slice(&lights);
-        let count = lights.len() as u32;
-        let block = [bytemuck::bytes_of(&[count, 0, 0, 0]), bytemuck::bytes_of(&light_of_layer)].concat();
+    /// Uploads the layers.
+    pub(in crate::techniques) fn new(frame: &mut Frame<'_>, layers: &MaskLayers) -> Self {
+        let mut lights = [[NO_LIGHT; 4]; MAX_MASK_LIGHTS];
+        for (channels, layer) in lights.iter_mut().zip(layers.iter()) {
+            channels[..layer.len()].copy_from_slice(layer);
+            if let [_] = layer {
+                channels[1] = COLORED;
+            }
+        }
+        let count = layers.count();
+        let block = [bytemuck::bytes_of(&[count, 0, 0, 0]), bytemuck::cast_slice(&lights)].concat();
         Self { block: frame.uniform(&block), count }
     }
 }
+
+/// `NO_LIGHT` and `COLORED` of `layers.wgsl`.
+const NO_LIGHT: u32 = u32::MAX;
+const COLORED: u32 = u32::MAX - 1;
 
 /// A compute pass that computes one screen mask from another. It also reads the surface buffers and a separate
 /// uniform block.

@@ -19,9 +19,9 @@ use crate::plan::ShadowInputs;
 use crate::rays::{GpuRayScene, SurfaceKinds};
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
-use crate::technique::binding::{FLOAT_MAP, STORAGE};
+use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{GpuData, GpuStruct, ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::technique::{layout, masked_lights};
+use crate::technique::{MaskLayers, layout};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;
@@ -29,12 +29,16 @@ const UNMASKED: u32 = u32::MAX - 1;
 /// `TRACED_LIT` of `traced.wgsl`.
 const LIT: u32 = u32::MAX;
 
+/// `SLOTS_PER_LAYER` and `COLORED_SLOT` of `layers.wgsl`.
+const SLOTS_PER_LAYER: u32 = 8;
+const COLORED_SLOT: u32 = 4;
+
 /// Shadows that are exact at any distance: with one ray to the centre of each light, other techniques are measured against it
 /// ([`RaytracedSettings::hard`]); with several rays over the light's disc, edges are soft. Noise can be averaged over a few pixels of
 /// the same surface. No other settings affect it.
 ///
-/// A compute pass traces the visible surfaces into a screen mask with a layer for each of the first
-/// [`MAX_MASK_LAYERS`](crate::MAX_MASK_LAYERS) lights; blended surfaces and all other points are traced in the pass that shades them.
+/// A compute pass traces the visible surfaces into a screen mask for the first
+/// [`MAX_MASK_LIGHTS`](crate::MAX_MASK_LIGHTS) lights; blended surfaces and all other points are traced in the pass that shades them.
 pub struct Raytraced {
     trace: Trace,
     denoise: MaskPass,
@@ -94,10 +98,11 @@ impl Raytraced {
             let Trace { view_layout, rays_layout, screen_layout, .. } = &self.trace;
             let mut bound: Vec<_> = rays.buffers().iter().map(Bind::ExternalBuffer).collect();
             bound.push(Bind::Buffer(traced));
+            let screen = [Bind::Texture(surfaces), Bind::TextureArray(target), Bind::Uniform(layers.block)];
             let groups = [
                 ctx.bind_group(view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
                 ctx.bind_group(rays_layout, &bound)?,
-                ctx.bind_group(screen_layout, &[Bind::Texture(surfaces), Bind::TextureArray(target)])?,
+                ctx.bind_group(screen_layout, &screen)?,
             ];
             dispatch(&mut ctx.pass, &pipeline, &groups, workgroups(size_px, layers));
             Ok(())
@@ -112,9 +117,9 @@ impl Raytraced {
         buffers: &SurfaceBuffers,
         rays: &'f GpuRayScene,
         traced: &Buffer,
-        (lights, settings): (&[Light], &RaytracedSettings),
+        (layers, settings): (&MaskLayers, &RaytracedSettings),
     ) -> Result<Option<Texture>, Error> {
-        let layers = Layers::new(frame, lights);
+        let layers = Layers::new(frame, layers);
         if layers.count == 0 {
             return Ok(None);
         }
@@ -180,18 +185,22 @@ impl ShadowTechnique for Raytraced {
         let buffers =
             buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
         let settings: RaytracedSettings = inputs.settings.techniques.get()?;
-        let (rays, layers) = (self.rays(inputs)?, mask_layers(inputs.lights));
+        let rays = self.rays(inputs)?;
+        let colored_lights =
+            if rays.surface_kinds().tints { (0..inputs.lights.len() as u32).collect() } else { Vec::new() };
+        let layers = MaskLayers::new(inputs.lights, &colored_lights);
+        let slots = mask_slots(inputs.lights, &layers);
         frame.node("shadows", |frame| {
             let traced = frame
-                .upload_buffer("traced lights", traced_bytes(rays.max_coordinate_m(), &settings, &layers));
-            let mask = self.mask(frame, buffers, rays, &traced, (inputs.lights, &settings))?;
+                .upload_buffer("traced lights", traced_bytes(rays.max_coordinate_m(), &settings, &slots));
+            let mask = self.mask(frame, buffers, rays, &traced, (&layers, &settings))?;
             let bound =
                 mask.clone().unwrap_or_else(|| frame.import_texture("no shadow mask", &self.no_mask, true));
             let mut bindings: Vec<_> = rays.buffers().iter().map(ShadowBinding::ExternalBuffer).collect();
             bindings.push(ShadowBinding::Buffer(traced));
             bindings.push(ShadowBinding::TextureArray(bound.clone()));
             let (debug, variant) = (vec![("shadow mask", bound)], variant(rays));
-            Ok(ShadowOutputs { bindings, mask, debug, variant, ..ShadowOutputs::default() })
+            Ok(ShadowOutputs { bindings, mask, debug, variant, colored_lights, ..ShadowOutputs::default() })
         })
     }
 }
@@ -228,22 +237,25 @@ fn settings_struct() -> GpuStruct {
     GpuStruct::new::<RaytracedSettings>("RaytracedSettings")
 }
 
-/// Returns the layer of each light of the scene, or [`UNMASKED`], or [`LIT`].
-fn mask_layers(lights: &[Light]) -> Vec<u32> {
-    let without_layer = |light: &Light| if light.casts_shadow { UNMASKED } else { LIT };
-    let mut layers: Vec<u32> = lights.iter().map(without_layer).collect();
-    for (layer, light) in (0..).zip(masked_lights(lights)) {
-        layers[light as usize] = layer;
+/// Returns the place of each light of the scene in the mask, as `layers.wgsl` has it, or [`UNMASKED`], or [`LIT`].
+fn mask_slots(lights: &[Light], layers: &MaskLayers) -> Vec<u32> {
+    let without_slot = |light: &Light| if light.casts_shadow { UNMASKED } else { LIT };
+    let mut slots: Vec<u32> = lights.iter().map(without_slot).collect();
+    for (layer, lights) in (0u32..).zip(layers.iter()) {
+        let first = if lights.len() == 1 { COLORED_SLOT } else { 0 };
+        for (channel, &light) in (first..).zip(lights) {
+            slots[light as usize] = layer * SLOTS_PER_LAYER + channel;
+        }
     }
-    layers
+    slots
 }
 
 /// Returns the bytes of the struct `Traced` of `traced.wgsl`.
-fn traced_bytes(max_coordinate_m: f32, settings: &RaytracedSettings, layers: &[u32]) -> Vec<u8> {
+fn traced_bytes(max_coordinate_m: f32, settings: &RaytracedSettings, slots: &[u32]) -> Vec<u8> {
     let none = [LIT];
-    let layers = if layers.is_empty() { &none } else { layers };
+    let slots = if slots.is_empty() { &none } else { slots };
     let frame = [settings.sun_radius_rad.tan(), max_coordinate_m];
-    [&settings.bytes(), bytemuck::cast_slice(&frame), bytemuck::cast_slice(layers)].concat()
+    [&settings.bytes(), bytemuck::cast_slice(&frame), bytemuck::cast_slice(slots)].concat()
 }
 
 impl Trace {
@@ -252,7 +264,7 @@ impl Trace {
             device: device.clone(),
             view_layout: layout(device, "view", &[STORAGE; 2]),
             rays_layout: layout(device, "rays", &[STORAGE; 6]),
-            screen_layout: layout(device, "screen", &[FLOAT_MAP, TARGET]),
+            screen_layout: layout(device, "screen", &[FLOAT_MAP, TARGET, UNIFORM]),
             pipelines: Mutex::default(),
         };
         // Reports composition errors now, not in some frame.
@@ -286,12 +298,13 @@ mod tests {
     }
 
     #[test]
-    fn lights_that_cast_shadows_get_layers_up_to_the_limit() {
+    fn lights_that_cast_shadows_have_a_place_in_the_mask_up_to_the_limit() {
         let mut lights = vec![light(true), light(false)];
         lights.extend((0..16).map(|_| light(true)));
-        let layers = mask_layers(&lights);
-        assert_eq!(layers[..3], [0, LIT, 1]);
-        assert_eq!(layers[16..], [15, UNMASKED]);
+        let slots = |colored: &[u32]| mask_slots(&lights, &MaskLayers::new(&lights, colored));
+        assert_eq!(slots(&[])[..6], [0, LIT, 1, 2, 3, 8]);
+        assert_eq!(slots(&[])[16..], [27, UNMASKED]);
+        assert_eq!(slots(&[0])[..4], [COLORED_SLOT, LIT, 8, 9]);
     }
 
     #[test]

@@ -6,6 +6,8 @@ mod settings;
 
 pub use settings::{ContactSettings, ScreenSettings};
 
+use std::f32::consts::FRAC_1_SQRT_2;
+
 use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_shaders::{MASK_ONLY, ModuleSource, SCREEN};
 
@@ -16,7 +18,7 @@ use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
 use crate::settings::{NamedSettings, ShadowSettings};
 use crate::technique::binding::UNIFORM;
-use crate::technique::{GpuData, GpuStruct};
+use crate::technique::{GpuData, GpuStruct, MaskLayers};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};
 use crate::views::{ShadowLight, ShadowView};
 use evaluate::EvaluatePass;
@@ -32,6 +34,7 @@ pub struct ScreenShadows {
     inner: Box<dyn ShadowTechnique>,
     evaluate: EvaluatePass,
     blur: MaskPass,
+    smooth: MaskPass,
     contact: Option<MaskPass>,
     no_mask: wgpu::Texture,
 }
@@ -47,6 +50,7 @@ impl ScreenShadows {
             name: format!("{}+{}", inner.name(), ScreenSettings::NAME),
             evaluate: EvaluatePass::new(device, inner.as_ref())?,
             blur: MaskPass::new(device, "blur", ("blur.wgsl", "cs_blur"), &settings, false)?,
+            smooth: MaskPass::new(device, "smooth blur", ("blur.wgsl", "cs_smooth"), &settings, false)?,
             contact: None,
             no_mask: no_mask(device),
             inner,
@@ -86,8 +90,10 @@ impl ScreenShadows {
     ) -> Result<Texture, Error> {
         let blur: ScreenSettings = settings.techniques.get()?;
         if blur.blur_m > 0.0 {
-            let own = frame.uniform(&blur.bytes());
-            mask = self.blur.add_to(frame, buffers, &mask, layers, own, None);
+            let own = frame.uniform(&narrowed(blur).bytes());
+            for pass in [&self.blur, &self.blur, &self.smooth] {
+                mask = pass.add_to(frame, buffers, &mask, layers, own, None);
+            }
         }
         if let Some(contact) = &self.contact {
             let settings: ContactSettings = settings.techniques.get()?;
@@ -159,7 +165,8 @@ impl ShadowTechnique for ScreenShadows {
         let buffers = buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name.clone() })?;
         let inner = self.inner.as_ref();
         let mut outputs = add_checked(inner, frame, inputs, requirements, Some(buffers))?;
-        let layers = Layers::new(frame, inputs.lights);
+        let mask_layers = MaskLayers::new(inputs.lights, &outputs.colored_lights);
+        let layers = Layers::new(frame, &mask_layers);
         outputs.mask = frame.node("screen-space shadows", |frame| {
             if layers.count == 0 {
                 return Ok(None);
@@ -178,11 +185,17 @@ impl ShadowTechnique for ScreenShadows {
             .extend([ShadowBinding::TextureArray(bound.clone()), ShadowBinding::Uniform(layers.block)]);
         outputs.debug.push(("shadow mask", bound));
         let casting = inputs.lights.iter().filter(|light| light.casts_shadow).count();
-        if casting == layers.count as usize && !buffers.has_blended {
+        if casting == mask_layers.light_count() && !buffers.has_blended {
             outputs.variant = self.mask_only();
         }
         Ok(outputs)
     }
+}
+
+/// Returns the settings of each of two blurs, one after the other, that together have the variance of one with the given settings.
+fn narrowed(blur: ScreenSettings) -> ScreenSettings {
+    let [blur_m, blur_max_px] = [blur.blur_m, blur.blur_max_px].map(|radius| radius * FRAC_1_SQRT_2);
+    ScreenSettings { blur_m, blur_max_px, ..blur }
 }
 
 /// Creates the buffers of views and lights of a technique without maps: a light without views.

@@ -10,8 +10,8 @@ declare_settings! {
         blur_m: f32 = 0.0, 0..=10, in "metres";
         /// Maximum radius of the blur on screen.
         blur_max_px: f32 = 8.0, 1..=32, in "pixels";
-        /// Difference of view depth above which two surfaces are not blurred into each other.
-        depth_threshold: f32 = 0.02, 0.0001..=1, in "fraction of the view depth";
+        /// Distance from the plane of a surface above which other points are not blurred into it.
+        plane_threshold: f32 = 0.01, 0.0001..=1, in "fraction of the view depth";
     }
 }
 
