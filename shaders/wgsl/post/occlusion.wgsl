@@ -2,7 +2,6 @@
 // the screen (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
 #import shadowgraph::view::view
 #import shadowgraph::ground_depth::{GroundPlane, surface_view_depth}
-#import shadowgraph::noise::pixel_noise
 
 struct Settings {
     // Radius within which occluders count, metres; 0: RADIUS_HEIGHTS of the image's height at the pixel's depth.
@@ -62,10 +61,12 @@ fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let image_height = 2.0 * depth_scale / projection_scale().y;
     let radius_m = select(settings.radius_m, image_height * RADIUS_HEIGHTS, settings.radius_m == 0.0);
     let radius_px = clamp(radius_m * projection_scale().x / depth_scale * view.size_px.x * 0.5, 1.0, MAX_RADIUS_PX);
-    let noise = pixel_noise(position.xy);
+    // Each block of four by four pixels has all rotations and offsets, which occlusion_blur.wgsl averages.
+    let rotation = f32((((texel.x + texel.y) & 3) << 2u) + (texel.x & 3)) / 16.0;
+    let step_offset = (f32((texel.y - texel.x) & 3) + 0.5) / 4.0;
     var visibility = 0.0;
     for (var slice = 0u; slice < settings.slices; slice++) {
-        let angle = (f32(slice) + noise) * PI / f32(settings.slices);
+        let angle = (f32(slice) + rotation) * PI / f32(settings.slices);
         let direction = vec2f(cos(angle), sin(angle));
         // The slice's plane contains this direction and the direction to the camera.
         let direction_view = vec3f(direction.x, -direction.y, 0.0);
@@ -77,7 +78,7 @@ fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let normal_angle = sign(dot(projected, tangent)) * acos(cos_normal);
         var horizons = vec2f(-1.0);
         for (var step = 0u; step < settings.steps; step++) {
-            let fraction = (f32(step) + fract(noise * 7.0 + 0.5)) / f32(settings.steps);
+            let fraction = (f32(step) + step_offset) / f32(settings.steps);
             let offset = direction * max(fraction * fraction * radius_px, f32(step) + 1.0);
             for (var end = 0; end < 2; end++) {
                 let other = position_at(texel + vec2i(round(offset * select(1.0, -1.0, end == 1))));

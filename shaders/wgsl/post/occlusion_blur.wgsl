@@ -1,4 +1,4 @@
-// Removes the noise of ambient occlusion: averages four by four pixels of the same surface.
+// Removes the noise of ambient occlusion: averages four by four pixels of the same plane, so each rotation counts once.
 #import shadowgraph::view::view
 #import shadowgraph::ground_depth::{GroundPlane, surface_view_depth}
 
@@ -6,20 +6,36 @@
 @group(0) @binding(2) var noisy: texture_2d<f32>;
 @group(0) @binding(3) var<uniform> ground: GroundPlane;
 
+// What is linear on the screen along a plane: the inverse of view depth, in an orthographic view the depth; 0 without a surface.
+fn linear_depth(texel: vec2i) -> f32 {
+    let inside = clamp(texel, vec2i(0), vec2i(view.size_px) - 1);
+    let depth = surface_view_depth(textureLoad(depth_texture, inside, 0), vec2f(inside) + 0.5, ground);
+    return select(1.0 / max(depth, 1e-6), depth, depth == 0.0 || view.orthographic == 1u);
+}
+
+// The change to the next pixel along an axis, on the plane of the nearer of both neighbours.
+fn slope(texel: vec2i, along: vec2i, center: f32) -> f32 {
+    let next = linear_depth(texel + along);
+    let previous = linear_depth(texel - along);
+    let is_next = next > 0.0 && (previous == 0.0 || abs(next - center) < abs(center - previous));
+    return select(select(0.0, center - previous, previous > 0.0), next - center, is_next);
+}
+
 @fragment
 fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let texel = vec2i(position.xy);
-    let center_depth = surface_view_depth(textureLoad(depth_texture, texel, 0), position.xy, ground);
-    if center_depth == 0.0 {
+    let center = linear_depth(texel);
+    if center == 0.0 {
         return vec4f(1.0);
     }
+    let slopes = vec2f(slope(texel, vec2i(1, 0), center), slope(texel, vec2i(0, 1), center));
     var sum = vec2f(0.0);
     for (var y = -2; y < 2; y++) {
         for (var x = -2; x < 2; x++) {
             let other = clamp(texel + vec2i(x, y), vec2i(0), vec2i(view.size_px) - 1);
-            let other_depth = surface_view_depth(textureLoad(depth_texture, other, 0), vec2f(other) + 0.5, ground);
-            let difference = abs(other_depth - center_depth) / center_depth;
-            let weight = select(0.0, saturate(1.0 - difference * 20.0) + 1e-3, other_depth > 0.0);
+            let depth = linear_depth(other);
+            let difference = abs(depth - center - dot(slopes, vec2f(other - texel))) / center;
+            let weight = select(0.0, saturate(1.5 - difference * 30.0) + 1e-3, depth > 0.0);
             sum += vec2f(textureLoad(noisy, other, 0).r, 1.0) * weight;
         }
     }
