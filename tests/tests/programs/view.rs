@@ -254,7 +254,7 @@ const F3: u32 = 0xffc0;
 #[test]
 fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     let Some(display) = Display::open() else { return };
-    let mut view = View::start(&display, &[]);
+    let mut view = View::start(&display, &["--animation", "none"]);
     let empty = Screenshot::new(640, 360);
     view.until("the scene", |view| lit(&view.screenshot()));
     let first = view.keep("1 scene");
@@ -408,7 +408,7 @@ fn an_error_in_a_saved_shader_is_shown_and_the_last_good_frame_stays() {
     let file = dir.path().join("tonemap.wgsl");
     let good = std::fs::read_to_string(repository().join("shaders/wgsl/tonemap.wgsl")).unwrap();
     std::fs::write(&file, &good).unwrap();
-    let mut view = View::start(&display, &["--shaders", dir.path().to_str().unwrap()]);
+    let mut view = View::start(&display, &["--animation", "none", "--shaders", dir.path().to_str().unwrap()]);
     view.until("the scene", |view| lit(&view.screenshot()));
     std::thread::sleep(Duration::from_secs(2));
     let before = view.screenshot();

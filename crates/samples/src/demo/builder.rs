@@ -5,7 +5,9 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 use super::textures;
 use crate::insert::{insert_image, insert_instance, insert_material};
 use crate::mesh_builder::MeshBuilder;
-use shadowgraph_scene::{AlphaMode, Image, ImageKey, Material, MaterialKey, MeshKey, Scene, TextureRef};
+use shadowgraph_scene::{
+    AlphaMode, Image, ImageKey, InstanceKey, Material, MaterialKey, MeshKey, Scene, TextureRef,
+};
 
 /// A scene under construction, and its materials by name.
 pub(super) struct SceneBuilder {
@@ -26,6 +28,7 @@ pub(super) struct Materials {
     pub(super) fence: MaterialKey,
     pub(super) iron: MaterialKey,
     pub(super) bronze: MaterialKey,
+    pub(super) gold: MaterialKey,
     pub(super) rope: MaterialKey,
     pub(super) lantern: MaterialKey,
 }
@@ -50,8 +53,8 @@ impl SceneBuilder {
         mesh: MeshKey,
         material: MaterialKey,
         world_from_local: DAffine3,
-    ) {
-        insert_instance(&mut self.scene, name, mesh, material, world_from_local);
+    ) -> InstanceKey {
+        insert_instance(&mut self.scene, name, mesh, material, world_from_local)
     }
 
     /// Adds a translated instance of a mesh.
@@ -61,8 +64,8 @@ impl SceneBuilder {
         mesh: MeshKey,
         material: MaterialKey,
         position: DVec3,
-    ) {
-        self.add_instance(name, mesh, material, DAffine3::from_translation(position));
+    ) -> InstanceKey {
+        self.add_instance(name, mesh, material, DAffine3::from_translation(position))
     }
 
     /// Adds a mesh and its only instance, without a transform.
@@ -105,6 +108,7 @@ impl Materials {
             }),
             iron: add(plain("iron", linear(0.05, 0.055, 0.06), 1.0, 0.5)),
             bronze: add(plain("bronze", linear(0.83, 0.58, 0.30), 1.0, 0.32)),
+            gold: add(plain("gold", linear(1.0, 0.72, 0.42), 1.0, 0.12)),
             rope: add(plain("rope", linear(0.62, 0.52, 0.36), 0.0, 0.95)),
             lantern: add(Material {
                 emissive: Vec3::splat(14_000.0),

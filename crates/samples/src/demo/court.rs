@@ -17,7 +17,7 @@ pub(super) const BACK_Z: f64 = -15.4;
 /// Width of a bay of the hall.
 pub(super) const HALL_BAY: f64 = 5.6;
 
-const STEPS: u32 = 6;
+const STEPS: u32 = 4;
 const HALL_WALL: ArchBay =
     ArchBay { width: HALL_BAY, radius: 2.35, height: 3.4, thickness: 0.7, segments: 32 };
 const HALL_COLUMN: f64 = 2.5;
@@ -64,7 +64,7 @@ fn low_walls(builder: &mut SceneBuilder) {
 /// Adds the steps up to the hall, between two blocks with vases.
 fn stairs(builder: &mut SceneBuilder) {
     const HALF_WIDTH: f64 = 5.6;
-    const TREAD: f64 = 0.36;
+    const TREAD: f64 = 0.5;
     let top = FRONT_Z + 0.55;
     let rise = FLOOR / f64::from(STEPS);
     let mut steps = MeshBuilder::default();

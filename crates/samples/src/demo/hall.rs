@@ -6,13 +6,17 @@ use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3};
 
 use super::builder::SceneBuilder;
 use super::court::{BACK_Z, FLOOR, FRONT_Z, HALL_BAY};
+use super::motion::Motion;
 use crate::mesh_builder::{MeshBuilder, box_on_ground, tapered_shaft};
-use crate::round::{bulge, lathe, ring, sphere};
+use crate::round::{bulge, lathe, ring, sphere, tube};
 use shadowgraph_scene::{Light, LightKind, MeshKey};
 
 const PEDESTAL: f64 = 0.95;
 /// Position of the figures between the hall's front and back.
 const FIGURE_Z: f64 = BACK_Z + 2.0;
+
+/// Length of the chains of the lanterns, metres.
+const CHAIN: f64 = 1.7;
 
 /// Adds figures, lanterns and spot lights.
 pub(super) fn build(builder: &mut SceneBuilder) {
@@ -33,30 +37,49 @@ pub(super) fn build(builder: &mut SceneBuilder) {
         let foot = DVec3::new(x, FLOOR, FIGURE_Z);
         builder.add_instance_at("pedestal", pedestal, builder.materials.stone, foot);
         let mesh = builder.add_mesh(name, shape);
-        builder.add_instance_at(name, mesh, materials[i], foot + DVec3::Y * PEDESTAL);
+        let foot_of_figure = foot + DVec3::Y * PEDESTAL;
+        let instance = builder.add_instance_at(name, mesh, materials[i], foot_of_figure);
+        if name == "rings" {
+            let node = builder.add_moving_node(name, foot_of_figure, DQuat::IDENTITY, Motion::Turn);
+            builder.attach_instance(node, instance);
+        }
         // From the upper right, so that the shadow on the back wall is to the left of its figure.
         let position = DVec3::new(x + 1.9, FLOOR + 3.7, FRONT_Z - 0.9);
         let target = foot + DVec3::new(-0.35, PEDESTAL + 0.4, 0.0);
-        spot(builder, lantern, color_name, color, position, target);
+        let swing = Motion::Swing { axis: DVec3::Z, angle: 0.09, swings: 5.0 - i as f64 };
+        spot(builder, lantern, (color_name, color), [position, target], swing);
     }
     vases(builder);
 }
 
-/// Adds a spot light and the model of its lantern, which is behind the tip of the light.
+/// Adds a spot light and the model of its lantern, which is behind the tip of the light and swings on a chain.
 fn spot(
     builder: &mut SceneBuilder,
-    lantern: [MeshKey; 2],
-    name: &str,
-    color: Vec3,
-    position: DVec3,
-    target: DVec3,
+    [housing, glass, chain]: [MeshKey; 3],
+    (name, color): (&str, Vec3),
+    [position, target]: [DVec3; 2],
+    swing: Motion,
 ) {
     let direction = (target - position).normalize();
     let rotation = DQuat::from_rotation_arc(DVec3::Y, direction);
-    let transform = DAffine3::from_rotation_translation(rotation, position - direction * 0.04);
-    builder.add_instance("lantern", lantern[0], builder.materials.iron, transform);
-    builder.add_instance("lantern glass", lantern[1], builder.materials.lantern, transform);
-    builder.scene.insert_light(Light {
+    let place = position - direction * 0.04;
+    // The chain ends at the back of the lantern.
+    let hook = place - direction * 0.3 + DVec3::Y * CHAIN;
+    let pivot = builder.add_moving_node(&format!("{name} chain"), hook, DQuat::IDENTITY, swing);
+    let iron = builder.materials.iron;
+    let instance = builder.add_instance_at("chain", chain, iron, hook);
+    builder.attach_instance(pivot, instance);
+    let node = builder.add_node(&format!("{name} lantern"), Some(pivot), place - hook, rotation);
+    let transform = DAffine3::from_rotation_translation(rotation, place);
+    for (name, mesh, material) in
+        [("lantern", housing, iron), ("lantern glass", glass, builder.materials.lantern)]
+    {
+        let instance = builder.add_instance(name, mesh, material, transform);
+        builder.attach_instance(node, instance);
+    }
+    let facing = DQuat::from_rotation_arc(DVec3::NEG_Z, direction);
+    let node = builder.add_node(name, Some(pivot), position - hook, facing);
+    let light = builder.scene.insert_light(Light {
         name: Some(name.to_owned()),
         kind: LightKind::Spot {
             position_world: position,
@@ -69,14 +92,17 @@ fn spot(
         intensity: 320_000.0,
         casts_shadow: true,
     });
+    builder.attach_light(node, light);
 }
 
-/// Adds the meshes of a lantern's housing and glass, which opens along +Y just below the origin.
-fn lantern(builder: &mut SceneBuilder) -> [MeshKey; 2] {
+/// Adds the meshes of a lantern's housing and glass, which opens along +Y just below the origin, and of the chain below its hook.
+fn lantern(builder: &mut SceneBuilder) -> [MeshKey; 3] {
     let run = |points: &[(f64, f64)]| points.iter().map(|&(r, y)| DVec2::new(r, y)).collect::<Vec<_>>();
     let housing = lathe(&[run(&[(0.0, -0.34), (0.06, -0.33), (0.08, -0.28), (0.14, 0.0)])], 16);
     let glass = lathe(&[run(&[(0.135, -0.01), (0.0, -0.01)])], 16);
-    [builder.add_mesh("lantern", housing), builder.add_mesh("lantern glass", glass)]
+    let chain = tube(&[DVec3::ZERO, DVec3::NEG_Y * CHAIN], 0.018, 6);
+    [("lantern", housing), ("lantern glass", glass), ("chain", chain)]
+        .map(|(name, shape)| builder.add_mesh(name, shape))
 }
 
 /// Returns a turned vase of about 1.1 m.

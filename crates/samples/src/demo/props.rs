@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DQuat, DVec2, DVec3};
 
 use super::builder::SceneBuilder;
 use super::court::{FLOOR, FRONT_Z, HALL_BAY};
+use super::motion::Motion;
 use super::textures::FENCE_PANEL;
 use crate::mesh_builder::{MeshBuilder, box_on_ground};
 use crate::round::{bulge, lathe, rope, sphere, tube};
@@ -28,8 +29,8 @@ pub(super) fn build(builder: &mut SceneBuilder) {
 
 fn ball(builder: &mut SceneBuilder) {
     let (foot, radius) = BALL;
-    let mesh = builder.add_mesh("ball", sphere(radius, 32));
-    builder.add_instance_at("ball", mesh, builder.materials.bronze, foot + DVec3::Y * radius);
+    let mesh = builder.add_mesh("ball", sphere(radius, 48));
+    builder.add_instance_at("ball", mesh, builder.materials.gold, foot + DVec3::Y * radius);
 }
 
 /// Adds alpha-tested panels between solid posts.
@@ -71,8 +72,12 @@ fn flagpole(builder: &mut SceneBuilder) {
         DVec3::new(u * 2.3, -v * 1.5 - 0.18 * u * u, wave)
     });
     let flag = builder.add_mesh("flag", flag);
-    let wind = DAffine3::from_translation(POLE + DVec3::new(0.04, POLE_HEIGHT - 0.1, 0.0));
-    builder.add_instance("flag", flag, builder.materials.cloth, wind * DAffine3::from_rotation_y(-0.35));
+    let (top, rest) = (POLE + DVec3::new(0.04, POLE_HEIGHT - 0.1, 0.0), DQuat::from_rotation_y(-0.35));
+    let transform = DAffine3::from_rotation_translation(rest, top);
+    let instance = builder.add_instance("flag", flag, builder.materials.cloth, transform);
+    let sway = Motion::Swing { axis: DVec3::Y, angle: 0.22, swings: 3.0 };
+    let node = builder.add_moving_node("flag", top, rest, sway);
+    builder.attach_instance(node, instance);
     let tie = POLE + DVec3::Y * (POLE_HEIGHT - 2.1);
     let mut ropes = MeshBuilder::default();
     for i in 0..3 {
@@ -95,8 +100,11 @@ fn banners(builder: &mut SceneBuilder) {
     let cloth = builder.add_mesh("banner", cloth);
     let rod = builder.add_mesh("banner rod", tube(&[DVec3::NEG_X * 0.68, DVec3::X * 0.68], 0.025, 8));
     for side in [-0.5, 0.5] {
-        let top = DVec3::new(side * HALL_BAY, FLOOR + 5.2, FRONT_Z + 0.56);
-        builder.add_instance_at("banner", cloth, builder.materials.cloth, top);
+        let top = DVec3::new(side * HALL_BAY, FLOOR + 5.2, FRONT_Z + 0.66);
+        let instance = builder.add_instance_at("banner", cloth, builder.materials.cloth, top);
+        let sway = Motion::Swing { axis: DVec3::X, angle: 0.08 * side, swings: 4.0 };
+        let node = builder.add_moving_node("banner", top, DQuat::IDENTITY, sway);
+        builder.attach_instance(node, instance);
         builder.add_instance_at("banner rod", rod, builder.materials.iron, top);
     }
 }
@@ -114,7 +122,7 @@ fn crates(builder: &mut SceneBuilder) {
     for (position, rotation, size, material) in stack {
         let turned = DAffine3::from_scale_rotation_translation(
             DVec3::splat(size),
-            glam::DQuat::from_rotation_y(rotation),
+            DQuat::from_rotation_y(rotation),
             position,
         );
         builder.add_instance("crate", mesh, material, turned);

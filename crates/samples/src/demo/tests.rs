@@ -1,9 +1,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
-use glam::Vec3;
+use std::collections::BTreeSet;
+
+use glam::{DAffine3, Vec3};
 
 use super::*;
-use shadowgraph_scene::AlphaMode;
+use shadowgraph_scene::{AlphaMode, AnimationSelection};
 
 #[test]
 fn every_vertex_has_a_unit_normal_and_a_perpendicular_tangent() {
@@ -84,6 +86,36 @@ fn scene_has_few_triangles_and_large_bounds() {
     let bounds = scene.bounds();
     assert!(bounds.half_extent().x > 200.0 && bounds.half_extent().y > 15.0);
     assert!(bounds.min.y > -2.0 && bounds.max.y < 60.0);
+}
+
+#[test]
+fn rings_lanterns_flag_and_banners_move_and_begin_where_they_are_at_rest() {
+    let rest = demo_scene();
+    let places = |scene: &Scene| -> Vec<(String, DAffine3)> {
+        scene.instances().map(|(_, instance)| (instance.name.clone(), instance.world_from_local)).collect()
+    };
+    let mut scene = rest.clone();
+    scene.set_time(AnimationSelection::All, 0.0).unwrap();
+    for ((name, at_rest), (_, begun)) in places(&rest).iter().zip(places(&scene)) {
+        assert!(at_rest.abs_diff_eq(begun, 1e-6), "{name}: {at_rest} {begun}");
+    }
+    scene.set_time(AnimationSelection::All, 1.3).unwrap();
+    let moved: BTreeSet<_> = places(&rest)
+        .into_iter()
+        .zip(places(&scene))
+        .filter(|((_, at_rest), (_, moved))| !at_rest.abs_diff_eq(*moved, 1e-3))
+        .map(|((name, _), _)| name)
+        .collect();
+    let expected = ["banner", "chain", "flag", "lantern", "lantern glass", "rings"];
+    assert_eq!(moved, expected.map(String::from).into());
+    for (light, moved) in rest.lights().iter().zip(scene.lights()) {
+        assert_eq!(light.kind != moved.kind, light.kind.order() == 1, "{:?}", light.name);
+    }
+    let end_s = scene.hierarchy.end_s(AnimationSelection::All);
+    scene.set_time(AnimationSelection::All, end_s.into()).unwrap();
+    for ((name, at_rest), (_, ended)) in places(&rest).iter().zip(places(&scene)) {
+        assert!(at_rest.abs_diff_eq(ended, 1e-5), "{name} does not return: {at_rest} {ended}");
+    }
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub(super) fn paving() -> Image {
     texture("paving", |u, v| {
         let (x, y, edge) = slab(u, v);
         let dark = (x + y).rem_euclid(2) == 1;
-        let base = if dark { DVec3::new(0.56, 0.51, 0.45) } else { DVec3::new(0.72, 0.67, 0.58) };
+        let base = if dark { DVec3::new(0.53, 0.47, 0.42) } else { DVec3::new(0.80, 0.75, 0.67) };
         let tone = 0.9 + 0.14 * cell(x, y, 5) + 0.16 * (noise.sample(u, v) - 0.5);
         opaque(mix(DVec3::new(0.30, 0.27, 0.23), base * tone, ramp(0.012, 0.035, edge)))
     })
@@ -84,7 +84,7 @@ pub(super) fn earth() -> Image {
     texture("earth", |u, v| {
         let patch = ramp(0.35, 0.65, patches.sample(u, v));
         let grain = 0.88 + 0.24 * grains.sample(u, v);
-        opaque(mix(DVec3::new(0.60, 0.53, 0.38), DVec3::new(0.48, 0.48, 0.30), patch) * grain)
+        opaque(mix(DVec3::new(0.58, 0.53, 0.34), DVec3::new(0.43, 0.48, 0.27), patch) * grain)
     })
 }
 
