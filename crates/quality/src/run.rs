@@ -179,7 +179,7 @@ impl<'a> Run<'a> {
 }
 
 impl TechniqueRenderers {
-    /// Measures a view. The names of scene, light and view in the report are left empty.
+    /// Measures a view as it settles after a cut of the camera. The names of scene, light and view in the report are left empty.
     fn measure(
         &mut self,
         gpu: &Gpu,
@@ -189,9 +189,13 @@ impl TechniqueRenderers {
         light: usize,
         frames: u32,
     ) -> Result<Measured, Error> {
+        self.visibility.draw(gpu, options)?;
         let ViewComparison { errors, edges, images } =
             comparator.compare(&mut self.visibility, options, reference)?;
         let (seam, cost) = measure_seam(gpu, &self.visibility, &self.probe, options, reference, light)?;
+        let images = self.images(gpu, options, images)?;
+        // Last, as its camera moves.
+        let flicker = self.flicker(gpu, options, light, frames)?;
         let report = CaseReport {
             scene: String::new(),
             light: String::new(),
@@ -200,11 +204,11 @@ impl TechniqueRenderers {
             errors,
             edges,
             seam,
-            flicker: self.flicker(gpu, options, light, frames)?,
+            flicker,
             cost: Some(cost),
             images: None,
         };
-        Ok(Measured { report, images: self.images(gpu, options, images)? })
+        Ok(Measured { report, images })
     }
 
     fn flicker(

@@ -5,12 +5,15 @@ use crate::settings::{
     BiasMethod, BiasSettings, DistanceMeasure, LightShadows, NormalBias, ShadowFilter, ShadowSettings,
 };
 
+/// The radius around a point that `shadows/crease.wgsl` reads, texels.
+const CREASE_RADIUS_TEXELS: f32 = 2.0;
+
 /// The parameters of one light's shadows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LightShadowParams {
     pub(crate) bias: BiasSettings,
     pub(crate) filter: ShadowFilter,
-    /// Radius around a point that the technique reads, texels.
+    /// Radius around a point that is read, texels.
     pub(crate) kernel_radius_texels: f32,
     /// Step in which tiles of directional lights move, texels.
     pub(crate) step_texels: u32,
@@ -35,7 +38,7 @@ impl LightShadowParams {
             return Self {
                 bias,
                 filter,
-                kernel_radius_texels: filter.kernel_radius_texels(),
+                kernel_radius_texels: kernel_radius_texels(filter, close_creases),
                 step_texels: 1,
                 blocker_reach_m: 0.0,
                 strength: 1.0,
@@ -57,7 +60,7 @@ impl LightShadowParams {
         Self {
             bias,
             filter,
-            kernel_radius_texels: filter.kernel_radius_texels(),
+            kernel_radius_texels: kernel_radius_texels(filter, close_creases),
             step_texels: 1,
             blocker_reach_m: 0.0,
             strength: own.strength,
@@ -117,6 +120,10 @@ impl LightShadowParams {
     }
 }
 
+fn kernel_radius_texels(filter: ShadowFilter, close_creases: bool) -> f32 {
+    filter.kernel_radius_texels().max(if close_creases { CREASE_RADIUS_TEXELS } else { 0.0 })
+}
+
 /// Returns the largest requirements of any light's settings.
 pub(crate) fn settings_requirements(settings: &ShadowSettings) -> Requirements {
     let all = [true, false].into_iter().flat_map(|has_cascades| {
@@ -124,7 +131,7 @@ pub(crate) fn settings_requirements(settings: &ShadowSettings) -> Requirements {
         lights.map(move |own| LightShadowParams::new(settings, own, has_cascades))
     });
     all.fold(Requirements::NONE, |most, params| Requirements {
-        kernel_radius_texels: most.kernel_radius_texels.max(params.filter.kernel_radius_texels()),
+        kernel_radius_texels: most.kernel_radius_texels.max(params.kernel_radius_texels),
         bias_texels: most.bias_texels.max(params.normal_texels()),
         ..most
     })

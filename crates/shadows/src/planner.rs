@@ -10,7 +10,7 @@ use shadowgraph_scene::{Aabb, Camera, CullVolume, Plane};
 use culling::VisibleReceivers;
 
 use crate::atlas::TileRect;
-use crate::cascades::late_begins;
+use crate::cascades::{Slice, late_begins, slice_sphere};
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
 use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
@@ -18,7 +18,7 @@ use crate::receivers::ReceiverRange;
 use crate::requirements::Requirements;
 use crate::select::{Candidate, ShadowRange, Shape, candidate};
 use crate::select::{Unshadowed, UnshadowedReason};
-use crate::settings::LightShadows;
+use crate::settings::{CascadeSelection, LightShadows};
 use crate::views::{ShadowLight, TilePlacement};
 
 /// Plans the shadows of a frame.
@@ -123,10 +123,19 @@ impl<'a> Planner<'a> {
         let nearest_m = receivers.begin_m(camera, aspect).min(0.5 * (near_m + fit_m));
         let latest_m = nearest_m + LATEST_BEGIN * (fit_m - nearest_m).max(0.0);
         let begins_m = || late_begins(&settings.cascades, [nearest_m, latest_m], fit_m);
-        let is_empty = |far_m: &f64| !inputs.casters.has_receiver_in(&view_volume(camera, aspect, *far_m));
+        let selects_by_depth =
+            settings.cascades.select == CascadeSelection::Depth && !requirements.fits_on_gpu;
+        let mut slice_begin_m = nearest_m;
+        let serves_nothing = |&end_m: &f64| {
+            let slice = Slice { camera, aspect, near_m: slice_begin_m, far_m: end_m };
+            slice_begin_m = end_m;
+            // By map and sphere, a cascade also serves what its sphere has beyond the slice.
+            let reach_m = if selects_by_depth { end_m } else { sphere_end_m(&slice) };
+            !inputs.casters.has_receiver_in(&view_volume(camera, aspect, reach_m))
+        };
         // Ends that the user chose stay.
-        let is_free = settings.cascades.split.is_relative_to_near();
-        let skippable = if is_free { begins_m().take_while(is_empty).count() } else { 0 };
+        let is_free = settings.cascades.split.is_relative_to_near() && near_m < fit_m;
+        let skippable = if is_free { begins_m().take_while(serves_nothing).count() } else { 0 };
         let receivers = receivers.skipping(skippable, camera);
         let skipped = receivers.skipped.map_or(0, |skipped| skipped.count);
         let visible_m = begins_m().take(skipped).last().unwrap_or(nearest_m);
@@ -219,6 +228,13 @@ impl<'a> Planner<'a> {
         *gpu_light = ShadowLight { map, first_view, view_count, eye, ..with_params };
         gpu_light
     }
+}
+
+/// Returns the view depth at which the sphere of a slice ends, metres.
+fn sphere_end_m(slice: &Slice<'_>) -> f64 {
+    let sphere = slice_sphere(slice);
+    let from_eye = sphere.center_world - slice.camera.position_world();
+    from_eye.dot(slice.camera.forward_world()) + sphere.radius_m
 }
 
 /// Returns the part of the view up to a view depth. Boxes that intersect it intersect its bounds.

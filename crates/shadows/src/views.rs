@@ -236,7 +236,7 @@ pub struct TilePlacement {
     pub rect: TileRect,
     /// Width and height of the map, pixels.
     pub map_size_px: [u32; 2],
-    /// The border, pixels: the filter's radius.
+    /// The border, pixels: the radius around a point that is read.
     pub border_px: u32,
     /// See [`DepthFormat::step`](crate::DepthFormat::step).
     pub depth_step: f32,

@@ -1,7 +1,6 @@
 // Ground-truth ambient occlusion: how much of the hemisphere above each pixel is unoccluded, from the horizons in slices of
 // the screen (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
 #import shadowgraph::view::view
-#import shadowgraph::ground_depth::{GroundPlane, surface_view_depth}
 
 struct Settings {
     // Radius within which occluders count, metres; 0: RADIUS_HEIGHTS of the image's height at the pixel's depth.
@@ -10,10 +9,10 @@ struct Settings {
     power: f32,
     slices: u32,
     steps: u32,
-    ground: GroundPlane,
 }
 
-@group(0) @binding(1) var depth_texture: texture_depth_2d;
+// 0 where nothing is.
+@group(0) @binding(1) var view_depth_texture: texture_2d<f32>;
 @group(0) @binding(2) var<uniform> settings: Settings;
 
 const PI: f32 = 3.14159265358979;
@@ -30,9 +29,8 @@ fn projection_scale() -> vec2f {
 fn position_at(texel: vec2i) -> vec3f {
     let size = vec2i(view.size_px);
     let inside = clamp(texel, vec2i(0), size - 1);
-    let depth = textureLoad(depth_texture, inside, 0);
-    let surface_depth = surface_view_depth(depth, vec2f(inside) + 0.5, settings.ground);
-    let view_depth = select(1e6, surface_depth, surface_depth > 0.0);
+    let found = textureLoad(view_depth_texture, inside, 0).r;
+    let view_depth = select(1e6, found, found > 0.0);
     let ndc = (vec2f(inside) + 0.5) / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
     let depth_scale = select(view_depth, 1.0, view.orthographic == 1u);
     return vec3f(ndc / projection_scale() * depth_scale, -view_depth);
@@ -51,7 +49,7 @@ fn slope(texel: vec2i, along: vec2i, center: vec3f) -> vec3f {
 @fragment
 fn fs_occlusion(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let texel = vec2i(position.xy);
-    if surface_view_depth(textureLoad(depth_texture, texel, 0), position.xy, settings.ground) == 0.0 {
+    if textureLoad(view_depth_texture, texel, 0).r == 0.0 {
         return vec4f(1.0);
     }
     let center = position_at(texel);

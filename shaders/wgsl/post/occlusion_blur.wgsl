@@ -1,15 +1,14 @@
 // Removes the noise of ambient occlusion: averages four by four pixels of the same plane, so each rotation counts once.
 #import shadowgraph::view::view
-#import shadowgraph::ground_depth::{GroundPlane, surface_view_depth}
 
-@group(0) @binding(1) var depth_texture: texture_depth_2d;
+// 0 where nothing is.
+@group(0) @binding(1) var view_depth_texture: texture_2d<f32>;
 @group(0) @binding(2) var noisy: texture_2d<f32>;
-@group(0) @binding(3) var<uniform> ground: GroundPlane;
 
 // What is linear on the screen along a plane: the inverse of view depth, in an orthographic view the depth; 0 without a surface.
 fn linear_depth(texel: vec2i) -> f32 {
     let inside = clamp(texel, vec2i(0), vec2i(view.size_px) - 1);
-    let depth = surface_view_depth(textureLoad(depth_texture, inside, 0), vec2f(inside) + 0.5, ground);
+    let depth = textureLoad(view_depth_texture, inside, 0).r;
     return select(1.0 / max(depth, 1e-6), depth, depth == 0.0 || view.orthographic == 1u);
 }
 

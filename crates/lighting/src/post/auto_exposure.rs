@@ -53,7 +53,6 @@ struct ExposureUniforms {
     least: f32,
     largest: f32,
     weight: f32,
-    padding: u32,
 }
 
 /// The shader of the histogram.
@@ -93,7 +92,6 @@ impl AutoExposure {
             least: (-range_stops).exp2(),
             largest: range_stops.exp2(),
             weight: 1.0,
-            padding: 0,
         };
         let desc = TextureDesc::d2(1, 1, Format::R32Float);
         if adaptation >= 1.0 {
@@ -108,5 +106,30 @@ impl AutoExposure {
         let pass = frame.fullscreen("exposure", &self.adapted).storage(&bins);
         pass.uniform(bytes_of(&uniforms)).sample(&history.previous).draw(&mut history.current);
         history.current
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use std::mem::offset_of;
+
+    use shadowgraph_shaders::{compose, layout};
+
+    use super::*;
+
+    #[test]
+    fn uniforms_have_the_layout_of_the_wgsl_struct() {
+        let fields = [
+            ("key", offset_of!(ExposureUniforms, key)),
+            ("strength", offset_of!(ExposureUniforms, strength)),
+            ("highlights", offset_of!(ExposureUniforms, highlights)),
+            ("white", offset_of!(ExposureUniforms, white)),
+            ("least", offset_of!(ExposureUniforms, least)),
+            ("largest", offset_of!(ExposureUniforms, largest)),
+            ("weight", offset_of!(ExposureUniforms, weight)),
+        ];
+        let module = compose("post/exposure.wgsl", &[]).unwrap();
+        layout::check(&module, "Settings", size_of::<ExposureUniforms>(), &fields).unwrap();
     }
 }

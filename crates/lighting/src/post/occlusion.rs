@@ -4,31 +4,18 @@ use bytemuck::{NoUninit, bytes_of};
 use shadowgraph_core::{Format, Frame, FullscreenShader, Texture, TextureDesc};
 
 use crate::error::Error;
-use crate::shader::fullscreen_with;
+use crate::shader::{fullscreen, fullscreen_with};
 use crate::uniforms::ViewBuffers;
 
 /// Ambient occlusion from the horizons in screen-space depth (Jimenez et al., "Practical Real-Time Strategies for Accurate
 /// Indirect Occlusion", 2016).
 pub struct Occlusion {
-    /// Of depth with one sample per pixel.
-    single: Shaders,
-    /// Of the first sample of multisampled depth.
-    multisampled: Shaders,
-}
-
-struct Shaders {
+    /// The view depth of depth with one sample per pixel.
+    view_depth: FullscreenShader,
+    /// The view depth of the first sample of multisampled depth.
+    view_depth_multisampled: FullscreenShader,
     horizons: FullscreenShader,
     blur: FullscreenShader,
-}
-
-impl Shaders {
-    fn new(device: &wgpu::Device, depth_type: &str) -> Result<Self, Error> {
-        let shader = |file, entry| fullscreen_with(device, file, entry, ("texture_depth_2d", depth_type));
-        Ok(Self {
-            horizons: shader("post/occlusion.wgsl", "fs_occlusion")?,
-            blur: shader("post/occlusion_blur.wgsl", "fs_blur")?,
-        })
-    }
 }
 
 /// Settings of ambient occlusion.
@@ -58,7 +45,6 @@ struct OcclusionUniforms {
     power: f32,
     slices: u32,
     steps: u32,
-    ground: GroundPlane,
 }
 
 /// `GroundPlane` of `ground_depth.wgsl`.
@@ -75,9 +61,14 @@ impl Occlusion {
     /// # Errors
     /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let view_depth = |kind| {
+            fullscreen_with(device, "post/view_depth.wgsl", "fs_view_depth", ("texture_depth_2d", kind))
+        };
         Ok(Self {
-            single: Shaders::new(device, "texture_depth_2d")?,
-            multisampled: Shaders::new(device, "texture_depth_multisampled_2d")?,
+            view_depth: view_depth("texture_depth_2d")?,
+            view_depth_multisampled: view_depth("texture_depth_multisampled_2d")?,
+            horizons: fullscreen(device, "post/occlusion.wgsl", "fs_occlusion")?,
+            blur: fullscreen(device, "post/occlusion_blur.wgsl", "fs_blur")?,
         })
     }
 
@@ -93,26 +84,49 @@ impl Occlusion {
         let depth_desc = frame.texture_desc(depth);
         let size = depth_desc.map(|desc| desc.size).unwrap_or_default();
         let is_multisampled = depth_desc.is_some_and(|desc| desc.samples > 1);
-        let shaders = if is_multisampled { &self.multisampled } else { &self.single };
-        let desc = TextureDesc::d2(size.width, size.height, Format::R8Unorm);
-        let mut noisy = frame.create_texture("occlusion with grain", desc);
-        let mut smooth = frame.create_texture("occlusion", desc);
-        let &OcclusionSettings { radius_m, power, slices, steps } = settings;
+        let converter = if is_multisampled { &self.view_depth_multisampled } else { &self.view_depth };
+        let texture = |format| TextureDesc::d2(size.width, size.height, format);
+        let mut view_depth = frame.create_texture("view depth", texture(Format::R32Float));
+        let mut noisy = frame.create_texture("occlusion with grain", texture(Format::R8Unorm));
+        let mut smooth = frame.create_texture("occlusion", texture(Format::R8Unorm));
         let ground = GroundPlane {
             height: view.ground_height.unwrap_or_default(),
             exists: u32::from(view.ground_height.is_some()),
         };
-        let (slices, steps) = (slices.max(1), steps.max(1));
-        let uniforms = OcclusionUniforms { radius_m, power, slices, steps, ground };
-        let horizons = frame.fullscreen("horizons", &shaders.horizons).storage(&view.view).sample(depth);
+        let &OcclusionSettings { radius_m, power, slices, steps } = settings;
+        let uniforms = OcclusionUniforms { radius_m, power, slices: slices.max(1), steps: steps.max(1) };
+        let convert = frame.fullscreen("view depth", converter).storage(&view.view).sample(depth);
+        convert.uniform(bytes_of(&ground)).draw(&mut view_depth);
+        let horizons = frame.fullscreen("horizons", &self.horizons).storage(&view.view).sample(&view_depth);
         horizons.uniform(bytes_of(&uniforms)).draw(&mut noisy);
-        frame
-            .fullscreen("smooth", &shaders.blur)
-            .storage(&view.view)
-            .sample(depth)
-            .sample(&noisy)
-            .uniform(bytes_of(&ground))
-            .draw(&mut smooth);
+        let blur = frame.fullscreen("smooth", &self.blur).storage(&view.view);
+        blur.sample(&view_depth).sample(&noisy).draw(&mut smooth);
         ViewBuffers { occlusion: Some(smooth), ..view.clone() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use std::mem::offset_of;
+
+    use shadowgraph_shaders::{compose, layout};
+
+    use super::*;
+
+    #[test]
+    fn uniforms_have_the_layout_of_the_wgsl_structs() {
+        let fields = [
+            ("radius_m", offset_of!(OcclusionUniforms, radius_m)),
+            ("power", offset_of!(OcclusionUniforms, power)),
+            ("slices", offset_of!(OcclusionUniforms, slices)),
+            ("steps", offset_of!(OcclusionUniforms, steps)),
+        ];
+        let module = compose("post/occlusion.wgsl", &[]).unwrap();
+        layout::check(&module, "Settings", size_of::<OcclusionUniforms>(), &fields).unwrap();
+        let fields =
+            [("height", offset_of!(GroundPlane, height)), ("exists", offset_of!(GroundPlane, exists))];
+        let module = compose("post/view_depth.wgsl", &[]).unwrap();
+        layout::check(&module, "GroundPlane", size_of::<GroundPlane>(), &fields).unwrap();
     }
 }

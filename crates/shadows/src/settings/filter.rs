@@ -38,16 +38,10 @@ impl ShadowFilter {
         }
     }
 
-    /// Returns the radius that it reads around a point, texels of the map, 1 to 4. The borders of tiles are as wide.
+    /// Returns the radius that it reads around a point, texels of the map, 1 to 4. The borders of tiles are at least as wide.
     #[must_use]
     pub fn kernel_radius_texels(self) -> f32 {
         self.taps() as f32
-    }
-
-    /// Returns the border on each side of a tile, pixels: the filter's radius.
-    #[must_use]
-    pub fn border_px(self) -> u32 {
-        self.taps()
     }
 
     /// Returns half the width of the tent, texels.

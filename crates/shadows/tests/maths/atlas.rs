@@ -25,7 +25,7 @@ fn tiles_are_inside_the_map_and_do_not_overlap() {
 fn the_border_is_as_wide_as_the_filters_radius() {
     for (filter, (_, layout)) in ShadowFilter::ALL.into_iter().flat_map(|f| layouts().map(move |l| (f, l))) {
         for tile in &layout.tiles {
-            let (min, max) = tile.inner_uv(layout.size_px, filter.border_px());
+            let (min, max) = tile.inner_uv(layout.size_px, filter.taps());
             let size = glam::Vec2::new(layout.size_px[0] as f32, layout.size_px[1] as f32);
             let (min, max) = (min * size, max * size);
             let radius = filter.kernel_radius_texels() - 1e-2;

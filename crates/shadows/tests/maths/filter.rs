@@ -84,7 +84,7 @@ fn weights_are_continuous_from_texel_to_texel() {
 fn row_08_filter_stays_in_the_tile_up_to_the_edges_of_its_inner_part() {
     let width = 64.0;
     for filter in ShadowFilter::ALL {
-        let (border, last) = (f64::from(filter.border_px()), f64::from(filter.taps()));
+        let (border, last) = (f64::from(filter.kernel_radius_texels()), f64::from(filter.taps()));
         for step in 0..=1000 {
             let at = border + (width - 2.0 * border) * f64::from(step) / 1000.0;
             // Centre of the texel that offsets count from; the filter reads the same number of texels before and after it.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use shadowgraph_scene::{Aabb, Camera, CameraError, Light, LightKind, Projection, origin_near};
 use shadowgraph_shadows::{
     AtlasTiles, Error, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES, NOT_A_CASCADE, Requirements,
-    ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TileKind, Unshadowed,
+    ShadowFilter, ShadowInputs, ShadowLight, ShadowPlan, ShadowSettings, ShadowView, TileKind, Unshadowed,
     UnshadowedReason, plan_shadows, plan_shadows_after,
 };
 
@@ -109,6 +109,22 @@ fn views_describe_their_tiles() {
     }
     // Finer texels nearby.
     assert!(plan.views[..4].windows(2).all(|pair| pair[0].texel_world < pair[1].texel_world));
+}
+
+#[test]
+fn row_60_the_borders_of_tiles_hold_the_texels_that_find_creases() {
+    for (filter, closed, border_px) in
+        [(ShadowFilter::Tent2, true, 2), (ShadowFilter::Tent2, false, 1), (ShadowFilter::Tent7, true, 4)]
+    {
+        let mut settings = ShadowSettings { close_creases: closed, ..ShadowSettings::default() };
+        settings.cascades.filter = filter;
+        let casters = Boxes(cube_in_a_wide_world());
+        let plan = try_plan(&default_camera(), &[sun(DOWN, 10.0)], &casters, &settings).unwrap();
+        let map = plan.cascades.as_ref().unwrap();
+        let view = &plan.views[0];
+        let expected = map.tiles[0].rect.inner_uv(map.size_px, border_px);
+        assert_eq!((view.uv_min, view.uv_max), expected, "{filter:?}, {closed}");
+    }
 }
 
 #[test]

@@ -42,7 +42,7 @@ proptest! {
     fn cone_stays_inside_the_border_of_its_tile(cone in any_cone(), shift in 6u32..12) {
         let tile_px = 1 << shift;
         let clip_from_world = fit(cone, tile_px).clip_from_world(DVec3::ZERO);
-        let inner = 1.0 - 2.0 * f64::from(ShadowFilter::Tent5.border_px()) / f64::from(tile_px);
+        let inner = 1.0 - 2.0 * f64::from(ShadowFilter::Tent5.taps()) / f64::from(tile_px);
         for point in rim(&cone, 0.7) {
             let clip = clip_from_world.project_point3(point);
             prop_assert!(clip.truncate().abs().max_element() < inner, "{clip}");

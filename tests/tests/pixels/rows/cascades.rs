@@ -1,13 +1,13 @@
 //! Cascades: number, splits, selection, blending.
 
 use super::{Greys, count, cube_view, different, greys, greys_with, pillar_view, pillars, plan, wrong};
-use crate::stage::{cube_on_floor, gpu, light, sun, sun_direction};
+use crate::stage::{camera, cube_on_floor, gpu, light, sun, sun_direction};
 use glam::DVec3;
 use shadowgraph::options::Aov;
-use shadowgraph::scene::{Light, LightKind, Scene};
+use shadowgraph::scene::{Camera, Light, LightKind, Scene};
 use shadowgraph::shadows::{
-    CascadeBlend, CascadeFitting, CascadeSelection, EVSM, LightRef, LightShadows, MAP_ATLAS, MAP_CASCADES,
-    PCF, PCSS, RAYTRACED, SDSM, ShadowSettings, SplitScheme,
+    CascadeBlend, CascadeFitting, CascadeSelection, CullSettings, EVSM, LightRef, LightShadows, MAP_ATLAS,
+    MAP_CASCADES, PCF, PCSS, RAYTRACED, SDSM, ShadowSettings, SplitScheme,
 };
 use shadowgraph::{Gpu, RenderedImage, Renderer, ViewOptions};
 
@@ -166,6 +166,31 @@ fn row_18_the_last_cascade_fades_at_its_edge() {
         let near = cut.len() * 3 / 4;
         assert_eq!(cut[near..], faded[near..]);
     }
+}
+
+#[test]
+fn row_54_the_edge_of_the_last_cascade_shows_only_from_another_camera() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = pillars(24);
+    scene.insert_light(sun(sun_direction(35.0, 60.0)));
+    let inside = pillar_view(|_| ()).camera;
+    // Sees what is beyond the distance at which the other camera's shadows end.
+    let beyond = camera(DVec3::new(0.3, 3.5, -17.0), DVec3::new(0.0, 0.5, -28.0));
+    let image = |camera: &Camera, edge_fade: f32| {
+        let mut options = ViewOptions { camera: camera.clone(), ..pillar_view(|_| ()) };
+        options.shadows.cascades.edge_fade = edge_fade;
+        options.shadows.distance_m = 14.0;
+        options.shadows.cull = CullSettings { unseen: false, covered: false };
+        let mut renderer = Renderer::new(gpu, scene.clone(), camera, Aov::Visibility(0)).unwrap();
+        renderer.set_shadow_camera(Some(inside.clone()));
+        renderer.draw(gpu, &options).unwrap().image.rgba8
+    };
+    let changed = |camera| {
+        let images = [0.0, 0.1].map(|edge_fade| image(camera, edge_fade));
+        images[0].chunks_exact(4).zip(images[1].chunks_exact(4)).filter(|(cut, faded)| cut != faded).count()
+    };
+    let (own, other) = (changed(&inside), changed(&beyond));
+    assert!(own == 0 && other > 100, "{own} pixels of the cascades' camera, {other} of the other");
 }
 
 /// Returns settings in which the border of two cascades is clearly visible: cascades of very
