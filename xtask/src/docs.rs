@@ -1,7 +1,6 @@
 //! `cargo xtask docs`: draws the images of the book and builds the book.
 
 use crate::child;
-use crate::driver::Driver;
 use crate::images;
 use crate::machine::{self, Need};
 use std::process::ExitCode;
@@ -17,7 +16,7 @@ pub(crate) fn run() -> ExitCode {
 }
 
 fn draw() -> Result<(), String> {
-    machine::prepare(Need::Driver(Driver::Any))?;
+    machine::prepare(Need::Tests)?;
     for line in images::draw()? {
         println!("{line}");
     }

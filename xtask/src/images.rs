@@ -139,7 +139,13 @@ impl Studio {
                 // The next panel may be from a file of the same name.
                 copy(&self.root.join(file), &image)?;
             }
-            "test" => copy(&self.work.join(file), &image)?,
+            "test" => {
+                let written = self.work.join(file);
+                if !written.exists() {
+                    return Err(Failure::Missing(format!("its test, which was skipped, wrote no {file}")));
+                }
+                copy(&written, &image)?;
+            }
             "page" => self.page(&arguments, name)?,
             other => {
                 return Err(format!(
