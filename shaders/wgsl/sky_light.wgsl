@@ -39,6 +39,8 @@ const BACKDROP_SKY: u32 = 0u;
 
 const PI: f32 = 3.14159265358979;
 const MAX_RADIANCE: f32 = 60000.0;
+// What ambient occlusion darkens of a plane with nothing on it, at most: it has 8 bits, and depth far away few digits.
+const UNOCCLUDED: f32 = 0.04;
 // How quickly the ground turns into the sky at the horizon.
 const HORIZON_HAZE: f32 = 7.0;
 
@@ -141,7 +143,7 @@ fn background_light(pixel: vec2f) -> vec4f {
         darkened = share * (1.0 - dot(light[0], luminance) / max(dot(light[1], luminance), 1e-9));
     }
     if !shows_sky {
-        return vec4f(0.0, 0.0, 0.0, saturate(darkened));
+        return vec4f(0.0, 0.0, 0.0, saturate((darkened - UNOCCLUDED) / (1.0 - UNOCCLUDED)));
     }
     var color = dome_radiance(select(at_horizon(direction), direction, direction.y > 0.0));
     if direction.y > 0.0 {

@@ -97,6 +97,9 @@ impl Studio {
             .flat_map(|panel| &panel.arguments)
             .map(String::as_str)
             .collect();
+        if names.is_empty() {
+            return Ok(());
+        }
         let mut command =
             child::cargo(&["test", "--workspace", "--test", "pixels", "--test", "programs", "--"]);
         self.start(command.args(names).env("SHADOWGRAPH_IMAGES", &self.work))

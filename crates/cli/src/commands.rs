@@ -171,7 +171,7 @@ pub(crate) fn load(file: Option<&Path>, variant: Option<&str>) -> Result<Scene, 
     let Some(file) = file else {
         return match variant {
             None => Ok(shadowgraph_samples::demo::demo_scene()),
-            Some(_) => Err(OptionError::new("--variant", "the built-in scene has no variants").into()),
+            Some(_) => Err(OptionError::new("variant", "the built-in scene has no variants").into()),
         };
     };
     let loading = Progress::now(&format!("loading {}", file.display()));
@@ -200,7 +200,7 @@ pub(crate) fn view_options(input: &Input) -> Result<ViewOptions, Failure> {
 pub(crate) fn shadow_camera(input: &Input) -> Result<Option<Camera>, Failure> {
     let Options { shadow_camera, size, .. } = &input.options;
     let camera = shadow_camera.as_ref().map(|camera| camera.resolve(&input.scene, size.aspect()));
-    Ok(camera.transpose()?)
+    Ok(camera.transpose().map_err(|error| OptionError { option: "shadow_camera", ..error })?)
 }
 
 /// Returns the channels of an image that are written to the file.

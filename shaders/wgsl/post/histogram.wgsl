@@ -16,9 +16,10 @@ fn cs_histogram(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocat
         let texel = vec2u(id.x, id.y * 4u + row);
         if all(texel < size) {
             let color = textureLoad(light, texel, 0);
-            // Nothing is drawn where alpha is 0.
-            if color.a > 0.0 {
-                atomicAdd(&shared_bins[bin_of(max(color.r, max(color.g, color.b)))], 1u);
+            let brightest = max(color.r, max(color.g, color.b));
+            // Where alpha is less than 1, black is nothing, or a shadow on it.
+            if color.a >= 1.0 || (color.a > 0.0 && brightest > 0.0) {
+                atomicAdd(&shared_bins[bin_of(brightest / min(color.a, 1.0))], 1u);
             }
         }
     }

@@ -178,6 +178,23 @@ fn a_background_is_a_colour_or_transparent_with_the_shadow_on_it() {
 }
 
 #[test]
+fn the_shadow_on_a_transparent_background_does_not_change_the_exposure() {
+    let Some(gpu) = gpu() else { return };
+    let (mut scene, camera) = cube();
+    let mean = |scene: &Scene| {
+        let image = color(gpu, scene, &camera, Background::Transparent);
+        let opaque: Vec<f64> =
+            pixels(&image).filter(|pixel| pixel[3] == 255).map(|pixel| f64::from(pixel[1])).collect();
+        opaque.iter().sum::<f64>() / opaque.len() as f64
+    };
+    let without = mean(&scene);
+    GroundChoice::Auto.place(&scene, true).add_to(&mut scene);
+    let with = mean(&scene);
+    // Ambient occlusion at the foot of the cube darkens a few of its pixels.
+    assert!((with - without).abs() < 3.0, "{without} {with}");
+}
+
+#[test]
 fn straight_alpha_restores_colours_that_were_multiplied() {
     let image = RenderedImage { size_px: [3, 1], rgba8: vec![0, 0, 0, 0, 188, 0, 188, 128, 9, 8, 7, 255] };
     assert_eq!(image.straight_alpha(), [0, 0, 0, 0, 255, 0, 255, 128, 9, 8, 7, 255]);

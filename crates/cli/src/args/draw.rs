@@ -51,11 +51,11 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "SUN")]
     sun: Option<String>,
     /// The ground under the scene: auto, a plane that receives shadows where the scene has no floor, in colour images by pipelines with
-    /// a sky; none; or a plane of a colour, #RRGGBB or R,G,B (linear, each 0 to 1), which is part of the scene
-    #[arg(long, value_name = "auto|none|COLOR", default_value = "auto")]
+    /// a sky; none; or a square of a colour, #RRGGBB or R,G,B (linear, each 0 to 1), which is part of the scene and 40 of its radii wide
+    #[arg(long, value_name = "auto|none|COLOR", default_value = "auto", allow_hyphen_values = true)]
     ground: String,
     /// The background of colour images: sky, the sky of the pipeline; transparent; or a colour, #RRGGBB or R,G,B (linear, each 0 to 1)
-    #[arg(long, value_name = "sky|COLOR|transparent", default_value = "sky")]
+    #[arg(long, value_name = "sky|transparent|COLOR", default_value = "sky", allow_hyphen_values = true)]
     background: String,
     /// The moment of the animations in seconds; before their start and after their end, the scene stands still
     #[arg(long, value_name = "S", default_value = "0", allow_negative_numbers = true)]
@@ -142,6 +142,7 @@ impl DrawArgs {
             None if file.has_distance => ShadowDistance::Metres(file.settings.distance_m.into()),
             given => or_default(given.as_deref())?,
         };
+        let shadow_camera = self.shadow_camera.as_deref().map(str::parse).transpose();
         Ok(Options {
             pipeline: self.pipeline(registry)?,
             technique: named.transpose()?,
@@ -158,7 +159,7 @@ impl DrawArgs {
             shadow_distance,
             aov: self.aov.parse()?,
             overlay: self.overlay.as_deref().map(str::parse).transpose()?,
-            shadow_camera: self.shadow_camera.as_deref().map(str::parse).transpose()?,
+            shadow_camera: shadow_camera.map_err(|error| OptionError { option: "shadow_camera", ..error })?,
             adapter: or_default(self.adapter.as_deref())?,
             timings: self.timings,
         })
@@ -280,7 +281,7 @@ mod tests {
             ("--size;0x4", "--size: width 0"),
             ("--sun;dir=0,0,0", "--sun: dir must not be zero"),
             ("--time;soon", "--time: invalid value `soon`; expected -1000000000 to 1000000000 seconds"),
-            ("--sun;time=12:60 day=1 lat=0", "--sun: invalid value time=12:60; expected HH:MM"),
+            ("--sun;time=12:60 day=1 lat=0", "--sun: invalid value `time=12:60`; expected HH:MM"),
             ("--settings;no/such.ron", "--settings: no/such.ron: cannot be read"),
         ] {
             let error = options(line).unwrap_err();

@@ -19,7 +19,8 @@ pub enum GroundChoice {
     Auto,
     /// None.
     None,
-    /// A plane of this colour, linear RGB, each 0 to 1. It is an object of the scene, so all AOVs have it, and casts no shadow.
+    /// A square of this colour, linear RGB, each 0 to 1, 40 radii of the scene wide. It is an object of the scene, so all AOVs have it, and casts no
+    /// shadow.
     Color(Vec3),
 }
 

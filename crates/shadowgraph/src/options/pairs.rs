@@ -87,7 +87,7 @@ impl<'a> Pairs<'a> {
         let Some(text) = self.get(key) else { return Ok(None) };
         let parts: Vec<&str> = text.split(',').collect();
         let [x, y, z] = parts.as_slice() else {
-            let reason = format!("invalid value {key}={text}; expected three numbers X,Y,Z without spaces");
+            let reason = format!("invalid value `{key}={text}`; expected three numbers X,Y,Z without spaces");
             return Err(OptionError::new(self.option, reason));
         };
         let one = |part: &str| self.one(key, text, part, range);
@@ -99,7 +99,7 @@ impl<'a> Pairs<'a> {
         let Some(text) = self.get(key) else { return Ok(None) };
         let invalid = || {
             let form = "expected HH:MM or HH:MM:SS, from 00:00 to 24:00";
-            OptionError::new(self.option, format!("invalid value {key}={text}; {form}"))
+            OptionError::new(self.option, format!("invalid value `{key}={text}`; {form}"))
         };
         let part = |part: &str| {
             let digits = part.len() <= 2 && part.bytes().all(|byte| byte.is_ascii_digit());
@@ -182,7 +182,7 @@ mod tests {
             let error = time(text).unwrap_err().to_string();
             assert_eq!(
                 error,
-                format!("o: invalid value {text}; expected HH:MM or HH:MM:SS, from 00:00 to 24:00")
+                format!("o: invalid value `{text}`; expected HH:MM or HH:MM:SS, from 00:00 to 24:00")
             );
         }
     }

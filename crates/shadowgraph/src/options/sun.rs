@@ -212,7 +212,7 @@ mod tests {
         assert!(error("time=12:00 lat=50").contains("missing key `day`; expected \"time=HH:MM day=1..366"));
         assert!(error("time=12:00 day=0 lat=50").contains("day=0 is out of range: 1 to 366"));
         assert!(error("time=12:00 day=1 lat=91").contains("lat=91 is out of range: -90 to 90 degrees"));
-        assert!(error("time=25:00 day=1 lat=0").contains("time=25:00; expected HH:MM"));
+        assert!(error("time=25:00 day=1 lat=0").contains("`time=25:00`; expected HH:MM"));
     }
 
     #[test]
