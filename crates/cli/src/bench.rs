@@ -12,8 +12,8 @@ use shadowgraph::core::TimeSummary;
 use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
-    Comparison, FrameTime, INSTANCES, MovingFrameTime, MovingFrames, Stats, compare, moving_frames,
-    pass_times,
+    Comparison, FrameTime, INSTANCES, MovingFrameTime, MovingFrames, Stats, WholeFrame, compare,
+    moving_frames, pass_times, whole_frames,
 };
 
 /// Number of frames on a real GPU; each is waited for.
@@ -39,6 +39,15 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         let runs = moving_frames(gpu, &input.options.render_config(), size_px, &counts, args.frames)?;
         drop(measuring);
         return console::print(&moving_table(&runs));
+    }
+    if args.whole_frame {
+        let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
+        let frames = args.frames.min(GPU_FRAMES);
+        let measuring = Progress::if_slow("measuring");
+        let times = whole_frames(&gpu, &mut renderer(&gpu, &input)?, &view, frames)?;
+        let passes = passes(&gpu, &input, &view, frames)?;
+        drop(measuring);
+        return console::print(&format!("{}\n{passes}", whole_frame_table(&times, &gpu.adapter.name)));
     }
     let measuring = Progress::if_slow("measuring");
     let comparison = match input.options.render_config() == RenderConfig::from(Pipeline::minimal_lit()) {
@@ -149,6 +158,24 @@ fn moving_table(runs: &[MovingFrames]) -> String {
     )
 }
 
+/// Formats the times of whole frames as a table.
+fn whole_frame_table(frames: &[WholeFrame], device: &str) -> String {
+    let row = |name: &str, time: fn(&WholeFrame) -> Duration| {
+        let stats = Stats::from_samples(frames.iter().map(|frame| time(frame).as_secs_f64() * 1e3));
+        [name.into(), format!("{:.2}", stats.median), format!("{:.2} to {:.2}", stats.p5, stats.p95)]
+    };
+    let rows = vec![
+        ["milliseconds", "median", "5th to 95th percentile"].map(str::to_owned),
+        row("until the GPU has finished", |frame| frame.wall),
+        row("processor time of the thread", |frame| frame.thread),
+    ];
+    format!(
+        "whole frames, {} on {device}; shadow maps are drawn in each\n{}",
+        frames.len(),
+        TextTable { alignment: "lrr", indent: 2, width: COLUMNS }.format(rows)
+    )
+}
+
 fn ratio(stats: Stats) -> String {
     let Stats { p5, p25, median, p75, p95 } = stats;
     format!("median {median:.2}, quartiles {p25:.2} to {p75:.2}, 5th to 95th percentile {p5:.2} to {p95:.2}")
@@ -217,6 +244,17 @@ mod tests {
         assert_eq!(rows[3], ["output/tonemap", "500.0", "-"]);
         assert_eq!(rows[4], ["sum", "1500.0", "1.500"]);
         assert!(text.lines().all(|line| line.len() <= 110), "{text}");
+    }
+
+    #[test]
+    fn whole_frames_have_their_medians() {
+        let frame =
+            |ms| WholeFrame { wall: Duration::from_millis(ms), thread: Duration::from_millis(ms / 10) };
+        let text = whole_frame_table(&[frame(10), frame(30), frame(20)], "a GPU");
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(rows[0][..3], ["whole", "frames,", "3"]);
+        assert_eq!(rows[2][5..], ["20.00", "10.00", "to", "30.00"]);
+        assert_eq!(rows[3][5..], ["2.00", "1.00", "to", "3.00"]);
     }
 
     #[test]

@@ -18,6 +18,9 @@ pub enum Error {
     /// The GPU returned no data for a read-back.
     #[error("the GPU returned no data for a read-back")]
     MissingReadback,
+    /// The system has no clock for the processor time of a thread.
+    #[error("the processor time of the thread cannot be read: {0}")]
+    Clock(std::io::Error),
     /// A view cannot be rendered.
     #[error(transparent)]
     Draw(#[from] shadowgraph::Error),

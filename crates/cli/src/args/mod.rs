@@ -163,6 +163,9 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "N", default_value_t = 1000, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) frames: u32,
+    /// Measure whole frames instead, each until the GPU has finished, and each pass, on the GPU of --adapter; at most 20 frames
+    #[arg(long, conflicts_with = "moving")]
+    pub(crate) whole_frame: bool,
     /// Measure frames of a scene of 10,000 boxes instead, of which these numbers move in each frame, such as 0,1,100,10000
     #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with = "scene")]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=10_000))]

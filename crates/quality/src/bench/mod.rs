@@ -1,4 +1,4 @@
-//! Cost of a frame: the graph compared with the same passes written by hand, and the time of each pass.
+//! Cost of a frame: the graph compared with the same passes written by hand, the time of each pass, and that of whole frames.
 //!
 //! Both sides draw the same view of the same scene with the same pipelines into the same target. Culling and sorting for
 //! the camera is done once and not measured. Both sides plan the shadows (fit their views, cull their casters) with the
@@ -9,12 +9,14 @@ mod hand_written;
 mod moving;
 mod objects;
 mod stats;
+mod whole;
 
 #[cfg(test)]
 mod tests;
 
 pub use moving::{INSTANCES, MovingFrameTime, MovingFrames, moving_frames};
 pub use stats::Stats;
+pub use whole::{WholeFrame, whole_frames};
 
 use std::time::{Duration, Instant};
 

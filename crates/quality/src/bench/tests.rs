@@ -157,3 +157,13 @@ fn skip(id: &str, reason: &str) {
         log.write_all(line.as_bytes()).unwrap();
     }
 }
+
+#[test]
+fn whole_frames_take_at_least_the_processor_time_of_their_thread() {
+    let gpu = Gpu::noop().unwrap();
+    let (mut renderer, options) = demo(&gpu);
+    let frames = whole_frames(&gpu, &mut renderer, &options, 5).unwrap();
+    assert_eq!(frames.len(), 5);
+    let slack = Duration::from_millis(1);
+    assert!(frames.iter().all(|frame| !frame.thread.is_zero() && frame.thread <= frame.wall + slack));
+}
