@@ -75,8 +75,9 @@ impl AutoExposure {
         })
     }
 
-    /// Adds the passes, and returns one texel: the factor for the light of this frame. Pixels with alpha 0 do not count, nor black ones with alpha below 1. With
-    /// [`adaptation`](AutoExposureSettings::adaptation) below 1, the exposure follows the image over frames.
+    /// Adds the passes, and returns one texel: the factor for the light of this frame. Pixels with alpha 0 do not count, nor black
+    /// ones with alpha below 1, which are shadows on a transparent background. With [`adaptation`](AutoExposureSettings::adaptation)
+    /// below 1, the exposure follows the image over frames.
     pub fn add_to(&self, frame: &mut Frame<'_>, light: &Texture, settings: &AutoExposureSettings) -> Texture {
         let size = frame.texture_desc(light).map(|desc| desc.size).unwrap_or_default();
         let mut bins = frame.upload_buffer("histogram", vec![0; 4 * BINS]);
