@@ -48,6 +48,34 @@ pub fn struct_layout(module: &naga::Module, struct_name: &str) -> Result<Layout,
     }
 }
 
+/// Checks a struct of Rust against the WGSL struct of a composed module that has its fields by the same names: see
+/// [`layout::check`](crate::layout::check), whose result it returns.
+///
+/// ```
+/// use shadowgraph_shaders::{check_layout, compose};
+///
+/// #[repr(C)]
+/// struct Settings {
+///     background: [f32; 4],
+///     has_background: u32,
+///     _padding: [u32; 3],
+/// }
+/// let module = compose("tonemap.wgsl", &[])?;
+/// check_layout!(&module, "Settings", Settings: background, has_background)?;
+/// # Ok::<(), shadowgraph_shaders::Error>(())
+/// ```
+#[macro_export]
+macro_rules! check_layout {
+    ($module:expr, $name:expr, $type:ty: $($field:ident),+ $(,)?) => {
+        $crate::layout::check(
+            $module,
+            $name,
+            ::core::mem::size_of::<$type>(),
+            &[$((stringify!($field), ::core::mem::offset_of!($type, $field))),+],
+        )
+    };
+}
+
 /// Checks a struct of a composed module against its size and field offsets (in bytes) in Rust. All WGSL fields must be listed,
 /// in any order, without padding that WGSL does not declare.
 ///

@@ -44,8 +44,9 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
         let frames = args.frames.min(GPU_FRAMES);
         let measuring = Progress::if_slow("measuring");
-        let times = whole_frames(&gpu, &mut renderer(&gpu, &input)?, &view, frames)?;
-        let passes = passes(&gpu, &input, &view, frames)?;
+        let renderer = &mut renderer(&gpu, &input)?;
+        let times = whole_frames(&gpu, renderer, &view, frames)?;
+        let passes = passes(&gpu, renderer, &view, frames)?;
         drop(measuring);
         return console::print(&format!("{}\n{passes}", whole_frame_table(&times, &gpu.adapter.name)));
     }
@@ -57,7 +58,8 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
                 .into()
         }
     };
-    let passes = passes(gpu.as_ref().unwrap_or(&noop), &input, &view, args.frames.min(GPU_FRAMES))?;
+    let gpu = gpu.as_ref().unwrap_or(&noop);
+    let passes = passes(gpu, &mut renderer(gpu, &input)?, &view, args.frames.min(GPU_FRAMES))?;
     drop(measuring);
     console::print(&format!("{comparison}\n{passes}"))
 }
@@ -67,8 +69,8 @@ fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
     Ok(Renderer::with_config(gpu, scene, &input.camera, aov, input.options.render_config())?)
 }
 
-fn passes(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
-    let times = pass_times(gpu, &mut renderer(gpu, input)?, view, frames)?;
+fn passes(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
+    let times = pass_times(gpu, renderer, view, frames)?;
     let device = &gpu.adapter.name;
     Ok(format!("time of each pass, medians of {frames} frames on {device}\n{}", pass_table(&times)))
 }

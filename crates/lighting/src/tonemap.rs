@@ -80,19 +80,13 @@ impl Tonemap {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
-    use shadowgraph_shaders::{compose, layout};
+    use shadowgraph_shaders::{check_layout, compose};
 
     use super::*;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_struct() {
-        let fields = [
-            ("background", offset_of!(TonemapUniforms, background)),
-            ("has_background", offset_of!(TonemapUniforms, has_background)),
-        ];
         let module = compose("tonemap.wgsl", &[]).unwrap();
-        layout::check(&module, "Settings", size_of::<TonemapUniforms>(), &fields).unwrap();
+        check_layout!(&module, "Settings", TonemapUniforms: background, has_background).unwrap();
     }
 }

@@ -227,7 +227,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
     use std::mem::offset_of;
 
-    use shadowgraph_shaders::{MAPPED, compose, layout};
+    use shadowgraph_shaders::{MAPPED, check_layout, compose, layout};
 
     use super::*;
     use crate::exposure::KeyLight;
@@ -251,16 +251,10 @@ mod tests {
             ("noise", size_of::<GpuView>()),
         ];
         layout::check(&module, "View", size_of::<GpuView>() + noise_of(None).len(), &view).unwrap();
-        let light = [
-            ("position", offset_of!(GpuLight, position)),
-            ("kind", offset_of!(GpuLight, kind)),
-            ("direction", offset_of!(GpuLight, direction)),
-            ("range", offset_of!(GpuLight, range)),
-            ("color", offset_of!(GpuLight, color)),
-            ("spot_scale", offset_of!(GpuLight, spot_scale)),
-            ("spot_offset", offset_of!(GpuLight, spot_offset)),
-        ];
-        layout::check(&module, "Light", size_of::<GpuLight>(), &light).unwrap();
+        check_layout!(&module, "Light", GpuLight:
+            position, kind, direction, range, color, spot_scale, spot_offset,
+        )
+        .unwrap();
     }
 
     fn spot(inner_angle: f64, outer_angle: f64) -> GpuLight {

@@ -208,32 +208,21 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
-    use shadowgraph_shaders::{compose, layout};
+    use shadowgraph_shaders::{check_layout, compose};
 
     use super::*;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_structs() {
-        let motion = [
-            ("clip_from_relative", offset_of!(GpuViewMotion, clip_from_relative)),
-            ("previous_clip_from_relative", offset_of!(GpuViewMotion, previous_clip_from_relative)),
-            ("eye", offset_of!(GpuViewMotion, eye)),
-            ("px_from_ndc", offset_of!(GpuViewMotion, px_from_ndc)),
-        ];
         let module = compose("velocity.wgsl", &[]).unwrap();
-        layout::check(&module, "ViewMotion", size_of::<GpuViewMotion>(), &motion).unwrap();
-        let camera = [
-            ("previous_from_current", offset_of!(CameraUniforms, previous_from_current)),
-            (
-                "background_previous_from_current",
-                offset_of!(CameraUniforms, background_previous_from_current),
-            ),
-            ("jitter_px", offset_of!(CameraUniforms, jitter_px)),
-            ("px_from_ndc", offset_of!(CameraUniforms, px_from_ndc)),
-        ];
+        check_layout!(&module, "ViewMotion", GpuViewMotion:
+            clip_from_relative, previous_clip_from_relative, eye, px_from_ndc,
+        )
+        .unwrap();
         let module = compose("velocity_camera.wgsl", &[]).unwrap();
-        layout::check(&module, "Settings", size_of::<CameraUniforms>(), &camera).unwrap();
+        check_layout!(&module, "Settings", CameraUniforms:
+            previous_from_current, background_previous_from_current, jitter_px, px_from_ndc,
+        )
+        .unwrap();
     }
 }

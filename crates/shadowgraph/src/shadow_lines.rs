@@ -201,19 +201,15 @@ fn buffers_layout(device: &wgpu::Device, types: &[wgpu::BufferBindingType]) -> w
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
     use super::*;
 
     #[test]
     fn the_camera_has_the_layout_of_the_wgsl_struct() {
         let module = shadowgraph_shaders::compose("shadow_lines.wgsl", &[]).unwrap();
-        macro_rules! fields {
-            ($($field:ident),*) => { &[$((stringify!($field), offset_of!(ShadowCamera, $field))),*] };
-        }
-        let fields = fields![eye, orthographic, right, width_px, up, forward];
-        shadowgraph_shaders::layout::check(&module, "ShadowCamera", size_of::<ShadowCamera>(), fields)
-            .unwrap();
+        shadowgraph_shaders::check_layout!(&module, "ShadowCamera", ShadowCamera:
+            eye, orthographic, right, width_px, up, forward,
+        )
+        .unwrap();
     }
 
     #[test]

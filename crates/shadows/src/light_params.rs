@@ -31,45 +31,32 @@ pub(crate) struct LightShadowParams {
 impl LightShadowParams {
     /// Returns the parameters of a light in the map of cascades, or of one in the atlas.
     pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
+        let ShadowSettings { fade_fraction, measure, supersample, close_creases, ref bias, .. } = *settings;
         let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
-        let bias = settings.bias.clone();
-        let ShadowSettings { fade_fraction, measure, supersample, close_creases, .. } = *settings;
-        let Some(own) = own else {
-            return Self {
-                bias,
-                filter,
-                kernel_radius_texels: kernel_radius_texels(filter, close_creases),
-                step_texels: 1,
-                blocker_reach_m: 0.0,
-                strength: 1.0,
-                supersample,
-                close_creases,
-                fade_fraction,
-                measure,
-                near_m: None,
-                importance: 1.0,
-            };
-        };
-        let bias = BiasSettings {
-            depth_texels: own.depth_texels.unwrap_or(bias.depth_texels),
-            slope: own.slope.unwrap_or(bias.slope),
-            normal_texels: own.normal_texels.unwrap_or(bias.normal_texels),
-            ..bias
-        };
-        let filter = own.filter.unwrap_or(filter);
+        let filter = own.and_then(|own| own.filter).unwrap_or(filter);
+        let bias = own.map_or_else(
+            || bias.clone(),
+            |own| BiasSettings {
+                depth_texels: own.depth_texels.unwrap_or(bias.depth_texels),
+                slope: own.slope.unwrap_or(bias.slope),
+                normal_texels: own.normal_texels.unwrap_or(bias.normal_texels),
+                ..bias.clone()
+            },
+        );
+        let crease_radius_texels = if close_creases { CREASE_RADIUS_TEXELS } else { 0.0 };
         Self {
             bias,
             filter,
-            kernel_radius_texels: kernel_radius_texels(filter, close_creases),
+            kernel_radius_texels: filter.kernel_radius_texels().max(crease_radius_texels),
             step_texels: 1,
             blocker_reach_m: 0.0,
-            strength: own.strength,
+            strength: own.map_or(1.0, |own| own.strength),
             supersample,
             close_creases,
             fade_fraction,
             measure,
-            near_m: own.near_m.map(f64::from),
-            importance: f64::from(own.importance),
+            near_m: own.and_then(|own| own.near_m).map(f64::from),
+            importance: own.map_or(1.0, |own| f64::from(own.importance)),
         }
     }
 
@@ -118,10 +105,6 @@ impl LightShadowParams {
         f64::from(self.kernel_radius_texels + self.normal_texels() * bias_scale.max(1.0))
             + snapping_px(self.step_texels)
     }
-}
-
-fn kernel_radius_texels(filter: ShadowFilter, close_creases: bool) -> f32 {
-    filter.kernel_radius_texels().max(if close_creases { CREASE_RADIUS_TEXELS } else { 0.0 })
 }
 
 /// Returns the largest requirements of any light's settings.

@@ -113,24 +113,16 @@ impl AutoExposure {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
-    use shadowgraph_shaders::{compose, layout};
+    use shadowgraph_shaders::{check_layout, compose};
 
     use super::*;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_struct() {
-        let fields = [
-            ("key", offset_of!(ExposureUniforms, key)),
-            ("strength", offset_of!(ExposureUniforms, strength)),
-            ("highlights", offset_of!(ExposureUniforms, highlights)),
-            ("white", offset_of!(ExposureUniforms, white)),
-            ("least", offset_of!(ExposureUniforms, least)),
-            ("largest", offset_of!(ExposureUniforms, largest)),
-            ("weight", offset_of!(ExposureUniforms, weight)),
-        ];
         let module = compose("post/exposure.wgsl", &[]).unwrap();
-        layout::check(&module, "Settings", size_of::<ExposureUniforms>(), &fields).unwrap();
+        check_layout!(&module, "Settings", ExposureUniforms:
+            key, strength, highlights, white, least, largest, weight,
+        )
+        .unwrap();
     }
 }

@@ -108,25 +108,15 @@ impl Occlusion {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
-    use shadowgraph_shaders::{compose, layout};
+    use shadowgraph_shaders::{check_layout, compose};
 
     use super::*;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_structs() {
-        let fields = [
-            ("radius_m", offset_of!(OcclusionUniforms, radius_m)),
-            ("power", offset_of!(OcclusionUniforms, power)),
-            ("slices", offset_of!(OcclusionUniforms, slices)),
-            ("steps", offset_of!(OcclusionUniforms, steps)),
-        ];
         let module = compose("post/occlusion.wgsl", &[]).unwrap();
-        layout::check(&module, "Settings", size_of::<OcclusionUniforms>(), &fields).unwrap();
-        let fields =
-            [("height", offset_of!(GroundPlane, height)), ("exists", offset_of!(GroundPlane, exists))];
+        check_layout!(&module, "Settings", OcclusionUniforms: radius_m, power, slices, steps).unwrap();
         let module = compose("post/view_depth.wgsl", &[]).unwrap();
-        layout::check(&module, "GroundPlane", size_of::<GroundPlane>(), &fields).unwrap();
+        check_layout!(&module, "GroundPlane", GroundPlane: height, exists).unwrap();
     }
 }

@@ -87,22 +87,16 @@ impl Temporal {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
-    use shadowgraph_shaders::{compose, layout};
+    use shadowgraph_shaders::{check_layout, compose};
 
     use super::*;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_struct() {
-        let fields = [
-            ("previous_from_current", offset_of!(TemporalUniforms, previous_from_current)),
-            ("jitter_px", offset_of!(TemporalUniforms, jitter_px)),
-            ("current_weight", offset_of!(TemporalUniforms, current_weight)),
-            ("history_valid", offset_of!(TemporalUniforms, history_valid)),
-            ("depth_offset", offset_of!(TemporalUniforms, depth_offset)),
-        ];
         let module = compose("post/temporal.wgsl", &[]).unwrap();
-        layout::check(&module, "Settings", size_of::<TemporalUniforms>(), &fields).unwrap();
+        check_layout!(&module, "Settings", TemporalUniforms:
+            previous_from_current, jitter_px, current_weight, history_valid, depth_offset,
+        )
+        .unwrap();
     }
 }

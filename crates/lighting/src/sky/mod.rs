@@ -160,30 +160,19 @@ fn horizontal_illuminance(light: &Light) -> Vec3 {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use std::mem::offset_of;
-
-    use shadowgraph_shaders::{NONE, SKY_LIGHT, compose, layout};
+    use shadowgraph_shaders::{NONE, SKY_LIGHT, check_layout, compose};
 
     use super::*;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_struct() {
-        let fields = [
-            ("distribution", offset_of!(GpuSky, distribution)),
-            ("irradiance", offset_of!(GpuSky, irradiance)),
-            ("radiance", offset_of!(GpuSky, radiance)),
-            ("cos_disc", offset_of!(GpuSky, cos_disc)),
-            ("to_sun", offset_of!(GpuSky, to_sun)),
-            ("backdrop", offset_of!(GpuSky, backdrop)),
-            ("disc", offset_of!(GpuSky, disc)),
-            ("has_ground", offset_of!(GpuSky, has_ground)),
-            ("ground", offset_of!(GpuSky, ground)),
-            ("ground_height", offset_of!(GpuSky, ground_height)),
-            ("ground_albedo", offset_of!(GpuSky, ground_albedo)),
-        ];
         let sky = SKY_LIGHT.with_value("ENVIRONMENT", "2");
         let module = compose("background.wgsl", &[NONE, sky]).unwrap();
-        layout::check(&module, "Sky", size_of::<GpuSky>(), &fields).unwrap();
+        check_layout!(&module, "Sky", GpuSky:
+            distribution, irradiance, radiance, cos_disc, to_sun, backdrop, disc, has_ground, ground,
+            ground_height, ground_albedo,
+        )
+        .unwrap();
     }
 
     fn sun(elevation_deg: f64) -> Light {

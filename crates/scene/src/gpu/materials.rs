@@ -327,32 +327,16 @@ fn uniform(material: &Material, receives: bool) -> MaterialUniform {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
-    use std::mem::offset_of;
-
     use super::*;
 
     #[test]
     fn the_uniform_has_the_layout_of_the_wgsl_struct() {
         let module = shadowgraph_shaders::compose("depth.wgsl", &[]).unwrap();
-        macro_rules! fields {
-            ($($field:ident),*) => { &[$((stringify!($field), offset_of!(MaterialUniform, $field))),*] };
-        }
-        let fields = fields![
-            base_color,
-            emissive,
-            metallic,
-            roughness,
-            normal_scale,
-            occlusion_strength,
-            alpha_cutoff,
-            uv_sets,
-            flags_index,
-            caster_cutoff,
-            uv_transforms,
-            flags
-        ];
-        shadowgraph_shaders::layout::check(&module, "Material", size_of::<MaterialUniform>(), fields)
-            .unwrap();
+        shadowgraph_shaders::check_layout!(&module, "Material", MaterialUniform:
+            base_color, emissive, metallic, roughness, normal_scale, occlusion_strength, alpha_cutoff,
+            uv_sets, flags_index, caster_cutoff, uv_transforms, flags,
+        )
+        .unwrap();
         assert!(size_of::<MaterialUniform>() as u64 <= STRIDE);
     }
 

@@ -2,18 +2,12 @@
 
 use std::mem::offset_of;
 
-use shadowgraph_shaders::{MAPPED, ModuleSource, builtin, compose, compose_source, layout};
+use shadowgraph_shaders::{MAPPED, ModuleSource, builtin, check_layout, compose, compose_source};
 use shadowgraph_shadows::{
     BIAS_GRADIENT, BIAS_PLANE, BIAS_RASTER, BIAS_SLOPE, BLEND_DITHER, BLEND_HARD, BLEND_SOFT, MAP_ATLAS,
     MAP_CASCADES, NOT_A_CASCADE, SELECT_DEPTH, SELECT_FACE, SELECT_MAP, SELECT_SPHERE, ShadowLight,
     ShadowView,
 };
-
-macro_rules! fields {
-    ($struct:ty: $($field:ident),* $(,)?) => {
-        [$((stringify!($field), offset_of!($struct, $field))),*]
-    };
-}
 
 const ENTRY: &str = "
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight}
@@ -26,18 +20,22 @@ const ENTRY: &str = "
 #[test]
 fn structs_have_the_same_layout_in_wgsl_and_rust() {
     let module = compose_source(&ModuleSource::new("touch.wgsl", ENTRY), &[]).unwrap();
-    let view = fields!(ShadowView: clip_from_world, map_from_world, uv_min, uv_max, light, center, radius,
-        texel_world, depth_per_texel, axis_scale, depth_range_m, near_m, cascade, begin_m, end_m, tile_px,
-        bias_scale, depth_step, noise_px, is_tinted, is_open, texel_scale);
-    layout::check(&module, "ShadowView", size_of::<ShadowView>(), &view).unwrap();
+    check_layout!(&module, "ShadowView", ShadowView:
+        clip_from_world, map_from_world, uv_min, uv_max, light, center, radius, texel_world, depth_per_texel,
+        axis_scale, depth_range_m, near_m, cascade, begin_m, end_m, tile_px, bias_scale, depth_step, noise_px,
+        is_tinted, is_open, texel_scale,
+    )
+    .unwrap();
     assert_eq!(size_of::<ShadowView>(), 256);
     // `depth.wgsl` declares these two offsets.
     assert_eq!((offset_of!(ShadowView, clip_from_world), offset_of!(ShadowView, noise_px)), (0, 232));
-    let light = fields!(ShadowLight: first_view, view_count, map, select, blend, filter_taps, bias_method,
-        normal_sine, strength, normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels,
-        fade_end_m, fade_per_m, blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases,
-        fades_by_radius, eye, branch_free, ends_m);
-    layout::check(&module, "ShadowLight", size_of::<ShadowLight>(), &light).unwrap();
+    check_layout!(&module, "ShadowLight", ShadowLight:
+        first_view, view_count, map, select, blend, filter_taps, bias_method, normal_sine, strength,
+        normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels, fade_end_m, fade_per_m,
+        blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases, fades_by_radius,
+        eye, branch_free, ends_m,
+    )
+    .unwrap();
 }
 
 #[test]

@@ -1,7 +1,5 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use std::mem::offset_of;
-
 use super::*;
 use crate::mesh::{MorphTarget, SkinWeights};
 use glam::DVec3;
@@ -9,22 +7,12 @@ use glam::DVec3;
 #[test]
 fn structs_have_the_layout_of_the_wgsl_structs() {
     let module = shadowgraph_shaders::compose("pose.wgsl", &[]).unwrap();
-    let fields = [
-        ("rest_vertex", offset_of!(Job, rest_vertex)),
-        ("posed_vertex", offset_of!(Job, posed_vertex)),
-        ("vertex_count", offset_of!(Job, vertex_count)),
-        ("first_influence", offset_of!(Job, first_influence)),
-        ("influences_per_vertex", offset_of!(Job, influences_per_vertex)),
-        ("first_joint", offset_of!(Job, first_joint)),
-        ("first_delta", offset_of!(Job, first_delta)),
-        ("first_weight", offset_of!(Job, first_weight)),
-        ("weight_count", offset_of!(Job, weight_count)),
-        ("previous_first_joint", offset_of!(Job, previous_first_joint)),
-        ("previous_first_weight", offset_of!(Job, previous_first_weight)),
-    ];
-    shadowgraph_shaders::layout::check(&module, "Job", size_of::<Job>(), &fields).unwrap();
-    let fields = [("joint", offset_of!(Influence, joint)), ("weight", offset_of!(Influence, weight))];
-    shadowgraph_shaders::layout::check(&module, "Influence", size_of::<Influence>(), &fields).unwrap();
+    shadowgraph_shaders::check_layout!(&module, "Job", Job:
+        rest_vertex, posed_vertex, vertex_count, first_influence, influences_per_vertex, first_joint,
+        first_delta, first_weight, weight_count, previous_first_joint, previous_first_weight,
+    )
+    .unwrap();
+    shadowgraph_shaders::check_layout!(&module, "Influence", Influence: joint, weight).unwrap();
     let fields = [("row_x", 0), ("row_y", 16), ("row_z", 32)];
     shadowgraph_shaders::layout::check(&module, "Joint", size_of::<[Vec4; 3]>(), &fields).unwrap();
     assert_eq!((size_of::<Vertex>(), size_of::<MorphDelta>()), (16 * 4, 9 * 4), "words in pose.wgsl");
