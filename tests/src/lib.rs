@@ -12,14 +12,25 @@ pub mod watch;
 
 pub use program::{ProgramError, on_path, program};
 
+use shadowgraph::options::AdapterChoice;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Returns the repository's root.
+/// Returns the repository's root, or the directory that the variable `SHADOWGRAPH_REPOSITORY` names: one with the files that tests
+/// read, where they run on a machine without the repository.
 #[must_use]
 pub fn repository() -> PathBuf {
+    if let Some(root) = std::env::var_os("SHADOWGRAPH_REPOSITORY") {
+        return root.into();
+    }
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// Returns the adapter that the variable `SHADOWGRAPH_ADAPTER` names, as the option `--adapter` does; by default any.
+#[must_use]
+pub fn adapter() -> AdapterChoice {
+    std::env::var("SHADOWGRAPH_ADAPTER").ok().and_then(|name| name.parse().ok()).unwrap_or_default()
 }
 
 /// Returns a directory of the test material that is not in the repository, if this machine has it.

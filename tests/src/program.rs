@@ -18,13 +18,14 @@ impl std::fmt::Display for ProgramError {
 
 impl std::error::Error for ProgramError {}
 
-/// Returns the path of the program, which each test program builds once.
+/// Returns the path of the program, which each test program builds once, or the one that the variable `SHADOWGRAPH_PROGRAM` names.
 ///
 /// # Errors
 /// When cargo cannot build it.
 pub fn program() -> Result<&'static Path, ProgramError> {
     static PROGRAM: OnceLock<Result<PathBuf, ProgramError>> = OnceLock::new();
-    PROGRAM.get_or_init(build).as_deref().map_err(Clone::clone)
+    let find = || std::env::var_os("SHADOWGRAPH_PROGRAM").map_or_else(build, |program| Ok(program.into()));
+    PROGRAM.get_or_init(find).as_deref().map_err(Clone::clone)
 }
 
 fn build() -> Result<PathBuf, ProgramError> {

@@ -86,6 +86,18 @@ pub(crate) fn stdout_of(command: &mut Command) -> Result<String, String> {
     Err(format!("`{program}` failed ({}): {}", output.status, errors.trim()))
 }
 
+/// Returns what a build prints to standard output; its errors and progress go to the terminal.
+///
+/// # Errors
+/// One line when it could not start or failed.
+pub(crate) fn stdout_of_build(command: &mut Command) -> Result<String, String> {
+    let output = command.stderr(Stdio::inherit()).output().map_err(|error| start_error(command, &error))?;
+    match output.status.success() {
+        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        false => Err(format!("the build failed ({})", output.status)),
+    }
+}
+
 /// Returns whether a program of that name can be started.
 pub(crate) fn on_path(program: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();

@@ -9,6 +9,7 @@ mod child;
 mod demo;
 mod docs;
 mod driver;
+mod gpu_report;
 mod images;
 mod machine;
 mod members;
@@ -35,9 +36,11 @@ Needed less often:
   cargo xtask docs    draw the images of the documents, and build the book (with mdbook) in out/book
   cargo xtask soak    parse a million broken files, and render 10000 frames of random pipelines, sizes,
                       techniques and lights; for another number of frames: cargo xtask soak 2000
+  cargo xtask gpu-report
+                      build a directory that measures the GPU of another Linux machine, in out/gpu-report
   cargo xtask noise   write the noise of shaders, crates/lighting/src/blue_noise.bin
 
-On Linux, all but `check` and `noise` first make sure of a Vulkan driver, and `test` of the programs that tests start
+On Linux, all but `check`, `gpu-report` and `noise` first make sure of a Vulkan driver, and `test` of the programs that tests start
 (Xvfb, Graphviz, Chromium). What is missing is installed with apt-get if you are root or sudo needs no
 password; otherwise the line to run is printed.
 
@@ -53,6 +56,7 @@ fn main() -> ExitCode {
         }
         ["demo"] => demo::run(),
         ["docs"] => docs::run(),
+        ["gpu-report"] => gpu_report::run(),
         ["noise"] => noise::run(),
         ["test"] => suite::run(),
         ["check"] => check::run(),

@@ -76,11 +76,7 @@ fn passes(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions, frames: u32) -
 }
 
 fn heading(args: &BenchArgs, input: &Input) -> String {
-    let scene = match &args.draw.scene {
-        Some(file) => file.display().to_string(),
-        None if args.moving.is_empty() => "the demo scene".into(),
-        None => "boxes".into(),
-    };
+    let scene = if args.moving.is_empty() { args.draw.scene_name() } else { "boxes".into() };
     let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
     let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
     format!(

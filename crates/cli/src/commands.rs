@@ -16,6 +16,7 @@ use shadowgraph::scene::gltf::{self, LoadOptions, Progress as LoadProgress};
 use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::shadows::ShadowSettings;
 use shadowgraph::{Background, Gpu, Registry, RenderedFrame, RenderedImage, Renderer, ViewOptions};
+use shadowgraph_samples::named_scene;
 
 /// The input of every drawing command.
 pub(crate) struct Input {
@@ -132,12 +133,16 @@ fn check_output(file: &Path) -> Result<(), Failure> {
 
 /// Parses the options, loads the scene and applies the options to it.
 pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failure> {
+    if let Some(folder) = &args.shaders {
+        check_shaders(folder)?;
+        shadowgraph::shaders::set_folder(Some(folder.clone()));
+    }
     let options = args.options(registry)?;
     // A requested texture may belong to a node that no output depends on.
     if !matches!(options.aov, Aov::Texture(_)) {
         options.pipeline.warnings().iter().for_each(|note| console::warning(&note.to_string()));
     }
-    let mut scene = load(args.scene.as_deref(), args.variant.as_deref())?;
+    let mut scene = scene(args)?;
     scene.notes.iter().for_each(|note| console::warning(note));
     let shows_ground = options.aov == Aov::Color && options.pipeline.has_sky();
     let ground = options.ground.place(&scene, shows_ground);
@@ -155,6 +160,18 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     Ok(Input { options, scene, camera })
 }
 
+/// Checks that a directory has shaders.
+fn check_shaders(folder: &Path) -> Result<(), Failure> {
+    let reason = match folder {
+        folder if !folder.is_dir() => "is not a directory",
+        folder if !shadowgraph::shaders::builtin_files().any(|file| folder.join(file).is_file()) => {
+            "contains no file with the name of a built-in shader, such as forward.wgsl"
+        }
+        _ => return Ok(()),
+    };
+    Err(Failure { code: Failure::INPUT, message: format!("--shaders {}: {reason}", folder.display()) })
+}
+
 /// Applies the shadow modes by name, and warns of names that nothing has.
 fn apply_shadow_modes(settings: &ShadowSettings, scene: &mut Scene) {
     let materials = scene.materials().map(|(_, material)| &*material.name);
@@ -166,14 +183,21 @@ fn apply_shadow_modes(settings: &ShadowSettings, scene: &mut Scene) {
     scene.set_shadow_modes(settings.shadow_modes());
 }
 
-/// Loads a scene with a variant of its materials; without a file, the built-in one.
-pub(crate) fn load(file: Option<&Path>, variant: Option<&str>) -> Result<Scene, Failure> {
-    let Some(file) = file else {
-        return match variant {
-            None => Ok(shadowgraph_samples::demo::demo_scene()),
-            Some(_) => Err(OptionError::new("variant", "the built-in scene has no variants").into()),
-        };
-    };
+/// Loads the scene of the arguments; without a file, creates a procedural one.
+fn scene(args: &DrawArgs) -> Result<Scene, Failure> {
+    let variant = args.variant.as_deref();
+    if let Some(file) = &args.scene {
+        return load(file, variant);
+    }
+    if variant.is_some() {
+        return Err(OptionError::new("variant", "only files have variants").into());
+    }
+    let name = args.procedural.as_deref().unwrap_or("demo");
+    Ok(named_scene(name).map_err(|error| OptionError::new("scene", error.to_string()))?)
+}
+
+/// Loads a file with a variant of its materials.
+pub(crate) fn load(file: &Path, variant: Option<&str>) -> Result<Scene, Failure> {
     let loading = Progress::now(&format!("loading {}", file.display()));
     let report = &mut |at: LoadProgress| loading.set(at.stage, at.fraction);
     let options = LoadOptions { variant: variant.map(str::to_owned) };

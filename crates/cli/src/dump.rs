@@ -62,8 +62,9 @@ fn page(args: &DumpArgs, input: Input) -> Result<String, Failure> {
         ),
     );
     let mut finish = |mut page: HtmlPage<'_>| {
-        let file = args.scene.as_deref().and_then(Path::file_name);
-        let title = file.map_or(TITLE.into(), |file| format!("{TITLE}: {}", file.to_string_lossy()));
+        let file = args.scene.as_deref().and_then(Path::file_name).map(|file| file.to_string_lossy());
+        let name = file.or(args.procedural.as_deref().map(Into::into));
+        let title = name.map_or(TITLE.into(), |name| format!("{TITLE}: {name}"));
         page.notes.append(&mut notes);
         page.with_title(&title).to_html()
     };

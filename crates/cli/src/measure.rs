@@ -188,7 +188,7 @@ pub(super) fn work(args: &MeasureArgs, size: Size) -> Result<Work, Failure> {
     let Some(file) = &args.scene else {
         return Ok(Work::Cases { cases: built_in_cases()?.cases, folder: PathBuf::new() });
     };
-    let mut scene = commands::load(Some(file), None)?;
+    let mut scene = commands::load(file, None)?;
     scene.notes.iter().for_each(|note| console::warning(note));
     let sun: SunChoice = args.sun.as_deref().map_or(Ok(SunChoice::default()), str::parse)?;
     if let Some(note) = sun.apply(&mut scene) {

@@ -6,7 +6,7 @@ mod court;
 mod far;
 mod hall;
 mod motion;
-mod noise;
+pub(crate) mod noise;
 mod props;
 mod textures;
 

@@ -31,3 +31,8 @@ pub(crate) fn insert_instance(
 pub(crate) fn rotation_curve(times_s: Vec<f32>, values: Vec<f32>) -> Curve {
     Curve::new(times_s, values, 4, Interpolation::Linear).expect("finite values at ascending times")
 }
+
+/// Creates a curve of translations between which it is linear.
+pub(crate) fn translation_curve(times_s: Vec<f32>, values: Vec<f32>) -> Curve {
+    Curve::new(times_s, values, 3, Interpolation::Linear).expect("finite values at ascending times")
+}

@@ -19,9 +19,8 @@ pub(crate) struct Program {
 }
 
 impl Drawing {
-    /// Creates the objects on a no-op device, so that only CPU work is measured.
-    pub(crate) fn new() -> Self {
-        let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    /// Creates the objects.
+    pub(crate) fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let programs = std::array::from_fn(|index| Program::new(&device, index + 1));
         let ends = [(); 2].map(|()| texture(&device));
         Self { device, queue, programs, ends }

@@ -20,6 +20,7 @@ use frames::chain::Chain;
 use graph::{Declared, Source, Whole};
 use hand::Hand;
 use measure::{Workload, measure, timed};
+use shadowgraph_core::wgpu;
 use table::{Table, Target};
 
 fn main() {
@@ -111,8 +112,14 @@ fn real_frame(table: &mut Table) {
     }
 }
 
+/// Creates the objects of frames on a no-op device, so that only CPU work is measured.
+fn drawing() -> Drawing {
+    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    Drawing::new(device, queue)
+}
+
 fn by_hand(table: &mut Table) {
-    let drawing = Drawing::new();
+    let drawing = drawing();
     for length in [10, 100, 1_000] {
         table.heading(&format!("whole frame of {length} passes with one draw each"));
         let chain = Chain::new(length);
@@ -129,7 +136,7 @@ fn by_hand(table: &mut Table) {
 }
 
 fn on_threads(table: &mut Table) {
-    let drawing = Drawing::new();
+    let drawing = drawing();
     let chain = Chain::new(32);
     for draws in [1, 10, 100, 1_000] {
         table.heading(&format!("whole frame of 32 passes with {draws} draws each"));

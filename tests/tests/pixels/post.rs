@@ -101,20 +101,24 @@ fn anti_aliasing_brings_edges_nearer_to_an_image_of_many_samples() {
     assert!(of(&taa, 1) < 1.3 * without);
 }
 
+/// Returns the path of a pipeline of all nodes.
+fn everything() -> String {
+    shadowgraph_tests::repository().join("docs/everything.ron").display().to_string()
+}
+
 #[test]
 fn render_writes_the_last_of_the_requested_frames() {
     let Some(_gpu) = gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let render = |frames: &str, taa: &str| {
-        let (file, pipeline) =
-            (dir.path().join("p.png"), concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron"));
+        let (file, pipeline) = (dir.path().join("p.png"), everything());
         let mut command = std::process::Command::new(shadowgraph_tests::program().unwrap());
         command.args([
             "render",
             "--size",
             "160x90",
             "--pipeline",
-            pipeline,
+            &pipeline,
             "--set",
             taa,
             "--animation",
@@ -143,9 +147,9 @@ fn render_writes_each_frame_to_a_file_with_a_number_and_the_same_frames_every_ti
         let file = |number: u32| std::fs::read(dir.path().join(format!("{folder}/{number:03}.png"))).unwrap();
         [0, 1, 2].map(file)
     };
-    let everything = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/everything.ron");
+    let everything = everything();
     for folder in ["a", "b"] {
-        let output = render(&format!("{folder}/%03d.png"), &["--pipeline", everything, "--set", "taa=true"]);
+        let output = render(&format!("{folder}/%03d.png"), &["--pipeline", &everything, "--set", "taa=true"]);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         assert!(String::from_utf8_lossy(&output.stdout).contains("3 frames, 0.10 s, 96x54"));
     }

@@ -1,7 +1,7 @@
 //! The shared device and simple scenes to render.
 
 use glam::{DAffine3, DVec3, Vec3, Vec4};
-use shadowgraph::options::{AdapterChoice, Aov};
+use shadowgraph::options::Aov;
 use shadowgraph::scene::gpu::GpuScene;
 use shadowgraph::scene::{
     AlphaMode, Camera, Instance, InstanceKey, Light, LightKind, Material, MaterialKey, Mesh, MeshKey,
@@ -42,7 +42,7 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
     thread_local! {
         static USE: DeviceUse = DeviceUse::new();
     }
-    let open = || Gpu::open(&AdapterChoice::Auto).map_err(|error| error.to_string());
+    let open = || Gpu::open(&shadowgraph_tests::adapter()).map_err(|error| error.to_string());
     match GPUS[USE.with(|device| device.0)].get_or_init(open) {
         Ok(gpu) => Some(gpu),
         Err(reason) => {

@@ -17,6 +17,10 @@ use std::str::FromStr;
 pub(crate) struct DrawArgs {
     /// A glTF or GLB file. Default: the built-in demo scene
     pub(crate) scene: Option<PathBuf>,
+    /// A procedural scene in place of a file: city:INSTANCES with 10000 to 1000000 instances, city:INSTANCES:SEED, demo, or a test
+    /// scene such as cornell
+    #[arg(long = "scene", value_name = "NAME", conflicts_with = "scene")]
+    pub(crate) procedural: Option<String>,
     /// The variant of the file's materials (KHR_materials_variants). Default: its default materials
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
@@ -80,6 +84,10 @@ pub(crate) struct DrawArgs {
     /// The GPU by name; cpu forces a software adapter. Default: auto; without this option, bench measures only the CPU
     #[arg(long, value_name = "auto|NAME|cpu")]
     adapter: Option<String>,
+    /// A directory of WGSL files, such as shaders/wgsl of a checkout, that replace the built-in files of the same names. The window
+    /// reloads them when they are saved
+    #[arg(long, value_name = "DIR")]
+    pub(crate) shaders: Option<PathBuf>,
     /// Print a table of CPU and GPU time per pass
     #[arg(long)]
     timings: bool,
@@ -90,6 +98,15 @@ impl DrawArgs {
     pub(crate) fn with_default_pipeline(&self, name: &str) -> Self {
         let pipeline = Some(self.pipeline.clone().unwrap_or_else(|| name.to_owned()));
         Self { pipeline, ..self.clone() }
+    }
+
+    /// Returns the name of the scene: its file, or that of a procedural one.
+    pub(crate) fn scene_name(&self) -> String {
+        match (&self.scene, &self.procedural) {
+            (Some(file), _) => file.display().to_string(),
+            (None, Some(name)) => name.clone(),
+            (None, None) => "the demo scene".into(),
+        }
     }
 
     /// Returns whether an adapter is requested.
@@ -287,6 +304,20 @@ mod tests {
             let error = options(line).unwrap_err();
             assert!(error.starts_with(start) && error.lines().count() == 1, "{error}");
         }
+    }
+
+    #[test]
+    fn a_procedural_scene_takes_the_place_of_a_file() {
+        let draw = |line: &str| {
+            let cli = Cli::try_parse_from(["shadowgraph", "render"].into_iter().chain(line.split(';')));
+            cli.map(|cli| match cli.command {
+                Some(Command::Render(args)) => args.draw,
+                other => panic!("{other:?}"),
+            })
+        };
+        assert_eq!(draw("--scene;city:20000").unwrap().scene_name(), "city:20000");
+        assert_eq!(draw("a.glb").unwrap().scene_name(), "a.glb");
+        assert!(draw("a.glb;--scene;demo").is_err());
     }
 
     #[test]

@@ -121,10 +121,6 @@ impl DumpArgs {
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// A directory of WGSL files, such as shaders/wgsl of a checkout. They replace the built-in files of the same names and
-    /// are reloaded when saved
-    #[arg(long, value_name = "DIR")]
-    pub(crate) shaders: Option<PathBuf>,
     /// GPU time budget of the shadow passes in milliseconds; while they exceed it, shadow distance and resolution are lowered
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub(crate) budget_ms: Option<f64>,
@@ -167,7 +163,7 @@ pub(crate) struct BenchArgs {
     #[arg(long, conflicts_with = "moving")]
     pub(crate) whole_frame: bool,
     /// Measure frames of a scene of 10,000 boxes instead, of which these numbers move in each frame, such as 0,1,100,10000
-    #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with = "scene")]
+    #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with_all = ["scene", "procedural"])]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub(crate) moving: Vec<u32>,
 }

@@ -10,7 +10,6 @@ mod stage;
 mod sun;
 
 use std::panic::{self, AssertUnwindSafe};
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -25,10 +24,6 @@ use shadowgraph::{Registry, wgpu};
 
 /// `shadowgraph view`
 pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> {
-    if let Some(folder) = &args.shaders {
-        check_folder(folder)?;
-        shadowgraph::shaders::set_folder(Some(folder.clone()));
-    }
     let input = input(&args.draw, registry)?;
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
     let display = Box::new(event_loop.owned_display_handle());
@@ -60,17 +55,6 @@ fn run(event_loop: EventLoop<()>, app: &mut App) -> Result<(), Failure> {
         }
         Err(panicked) => panic::resume_unwind(panicked),
     }
-}
-
-fn check_folder(folder: &Path) -> Result<(), Failure> {
-    let reason = match folder {
-        folder if !folder.is_dir() => "is not a directory",
-        folder if !shadowgraph::shaders::builtin_files().any(|file| folder.join(file).is_file()) => {
-            "contains no file with the name of a built-in shader, such as forward.wgsl"
-        }
-        _ => return Ok(()),
-    };
-    Err(Failure { code: Failure::INPUT, message: format!("--shaders {}: {reason}", folder.display()) })
 }
 
 fn no_display(error: &dyn std::fmt::Display) -> Failure {

@@ -17,6 +17,7 @@ use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, Shado
 use shadowgraph::{
     Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines, ViewOptions, shadow_ms, wgpu,
 };
+use shadowgraph_samples::demo::demo_scene;
 
 /// Number of frames in the history of times.
 const FRAMES: usize = 60;
@@ -74,7 +75,7 @@ impl Stage {
         args: &ViewArgs,
     ) -> Result<Self, Failure> {
         let radius_m = input.scene.bounds().radius();
-        let shaders = args.shaders.iter().flat_map(|folder| {
+        let shaders = args.draw.shaders.iter().flat_map(|folder| {
             shadowgraph::shaders::builtin_files().map(|file| folder.join(file)).collect::<Vec<_>>()
         });
         let settings_file = args.draw.settings_file().map(PathBuf::from);
@@ -114,7 +115,8 @@ impl Stage {
 
     /// Opens a scene, or the built-in one without a file, at its first camera. A failure changes nothing.
     pub(super) fn open(&mut self, file: Option<&Path>) {
-        let mut scene = match load(file, None) {
+        let loaded = file.map_or_else(|| Ok(demo_scene()), |file| load(file, None));
+        let mut scene = match loaded {
             Ok(scene) => scene,
             Err(failure) => return self.file_error = Some(failure.message),
         };

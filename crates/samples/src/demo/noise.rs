@@ -9,7 +9,7 @@ pub(super) const SIZE: u32 = 256;
 
 /// Creates a texture; `color` is evaluated at the centre of each pixel, (u, v) from the top left, 0 to 1, and returns
 /// the encoded value, 0 to 1.
-pub(super) fn texture(name: &str, color: impl Fn(f64, f64) -> [f64; 4]) -> Image {
+pub(crate) fn texture(name: &str, color: impl Fn(f64, f64) -> [f64; 4]) -> Image {
     let at = |i: u32| (f64::from(i) + 0.5) / f64::from(SIZE);
     let byte = |value: f64| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     let pixels = (0..SIZE).flat_map(|row| (0..SIZE).map(move |column| (column, row)));
@@ -35,7 +35,7 @@ pub(super) fn normals(name: &str, strength: f64, height: impl Fn(f64, f64) -> f6
 }
 
 /// Returns a hash of a lattice cell, 0 to 1.
-pub(super) fn cell(x: i64, y: i64, seed: u64) -> f64 {
+pub(crate) fn cell(x: i64, y: i64, seed: u64) -> f64 {
     let mut bits = (x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
         ^ (y as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F)
         ^ seed.wrapping_mul(0x1656_67B1_9E37_79F9);
