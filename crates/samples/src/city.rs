@@ -99,7 +99,7 @@ impl Block {
     }
 
     /// Returns the world position of a point on the block, relative to its centre.
-    fn at(&self, x: f64, y: f64, z: f64) -> DVec3 {
+    fn to_world(&self, x: f64, y: f64, z: f64) -> DVec3 {
         DVec3::new(self.center.x + x, y, self.center.y + z)
     }
 }

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DQuat, DVec3};
 
 use super::materials::Materials;
-use super::shapes::{Part, Shapes};
+use super::shapes::{CityMesh, Shapes};
 use crate::insert::insert_instance;
 use shadowgraph_scene::animation::{Animation, Channel, LocalTransform, Node};
 use shadowgraph_scene::{Attachment, InstanceKey, Light, MaterialKey, Scene};
@@ -53,7 +53,7 @@ impl CityBuilder {
     /// Adds an instance of a part, in its own material or in another; `None` if there are enough.
     pub(super) fn add(
         &mut self,
-        part: Part,
+        part: CityMesh,
         material: Option<MaterialKey>,
         transform: DAffine3,
     ) -> Option<InstanceKey> {
@@ -68,7 +68,7 @@ impl CityBuilder {
     }
 
     /// Adds the parts of an object at one place; returns whether all fitted.
-    pub(super) fn add_all(&mut self, parts: &[Part], transform: DAffine3) -> bool {
+    pub(super) fn add_all(&mut self, parts: &[CityMesh], transform: DAffine3) -> bool {
         parts.iter().all(|&part| self.add(part, None, transform).is_some())
     }
 

@@ -32,7 +32,7 @@ pub(super) fn build(block: &mut Block, builder: &mut CityBuilder) -> bool {
     (0..6).all(|lot| {
         let center = DVec2::new(f64::from(lot % 3) * 16.4 - 16.4, f64::from(lot / 3) * 26.0 - 13.0);
         let half = DVec2::new(block.random.between(6.4, 8.1), block.random.between(7.0, 10.0));
-        let high = block.random.chance(if block.ring < 3 { 0.35 } else { 0.12 });
+        let high = block.random.happens(if block.ring < 3 { 0.35 } else { 0.12 });
         let floors = block.random.between(3.0, 7.0) + if high { block.random.between(3.0, 9.0) } else { 0.0 };
         let building = Building {
             center,
@@ -55,7 +55,7 @@ impl Building {
     fn bodies(&self, block: &Block, builder: &mut CityBuilder) -> bool {
         let mut part = |material, from: f64, to: f64, out: f64| {
             let size = DVec3::new((self.half.x + out) * 2.0, to - from, (self.half.y + out) * 2.0);
-            builder.add_box(material, block.at(self.center.x, KERB_M + from, self.center.y), size)
+            builder.add_box(material, block.to_world(self.center.x, KERB_M + from, self.center.y), size)
         };
         let top = self.height();
         part(self.wall, 0.0, top, 0.0)
@@ -70,7 +70,7 @@ impl Building {
                 if side % 2 == 0 { (self.half.x, self.half.y) } else { (self.half.y, self.half.x) };
             let columns = ((wide * 2.0 - 0.8) / WINDOW_PITCH_M) as u32;
             let turn = DQuat::from_rotation_y(f64::from(side) * FRAC_PI_2);
-            let base = block.at(self.center.x, KERB_M, self.center.y);
+            let base = block.to_world(self.center.x, KERB_M, self.center.y);
             (0..self.floors * columns).all(|index| {
                 let (floor, column) = (f64::from(index / columns), f64::from(index % columns));
                 let along = (column + 0.5) / f64::from(columns) * 2.0 - 1.0;
@@ -91,8 +91,8 @@ impl Building {
             .map(|_| DVec2::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * reach + self.center)
             .collect();
         let sizes: Vec<f64> = (0..3).map(|_| random.between(0.7, 1.5)).collect();
-        let (has_tank, turn) = (random.chance(0.4), random.between(0.0, FRAC_PI_2));
-        let at = |place: DVec2| block.at(place.x, top, place.y);
+        let (has_tank, turn) = (random.happens(0.4), random.between(0.0, FRAC_PI_2));
+        let at = |place: DVec2| block.to_world(place.x, top, place.y);
         let trim = self.trim;
         let boxes = sizes
             .iter()

@@ -29,7 +29,7 @@ impl Random {
     }
 
     /// Returns whether something of this probability, 0 to 1, happens.
-    pub(super) fn chance(&mut self, probability: f64) -> bool {
+    pub(super) fn happens(&mut self, probability: f64) -> bool {
         self.between(0.0, 1.0) < probability
     }
 }

@@ -12,7 +12,7 @@ use shadowgraph_scene::{MaterialKey, MeshKey, Scene};
 
 /// A mesh, its material, and the name of its instances.
 #[derive(Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct CityMesh {
     pub(super) name: &'static str,
     pub(super) mesh: MeshKey,
     pub(super) material: MaterialKey,
@@ -21,23 +21,23 @@ pub(super) struct Part {
 /// The meshes of the city.
 pub(super) struct Shapes {
     /// A box of 1 m on the ground.
-    pub(super) block: Part,
+    pub(super) block: CityMesh,
     /// A square of 1 m that faces up.
-    pub(super) plane: Part,
+    pub(super) plane: CityMesh,
     /// A window of 1 m by 1 m that looks along +Z, without a back.
-    pub(super) window: Part,
+    pub(super) window: CityMesh,
     /// Trunk and crown of a tree of 7 m with many leaves.
-    pub(super) tree: [Part; 2],
+    pub(super) tree: [CityMesh; 2],
     /// Trunk and crown of a tree of the same size with few leaves.
-    pub(super) far_tree: [Part; 2],
+    pub(super) far_tree: [CityMesh; 2],
     /// Mast and lens of a street light; its arm reaches out along +Z.
-    pub(super) street_light: [Part; 2],
+    pub(super) street_light: [CityMesh; 2],
     /// The body of a car that drives along +Z; it is painted.
-    pub(super) car: Part,
+    pub(super) car: CityMesh,
     /// The windows of the car and its wheels.
-    pub(super) car_fittings: [Part; 2],
+    pub(super) car_fittings: [CityMesh; 2],
     /// A water tank on a roof.
-    pub(super) tank: Part,
+    pub(super) tank: CityMesh,
 }
 
 /// Distance of the lens of a street light from its mast, and its height above the foot, metres.
@@ -45,7 +45,7 @@ pub(super) const LENS: DVec2 = DVec2::new(1.5, 6.0);
 
 impl Shapes {
     pub(super) fn new(scene: &mut Scene, materials: &Materials) -> Self {
-        let mut part = |name: &'static str, shape: MeshBuilder, material| Part {
+        let mut part = |name: &'static str, shape: MeshBuilder, material| CityMesh {
             name,
             mesh: scene.insert_mesh(shape.finish(name)),
             material,

@@ -17,11 +17,11 @@ pub(super) fn build(block: &mut Block, builder: &mut CityBuilder) -> bool {
     let roadway = DAffine3::from_scale_rotation_translation(
         DVec3::new(PITCH_M, 1.0, PITCH_M),
         DQuat::IDENTITY,
-        block.at(0.0, 0.0, 0.0),
+        block.to_world(0.0, 0.0, 0.0),
     );
     let pavement = DVec3::new(BLOCK_M, KERB_M, BLOCK_M);
     builder.add(builder.shapes.plane, None, roadway).is_some()
-        && builder.add_box(builder.materials.pavement, block.at(0.0, 0.0, 0.0), pavement)
+        && builder.add_box(builder.materials.pavement, block.to_world(0.0, 0.0, 0.0), pavement)
         && (0..4).all(|side| edge(block, builder, side))
 }
 
@@ -29,7 +29,7 @@ pub(super) fn build(block: &mut Block, builder: &mut CityBuilder) -> bool {
 fn edge(block: &mut Block, builder: &mut CityBuilder, side: u32) -> bool {
     let turn = DQuat::from_rotation_y(f64::from(side) * FRAC_PI_2);
     let place = |along: f64, out: f64, height: f64| turn * DVec3::new(along, height, BLOCK_M * 0.5 + out);
-    let at = |block: &Block, place: DVec3| block.at(place.x, place.y, place.z);
+    let at = |block: &Block, place: DVec3| block.to_world(place.x, place.y, place.z);
     let lights = (0..6).all(|index| {
         let foot = at(block, place(f64::from(index) * 9.6 - 24.0, -0.7, KERB_M));
         builder.insert_street_light(street_light(foot + turn * DVec3::new(0.0, LENS.y - 0.1, LENS.x)));
@@ -42,7 +42,7 @@ fn edge(block: &mut Block, builder: &mut CityBuilder, side: u32) -> bool {
             tree(block, builder, foot)
         })
         && (0..7).all(|index| {
-            if block.random.chance(0.45) {
+            if block.random.happens(0.45) {
                 return true;
             }
             let foot = at(block, place(f64::from(index) * 6.6 - 19.8, 1.3, 0.0));
@@ -66,11 +66,11 @@ fn tree(block: &mut Block, builder: &mut CityBuilder, foot: DVec3) -> bool {
 /// Adds a lawn with trees.
 pub(super) fn park(block: &mut Block, builder: &mut CityBuilder) -> bool {
     let size = DVec3::new(48.0, KERB_M + 0.06, 48.0);
-    builder.add_box(builder.materials.lawn, block.at(0.0, 0.0, 0.0), size)
+    builder.add_box(builder.materials.lawn, block.to_world(0.0, 0.0, 0.0), size)
         && (0..16).all(|index| {
             let x = f64::from(index % 4) * 12.0 - 18.0 + block.random.between(-3.0, 3.0);
             let z = f64::from(index / 4) * 12.0 - 18.0 + block.random.between(-3.0, 3.0);
-            let foot = block.at(x, KERB_M + 0.06, z);
+            let foot = block.to_world(x, KERB_M + 0.06, z);
             tree(block, builder, foot)
         })
 }

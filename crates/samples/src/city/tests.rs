@@ -11,7 +11,7 @@ fn drawn_triangles(scene: &Scene) -> usize {
 }
 
 #[test]
-fn a_city_has_the_instances_that_are_asked_for_and_a_million_triangles_or_more() {
+fn a_city_has_the_requested_instances_and_a_million_triangles_or_more() {
     for instances in [10_000, 100_000] {
         let scene = city(instances, 1).unwrap();
         assert_eq!(scene.instances().len(), instances as usize);

@@ -28,11 +28,11 @@ fn drive(block: &mut Block, builder: &mut CityBuilder, car: u32) -> bool {
     let from = f64::from(car) / f64::from(CARS) + block.random.between(0.0, 0.3);
     let keys = keys(from);
     let (position, rotation) = pose(from);
-    let start = block.at(position.x, position.y, position.z);
+    let start = block.to_world(position.x, position.y, position.z);
     let node = builder.add_node("car", start, rotation);
     let times_s: Vec<f32> = keys.iter().map(|fraction| ((fraction - from) * ROUND_S) as f32).collect();
     let poses: Vec<(DVec3, DQuat)> = keys.iter().map(|&fraction| pose(fraction)).collect();
-    let positions = poses.iter().flat_map(|(at, _)| block.at(at.x, at.y, at.z).as_vec3().to_array());
+    let positions = poses.iter().flat_map(|(at, _)| block.to_world(at.x, at.y, at.z).as_vec3().to_array());
     let rotations = poses.iter().flat_map(|(_, rotation)| rotation.as_quat().to_array());
     builder.animate([
         Channel {

@@ -64,7 +64,7 @@ impl Arguments {
             };
             match &*option {
                 "--adapter" => {
-                    let adapter = value.parse().map_err(|error: OptionError| error.to_string())?;
+                    let adapter = value.parse().map_err(|error: OptionError| format!("--{error}"))?;
                     parsed.adapter = (adapter, value);
                 }
                 "--city" => {
@@ -72,7 +72,7 @@ impl Arguments {
                     parsed.city = Some(number(*range.start(), *range.end())?);
                 }
                 "--size" => {
-                    let size: Size = value.parse().map_err(|error: OptionError| error.to_string())?;
+                    let size: Size = value.parse().map_err(|error: OptionError| format!("--{error}"))?;
                     parsed.size_px = [size.width_px, size.height_px];
                 }
                 "--frames" => parsed.frames = Some(number(1, 1_000)?),
