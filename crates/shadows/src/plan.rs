@@ -10,7 +10,7 @@ use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
 use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TileKind};
 use crate::light_params::settings_requirements;
-use crate::pcf_variant::PcfVariant;
+use crate::lookup_variant::LookupVariant;
 use crate::receivers::ReceiverRange;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
@@ -162,15 +162,10 @@ impl ShadowPlan {
         colored.into_iter().collect()
     }
 
-    /// Returns the smallest variant of `pcf`'s WGSL that this frame can use.
+    /// Returns the smallest variant of the WGSL that looks shadows up in maps that this frame can use.
     #[must_use]
-    pub fn variant(&self) -> PcfVariant {
-        let mut taps = self.lights.iter().filter(|light| light.view_count > 0).map(|light| light.filter_taps);
-        match taps.next() {
-            None => PcfVariant::Unshadowed,
-            Some(first) if taps.all(|other| other == first) => PcfVariant::OneFilter { taps: first },
-            Some(_) => PcfVariant::Mixed,
-        }
+    pub fn variant(&self) -> LookupVariant {
+        LookupVariant::for_frame(&self.lights, &self.views)
     }
 
     /// Returns the bytes of the buffer of views. Never empty, as a buffer cannot be.

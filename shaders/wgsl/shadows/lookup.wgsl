@@ -3,6 +3,7 @@
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, BIAS_PLANE, BIAS_SLOPE}
 #import shadowgraph::shadows::tent::{TentPlane, MAX_SHADOW_DEPTH}
+#import shadowgraph::shadows::variant::SIMPLE
 
 // The cosine below which a surface is edge-on to the light.
 const EDGE_ON: f32 = 1e-4;
@@ -46,7 +47,7 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     let to_light = shadow_view.light.xyz - receiver.position * shadow_view.light.w;
     let cosine = dot(normal, normalize(to_light));
     let unmoved = shadow_view.map_from_world * vec4f(receiver.position, 1.0);
-    let sine = select(1.0, sqrt(saturate(1.0 - cosine * cosine)), light.normal_sine == 1u);
+    let sine = select(1.0, sqrt(saturate(1.0 - cosine * cosine)), SIMPLE || light.normal_sine == 1u);
     let scale = shadow_view.bias_scale;
     let offset_m = scale * light.normal_bias_texels * shadow_view.texel_world * max(unmoved.w, 0.0) * sine;
     let position = shadow_view.map_from_world * vec4f(receiver.position + normal * offset_m, 1.0);
@@ -82,7 +83,7 @@ fn look_up(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver) -> L
     depth = max(depth, 0.0);
     depth += scale * light.depth_bias_texels * depth_per_texel + shadow_view.depth_step;
     lookup.plane.depth = depth;
-    if light.bias_method == BIAS_PLANE {
+    if SIMPLE || light.bias_method == BIAS_PLANE {
         lookup.plane.slope = slope;
         lookup.plane.min_slope = scale * light.min_slope * depth_per_texel;
     } else if light.bias_method == BIAS_SLOPE {

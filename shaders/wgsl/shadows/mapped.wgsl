@@ -10,7 +10,7 @@
 #import shadowgraph::shadows::colors::cascade_tint
 #import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, blend_at, shadow_fade, edge_fade}
 #import shadowgraph::shadows::types::ShadowLight
-#import shadowgraph::shadows::variant::SHADOWED
+#import shadowgraph::shadows::variant::{SHADOWED, SIMPLE}
 
 fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     if !SHADOWED || light >= arrayLength(&shadow_lights) {
@@ -28,12 +28,15 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     var visibility = vec3f(0.0);
     var lookup = blend.first;
     var weight = blend.weight;
-    for (var i = 0u; i < 2u; i++) {
-        if weight > 0.0 {
-            visibility += weight * pixel_visibility(shadow, receiver, lookup);
-        }
+    if !SIMPLE && weight <= 0.0 {
         lookup = blend.next;
-        weight = 1.0 - blend.weight;
+        weight = 1.0;
+    }
+    let count = select(2u, 1u, SIMPLE);
+    for (var i = 0u; i < count && weight > 0.0; i++) {
+        visibility += weight * pixel_visibility(shadow, receiver, lookup);
+        lookup = blend.next;
+        weight = 1.0 - weight;
     }
     return mix(vec3f(1.0), visibility, strength * edge_fade(shadow, receiver, blend.first));
 }

@@ -1,6 +1,7 @@
 // The shadow maps of a frame: depth, 1 nearest to the light, and the tint of light behind translucent casters.
 #define_import_path shadowgraph::shadows::maps
 #import shadowgraph::shadows::types::MAP_CASCADES
+#import shadowgraph::shadows::variant::{ANY_MAP, ONLY_MAP}
 
 @group(1) @binding(2) var cascade_map: texture_depth_2d;
 @group(1) @binding(3) var atlas_map: texture_depth_2d;
@@ -11,30 +12,35 @@
 @group(1) @binding(6) var cascade_tint_depths: texture_depth_2d;
 @group(1) @binding(7) var atlas_tint_depths: texture_depth_2d;
 
+// Whether a map, MAP_*, is that of cascades.
+fn is_cascade_map(map: u32) -> bool {
+    return select(ONLY_MAP, map, ONLY_MAP == ANY_MAP) == MAP_CASCADES;
+}
+
 // The size of a map in texels. `map`: MAP_*.
 fn map_size(map: u32) -> vec2f {
-    if map == MAP_CASCADES {
+    if is_cascade_map(map) {
         return vec2f(textureDimensions(cascade_map));
     }
     return vec2f(textureDimensions(atlas_map));
 }
 
 fn stored_depth(map: u32, texel: vec2i) -> f32 {
-    if map == MAP_CASCADES {
+    if is_cascade_map(map) {
         return textureLoad(cascade_map, texel, 0);
     }
     return textureLoad(atlas_map, texel, 0);
 }
 
 fn stored_tint(map: u32, texel: vec2i) -> vec3f {
-    if map == MAP_CASCADES {
+    if is_cascade_map(map) {
         return textureLoad(cascade_tints, texel, 0).rgb;
     }
     return textureLoad(atlas_tints, texel, 0).rgb;
 }
 
 fn stored_tint_depth(map: u32, texel: vec2i) -> f32 {
-    if map == MAP_CASCADES {
+    if is_cascade_map(map) {
         return textureLoad(cascade_tint_depths, texel, 0);
     }
     return textureLoad(atlas_tint_depths, texel, 0);

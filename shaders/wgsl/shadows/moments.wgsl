@@ -6,7 +6,8 @@
 #import shadowgraph::shadows::linear_depth::linear_depth
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::tiles::shadow_views
-#import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
+#import shadowgraph::shadows::maps::is_cascade_map
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight}
 
 // The largest distance of the taps in wide pixels from the centre, along each axis, in texels of the finest mip.
 const TAP_TEXELS: f32 = 0.75;
@@ -16,7 +17,7 @@ const TAP_TEXELS: f32 = 0.75;
 @group(1) @binding(10) var<uniform> settings: MomentSettings;
 
 fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
-    if map == MAP_CASCADES {
+    if is_cascade_map(map) {
         return unpacked(textureLoad(cascade_moments, texel, mip));
     }
     return unpacked(textureLoad(atlas_moments, texel, mip));
@@ -25,7 +26,7 @@ fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
 // Computed from the finest size, whose sides are powers of two: some drivers take the mip of textureDimensions from one pixel
 // of a group.
 fn size_of(map: u32, mip: u32) -> vec2f {
-    if map == MAP_CASCADES {
+    if is_cascade_map(map) {
         return vec2f(textureDimensions(cascade_moments) >> vec2u(mip));
     }
     return vec2f(textureDimensions(atlas_moments) >> vec2u(mip));

@@ -2,10 +2,10 @@
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::maps::{cascade_map, atlas_map, map_size, stored_gradient}
-#import shadowgraph::shadows::tent::{tent_axis, tent_depth}
-#import shadowgraph::shadows::types::{ShadowLight, MAP_CASCADES, BIAS_GRADIENT}
-#import shadowgraph::shadows::variant::FILTER_TAPS
+#import shadowgraph::shadows::maps::{cascade_map, atlas_map, is_cascade_map, map_size, stored_gradient}
+#import shadowgraph::shadows::tent::{TentAxis, TentPlane, tent_axis, tent_depth}
+#import shadowgraph::shadows::types::{ShadowLight, BIAS_GRADIENT}
+#import shadowgraph::shadows::variant::{FILTER_TAPS, SIMPLE}
 
 // Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
 @group(1) @binding(8) var shadow_sampler: sampler_comparison;
@@ -15,36 +15,73 @@ fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 
     return light.filter_half;
 }
 
+// A row of taps.
+struct Row {
+    x_axis: TentAxis,
+    // Texels of the map: the base texel across, and the row's offset down from the point.
+    base: vec2f,
+    offset: f32,
+    rise: f32,
+    // The offset of the point from the base texel.
+    s: vec2f,
+}
+
+fn compared(map: u32, plane: TentPlane, row: Row, across: f32, rise: f32) -> f32 {
+    let tap = vec2f(across, row.offset);
+    let uv = (row.base + tap) / map_size(map);
+    let depth = tent_depth(plane, rise + row.rise, tap - row.s);
+    if is_cascade_map(map) {
+        return textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
+    }
+    return textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
+}
+
+// Without a loop: the weights of an axis are then registers, not an indexed array in memory.
+fn row_visibility(map: u32, plane: TentPlane, taps: u32, row: Row) -> f32 {
+    let axis = row.x_axis;
+    var visibility = axis.weight.x * compared(map, plane, row, axis.offset.x, axis.rise.x);
+    if taps > 1u {
+        visibility += axis.weight.y * compared(map, plane, row, axis.offset.y, axis.rise.y);
+    }
+    if taps > 2u {
+        visibility += axis.weight.z * compared(map, plane, row, axis.offset.z, axis.rise.z);
+    }
+    if taps > 3u {
+        visibility += axis.weight.w * compared(map, plane, row, axis.offset.w, axis.rise.w);
+    }
+    return visibility;
+}
+
 // The visibility of the light from a point, the fraction of the filter that is not nearer to the light: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
-    let in_cascades = light.map == MAP_CASCADES;
     var plane = lookup.plane;
-    let size_px = map_size(light.map);
-    if light.bias_method == BIAS_GRADIENT {
+    if !SIMPLE && light.bias_method == BIAS_GRADIENT {
         plane.depth += lookup.gradient_bias * min(stored_gradient(light.map, lookup.uv), lookup.max_gradient);
     }
     let taps = select(FILTER_TAPS, light.filter_taps, FILTER_TAPS == 0u);
     let half = max(light.filter_half - light.filter_falloff * receiver.view_depth, 0.5);
-    let at = lookup.uv * size_px;
+    let at = lookup.uv * map_size(light.map);
     // Centre of the texel up and left of the point, and the offset of the point from it.
     let base = floor(at + 0.5) - 0.5;
     let s = at - base;
     let x_axis = tent_axis(taps, half, s.x, plane.slope.x);
     let y_axis = tent_axis(taps, half, s.y, plane.slope.y);
-    var visibility = 0.0;
-    for (var y = 0u; y < taps; y++) {
-        for (var x = 0u; x < taps; x++) {
-            let tap = vec2f(x_axis.offset[x], y_axis.offset[y]);
-            let uv = (base + tap) / size_px;
-            let depth = tent_depth(plane, x_axis.rise[x] + y_axis.rise[y], tap - s);
-            var compared = 0.0;
-            if in_cascades {
-                compared = textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
-            } else {
-                compared = textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
-            }
-            visibility += x_axis.weight[x] * y_axis.weight[y] * compared;
-        }
+    var row = Row(x_axis, base, y_axis.offset.x, y_axis.rise.x, s);
+    var visibility = y_axis.weight.x * row_visibility(light.map, plane, taps, row);
+    if taps > 1u {
+        row.offset = y_axis.offset.y;
+        row.rise = y_axis.rise.y;
+        visibility += y_axis.weight.y * row_visibility(light.map, plane, taps, row);
+    }
+    if taps > 2u {
+        row.offset = y_axis.offset.z;
+        row.rise = y_axis.rise.z;
+        visibility += y_axis.weight.z * row_visibility(light.map, plane, taps, row);
+    }
+    if taps > 3u {
+        row.offset = y_axis.offset.w;
+        row.rise = y_axis.rise.w;
+        visibility += y_axis.weight.w * row_visibility(light.map, plane, taps, row);
     }
     return visibility;
 }

@@ -3,10 +3,10 @@
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::{Receiver, receiver_noise}
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::maps::{cascade_map, atlas_map, map_size, stored_depth}
+#import shadowgraph::shadows::maps::{cascade_map, atlas_map, is_cascade_map, map_size, stored_depth}
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::tiles::shadow_views
-#import shadowgraph::shadows::types::{ShadowView, ShadowLight, MAP_CASCADES}
+#import shadowgraph::shadows::types::{ShadowView, ShadowLight}
 
 // The settings, and what follows from them.
 struct Pcss {
@@ -69,7 +69,7 @@ fn radii(shadow_view: ShadowView, penumbra: f32, least: f32) -> vec2f {
 
 // The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
-    let in_cascades = light.map == MAP_CASCADES;
+    let in_cascades = is_cascade_map(light.map);
     let shadow_view = shadow_views[light.first_view + lookup.view];
     let size_px = map_size(light.map);
     let at = lookup.uv * size_px;

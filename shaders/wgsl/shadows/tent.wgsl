@@ -31,7 +31,13 @@ fn tent_integral(x: f32, half: f32) -> f32 {
     return 0.5 + t - 0.5 * t * abs(t);
 }
 
-// `s`: the offset of the point from the centre of the base texel, 0 to below 1.
+fn tent_integrals(x: vec4f, half: f32) -> vec4f {
+    let t = clamp(x / half, vec4f(-1.0), vec4f(1.0));
+    return 0.5 + t - 0.5 * t * abs(t);
+}
+
+// `s`: the offset of the point from the centre of the base texel, 0 to below 1. All taps are computed at once: those past `taps` are
+// beyond the end of the tent.
 fn tent_axis(taps: u32, half: f32, s: f32, slope: f32) -> TentAxis {
     var axis: TentAxis;
     if taps == 1u {
@@ -41,18 +47,14 @@ fn tent_axis(taps: u32, half: f32, s: f32, slope: f32) -> TentAxis {
         axis.rise.x = max(-s * slope, (1.0 - s) * slope);
         return axis;
     }
-    let begin = -f32(taps - 1u);
-    var before = tent_integral(begin - s - 0.5, half);
-    for (var tap = 0u; tap < taps; tap++) {
-        let first = begin + 2.0 * f32(tap);
-        let middle = tent_integral(first - s + 0.5, half);
-        let after = tent_integral(first - s + 1.5, half);
-        let weight = after - before;
-        axis.weight[tap] = weight;
-        axis.offset[tap] = first + (after - middle) / max(weight, 1e-6);
-        axis.rise[tap] = max((first - s) * slope, (first + 1.0 - s) * slope);
-        before = after;
-    }
+    let first = vec4f(0.0, 2.0, 4.0, 6.0) - f32(taps - 1u);
+    let from_point = first - s;
+    let middle = tent_integrals(from_point + 0.5, half);
+    let after = tent_integrals(from_point + 1.5, half);
+    let before = vec4f(tent_integral(from_point.x - 0.5, half), after.xyz);
+    axis.weight = after - before;
+    axis.offset = first + (after - middle) / max(axis.weight, vec4f(1e-6));
+    axis.rise = max(from_point * slope, (from_point + 1.0) * slope);
     return axis;
 }
 

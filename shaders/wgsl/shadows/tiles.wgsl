@@ -3,8 +3,9 @@
 #import shadowgraph::receiver::{Receiver, RECEIVER_COARSER, receiver_noise}
 #import shadowgraph::shadows::lookup::{Lookup, look_up}
 #import shadowgraph::shadows::types::{
-    ShadowView, ShadowLight, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
+    ShadowView, ShadowLight, MAP_CASCADES, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
 }
+#import shadowgraph::shadows::variant::{ONLY_MAP, SIMPLE}
 
 @group(1) @binding(0) var<storage, read> shadow_views: array<ShadowView>;
 @group(1) @binding(1) var<storage, read> shadow_lights: array<ShadowLight>;
@@ -24,7 +25,7 @@ fn cube_face(direction: vec3f) -> u32 {
 // The index of the light's view, from `first` on, that a point is read from; view_count, the empty view, if there is none.
 fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
     var chosen = light.view_count;
-    if light.select == SELECT_FACE {
+    if SIMPLE || light.select == SELECT_FACE {
         return cube_face(receiver.position - shadow_views[light.first_view].light.xyz);
     }
     if light.select == SELECT_SPHERE {
@@ -59,7 +60,7 @@ fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
     var lookup: Lookup;
     var begin = first;
     var end = light.view_count;
-    if light.select != SELECT_MAP {
+    if !(SIMPLE && ONLY_MAP == MAP_CASCADES) && light.select != SELECT_MAP {
         begin = select_view(light, receiver, first);
         end = begin + 1u;
     }
@@ -94,14 +95,16 @@ fn inner_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction
 
 // The strength of shadows at this distance: full before the fade begins, 0 at its end.
 fn shadow_fade(light: ShadowLight, receiver: Receiver) -> f32 {
-    let to_eye = vec3f(light.eye[0], light.eye[1], light.eye[2]) - receiver.position;
-    let distance_m = select(receiver.view_depth, length(to_eye), light.fades_by_radius == 1u);
+    var distance_m = receiver.view_depth;
+    if !SIMPLE && light.fades_by_radius == 1u {
+        distance_m = distance(vec3f(light.eye[0], light.eye[1], light.eye[2]), receiver.position);
+    }
     return light.strength * saturate((light.fade_end_m - distance_m) * light.fade_per_m);
 }
 
 // The strength of shadows at the outer edge of the last view.
 fn edge_fade(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
-    if light.edge_fade <= 0.0 || lookup.view + 1u != light.view_count {
+    if SIMPLE || light.edge_fade <= 0.0 || lookup.view + 1u != light.view_count {
         return 1.0;
     }
     return inner_weight(light, receiver, lookup, light.edge_fade);
@@ -129,9 +132,10 @@ struct Blend {
 fn blend_at(light: ShadowLight, receiver: Receiver) -> Blend {
     var blend: Blend;
     blend.weight = 1.0;
-    let blends = light.blend != BLEND_HARD || (receiver.flags & RECEIVER_COARSER) != 0u;
+    let blends = !SIMPLE && (light.blend != BLEND_HARD || (receiver.flags & RECEIVER_COARSER) != 0u);
     var begin = 0u;
-    for (var i = 0u; i < 2u && begin < light.view_count; i++) {
+    let count = select(2u, 1u, SIMPLE);
+    for (var i = 0u; i < count && begin < light.view_count; i++) {
         let lookup = find(light, receiver, begin);
         if !lookup.covered {
             break;

@@ -7,11 +7,12 @@
 #import shadowgraph::shadows::tent::{tent_depth, tent_integral}
 #import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::ShadowLight
+#import shadowgraph::shadows::variant::TINTED
 
 // The transmittance, 0 to 1 each: the mean over the texels around the point that are not blocked. Blocked texels are left to the
 // filter.
 fn tint(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
-    if shadow_views[light.first_view + lookup.view].is_tinted == 0u {
+    if !TINTED || shadow_views[light.first_view + lookup.view].is_tinted == 0u {
         return vec3f(1.0);
     }
     // As wide as the filter of `pcf`.

@@ -49,5 +49,5 @@ fn row_36_screen_space_shadows_add_one_shader_variant() {
     let variant_count = |technique: shadowgraph_shadows::Technique| {
         technique.make(&TechniqueContext::new(&gpu.device)).unwrap().variant_count()
     };
-    assert_eq!((variant_count(pcf), variant_count(pcf.with_screen())), (6, 7));
+    assert_eq!(variant_count(pcf.with_screen()), variant_count(pcf) + 1);
 }

@@ -22,7 +22,7 @@ use shadowgraph_core::{Buffer, Frame, Texture};
 use crate::atlas::TileRect;
 use crate::casters::{TINT_FORMAT, caster_view_layout};
 use crate::error::Error;
-use crate::pcf_variant::PcfVariant;
+use crate::lookup_variant::LookupVariant;
 use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
 use crate::planner::plan_shadows_after;
 use crate::requirements::Requirements;
@@ -63,8 +63,8 @@ pub struct DrawnMaps {
     pub cascades: DrawnMap,
     /// The map of other lights, or a lit placeholder.
     pub atlas: DrawnMap,
-    /// The variant of `pcf`'s shader for them.
-    pub variant: PcfVariant,
+    /// The variant of the shader that looks shadows up in them.
+    pub variant: LookupVariant,
     /// See [`ShadowPlan::main_light`]; 0 if there is none.
     pub main_light: u32,
     /// See [`ShadowPlan::colored_lights`].

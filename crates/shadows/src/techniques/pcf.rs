@@ -4,8 +4,8 @@ use shadowgraph_core::{Buffer, Frame};
 use shadowgraph_shaders::{MAPPED, ModuleSource};
 
 use crate::error::Error;
+use crate::lookup_variant::LookupVariant;
 use crate::maps::{ShadowMaps, comparison_sampler};
-use crate::pcf_variant::PcfVariant;
 use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::requirements::Requirements;
 use crate::technique::binding::COMPARISON_SAMPLER;
@@ -49,11 +49,11 @@ impl ShadowTechnique for Pcf {
     }
 
     fn variant_count(&self) -> u32 {
-        PcfVariant::COUNT
+        LookupVariant::COUNT
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
-        vec![MAPPED, PcfVariant::from_index(variant).module()]
+        vec![MAPPED, LookupVariant::from_index(variant).module()]
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {

@@ -3,21 +3,23 @@
 use super::{cube_under_spot, cube_view, dark_and_between, greys, pillar_view, pillars, plan};
 use crate::stage::{cube_on_floor, gpu, sun, sun_direction};
 use glam::DVec3;
-use shadowgraph::shadows::{LightShadows, PcfVariant, ShadowFilter};
+use shadowgraph::shadows::{CommonLookup, LightShadows, LookupVariant, MapUse, ShadowFilter};
 
 #[test]
 fn row_06_the_shader_is_compiled_for_the_filters_of_the_frame() {
     let mut scene = cube_on_floor(DVec3::ZERO);
     let mut options = cube_view(|_| ());
-    assert_eq!(plan(&scene, &options).variant(), PcfVariant::Unshadowed);
+    assert_eq!(plan(&scene, &options).variant(), LookupVariant::Unshadowed);
     scene.insert_light(sun(sun_direction(40.0, 30.0)));
-    assert_eq!(plan(&scene, &options).variant(), PcfVariant::OneFilter { taps: 3 });
+    let sun_only = CommonLookup { taps: 3, map: Some(MapUse::Cascades), simple: true, untinted: true };
+    assert_eq!(plan(&scene, &options).variant(), LookupVariant::Shadowed(sun_only));
     scene.insert_light(super::spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
     let Some(gpu) = gpu() else { return };
     let one = greys(gpu, &scene, 0, &options);
     let hard = LightShadows { filter: Some(ShadowFilter::Tent2), ..LightShadows::new(1.into()) };
     options.shadows.lights = vec![hard];
-    assert_eq!(plan(&scene, &options).variant(), PcfVariant::Mixed);
+    let mixed = CommonLookup { taps: 0, map: None, ..sun_only };
+    assert_eq!(plan(&scene, &options).variant(), LookupVariant::Shadowed(mixed));
     // The sun's shadows are the same with either shader, and the spot light's are not.
     assert_eq!(greys(gpu, &scene, 0, &options), one);
     let soft = greys(gpu, &scene, 1, &cube_view(|_| ()));

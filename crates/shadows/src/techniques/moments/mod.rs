@@ -16,6 +16,7 @@ use shadowgraph_shaders::{MAPPED, MOMENTS, ModuleSource};
 
 use crate::error::Error;
 use crate::light_params::settings_requirements;
+use crate::lookup_variant::LookupVariant;
 use crate::maps::ShadowMaps;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
@@ -118,11 +119,12 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn variant_count(&self) -> u32 {
-        S::LAYOUTS
+        S::LAYOUTS * LookupVariant::COUNT
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
-        [vec![MAPPED, MOMENTS], S::modules(variant)].concat()
+        let lookup = LookupVariant::from_index(variant / S::LAYOUTS).module();
+        [vec![MAPPED, MOMENTS, lookup], S::modules(variant % S::LAYOUTS)].concat()
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
@@ -154,7 +156,8 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
             let mut bindings = maps.bindings();
             bindings.extend([cascades, atlas].map(ShadowBinding::Texture));
             bindings.push(ShadowBinding::Uniform(block));
-            Ok(ShadowOutputs { variant: layout, ..maps.outputs(bindings) })
+            let variant = layout + S::LAYOUTS * maps.variant.without_taps().index();
+            Ok(ShadowOutputs { variant, ..maps.outputs(bindings) })
         })
     }
 }

@@ -13,6 +13,7 @@ use shadowgraph_shaders::{MAPPED, ModuleSource, PCSS};
 use crate::error::Error;
 use crate::gpu_struct;
 use crate::light_params::settings_requirements;
+use crate::lookup_variant::LookupVariant;
 use crate::maps::{ShadowMaps, comparison_sampler};
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
@@ -56,8 +57,12 @@ impl ShadowTechnique for Pcss {
         })
     }
 
-    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
-        vec![MAPPED, PCSS]
+    fn variant_count(&self) -> u32 {
+        LookupVariant::COUNT
+    }
+
+    fn modules(&self, variant: u32) -> Vec<ModuleSource> {
+        vec![MAPPED, PCSS, LookupVariant::from_index(variant).module()]
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
@@ -81,6 +86,7 @@ impl ShadowTechnique for Pcss {
         let block = frame.uniform(&block.bytes());
         let mut bindings = maps.bindings();
         bindings.extend([ShadowBinding::Sampler(&self.sampler), ShadowBinding::Uniform(block)]);
-        Ok(maps.outputs(bindings))
+        let variant = maps.variant.without_taps().index();
+        Ok(ShadowOutputs { variant, ..maps.outputs(bindings) })
     }
 }
