@@ -81,7 +81,7 @@ impl Block {
         let cell = ring_cell(index);
         let ring = cell[0].unsigned_abs().max(cell[1].unsigned_abs());
         let center = DVec2::new(f64::from(cell[0]) + 0.5, f64::from(cell[1]) + 0.5) * PITCH_M;
-        Self { index, ring, center, random: Random::new(seed, index.into()) }
+        Self { index, ring, center, random: Random::new(seed, index) }
     }
 
     /// Adds everything on the block and the streets around it; returns whether all of it fitted.

@@ -40,12 +40,16 @@ pub enum MapUse {
     Atlas,
 }
 
-const TAPS: u32 = 1 + ShadowFilter::ALL.len() as u32;
+/// The maps of a frame: either, or both.
 const MAPS: u32 = 3;
+/// The variants for shadowed lights with one choice of taps.
+const WITH_TAPS: u32 = MAPS * 4;
 
 impl LookupVariant {
     /// Number of variants.
-    pub const COUNT: u32 = TAPS * MAPS * 4 + 1;
+    pub const COUNT: u32 = Self::COUNT_WITHOUT_TAPS + ShadowFilter::ALL.len() as u32 * WITH_TAPS;
+    /// Number of variants of techniques whose filter has no taps of [`ShadowFilter`]. They are the first ones.
+    pub const COUNT_WITHOUT_TAPS: u32 = WITH_TAPS + 1;
 
     /// Returns the best variant for the lights and views of a frame.
     #[must_use]
@@ -76,7 +80,8 @@ impl LookupVariant {
         })
     }
 
-    /// Returns the variant of techniques whose filter has no taps of [`ShadowFilter`].
+    /// Returns the variant of techniques whose filter has no taps of [`ShadowFilter`]: one of the first
+    /// [`COUNT_WITHOUT_TAPS`](Self::COUNT_WITHOUT_TAPS).
     #[must_use]
     pub fn without_taps(self) -> Self {
         match self {
@@ -89,22 +94,24 @@ impl LookupVariant {
     #[must_use]
     pub fn index(self) -> u32 {
         match self {
-            Self::Unshadowed => Self::COUNT - 1,
+            Self::Unshadowed => WITH_TAPS,
             Self::Shadowed(common) => {
                 let map = common.map.map_or(0, |map| 1 + map as u32);
-                common.taps
-                    + TAPS * (map + MAPS * (u32::from(common.simple) + 2 * u32::from(common.untinted)))
+                let rest = map + MAPS * (u32::from(common.simple) + 2 * u32::from(common.untinted));
+                // `Unshadowed` follows the variants without taps.
+                rest + common.taps * WITH_TAPS + u32::from(common.taps > 0)
             }
         }
     }
 
-    /// Returns the variant with an index; `Unshadowed` for those from [`COUNT`](Self::COUNT) on.
+    /// Returns the variant with an index below [`COUNT`](Self::COUNT).
     #[must_use]
     pub fn from_index(index: u32) -> Self {
-        if index + 1 >= Self::COUNT {
+        if index == WITH_TAPS {
             return Self::Unshadowed;
         }
-        let (taps, rest) = (index % TAPS, index / TAPS);
+        let index = index - u32::from(index > WITH_TAPS);
+        let (taps, rest) = (index / WITH_TAPS, index % WITH_TAPS);
         let (map, flags) = (rest % MAPS, rest / MAPS);
         let map = [None, Some(MapUse::Cascades), Some(MapUse::Atlas)][map as usize];
         Self::Shadowed(CommonLookup { taps, map, simple: flags & 1 == 1, untinted: flags & 2 == 2 })
@@ -141,7 +148,9 @@ mod tests {
     #[test]
     fn every_index_is_that_of_its_variant() {
         for index in 0..LookupVariant::COUNT {
-            assert_eq!(LookupVariant::from_index(index).index(), index);
+            let variant = LookupVariant::from_index(index);
+            assert_eq!(variant.index(), index);
+            assert!(variant.without_taps().index() < LookupVariant::COUNT_WITHOUT_TAPS);
         }
         assert_eq!(LookupVariant::Shadowed(CommonLookup::default()).index(), 0);
     }

@@ -1,7 +1,9 @@
 //! Quantiles of samples.
 
+use serde::Serialize;
+
 /// Quantiles of samples; all 0 if there are none.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Stats {
     /// 5th percentile.
     pub p5: f64,

@@ -96,7 +96,7 @@ fn trunk(segments: u32) -> MeshBuilder {
 
 /// Returns cards with leaves, spread over a ball of 2.4 m around a point 4.6 m above the ground.
 fn crown(cards: u32, size_m: f64) -> MeshBuilder {
-    let mut random = Random::new(5, cards.into());
+    let mut random = Random::new(5, cards);
     let mut shape = MeshBuilder::default();
     for _ in 0..cards {
         let (cos, angle) = (random.between(-1.0, 1.0), random.between(0.0, TAU));

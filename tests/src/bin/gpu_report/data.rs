@@ -66,9 +66,9 @@ pub(crate) struct TechniqueData {
     pub(crate) technique: String,
     pub(crate) pipeline: String,
     /// From the beginning of a frame until the GPU has finished it.
-    pub(crate) frame_ms: Quantiles,
+    pub(crate) frame_ms: Stats,
     /// Processor time of the thread that draws a frame.
-    pub(crate) thread_ms: Quantiles,
+    pub(crate) thread_ms: Stats,
     pub(crate) passes: Vec<TimeSummary>,
 }
 
@@ -97,18 +97,4 @@ pub(crate) struct PixelTests {
     pub(crate) failed: Vec<(String, String)>,
     /// The lines of those that could not run.
     pub(crate) skipped: Vec<String>,
-}
-
-/// The median of samples, and where 90 % of them lie.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Quantiles {
-    pub(crate) median: f64,
-    pub(crate) p5: f64,
-    pub(crate) p95: f64,
-}
-
-impl From<Stats> for Quantiles {
-    fn from(Stats { p5, median, p95, .. }: Stats) -> Self {
-        Self { median, p5, p95 }
-    }
 }

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::data::{GraphCost, PixelTests, Quantiles, Report, SceneData, TechniqueData};
+use shadowgraph_quality::bench::Stats;
+
+use crate::data::{GraphCost, PixelTests, Report, SceneData, TechniqueData};
 
 const STYLE: &str = "\
 :root { color-scheme: light dark; }
@@ -41,7 +43,7 @@ fn scene(scene: &SceneData) -> String {
             .to_vec(),
     ];
     for data in &scene.techniques {
-        let Quantiles { median, p5, p95 } = data.frame_ms;
+        let Stats { median, p5, p95, .. } = data.frame_ms;
         rows.push(vec![
             format!("{}, {}", data.technique, data.pipeline),
             format!("{median:.2}"),
@@ -133,7 +135,7 @@ mod tests {
 
     #[test]
     fn the_page_has_every_figure_and_escapes_names() {
-        let quantiles = Quantiles { median: 12.345, p5: 11.0, p95: 13.5 };
+        let quantiles = Stats { median: 12.345, p5: 11.0, p95: 13.5, ..Stats::default() };
         let technique = TechniqueData {
             technique: "pcf".into(),
             pipeline: "minimal_lit".into(),

@@ -111,7 +111,7 @@ fn measure_technique(
     let whole = whole_frames(gpu, &mut renderer, options, frames)?;
     let passes = pass_times(gpu, &mut renderer, options, frames)?;
     let ms = |time: fn(&WholeFrame) -> Duration| {
-        Stats::from_samples(whole.iter().map(|frame| time(frame).as_secs_f64() * 1e3)).into()
+        Stats::from_samples(whole.iter().map(|frame| time(frame).as_secs_f64() * 1e3))
     };
     println!("  {technique_name}, {pipeline_name}: {:.1} s", start.elapsed().as_secs_f64());
     Ok(TechniqueData {

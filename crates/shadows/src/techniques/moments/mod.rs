@@ -119,7 +119,7 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn variant_count(&self) -> u32 {
-        S::LAYOUTS * LookupVariant::COUNT
+        S::LAYOUTS * LookupVariant::COUNT_WITHOUT_TAPS
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {

@@ -58,7 +58,7 @@ impl ShadowTechnique for Pcss {
     }
 
     fn variant_count(&self) -> u32 {
-        LookupVariant::COUNT
+        LookupVariant::COUNT_WITHOUT_TAPS
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
