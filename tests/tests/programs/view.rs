@@ -126,12 +126,13 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
     }
     assert!(poses > 10, "{poses} poses in a minute");
 
-    // The times in the panel change, but the scene does not.
+    // The times in the panel change, but the scene does not, once the frames in flight are shown.
     let stands = |view: &mut View, what: &str| {
-        std::thread::sleep(Duration::from_secs(2));
-        let before = scene(&view.screenshot());
-        std::thread::sleep(Duration::from_secs(3));
-        assert!(changed(&before, &scene(&view.screenshot())) < 0.0005, "{what}");
+        view.until(what, |view| {
+            let before = scene(&view.screenshot());
+            std::thread::sleep(Duration::from_secs(3));
+            changed(&before, &scene(&view.screenshot())) < 0.0005
+        });
     };
     let left = panel_left(&view.screenshot()) as i16;
     // The point of a slider at a fraction of its range.
@@ -141,19 +142,19 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
     let now = |view: &View| scene(&view.screenshot());
 
     view.tap(u32::from('p'));
-    stands(&mut view, "P pauses");
+    stands(&mut view, "P to pause");
     for fraction in [0.1, 0.9, 0.3] {
         let before = now(&view);
         view.press_until(along(controls::TIME, fraction), "another time", another(before));
     }
     view.keep("11 scrubbed");
-    stands(&mut view, "a time stands");
+    stands(&mut view, "the time to stand");
 
     let before = now(&view);
     view.tap(u32::from('p'));
     view.until("it to play again", another(before));
     view.tap(u32::from('p'));
-    stands(&mut view, "P pauses again");
+    stands(&mut view, "P to pause again");
 
     for (control, fraction) in
         [(controls::AZIMUTH, 0.2), (controls::ELEVATION, 0.65), (controls::AZIMUTH, 0.9)]
@@ -161,7 +162,7 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
         let before = now(&view);
         view.press_until(along(control, fraction), "another sun", another(before));
     }
-    stands(&mut view, "the sun stands");
+    stands(&mut view, "the sun to stand");
     view.keep("12 sun by direction");
 
     // A day that plays places the sun by time.
@@ -169,13 +170,13 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
     view.tap(u32::from('l'));
     view.until("the day to pass", another(before));
     view.tap(u32::from('l'));
-    stands(&mut view, "the day is paused");
+    stands(&mut view, "the day to pause");
     view.keep("13 day played");
     for (control, fraction) in [(controls::HOUR, 0.4), (controls::LATITUDE, 0.7), (controls::DAY, 0.1)] {
         let before = now(&view);
         view.press_until(along(control, fraction), "another sun", another(before));
     }
-    stands(&mut view, "the sun of a time stands");
+    stands(&mut view, "the sun of a time to stand");
     view.keep("14 sun by time");
 
     let (status, errors) = view.close();
