@@ -33,8 +33,8 @@ pub use error::Error;
 pub use folder::set_folder;
 pub use naga;
 pub use source::{
-    CLUSTERED, EVSM, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, OCCLUDED, PCSS, PREFILTER,
-    RAYTRACED, SCREEN, SKY_LIGHT, builtin, builtin_files,
+    CLUSTERED, EVSM, FEW_LIGHTS, FEW_VIEWS, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, OCCLUDED,
+    PCSS, PREFILTER, RAYTRACED, SCREEN, SKY_LIGHT, builtin, builtin_files,
 };
 
 #[cfg(doctest)]

@@ -35,6 +35,10 @@ pub const NONE: ModuleSource = file!("shadows/none.wgsl");
 /// `filter_radius` of the module `shadowgraph::shadows::filter`: unless the caller passes another one, that of `pcf`.
 pub const MAPPED: ModuleSource = file!("shadows/mapped.wgsl");
 
+/// The shadow views and lights of a frame with few of them, as uniform blocks; it replaces the built-in module that reads storage
+/// buffers.
+pub const FEW_VIEWS: ModuleSource = file!("shadows/few_views.wgsl");
+
 /// The filter of the technique `pcss`, for [`MAPPED`].
 pub const PCSS: ModuleSource = file!("shadows/pcss.wgsl");
 
@@ -61,6 +65,10 @@ pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 /// The lights of a point's cluster; it replaces the built-in module that evaluates all lights.
 pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
 
+/// The lights of a frame with few of them, as a uniform block; it replaces the built-in module that reads a storage buffer. Replace
+/// `ONLY_ONE: bool = false` if there is exactly one.
+pub const FEW_LIGHTS: ModuleSource = file!("few_lights.wgsl");
+
 /// Screen-space ambient occlusion for lit passes; it replaces the built-in module without occlusion. Replace `OCCLUSION` by the
 /// number of its binding in group 0.
 pub const OCCLUDED: ModuleSource = file!("occluded.wgsl");
@@ -82,9 +90,12 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("fullscreen.wgsl"),
     file!("gbuffer_layout.wgsl"),
     file!("ground_depth.wgsl"),
+    file!("light.wgsl"),
     file!("light_list.wgsl"),
     file!("lighting.wgsl"),
+    file!("lights.wgsl"),
     file!("material.wgsl"),
+    file!("material_features.wgsl"),
     file!("mesh.wgsl"),
     file!("noise.wgsl"),
     file!("ray_surfaces.wgsl"),
@@ -108,6 +119,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/traced.wgsl"),
     file!("shadows/types.wgsl"),
     file!("shadows/variant.wgsl"),
+    file!("shadows/views.wgsl"),
     file!("surface.wgsl"),
     file!("view.wgsl"),
 ];

@@ -168,10 +168,12 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
         ("light_count", 236),
         ("ambient_ground", 240),
         ("orthographic", 252),
-        ("noise", 256),
+        ("pixel_right", 256),
+        ("noise_changes", 268),
+        ("pixel_up", 272),
+        ("noise", 288),
     ];
-    // With one element of the noise.
-    layout::check(&forward, "View", 272, &view).unwrap();
+    layout::check(&forward, "View", 288 + 1024, &view).unwrap();
     let light = [
         ("position", 0),
         ("kind", 12),

@@ -1,5 +1,7 @@
 // Finds the lights that reach each cluster, with one thread per cluster and 32 lights.
-#import shadowgraph::view::{view, lights, Light, LIGHT_DIRECTIONAL}
+#import shadowgraph::view::view
+#import shadowgraph::light::{Light, LIGHT_DIRECTIONAL}
+#import shadowgraph::lights::light_at
 #import shadowgraph::cluster_grid::{CLUSTERS, slice_begin, cluster_texel}
 
 @group(0) @binding(2) var cluster_lights: texture_storage_2d<r32uint, write>;
@@ -57,7 +59,7 @@ fn cs_clusters(@builtin(global_invocation_id) id: vec3u) {
     var mask = 0u;
     for (var bit = 0u; bit < 32u; bit++) {
         let light = word * 32u + bit;
-        if light < view.light_count && reaches(lights[light], box) {
+        if light < view.light_count && reaches(light_at(light), box) {
             mask |= 1u << bit;
         }
     }

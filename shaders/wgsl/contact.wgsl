@@ -1,12 +1,15 @@
 // Contact shadows, for which maps are too coarse: marches through the depth of the screen from each surface towards the light,
 // until a visible surface occludes it. After Sousa, "Secrets of CryENGINE 3 Graphics Technology" (SIGGRAPH 2011), *screen
 // space self-shadowing*.
-#import shadowgraph::view::{view, lights, view_depth_of, pixels_per_metre, LIGHT_DIRECTIONAL}
+#import shadowgraph::view::{view, view_depth_of, pixels_per_metre}
+#import shadowgraph::light::LIGHT_DIRECTIONAL
+#import shadowgraph::lights::light_at
 #import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::layers::{MaskLayers, COLORED, channel_visibility, with_visibility}
-#import shadowgraph::shadows::tiles::{shadow_views, shadow_lights, find}
+#import shadowgraph::shadows::tiles::find
+#import shadowgraph::shadows::views::{light_shadow, light_view}
 
 // The settings of the modifier `contact`.
 struct ContactSettings {
@@ -30,15 +33,16 @@ const MIN_HEIGHT: f32 = 0.0005;
 
 // The width of the texels that the light's shadow at a point is read from, metres; 0 without a map.
 fn texel_width(position: vec3f, normal: vec3f, view_depth: f32, light: u32) -> f32 {
-    if light >= arrayLength(&shadow_lights) || shadow_lights[light].view_count == 0u {
+    let shadow = light_shadow(light);
+    if shadow.view_count == 0u {
         return 0.0;
     }
     var receiver: Receiver;
     receiver.position = position;
     receiver.view_depth = view_depth;
     receiver.geometric_normal = normal;
-    let lookup = find(shadow_lights[light], receiver, 0u);
-    let texel = shadow_views[shadow_lights[light].first_view + lookup.view].texel_world * lookup.w;
+    let lookup = find(shadow, receiver, 0u);
+    let texel = light_view(shadow, lookup.view).texel_world * lookup.w;
     return select(0.0, texel, lookup.covered);
 }
 
@@ -53,9 +57,10 @@ fn contact_visibility(position: vec3f, normal: vec3f, light: u32, pixel: vec2u) 
     let view_depth = view_depth_of(position);
     let texel = texel_width(position, normal, view_depth, light);
     var length_world = settings.length_texels * max(texel, 1.0 / pixels_per_metre(view_depth));
-    var to_light = -lights[light].direction;
-    if lights[light].kind != LIGHT_DIRECTIONAL {
-        let offset = lights[light].position - position;
+    let source = light_at(light);
+    var to_light = -source.direction;
+    if source.kind != LIGHT_DIRECTIONAL {
+        let offset = source.position - position;
         let distance = length(offset);
         to_light = offset / max(distance, 1e-6);
         length_world = min(length_world, 0.9 * distance);

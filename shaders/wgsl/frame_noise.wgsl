@@ -10,7 +10,7 @@
 const SIDE: u32 = 32u;
 
 fn changes() -> bool {
-    return arrayLength(&view.noise) > 1u;
+    return view.noise_changes == 1u;
 }
 
 // 0 to 255.

@@ -1,6 +1,6 @@
 // How light meets a surface: glTF's metallic-roughness model and KHR_lights_punctual.
 #define_import_path shadowgraph::lighting
-#import shadowgraph::view::{Light, LIGHT_DIRECTIONAL, LIGHT_SPOT}
+#import shadowgraph::light::{Light, LIGHT_DIRECTIONAL, LIGHT_SPOT}
 
 const PI: f32 = 3.14159265358979;
 // Below this the highlight of a strong light exceeds a half float target.

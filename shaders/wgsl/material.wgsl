@@ -1,5 +1,6 @@
 // A metallic-roughness material: group 2. Absent textures are 1x1 placeholders: white, or flat normals.
 #define_import_path shadowgraph::material
+#import shadowgraph::material_features::{TEXTURES, UV_TRANSFORMS}
 
 const MATERIAL_MASK: u32 = 1u;
 const MATERIAL_BLEND: u32 = 2u;
@@ -70,7 +71,15 @@ fn material_has(bits: u32) -> bool {
     return (material_flags() & bits) == bits;
 }
 
+// Whether some material of the scene has a texture.
+fn has_texture(slot: u32) -> bool {
+    return (TEXTURES & (1u << slot)) != 0u;
+}
+
 fn texture_uv(slot: u32, uv: TextureCoordinates) -> vec2f {
+    if !UV_TRANSFORMS {
+        return uv.first;
+    }
     let use_second = ((material.uv_sets >> slot) & 1u) == 1u;
     let p = vec3f(select(uv.first, uv.second, use_second), 1.0);
     return vec2f(
@@ -83,15 +92,22 @@ fn texture_uv(slot: u32, uv: TextureCoordinates) -> vec2f {
 
 // Linear colour and alpha; `vertex_color` is that of the mesh.
 fn base_color(uv: TextureCoordinates, vertex_color: vec4f) -> vec4f {
-    let texel = textureSample(base_color_texture, base_color_sampler, texture_uv(BASE_COLOR, uv));
-    return material.base_color * vertex_color * texel;
+    let color = material.base_color * vertex_color;
+    if !has_texture(BASE_COLOR) {
+        return color;
+    }
+    return color * textureSample(base_color_texture, base_color_sampler, texture_uv(BASE_COLOR, uv));
 }
 
 // x: metallic, y: perceptual roughness, both 0 to 1.
 fn metallic_roughness(uv: TextureCoordinates) -> vec2f {
+    let factors = vec2f(material.metallic, material.roughness);
+    if !has_texture(METALLIC_ROUGHNESS) {
+        return saturate(factors);
+    }
     let texel = textureSample(
         metallic_roughness_texture, metallic_roughness_sampler, texture_uv(METALLIC_ROUGHNESS, uv));
-    return saturate(vec2f(material.metallic, material.roughness) * texel.bg);
+    return saturate(factors * texel.bg);
 }
 
 // In tangent space, unit length.
@@ -104,12 +120,18 @@ fn normal_in_tangent_space(uv: TextureCoordinates) -> vec3f {
 
 // 1: not occluded.
 fn occlusion(uv: TextureCoordinates) -> f32 {
+    if !has_texture(OCCLUSION) {
+        return 1.0;
+    }
     let texel = textureSample(occlusion_texture, occlusion_sampler, texture_uv(OCCLUSION, uv)).r;
     return 1.0 + material.occlusion_strength * (texel - 1.0);
 }
 
 // Emitted radiance, before exposure.
 fn emissive(uv: TextureCoordinates) -> vec3f {
+    if !has_texture(EMISSIVE) {
+        return material.emissive;
+    }
     return material.emissive * textureSample(emissive_texture, emissive_sampler, texture_uv(EMISSIVE, uv)).rgb;
 }
 

@@ -6,7 +6,7 @@
     Vertex, world_position, world_normal, world_direction, handedness, clip_position,
 }
 #import shadowgraph::material::{
-    MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_NORMAL_MAP, TextureCoordinates, material_has,
+    MATERIAL_MASK, MATERIAL_BLEND, MATERIAL_NORMAL_MAP, NORMAL, TextureCoordinates, has_texture, material_has,
     base_color, metallic_roughness, occlusion, emissive, normal_in_tangent_space, is_hole,
 }
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_BACK_FACE}
@@ -94,7 +94,7 @@ fn geometric_normal(ddx_position: vec3f, ddy_position: vec3f, to_camera: vec3f, 
 fn shading_normal(in: MeshVertex, uv: TextureCoordinates, front_facing: bool, to_camera: vec3f) -> vec3f {
     let smooth_normal = normalize_or(in.normal, to_camera);
     var normal = smooth_normal;
-    if material_has(MATERIAL_NORMAL_MAP) {
+    if has_texture(NORMAL) && material_has(MATERIAL_NORMAL_MAP) {
         let projected = in.tangent.xyz - smooth_normal * dot(in.tangent.xyz, smooth_normal);
         let tangent = normalize_or(projected, vec3f(0.0));
         let bitangent = cross(smooth_normal, tangent) * in.tangent.w;

@@ -1,6 +1,7 @@
 // Fits cascades to the visible surfaces (Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011): finds their depth
 // range, splits it, and fits each cascade to the surfaces in its split. Nothing is read back.
 #import shadowgraph::view::{view, view_depth_of}
+#import shadowgraph::shadows::lookup::light_axes
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, NOT_A_CASCADE}
 
 // The settings, and what the frame adds.
@@ -93,15 +94,6 @@ fn split(index: u32) -> f32 {
     return mix(mix(first, last, fraction), by_ratio, fit.lambda);
 }
 
-// The light's axes in the world.
-fn axes(shadow_view: ShadowView) -> mat3x3f {
-    let m = shadow_view.clip_from_world;
-    let scale = shadow_view.axis_scale * shadow_view.texel_scale;
-    let right = vec3f(m[0].x, m[1].x, m[2].x) * scale.x;
-    let up = vec3f(m[0].y, m[1].y, m[2].y) * scale.y;
-    return mat3x3f(right, up, shadow_view.light.xyz);
-}
-
 @compute @workgroup_size(8, 8)
 fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) local: u32) {
     let slots = 6u * min(fit.cascades * fit.lights, MAX_VIEWS);
@@ -121,7 +113,7 @@ fn cs_bounds(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation
         let lights = select(0u, fit.lights, is_fitted);
         for (var light = 0u; light < lights; light++) {
             let index = light * fit.cascades + cascade;
-            let at = position * axes(planned[index]);
+            let at = position * light_axes(planned[index]);
             for (var axis = 0u; axis < 3u; axis++) {
                 let code = encoded(at[axis]);
                 atomicMin(&group_bounds[6u * index + axis], code);
@@ -182,7 +174,7 @@ fn fitted_view(old: ShadowView, index: u32, cascade: u32) -> ShadowView {
     let far = center.z - half.z - 8.0 * texel;
     let range = rounded_up(2.0 * half.z + 128.0 * texel);
 
-    let axes = axes(old);
+    let axes = light_axes(old);
     let x = vec4f(axes[0], -snapped.x * texel) / extent;
     let y = vec4f(axes[1], -snapped.y * texel) / extent;
     let z = vec4f(axes[2], -far) / range;

@@ -1,11 +1,11 @@
 // The light that a surface reflects from every light, with shadows.
 #define_import_path shadowgraph::shade
-#import shadowgraph::view::{view, lights, Light}
+#import shadowgraph::lights::{light_at, light_count}
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT}
 #import shadowgraph::screen_occlusion::screen_occlusion
 #import shadowgraph::lighting::{Surface, arriving_light, reflected}
 #import shadowgraph::environment::environment_light
-#import shadowgraph::light_list::light_mask
+#import shadowgraph::light_list::next_light
 #import shadowgraph::technique::{shadow_visibility, shadow_debug_color}
 
 // The visibility from the technique; 1 for a material without shadows.
@@ -20,22 +20,20 @@ fn shade_surface(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3
     let transparent = (receiver.flags & RECEIVER_TRANSPARENT) != 0u;
     let ambient_occlusion = screen_occlusion(receiver.pixel, transparent);
     var sum = environment_light(surface) * ambient_occlusion;
-    for (var word = 0u; word * 32u < view.light_count; word++) {
-        var mask = light_mask(word, receiver.pixel, receiver.view_depth);
-        while mask != 0u {
-            let i = word * 32u + firstTrailingBit(mask);
-            mask &= mask - 1u;
-            if i >= view.light_count {
-                break;
-            }
-            let light = lights[i];
-            let arriving = arriving_light(light, receiver.position);
-            let n_dot_l = dot(surface.normal, arriving.to_light);
-            if n_dot_l > 0.0 && arriving.attenuation > 0.0 {
-                let visibility = visibility_of(i, receiver, unshadowed);
-                let illuminance = light.color * arriving.attenuation * visibility;
-                sum += reflected(surface, arriving.to_light, n_dot_l) * illuminance;
-            }
+    // Tested at the end: software drivers run what follows a test at the start once more, for nothing.
+    var i = next_light(0u, receiver.pixel, receiver.view_depth);
+    loop {
+        let light = light_at(i);
+        let arriving = arriving_light(light, receiver.position);
+        let n_dot_l = dot(surface.normal, arriving.to_light);
+        if i < light_count() && n_dot_l > 0.0 && arriving.attenuation > 0.0 {
+            let visibility = visibility_of(i, receiver, unshadowed);
+            let illuminance = light.color * arriving.attenuation * visibility;
+            sum += reflected(surface, arriving.to_light, n_dot_l) * illuminance;
+        }
+        i = next_light(i + 1u, receiver.pixel, receiver.view_depth);
+        if i >= light_count() {
+            break;
         }
     }
     return sum;
@@ -43,10 +41,10 @@ fn shade_surface(surface: Surface, receiver: Receiver, unshadowed: bool) -> vec3
 
 // Grey: the visibility of a light in the lit pass. Alpha 0 where the surface faces away from the light.
 fn visibility_output(light: u32, receiver: Receiver, unshadowed: bool) -> vec4f {
-    if light >= view.light_count {
+    if light >= light_count() {
         return vec4f(0.0);
     }
-    let arriving = arriving_light(lights[light], receiver.position);
+    let arriving = arriving_light(light_at(light), receiver.position);
     if dot(receiver.shading_normal, arriving.to_light) <= 0.0 {
         return vec4f(0.0);
     }
@@ -57,10 +55,10 @@ fn visibility_output(light: u32, receiver: Receiver, unshadowed: bool) -> vec4f 
 // The technique's debug colours, shaded so that shapes and shadows are visible.
 fn debug_output(light: u32, receiver: Receiver, to_camera: vec3f, unshadowed: bool) -> vec4f {
     var shade = 0.4 + 0.2 * saturate(dot(receiver.shading_normal, to_camera));
-    if light >= view.light_count {
+    if light >= light_count() {
         return vec4f(vec3f(shade), 1.0);
     }
-    let arriving = arriving_light(lights[light], receiver.position);
+    let arriving = arriving_light(light_at(light), receiver.position);
     let n_dot_l = dot(receiver.shading_normal, arriving.to_light);
     if n_dot_l > 0.0 {
         let factor = dot(visibility_of(light, receiver, unshadowed), vec3f(1.0 / 3.0));

@@ -1,10 +1,11 @@
 // The light of a sky and of the ground below it.
 #define_import_path shadowgraph::environment
-#import shadowgraph::view::{view, lights, view_depth_of, view_ray, to_neighbour}
+#import shadowgraph::view::{view, view_depth_of, view_ray, to_neighbour}
+#import shadowgraph::lights::{light_at, light_count}
 #import shadowgraph::lighting::{Surface, arriving_light, environment_reflectance}
 #import shadowgraph::receiver::{Receiver, RECEIVER_OFF_SCREEN}
 #import shadowgraph::screen_occlusion::screen_occlusion
-#import shadowgraph::light_list::light_mask
+#import shadowgraph::light_list::next_light
 #import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::technique::shadow_visibility
 
@@ -109,20 +110,18 @@ fn ground_light(position: vec3f, pixel: vec2f) -> array<vec3f, 2> {
     let from_sky = irradiance(up) * PI;
     var shadowed = from_sky * screen_occlusion(pixel, false);
     var full = from_sky;
-    for (var word = 0u; word * 32u < view.light_count; word++) {
-        var mask = light_mask(word, pixel, depth);
-        while mask != 0u {
-            let i = word * 32u + firstTrailingBit(mask);
-            mask &= mask - 1u;
-            if i >= view.light_count {
-                break;
-            }
-            let arriving = arriving_light(lights[i], position);
-            if arriving.to_light.y > 0.0 && arriving.attenuation > 0.0 {
-                let illuminance = lights[i].color * (arriving.attenuation * arriving.to_light.y);
-                full += illuminance;
-                shadowed += illuminance * shadow_visibility(i, receiver);
-            }
+    var i = next_light(0u, pixel, depth);
+    loop {
+        let light = light_at(i);
+        let arriving = arriving_light(light, position);
+        if i < light_count() && arriving.to_light.y > 0.0 && arriving.attenuation > 0.0 {
+            let illuminance = light.color * (arriving.attenuation * arriving.to_light.y);
+            full += illuminance;
+            shadowed += illuminance * shadow_visibility(i, receiver);
+        }
+        i = next_light(i + 1u, pixel, depth);
+        if i >= light_count() {
+            break;
         }
     }
     return array(shadowed * sky.ground_albedo / PI, full * sky.ground_albedo / PI);

@@ -1,7 +1,7 @@
-// The camera and the lights of a frame: group 0 of every lit pass.
+// The camera of a frame: group 0 of every lit pass, with the lights.
 #define_import_path shadowgraph::view
 
-// Positions are metres relative to the frame's origin. Depth is reversed: near 1, far 0. 256 bytes, and the noise.
+// Positions are metres relative to the frame's origin. Depth is reversed: near 1, far 0. 288 bytes, and the noise.
 struct View {
     clip_from_world: mat4x4f,
     world_from_clip: mat4x4f,
@@ -20,31 +20,15 @@ struct View {
     ambient_ground: vec3f,
     // 1: orthographic, 0: perspective.
     orthographic: u32,
-    // See shadowgraph::frame_noise: one element if noise is the same in every frame.
-    noise: array<vec4u>,
+    // The steps to the next pixel right and up, metres at 1 m in front of the camera; at any distance, if it is orthographic.
+    pixel_right: vec3f,
+    // See shadowgraph::frame_noise. 1: noise changes from frame to frame; 0: it is not read.
+    noise_changes: u32,
+    pixel_up: vec3f,
+    noise: array<vec4u, 64>,
 }
 
-const LIGHT_DIRECTIONAL: u32 = 0u;
-const LIGHT_SPOT: u32 = 1u;
-const LIGHT_POINT: u32 = 2u;
-
-// 64 bytes, the last 12 of them padding.
-struct Light {
-    position: vec3f,
-    kind: u32,
-    // The direction in which the light travels, unit length.
-    direction: vec3f,
-    // Metres; 0: unlimited.
-    range: f32,
-    // Linear colour times lux (directional) or candela (spot, point).
-    color: vec3f,
-    // Spot cone: saturate(cos(angle) * spot_scale + spot_offset) squared.
-    spot_scale: f32,
-    spot_offset: f32,
-}
-
-@group(0) @binding(0) var<storage, read> view: View;
-@group(0) @binding(1) var<storage, read> lights: array<Light>;
+@group(0) @binding(0) var<uniform> view: View;
 
 // View depth of a point, metres in front of the camera.
 fn view_depth_of(position: vec3f) -> f32 {
@@ -57,10 +41,9 @@ fn view_depth_from_depth(depth: f32) -> f32 {
     if view.orthographic == 1u {
         return view.far - depth * (view.far - view.near);
     }
-    if view.far == 0.0 {
-        return view.near / depth;
-    }
-    return view.near * view.far / (view.near + depth * (view.far - view.near));
+    // Without a branch, which Mesa's software driver would compile again for each value of `far`.
+    let finite = view.near * view.far / (view.near + depth * (view.far - view.near));
+    return select(finite, view.near / depth, view.far == 0.0);
 }
 
 // Pixels per metre at this view depth.
@@ -100,13 +83,9 @@ fn direction_to_camera(from_camera: vec3f) -> vec3f {
 // The offset from a point to where the next pixel right (axis 0) or up (1) meets the plane of its surface. Unlike derivatives
 // it does not depend on the surfaces of the neighbours.
 fn to_neighbour(position: vec3f, normal: vec3f, view_depth: f32, axis: i32) -> vec3f {
-    let m = view.view_from_world;
-    let across = vec3f(m[0][axis], m[1][axis], m[2][axis]);
-    // That row of the projection: the size of one unit at depth 1, in halves of the image.
-    let c = view.clip_from_world;
-    let scale = length(vec3f(c[0][axis], c[1][axis], c[2][axis]));
-    let step = across * 2.0 / (view.size_px[axis] * scale);
+    let step = select(view.pixel_right, view.pixel_up, axis == 1);
     if view.orthographic == 1u {
+        let m = view.view_from_world;
         let forward = -vec3f(m[0].z, m[1].z, m[2].z);
         return step - forward * (dot(normal, step) / away_from_zero(dot(normal, forward)));
     }

@@ -39,7 +39,7 @@ impl Clusters {
             .create_texture("cluster lights", TextureDesc::d2(clusters_per_slice, height, Format::R32Uint));
         frame
             .compute("light clusters", &self.shader)
-            .storage(&view.view)
+            .uniform_buffer(&view.view)
             .storage(&view.lights)
             .storage_texture_mut(&mut clusters, Contents::Overwrite)
             .dispatch([(clusters_per_slice * height).div_ceil(WORKGROUP), 1, 1]);

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Contents, Frame, RenderContext, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
+use shadowgraph_scene::gpu::{
+    AlphaKey, Draw, DrawPipeline, GpuScene, MaterialFeatures, MaterialLayouts, PipelineKey, vertex_layout,
+};
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, VertexBuffers, shadow_layout};
 
@@ -36,6 +38,7 @@ struct LitKey {
     /// Whether the pass writes depth, because there is no prepass.
     writes_depth: bool,
     bindings: OptionalBindings,
+    materials: MaterialFeatures,
 }
 
 /// The pipelines that light with one variant of a technique; each is created on first use.
@@ -113,17 +116,23 @@ impl Forward {
         self.modules.get(variant as usize).or(self.modules.first()).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the pipelines that light with a variant of the technique ([`ShadowOutputs::variant`]), which are composed on
-    /// first use. With `writes_depth` they write depth, for passes without a prepass.
+    /// Returns the pipelines that light a scene with a variant of the technique ([`ShadowOutputs::variant`]), which are composed
+    /// on first use. With `writes_depth` they write depth, for passes without a prepass.
     ///
     /// # Errors
     /// [`Error::Shader`] if the variant's WGSL does not compose.
-    pub fn pipelines(&self, variant: u32, writes_depth: bool) -> Result<Arc<LitPipelines>, Error> {
+    pub fn pipelines(
+        &self,
+        scene: &GpuScene,
+        variant: u32,
+        writes_depth: bool,
+    ) -> Result<Arc<LitPipelines>, Error> {
         self.pipelines_for(LitKey {
             variant,
             debug_light: 0,
             writes_depth,
             bindings: OptionalBindings::default(),
+            materials: scene.material_features(),
         })
     }
 
@@ -132,7 +141,8 @@ impl Forward {
         if let Some(pipelines) = cache.get(&key) {
             return Ok(pipelines.clone());
         }
-        let modules = key.bindings.add_modules(self.modules_for(key.variant));
+        let mut modules = key.bindings.add_modules(self.modules_for(key.variant));
+        modules.push(key.materials.module());
         let shader = module(&self.builder.device, "forward.wgsl", &modules)?;
         let builder = self.builder.clone();
         let by_material = PipelineKey::all().map(|_| OnceLock::new()).collect();
@@ -207,7 +217,9 @@ impl Forward {
         }
         let (variant, debug_light) = self.builder.target.variant(shadows);
         let bindings = view.optional_bindings();
-        let pipelines = self.pipelines_for(LitKey { variant, debug_light, writes_depth: false, bindings })?;
+        let materials = geometry.scene.material_features();
+        let pipelines =
+            self.pipelines_for(LitKey { variant, debug_light, writes_depth: false, bindings, materials })?;
         let buffers = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass("blended");
         buffers.read_in(&mut pass);
@@ -239,7 +251,9 @@ impl Forward {
         let (variant, debug_light) = self.builder.target.variant(shadows);
         let writes_depth = matches!(depth, Depth::Written(_));
         let bindings = view.optional_bindings();
-        let pipelines = self.pipelines_for(LitKey { variant, debug_light, writes_depth, bindings })?;
+        let materials = geometry.scene.material_features();
+        let pipelines =
+            self.pipelines_for(LitKey { variant, debug_light, writes_depth, bindings, materials })?;
         let background_pipeline = self.background(variant, bindings)?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.builder.target.output {

@@ -94,7 +94,7 @@ impl GBufferPass {
         let vertices = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass("G-buffer");
         vertices.read_in(&mut pass);
-        let view = ViewBuffers { clusters: None, occlusion: None, ..view.clone() }.read_in(&mut pass);
+        let view = view.read_with(&mut pass, OptionalBindings::default());
         pass.depth_read(depth);
         for texture in
             [&mut buffer.base_color, &mut buffer.material, &mut buffer.normals, &mut buffer.emissive]

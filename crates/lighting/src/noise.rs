@@ -9,9 +9,9 @@ const FRAMES: usize = 16;
 /// Frame by frame and row by row, 0 to 255. `cargo xtask noise` writes the file.
 static BLUE_NOISE: &[u8; SIDE * SIDE * FRAMES] = include_bytes!("blue_noise.bin");
 
-/// Returns the member `noise` of `View` of `shadowgraph::view`: a byte for each pixel, or a single element without a frame.
+/// Returns the member `noise` of `View` of `shadowgraph::view`: a byte for each pixel, zeros without a frame.
 pub(crate) fn noise_of(frame: Option<u32>) -> Vec<u8> {
-    let Some(frame) = frame.map(|frame| frame as usize) else { return vec![0; 16] };
+    let Some(frame) = frame.map(|frame| frame as usize) else { return vec![0; SIDE * SIDE] };
     let slice = frame % FRAMES * SIDE * SIDE;
     // Moved by the fractions of the plastic number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), so that a
     // pixel gets other values each time.
@@ -83,8 +83,8 @@ mod tests {
     }
 
     #[test]
-    fn without_a_frame_there_is_one_element_and_a_later_round_differs() {
-        assert_eq!(noise_of(None), [0; 16]);
+    fn the_size_is_that_of_the_wgsl_and_a_later_round_differs() {
+        assert_eq!(noise_of(None), [0; SIDE * SIDE]);
         assert_eq!(noise_of(Some(3)).len(), SIDE * SIDE);
         assert_ne!(noise_of(Some(3)), noise_of(Some(19)));
         assert_eq!(noise_of(Some(u32::MAX)).len(), SIDE * SIDE);

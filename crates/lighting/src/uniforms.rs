@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
+use glam::{DMat4, DVec3, DVec4, Mat4, Vec2, Vec3};
 use shadowgraph_core::{Buffer, Frame, Texture};
 use shadowgraph_scene::{Camera, Light, LightKind, Projection};
 
@@ -12,7 +12,10 @@ use crate::jitter::Jitter;
 use crate::motion::CameraMotion;
 use crate::noise::noise_of;
 
-/// The camera of a frame, 256 bytes; in the buffer of the view, noise follows. World space here is relative to the frame's origin.
+/// The largest number of lights that lit passes read from a uniform block. `FEW_LIGHTS` of `few_lights.wgsl`.
+pub(crate) const MAX_FEW_LIGHTS: usize = 32;
+
+/// The camera of a frame, 288 bytes; in the buffer of the view, noise follows. World space here is relative to the frame's origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct GpuView {
@@ -40,6 +43,14 @@ pub struct GpuView {
     pub ambient_ground: Vec3,
     /// 1 for an orthographic camera, else 0.
     pub orthographic: u32,
+    /// The step to the next pixel to the right, metres at 1 m in front of the camera; at any distance, if it is orthographic.
+    pub pixel_right: Vec3,
+    /// 1 if noise changes from frame to frame, else 0.
+    pub noise_changes: u32,
+    /// The step to the next pixel up, like `pixel_right`.
+    pub pixel_up: Vec3,
+    /// Padding, zero.
+    pub padding: u32,
 }
 
 /// A light, 64 bytes. World space here is relative to the frame's origin.
@@ -83,8 +94,10 @@ pub struct ViewUniforms {
 pub struct ViewBuffers {
     /// One [`GpuView`], and the noise of the frame.
     pub view: Buffer,
-    /// [`GpuLight`]s; one of zeros if there is no light.
+    /// [`GpuLight`]s, and zeros up to the size of a uniform block of few.
     pub lights: Buffer,
+    /// The number of lights.
+    pub light_count: usize,
     /// The lights of each cluster, if they were computed ([`Clusters`](crate::Clusters)).
     pub clusters: Option<Texture>,
     /// Ambient occlusion, if it was computed ([`Occlusion`](crate::post::Occlusion)).
@@ -146,16 +159,23 @@ impl ViewUniforms {
 
     /// Returns the contents of [`ViewBuffers::view`].
     pub fn view_bytes(&self) -> Vec<u8> {
-        [bytemuck::bytes_of(&self.view), &noise_of(self.noise_frame)].concat()
+        let view = GpuView { noise_changes: u32::from(self.noise_frame.is_some()), ..self.view };
+        [bytemuck::bytes_of(&view), &noise_of(self.noise_frame)].concat()
+    }
+
+    /// Returns the contents of [`ViewBuffers::lights`].
+    pub fn light_bytes(&self) -> Vec<u8> {
+        let mut bytes = bytemuck::cast_slice(&self.lights).to_vec();
+        bytes.resize(self.lights.len().max(MAX_FEW_LIGHTS) * size_of::<GpuLight>(), 0);
+        bytes
     }
 
     /// Adds the node that uploads the uniforms.
     pub fn upload(&self, frame: &mut Frame<'_>) -> ViewBuffers {
-        let none = [GpuLight::zeroed()];
-        let lights = if self.lights.is_empty() { &none } else { &self.lights[..] };
         frame.node("view", |frame| ViewBuffers {
             view: frame.upload_buffer("view", self.view_bytes()),
-            lights: frame.upload_buffer("lights", bytemuck::cast_slice(lights).to_vec()),
+            lights: frame.upload_buffer("lights", self.light_bytes()),
+            light_count: self.lights.len(),
             clusters: None,
             occlusion: None,
             sky: None,
@@ -171,8 +191,13 @@ impl GpuView {
         let [width, height] = size_px.map(f64::from);
         // In f64 until the end: the translation is small once it is relative to the origin.
         let view_from_world = camera.view_from_world() * DMat4::from_translation(origin_world);
-        let clip_from_world = camera.clip_from_view(width / height) * view_from_world;
+        let clip_from_view = camera.clip_from_view(width / height);
+        let clip_from_world = clip_from_view * view_from_world;
+        let axes = view_from_world.transpose();
+        let step = |axis: DVec4, px: f64, scale: f64| (axis.truncate() * 2.0 / (px * scale)).as_vec3();
         Self {
+            pixel_right: step(axes.x_axis, width, clip_from_view.x_axis.x),
+            pixel_up: step(axes.y_axis, height, clip_from_view.y_axis.y),
             clip_from_world: clip_from_world.as_mat4(),
             world_from_clip: clip_from_world.inverse().as_mat4(),
             view_from_world: view_from_world.as_mat4(),
@@ -248,6 +273,9 @@ mod tests {
             ("light_count", offset_of!(GpuView, light_count)),
             ("ambient_ground", offset_of!(GpuView, ambient_ground)),
             ("orthographic", offset_of!(GpuView, orthographic)),
+            ("pixel_right", offset_of!(GpuView, pixel_right)),
+            ("noise_changes", offset_of!(GpuView, noise_changes)),
+            ("pixel_up", offset_of!(GpuView, pixel_up)),
             ("noise", size_of::<GpuView>()),
         ];
         layout::check(&module, "View", size_of::<GpuView>() + noise_of(None).len(), &view).unwrap();
@@ -255,6 +283,8 @@ mod tests {
             position, kind, direction, range, color, spot_scale, spot_offset,
         )
         .unwrap();
+        let few = format!("const FEW_LIGHTS: u32 = {MAX_FEW_LIGHTS}u;");
+        assert!(shadowgraph_shaders::FEW_LIGHTS.source.contains(&few), "{few}");
     }
 
     fn spot(inner_angle: f64, outer_angle: f64) -> GpuLight {

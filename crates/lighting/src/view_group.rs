@@ -1,13 +1,26 @@
 //! Bind group 0 of lit passes: the view, the lights, the light clusters and ambient occlusion.
 
 use shadowgraph_core::{Bind, BufferToken, Error as GraphError, Pass, Resources, ShaderPass, TextureToken};
-use shadowgraph_shaders::{CLUSTERED, ModuleSource, OCCLUDED, SKY_LIGHT};
+use shadowgraph_shaders::{CLUSTERED, FEW_LIGHTS, ModuleSource, OCCLUDED, SKY_LIGHT};
 
-use crate::uniforms::ViewBuffers;
+use crate::uniforms::{MAX_FEW_LIGHTS, ViewBuffers};
 
-/// The bindings of group 0 that exist besides the view and the lights, in this order.
+/// The kind of the binding of the lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum LightBinding {
+    /// A storage buffer with any number of lights.
+    #[default]
+    Storage,
+    /// A uniform block with at most [`MAX_FEW_LIGHTS`].
+    Uniform,
+    /// A uniform block with one light.
+    OnlyOne,
+}
+
+/// The kind of the lights, and the bindings of group 0 that exist besides them and the view, in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct OptionalBindings {
+    lights: LightBinding,
     /// The lights of each cluster.
     clusters: bool,
     /// Ambient occlusion.
@@ -17,31 +30,34 @@ pub(crate) struct OptionalBindings {
 }
 
 impl OptionalBindings {
-    const COUNT: usize = 8;
+    const COUNT: usize = 24;
 
     /// Returns the bindings with an [`index`](Self::index).
     fn from_index(index: usize) -> Self {
-        Self { clusters: index & 1 != 0, occlusion: index & 2 != 0, sky: index & 4 != 0 }
+        let lights = [LightBinding::Storage, LightBinding::Uniform, LightBinding::OnlyOne][index / 8];
+        Self { lights, clusters: index & 1 != 0, occlusion: index & 2 != 0, sky: index & 4 != 0 }
     }
 
     pub(crate) fn index(self) -> usize {
-        usize::from(self.clusters) + 2 * usize::from(self.occlusion) + 4 * usize::from(self.sky)
+        let flags = [self.clusters, self.occlusion, self.sky].into_iter().zip([1, 2, 4]);
+        flags.map(|(exists, bit)| usize::from(exists) * bit).sum::<usize>() + 8 * self.lights as usize
     }
 
     /// Creates the layout of group 0.
     fn layout(self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
-        let buffer = wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
+        let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let uniform = buffer(wgpu::BufferBindingType::Uniform);
+        let storage = buffer(wgpu::BufferBindingType::Storage { read_only: true });
         let texture = |sample_type| wgpu::BindingType::Texture {
             sample_type,
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
         };
         let (both, fragment) = (wgpu::ShaderStages::VERTEX_FRAGMENT, wgpu::ShaderStages::FRAGMENT);
-        let mut types = vec![(both, buffer), (both, buffer)];
+        let mut types = vec![
+            (both, uniform),
+            (both, if self.lights == LightBinding::Storage { storage } else { uniform }),
+        ];
         if self.clusters {
             types.push((fragment, texture(wgpu::TextureSampleType::Uint)));
         }
@@ -49,11 +65,7 @@ impl OptionalBindings {
             types.push((fragment, texture(wgpu::TextureSampleType::Float { filterable: false })));
         }
         if self.sky {
-            // As a storage buffer, it would be one too many for some techniques.
-            let ty = wgpu::BufferBindingType::Uniform;
-            let uniforms =
-                wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-            types.push((fragment, uniforms));
+            types.push((fragment, uniform));
         }
         let entry =
             |(binding, (visibility, ty))| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
@@ -65,6 +77,13 @@ impl OptionalBindings {
     /// Returns the modules of a technique together with those of the bindings.
     pub(crate) fn add_modules(self, modules: &[ModuleSource]) -> Vec<ModuleSource> {
         let mut all = modules.to_vec();
+        match self.lights {
+            LightBinding::Storage => {}
+            LightBinding::Uniform => all.push(FEW_LIGHTS),
+            LightBinding::OnlyOne => {
+                all.push(FEW_LIGHTS.with_value("ONLY_ONE: bool = false", "ONLY_ONE: bool = true"))
+            }
+        }
         all.extend(self.clusters.then_some(CLUSTERED));
         // The number of the next binding.
         let mut binding = 2 + usize::from(self.clusters);
@@ -102,12 +121,18 @@ pub(crate) struct ViewTokens {
     clusters: Option<TextureToken>,
     occlusion: Option<TextureToken>,
     sky: Option<BufferToken>,
+    bindings: OptionalBindings,
 }
 
 impl ViewBuffers {
-    /// Returns the bindings that exist besides the view and the lights.
+    /// Returns the kind of the lights, and the bindings that exist besides them and the view.
     pub(crate) fn optional_bindings(&self) -> OptionalBindings {
         OptionalBindings {
+            lights: match self.light_count {
+                1 => LightBinding::OnlyOne,
+                ..=MAX_FEW_LIGHTS => LightBinding::Uniform,
+                _ => LightBinding::Storage,
+            },
             clusters: self.clusters.is_some(),
             occlusion: self.occlusion.is_some(),
             sky: self.sky.is_some(),
@@ -116,12 +141,33 @@ impl ViewBuffers {
 
     /// Declares that `pass` reads all of the buffers.
     pub(crate) fn read_in<K: ShaderPass>(&self, pass: &mut Pass<'_, '_, K>) -> ViewTokens {
+        self.read_with(pass, self.optional_bindings())
+    }
+
+    /// Declares that `pass` reads some of the bindings.
+    pub(crate) fn read_with<K: ShaderPass>(
+        &self,
+        pass: &mut Pass<'_, '_, K>,
+        bindings: OptionalBindings,
+    ) -> ViewTokens {
         ViewTokens {
-            view: pass.storage_buffer(&self.view),
-            lights: pass.storage_buffer(&self.lights),
-            clusters: self.clusters.as_ref().map(|clusters| pass.sample(clusters)),
-            occlusion: self.occlusion.as_ref().map(|occlusion| pass.sample(occlusion)),
-            sky: self.sky.as_ref().map(|sky| pass.uniform_buffer(sky)),
+            view: pass.uniform_buffer(&self.view),
+            lights: match bindings.lights {
+                LightBinding::Storage => pass.storage_buffer(&self.lights),
+                LightBinding::Uniform | LightBinding::OnlyOne => pass.uniform_buffer(&self.lights),
+            },
+            clusters: self
+                .clusters
+                .as_ref()
+                .filter(|_| bindings.clusters)
+                .map(|clusters| pass.sample(clusters)),
+            occlusion: self
+                .occlusion
+                .as_ref()
+                .filter(|_| bindings.occlusion)
+                .map(|occlusion| pass.sample(occlusion)),
+            sky: self.sky.as_ref().filter(|_| bindings.sky).map(|sky| pass.uniform_buffer(sky)),
+            bindings,
         }
     }
 }
@@ -132,11 +178,6 @@ impl ViewTokens {
         resources: &Resources<'_>,
         layouts: &ViewLayouts,
     ) -> Result<wgpu::BindGroup, GraphError> {
-        let bindings = OptionalBindings {
-            clusters: self.clusters.is_some(),
-            occlusion: self.occlusion.is_some(),
-            sky: self.sky.is_some(),
-        };
         let mut all: [Bind<'_>; 5] = std::array::from_fn(|_| Bind::Buffer(self.view));
         let optional =
             [self.clusters.map(Bind::Texture), self.occlusion.map(Bind::Texture), self.sky.map(Bind::Buffer)];
@@ -145,6 +186,6 @@ impl ViewTokens {
             all[count] = bind;
             count += 1;
         }
-        resources.bind_group(layouts.get(bindings), &all[..count])
+        resources.bind_group(layouts.get(self.bindings), &all[..count])
     }
 }

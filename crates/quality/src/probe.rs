@@ -99,7 +99,7 @@ impl Probe {
             label: Some("probe.wgsl"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
-        let view_layout = layout(device, &[STORAGE, STORAGE]);
+        let view_layout = layout(device, &[UNIFORM, STORAGE]);
         let points_layout = layout(device, &[UNIFORM, POINTS, RESULTS]);
         let shadow_layout = shadow_layout(device, renderer.technique());
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -196,7 +196,7 @@ impl Probe {
         let mut results = frame.create_texture("results", TextureDesc::d2(width, height, Format::R32Float));
         let mut pass = frame.compute_pass("probe");
         let shadows = shadows.read_in(&mut pass);
-        let (eye, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let (eye, lights) = (pass.uniform_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let point_texture = pass.sample(&point_texture);
         let target = pass.storage_texture_mut(&mut results, Contents::Overwrite);
         pass.body(move |ctx| {

@@ -42,7 +42,7 @@ impl DebugBlit {
         let view_layout = layout(
             device,
             wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                ty: wgpu::BufferBindingType::Uniform,
                 has_dynamic_offset: false,
                 min_binding_size: None,
             },
@@ -106,7 +106,7 @@ impl DebugBlit {
         let layout = if format == LINEAR { &self.depth_layout } else { &self.float_layout };
         let mut pass = frame.render_pass("show");
         let tokens: Vec<_> = textures.iter().map(|texture| pass.sample(texture)).collect();
-        let view = pass.storage_buffer(&view.view);
+        let view = pass.uniform_buffer(&view.view);
         pass.color(&mut image, Contents::clear_color([0.0, 0.0, 0.0, 1.0]));
         pass.body(move |ctx| {
             let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view)])?;

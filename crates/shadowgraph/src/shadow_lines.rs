@@ -108,7 +108,7 @@ impl ShadowLinesPass {
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
         let storage = wgpu::BufferBindingType::Storage { read_only: true };
-        let view_layout = buffers_layout(device, &[storage]);
+        let view_layout = buffers_layout(device, &[wgpu::BufferBindingType::Uniform]);
         let lines_layout = buffers_layout(device, &[storage, wgpu::BufferBindingType::Uniform]);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("shadow lines"),
@@ -141,7 +141,7 @@ impl ShadowLinesPass {
         let count = (bytes / size_of::<ShadowView>() as u64) as u32;
         let uniform = frame.uniform(bytes_of(&ShadowCamera::new(camera, aspect, origin_world)));
         let mut pass = frame.render_pass("shadow lines");
-        let (view, views) = (pass.storage_buffer(&view.view), pass.storage_buffer(views));
+        let (view, views) = (pass.uniform_buffer(&view.view), pass.storage_buffer(views));
         pass.color(target, contents);
         pass.body(move |ctx| {
             let view = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view)])?;

@@ -49,7 +49,7 @@ pub use casters::{
 };
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use error::Error;
-pub use lookup_variant::{CommonLookup, LookupVariant, MapUse};
+pub use lookup_variant::{CommonLookup, LookupSource, LookupVariant, MapUse};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};
 pub use plan::{MapPlan, PlanState, ShadowInputs, ShadowPlan, TilePlan};

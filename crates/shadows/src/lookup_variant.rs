@@ -1,11 +1,20 @@
 //! The variants of the WGSL that looks shadows up in maps: code that no light of a frame needs is not compiled.
 
-use shadowgraph_shaders::ModuleSource;
+use std::sync::OnceLock;
+
+use shadowgraph_shaders::{FEW_VIEWS as FEW_VIEWS_MODULE, ModuleSource};
 
 use crate::settings::ShadowFilter;
 use crate::views::{
     BIAS_PLANE, BLEND_HARD, MAP_ATLAS, MAP_CASCADES, SELECT_FACE, SELECT_MAP, ShadowLight, ShadowView,
 };
+
+/// The largest number of [`ShadowView`]s that are read from a uniform block. `FEW_VIEWS` of `few_views.wgsl`.
+pub(crate) const FEW_VIEWS: usize = 32;
+/// The largest number of lights of a scene whose [`ShadowLight`]s are read from a uniform block. `FEW_LIGHTS` of `few_views.wgsl`.
+pub(crate) const FEW_LIGHTS: usize = 32;
+/// The largest number of cascades of [`LookupSource::OneLight`].
+const FEW_CASCADES: u32 = 4;
 
 /// A variant of the WGSL that looks shadows up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,6 +28,8 @@ pub enum LookupVariant {
 /// What the lookups of a frame's shadowed lights have in common. The default, nothing, works for every frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct CommonLookup {
+    /// Where views and lights are read from.
+    pub source: LookupSource,
     /// [`ShadowFilter::taps`], 1 to 4, if all lights have the same; 0 if they differ.
     pub taps: u32,
     /// The map that all lights are in, if they are in one.
@@ -31,6 +42,18 @@ pub struct CommonLookup {
     pub untinted: bool,
 }
 
+/// Where a frame's shadow views and lights are read from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LookupSource {
+    /// Storage buffers of any size.
+    #[default]
+    Storage,
+    /// Uniform blocks: the scene has at most 32 lights, and their shadows have at most 32 views.
+    Uniform,
+    /// As `Uniform`; only the scene's first light has shadows, [simple](CommonLookup::simple) ones in at most four cascades.
+    OneLight,
+}
+
 /// The map that all lights of a frame are in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MapUse {
@@ -40,16 +63,47 @@ pub enum MapUse {
     Atlas,
 }
 
-/// The maps of a frame: either, or both.
-const MAPS: u32 = 3;
-/// The variants for shadowed lights with one choice of taps.
-const WITH_TAPS: u32 = MAPS * 4;
-
 impl LookupVariant {
-    /// Number of variants.
-    pub const COUNT: u32 = Self::COUNT_WITHOUT_TAPS + ShadowFilter::ALL.len() as u32 * WITH_TAPS;
-    /// Number of variants of techniques whose filter has no taps of [`ShadowFilter`]. They are the first ones.
-    pub const COUNT_WITHOUT_TAPS: u32 = WITH_TAPS + 1;
+    /// Returns all variants. The first works for every frame. Those of techniques whose filter has no taps of [`ShadowFilter`] are
+    /// the first [`count_without_taps`](Self::count_without_taps).
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        static ALL: OnceLock<Vec<LookupVariant>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let taps = (0..).take(ShadowFilter::ALL.len() + 1);
+            let mut all: Vec<_> = taps.flat_map(Self::with_taps).collect();
+            all.insert(Self::count_without_taps() as usize - 1, Self::Unshadowed);
+            all
+        })
+    }
+
+    /// Returns the variants for shadowed lights with these taps.
+    fn with_taps(taps: u32) -> impl Iterator<Item = Self> {
+        let maps = [None, Some(MapUse::Cascades), Some(MapUse::Atlas)];
+        let sources = [LookupSource::Storage, LookupSource::Uniform];
+        let any = sources.into_iter().flat_map(move |source| {
+            let simple = [false, true].into_iter();
+            simple.flat_map(move |simple| {
+                maps.map(|map| CommonLookup { source, taps, map, simple, untinted: false })
+            })
+        });
+        let one = CommonLookup {
+            source: LookupSource::OneLight,
+            taps,
+            map: Some(MapUse::Cascades),
+            simple: true,
+            untinted: false,
+        };
+        any.chain([one])
+            .flat_map(|tinted| [tinted, CommonLookup { untinted: true, ..tinted }])
+            .map(Self::Shadowed)
+    }
+
+    /// Returns the number of variants of techniques whose filter has no taps of [`ShadowFilter`].
+    #[must_use]
+    pub fn count_without_taps() -> u32 {
+        Self::with_taps(0).count() as u32 + 1
+    }
 
     /// Returns the best variant for the lights and views of a frame.
     #[must_use]
@@ -68,7 +122,8 @@ impl LookupVariant {
             MAP_CASCADES => MapUse::Cascades,
             _ => MapUse::Atlas,
         };
-        Self::Shadowed(CommonLookup {
+        let common = CommonLookup {
+            source: LookupSource::Storage,
             taps: if shadowed().all(|light| light.filter_taps == first.filter_taps) {
                 first.filter_taps
             } else {
@@ -77,11 +132,23 @@ impl LookupVariant {
             map: shadowed().all(|light| light.map == first.map).then_some(map),
             simple: shadowed().all(is_simple),
             untinted: views.iter().all(|view| view.is_tinted == 0),
-        })
+        };
+        let is_one = || {
+            lights[0].view_count > 0
+                && shadowed().count() == 1
+                && first.first_view == 0
+                && first.view_count <= FEW_CASCADES
+                && (map, common.simple) == (MapUse::Cascades, true)
+        };
+        let source = match (lights.len(), views.len()) {
+            (..=FEW_LIGHTS, ..=FEW_VIEWS) if is_one() => LookupSource::OneLight,
+            (..=FEW_LIGHTS, ..=FEW_VIEWS) => LookupSource::Uniform,
+            _ => LookupSource::Storage,
+        };
+        Self::Shadowed(CommonLookup { source, ..common })
     }
 
-    /// Returns the variant of techniques whose filter has no taps of [`ShadowFilter`]: one of the first
-    /// [`COUNT_WITHOUT_TAPS`](Self::COUNT_WITHOUT_TAPS).
+    /// Returns the variant of techniques whose filter has no taps of [`ShadowFilter`].
     #[must_use]
     pub fn without_taps(self) -> Self {
         match self {
@@ -90,54 +157,46 @@ impl LookupVariant {
         }
     }
 
-    /// Returns the index of the variant, below [`COUNT`](Self::COUNT); 0 works for every frame.
+    /// Returns the index of the variant among [`all`](Self::all).
     #[must_use]
     pub fn index(self) -> u32 {
-        match self {
-            Self::Unshadowed => WITH_TAPS,
-            Self::Shadowed(common) => {
-                let map = common.map.map_or(0, |map| 1 + map as u32);
-                let rest = map + MAPS * (u32::from(common.simple) + 2 * u32::from(common.untinted));
-                // `Unshadowed` follows the variants without taps.
-                rest + common.taps * WITH_TAPS + u32::from(common.taps > 0)
-            }
-        }
+        Self::all().iter().position(|other| *other == self).unwrap_or(0) as u32
     }
 
-    /// Returns the variant with an index below [`COUNT`](Self::COUNT).
-    #[must_use]
-    pub fn from_index(index: u32) -> Self {
-        if index == WITH_TAPS {
-            return Self::Unshadowed;
-        }
-        let index = index - u32::from(index > WITH_TAPS);
-        let (taps, rest) = (index / WITH_TAPS, index % WITH_TAPS);
-        let (map, flags) = (rest % MAPS, rest / MAPS);
-        let map = [None, Some(MapUse::Cascades), Some(MapUse::Atlas)][map as usize];
-        Self::Shadowed(CommonLookup { taps, map, simple: flags & 1 == 1, untinted: flags & 2 == 2 })
+    /// Whether views and lights are read from uniform blocks.
+    pub(crate) fn reads_uniforms(self) -> bool {
+        matches!(self, Self::Shadowed(common) if common.source != LookupSource::Storage)
     }
 
-    /// Returns the replacement of `shadows/variant.wgsl`.
-    pub(crate) fn module(self) -> ModuleSource {
-        let shadowed = self != Self::Unshadowed;
-        let common = if let Self::Shadowed(common) = self { common } else { CommonLookup::default() };
-        let CommonLookup { taps, map, simple, untinted } = common;
+    /// Returns the replacements of `shadows/variant.wgsl` and `shadows/views.wgsl` for the variant with this index among
+    /// [`all`](Self::all).
+    pub(crate) fn modules(index: u32) -> Vec<ModuleSource> {
+        let variant = Self::all().get(index as usize).copied().unwrap_or(Self::Unshadowed);
+        let shadowed = variant != Self::Unshadowed;
+        let common = if let Self::Shadowed(common) = variant { common } else { CommonLookup::default() };
+        let CommonLookup { source, taps, map, simple, untinted } = common;
         let only_map = match map {
             None => "ANY_MAP".to_owned(),
             Some(MapUse::Cascades) => format!("{MAP_CASCADES}u"),
             Some(MapUse::Atlas) => format!("{MAP_ATLAS}u"),
         };
-        let source = format!(
+        let text = format!(
             "#define_import_path shadowgraph::shadows::variant\n\
              const ANY_MAP: u32 = 0xffffffffu;\n\
              const FILTER_TAPS: u32 = {taps}u;\n\
              const ONLY_MAP: u32 = {only_map};\n\
+             const DIRECTIONAL: bool = {};\n\
              const SIMPLE: bool = {simple};\n\
              const TINTED: bool = {};\n\
-             const SHADOWED: bool = {shadowed};\n",
-            !untinted
+             const SHADOWED: bool = {shadowed};\n\
+             const ONE_LIGHT: bool = {};\n",
+            map == Some(MapUse::Cascades),
+            !untinted,
+            source == LookupSource::OneLight,
         );
-        ModuleSource::new(format!("shadows/variant.wgsl {}", self.index()), source)
+        let mut modules = vec![ModuleSource::new(format!("shadows/variant.wgsl {index}"), text)];
+        modules.extend(variant.reads_uniforms().then_some(FEW_VIEWS_MODULE));
+        modules
     }
 }
 
@@ -147,12 +206,19 @@ mod tests {
 
     #[test]
     fn every_index_is_that_of_its_variant() {
-        for index in 0..LookupVariant::COUNT {
-            let variant = LookupVariant::from_index(index);
+        for (index, variant) in (0..).zip(LookupVariant::all()) {
             assert_eq!(variant.index(), index);
-            assert!(variant.without_taps().index() < LookupVariant::COUNT_WITHOUT_TAPS);
+            assert!(variant.without_taps().index() < LookupVariant::count_without_taps());
         }
         assert_eq!(LookupVariant::Shadowed(CommonLookup::default()).index(), 0);
+    }
+
+    #[test]
+    fn uniform_blocks_have_the_sizes_of_the_wgsl() {
+        let source = FEW_VIEWS_MODULE.source;
+        for (name, size) in [("FEW_VIEWS", FEW_VIEWS), ("FEW_LIGHTS", FEW_LIGHTS)] {
+            assert!(source.contains(&format!("const {name}: u32 = {size}u;")), "{name}");
+        }
     }
 
     fn light(map: u32, taps: u32) -> ShadowLight {
@@ -163,7 +229,13 @@ mod tests {
     fn a_light_that_needs_more_removes_what_lights_have_in_common() {
         let of = |lights: &[ShadowLight]| LookupVariant::for_frame(lights, &[ShadowView::empty()]);
         let sun = light(MAP_CASCADES, 3);
-        let common = CommonLookup { taps: 3, map: Some(MapUse::Cascades), simple: true, untinted: true };
+        let common = CommonLookup {
+            source: LookupSource::Uniform,
+            taps: 3,
+            map: Some(MapUse::Cascades),
+            simple: true,
+            untinted: true,
+        };
         assert_eq!(of(&[ShadowLight::default(), sun]), LookupVariant::Shadowed(common));
         assert_eq!(
             of(&[sun, light(MAP_ATLAS, 3)]),
@@ -173,13 +245,19 @@ mod tests {
             of(&[sun, light(MAP_CASCADES, 2)]),
             LookupVariant::Shadowed(CommonLookup { taps: 0, ..common })
         );
+        let one = CommonLookup { source: LookupSource::OneLight, ..common };
+        assert_eq!(of(&[sun, ShadowLight::default()]), LookupVariant::Shadowed(one));
+        let five = ShadowLight { view_count: FEW_CASCADES + 1, ..sun };
+        assert_eq!(of(&[five]), LookupVariant::Shadowed(common));
+        let many = CommonLookup { source: LookupSource::Storage, ..common };
+        assert_eq!(of(&[sun; FEW_LIGHTS + 1]), LookupVariant::Shadowed(many));
         let blended = ShadowLight { blend: crate::views::BLEND_SOFT, ..sun };
         assert_eq!(of(&[blended]), LookupVariant::Shadowed(CommonLookup { simple: false, ..common }));
         assert_eq!(of(&[ShadowLight::default()]), LookupVariant::Unshadowed);
         let tinted = ShadowView { is_tinted: 1, ..ShadowView::empty() };
         assert_eq!(
             LookupVariant::for_frame(&[sun], &[tinted]),
-            LookupVariant::Shadowed(CommonLookup { untinted: false, ..common })
+            LookupVariant::Shadowed(CommonLookup { untinted: false, ..one })
         );
     }
 }

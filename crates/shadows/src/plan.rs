@@ -10,7 +10,7 @@ use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
 use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TileKind};
 use crate::light_params::settings_requirements;
-use crate::lookup_variant::LookupVariant;
+use crate::lookup_variant::{FEW_LIGHTS, FEW_VIEWS, LookupVariant};
 use crate::receivers::ReceiverRange;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
@@ -168,19 +168,24 @@ impl ShadowPlan {
         LookupVariant::for_frame(&self.lights, &self.views)
     }
 
-    /// Returns the bytes of the buffer of views. Never empty, as a buffer cannot be.
+    /// Returns the bytes of the buffer of views: at least one, and if the [variant](Self::variant) reads a uniform block, those of
+    /// the block.
     #[must_use]
     pub fn view_bytes(&self) -> Vec<u8> {
-        bytes_or_one(&self.views)
+        padded(&self.views, if self.variant().reads_uniforms() { FEW_VIEWS } else { 1 })
     }
 
-    /// Returns the bytes of the buffer of lights. Never empty, as a buffer cannot be.
+    /// Returns the bytes of the buffer of lights: at least one, and if the [variant](Self::variant) reads a uniform block, those of
+    /// the block.
     #[must_use]
     pub fn light_bytes(&self) -> Vec<u8> {
-        bytes_or_one(&self.lights)
+        padded(&self.lights, if self.variant().reads_uniforms() { FEW_LIGHTS } else { 1 })
     }
 }
 
-fn bytes_or_one<T: bytemuck::Pod>(elements: &[T]) -> Vec<u8> {
-    if elements.is_empty() { vec![0; size_of::<T>()] } else { bytemuck::cast_slice(elements).to_vec() }
+/// Returns the bytes of some elements, with zeros for those up to `least`.
+fn padded<T: bytemuck::Pod>(elements: &[T], least: usize) -> Vec<u8> {
+    let mut bytes = bytemuck::cast_slice(elements).to_vec();
+    bytes.resize(elements.len().max(least) * size_of::<T>(), 0);
+    bytes
 }

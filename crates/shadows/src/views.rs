@@ -65,7 +65,7 @@ pub struct ShadowView {
     pub texel_scale: Vec2,
 }
 
-/// The views of a light and how they are read, 140 bytes. One for each light of the scene, in its order.
+/// The views of a light and how they are read, 160 bytes. One for each light of the scene, in its order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ShadowLight {
@@ -115,12 +115,18 @@ pub struct ShadowLight {
     pub close_creases: u32,
     /// 1 if the distance at which shadows fade is that from the camera, 0 if it is the view depth.
     pub fades_by_radius: u32,
-    /// The camera's position, if `fades_by_radius`.
-    pub eye: [f32; 3],
     /// 1 if the view of a point is selected by `ends_m`, else 0.
     pub branch_free: u32,
+    /// The camera's position, if `fades_by_radius`.
+    pub eye: [f32; 3],
+    /// Padding, zero.
+    pub padding: u32,
     /// The ends of the cascades, metres of view depth; unused ones are the largest number.
     pub ends_m: [f32; MAX_CASCADES as usize],
+    /// Width and height of a texel of the map, texture coordinates; 0 without cascades.
+    pub texel_uv: [f32; 2],
+    /// Padding, zero.
+    pub reserved: [u32; 2],
 }
 
 /// [`ShadowView::cascade`] of a tile that is not a cascade.
@@ -277,8 +283,13 @@ impl ShadowLight {
         }
     }
 
-    /// Adds the parameters of a light with cascades that end at these view depths.
-    pub(crate) fn with_cascades(self, settings: &crate::CascadeSettings, ends: &[CascadeFit]) -> Self {
+    /// Adds the parameters of a light with cascades, in a map of `map_size_px`, that end at these view depths.
+    pub(crate) fn with_cascades(
+        self,
+        settings: &crate::CascadeSettings,
+        ends: &[CascadeFit],
+        map_size_px: [u32; 2],
+    ) -> Self {
         let mut ends_m = [f32::MAX; MAX_CASCADES as usize];
         ends_m.iter_mut().zip(ends).for_each(|(end_m, cascade)| *end_m = cascade.far_m as f32);
         let shrinks = self.filter_half * (1.0 - settings.far_filter);
@@ -298,6 +309,7 @@ impl ShadowLight {
             blend_fraction: settings.blend.fraction(),
             edge_fade: settings.edge_fade,
             filter_falloff: shrinks / self.fade_end_m,
+            texel_uv: map_size_px.map(|side| 1.0 / side as f32),
             ..self
         }
     }

@@ -2,14 +2,14 @@
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{map_size, stored_depth}
-#import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight}
+#import shadowgraph::shadows::views::light_view
 
 struct Falloff {
     per_metre: f32,
 }
 
-@group(1) @binding(8) var<uniform> falloff: Falloff;
+@group(1) @binding(10) var<uniform> falloff: Falloff;
 
 // Distance from the near end of the tile's depth range, metres; depth is reversed, 1 at the light.
 fn metres(shadow_view: ShadowView, depth: f32) -> f32 {
@@ -27,7 +27,7 @@ fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 
 
 // Visibility of a point: 0 to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
-    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let shadow_view = light_view(light, lookup.view);
     let point = metres(shadow_view, lookup.plane.depth);
     let texel = lookup.uv * map_size(light.map) - 0.5;
     let fraction = fract(texel);

@@ -1,10 +1,11 @@
 // Light that thin fog scatters to the camera, with shadows: light shafts. Marches along each pixel's ray, with the phase
 // function of Henyey and Greenstein (1941).
-#import shadowgraph::view::{view, lights, view_depth_of, LIGHT_DIRECTIONAL}
+#import shadowgraph::view::{view, view_depth_of}
+#import shadowgraph::lights::{light_at, light_count}
 #import shadowgraph::frame_noise::noise_flags
 #import shadowgraph::fullscreen::{FullscreenVertex, fullscreen_vertex}
 #import shadowgraph::lighting::arriving_light
-#import shadowgraph::light_list::light_mask
+#import shadowgraph::light_list::next_light
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::receiver::{Receiver, RECEIVER_TRANSPARENT, RECEIVER_OFF_SCREEN}
 #import shadowgraph::technique::shadow_visibility
@@ -61,20 +62,17 @@ fn scattered(position: vec3f, direction: vec3f, pixel: vec2f) -> vec3f {
         vec3f(0.0),
     );
     var sum = (view.ambient_sky + view.ambient_ground) * 0.5;
-    for (var word = 0u; word * 32u < view.light_count; word++) {
-        var mask = light_mask(word, pixel, view_depth);
-        while mask != 0u {
-            let i = word * 32u + firstTrailingBit(mask);
-            mask &= mask - 1u;
-            if i >= view.light_count {
-                break;
-            }
-            let arriving = arriving_light(lights[i], position);
-            if arriving.attenuation > 0.0 {
-                let visibility = shadow_visibility(i, receiver);
-                let phase_factor = phase(dot(direction, arriving.to_light));
-                sum += lights[i].color * arriving.attenuation * visibility * phase_factor;
-            }
+    var i = next_light(0u, pixel, view_depth);
+    loop {
+        let light = light_at(i);
+        let arriving = arriving_light(light, position);
+        if i < light_count() && arriving.attenuation > 0.0 {
+            let visibility = shadow_visibility(i, receiver);
+            sum += light.color * arriving.attenuation * visibility * phase(dot(direction, arriving.to_light));
+        }
+        i = next_light(i + 1u, pixel, view_depth);
+        if i >= light_count() {
+            break;
         }
     }
     return sum;

@@ -54,7 +54,8 @@ fn is_behind_crease(light: ShadowLight, lookup: Lookup, radius_texels: f32) -> b
     }
     // The surface begins at the crease: texels before it show the surface, those past it do not.
     var is_crease = true;
-    for (var i = 1u; i < 5u && is_crease; i++) {
+    var i = 1u;
+    loop {
         let steps = select(vec2f(f32(i & 1u), f32(i >> 1u)), vec2f(2.0), i == 4u);
         let texel = nearest - steps * side;
         let expected = height + dot(gradient, texel + 0.5 - at);
@@ -62,6 +63,10 @@ fn is_behind_crease(light: ShadowLight, lookup: Lookup, radius_texels: f32) -> b
         let is_before = expected > -tolerance && found > expected - tolerance;
         let is_past = expected < tolerance && found < expected - length(gradient);
         is_crease = is_before || is_past;
+        i++;
+        if i == 5u || !is_crease {
+            break;
+        }
     }
     return is_crease;
 }

@@ -2,9 +2,11 @@
 // pixel: edges would be jagged, and would jump as the light turns.
 #define_import_path shadowgraph::shadows::footprint
 #import shadowgraph::receiver::Receiver
-#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::lookup::{Lookup, light_axes, map_per_metre}
 #import shadowgraph::shadows::maps::map_size
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight}
+#import shadowgraph::shadows::variant::DIRECTIONAL
+#import shadowgraph::shadows::views::light_view
 
 // A rotated grid, in pixels from the centre.
 const SAMPLES: u32 = 4u;
@@ -25,9 +27,13 @@ struct Footprint {
 }
 
 // The change in the map over an offset from the receiver, to first order.
-fn change_over(shadow_view: ShadowView, lookup: Lookup, offset: vec3f, size_px: vec2f) -> vec3f {
+fn change_over(shadow_view: ShadowView, light: ShadowLight, lookup: Lookup, offset: vec3f) -> vec3f {
+    if DIRECTIONAL {
+        // All cascades have the axes of the first.
+        return offset * light_axes(light_view(light, 0u)) * map_per_metre(shadow_view);
+    }
     let change = shadow_view.map_from_world * vec4f(offset, 0.0);
-    return (change.xyz - change.w * vec3f(lookup.uv, lookup.depth)) / lookup.w * vec3f(size_px, 1.0);
+    return (change.xyz - change.w * vec3f(lookup.uv, lookup.depth)) / lookup.w * vec3f(map_size(light.map), 1.0);
 }
 
 fn footprint_of(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver, lookup: Lookup) -> Footprint {
@@ -35,9 +41,8 @@ fn footprint_of(shadow_view: ShadowView, light: ShadowLight, receiver: Receiver,
     if light.supersample == 0u {
         return footprint;
     }
-    let size_px = map_size(light.map);
-    footprint.right = change_over(shadow_view, lookup, receiver.ddx_position, size_px);
-    footprint.down = change_over(shadow_view, lookup, receiver.ddy_position, size_px);
+    footprint.right = change_over(shadow_view, light, lookup, receiver.ddx_position);
+    footprint.down = change_over(shadow_view, light, lookup, receiver.ddy_position);
     let right = footprint.right.xy;
     let down = footprint.down.xy;
     footprint.width = abs(determinant(mat2x2f(right, down))) / max(max(length(right), length(down)), 1e-9);

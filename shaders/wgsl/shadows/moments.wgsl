@@ -5,16 +5,16 @@
 #import shadowgraph::shadows::encoding::{MomentSettings, unpacked, visibility_of}
 #import shadowgraph::shadows::linear_depth::linear_depth
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::maps::is_cascade_map
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight}
+#import shadowgraph::shadows::views::light_view
 
 // The largest distance of the taps in wide pixels from the centre, along each axis, in texels of the finest mip.
 const TAP_TEXELS: f32 = 0.75;
 
-@group(1) @binding(8) var cascade_moments: texture_2d<u32>;
-@group(1) @binding(9) var atlas_moments: texture_2d<u32>;
-@group(1) @binding(10) var<uniform> settings: MomentSettings;
+@group(1) @binding(10) var cascade_moments: texture_2d<u32>;
+@group(1) @binding(11) var atlas_moments: texture_2d<u32>;
+@group(1) @binding(12) var<uniform> settings: MomentSettings;
 
 fn stored(map: u32, texel: vec2i, mip: u32) -> vec4f {
     if is_cascade_map(map) {
@@ -57,20 +57,21 @@ fn mip_level(shadow_view: ShadowView, receiver: Receiver) -> f32 {
 
 // The radius of the filter where blockers are near, texels of the depth map.
 fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
-    let level = mip_level(shadow_views[light.first_view + lookup.view], receiver);
+    let level = mip_level(light_view(light, lookup.view), receiver);
     return f32(settings.downscale * (settings.blur_texels + 2u)) * exp2(level);
 }
 
 // The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
-    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let shadow_view = light_view(light, lookup.view);
     let level = mip_level(shadow_view, receiver);
     let mip = u32(level);
     // In wide pixels more texels: a moment texel is the mean of few depths, and would change in large steps as the light turns.
     let taps = select(1u, 4u, lookup.min_radius > 0.0);
     let reach_uv = TAP_TEXELS * min(lookup.min_radius, 1.0) / size_of(light.map, 0u);
     var sum = vec4f(0.0);
-    for (var tap = 0u; tap < taps; tap++) {
+    var tap = 0u;
+    loop {
         let corner = vec2f(f32(tap & 1u), f32(tap >> 1u)) * 2.0 - 1.0;
         let uv = clamp(lookup.uv + corner * reach_uv, shadow_view.uv_min, shadow_view.uv_max);
         var moments = bilinear(light.map, uv, mip);
@@ -78,6 +79,10 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
             moments = mix(moments, bilinear(light.map, uv, mip + 1u), level - f32(mip));
         }
         sum += moments;
+        tap++;
+        if tap >= taps {
+            break;
+        }
     }
     // Bias by a quarter of the filter radius for the receiver's plane and for the foot of lit walls; tent filters need more.
     let bias_texels = 0.25 * f32(settings.downscale * (settings.blur_texels + 1u)) * exp2(level);

@@ -8,7 +8,7 @@
 #import shadowgraph::shadows::variant::{FILTER_TAPS, SIMPLE}
 
 // Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
-@group(1) @binding(8) var shadow_sampler: sampler_comparison;
+@group(1) @binding(10) var shadow_sampler: sampler_comparison;
 
 // The radius of the filter where blockers are near, texels of the depth map.
 fn filter_radius(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {

@@ -5,8 +5,8 @@
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{cascade_map, atlas_map, is_cascade_map, map_size, stored_depth}
 #import shadowgraph::shadows::tent::tent_depth
-#import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight}
+#import shadowgraph::shadows::views::light_view
 
 // The settings, and what follows from them.
 struct Pcss {
@@ -20,8 +20,8 @@ struct Pcss {
 }
 
 // Linear, GreaterEqual: a point is lit if it is at least as near to the light as the stored depth.
-@group(1) @binding(8) var shadow_sampler: sampler_comparison;
-@group(1) @binding(9) var<uniform> pcss: Pcss;
+@group(1) @binding(10) var shadow_sampler: sampler_comparison;
+@group(1) @binding(11) var<uniform> pcss: Pcss;
 
 const GOLDEN_ANGLE: f32 = 2.39996323;
 const TAU: f32 = 6.28318531;
@@ -70,7 +70,7 @@ fn radii(shadow_view: ShadowView, penumbra: f32, least: f32) -> vec2f {
 // The visibility of the light from a point: 0 (in shadow) to 1.
 fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let in_cascades = is_cascade_map(light.map);
-    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let shadow_view = light_view(light, lookup.view);
     let size_px = map_size(light.map);
     let at = lookup.uv * size_px;
     let rotation = TAU * (receiver_noise(receiver) + lookup.turn);
@@ -79,12 +79,17 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let widest = radii(shadow_view, penumbra_texels(shadow_view, lookup.plane.depth, 1.0), 1.0);
     var blockers = 0.0;
     var depths = 0.0;
-    for (var i = 0u; i < pcss.blocker_taps; i++) {
+    var i = 0u;
+    loop {
         let tap = widest * spiral(i, pcss.blocker_taps, rotation);
         let stored = stored_depth(light.map, vec2i(floor(at + tap)));
         if stored > tap_depth(lookup, tap) {
             blockers += 1.0;
             depths += stored;
+        }
+        i++;
+        if i >= pcss.blocker_taps {
+            break;
         }
     }
     if blockers == 0.0 {
@@ -94,7 +99,8 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let penumbra = penumbra_texels(shadow_view, lookup.plane.depth, depths / blockers);
     let radius = radii(shadow_view, penumbra, max(MIN_TEXELS, lookup.min_radius));
     var visibility = 0.0;
-    for (var i = 0u; i < pcss.filter_taps; i++) {
+    i = 0u;
+    loop {
         let tap = radius * spiral(i, pcss.filter_taps, rotation);
         let uv = (at + tap) / size_px;
         let depth = tap_depth(lookup, tap);
@@ -102,6 +108,10 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
             visibility += textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
         } else {
             visibility += textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
+        }
+        i++;
+        if i >= pcss.filter_taps {
+            break;
         }
     }
     return visibility / f32(pcss.filter_taps);

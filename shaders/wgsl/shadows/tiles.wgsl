@@ -1,14 +1,12 @@
 // Finds the shadow map tiles that a point is read from, and their weights.
 #define_import_path shadowgraph::shadows::tiles
 #import shadowgraph::receiver::{Receiver, RECEIVER_COARSER, receiver_noise}
-#import shadowgraph::shadows::lookup::{Lookup, look_up}
+#import shadowgraph::shadows::lookup::{Lookup, covers_receiver, incidence_in, look_up}
 #import shadowgraph::shadows::types::{
     ShadowView, ShadowLight, MAP_CASCADES, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
 }
-#import shadowgraph::shadows::variant::{ONLY_MAP, SIMPLE}
-
-@group(1) @binding(0) var<storage, read> shadow_views: array<ShadowView>;
-@group(1) @binding(1) var<storage, read> shadow_lights: array<ShadowLight>;
+#import shadowgraph::shadows::variant::{ONE_LIGHT, ONLY_MAP, SIMPLE}
+#import shadowgraph::shadows::views::light_view
 
 // +X, -X, +Y, -Y, +Z, -Z.
 fn cube_face(direction: vec3f) -> u32 {
@@ -26,38 +24,56 @@ fn cube_face(direction: vec3f) -> u32 {
 fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
     var chosen = light.view_count;
     if SIMPLE || light.select == SELECT_FACE {
-        return cube_face(receiver.position - shadow_views[light.first_view].light.xyz);
+        return cube_face(receiver.position - light_view(light, 0u).light.xyz);
     }
     if light.select == SELECT_SPHERE {
         for (var i = light.view_count; i > first; i--) {
-            let shadow_view = shadow_views[light.first_view + i - 1u];
-            let offset = receiver.position - shadow_view.center;
-            let inside = dot(offset, offset) < shadow_view.radius * shadow_view.radius;
+            let sphere = light_view(light, i - 1u);
+            let offset = receiver.position - sphere.center;
+            let inside = dot(offset, offset) < sphere.radius * sphere.radius;
             chosen = select(chosen, i - 1u, inside);
         }
         return chosen;
     }
     // The number of views that end before the point.
     if light.branch_free == 1u {
-        let ends = light.ends_m;
-        let is_behind = vec4f(receiver.view_depth) >= vec4f(ends[0], ends[1], ends[2], ends[3]);
-        let is_far_behind = vec4f(receiver.view_depth) >= vec4f(ends[4], ends[5], ends[6], ends[7]);
+        let is_behind = vec4f(receiver.view_depth) >= light.ends_m[0];
+        let is_far_behind = vec4f(receiver.view_depth) >= light.ends_m[1];
         let behind = select(vec4u(0u), vec4u(1u), is_behind) + select(vec4u(0u), vec4u(1u), is_far_behind);
         chosen = behind.x + behind.y + behind.z + behind.w;
     } else {
         chosen = 0u;
         for (var i = 0u; i < light.view_count; i++) {
-            chosen += select(0u, 1u, receiver.view_depth >= shadow_views[light.first_view + i].end_m);
+            chosen += select(0u, 1u, receiver.view_depth >= light_view(light, i).end_m);
         }
     }
     // Points in front of the first view, which can begin late, are in the last one: it covers all.
-    let is_before = receiver.view_depth < shadow_views[light.first_view].begin_m;
+    let is_before = receiver.view_depth < light_view(light, 0u).begin_m;
     return max(select(chosen, light.view_count - 1u, is_before), first);
+}
+
+// The lookup of a point in the first of at most four cascades that covers it.
+fn find_cascade(light: ShadowLight, receiver: Receiver) -> Lookup {
+    let incidence = incidence_in(light_view(light, 0u), light, receiver);
+    // Without a loop, so that indices are constant, and without branches. The last cascade is looked up where none covers the point.
+    let covering = vec3<bool>(
+        covers_receiver(light_view(light, 0u), light, receiver, incidence),
+        covers_receiver(light_view(light, 1u), light, receiver, incidence),
+        covers_receiver(light_view(light, 2u), light, receiver, incidence),
+    );
+    let index = select(select(select(3u, 2u, covering.z), 1u, covering.y), 0u, covering.x);
+    let last = min(index, light.view_count - 1u);
+    var lookup = look_up(light_view(light, last), light, receiver, incidence);
+    lookup.view = last;
+    return lookup;
 }
 
 // The lookup of a point in the light's views, from `first` on.
 fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
     var lookup: Lookup;
+    if ONE_LIGHT {
+        return find_cascade(light, receiver);
+    }
     var begin = first;
     var end = light.view_count;
     if !(SIMPLE && ONLY_MAP == MAP_CASCADES) && light.select != SELECT_MAP {
@@ -65,10 +81,12 @@ fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
         end = begin + 1u;
     }
     // The first view that covers the point has the finest texels.
-    for (var i = begin; i < end; i++) {
-        lookup = look_up(shadow_views[light.first_view + i], light, receiver);
-        lookup.view = i;
-        if lookup.covered {
+    loop {
+        let shadow_view = light_view(light, begin);
+        lookup = look_up(shadow_view, light, receiver, incidence_in(shadow_view, light, receiver));
+        lookup.view = begin;
+        begin++;
+        if lookup.covered || begin >= end {
             break;
         }
     }
@@ -77,18 +95,18 @@ fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
 
 // 1 inside a view, falling to 0 over its outer `fraction`.
 fn inner_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction: f32) -> f32 {
-    let shadow_view = shadow_views[light.first_view + lookup.view];
+    let outer = light_view(light, lookup.view);
     if light.select == SELECT_SPHERE {
-        let offset = receiver.position - shadow_view.center;
-        let relative = dot(offset, offset) / (shadow_view.radius * shadow_view.radius);
+        let offset = receiver.position - outer.center;
+        let relative = dot(offset, offset) / (outer.radius * outer.radius);
         return saturate((1.0 - relative) / (1.0 - (1.0 - fraction) * (1.0 - fraction)));
     }
     if light.select == SELECT_DEPTH {
-        let length_m = shadow_view.end_m - shadow_view.begin_m;
-        return saturate((shadow_view.end_m - receiver.view_depth) / (fraction * length_m));
+        let length_m = outer.end_m - outer.begin_m;
+        return saturate((outer.end_m - receiver.view_depth) / (fraction * length_m));
     }
-    let size = shadow_view.uv_max - shadow_view.uv_min;
-    let to_edge = min(lookup.uv - shadow_view.uv_min, shadow_view.uv_max - lookup.uv) / size;
+    let size = outer.uv_max - outer.uv_min;
+    let to_edge = min(lookup.uv - outer.uv_min, outer.uv_max - lookup.uv) / size;
     let depth = lookup.plane.depth;
     return saturate(2.0 * min(min(to_edge.x, to_edge.y), min(depth, 1.0 - depth)) / fraction);
 }
@@ -97,7 +115,7 @@ fn inner_weight(light: ShadowLight, receiver: Receiver, lookup: Lookup, fraction
 fn shadow_fade(light: ShadowLight, receiver: Receiver) -> f32 {
     var distance_m = receiver.view_depth;
     if !SIMPLE && light.fades_by_radius == 1u {
-        distance_m = distance(vec3f(light.eye[0], light.eye[1], light.eye[2]), receiver.position);
+        distance_m = distance(light.eye, receiver.position);
     }
     return light.strength * saturate((light.fade_end_m - distance_m) * light.fade_per_m);
 }
@@ -134,20 +152,21 @@ fn blend_at(light: ShadowLight, receiver: Receiver) -> Blend {
     blend.weight = 1.0;
     let blends = !SIMPLE && (light.blend != BLEND_HARD || (receiver.flags & RECEIVER_COARSER) != 0u);
     var begin = 0u;
-    let count = select(2u, 1u, SIMPLE);
-    for (var i = 0u; i < count && begin < light.view_count; i++) {
+    var is_next = false;
+    loop {
         let lookup = find(light, receiver, begin);
-        if !lookup.covered {
-            break;
-        }
-        if i == 1u {
+        if !is_next {
+            blend.first = lookup;
+            begin = lookup.view + 1u;
+        } else if lookup.covered {
             // Its biases are in its own texels.
             blend.next = lookup;
             blend.weight = blend_weight(light, receiver, blend.first);
-        } else {
-            blend.first = lookup;
-            begin = select(light.view_count, lookup.view + 1u, blends);
         }
+        if !blends || is_next || !lookup.covered || begin >= light.view_count {
+            break;
+        }
+        is_next = true;
     }
     return blend;
 }

@@ -5,14 +5,14 @@
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{map_size, stored_depth, stored_tint, stored_tint_depth}
 #import shadowgraph::shadows::tent::{tent_depth, tent_integral}
-#import shadowgraph::shadows::tiles::shadow_views
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::TINTED
+#import shadowgraph::shadows::views::light_view
 
 // The transmittance, 0 to 1 each: the mean over the texels around the point that are not blocked. Blocked texels are left to the
 // filter.
 fn tint(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
-    if !TINTED || shadow_views[light.first_view + lookup.view].is_tinted == 0u {
+    if !TINTED || light_view(light, lookup.view).is_tinted == 0u {
         return vec3f(1.0);
     }
     // As wide as the filter of `pcf`.

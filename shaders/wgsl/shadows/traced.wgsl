@@ -1,6 +1,8 @@
 // The visibility of lights by rays.
 #define_import_path shadowgraph::shadows::traced
-#import shadowgraph::view::{view, lights, LIGHT_DIRECTIONAL}
+#import shadowgraph::view::view
+#import shadowgraph::light::LIGHT_DIRECTIONAL
+#import shadowgraph::lights::light_at
 #import shadowgraph::frame_noise::frame_noise
 #import shadowgraph::rays::{ray_passed, ray_origin, RAY_FAR, RAY_LIGHT_FRACTION}
 #import shadowgraph::shadows::raytraced_settings::RaytracedSettings
@@ -39,8 +41,9 @@ fn perpendicular(direction: vec3f) -> mat2x3f {
 // The visible fraction of the light from a surface: 0 if it faces away from the light's centre. Rays are rotated per pixel.
 fn traced_visibility(light: u32, position: vec3f, geometric_normal: vec3f, pixel: vec2f) -> vec3f {
     let origin = ray_origin(position, geometric_normal, distance(position, view.position), traced.max_coordinate);
-    let is_sun = lights[light].kind == LIGHT_DIRECTIONAL;
-    let to_center = select(lights[light].position - origin, -lights[light].direction, is_sun);
+    let source = light_at(light);
+    let is_sun = source.kind == LIGHT_DIRECTIONAL;
+    let to_center = select(source.position - origin, -source.direction, is_sun);
     let distance = length(to_center);
     if distance == 0.0 || dot(geometric_normal, to_center) <= 0.0 {
         return vec3f(0.0);

@@ -49,7 +49,7 @@ struct ShadowView {
 
 const NOT_A_CASCADE: u32 = 0xffffffffu;
 
-// 104 bytes. One for each light of the scene.
+// 160 bytes. One for each light of the scene.
 struct ShadowLight {
     first_view: u32,
     // 0: no shadows.
@@ -95,12 +95,14 @@ struct ShadowLight {
     close_creases: u32,
     // 1: the distance of the fade is that from the camera, 0: the view depth.
     fades_by_radius: u32,
-    // The camera's position.
-    eye: array<f32, 3>,
     // 1: the view of a point is selected by ends_m.
     branch_free: u32,
+    // The camera's position.
+    eye: vec3f,
     // The ends of the cascades, metres of view depth; unused ones are huge.
-    ends_m: array<f32, 8>,
+    ends_m: array<vec4f, 2>,
+    // Width and height of a texel of the map, texture coordinates; 0 without cascades.
+    texel_uv: vec2f,
 }
 
 const MAP_CASCADES: u32 = 0u;

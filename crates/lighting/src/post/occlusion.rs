@@ -95,11 +95,12 @@ impl Occlusion {
         };
         let &OcclusionSettings { radius_m, power, slices, steps } = settings;
         let uniforms = OcclusionUniforms { radius_m, power, slices: slices.max(1), steps: steps.max(1) };
-        let convert = frame.fullscreen("view depth", converter).storage(&view.view).sample(depth);
+        let convert = frame.fullscreen("view depth", converter).uniform_buffer(&view.view).sample(depth);
         convert.uniform(bytes_of(&ground)).draw(&mut view_depth);
-        let horizons = frame.fullscreen("horizons", &self.horizons).storage(&view.view).sample(&view_depth);
+        let horizons =
+            frame.fullscreen("horizons", &self.horizons).uniform_buffer(&view.view).sample(&view_depth);
         horizons.uniform(bytes_of(&uniforms)).draw(&mut noisy);
-        let blur = frame.fullscreen("smooth", &self.blur).storage(&view.view);
+        let blur = frame.fullscreen("smooth", &self.blur).uniform_buffer(&view.view);
         blur.sample(&view_depth).sample(&noisy).draw(&mut smooth);
         ViewBuffers { occlusion: Some(smooth), ..view.clone() }
     }

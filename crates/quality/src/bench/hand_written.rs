@@ -4,9 +4,7 @@
 use std::sync::Arc;
 
 use shadowgraph_core::Format;
-use shadowgraph_lighting::{
-    Forward, GpuLight, GpuView, LitOutput, LitPipelines, LitTarget, Prepass, ViewUniforms,
-};
+use shadowgraph_lighting::{Forward, GpuView, LitOutput, LitPipelines, LitTarget, Prepass, ViewUniforms};
 use shadowgraph_shadows::{
     CasterPass, MapPlan, ShadowCasters as _, ShadowInputs, ShadowPlan, ShadowView, TINT_FORMAT, plan_shadows,
 };
@@ -83,7 +81,11 @@ impl<'v> HandWritten<'v> {
         let tonemap = tonemap(device, target.format())?;
         Ok(Self {
             counts: counts(&frame_data, view),
-            pipelines: forward.pipelines(frame_data.shadows.variant().index(), false)?,
+            pipelines: forward.pipelines(
+                &renderer.casters().scene,
+                frame_data.shadows.variant().index(),
+                false,
+            )?,
             groups: Groups::new(device, (&forward, &prepass, &tonemap), &buffers, &maps, &lit),
             prepass,
             tonemap,
@@ -206,6 +208,8 @@ impl Groups {
             tints,
             BindingResource::TextureView(&no_map),
             BindingResource::TextureView(&no_map),
+            uniform(shadow_views),
+            uniform(shadow_lights),
             BindingResource::Sampler(&sampler),
         ];
         let view_and_lights = [view_buffer.as_entire_binding(), lights.as_entire_binding()];
@@ -218,6 +222,11 @@ impl Groups {
             tonemap: group(device, &tonemap.get_bind_group_layout(0), light),
         }
     }
+}
+
+/// Binds as much of a buffer as a uniform block may have.
+fn uniform(buffer: &wgpu::Buffer) -> BindingResource<'_> {
+    range(buffer, buffer.size().min(1 << 16) as u32)
 }
 
 fn tonemap(device: &wgpu::Device, format: Format) -> Result<wgpu::RenderPipeline, Error> {
@@ -264,11 +273,9 @@ fn frame_data(renderer: &Renderer, view: &RenderView<'_>) -> Result<FrameData, E
 
 /// Returns the contents of the buffers, in order.
 fn bytes(frame_data: &FrameData) -> [Vec<u8>; 4] {
-    let none = [<GpuLight as bytemuck::Zeroable>::zeroed()];
-    let lights = if frame_data.view.lights.is_empty() { &none } else { &frame_data.view.lights[..] };
     [
         frame_data.view.view_bytes(),
-        bytemuck::cast_slice(lights).to_vec(),
+        frame_data.view.light_bytes(),
         frame_data.shadows.view_bytes(),
         frame_data.shadows.light_bytes(),
     ]

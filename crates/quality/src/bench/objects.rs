@@ -7,7 +7,7 @@ use wgpu::{BindingResource, BufferUsages, TextureUsages};
 
 /// Creates a storage buffer that is written each frame.
 pub(super) fn buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
-    let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+    let usage = BufferUsages::STORAGE | BufferUsages::UNIFORM | BufferUsages::COPY_DST;
     device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
 }
 

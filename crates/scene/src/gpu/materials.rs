@@ -7,6 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
 use super::instances::instance_layout;
+use super::material_features::MaterialFeatures;
 use super::mips::Encoding;
 use super::numbers::Numbers;
 use super::textures::{Reading, Textures};
@@ -111,6 +112,8 @@ pub(super) struct Materials {
     numbers: [Numbers<MaterialKey>; 2],
     /// By number times two, plus one for those that do not receive shadows.
     groups: Vec<Option<MaterialGroup>>,
+    /// What the materials use, and those that were uploaded before.
+    pub(super) features: MaterialFeatures,
 }
 
 /// The bind group of a material.
@@ -135,6 +138,7 @@ impl Materials {
             writes: WriteBatch::default(),
             numbers: Default::default(),
             groups: Vec::new(),
+            features: MaterialFeatures::default(),
         }
     }
 
@@ -217,6 +221,7 @@ impl Materials {
         version: u64,
     ) -> Result<(), Error> {
         let material = scene.material(key).ok_or_else(|| Error::missing("material"))?;
+        self.features = self.features.union(MaterialFeatures::new(material));
         let (mut views, mut samplers) = (Vec::with_capacity(TEXTURES), Vec::with_capacity(TEXTURES));
         let mut images = Vec::new();
         for (slot, (reference, reading)) in slots(material).into_iter().enumerate() {

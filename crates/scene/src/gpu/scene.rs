@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::draw_list::{Draw, DrawList, DrawPipeline, squared_distance};
 use super::geometry::Geometry;
 use super::instances::InstanceBuffer;
+use super::material_features::MaterialFeatures;
 use super::materials::{MaterialLayouts, Materials};
 use super::numbers::Numbers;
 use super::posed::{PoseInputs, PosedGeometry};
@@ -102,6 +103,12 @@ impl GpuScene {
     #[must_use]
     pub fn origin_world(&self) -> DVec3 {
         self.origin_world
+    }
+
+    /// Returns the parts of the material model that materials use, or have used.
+    #[must_use]
+    pub fn material_features(&self) -> MaterialFeatures {
+        self.materials.features
     }
 
     /// Returns the number of triangles of a draw.

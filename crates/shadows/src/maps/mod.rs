@@ -22,12 +22,12 @@ use shadowgraph_core::{Buffer, Frame, Texture};
 use crate::atlas::TileRect;
 use crate::casters::{TINT_FORMAT, caster_view_layout};
 use crate::error::Error;
-use crate::lookup_variant::LookupVariant;
+use crate::lookup_variant::{FEW_VIEWS, LookupVariant};
 use crate::plan::{PlanState, ShadowInputs, ShadowPlan};
 use crate::planner::plan_shadows_after;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
-use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE};
+use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{ShadowBinding, ShadowOutputs};
 use crate::views::ShadowView;
 
@@ -42,6 +42,8 @@ pub struct ShadowMaps {
     lit: wgpu::Texture,
     /// A placeholder of one texel, never read, for missing tints.
     untinted: wgpu::Texture,
+    /// A placeholder, never read, for uniform blocks of views and lights.
+    no_block: wgpu::Buffer,
     device: wgpu::Device,
     /// What plans follow, by view.
     states: Mutex<BTreeMap<u32, PlanState>>,
@@ -59,6 +61,8 @@ pub struct DrawnMaps {
     pub views: Buffer,
     /// The plan's [`ShadowLight`](crate::ShadowLight)s.
     pub lights: Buffer,
+    /// The buffers of views and lights, or placeholders if the variant reads no uniform blocks.
+    blocks: [Buffer; 2],
     /// The map of cascades, or a lit placeholder.
     pub cascades: DrawnMap,
     /// The map of other lights, or a lit placeholder.
@@ -88,10 +92,11 @@ pub struct DrawnMap {
 }
 
 impl ShadowMaps {
-    /// The types of the first eight bindings of group 1 of every technique that reads these maps: those of
+    /// The types of the first ten bindings of group 1 of every technique that reads these maps: those of
     /// [`DrawnMaps::bindings`].
-    pub const BINDING_TYPES: [wgpu::BindingType; 8] =
-        [STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, FLOAT_MAP, FLOAT_MAP, DEPTH_MAP, DEPTH_MAP];
+    pub const BINDING_TYPES: [wgpu::BindingType; 10] = [
+        STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, FLOAT_MAP, FLOAT_MAP, DEPTH_MAP, DEPTH_MAP, UNIFORM, UNIFORM,
+    ];
 
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {
@@ -100,6 +105,12 @@ impl ShadowMaps {
             // Zero is the far end of reversed depth: everything is lit.
             lit: texel(device, "no shadows", wgpu::TextureFormat::Depth32Float),
             untinted: texel(device, "no tints", TINT_FORMAT),
+            no_block: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("no uniform block"),
+                size: (FEW_VIEWS * size_of::<ShadowView>()) as u64,
+                usage: wgpu::BufferUsages::UNIFORM,
+                mapped_at_creation: false,
+            }),
             device: device.clone(),
             states: Mutex::default(),
             cached: Mutex::default(),
@@ -149,8 +160,24 @@ impl ShadowMaps {
         };
         let cascades = self.map(frame, CASCADES, plan.cascades.as_ref(), source)?;
         let atlas = self.map(frame, ATLAS, plan.atlas.as_ref(), source)?;
+        let blocks = if variant.reads_uniforms() {
+            [views.clone(), lights.clone()]
+        } else {
+            let no_block = frame.import_buffer("no uniform block", &self.no_block, true);
+            [no_block.clone(), no_block]
+        };
         let (colored_lights, unshadowed) = (plan.colored_lights(), plan.unshadowed);
-        Ok(DrawnMaps { views, lights, cascades, atlas, variant, main_light, colored_lights, unshadowed })
+        Ok(DrawnMaps {
+            views,
+            lights,
+            blocks,
+            cascades,
+            atlas,
+            variant,
+            main_light,
+            colored_lights,
+            unshadowed,
+        })
     }
 
     /// Plans a frame that follows the previous one of the same view.
@@ -163,8 +190,8 @@ impl ShadowMaps {
 }
 
 impl DrawnMaps {
-    /// Returns the first eight bindings of group 1, as `tiles.wgsl` and `maps.wgsl` declare them: views, lights, the two depth maps,
-    /// their tints, and the depths of the tints.
+    /// Returns the first ten bindings of group 1, as `views.wgsl`, `maps.wgsl` and `few_views.wgsl` declare them: views, lights, the
+    /// two depth maps, their tints, the depths of the tints, and views and lights as uniform blocks.
     #[must_use]
     pub fn bindings<'f>(&self) -> Vec<ShadowBinding<'f>> {
         vec![
@@ -176,6 +203,8 @@ impl DrawnMaps {
             ShadowBinding::Texture(self.atlas.tints.clone()),
             ShadowBinding::Texture(self.cascades.tint_depths.clone()),
             ShadowBinding::Texture(self.atlas.tint_depths.clone()),
+            ShadowBinding::UniformBuffer(self.blocks[0].clone()),
+            ShadowBinding::UniformBuffer(self.blocks[1].clone()),
         ]
     }
 

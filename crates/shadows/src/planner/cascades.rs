@@ -167,7 +167,7 @@ impl<'a> Planner<'a> {
         }
         let views = (MAP_CASCADES, first_view, tiles.len() as u32);
         let gpu_light = self.set_light(candidate.light, &params, views);
-        *gpu_light = gpu_light.with_cascades(&settings, &fits);
+        *gpu_light = gpu_light.with_cascades(&settings, &fits, layout.size_px);
         tiles
     }
 }

@@ -3,7 +3,7 @@
 use shadowgraph_shaders::{compose, naga};
 
 use super::{TechniqueContext, TechniqueKind};
-use crate::technique::binding::STORAGE;
+use crate::technique::binding::{STORAGE, UNIFORM};
 use crate::technique::{ShadowTechnique, layout, shadow_layout};
 use crate::techniques::compute::{pipeline, shader};
 
@@ -50,10 +50,11 @@ pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
     })
 }
 
-/// The bindings of a stage that a lit pass leaves to techniques within wgpu's default limits: it reads the view and the lights, a
-/// uniform block, five textures and five samplers of materials. The mask of `+screen` takes a texture and a uniform block more.
+/// The bindings of a stage that a lit pass leaves to techniques within wgpu's default limits: it reads the lights, the uniform blocks of
+/// the view, the sky and a material, and five textures and five samplers of materials. The mask of `+screen` takes a texture and a
+/// uniform block more.
 const AVAILABLE: [(&str, usize); 4] =
-    [("storage buffers", 6), ("textures", 10), ("samplers", 11), ("uniform blocks", 10)];
+    [("storage buffers", 7), ("textures", 10), ("samplers", 11), ("uniform blocks", 8)];
 
 pub(super) fn limits(types: &[wgpu::BindingType]) -> Result<(), String> {
     use wgpu::{BindingType, BufferBindingType};
@@ -82,7 +83,7 @@ fn check_bindings(
 ) -> Result<(), String> {
     caught(device, || {
         let shader = shader(device, "check.wgsl", module);
-        let layouts = [&layout(device, "view", &[STORAGE; 2]), &shadow_layout(device, technique)];
+        let layouts = [&layout(device, "view", &[UNIFORM, STORAGE]), &shadow_layout(device, technique)];
         pipeline(device, &shader, "cs_check", &layouts);
     })
 }

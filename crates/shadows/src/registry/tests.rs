@@ -172,10 +172,10 @@ fn bindings_that_differ_from_the_declared_types_are_an_error() {
 #[test]
 fn more_bindings_than_a_lit_pass_leaves_are_an_error() {
     for (ty, count, what) in [
-        (STORAGE, 7, "storage buffers"),
+        (STORAGE, 8, "storage buffers"),
         (FILTERED_MAP, 11, "textures"),
         (SAMPLER, 12, "samplers"),
-        (UNIFORM, 11, "blocks"),
+        (UNIFORM, 9, "blocks"),
     ] {
         assert!(check::limits(&vec![ty; count - 1]).is_ok());
         let error = check::limits(&vec![ty; count]).unwrap_err();

@@ -78,7 +78,7 @@ fn actual(frame: &Frame<'_>, binding: &ShadowBinding<'_>) -> Actual {
     use wgpu::TextureViewDimension::{D2, D2Array};
     match binding {
         ShadowBinding::Buffer(_) | ShadowBinding::ExternalBuffer(_) => Actual::Storage,
-        ShadowBinding::Uniform(_) => Actual::Uniform,
+        ShadowBinding::Uniform(_) | ShadowBinding::UniformBuffer(_) => Actual::Uniform,
         ShadowBinding::Sampler(_) => Actual::Sampler,
         ShadowBinding::Texture(texture) => Actual::Texture(frame.texture_desc(texture), D2),
         ShadowBinding::TextureArray(texture) => Actual::Texture(frame.texture_desc(texture), D2Array),

@@ -88,7 +88,7 @@ pub trait ShadowTechnique: Send + Sync {
 pub struct SurfaceBuffers {
     /// Width and height of the image, pixels.
     pub size_px: [u32; 2],
-    /// The camera: the storage buffer `view` of `shadowgraph::view`.
+    /// The camera: the uniform block `view` of `shadowgraph::view`.
     pub view: Buffer,
     /// The lights: the storage buffer `lights` of `shadowgraph::view`.
     pub lights: Buffer,

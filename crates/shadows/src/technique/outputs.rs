@@ -43,6 +43,8 @@ pub enum ShadowBinding<'f> {
     Sampler(&'f wgpu::Sampler),
     /// A uniform block of the frame.
     Uniform(Uniform),
+    /// A buffer as a uniform block.
+    UniformBuffer(Buffer),
 }
 
 /// The bindings of a pass that has declared that it reads them.
@@ -80,6 +82,7 @@ impl<'f> ShadowOutputs<'f> {
             ShadowBinding::ExternalBuffer(buffer) => Token::ExternalBuffer(buffer),
             ShadowBinding::Sampler(sampler) => Token::Sampler(sampler),
             ShadowBinding::Uniform(uniform) => Token::Uniform(*uniform),
+            ShadowBinding::UniformBuffer(buffer) => Token::Buffer(pass.uniform_buffer(buffer)),
         };
         ShadowTokens(self.bindings.iter().map(declare).collect())
     }

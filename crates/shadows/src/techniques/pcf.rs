@@ -49,11 +49,11 @@ impl ShadowTechnique for Pcf {
     }
 
     fn variant_count(&self) -> u32 {
-        LookupVariant::COUNT
+        LookupVariant::all().len() as u32
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
-        vec![MAPPED, LookupVariant::from_index(variant).module()]
+        [vec![MAPPED], LookupVariant::modules(variant)].concat()
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {

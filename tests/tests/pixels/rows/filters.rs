@@ -3,7 +3,7 @@
 use super::{cube_under_spot, cube_view, dark_and_between, greys, pillar_view, pillars, plan};
 use crate::stage::{cube_on_floor, gpu, sun, sun_direction};
 use glam::DVec3;
-use shadowgraph::shadows::{CommonLookup, LightShadows, LookupVariant, MapUse, ShadowFilter};
+use shadowgraph::shadows::{CommonLookup, LightShadows, LookupSource, LookupVariant, MapUse, ShadowFilter};
 
 #[test]
 fn row_06_the_shader_is_compiled_for_the_filters_of_the_frame() {
@@ -11,14 +11,20 @@ fn row_06_the_shader_is_compiled_for_the_filters_of_the_frame() {
     let mut options = cube_view(|_| ());
     assert_eq!(plan(&scene, &options).variant(), LookupVariant::Unshadowed);
     scene.insert_light(sun(sun_direction(40.0, 30.0)));
-    let sun_only = CommonLookup { taps: 3, map: Some(MapUse::Cascades), simple: true, untinted: true };
+    let sun_only = CommonLookup {
+        source: LookupSource::OneLight,
+        taps: 3,
+        map: Some(MapUse::Cascades),
+        simple: true,
+        untinted: true,
+    };
     assert_eq!(plan(&scene, &options).variant(), LookupVariant::Shadowed(sun_only));
     scene.insert_light(super::spot(DVec3::new(-3.0, 3.5, 1.0), DVec3::ZERO, 0.6));
     let Some(gpu) = gpu() else { return };
     let one = greys(gpu, &scene, 0, &options);
     let hard = LightShadows { filter: Some(ShadowFilter::Tent2), ..LightShadows::new(1.into()) };
     options.shadows.lights = vec![hard];
-    let mixed = CommonLookup { taps: 0, map: None, ..sun_only };
+    let mixed = CommonLookup { source: LookupSource::Uniform, taps: 0, map: None, ..sun_only };
     assert_eq!(plan(&scene, &options).variant(), LookupVariant::Shadowed(mixed));
     // The sun's shadows are the same with either shader, and the spot light's are not.
     assert_eq!(greys(gpu, &scene, 0, &options), one);

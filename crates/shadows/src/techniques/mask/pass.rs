@@ -59,7 +59,7 @@ impl MaskPass {
         own: &GpuStruct,
         has_views: bool,
     ) -> Result<Self, Error> {
-        let view_layout = layout(device, "view", &[STORAGE; 2]);
+        let view_layout = layout(device, "view", &[UNIFORM, STORAGE]);
         let shadow_views_layout = has_views.then(|| layout(device, "shadow views", &[STORAGE; 2]));
         let own_layout = layout(device, name, &[FLOAT_MAP, MASK, TARGET, UNIFORM, UNIFORM]);
         let module = compose(file, &[])?;
@@ -84,7 +84,7 @@ impl MaskPass {
     ) -> Texture {
         let mut output = mask_texture(frame, format_args!("shadow mask, {}", self.name), buffers, layers);
         let mut pass = frame.compute_pass(self.name);
-        let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let (view, lights) = (pass.uniform_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let shadow_views = self.shadow_views_layout.as_ref().zip(shadow_views);
         let shadow_views = shadow_views
             .map(|(layout, buffers)| (layout, buffers.each_ref().map(|buffer| pass.storage_buffer(buffer))));

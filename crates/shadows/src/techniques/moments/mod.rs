@@ -119,12 +119,12 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
     }
 
     fn variant_count(&self) -> u32 {
-        S::LAYOUTS * LookupVariant::COUNT_WITHOUT_TAPS
+        S::LAYOUTS * LookupVariant::count_without_taps()
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
-        let lookup = LookupVariant::from_index(variant / S::LAYOUTS).module();
-        [vec![MAPPED, MOMENTS, lookup], S::modules(variant % S::LAYOUTS)].concat()
+        let lookup = LookupVariant::modules(variant / S::LAYOUTS);
+        [vec![MAPPED, MOMENTS], lookup, S::modules(variant % S::LAYOUTS)].concat()
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {

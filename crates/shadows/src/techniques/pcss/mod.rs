@@ -58,11 +58,11 @@ impl ShadowTechnique for Pcss {
     }
 
     fn variant_count(&self) -> u32 {
-        LookupVariant::COUNT_WITHOUT_TAPS
+        LookupVariant::count_without_taps()
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
-        vec![MAPPED, PCSS, LookupVariant::from_index(variant).module()]
+        [vec![MAPPED, PCSS], LookupVariant::modules(variant)].concat()
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {

@@ -89,7 +89,7 @@ impl Raytraced {
     ) -> Result<Texture, Error> {
         let mut mask = mask_texture(frame, "shadow mask", buffers, layers);
         let mut pass = frame.compute_pass("trace");
-        let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let (view, lights) = (pass.uniform_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let (traced, surfaces) = (pass.storage_buffer(traced), pass.sample(&buffers.surfaces));
         let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
         let size_px = buffers.size_px;
@@ -262,7 +262,7 @@ impl Trace {
     fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let pass = Self {
             device: device.clone(),
-            view_layout: layout(device, "view", &[STORAGE; 2]),
+            view_layout: layout(device, "view", &[UNIFORM, STORAGE]),
             rays_layout: layout(device, "rays", &[STORAGE; 6]),
             screen_layout: layout(device, "screen", &[FLOAT_MAP, TARGET, UNIFORM]),
             pipelines: Mutex::default(),

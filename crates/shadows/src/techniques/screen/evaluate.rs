@@ -27,7 +27,7 @@ impl EvaluatePass {
     pub(super) fn new(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> Result<Self, Error> {
         let pass = Self {
             device: device.clone(),
-            view_layout: layout(device, "view", &[STORAGE; 2]),
+            view_layout: layout(device, "view", &[UNIFORM, STORAGE]),
             shadow_layout: shadow_layout(device, technique),
             layout: layout(device, "evaluate", &[FLOAT_MAP, TARGET, UNIFORM]),
             pipelines: Mutex::default(),
@@ -68,7 +68,7 @@ impl EvaluatePass {
         let mut mask = mask_texture(frame, "shadow mask", buffers, layers);
         let mut pass = frame.compute_pass("evaluate");
         let shadows = shadows.read_in(&mut pass);
-        let (view, lights) = (pass.storage_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
+        let (view, lights) = (pass.uniform_buffer(&buffers.view), pass.storage_buffer(&buffers.lights));
         let surfaces = pass.sample(&buffers.surfaces);
         let target = pass.storage_texture_mut(&mut mask, Contents::Overwrite);
         let size_px = buffers.size_px;

@@ -50,7 +50,7 @@ pub(super) struct GpuFit {
 
 impl GpuFit {
     pub(super) fn new(device: &wgpu::Device) -> Result<Self, Error> {
-        let view_layout = layout(device, "view", &[STORAGE; 2]);
+        let view_layout = layout(device, "view", &[UNIFORM, STORAGE]);
         let types = [FLOAT_MAP, STORAGE, STORAGE, UNIFORM, WRITTEN, WRITTEN];
         let own_layout = layout(device, "fit cascades", &types);
         let views_layout = layout(device, "fitted views", &[WRITTEN]);
@@ -119,8 +119,8 @@ impl GpuFit {
         fitted: Option<&mut Buffer>,
     ) {
         let mut pass = frame.compute_pass(name);
-        let view_and_lights =
-            [&steps.buffers.view, &steps.buffers.lights].map(|buffer| pass.storage_buffer(buffer));
+        let (view, lights) =
+            (pass.uniform_buffer(&steps.buffers.view), pass.storage_buffer(&steps.buffers.lights));
         let surfaces = pass.sample(&steps.buffers.surfaces);
         let planned = [steps.views, steps.lights].map(|buffer| pass.storage_buffer(buffer));
         let found = [&mut steps.depths, &mut steps.bounds]
@@ -133,7 +133,7 @@ impl GpuFit {
             own.push(Bind::Uniform(block));
             own.extend(found.map(Bind::Buffer));
             let mut groups = vec![
-                ctx.bind_group(&self.view_layout, &view_and_lights.map(Bind::Buffer))?,
+                ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(lights)])?,
                 ctx.bind_group(&self.layout, &own)?,
             ];
             if let Some(fitted) = fitted {

@@ -1,0 +1,19 @@
+// The lights of a frame with few of them, in a uniform block: in fragment shaders Mesa's software driver reads storage buffers pixel by
+// pixel.
+#define_import_path shadowgraph::lights
+#import shadowgraph::light::Light
+#import shadowgraph::view::view
+
+const FEW_LIGHTS: u32 = 32u;
+// Whether there is exactly one light.
+const ONLY_ONE: bool = false;
+
+@group(0) @binding(1) var<uniform> lights: array<Light, FEW_LIGHTS>;
+
+fn light_count() -> u32 {
+    return select(view.light_count, 1u, ONLY_ONE);
+}
+
+fn light_at(index: u32) -> Light {
+    return lights[select(min(index, FEW_LIGHTS - 1u), 0u, ONLY_ONE)];
+}
