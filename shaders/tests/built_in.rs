@@ -88,6 +88,8 @@ fn entry_points_have_the_names_that_pipelines_use() {
         [
             "vs_depth",
             "vs_depth_clamp",
+            "vs_alpha",
+            "vs_alpha_clamp",
             "fs_mask",
             "fs_dither",
             "fs_clamp",
@@ -243,13 +245,14 @@ fn has_invariant_position(module: &naga::Module, entry: &str) -> bool {
 
 #[test]
 fn depth_and_lit_passes_compute_positions_by_the_same_functions() {
-    let depth = composed("depth.wgsl");
-    assert!(has_invariant_position(&depth, "vs_depth"));
     let shared = ["world_position", "clip_position"];
-    assert_eq!(functions_called(&depth, "vs_depth"), shared);
-    for (file, entry) in
-        [("forward.wgsl", "vs_forward"), ("gbuffer.wgsl", "vs_gbuffer"), ("velocity.wgsl", "vs_velocity")]
-    {
+    for (file, entry) in [
+        ("depth.wgsl", "vs_depth"),
+        ("depth.wgsl", "vs_alpha"),
+        ("forward.wgsl", "vs_forward"),
+        ("gbuffer.wgsl", "vs_gbuffer"),
+        ("velocity.wgsl", "vs_velocity"),
+    ] {
         let module = composed(file);
         assert!(has_invariant_position(&module, entry));
         let lit = functions_called(&module, entry);

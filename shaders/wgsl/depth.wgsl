@@ -1,15 +1,18 @@
 // Depth, and the transmittance of translucent casters, for the prepass and shadow maps.
 //
 //   opaque        vs_depth, no fragment stage
-//   with holes    vs_depth, fs_mask
-//   dithered      vs_depth, fs_dither
+//   with holes    vs_depth, fs_mask; for casters vs_alpha, fs_mask
+//   dithered      vs_alpha, fs_dither
 //   translucent   vs_depth, fs_tint: its colour multiplies the target, its depth is not written
 //   casters in front of the near plane are kept at depth 1:
 //     the device clamps (unclipped_depth)      as above
-//     it does not                              vs_depth_clamp with fs_clamp, fs_mask_clamp, fs_dither_clamp or fs_tint_clamp
+//     it does not                              vs_depth_clamp or vs_alpha_clamp with fs_clamp, fs_mask_clamp, fs_dither_clamp or fs_tint_clamp
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
-#import shadowgraph::material::{MATERIAL_TRANSMIT, material_has, TextureCoordinates, base_color, hole_cutoff, caster_cutoff}
+#import shadowgraph::material::{
+    BASE_COLOR, MATERIAL_TRANSMIT, TextureCoordinates, base_color, caster_alpha, caster_cutoff, hole_cutoff, material_has,
+    texture_uv,
+}
 
 // The used members of a ShadowView, or of a View if nothing is dithered; bound at a dynamic offset.
 struct DepthView {
@@ -23,7 +26,7 @@ struct DepthView {
 // fs_clamp and fs_mask_clamp write the depth themselves, so the pipeline's slope bias does not apply: they add this times the
 // depth's steepest change per pixel. Depth is reversed: negative pushes away.
 override SLOPE_BIAS: f32 = 0.0;
-// Whether holes are those of casters, not those that cameras see.
+// Whether holes are those of casters, not those that cameras see. The texture of the base colour then has one channel, the alpha.
 override CASTS: bool = false;
 
 struct DepthVertex {
@@ -35,20 +38,42 @@ struct DepthVertex {
     @location(3) unclamped: vec2f,
 }
 
-@vertex
-fn vs_depth(vertex: Vertex) -> DepthVertex {
+fn projected(vertex: Vertex, uv_first: vec2f) -> DepthVertex {
     let position = world_position(vertex.instance, vertex.position);
     let clip = clip_position(depth_view.clip_from_world, position);
-    return DepthVertex(clip, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
+    return DepthVertex(clip, uv_first, vertex.uv_second, vertex.color, clip.zw);
+}
+
+// Halfway between the planes nothing is clipped; the fragment stage restores the depth.
+fn kept(out: DepthVertex) -> DepthVertex {
+    var halfway = out;
+    halfway.position.z = 0.5 * out.position.w;
+    return halfway;
+}
+
+// The texture coordinates that caster_alpha expects.
+fn alpha_uv(vertex: Vertex) -> vec2f {
+    return texture_uv(BASE_COLOR, TextureCoordinates(vertex.uv_first, vertex.uv_second));
+}
+
+@vertex
+fn vs_depth(vertex: Vertex) -> DepthVertex {
+    return projected(vertex, vertex.uv_first);
 }
 
 @vertex
 fn vs_depth_clamp(vertex: Vertex) -> DepthVertex {
-    let position = world_position(vertex.instance, vertex.position);
-    let clip = clip_position(depth_view.clip_from_world, position);
-    // Halfway between the planes nothing is clipped; the fragment stage restores the depth.
-    let kept = vec4f(clip.xy, 0.5 * clip.w, clip.w);
-    return DepthVertex(kept, vertex.uv_first, vertex.uv_second, vertex.color, clip.zw);
+    return kept(projected(vertex, vertex.uv_first));
+}
+
+@vertex
+fn vs_alpha(vertex: Vertex) -> DepthVertex {
+    return projected(vertex, alpha_uv(vertex));
+}
+
+@vertex
+fn vs_alpha_clamp(vertex: Vertex) -> DepthVertex {
+    return kept(projected(vertex, alpha_uv(vertex)));
 }
 
 fn color_of(in: DepthVertex) -> vec4f {
@@ -56,6 +81,9 @@ fn color_of(in: DepthVertex) -> vec4f {
 }
 
 fn alpha_of(in: DepthVertex) -> f32 {
+    if CASTS {
+        return caster_alpha(in.uv_first, in.color.a);
+    }
     return color_of(in).a;
 }
 

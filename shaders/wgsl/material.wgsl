@@ -99,6 +99,11 @@ fn base_color(uv: TextureCoordinates, vertex_color: vec4f) -> vec4f {
     return color * textureSample(base_color_texture, base_color_sampler, texture_uv(BASE_COLOR, uv));
 }
 
+// The alpha of casters, for passes whose texture of the base colour has one channel. `uv` is that of texture_uv.
+fn caster_alpha(uv: vec2f, vertex_alpha: f32) -> f32 {
+    return material.base_color.a * vertex_alpha * textureSample(base_color_texture, base_color_sampler, uv).r;
+}
+
 // x: metallic, y: perceptual roughness, both 0 to 1.
 fn metallic_roughness(uv: TextureCoordinates) -> vec2f {
     let factors = vec2f(material.metallic, material.roughness);

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use shadowgraph_core::{Contents, Frame, RenderContext, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{
-    AlphaKey, Draw, DrawPipeline, GpuScene, MaterialFeatures, MaterialLayouts, PipelineKey, vertex_layout,
+    AlphaKey, Draw, DrawPipeline, GpuScene, MaterialFeatures, MaterialLayouts, MaterialUse, PipelineKey,
+    vertex_layout,
 };
 use shadowgraph_shaders::ModuleSource;
 use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, VertexBuffers, shadow_layout};
@@ -55,7 +56,7 @@ impl LitPipelines {
     /// Returns the pipeline for draws with a key.
     pub fn get(&self, key: PipelineKey) -> DrawPipeline<'_> {
         let create = || self.builder.pipeline(&self.shader, &self.layout, self.key, key);
-        DrawPipeline { pipeline: self.pipelines[key.index()].get_or_init(create), reads_material: true }
+        DrawPipeline { pipeline: self.pipelines[key.index()].get_or_init(create), material: MaterialUse::All }
     }
 }
 

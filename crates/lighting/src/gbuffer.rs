@@ -3,7 +3,9 @@
 use std::sync::OnceLock;
 
 use shadowgraph_core::{Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, vertex_layout};
+use shadowgraph_scene::gpu::{
+    AlphaKey, Draw, DrawPipeline, MaterialLayouts, MaterialUse, PipelineKey, vertex_layout,
+};
 use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
@@ -107,7 +109,7 @@ impl GBufferPass {
             ctx.pass.set_bind_group(1, &self.empty, &[]);
             let pipeline_for = |draw: &Draw| {
                 let pipeline = self.pipelines[draw.key.index()].get_or_init(|| self.pipeline(draw.key));
-                Some(DrawPipeline { pipeline, reads_material: true })
+                Some(DrawPipeline { pipeline, material: MaterialUse::All })
             };
             let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &pipeline_for);
             ctx.report_draws(draws);

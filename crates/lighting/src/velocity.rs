@@ -6,7 +6,8 @@ use bytemuck::{NoUninit, Pod, Zeroable, bytes_of};
 use glam::{Mat4, Vec2, Vec3};
 use shadowgraph_core::{Bind, Contents, Format, Frame, FullscreenShader, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{
-    AlphaKey, Draw, DrawPipeline, MaterialLayouts, PipelineKey, previous_vertex_layout, vertex_layout,
+    AlphaKey, Draw, DrawPipeline, MaterialLayouts, MaterialUse, PipelineKey, previous_vertex_layout,
+    vertex_layout,
 };
 use shadowgraph_shadows::VertexBuffers;
 
@@ -137,7 +138,7 @@ impl Velocity {
     fn pipeline_for(&self, key: PipelineKey) -> DrawPipeline<'_> {
         let key = PipelineKey { alpha: AlphaKey::Opaque, ..key };
         let pipeline = self.pipelines[key.index()].get_or_init(|| self.pipeline(key));
-        DrawPipeline { pipeline, reads_material: false }
+        DrawPipeline { pipeline, material: MaterialUse::None }
     }
 
     fn pipeline(&self, key: PipelineKey) -> wgpu::RenderPipeline {

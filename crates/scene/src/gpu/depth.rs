@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::num::NonZeroU64;
 
-use super::draw_list::DrawPipeline;
+use super::draw_list::{DrawPipeline, MaterialUse};
 use super::geometry::vertex_layout;
 use super::key::{AlphaKey, PipelineKey};
 use super::materials::MaterialLayouts;
@@ -83,8 +83,9 @@ impl DepthPipelines {
     /// Returns the pipeline for draws with a key.
     #[must_use]
     pub fn get(&self, key: PipelineKey) -> DrawPipeline<'_> {
-        let reads_material = key.alpha != AlphaKey::Opaque;
-        DrawPipeline { pipeline: &self.pipelines[key.index()], reads_material }
+        let is_opaque = key.alpha == AlphaKey::Opaque;
+        let material = if is_opaque { MaterialUse::None } else { MaterialUse::All };
+        DrawPipeline { pipeline: &self.pipelines[key.index()], material }
     }
 
     /// Returns the layout of group 0: at binding 0 a storage buffer with a dynamic offset, visible to the vertex stage,
@@ -130,26 +131,26 @@ impl CasterPipelines {
     /// clipped at an alpha of one half, for maps without tint.
     #[must_use]
     pub fn get(&self, mode: CasterMode) -> Option<DrawPipeline<'_>> {
-        let (pipeline, reads_material) = match mode {
-            CasterMode::On => (&self.solid, false),
-            CasterMode::Clip | CasterMode::Tint => (&self.clip, true),
-            CasterMode::Dither => (&self.dither, true),
+        let (pipeline, material) = match mode {
+            CasterMode::On => (&self.solid, MaterialUse::None),
+            CasterMode::Clip | CasterMode::Tint => (&self.clip, MaterialUse::Alpha),
+            CasterMode::Dither => (&self.dither, MaterialUse::Alpha),
             CasterMode::Off => return None,
         };
-        Some(DrawPipeline { pipeline, reads_material })
+        Some(DrawPipeline { pipeline, material })
     }
 
     /// Returns the pipeline for depth that ignores alpha.
     #[must_use]
     pub fn solid(&self) -> DrawPipeline<'_> {
-        DrawPipeline { pipeline: &self.solid, reads_material: false }
+        DrawPipeline { pipeline: &self.solid, material: MaterialUse::None }
     }
 
     /// Returns the pipeline that multiplies a target of [`DepthTarget::tint_format`] by the transmitted light. It tests depth
     /// and does not write it.
     #[must_use]
     pub fn tint(&self) -> DrawPipeline<'_> {
-        DrawPipeline { pipeline: &self.tint, reads_material: true }
+        DrawPipeline { pipeline: &self.tint, material: MaterialUse::All }
     }
 }
 
@@ -240,6 +241,13 @@ impl PipelineBuilder {
             (Alpha::Dither, true) => Some("fs_dither_clamp"),
             (Alpha::Tint, true) => Some("fs_tint_clamp"),
         };
+        let reads_alpha = self.casts && matches!(variant.alpha, Alpha::Clip | Alpha::Dither);
+        let vertex_entry = match (reads_alpha, self.emulated) {
+            (false, false) => "vs_depth",
+            (false, true) => "vs_depth_clamp",
+            (true, false) => "vs_alpha",
+            (true, true) => "vs_alpha_clamp",
+        };
         let multiply = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::Dst,
             dst_factor: wgpu::BlendFactor::Zero,
@@ -258,7 +266,7 @@ impl PipelineBuilder {
         })];
         let vertex = wgpu::VertexState {
             module: &self.shader,
-            entry_point: Some(if self.emulated { "vs_depth_clamp" } else { "vs_depth" }),
+            entry_point: Some(vertex_entry),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[Some(vertex_layout())],
         };

@@ -35,8 +35,19 @@ impl Draw {
 pub struct DrawPipeline<'p> {
     /// The pipeline.
     pub pipeline: &'p wgpu::RenderPipeline,
-    /// Whether the pipeline reads group 2, the material.
-    pub reads_material: bool,
+    /// What the pipeline reads from group 2.
+    pub material: MaterialUse,
+}
+
+/// What a pipeline reads of the material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaterialUse {
+    /// Nothing: group 2 can be unset.
+    None,
+    /// Its alpha: the texture of the base colour has one channel. Other textures are white.
+    Alpha,
+    /// All of it.
+    All,
 }
 
 /// The draws of the visible instances.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
+use super::draw_list::MaterialUse;
 use super::instances::instance_layout;
 use super::material_features::MaterialFeatures;
 use super::mips::Encoding;
@@ -14,7 +15,7 @@ use super::textures::{Reading, Textures};
 use super::write_batch::WriteBatch;
 use crate::error::Error;
 use crate::keys::{ImageKey, MaterialKey};
-use crate::material::{AlphaMode, Material, Sampler, TextureRef};
+use crate::material::{AlphaMode, Image, Material, Sampler, TextureRef};
 use crate::scene::Scene;
 
 /// Stride of materials in their buffer, bytes: the alignment that every device supports.
@@ -53,7 +54,7 @@ struct MaterialUniform {
 /// The layouts of the bind groups that draws need.
 #[derive(Clone, Debug)]
 pub struct MaterialLayouts {
-    /// Group 2, a material: a uniform buffer, five textures, five samplers; visible to the fragment stage.
+    /// Group 2, a material: a uniform buffer, visible to both stages, five textures and five samplers, visible to the fragment stage.
     pub material: wgpu::BindGroupLayout,
     /// Group 3, the transforms of all instances: a storage buffer; visible to the vertex stage.
     pub draw: wgpu::BindGroupLayout,
@@ -65,7 +66,11 @@ impl MaterialLayouts {
     pub fn new(device: &wgpu::Device) -> Self {
         let entry = |binding: u32, ty| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility: if binding == 0 {
+                wgpu::ShaderStages::VERTEX_FRAGMENT
+            } else {
+                wgpu::ShaderStages::FRAGMENT
+            },
             ty,
             count: None,
         };
@@ -116,14 +121,22 @@ pub(super) struct Materials {
     pub(super) features: MaterialFeatures,
 }
 
-/// The bind group of a material.
-struct MaterialGroup {
+/// The bind groups of a material.
+pub(super) struct MaterialGroup {
     key: MaterialKey,
-    group: wgpu::BindGroup,
+    all: wgpu::BindGroup,
+    alpha: wgpu::BindGroup,
     /// Changes with the material.
     version: u64,
     /// The images, which live as long as a material uses them.
     images: Vec<(ImageKey, Arc<wgpu::TextureView>)>,
+}
+
+impl MaterialGroup {
+    /// Returns the bind group of a pipeline that reads so much.
+    pub(super) fn get(&self, material: MaterialUse) -> &wgpu::BindGroup {
+        if material == MaterialUse::Alpha { &self.alpha } else { &self.all }
+    }
 }
 
 impl Materials {
@@ -142,9 +155,9 @@ impl Materials {
         }
     }
 
-    /// Returns the bind group of a material.
-    pub(super) fn group(&self, number: u32) -> Option<&wgpu::BindGroup> {
-        self.groups.get(number as usize)?.as_ref().map(|entry| &entry.group)
+    /// Returns the bind groups of a material.
+    pub(super) fn group(&self, number: u32) -> Option<&MaterialGroup> {
+        self.groups.get(number as usize)?.as_ref()
     }
 
     /// Returns a number that changes with the material.
@@ -212,6 +225,23 @@ impl Materials {
         self.writes.flush(queue);
     }
 
+    /// Returns the alpha of the base colour's texture, for casters.
+    fn alpha(
+        &mut self,
+        scene: &Scene,
+        material: &Material,
+        images: &mut Vec<(ImageKey, Arc<wgpu::TextureView>)>,
+    ) -> Result<Arc<wgpu::TextureView>, Error> {
+        let image = material.base_color_texture.map(|used| used.image);
+        let Some(image) = image.filter(|image| scene.image(*image).is_some_and(has_alpha)) else {
+            return Ok(self.white.clone());
+        };
+        let reading = Reading { encoding: Encoding::Alpha, cutoff: texture_cutoff(material) };
+        let view = self.textures.image(scene, image, reading)?;
+        images.push((image, view.clone()));
+        Ok(view)
+    }
+
     fn upload(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
@@ -237,6 +267,7 @@ impl Materials {
             samplers
                 .push(self.textures.sampler(reference.map_or_else(Sampler::default, |used| used.sampler)));
         }
+        let alpha = self.alpha(scene, material, &mut images)?;
         let (block, offset) = (number as usize / BLOCK, (number as usize % BLOCK) as u64 * STRIDE);
         while self.uniforms.len() <= block {
             self.uniforms.push(device.create_buffer(&wgpu::BufferDescriptor {
@@ -253,23 +284,32 @@ impl Materials {
         self.writes.write(queue, buffer, offset, &bytes);
         let uniform =
             wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size: uniform_size() });
-        let views = views.iter().map(|view| wgpu::BindingResource::TextureView(view));
-        let samplers = samplers.iter().map(wgpu::BindingResource::Sampler);
-        let resources = [uniform].into_iter().chain(views).chain(samplers);
-        let entries =
-            resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(&material.name),
-            layout: &self.layout,
-            entries: &entries.collect::<Vec<_>>(),
-        });
+        let group = |views: &[&wgpu::TextureView]| {
+            let views = views.iter().map(|view| wgpu::BindingResource::TextureView(view));
+            let samplers = samplers.iter().map(wgpu::BindingResource::Sampler);
+            let resources = [uniform.clone()].into_iter().chain(views).chain(samplers);
+            let entries =
+                resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(&material.name),
+                layout: &self.layout,
+                entries: &entries.collect::<Vec<_>>(),
+            })
+        };
+        let all = group(&views.iter().map(|view| &**view).collect::<Vec<_>>());
+        let alpha = group(&[&alpha, &self.white, &self.white, &self.white, &self.white]);
         let index = number as usize;
         if index >= self.groups.len() {
             self.groups.resize_with(index + 1, || None);
         }
-        self.groups[index] = Some(MaterialGroup { key, group, version, images });
+        self.groups[index] = Some(MaterialGroup { key, all, alpha, version, images });
         Ok(())
     }
+}
+
+/// Whether some pixel is translucent.
+fn has_alpha(image: &Image) -> bool {
+    image.rgba8.chunks_exact(4).any(|pixel| pixel[3] < u8::MAX)
 }
 
 /// Returns the textures of a material in the order of their bindings, and how each is read.

@@ -12,6 +12,8 @@ pub(super) enum Encoding {
     Linear,
     /// Colours in sRGB: averaged as linear light, weighted by alpha.
     Srgb,
+    /// Only alpha.
+    Alpha,
 }
 
 /// One level of an image.
@@ -101,7 +103,7 @@ impl Tables {
         let light =
             |c: usize| [top[c], top[c + 4], bottom[c], bottom[c + 4]].map(|b| self.light[usize::from(b)]);
         let mean = match encoding {
-            Encoding::Linear => [plain(0), plain(1), plain(2), plain(3)],
+            Encoding::Linear | Encoding::Alpha => [plain(0), plain(1), plain(2), plain(3)],
             Encoding::Srgb if alphas == [alphas[0]; 4] => {
                 let even = |c: usize| self.byte[(light(c).iter().sum::<u32>() / 16) as usize];
                 [even(0), even(1), even(2), alphas[0]]

@@ -48,7 +48,7 @@ mod update;
 mod write_batch;
 
 pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
-pub use draw_list::{Draw, DrawList, DrawPipeline};
+pub use draw_list::{Draw, DrawList, DrawPipeline, MaterialUse};
 pub use geometry::{previous_vertex_layout, vertex_layout};
 pub use key::{AlphaKey, PipelineKey};
 pub use material_features::MaterialFeatures;

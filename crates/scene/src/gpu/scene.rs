@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::draw_list::{Draw, DrawList, DrawPipeline, squared_distance};
+use super::draw_list::{Draw, DrawList, DrawPipeline, MaterialUse, squared_distance};
 use super::geometry::Geometry;
 use super::instances::InstanceBuffer;
 use super::material_features::MaterialFeatures;
@@ -253,9 +253,10 @@ impl GpuScene {
                 pass.set_pipeline(pipeline.pipeline);
                 current_pipeline = Some(pipeline.pipeline);
             }
-            if pipeline.reads_material && material != Some(draw.material) {
-                pass.set_bind_group(2, group, &[]);
-                material = Some(draw.material);
+            if pipeline.material != MaterialUse::None && material != Some((draw.material, pipeline.material))
+            {
+                pass.set_bind_group(2, group.get(pipeline.material), &[]);
+                material = Some((draw.material, pipeline.material));
             }
             match draw.posed {
                 Some(_) => self.posed.set_vertices(pass, ranges.vertex_count()),

@@ -98,6 +98,7 @@ impl Textures {
         // The levels of alpha-tested textures are computed, so that they keep their coverage.
         #[cfg(feature = "gltf")]
         if reading.cutoff.is_none()
+            && reading.encoding != Encoding::Alpha
             && let Some(blocks) = BlockTexture::transcode(self.device.features(), image, reading.encoding)
         {
             return self.upload_blocks(image, &blocks);
@@ -105,10 +106,16 @@ impl Textures {
         let format = match reading.encoding {
             Encoding::Linear => wgpu::TextureFormat::Rgba8Unorm,
             Encoding::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Encoding::Alpha => wgpu::TextureFormat::R8Unorm,
         };
         let texture = self.create(image, format);
         for_each_level(image, reading.encoding, reading.cutoff, |Level { number, width, height, rgba8 }| {
-            self.write(&texture, number, rgba8, width * 4, extent(width, height));
+            if reading.encoding == Encoding::Alpha {
+                let alphas: Vec<u8> = rgba8.chunks_exact(4).map(|pixel| pixel[3]).collect();
+                self.write(&texture, number, &alphas, width, extent(width, height));
+            } else {
+                self.write(&texture, number, rgba8, width * 4, extent(width, height));
+            }
         });
         texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
