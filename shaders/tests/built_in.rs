@@ -173,6 +173,7 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
         ("pixel_right", 256),
         ("noise_changes", 268),
         ("pixel_up", 272),
+        ("zero", 284),
         ("noise", 288),
     ];
     layout::check(&forward, "View", 288 + 1024, &view).unwrap();

@@ -14,6 +14,8 @@ fn light_count() -> u32 {
     return select(view.light_count, 1u, ONLY_ONE);
 }
 
+// The index is never constant: Mesa's software driver compiles a shader again for each value at a constant offset that a branch depends on,
+// and corrupts memory if there are more than four in a block.
 fn light_at(index: u32) -> Light {
-    return lights[select(min(index, FEW_LIGHTS - 1u), 0u, ONLY_ONE)];
+    return lights[select(min(index + view.zero, FEW_LIGHTS - 1u), view.zero, ONLY_ONE)];
 }

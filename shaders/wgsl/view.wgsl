@@ -25,6 +25,8 @@ struct View {
     // See shadowgraph::frame_noise. 1: noise changes from frame to frame; 0: it is not read.
     noise_changes: u32,
     pixel_up: vec3f,
+    // 0, for indices that are not constant.
+    zero: u32,
     noise: array<vec4u, 64>,
 }
 

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::ablate::ablate;
 use super::args::BenchArgs;
 use super::commands::{self, Input};
 use super::console;
@@ -40,9 +41,15 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         drop(measuring);
         return console::print(&moving_table(&runs));
     }
-    if args.whole_frame {
+    if args.whole_frame || args.ablate {
         let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
         let frames = args.frames.min(GPU_FRAMES);
+        if args.ablate {
+            let measuring = Progress::if_slow("measuring");
+            let table = ablate(&gpu, &input, &view, frames)?;
+            drop(measuring);
+            return console::print(&table);
+        }
         let measuring = Progress::if_slow("measuring");
         let renderer = &mut renderer(&gpu, &input)?;
         let times = whole_frames(&gpu, renderer, &view, frames)?;

@@ -3,6 +3,7 @@
 //! Exit codes: 0 success, 1 invalid input or setting, 2 invalid command line, 3 no usable adapter or no display. An error is one line
 //! on standard error that starts with `error:`.
 
+mod ablate;
 mod args;
 mod bench;
 mod commands;

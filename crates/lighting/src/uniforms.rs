@@ -49,8 +49,8 @@ pub struct GpuView {
     pub noise_changes: u32,
     /// The step to the next pixel up, like `pixel_right`.
     pub pixel_up: Vec3,
-    /// Padding, zero.
-    pub padding: u32,
+    /// 0.
+    pub zero: u32,
 }
 
 /// A light, 64 bytes. World space here is relative to the frame's origin.
@@ -276,6 +276,7 @@ mod tests {
             ("pixel_right", offset_of!(GpuView, pixel_right)),
             ("noise_changes", offset_of!(GpuView, noise_changes)),
             ("pixel_up", offset_of!(GpuView, pixel_up)),
+            ("zero", offset_of!(GpuView, zero)),
             ("noise", size_of::<GpuView>()),
         ];
         layout::check(&module, "View", size_of::<GpuView>() + noise_of(None).len(), &view).unwrap();

@@ -125,8 +125,10 @@ pub struct ShadowLight {
     pub ends_m: [f32; MAX_CASCADES as usize],
     /// Width and height of a texel of the map, texture coordinates; 0 without cascades.
     pub texel_uv: [f32; 2],
+    /// 0.
+    pub zero: u32,
     /// Padding, zero.
-    pub reserved: [u32; 2],
+    pub reserved: u32,
 }
 
 /// [`ShadowView::cascade`] of a tile that is not a cascade.

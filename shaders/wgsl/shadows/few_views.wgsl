@@ -10,9 +10,11 @@ const FEW_LIGHTS: u32 = 32u;
 @group(1) @binding(8) var<uniform> few_views: array<ShadowView, FEW_VIEWS>;
 @group(1) @binding(9) var<uniform> few_lights: array<ShadowLight, FEW_LIGHTS>;
 
-// The shadows of a light of the scene.
+// The shadows of a light of the scene. The index is never constant: Mesa's software driver compiles a shader again for each value at a
+// constant offset that a branch depends on, and corrupts memory if there are more than four in a block.
 fn light_shadow(light: u32) -> ShadowLight {
-    var shadow = few_lights[select(min(light, FEW_LIGHTS - 1u), 0u, ONE_LIGHT)];
+    let zero = few_lights[0].zero;
+    var shadow = few_lights[select(min(light + zero, FEW_LIGHTS - 1u), zero, ONE_LIGHT)];
     if light >= select(FEW_LIGHTS, 1u, ONE_LIGHT) {
         shadow.view_count = 0u;
     }
@@ -21,5 +23,5 @@ fn light_shadow(light: u32) -> ShadowLight {
 
 // A view of a light, by its index among those of the light.
 fn light_view(light: ShadowLight, index: u32) -> ShadowView {
-    return few_views[select(light.first_view + index, index, ONE_LIGHT)];
+    return few_views[light.first_view + index];
 }

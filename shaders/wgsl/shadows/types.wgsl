@@ -103,6 +103,8 @@ struct ShadowLight {
     ends_m: array<vec4f, 2>,
     // Width and height of a texel of the map, texture coordinates; 0 without cascades.
     texel_uv: vec2f,
+    // 0, for indices that are not constant.
+    zero: u32,
 }
 
 const MAP_CASCADES: u32 = 0u;

@@ -162,6 +162,10 @@ pub(crate) struct BenchArgs {
     /// Measure whole frames instead, each until the GPU has finished, and each pass, on the GPU of --adapter; at most 20 frames
     #[arg(long, conflicts_with = "moving")]
     pub(crate) whole_frame: bool,
+    /// Measure whole frames without one ingredient each instead, such as shadows, textures or ambient light, in turns; at most 20
+    /// frames
+    #[arg(long, conflicts_with_all = ["moving", "whole_frame", "shaders"])]
+    pub(crate) ablate: bool,
     /// Measure frames of a scene of 10,000 boxes instead, of which these numbers move in each frame, such as 0,1,100,10000
     #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with_all = ["scene", "procedural"])]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=10_000))]

@@ -16,7 +16,7 @@ mod tests;
 
 pub use moving::{INSTANCES, MovingFrameTime, MovingFrames, moving_frames};
 pub use stats::Stats;
-pub use whole::{WholeFrame, whole_frames};
+pub use whole::{WholeFrame, warm_up, whole_frames, whole_frames_in_turn};
 
 use std::time::{Duration, Instant};
 

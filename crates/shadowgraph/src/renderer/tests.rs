@@ -72,7 +72,7 @@ fn equal_views_share_a_plan_and_other_sizes_do_not_analyse_the_frame_again() {
     let camera = scene.cameras[0].clone();
     let mut renderer = Renderer::new(&gpu, scene, &camera, Aov::Color).unwrap();
     let shadows = ShadowSettings::default().without_cache();
-    let options = ViewOptions { camera, size_px: [64, 36], shadows };
+    let options = ViewOptions { camera, size_px: [640, 360], shadows };
     let mut record = |size_px| {
         let target = target(&gpu, size_px, Format::Bgra8UnormSrgb, TextureUsages::RENDER_ATTACHMENT);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -80,15 +80,15 @@ fn equal_views_share_a_plan_and_other_sizes_do_not_analyse_the_frame_again() {
         gpu.queue.submit([encoder.finish()]);
         (executed.shared_plan(), renderer.graph().plan_counts())
     };
-    let (first, _) = record([64, 36]);
+    let (first, _) = record([640, 360]);
     // The target is another texture in each frame, as a surface's is.
-    let (second, counts) = record([64, 36]);
+    let (second, counts) = record([640, 360]);
     assert!(Arc::ptr_eq(&first, &second));
     assert_eq!((counts.compiled, counts.resized, counts.reused), (1, 0, 1));
-    let (other, counts) = record([32, 18]);
+    let (other, counts) = record([320, 180]);
     assert_eq!(other.order(), first.order());
     assert_eq!((counts.compiled, counts.resized, counts.reused), (1, 1, 1));
-    let (back, counts) = record([64, 36]);
+    let (back, counts) = record([640, 360]);
     assert!(Arc::ptr_eq(&first, &back));
     assert_eq!((counts.compiled, counts.resized, counts.reused), (1, 1, 2));
 }

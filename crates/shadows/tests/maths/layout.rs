@@ -33,7 +33,7 @@ fn structs_have_the_same_layout_in_wgsl_and_rust() {
         first_view, view_count, map, select, blend, filter_taps, bias_method, normal_sine, strength,
         normal_bias_texels, slope_bias, min_slope, max_slope, depth_bias_texels, fade_end_m, fade_per_m,
         blend_fraction, edge_fade, filter_half, filter_falloff, supersample, close_creases, fades_by_radius,
-        branch_free, eye, ends_m, texel_uv,
+        branch_free, eye, ends_m, texel_uv, zero,
     )
     .unwrap();
 }
