@@ -49,10 +49,14 @@ impl Renderer {
             Some(capture) => capture.wait(&gpu.device)?,
             None => FrameCapture::default(),
         };
-        let (views, lights) = match &shadow_buffers {
+        let (mut views, mut lights): (Vec<ShadowView>, Vec<ShadowLight>) = match &shadow_buffers {
             Some([views, lights]) => (read_structs(&captured, views), read_structs(&captured, lights)),
             None => (Vec::new(), Vec::new()),
         };
+        // The buffers may be as large as the uniform blocks that read them.
+        lights.truncate(self.scene().lights().len());
+        let ends = lights.iter().map(|light| light.first_view + light.view_count);
+        views.truncate(ends.max().unwrap_or(0) as usize);
         Ok(InspectedFrame { frame, textures: captured.textures, views, lights })
     }
 }
@@ -67,7 +71,7 @@ impl InspectedFrame {
     }
 }
 
-/// Returns the last captured contents of a buffer as structs. A buffer may be larger than its contents.
+/// Returns the last captured contents of a buffer as structs.
 fn read_structs<R: bytemuck::AnyBitPattern>(captured: &FrameCapture, buffer: &Buffer) -> Vec<R> {
     let last = captured.buffers.iter().rev().find(|(id, _)| *id == buffer.id());
     let bytes = last.map_or(&[][..], |(_, bytes)| bytes);
