@@ -165,10 +165,10 @@ fn prepare(scene: Scene, options: &ViewOptions, has_blended: bool) -> Prepared {
 fn row_36_the_lit_pass_reads_one_texel_of_the_mask_and_no_cascades() {
     let Prepared { is_mask_only, text, .. } = prepare_pillars(false, 2);
     assert!(is_mask_only && text.contains("shadow_mask"), "{text}");
-    assert!(!text.contains("shadow_views") && !text.contains("cascade_map"), "{text}");
+    assert!(!text.contains("light_view") && !text.contains("cascade_map"), "{text}");
     // Where the mask is not enough, the WGSL of the other technique is included.
     for Prepared { is_mask_only, text, .. } in [prepare_pillars(true, 2), prepare_pillars(false, 17)] {
-        assert!(!is_mask_only && text.contains("shadow_mask") && text.contains("shadow_views"), "{text}");
+        assert!(!is_mask_only && text.contains("shadow_mask") && text.contains("light_view"), "{text}");
     }
 }
 
