@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-const LIMITS: Limits = Limits { time: Duration::from_secs(10), memory_bytes: 2 << 30 };
+const LIMITS: Limits = Limits { time: Duration::from_secs(30), memory_bytes: 2 << 30 };
 const AT_A_TIME: usize = 2;
 const SIZE: (u32, u32) = (64, 36);
 
