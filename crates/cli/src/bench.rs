@@ -44,18 +44,17 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     if args.whole_frame || args.ablate {
         let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
         let frames = args.frames.min(GPU_FRAMES);
-        if args.ablate {
-            let measuring = Progress::if_slow("measuring");
-            let table = ablate(&gpu, &input, &view, frames)?;
-            drop(measuring);
-            return console::print(&table);
-        }
         let measuring = Progress::if_slow("measuring");
-        let renderer = &mut renderer(&gpu, &input)?;
-        let times = whole_frames(&gpu, renderer, &view, frames)?;
-        let passes = passes(&gpu, renderer, &view, frames)?;
+        let tables = if args.ablate {
+            ablate(&gpu, &input, &view, frames)?
+        } else {
+            let renderer = &mut renderer(&gpu, &input)?;
+            let times = whole_frames(&gpu, renderer, &view, frames)?;
+            let passes = passes(&gpu, renderer, &view, frames)?;
+            format!("{}\n{passes}", whole_frame_table(&times, &gpu.adapter.name))
+        };
         drop(measuring);
-        return console::print(&format!("{}\n{passes}", whole_frame_table(&times, &gpu.adapter.name)));
+        return console::print(&tables);
     }
     let measuring = Progress::if_slow("measuring");
     let comparison = match input.options.render_config() == RenderConfig::from(Pipeline::minimal_lit()) {

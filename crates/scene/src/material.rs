@@ -248,6 +248,11 @@ impl Image {
     pub fn new(name: impl Into<String>, width: u32, height: u32, rgba8: Vec<u8>) -> Self {
         Self { name: name.into(), width, height, rgba8, ktx2: None }
     }
+
+    /// Whether no pixel is translucent.
+    pub(crate) fn is_opaque(&self) -> bool {
+        self.rgba8.as_chunks::<4>().0.iter().all(|[.., alpha]| *alpha == u8::MAX)
+    }
 }
 
 impl fmt::Debug for Image {

@@ -168,18 +168,18 @@ impl ShadowPlan {
         LookupVariant::for_frame(&self.lights, &self.views)
     }
 
-    /// Returns the bytes of the buffer of views: at least one, and if the [variant](Self::variant) reads a uniform block, those of
-    /// the block.
+    /// Returns the bytes of the buffer of views: at least one, and if the frame's [variant](Self::variant) reads a uniform
+    /// block, those of the block.
     #[must_use]
-    pub fn view_bytes(&self) -> Vec<u8> {
-        padded(&self.views, if self.variant().reads_uniforms() { FEW_VIEWS } else { 1 })
+    pub fn view_bytes(&self, variant: LookupVariant) -> Vec<u8> {
+        padded(&self.views, if variant.reads_uniforms() { FEW_VIEWS } else { 1 })
     }
 
-    /// Returns the bytes of the buffer of lights: at least one, and if the [variant](Self::variant) reads a uniform block, those of
-    /// the block.
+    /// Returns the bytes of the buffer of lights: at least one, and if the frame's [variant](Self::variant) reads a uniform
+    /// block, those of the block.
     #[must_use]
-    pub fn light_bytes(&self) -> Vec<u8> {
-        padded(&self.lights, if self.variant().reads_uniforms() { FEW_LIGHTS } else { 1 })
+    pub fn light_bytes(&self, variant: LookupVariant) -> Vec<u8> {
+        padded(&self.lights, if variant.reads_uniforms() { FEW_LIGHTS } else { 1 })
     }
 }
 

@@ -3,9 +3,9 @@
 #import shadowgraph::receiver::{Receiver, RECEIVER_COARSER, receiver_noise}
 #import shadowgraph::shadows::lookup::{Lookup, covers_receiver, incidence_in, look_up}
 #import shadowgraph::shadows::types::{
-    ShadowView, ShadowLight, MAP_CASCADES, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
+    ShadowView, ShadowLight, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
 }
-#import shadowgraph::shadows::variant::{ONE_LIGHT, ONLY_MAP, SIMPLE}
+#import shadowgraph::shadows::variant::{DIRECTIONAL, ONE_LIGHT, SIMPLE}
 #import shadowgraph::shadows::views::light_view
 
 // +X, -X, +Y, -Y, +Z, -Z.
@@ -55,16 +55,17 @@ fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
 // The lookup of a point in the first of at most four cascades that covers it.
 fn find_cascade(light: ShadowLight, receiver: Receiver) -> Lookup {
     let incidence = incidence_in(light_view(light, 0u), light, receiver);
-    // Without a loop, so that indices are constant, and without branches. The last cascade is looked up where none covers the point.
+    // Without a loop, which would look each cascade up for as long as any pixel needs it. The last one is looked up where none covers the
+    // point.
     let covering = vec3<bool>(
         covers_receiver(light_view(light, 0u), light, receiver, incidence),
         covers_receiver(light_view(light, 1u), light, receiver, incidence),
         covers_receiver(light_view(light, 2u), light, receiver, incidence),
     );
     let index = select(select(select(3u, 2u, covering.z), 1u, covering.y), 0u, covering.x);
-    let last = min(index, light.view_count - 1u);
-    var lookup = look_up(light_view(light, last), light, receiver, incidence);
-    lookup.view = last;
+    let chosen = min(index, light.view_count - 1u);
+    var lookup = look_up(light_view(light, chosen), light, receiver, incidence);
+    lookup.view = chosen;
     return lookup;
 }
 
@@ -76,7 +77,7 @@ fn find(light: ShadowLight, receiver: Receiver, first: u32) -> Lookup {
     }
     var begin = first;
     var end = light.view_count;
-    if !(SIMPLE && ONLY_MAP == MAP_CASCADES) && light.select != SELECT_MAP {
+    if !(SIMPLE && DIRECTIONAL) && light.select != SELECT_MAP {
         begin = select_view(light, receiver, first);
         end = begin + 1u;
     }

@@ -273,11 +273,12 @@ fn frame_data(renderer: &Renderer, view: &RenderView<'_>) -> Result<FrameData, E
 
 /// Returns the contents of the buffers, in order.
 fn bytes(frame_data: &FrameData) -> [Vec<u8>; 4] {
+    let variant = frame_data.shadows.variant();
     [
         frame_data.view.view_bytes(),
         frame_data.view.light_bytes(),
-        frame_data.shadows.view_bytes(),
-        frame_data.shadows.light_bytes(),
+        frame_data.shadows.view_bytes(variant),
+        frame_data.shadows.light_bytes(variant),
     ]
 }
 

@@ -77,7 +77,7 @@ impl<'a> Images<'a> {
     ) -> Result<(), &'static str> {
         let base_color = material.images[0];
         let mask = mask.filter(|(_, index)| self.get(Some(*index)).is_some());
-        if mask.is_none() && self.get(base_color).is_none_or(is_opaque) {
+        if mask.is_none() && self.get(base_color).is_none_or(Image::is_opaque) {
             return Ok(());
         }
         let converted = &mut material.material;
@@ -126,8 +126,4 @@ impl<'a> Images<'a> {
 /// Returns whether two textures have their texels at the same points of a surface.
 fn same_place(a: &TextureRef, b: &TextureRef) -> bool {
     (a.uv_set, a.uv_transform) == (b.uv_set, b.uv_transform)
-}
-
-fn is_opaque(image: &Image) -> bool {
-    image.rgba8.as_chunks::<4>().0.iter().all(|[.., alpha]| *alpha == 255)
 }

@@ -1,5 +1,6 @@
 //! The bind groups of materials: group 2.
 
+use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use std::sync::Arc;
 
@@ -15,7 +16,7 @@ use super::textures::{Reading, Textures};
 use super::write_batch::WriteBatch;
 use crate::error::Error;
 use crate::keys::{ImageKey, MaterialKey};
-use crate::material::{AlphaMode, Image, Material, Sampler, TextureRef};
+use crate::material::{AlphaMode, Material, Sampler, TextureRef};
 use crate::scene::Scene;
 
 /// Stride of materials in their buffer, bytes: the alignment that every device supports.
@@ -117,6 +118,8 @@ pub(super) struct Materials {
     numbers: [Numbers<MaterialKey>; 2],
     /// By number times two, plus one for those that do not receive shadows.
     groups: Vec<Option<MaterialGroup>>,
+    /// Whether some pixel of an image is translucent.
+    translucent: BTreeMap<ImageKey, bool>,
     /// What the materials use, and those that were uploaded before.
     pub(super) features: MaterialFeatures,
 }
@@ -151,6 +154,7 @@ impl Materials {
             writes: WriteBatch::default(),
             numbers: Default::default(),
             groups: Vec::new(),
+            translucent: BTreeMap::new(),
             features: MaterialFeatures::default(),
         }
     }
@@ -210,6 +214,7 @@ impl Materials {
     /// Removes the textures of a replaced or removed image, and returns the materials that use them.
     pub(super) fn remove_image(&mut self, image: ImageKey) -> Vec<MaterialKey> {
         self.textures.remove(image);
+        self.translucent.remove(&image);
         let uses = |entry: &&MaterialGroup| entry.images.iter().any(|(key, _)| *key == image);
         self.groups.iter().flatten().filter(uses).map(|entry| entry.key).collect()
     }
@@ -232,10 +237,13 @@ impl Materials {
         material: &Material,
         images: &mut Vec<(ImageKey, Arc<wgpu::TextureView>)>,
     ) -> Result<Arc<wgpu::TextureView>, Error> {
-        let image = material.base_color_texture.map(|used| used.image);
-        let Some(image) = image.filter(|image| scene.image(*image).is_some_and(has_alpha)) else {
+        let Some(TextureRef { image, .. }) = material.base_color_texture else {
             return Ok(self.white.clone());
         };
+        let is_translucent = || scene.image(image).is_some_and(|image| !image.is_opaque());
+        if !*self.translucent.entry(image).or_insert_with(is_translucent) {
+            return Ok(self.white.clone());
+        }
         let reading = Reading { encoding: Encoding::Alpha, cutoff: texture_cutoff(material) };
         let view = self.textures.image(scene, image, reading)?;
         images.push((image, view.clone()));
@@ -305,11 +313,6 @@ impl Materials {
         self.groups[index] = Some(MaterialGroup { key, all, alpha, version, images });
         Ok(())
     }
-}
-
-/// Whether some pixel is translucent.
-fn has_alpha(image: &Image) -> bool {
-    image.rgba8.chunks_exact(4).any(|pixel| pixel[3] < u8::MAX)
 }
 
 /// Returns the textures of a material in the order of their bindings, and how each is read.

@@ -146,12 +146,12 @@ impl ShadowMaps {
         fit: impl FnOnce(&mut Frame<'f>, &ShadowPlan, &Buffer, &Buffer) -> Buffer,
     ) -> Result<DrawnMaps, Error> {
         let plan = self.plan(inputs, requirements)?;
+        let (variant, main_light) = (plan.variant(), plan.main_light().unwrap_or(0));
         let (views, lights) = frame.node("set up views", |frame| {
-            let views = frame.upload_buffer("shadow views", plan.view_bytes());
-            (views, frame.upload_buffer("shadow lights", plan.light_bytes()))
+            let views = frame.upload_buffer("shadow views", plan.view_bytes(variant));
+            (views, frame.upload_buffer("shadow lights", plan.light_bytes(variant)))
         });
         let views = fit(frame, &plan, &views, &lights);
-        let (variant, main_light) = (plan.variant(), plan.main_light().unwrap_or(0));
         let source = Source {
             view: inputs.view,
             origin_world: inputs.origin_world,

@@ -1,6 +1,6 @@
 //! The passes that fit cascades.
 
-use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Frame, Uniform};
+use shadowgraph_core::{Bind, Buffer, Contents, Frame, Uniform};
 use shadowgraph_shaders::compose;
 
 use super::SdsmSettings;
@@ -77,9 +77,8 @@ impl GpuFit {
         [views, lights]: [&Buffer; 2],
     ) -> Buffer {
         let count = inputs.settings.cascades.count;
-        let Some(map) = plan.cascades.as_ref().filter(|_| count > 1) else {
-            return views.clone();
-        };
+        let map = plan.cascades.as_ref().filter(|_| count > 1);
+        let Some((map, views_desc)) = map.zip(frame.buffer_desc(views)) else { return views.clone() };
         let [map_width_px, map_height_px] = map.size_px.map(|side| side as f32);
         let fit = Fit {
             settings: own.clone(),
@@ -102,8 +101,7 @@ impl GpuFit {
             let [width, height] = buffers.size_px.map(|side| side.div_ceil(WORKGROUP_PX));
             self.step(frame, &mut steps, ("depths", &self.depths), [width, height], None);
             self.step(frame, &mut steps, ("bounds", &self.bounds), [width, height], None);
-            let bytes = BufferDesc::new(plan.view_bytes().len() as u64);
-            let mut fitted = frame.create_buffer("fitted shadow views", bytes);
+            let mut fitted = frame.create_buffer("fitted shadow views", views_desc);
             let groups = [fit.views.div_ceil(WORKGROUP_VIEWS), 1];
             self.step(frame, &mut steps, ("fit", &self.fit), groups, Some(&mut fitted));
             fitted
