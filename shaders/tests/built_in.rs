@@ -119,7 +119,7 @@ fn entry_points_have_the_names_that_pipelines_use() {
 fn bindings_are_where_bind_group_layouts_have_them() {
     let depth = ["0.0 depth_view", "2.0 material", "2.1 base_color_texture", "2.6 base_color_sampler"];
     assert_eq!(bindings(&composed("depth.wgsl"))[..4], depth);
-    assert_eq!(bindings(&composed("depth.wgsl"))[4..], ["3.0 instances"]);
+    assert_eq!(bindings(&composed("depth.wgsl"))[4..], ["3.0 instances", "3.1 drawn"]);
     let forward = bindings(&composed("forward.wgsl"));
     let expected = [
         "0.0 view",
@@ -136,6 +136,7 @@ fn bindings_are_where_bind_group_layouts_have_them() {
         "2.9 occlusion_sampler",
         "2.10 emissive_sampler",
         "3.0 instances",
+        "3.1 drawn",
     ];
     assert_eq!(forward, expected);
     assert_eq!(bindings(&composed("tonemap.wgsl")), ["0.0 hdr_texture", "0.1 settings", "0.2 exposure"]);

@@ -10,11 +10,13 @@ struct Instance {
     previous_row_x: vec4f,
     previous_row_y: vec4f,
     previous_row_z: vec4f,
+    // The batch, then flags: see cull.wgsl.
     flags: vec4u,
 }
 
-// Indexed by `instance_index`, which counts from the draw's first instance: one draw per instance.
 @group(3) @binding(0) var<storage, read> instances: array<Instance>;
+// The drawn instances, by `instance_index`, which counts from the draw's first instance.
+@group(3) @binding(1) var<storage, read> drawn: array<u32>;
 
 struct Vertex {
     @builtin(instance_index) instance: u32,
@@ -28,34 +30,34 @@ struct Vertex {
 }
 
 fn world_position(instance: u32, position: vec3f) -> vec3f {
-    let m = instances[instance];
+    let m = instances[drawn[instance]];
     let p = vec4f(position, 1.0);
     return vec3f(dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p));
 }
 
 // The position in the previous frame of a vertex that had this one in the space of the instance, relative to this frame's origin.
 fn previous_world_position(instance: u32, position: vec3f) -> vec3f {
-    let m = instances[instance];
+    let m = instances[drawn[instance]];
     let p = vec4f(position, 1.0);
     return vec3f(dot(m.previous_row_x, p), dot(m.previous_row_y, p), dot(m.previous_row_z, p));
 }
 
 // A direction in the surface (a tangent): not unit length.
 fn world_direction(instance: u32, direction: vec3f) -> vec3f {
-    let m = instances[instance];
+    let m = instances[drawn[instance]];
     return vec3f(dot(m.row_x.xyz, direction), dot(m.row_y.xyz, direction), dot(m.row_z.xyz, direction));
 }
 
 // -1 where the instance is mirrored, else 1.
 fn handedness(instance: u32) -> f32 {
-    let m = instances[instance];
+    let m = instances[drawn[instance]];
     return select(1.0, -1.0, dot(m.row_x.xyz, cross(m.row_y.xyz, m.row_z.xyz)) < 0.0);
 }
 
 // The outward normal, not unit length. Cofactors replace the inverse transpose: they give the same direction under any scale
 // and are defined where a scale is 0. They flip when mirrored; an outward normal does not.
 fn world_normal(instance: u32, normal: vec3f) -> vec3f {
-    let m = instances[instance];
+    let m = instances[drawn[instance]];
     let cofactor_x = cross(m.row_y.xyz, m.row_z.xyz);
     let cofactor_y = cross(m.row_z.xyz, m.row_x.xyz);
     let cofactor_z = cross(m.row_x.xyz, m.row_y.xyz);

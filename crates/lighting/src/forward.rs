@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use shadowgraph_core::{Contents, Frame, RenderContext, Texture, TextureDesc};
+use shadowgraph_core::{Contents, Frame, Texture, TextureDesc};
 use shadowgraph_scene::gpu::{
     AlphaKey, Draw, DrawPipeline, GpuScene, MaterialFeatures, MaterialLayouts, MaterialUse, PipelineKey,
     vertex_layout,
@@ -13,8 +13,9 @@ use shadowgraph_shadows::{ShadowOutputs, ShadowTechnique, VertexBuffers, shadow_
 
 use crate::background::Background;
 use crate::error::Error;
+use crate::geometry::Geometry;
 use crate::lit_target::{LitOutput, LitTarget};
-use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::prepass::DEPTH_FORMAT;
 use crate::shader::module;
 use crate::uniforms::ViewBuffers;
 use crate::view_group::{OptionalBindings, ViewLayouts};
@@ -174,7 +175,7 @@ impl Forward {
         view: &ViewBuffers,
         shadows: &ShadowOutputs<'f>,
         depth: &Texture,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         self.add_lit(frame, view, shadows, Depth::Prepass(depth), geometry, background)
@@ -190,7 +191,7 @@ impl Forward {
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
         shadows: &ShadowOutputs<'f>,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
         background: [f64; 4],
     ) -> Result<(Texture, Texture), Error> {
         let [width, height] = geometry.size_px;
@@ -210,7 +211,7 @@ impl Forward {
         view: &ViewBuffers,
         shadows: &ShadowOutputs<'f>,
         depth: &Texture,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
         light: &mut Texture,
     ) -> Result<(), Error> {
         if geometry.draws.blend.is_empty() || self.builder.target.output != LitOutput::Light {
@@ -227,13 +228,13 @@ impl Forward {
         let (shadows, view) = (shadows.read_in(&mut pass), view.read_in(&mut pass));
         pass.depth_read(depth);
         pass.color(light, Contents::Preserve);
+        let (scene, draws) = (geometry.scene, geometry.draws);
         pass.body(move |ctx| {
             let view = view.bind_group(ctx, &self.builder.view_layouts)?;
             let shadows = shadows.bind_group(ctx, &self.builder.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
-            let draws = &geometry.draws.blend;
-            let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
+            let draws = scene.draw(&mut ctx.pass, &draws.blend, &|draw| Some(pipelines.get(draw.key)));
             ctx.report_draws(draws);
             Ok(())
         });
@@ -246,7 +247,7 @@ impl Forward {
         view: &ViewBuffers,
         shadows: &ShadowOutputs<'f>,
         depth: Depth<'_>,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         let (variant, debug_light) = self.builder.target.variant(shadows);
@@ -270,6 +271,7 @@ impl Forward {
         buffers.read_in(&mut pass);
         let shadows = shadows.read_in(&mut pass);
         let view = view.read_in(&mut pass);
+        let (solid, scene, draws) = (geometry.solid_in(&mut pass), geometry.scene, geometry.draws);
         match depth {
             Depth::Prepass(depth) => pass.depth_read(depth),
             Depth::Written(depth) => pass.depth(depth, Contents::clear_depth(0.0)),
@@ -288,18 +290,16 @@ impl Forward {
             let shadows = shadows.bind_group(ctx, &self.builder.shadow_layout)?;
             ctx.pass.set_bind_group(0, &view, &[]);
             ctx.pass.set_bind_group(1, &shadows, &[]);
-            let draw = |ctx: &mut RenderContext<'_>, draws: &[Draw]| {
-                let draws = geometry.scene.draw(&mut ctx.pass, draws, &|draw| Some(pipelines.get(draw.key)));
-                ctx.report_draws(draws);
-            };
-            draw(ctx, &geometry.draws.solid);
+            let pipeline_for = |draw: &Draw| Some(pipelines.get(draw.key));
+            solid.record(ctx, &pipeline_for)?;
             if let Some(pipeline) = &background_pipeline {
                 ctx.pass.set_pipeline(pipeline);
                 ctx.pass.draw(0..3, 0..1);
                 ctx.report_draws(1);
             }
             if self.builder.target.output == LitOutput::Light {
-                draw(ctx, &geometry.draws.blend);
+                let draws = scene.draw(&mut ctx.pass, &draws.blend, &pipeline_for);
+                ctx.report_draws(draws);
             }
             Ok(())
         });

@@ -9,7 +9,8 @@ use shadowgraph_scene::gpu::{
 use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
-use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::geometry::Geometry;
+use crate::prepass::DEPTH_FORMAT;
 use crate::shader::module;
 use crate::uniforms::ViewBuffers;
 use crate::view_group::{OptionalBindings, ViewLayouts};
@@ -81,7 +82,7 @@ impl GBufferPass {
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
         depth: &Texture,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
     ) -> GBuffer {
         let [width, height] = geometry.size_px;
         let [base_color, material, normals, emissive] = GBuffer::FORMATS;
@@ -97,6 +98,7 @@ impl GBufferPass {
         let mut pass = frame.render_pass("G-buffer");
         vertices.read_in(&mut pass);
         let view = view.read_with(&mut pass, OptionalBindings::default());
+        let solid = geometry.solid_in(&mut pass);
         pass.depth_read(depth);
         for texture in
             [&mut buffer.base_color, &mut buffer.material, &mut buffer.normals, &mut buffer.emissive]
@@ -111,9 +113,7 @@ impl GBufferPass {
                 let pipeline = self.pipelines[draw.key.index()].get_or_init(|| self.pipeline(draw.key));
                 Some(DrawPipeline { pipeline, material: MaterialUse::All })
             };
-            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &pipeline_for);
-            ctx.report_draws(draws);
-            Ok(())
+            solid.record(ctx, &pipeline_for)
         });
         buffer
     }

@@ -13,11 +13,13 @@
 
 mod background;
 mod clusters;
+mod culling;
 mod deferred;
 mod error;
 mod exposure;
 mod forward;
 mod gbuffer;
+mod geometry;
 mod jitter;
 mod lit_target;
 mod motion;
@@ -34,15 +36,17 @@ mod velocity;
 mod view_group;
 
 pub use clusters::Clusters;
+pub use culling::{CullPass, CullView, draw_culled};
 pub use deferred::Deferred;
 pub use error::Error;
 pub use exposure::{AmbientLight, KeyLight};
 pub use forward::{Forward, LitPipelines};
 pub use gbuffer::{GBuffer, GBufferPass};
+pub use geometry::{CulledGeometry, Geometry};
 pub use lit_target::{LitOutput, LitTarget};
 pub use motion::{CameraMotion, PreviousCameras};
 pub use pose::PosePass;
-pub use prepass::{Geometry, Prepass};
+pub use prepass::Prepass;
 pub use shader::fullscreen as fullscreen_shader;
 pub use sky::{Backdrop, SkyLight, SkySettings};
 pub use tonemap::{Tonemap, TonemapSettings};

@@ -1,25 +1,15 @@
 //! The depth prepass.
 
 use shadowgraph_core::{Bind, Contents, Format, Frame, Texture, TextureDesc};
-use shadowgraph_scene::gpu::{DepthPipelines, DepthTarget, Draw, DrawList, GpuScene, MaterialLayouts};
+use shadowgraph_scene::gpu::{DepthPipelines, DepthTarget, Draw, MaterialLayouts};
 use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
+use crate::geometry::Geometry;
 use crate::uniforms::{GpuView, ViewBuffers};
 
 /// The format of camera depth.
 pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
-
-/// The draws of a view.
-#[derive(Clone, Copy)]
-pub struct Geometry<'f> {
-    /// The scene on the GPU.
-    pub scene: &'f GpuScene,
-    /// The visible draws.
-    pub draws: &'f DrawList,
-    /// Width and height of the image, pixels.
-    pub size_px: [u32; 2],
-}
 
 /// The pass that draws only depth.
 pub struct Prepass {
@@ -47,7 +37,7 @@ impl Prepass {
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
     ) -> Texture {
         let [width, height] = geometry.size_px;
         let desc = TextureDesc::d2(width, height, DEPTH_FORMAT).samples(self.samples);
@@ -56,15 +46,13 @@ impl Prepass {
         let mut pass = frame.render_pass("depth prepass");
         buffers.read_in(&mut pass);
         let view = pass.storage_buffer(&view.view);
+        let solid = geometry.solid_in(&mut pass);
         pass.depth(&mut depth, Contents::clear_depth(0.0));
         pass.body(move |ctx| {
             let view = Bind::BufferRange(view, 0..size_of::<GpuView>() as u64);
             let group = ctx.bind_group(self.pipelines.view_layout(), &[view])?;
             ctx.pass.set_bind_group(0, &group, &[0]);
-            let pipeline_for = |draw: &Draw| Some(self.pipelines.get(draw.key));
-            let draws = geometry.scene.draw(&mut ctx.pass, &geometry.draws.solid, &pipeline_for);
-            ctx.report_draws(draws);
-            Ok(())
+            solid.record(ctx, &|draw: &Draw| Some(self.pipelines.get(draw.key)))
         });
         depth
     }

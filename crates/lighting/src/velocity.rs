@@ -12,7 +12,8 @@ use shadowgraph_scene::gpu::{
 use shadowgraph_shadows::VertexBuffers;
 
 use crate::error::Error;
-use crate::prepass::{DEPTH_FORMAT, Geometry};
+use crate::geometry::Geometry;
+use crate::prepass::DEPTH_FORMAT;
 use crate::shader::{fullscreen, module};
 use crate::uniforms::ViewBuffers;
 
@@ -87,13 +88,12 @@ impl Velocity {
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
         depth: &Texture,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
     ) -> Texture {
         let [width, height] = geometry.size_px;
         let mut velocity = frame.create_texture("velocity", TextureDesc::d2(width, height, Self::FORMAT));
         self.add_camera(frame, view, depth, geometry.size_px, &mut velocity);
-        let moves = |draw: &&Draw| geometry.scene.is_moving(draw.instance);
-        if !geometry.draws.solid.iter().any(|draw| moves(&draw)) {
+        if !geometry.has_moving() {
             return velocity;
         }
         let motion = frame.upload_buffer("motion", bytes_of(&GpuViewMotion::new(view, geometry)).to_vec());
@@ -101,16 +101,13 @@ impl Velocity {
         let mut pass = frame.render_pass("velocity");
         vertices.read_in(&mut pass);
         let (view, motion) = (pass.storage_buffer(&view.view), pass.storage_buffer(&motion));
+        let moving = geometry.moving_in(&mut pass);
         pass.depth_read(depth);
         pass.color(&mut velocity, Contents::Preserve);
         pass.body(move |ctx| {
             let group = ctx.bind_group(&self.view_layout, &[Bind::Buffer(view), Bind::Buffer(motion)])?;
             ctx.pass.set_bind_group(0, &group, &[]);
-            let pipeline_for = |draw: &Draw| Some(self.pipeline_for(draw.key));
-            let draws = geometry.draws.solid.iter().filter(moves);
-            let draws = geometry.scene.draw(&mut ctx.pass, draws, &pipeline_for);
-            ctx.report_draws(draws);
-            Ok(())
+            moving.record(ctx, &|draw: &Draw| Some(self.pipeline_for(draw.key)))
         });
         velocity
     }
@@ -174,7 +171,7 @@ impl Velocity {
 
 impl GpuViewMotion {
     /// Returns the matrices relative to the camera: near it, positions relative to the origin are too large for f32 products.
-    fn new(view: &ViewBuffers, geometry: Geometry<'_>) -> Self {
+    fn new(view: &ViewBuffers, geometry: &Geometry<'_>) -> Self {
         let origin_world = geometry.scene.origin_world();
         let eye = (view.motion.position_world() - origin_world).as_vec3();
         let matrices = view.motion.clip_from_relative(origin_world + eye.as_dvec3());

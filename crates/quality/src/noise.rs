@@ -3,7 +3,7 @@
 use std::f64;
 
 use shadowgraph::lighting::post::{Jitter, Temporal};
-use shadowgraph::lighting::{Forward, LitOutput, LitTarget, Prepass, Velocity};
+use shadowgraph::lighting::{Forward, Geometry, LitOutput, LitTarget, Prepass, Velocity};
 use shadowgraph::{Gpu, RenderView, Renderer, SurfaceDrawer, ViewOptions};
 use shadowgraph_core::{Format, FullscreenShader, Graph, Subresource};
 use shadowgraph_shadows::{
@@ -234,12 +234,14 @@ impl<'p> Sequence<'p> {
     /// Draws a frame, and returns its visibility and that averaged with earlier frames.
     fn draw(&mut self, view: &RenderView<'_>, number: u32) -> Result<[Vec<f32>; 2], Error> {
         let Self { passes, temporal, graph, jitters } = self;
+        let draws = view.list_draws();
         passes.gpu.checked(|| {
             let mut frame = graph.frame();
             let uniforms = view.uniforms();
             let uniforms = if *jitters { uniforms.jittered(Jitter::for_frame(number)) } else { uniforms };
             let buffers = uniforms.upload(&mut frame);
-            let geometry = view.geometry();
+            let (scene, size_px) = (&view.casters.scene, view.options.size_px);
+            let geometry = &Geometry { scene, draws: &draws, culled: None, size_px };
             let depth = passes.prepass.add_to(&mut frame, &buffers, geometry);
             let surfaces = view
                 .technique

@@ -6,6 +6,7 @@ use shadowgraph_core::{
     Bind, Contents, Format, Frame, Graph, PassTime, Plan, ResourceDesc, Subresource, TextureDesc, Timer,
 };
 use shadowgraph_lighting::{Geometry, ViewUniforms};
+use shadowgraph_scene::gpu::DrawList;
 use shadowgraph_shadows::{CullSettings, ShadowInputs, ShadowSettings, add_shadows, shadow_layout};
 
 use super::Surfaces;
@@ -137,10 +138,11 @@ impl Probe {
         let mut options = options.clone();
         options.shadows = ShadowSettings { cull: CullSettings::NONE, ..options.shadows.without_cache() };
         let view = renderer.view(&options, None);
-        let casters = CountingCasters::new(renderer.casters());
+        let (draws, casters) = (view.list_draws(), CountingCasters::new(renderer.casters()));
         let (mut graph, mut timer) = (renderer.graph(), Timer::new());
         let (bytes, plan) = gpu.checked(|| {
-            let inputs = ProbeInputs { renderer, view: &view, casters: &casters, points, query };
+            let inputs =
+                ProbeInputs { renderer, view: &view, draws: &draws, casters: &casters, points, query };
             self.execute(gpu, &inputs, &mut graph, &mut timer)
         })?;
         let visibility = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
@@ -160,7 +162,7 @@ impl Probe {
         graph: &mut Graph,
         timer: &mut Timer,
     ) -> Result<(Vec<u8>, std::sync::Arc<Plan>), Error> {
-        let ProbeInputs { renderer, view, casters, points, query } = *inputs;
+        let ProbeInputs { renderer, view, draws, casters, points, query } = *inputs;
         let options = view.options;
         let scene = &renderer.casters().scene;
         let (lights, origin_world) = (renderer.scene().lights(), scene.origin_world());
@@ -169,11 +171,11 @@ impl Probe {
         let uniforms =
             ViewUniforms::new(&options.camera, options.size_px, lights, origin_world, &view.ambient_light);
         let buffers = uniforms.upload(&mut frame);
-        let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
+        let geometry = Geometry { scene, draws, culled: None, size_px: options.size_px };
         let surface_buffers = self
             .surfaces
             .as_ref()
-            .map(|drawer| drawer.surface_buffers_with_prepass(&mut frame, &buffers, geometry));
+            .map(|drawer| drawer.surface_buffers_with_prepass(&mut frame, &buffers, &geometry));
         let surface_buffers = surface_buffers.transpose()?;
         let shadow_inputs = ShadowInputs {
             view: 0,
@@ -225,6 +227,7 @@ impl Probe {
 struct ProbeInputs<'f> {
     renderer: &'f Renderer,
     view: &'f RenderView<'f>,
+    draws: &'f DrawList,
     casters: &'f CountingCasters<'f>,
     points: &'f Points,
     query: Query,

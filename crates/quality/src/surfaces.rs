@@ -46,6 +46,7 @@ impl SurfaceReader {
     pub fn read(&self, gpu: &Gpu, renderer: &mut Renderer, options: &ViewOptions) -> Result<Surfaces, Error> {
         renderer.begin_frame(gpu, options)?;
         let view = renderer.view(options, None);
+        let draws = view.list_draws();
         let bytes = gpu.checked(|| -> Result<_, Error> {
             let scene = &renderer.casters().scene;
             let (lights, origin_world) = (renderer.scene().lights(), scene.origin_world());
@@ -60,8 +61,8 @@ impl SurfaceReader {
                 &view.ambient_light,
             );
             let buffers = uniforms.upload(&mut frame);
-            let geometry = Geometry { scene, draws: &view.draws, size_px: options.size_px };
-            let screen = self.drawer.surface_buffers_with_prepass(&mut frame, &buffers, geometry)?;
+            let geometry = Geometry { scene, draws: &draws, culled: None, size_px: options.size_px };
+            let screen = self.drawer.surface_buffers_with_prepass(&mut frame, &buffers, &geometry)?;
             let request = frame.read_back_texture(&screen.surfaces, Subresource::FULL);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut executed = graph.compile(frame)?.execute(&mut graph, &gpu.device, &mut encoder)?;

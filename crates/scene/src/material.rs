@@ -249,7 +249,8 @@ impl Image {
         Self { name: name.into(), width, height, rgba8, ktx2: None }
     }
 
-    /// Whether no pixel is translucent.
+    /// Returns whether no pixel is translucent.
+    #[cfg(feature = "gpu")]
     pub(crate) fn is_opaque(&self) -> bool {
         self.rgba8.as_chunks::<4>().0.iter().all(|[.., alpha]| *alpha == u8::MAX)
     }

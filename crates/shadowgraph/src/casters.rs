@@ -2,13 +2,17 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use shadowgraph_scene::gpu::{CasterPipelines, DepthTarget, GpuScene};
+use shadowgraph_core::{Error as GraphError, Frame, RenderContext};
+use shadowgraph_lighting::{CullPass, CullView, draw_culled};
+use shadowgraph_scene::gpu::{CasterPipelines, CullFlags, DepthTarget, Draw, GpuScene};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{
-    CasterPass, CasterTarget, CasterView, DepthFormat, Mobility, ShadowCasters, TINT_FORMAT,
+    CasterPass, CasterQuery, CasterTarget, CasterView, CulledInstances, CulledTokens, DepthFormat,
+    GpuCasters, Mobility, ShadowCasters, TINT_FORMAT,
 };
 
+use crate::culling::{CullChoice, Culling};
 use crate::error::Error;
 use crate::scene_rays::UploadedRays;
 
@@ -25,6 +29,10 @@ pub struct SceneCasters {
     pipelines: Vec<(wgpu::TextureFormat, CasterPipelines)>,
     /// Pipelines with a slope-scaled bias, by format and bias; the last created ones.
     biased: Mutex<Vec<BiasedPipelines>>,
+    /// Culls casters on the GPU.
+    cull: CullPass,
+    /// What culls the instances of this frame.
+    pub(crate) culling: CullChoice,
     /// The triangles, if the technique traces rays.
     pub(crate) rays: Option<UploadedRays>,
     /// The bounds of the shadows on the ground; empty without one.
@@ -57,8 +65,9 @@ impl SceneCasters {
         };
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
         let (rays, ground_shadows) = (None, Aabb::EMPTY);
+        let (cull, culling) = (CullPass::new(device)?, Culling::Cpu.choose(&scene));
         let (device, biased) = (device.clone(), Mutex::default());
-        Ok(Self { scene, device, target, pipelines, biased, rays, ground_shadows })
+        Ok(Self { scene, device, target, pipelines, biased, cull, culling, rays, ground_shadows })
     }
 
     /// Returns the pipelines with the bias of a target, which are created as they are first used; `None` if that fails.
@@ -76,6 +85,26 @@ impl SceneCasters {
         }
         biased.push((key, pipelines.clone()));
         Some(pipelines)
+    }
+
+    /// Returns a sentence for plans: what culls the instances of this frame, and why.
+    pub(crate) fn culling(&self) -> String {
+        self.culling.to_string()
+    }
+
+    /// Returns whether the GPU culls the instances of this frame.
+    pub fn culls_on_gpu(&self) -> bool {
+        self.culling.on_gpu
+    }
+
+    /// Adds the pass that culls instances on the GPU.
+    pub(crate) fn cull<'f>(&'f self, frame: &mut Frame<'f>, views: &[CullView]) -> CulledInstances {
+        self.cull.add_to(frame, &self.scene, views, self.culling)
+    }
+
+    /// Returns the pipelines without a bias; maps have no other formats.
+    fn unbiased(&self, target: &CasterTarget) -> Option<&CasterPipelines> {
+        self.pipelines.iter().find(|(format, _)| *format == target.format).map(|(_, pipelines)| pipelines)
     }
 
     /// Returns the number of triangles of some casters.
@@ -126,19 +155,69 @@ impl ShadowCasters for SceneCasters {
         self.rays.as_ref().map(UploadedRays::gpu)
     }
 
+    fn gpu(&self) -> Option<&dyn GpuCasters> {
+        self.culls_on_gpu().then_some(self)
+    }
+
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
         let biased = (view.target.slope_bias_milli > 0).then(|| self.biased(&view.target)).flatten();
-        let unbiased = || self.pipelines.iter().find(|(format, _)| *format == view.target.format);
-        // Maps have no other formats.
-        let Some(pipelines) = biased.as_deref().or_else(|| unbiased().map(|(_, pipelines)| pipelines)) else {
-            return 0;
-        };
+        let Some(pipelines) = biased.as_deref().or_else(|| self.unbiased(&view.target)) else { return 0 };
         let draws = casters.iter().filter_map(|&number| self.scene.draw_for(number));
         self.scene.draw(pass, draws, &|draw| match view.target.pass {
             CasterPass::Depth => pipelines.get(draw.casts),
             CasterPass::TintDepth => Some(pipelines.solid()),
             CasterPass::Tint => Some(pipelines.tint()),
         })
+    }
+}
+
+impl GpuCasters for SceneCasters {
+    fn cull<'f>(&'f self, frame: &mut Frame<'f>, queries: &[CasterQuery]) -> CulledInstances {
+        let view = |query: &CasterQuery| CullView {
+            volume: query.volume.clone(),
+            required: CullFlags::OPAQUE_CASTERS.union(CullFlags::CASTER),
+            excluded: if query.only_static { CullFlags::MOVING } else { CullFlags::default() },
+        };
+        Self::cull(self, frame, &queries.iter().map(view).collect::<Vec<_>>())
+    }
+
+    fn draw(
+        &self,
+        ctx: &mut RenderContext<'_>,
+        view: &CasterView,
+        culled: CulledTokens,
+    ) -> Result<u32, GraphError> {
+        let biased = (view.target.slope_bias_milli > 0).then(|| self.biased(&view.target)).flatten();
+        let Some(pipelines) = biased.as_deref().or_else(|| self.unbiased(&view.target)) else { return Ok(0) };
+        let pipeline_for = |draw: &Draw| pipelines.get(draw.casts).filter(|_| draw.casts != CasterMode::Tint);
+        draw_culled(ctx, &self.scene, culled, &pipeline_for)
+    }
+
+    fn any(&self, volume: &CullVolume) -> bool {
+        self.scene.any_caster_in(volume)
+    }
+
+    fn tinting(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
+        self.scene.cull_tinting(volume, casters);
+    }
+
+    fn moving(&self, volume: &CullVolume, casters: &mut Vec<u32>) {
+        let first = casters.len();
+        self.scene.cull_moving_casters(volume, casters);
+        let opaque: Vec<u32> = casters.drain(first..).filter(|&caster| !self.tints(caster)).collect();
+        casters.extend(opaque);
+    }
+
+    fn static_count(&self) -> usize {
+        self.scene.instance_count()
+    }
+
+    fn static_version(&self) -> u64 {
+        self.scene.static_version()
+    }
+
+    fn has_changed(&self, since: u64, volume: &CullVolume) -> bool {
+        self.scene.statics_changed(since, volume)
     }
 }
 

@@ -10,6 +10,7 @@ const INSTALL: &str = "install a Vulkan driver, for example `sudo apt-get instal
 
 /// Features that are used if the adapter has them.
 const OPTIONAL_FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
+    .union(wgpu::Features::INDIRECT_FIRST_INSTANCE)
     .union(wgpu::Features::TEXTURE_COMPRESSION_ASTC)
     .union(wgpu::Features::TEXTURE_COMPRESSION_BC)
     .union(wgpu::Features::TEXTURE_COMPRESSION_ETC2)
@@ -75,6 +76,8 @@ impl Gpu {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::NOOP,
             backend_options: wgpu::BackendOptions { noop, ..Default::default() },
+            // The pass in which wgpu checks the arguments of indirect draws does not accept this device's alignments.
+            flags: wgpu::InstanceFlags::default() - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL,
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::NOOP));

@@ -45,6 +45,7 @@
 mod background;
 mod build_context;
 mod casters;
+mod culling;
 mod debug_blit;
 mod error;
 mod gpu;
@@ -68,6 +69,7 @@ mod view_options;
 pub use background::Background;
 pub use build_context::BuildContext;
 pub use casters::SceneCasters;
+pub use culling::Culling;
 pub use debug_blit::DebugBlit;
 pub use error::Error;
 pub use gpu::Gpu;

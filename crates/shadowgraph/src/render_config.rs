@@ -3,6 +3,7 @@
 use shadowgraph_shadows::{Technique, TechniqueKind};
 
 use crate::background::Background;
+use crate::culling::Culling;
 use crate::pipelines::pipeline::Pipeline;
 
 /// Configuration of rendering.
@@ -16,11 +17,19 @@ pub struct RenderConfig {
     pub samples: u32,
     /// What is drawn behind the scene.
     pub background: Background,
+    /// What finds the instances that views and shadow maps show.
+    pub culling: Culling,
 }
 
 impl Default for RenderConfig {
     fn default() -> Self {
-        Self { technique: None, pipeline: Pipeline::default(), samples: 1, background: Background::Sky }
+        Self {
+            technique: None,
+            pipeline: Pipeline::default(),
+            samples: 1,
+            background: Background::Sky,
+            culling: Culling::Auto,
+        }
     }
 }
 

@@ -3,10 +3,10 @@
 use glam::Vec4;
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{
-    AmbientLight, Backdrop, Geometry, KeyLight, LitOutput, PosePass, PreviousCameras, SkyLight, Tonemap,
-    TonemapSettings, ViewBuffers, ViewUniforms,
+    AmbientLight, Backdrop, CullView, CulledGeometry, Geometry, KeyLight, LitOutput, PosePass,
+    PreviousCameras, SkyLight, Tonemap, TonemapSettings, ViewBuffers, ViewUniforms,
 };
-use shadowgraph_scene::gpu::DrawList;
+use shadowgraph_scene::gpu::{CullFlags, DrawList};
 use shadowgraph_scene::{Camera, GroundPlane, Light};
 use shadowgraph_shadows::{ShadowInputs, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_shadows};
 
@@ -24,7 +24,7 @@ pub struct RenderView<'v> {
     pub index: u32,
     /// Camera, size and shadow settings.
     pub options: &'v ViewOptions,
-    /// The visible geometry.
+    /// The visible geometry; only the blended one if the GPU culls the other.
     pub draws: DrawList,
     /// The illuminance of the scene by its lights.
     pub key_light: KeyLight,
@@ -54,6 +54,12 @@ pub struct RenderView<'v> {
     pub target: Option<&'v wgpu::Texture>,
 }
 
+/// The culled geometry of a view, published in its frame.
+struct ViewGeometry {
+    view: u32,
+    culled: CulledGeometry,
+}
+
 impl<'v> RenderView<'v> {
     /// Returns the GPU data of the camera and the lights.
     pub fn uniforms(&self) -> ViewUniforms {
@@ -73,14 +79,41 @@ impl<'v> RenderView<'v> {
         ViewBuffers { sky: Some(light), ground_height, ..buffers.clone() }
     }
 
-    /// Returns the visible geometry.
-    pub fn geometry(&self) -> Geometry<'_> {
-        Geometry { scene: &self.casters.scene, draws: &self.draws, size_px: self.options.size_px }
+    /// Returns the visible geometry, for passes of a frame to which [`add_culling`](Self::add_culling) has been added.
+    pub fn geometry(&self, frame: &Frame<'_>) -> Geometry<'_> {
+        let published = frame.published::<ViewGeometry>().ok().filter(|culled| culled.view == self.index);
+        let culled = published.map(|published| published.culled.clone());
+        Geometry { scene: &self.casters.scene, draws: &self.draws, culled, size_px: self.options.size_px }
+    }
+
+    /// Returns the draws of all visible geometry, also where the GPU culls it.
+    pub fn list_draws(&self) -> DrawList {
+        let ViewOptions { camera, .. } = self.options;
+        let mut visible = Vec::new();
+        self.casters.scene.cull(&camera.frustum(self.options.aspect()).into(), &mut visible);
+        self.casters.scene.draw_list(&visible, camera.position_world())
     }
 
     /// Adds the pass that deforms meshes, before anything draws them, unless the frame has it.
     pub fn add_pose(&self, frame: &mut Frame<'v>) {
         self.pose.add_to(frame, &self.casters.scene);
+    }
+
+    /// Adds the pass that culls the geometry of the view, if the GPU does.
+    pub fn add_culling(&self, frame: &mut Frame<'v>) {
+        if !self.casters.culls_on_gpu() {
+            return;
+        }
+        let casters = self.casters;
+        let volume = self.options.camera.frustum(self.options.aspect());
+        let solid = CullFlags::SOLID.union(CullFlags::SEEN);
+        let view = |required| CullView { volume: volume.clone(), required, excluded: CullFlags::default() };
+        let mut views = vec![view(solid)];
+        let moving = casters.scene.any_moving().then_some(1);
+        views.extend(moving.map(|_| view(solid.union(CullFlags::MOVING))));
+        let instances = frame.node("cull geometry", |frame| casters.cull(frame, &views));
+        let culled = CulledGeometry { instances, solid: 0, moving };
+        frame.publish(ViewGeometry { view: self.index, culled });
     }
 
     /// Adds the shadows of all lights. A technique that reads surface buffers needs `surfaces`.

@@ -165,6 +165,7 @@ impl Renderer {
             graph: Mutex::default(),
         };
         renderer.follow_ground();
+        renderer.choose_culling();
         Ok(renderer)
     }
 
@@ -217,6 +218,7 @@ impl Renderer {
         (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
         self.frames = 0;
         self.follow_ground();
+        self.choose_culling();
         Ok(())
     }
 
@@ -285,7 +287,7 @@ impl Renderer {
         Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
     }
 
-    /// Culls and sorts the geometry of a view, for [`add`](Self::add) and for other passes over it. `target` is the target of a colour
+    /// Culls and sorts the geometry of a view that the CPU culls, for [`add`](Self::add) and for other passes over it. `target` is the target of a colour
     /// image. The view borrows the renderer, so that the scene cannot be edited while a frame is recorded:
     ///
     /// ```compile_fail,E0502
@@ -299,7 +301,12 @@ impl Renderer {
     pub fn view<'v>(&'v self, options: &'v ViewOptions, target: Option<&'v wgpu::Texture>) -> RenderView<'v> {
         let gpu_scene = &self.casters.scene;
         let mut visible = Vec::new();
-        gpu_scene.cull(&options.camera.frustum(options.aspect()).into(), &mut visible);
+        let volume = options.camera.frustum(options.aspect()).into();
+        if self.casters.culls_on_gpu() {
+            gpu_scene.cull_blended(&volume, &mut visible);
+        } else {
+            gpu_scene.cull(&volume, &mut visible);
+        }
         let draws = gpu_scene.draw_list(&visible, options.camera.position_world());
         let key = KeyLight::estimate(self.scene.lights(), gpu_scene.bounds());
         RenderView {
@@ -351,7 +358,13 @@ impl Renderer {
             self.scene.restore_changes(changes);
         }
         self.follow_ground();
+        self.choose_culling();
         followed
+    }
+
+    /// Chooses whether the CPU or the GPU culls.
+    fn choose_culling(&mut self) {
+        self.casters.culling = self.config.culling.choose(&self.casters.scene);
     }
 
     /// Lets shadows cover the ground where the scene casts them.

@@ -33,7 +33,7 @@ impl SurfaceDrawer {
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
         depth: &Texture,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
     ) -> Result<Texture, Error> {
         let none = ShadowOutputs::default();
         Ok(self.forward.lit(frame, view, &none, depth, geometry, [0.0; 4])?)
@@ -48,7 +48,7 @@ impl SurfaceDrawer {
         &'f self,
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
     ) -> Result<SurfaceBuffers, Error> {
         frame.node("one sample", |frame| {
             let depth = self.prepass.add_to(frame, view, geometry);
@@ -62,7 +62,7 @@ impl SurfaceDrawer {
         frame: &mut Frame<'f>,
         view: &ViewBuffers,
         depth: &Texture,
-        geometry: Geometry<'f>,
+        geometry: &Geometry<'f>,
     ) -> Result<SurfaceBuffers, Error> {
         let surfaces = self.add_to(frame, view, depth, geometry)?;
         let (view, lights) = (view.view.clone(), view.lights.clone());

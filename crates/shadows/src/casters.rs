@@ -2,6 +2,7 @@
 
 use shadowgraph_scene::{Aabb, CullVolume};
 
+use crate::gpu_casters::GpuCasters;
 use crate::rays::GpuRayScene;
 
 /// The shadow casters of a scene. Implement it for your own scene.
@@ -65,6 +66,12 @@ pub trait ShadowCasters: Sync {
     /// Returns the casters' triangles, for techniques that [trace rays](crate::ShadowTechnique::traces_rays). Keep it up to date from frame to
     /// frame.
     fn rays(&self) -> Option<&GpuRayScene> {
+        None
+    }
+
+    /// Returns the casters for culling on the GPU, if the cascades of this frame should be culled there. The default is `None`: casters are
+    /// listed by [`cull`](Self::cull).
+    fn gpu(&self) -> Option<&dyn GpuCasters> {
         None
     }
 

@@ -20,7 +20,9 @@ mod budget;
 mod cascades;
 mod casters;
 mod cull;
+mod culled;
 mod error;
+mod gpu_casters;
 mod light_params;
 mod lookup_variant;
 mod maps;
@@ -48,7 +50,9 @@ pub use casters::{
     CasterPass, CasterTarget, CasterView, Mobility, ShadowCasters, TINT_FORMAT, TileKind, caster_view_layout,
 };
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
+pub use culled::{CulledGroup, CulledInstances, CulledTokens};
 pub use error::Error;
+pub use gpu_casters::{CasterQuery, GpuCasters};
 pub use lookup_variant::{CommonLookup, LookupSource, LookupVariant, MapUse};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
-use shadowgraph_scene::{Camera, Light};
+use shadowgraph_scene::{Camera, CullVolume, Light};
 
 use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
@@ -96,6 +96,8 @@ pub struct TilePlan {
     pub slope_bias_milli: u32,
     /// The opaque casters to draw, as returned by [`ShadowCasters::cull`]. Can be empty: a cleared tile is lit.
     pub casters: Vec<u32>,
+    /// The volume whose opaque casters the [GPU finds](crate::GpuCasters), in place of `casters`.
+    pub culled: Option<CullVolume>,
     /// The casters that tint.
     pub tints: Vec<u32>,
 }
@@ -105,6 +107,16 @@ impl TilePlan {
     #[must_use]
     pub fn casters_of(&self, pass: CasterPass) -> &[u32] {
         if pass == CasterPass::Depth { &self.casters } else { &self.tints }
+    }
+
+    /// Returns the volume whose casters the GPU finds for a pass.
+    pub(crate) fn culled_of(&self, pass: CasterPass) -> Option<&CullVolume> {
+        self.culled.as_ref().filter(|_| pass == CasterPass::Depth)
+    }
+
+    /// Returns whether a pass draws nothing.
+    pub(crate) fn is_empty(&self, pass: CasterPass) -> bool {
+        self.casters_of(pass).is_empty() && self.culled_of(pass).is_none()
     }
 
     /// Describes the tile for [`ShadowCasters::draw`].

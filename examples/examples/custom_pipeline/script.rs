@@ -43,7 +43,7 @@ impl PipelineInstance for Script {
         frame: &mut Frame<'f>,
         view: &'f RenderView<'f>,
     ) -> Result<PipelineOutput<'f>, Error> {
-        let geometry = view.geometry();
+        let geometry = &view.geometry(frame);
         let light =
             |frame: &mut Frame<'f>| frame.create_texture("light", view.texture_desc(Format::Rgba16Float));
 

@@ -5,6 +5,7 @@
 
 mod boxes;
 mod counts;
+mod culling;
 mod equal;
 mod images;
 mod maps;

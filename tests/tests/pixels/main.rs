@@ -10,6 +10,7 @@ mod contact_sheet;
 mod edits;
 mod files;
 mod first_look;
+mod gpu_culling;
 mod hostile;
 mod lost;
 mod maps;

@@ -123,7 +123,7 @@ fn velocities(gpu: &Gpu, cameras: [&Camera; 2], jitter: Jitter, stage: &Stage) -
     let (mut visible, mut graph) = (Vec::new(), Graph::new());
     uploaded.cull(&current.frustum(aspect()).into(), &mut visible);
     let draws = uploaded.draw_list(&visible, current.position_world());
-    let geometry = Geometry { scene: &uploaded, draws: &draws, size_px: SIZE_PX };
+    let geometry = &Geometry { scene: &uploaded, draws: &draws, culled: None, size_px: SIZE_PX };
     let prepass = Prepass::new(&gpu.device, uploaded.layouts(), 1).unwrap();
     let passes = Velocity::new(&gpu.device, uploaded.layouts()).unwrap();
     let mut frame = graph.frame();

@@ -61,6 +61,9 @@ pub(crate) struct DrawArgs {
     /// The background of colour images: sky, the sky of the pipeline; transparent; or a colour, #RRGGBB or R,G,B (linear, each 0 to 1)
     #[arg(long, value_name = "sky|transparent|COLOR", default_value = "sky", allow_hyphen_values = true)]
     background: String,
+    /// What culls instances: auto, the GPU in scenes with thousands of instances that share meshes; cpu; or gpu. Images are the same
+    #[arg(long, value_name = "auto|cpu|gpu", default_value = "auto")]
+    culling: String,
     /// The moment of the animations in seconds; before their start and after their end, the scene stands still
     #[arg(long, value_name = "S", default_value = "0", allow_negative_numbers = true)]
     time: String,
@@ -171,6 +174,7 @@ impl DrawArgs {
             sun: or_default(self.sun.as_deref())?,
             ground: self.ground.parse()?,
             background: self.background.parse()?,
+            culling: self.culling.parse()?,
             animation: self.animation.parse()?,
             time: self.time.parse()?,
             shadow_distance,

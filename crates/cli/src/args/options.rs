@@ -5,7 +5,7 @@ use shadowgraph::options::{
     SunChoice,
 };
 use shadowgraph::shadows::{SettingTracks, ShadowSettings, Technique};
-use shadowgraph::{Background, Pipeline, RenderConfig, ShadowLines};
+use shadowgraph::{Background, Culling, Pipeline, RenderConfig, ShadowLines};
 
 /// The options of a drawing command, without the files of the scene and the output.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,8 @@ pub(crate) struct Options {
     pub(crate) ground: GroundChoice,
     /// What is drawn behind the scene.
     pub(crate) background: Background,
+    /// What culls instances.
+    pub(crate) culling: Culling,
     /// The animations that are played.
     pub(crate) animation: AnimationChoice,
     /// The moment of the animations.
@@ -56,6 +58,7 @@ impl Options {
             pipeline: self.pipeline.clone(),
             samples: self.samples,
             background: self.background,
+            culling: self.culling,
         }
     }
 }
@@ -73,6 +76,7 @@ impl Default for Options {
             sun: SunChoice::default(),
             ground: GroundChoice::default(),
             background: Background::default(),
+            culling: Culling::default(),
             animation: AnimationChoice::default(),
             time: AnimationTime::default(),
             shadow_distance: ShadowDistance::default(),

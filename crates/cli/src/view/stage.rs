@@ -15,7 +15,8 @@ use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowD
 use shadowgraph::scene::{AnimationSelection, Camera, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
-    Background, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines, ViewOptions, shadow_ms, wgpu,
+    Background, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines, ViewOptions,
+    shadow_ms, wgpu,
 };
 use shadowgraph_samples::demo::demo_scene;
 
@@ -31,6 +32,7 @@ pub(super) struct Stage {
     pub(super) pipeline: Pipeline,
     samples: u32,
     background: Background,
+    culling: Culling,
     ground: GroundChoice,
     pub(super) aov: Aov,
     pub(super) settings: ShadowSettings,
@@ -92,6 +94,7 @@ impl Stage {
             pipeline: input.options.pipeline,
             samples: input.options.samples,
             background: input.options.background,
+            culling: input.options.culling,
             ground: input.options.ground,
             aov: input.options.aov,
             settings: view.shadows,
@@ -256,7 +259,8 @@ impl Stage {
             return created.clone().map_err(shadowgraph::Error::Gpu);
         }
         let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
-        let config = RenderConfig { technique, pipeline, samples: self.samples, background: self.background };
+        let (samples, background, culling) = (self.samples, self.background, self.culling);
+        let config = RenderConfig { technique, pipeline, samples, background, culling };
         let created = gpu.checked(|| {
             Renderer::with_config(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), config)
         });

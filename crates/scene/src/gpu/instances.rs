@@ -5,6 +5,7 @@ use std::num::NonZeroU64;
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DVec3, UVec4, Vec4};
 
+use super::batches::CullFlags;
 use super::limits;
 use super::write_batch::WriteBatch;
 use crate::error::Error;
@@ -37,20 +38,59 @@ pub(super) struct InstanceBuffer {
     changed: Vec<u32>,
     /// Numbers of instances whose previous transform differs from their own.
     moved: Vec<u32>,
-    buffer: wgpu::Buffer,
+    buffers: Buffers,
+}
+
+/// The buffers, for as many instances as there is space for.
+struct Buffers {
+    instances: wgpu::Buffer,
+    /// The instances, and their numbers: draws of all instances are drawn by number.
     group: wgpu::BindGroup,
 }
 
 impl InstanceBuffer {
     /// Creates an empty buffer.
     pub(super) fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> Self {
-        let (buffer, group) = create(device, layout, 1);
-        Self { data: Vec::new(), changed: Vec::new(), moved: Vec::new(), buffer, group }
+        Self { data: Vec::new(), changed: Vec::new(), moved: Vec::new(), buffers: create(device, layout, 1) }
     }
 
-    /// Returns the bind group.
+    /// Returns the bind group of draws whose instances are their numbers.
     pub(super) fn group(&self) -> &wgpu::BindGroup {
-        &self.group
+        &self.buffers.group
+    }
+
+    /// Returns the buffer.
+    pub(super) fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffers.instances
+    }
+
+    /// Returns the number of instances, with those that do not exist.
+    pub(super) fn len(&self) -> u32 {
+        self.data.len() as u32
+    }
+
+    /// Assigns an instance its batch.
+    pub(super) fn set_batch(&mut self, number: u32, batch: u32) {
+        self.set_flag(number, |flags| flags.x = batch);
+    }
+
+    /// Returns the flags of an instance.
+    pub(super) fn flags(&self, number: u32) -> CullFlags {
+        self.data.get(number as usize).map_or_else(CullFlags::default, |instance| CullFlags(instance.flags.y))
+    }
+
+    /// Gives an instance its flags.
+    pub(super) fn set_flags(&mut self, number: u32, flags: CullFlags) {
+        self.set_flag(number, |all| all.y = flags.bits());
+    }
+
+    fn set_flag(&mut self, number: u32, set: impl FnOnce(&mut UVec4)) {
+        let Some(instance) = self.data.get_mut(number as usize) else { return };
+        let before = instance.flags;
+        set(&mut instance.flags);
+        if instance.flags != before {
+            self.changed.push(number);
+        }
     }
 
     /// Begins a frame: the instances that moved in the last frame have now the same previous transform.
@@ -70,7 +110,7 @@ impl InstanceBuffer {
             self.data.resize(index + 1, GpuInstance::default());
         }
         let rows = rows(world_from_local, origin_world);
-        self.data[index] = GpuInstance { rows, previous_rows: rows, flags: UVec4::ZERO };
+        self.data[index] = GpuInstance { rows, previous_rows: rows, ..self.data[index] };
         self.changed.push(number);
     }
 
@@ -134,14 +174,14 @@ impl InstanceBuffer {
         layout: &wgpu::BindGroupLayout,
     ) -> Result<(), Error> {
         let (bytes, element) = (size_of_val(&self.data[..]) as u64, size_of::<GpuInstance>() as u64);
-        if bytes > self.buffer.size() {
+        if bytes > self.buffers.instances.size() {
             let limits = device.limits();
             limits::storage(&limits, "the scene's instances", bytes)?;
             let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) / element;
             // The first upload has the size of the scene; later ones leave space for more.
-            let first = self.buffer.size() <= element;
+            let first = self.buffers.instances.size() <= element;
             let capacity = self.data.len() as u64 * if first { 1 } else { 2 };
-            (self.buffer, self.group) = create(device, layout, capacity.min(most));
+            self.buffers = create(device, layout, capacity.min(most));
             self.changed = (0..self.data.len() as u32).collect();
         }
         self.changed.sort_unstable();
@@ -151,7 +191,12 @@ impl InstanceBuffer {
             // The instances of a short gap continue the write.
             let first = if next > 0 && number <= next + MAX_GAP { next } else { number };
             let Some(instances) = self.data.get(first as usize..=number as usize) else { continue };
-            writes.write(queue, &self.buffer, u64::from(first) * element, bytemuck::cast_slice(instances));
+            writes.write(
+                queue,
+                &self.buffers.instances,
+                u64::from(first) * element,
+                bytemuck::cast_slice(instances),
+            );
             next = number + 1;
         }
         writes.flush(queue);
@@ -159,39 +204,45 @@ impl InstanceBuffer {
     }
 }
 
-fn create(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    capacity: u64,
-) -> (wgpu::Buffer, wgpu::BindGroup) {
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("instances"),
-        size: capacity * size_of::<GpuInstance>() as u64,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
+fn create(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, capacity: u64) -> Buffers {
+    let buffer = |label, element: usize, usage, mapped_at_creation| {
+        let size = capacity * element as u64;
+        let usage = wgpu::BufferUsages::STORAGE | usage;
+        device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation })
+    };
+    let instances = buffer("instances", size_of::<GpuInstance>(), wgpu::BufferUsages::COPY_DST, false);
+    let numbers = buffer("instance numbers", size_of::<u32>(), wgpu::BufferUsages::empty(), true);
+    if let Ok(mut mapped) = numbers.get_mapped_range_mut(..) {
+        let all: Vec<u32> = (0..capacity as u32).collect();
+        mapped.copy_from_slice(bytemuck::cast_slice(&all));
+    }
+    numbers.unmap();
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("instances"),
         layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: instances.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: numbers.as_entire_binding() },
+        ],
     });
-    (buffer, group)
+    Buffers { instances, group }
 }
 
 /// Creates the layout of group 3.
 pub(super) fn instance_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, has_dynamic_offset, element: usize| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset,
+            min_binding_size: NonZeroU64::new(element as u64),
+        },
+        count: None,
+    };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("instances"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: NonZeroU64::new(size_of::<GpuInstance>() as u64),
-            },
-            count: None,
-        }],
+        entries: &[entry(0, false, size_of::<GpuInstance>()), entry(1, true, size_of::<u32>())],
     })
 }
 

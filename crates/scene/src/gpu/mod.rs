@@ -27,9 +27,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod batches;
 #[cfg(feature = "gltf")]
 mod block_texture;
 mod coverage;
+mod culled;
 mod depth;
 mod draw_list;
 mod element_buffer;
@@ -43,10 +45,13 @@ mod mips;
 mod numbers;
 mod posed;
 mod scene;
+mod static_changes;
 mod textures;
 mod update;
 mod write_batch;
 
+pub use batches::CullFlags;
+pub use culled::{CullInputs, CulledView};
 pub use depth::{CasterPipelines, DepthPipelines, DepthTarget};
 pub use draw_list::{Draw, DrawList, DrawPipeline, MaterialUse};
 pub use geometry::{previous_vertex_layout, vertex_layout};

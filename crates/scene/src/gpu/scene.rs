@@ -1,9 +1,11 @@
 //! The GPU copy of a scene.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::batches::{Batches, CullFlags};
 use super::draw_list::{Draw, DrawList, DrawPipeline, MaterialUse, squared_distance};
 use super::geometry::Geometry;
 use super::instances::InstanceBuffer;
@@ -11,6 +13,7 @@ use super::material_features::MaterialFeatures;
 use super::materials::{MaterialLayouts, Materials};
 use super::numbers::Numbers;
 use super::posed::{PoseInputs, PosedGeometry};
+use super::static_changes::StaticChanges;
 use crate::bounds::Aabb;
 use crate::cull::{CullTree, CullVolume};
 use crate::error::Error;
@@ -40,6 +43,17 @@ pub struct GpuScene {
     pub(super) geometry: Geometry,
     pub(super) posed: PosedGeometry,
     pub(super) instances: InstanceBuffer,
+    pub(super) batches: Batches,
+    /// Whether the device can draw indirectly from any first instance.
+    pub(super) first_instance: bool,
+    /// The numbers of blended instances.
+    pub(super) blended: BTreeSet<u32>,
+    /// The numbers of casters that tint.
+    pub(super) tinting: BTreeSet<u32>,
+    /// Where static casters have changed.
+    pub(super) static_changes: StaticChanges,
+    /// The instances that count as moving, by the first frame in which they may not.
+    pub(super) resting: BTreeMap<u64, Vec<u32>>,
     pub(super) materials: Materials,
     pub(super) layouts: MaterialLayouts,
     /// Number of frames so far.
@@ -79,6 +93,7 @@ impl GpuScene {
         origin_world: DVec3,
     ) -> Result<Self, Error> {
         let layouts = MaterialLayouts::new(device);
+        let first_instance = device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE);
         let mut empty = Self {
             origin_world,
             numbers: Numbers::default(),
@@ -89,6 +104,12 @@ impl GpuScene {
             geometry: Geometry::new(device, scene)?,
             posed: PosedGeometry::new(device)?,
             instances: InstanceBuffer::new(device, &layouts.draw),
+            batches: Batches::new(device, first_instance),
+            first_instance,
+            blended: BTreeSet::new(),
+            tinting: BTreeSet::new(),
+            static_changes: StaticChanges::default(),
+            resting: BTreeMap::new(),
             materials: Materials::new(device, queue, &layouts),
             layouts,
             frame: 0,
@@ -190,6 +211,66 @@ impl GpuScene {
         self.caster_tree.query(volume, numbers);
     }
 
+    /// Appends the numbers of blended instances that cameras see and that intersect a volume, ascending.
+    pub fn cull_blended(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
+        let intersects = |number: &u32| volume.intersects(&self.bounds[*number as usize]);
+        numbers.extend(self.blended.iter().copied().filter(intersects));
+    }
+
+    /// Appends the numbers of casters that tint and intersect a volume, ascending.
+    pub fn cull_tinting(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
+        let intersects = |number: &u32| volume.intersects(&self.caster_bounds(*number));
+        numbers.extend(self.tinting.iter().copied().filter(intersects));
+    }
+
+    /// Appends the numbers of [moving](Self::is_moving) instances that cast shadows and intersect a volume, ascending.
+    pub fn cull_moving_casters(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
+        let first = numbers.len();
+        let intersects =
+            |number: &u32| self.is_moving(*number) && volume.intersects(&self.caster_bounds(*number));
+        numbers.extend(self.resting.values().flatten().copied().filter(intersects));
+        numbers[first..].sort_unstable();
+        let mut last = None;
+        numbers.retain(|&number| last.replace(number) != Some(number));
+    }
+
+    /// Returns whether any instance counts as [moving](Self::is_moving).
+    #[must_use]
+    pub fn any_moving(&self) -> bool {
+        self.resting.values().flatten().any(|&number| self.is_moving(number))
+    }
+
+    /// Returns whether any caster intersects a volume.
+    #[must_use]
+    pub fn any_caster_in(&self, volume: &CullVolume) -> bool {
+        self.caster_tree.any(volume)
+    }
+
+    /// Returns the number of instances.
+    #[must_use]
+    pub fn instance_count(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// Returns the number of draws that draw all instances if neighbours with one mesh and one material share a draw.
+    #[must_use]
+    pub fn batch_count(&self) -> usize {
+        self.batches.list().len()
+    }
+
+    /// Returns the version of the last change of a caster that does not [move](Self::is_moving). A caster that begins to move
+    /// is removed, one that ceases to is inserted.
+    #[must_use]
+    pub fn static_version(&self) -> u64 {
+        self.static_changes.version()
+    }
+
+    /// Returns whether a caster that does not move and intersects a volume may have changed since a version.
+    #[must_use]
+    pub fn statics_changed(&self, since: u64, volume: &CullVolume) -> bool {
+        self.static_changes.since(since, volume)
+    }
+
     /// Returns what a pass reads and writes to deform meshes by skins and morph targets, before anything draws them; `None` if no
     /// mesh has changed since it was recorded ([`PoseDone`](super::PoseDone)).
     #[must_use]
@@ -228,10 +309,10 @@ impl GpuScene {
     /// Records draws. Sets the pipeline, group 2 (if the pipeline reads it), group 3 and the buffers, each only where it
     /// changes; groups 0 and 1 must be set. Draws without a pipeline, or of another scene, are skipped. Returns the number of
     /// draw calls: neighbours with one mesh share a call.
-    pub fn draw<'p>(
+    pub fn draw<'d, 'p>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        draws: impl IntoIterator<Item = &'p Draw>,
+        draws: impl IntoIterator<Item = &'d Draw>,
         pipeline_for: &dyn Fn(&Draw) -> Option<DrawPipeline<'p>>,
     ) -> u32 {
         let mut draws = draws.into_iter().peekable();
@@ -240,7 +321,7 @@ impl GpuScene {
         }
         let mut calls = 0;
         self.geometry.set_indices(pass);
-        pass.set_bind_group(3, self.instances.group(), &[]);
+        pass.set_bind_group(3, self.instances.group(), &[0]);
         let (mut current_pipeline, mut material, mut is_posed) = (None, None, None);
         while let Some(draw) = draws.next() {
             let Some(ranges) = self.geometry.ranges(draw.mesh) else { continue };
@@ -283,6 +364,19 @@ impl GpuScene {
     /// Returns the frame from which an instance that moves now does not count as moving.
     pub(super) fn moves_until(&self) -> u64 {
         self.frame + MOVING_FRAMES
+    }
+
+    /// Returns the flags of the instance with a number.
+    pub(super) fn flags(&self, number: u32) -> CullFlags {
+        let exists = |bounds: &Aabb| !bounds.is_empty();
+        let is_seen = self.bounds.get(number as usize).is_some_and(exists);
+        let flags = [
+            (is_seen, CullFlags::SEEN),
+            (exists(&self.caster_bounds(number)), CullFlags::CASTER),
+            (self.is_moving(number), CullFlags::MOVING),
+        ];
+        let set = flags.into_iter().filter(|(has, _)| *has);
+        set.fold(CullFlags::default(), |all, (_, flag)| all.union(flag))
     }
 
     /// Returns a new version.

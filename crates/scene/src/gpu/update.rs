@@ -1,15 +1,19 @@
 //! Edits of the GPU copy of a scene.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
+use super::batches::CullFlags;
 use super::draw_list::Draw;
-use super::key::PipelineKey;
+use super::key::{AlphaKey, PipelineKey};
 use super::numbers::Numbers;
 use super::scene::{GpuScene, Slot, split_bounds};
 use crate::bounds::Aabb;
 use crate::cull::CullTree;
 use crate::error::Error;
 use crate::keys::{InstanceKey, MaterialKey, MeshKey};
+use crate::material::CasterMode;
 use crate::scene::{Changes, Instance, Scene};
 
 /// Instances out of order, in addition to a quarter of all, before all are sorted.
@@ -37,6 +41,7 @@ impl GpuScene {
         self.frame += 1;
         self.instances.begin_frame();
         self.posed.begin_frame();
+        self.rest();
         let materials = self.update_materials((device, queue), scene, changes)?;
         self.update_meshes((device, queue), scene, &changes.meshes)?;
         let mut edits = Edits::default();
@@ -50,6 +55,8 @@ impl GpuScene {
         if self.unsorted > self.slots.len() / 4 + MIN_UNSORTED || self.frame == 1 {
             self.sort();
         }
+        self.update_batches(scene);
+        self.batches.flush((device, queue), &self.geometry)?;
         self.geometry.flush(queue);
         self.posed.flush(device, queue)?;
         self.materials.flush(queue);
@@ -125,6 +132,8 @@ impl GpuScene {
             self.posed.remove(key);
             if let Some(number) = self.numbers.remove(key) {
                 self.slots[number as usize] = None;
+                self.blended.remove(&number);
+                self.tinting.remove(&number);
                 edits.set(number, [Aabb::EMPTY; 2]);
             }
             return Ok(());
@@ -144,9 +153,13 @@ impl GpuScene {
             self.instances.insert(number, world_from_local, self.origin_world);
         } else if self.instances.move_to(number, world_from_local, self.origin_world) || has_new_pose {
             stands_from = self.moves_until();
+            self.resting.entry(stands_from).or_default().push(number);
         }
         if self.slots[index].as_ref().map(|slot| slot.draw) != Some(draw) {
             self.unsorted += 1;
+            self.follow_draw(&draw, scene.local_bounds(key));
+        } else if has_new_pose {
+            self.batches.set_bounds(&draw, scene.local_bounds(key));
         }
         let name = match &self.slots[index] {
             Some(slot) if *slot.name == *instance.name => slot.name.clone(),
@@ -178,10 +191,13 @@ impl GpuScene {
             let posed = self.update_pose(gpu, scene, key, instance)?.0;
             let draw = Draw { posed, ..self.draw_for_instance(gpu, scene, instance, number)? };
             let Some(slot) = self.slots[number as usize].as_mut() else { continue };
-            if std::mem::replace(&mut slot.draw, draw) != draw {
-                self.unsorted += 1;
-            }
+            let is_other = std::mem::replace(&mut slot.draw, draw) != draw;
             edits.set(number, split_bounds(slot, scene.instance_bounds(key)));
+            if is_other {
+                self.unsorted += 1;
+                self.follow_draw(&draw, scene.local_bounds(key));
+            }
+            self.batches.is_stale |= mesh_changed;
         }
         Ok(())
     }
@@ -228,8 +244,64 @@ impl GpuScene {
         })
     }
 
+    /// Assigns an instance with another draw its batch.
+    fn follow_draw(&mut self, draw: &Draw, local_bounds: Aabb) {
+        if let Some(batch) = self.batches.insert(draw, local_bounds) {
+            self.instances.set_batch(draw.instance, batch);
+        }
+        let kinds = [
+            (&mut self.blended, draw.key.alpha == AlphaKey::Blend),
+            (&mut self.tinting, draw.casts == CasterMode::Tint),
+        ];
+        for (numbers, belongs) in kinds {
+            if belongs {
+                numbers.insert(draw.instance);
+            } else {
+                numbers.remove(&draw.instance);
+            }
+        }
+    }
+
+    /// Finds the batches again if they are stale.
+    fn update_batches(&mut self, scene: &Scene) {
+        if !self.batches.is_stale {
+            return;
+        }
+        let Self { slots, batches, instances, .. } = self;
+        let slots = slots.iter().flatten().map(|slot| (&slot.draw, slot.key));
+        batches.rebuild(
+            slots,
+            |key| scene.local_bounds(key),
+            |number, batch| instances.set_batch(number, batch),
+        );
+    }
+
+    /// Clears the flags of instances that have moved and stand now.
+    fn rest(&mut self) {
+        while let Some(first) = self.resting.first_entry().filter(|first| *first.key() <= self.frame) {
+            for number in first.remove() {
+                let flags = self.flags(number);
+                if flags != self.instances.flags(number) {
+                    self.versions += 1;
+                    self.static_changes.add(self.versions, self.caster_bounds(number));
+                    self.instances.set_flags(number, flags);
+                }
+            }
+        }
+    }
+
     /// Gives the trees the new bounds; builds them again where they are too small or degraded.
     fn refit(&mut self, Edits { bounds, caster_bounds }: Edits) {
+        let changed: Vec<u32> = bounds.iter().map(|(number, _)| *number).collect();
+        self.versions += 1;
+        for &(number, bounds) in &caster_bounds {
+            if !self.instances.flags(number).contains(CullFlags::MOVING) {
+                self.static_changes.add(self.versions, self.caster_bounds(number));
+            }
+            if !self.is_moving(number) {
+                self.static_changes.add(self.versions, bounds);
+            }
+        }
         for &(number, bounds) in &bounds {
             self.bounds[number as usize] = bounds;
         }
@@ -248,6 +320,9 @@ impl GpuScene {
             if tree.is_degraded() {
                 tree.rebuild();
             }
+        }
+        for number in changed {
+            self.instances.set_flags(number, self.flags(number));
         }
     }
 
@@ -270,8 +345,23 @@ impl GpuScene {
                 slot.version = self.versions;
             }
         }
+        let of_kind = |is_kind: fn(&Draw) -> bool| {
+            slots
+                .iter()
+                .map(|slot| &slot.draw)
+                .filter(|draw| is_kind(draw))
+                .map(|draw| draw.instance)
+                .collect()
+        };
+        self.blended = of_kind(|draw| draw.key.alpha == AlphaKey::Blend);
+        self.tinting = of_kind(|draw| draw.casts == CasterMode::Tint);
+        self.resting = BTreeMap::new();
+        for slot in slots.iter().filter(|slot| self.frame < slot.stands_from) {
+            self.resting.entry(slot.stands_from).or_default().push(slot.draw.instance);
+        }
         self.slots = slots.into_iter().map(Some).collect();
         self.unsorted = 0;
+        self.batches.is_stale = true;
     }
 }
 

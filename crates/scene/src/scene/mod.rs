@@ -144,10 +144,17 @@ impl Scene {
     /// Returns the world bounds of an instance in its pose; empty if there is no such instance, and for a hidden one.
     #[must_use]
     pub fn instance_bounds(&self, key: InstanceKey) -> Aabb {
-        let bounds = self.instance(key).filter(|instance| instance.visible).and_then(|instance| {
+        let Some(instance) = self.instance(key).filter(|instance| instance.visible) else {
+            return Aabb::EMPTY;
+        };
+        self.local_bounds(key).transformed(&instance.world_from_local)
+    }
+
+    /// Returns the bounds of the mesh of an instance in its pose, in the space of the instance; empty if it does not exist.
+    pub(crate) fn local_bounds(&self, key: InstanceKey) -> Aabb {
+        let bounds = self.instance(key).and_then(|instance| {
             let mesh = self.mesh(instance.mesh)?;
-            let bounds = instance.pose.as_ref().map_or(mesh.bounds, |pose| mesh.posed_bounds(pose));
-            Some(bounds.transformed(&instance.world_from_local))
+            Some(instance.pose.as_ref().map_or(mesh.bounds, |pose| mesh.posed_bounds(pose)))
         });
         bounds.unwrap_or(Aabb::EMPTY)
     }

@@ -19,6 +19,7 @@ pub(crate) mod aov;
 mod background;
 pub(crate) mod camera;
 mod color;
+mod culling;
 pub(crate) mod distance;
 pub(crate) mod error;
 pub(crate) mod ground;

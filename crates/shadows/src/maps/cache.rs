@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::contents::{Held, Stored};
+use super::contents::{ALL_STATIC, Held, Stored};
 use crate::atlas::TileRect;
 
 /// A number for the contents of a tile: contents that were drawn again have another one. Without casters it is 0.
@@ -67,6 +67,25 @@ impl CachedMap {
         let state = self.state();
         let stored = state.store.as_ref().and_then(|store| find(&store.tiles, rect));
         read(find(&state.tiles, rect).map(|(held, _)| held), stored)
+    }
+
+    /// Gives the static casters of a tile and its store that the GPU culls a version, unless they have changed since theirs.
+    pub(super) fn renew(&self, rect: TileRect, version: u64, is_same: impl Fn(u64) -> bool) {
+        let mut state = self.state();
+        let renew = |entry: &mut u64| {
+            if is_same(*entry) {
+                *entry = version;
+            }
+        };
+        if let Some((_, (held, _))) = state.tiles.iter_mut().find(|(other, _)| *other == rect) {
+            let all = held.statics.iter_mut().filter(|(caster, _)| *caster == ALL_STATIC);
+            all.for_each(|(_, entry)| renew(entry));
+        }
+        let stored = state.store.iter_mut().flat_map(|store| &mut store.tiles);
+        for (_, stored) in stored.filter(|(other, _)| *other == rect) {
+            let all = stored.casters.iter_mut().filter(|stored| stored.caster == ALL_STATIC);
+            all.for_each(|stored| renew(&mut stored.version));
+        }
     }
 
     /// Returns the revision of a tile's contents.

@@ -1,12 +1,19 @@
 //! What a tile holds, and what has to be drawn so that it holds what a frame needs.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use glam::{DVec3, Mat4};
-use shadowgraph_scene::Aabb;
+use shadowgraph_scene::{Aabb, CullVolume};
 
 use super::scroll::{self, Texels};
 use crate::plan::TilePlan;
 use crate::tile_fit::TileFit;
 use crate::views::ShadowView;
+
+/// The number that stands for all static casters of a volume that the GPU culls; their version is that of all.
+pub(super) const ALL_STATIC: u32 = u32::MAX;
+/// The number that stands for the volume; its version is [`number_of`] it.
+pub(super) const VOLUME: u32 = ALL_STATIC - 1;
 
 /// Casters and their versions, in ascending order.
 pub(super) type Versions = Vec<(u32, u64)>;
@@ -130,14 +137,34 @@ pub(super) struct Fill {
     pub(super) added: Vec<u32>,
 }
 
-/// Decides what has to be drawn into a tile. `whole` returns the static casters in the whole tile.
-pub(super) fn work<'w>(
+/// The static casters in a whole tile.
+#[derive(Clone, Copy)]
+pub(super) struct Statics<'w> {
+    /// Returns them.
+    pub(super) all: &'w dyn Fn() -> &'w Versions,
+    /// Returns their number.
+    pub(super) count: &'w dyn Fn() -> usize,
+    /// Returns the bounds of one.
+    pub(super) bounds: &'w dyn Fn(u32) -> Aabb,
+}
+
+/// Returns a number for the planes of a volume.
+pub(super) fn number_of(volume: &CullVolume) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for plane in &volume.planes.planes {
+        plane.normal.to_array().map(f64::to_bits).hash(&mut hasher);
+        plane.distance.to_bits().hash(&mut hasher);
+    }
+    hasher.finish()
+}
+
+/// Decides what has to be drawn into a tile.
+pub(super) fn work(
     tile: &TilePlan,
     held: Option<&Held>,
     stored: Option<&Stored>,
     wanted: &Wanted,
-    whole: &dyn Fn() -> &'w Versions,
-    bounds: &dyn Fn(u32) -> Aabb,
+    statics: Statics<'_>,
 ) -> Work {
     let Some(held) = held else { return Work::All { whole: false, because: Because::New } };
     if held.statics.is_empty() && held.moving.is_empty() && wanted.is_empty() {
@@ -151,17 +178,17 @@ pub(super) fn work<'w>(
     if stays && rests && !held.whole && held.statics == wanted.seen {
         return Work::Nothing;
     }
-    let whole = whole();
+    let whole = (statics.all)();
     if stays && rests && held.whole && held.statics == *whole {
         return Work::Nothing;
     }
     if stays && wanted.moving.is_empty() && stored.is_none() {
         return Work::All { whole: true, because: Because::Changed };
     }
-    if whole.len() < wanted.moving.len().max(1) {
+    if (statics.count)() < wanted.moving.len().max(1) {
         return Work::All { whole: false, because: Because::Moving };
     }
-    Work::OverStore(fill(tile, stored, &wanted.location, whole, bounds))
+    Work::OverStore(fill(tile, stored, &wanted.location, whole, statics.bounds))
 }
 
 /// Decides the same for tints and their depths: they depend on the opaque casters that hide them, and are drawn again as a whole.
@@ -210,6 +237,9 @@ fn fill(
         added.extend(same.map(|(caster, _)| caster));
     }
     added.extend(new.map(|(caster, _)| caster));
+    if added.contains(&ALL_STATIC) {
+        return all;
+    }
     added.retain(|&caster| is_in_common(&bounds(caster)));
     Fill { anchor: stored.anchor, is_all: false, strips: scroll::entering(&before, &window), added }
 }

@@ -6,9 +6,11 @@ use shadowgraph_core::{
 };
 
 use super::cache::Revision;
+use super::queries::{Queries, TileCasters};
 use super::reasons::tile_name;
 use super::{DrawnMap, ShadowMaps, Views};
 use crate::casters::{CasterPass, CasterView, ShadowCasters, TINT_FORMAT};
+use crate::culled::{CulledInstances, CulledTokens};
 use crate::error::Error;
 use crate::plan::{MapPlan, TilePlan};
 use crate::vertex_buffers::VertexBuffers;
@@ -139,10 +141,14 @@ impl ShadowMaps {
             // The whole map, as shaders sample all of it and its tiles need not cover it. Tiles do not overlap, so
             // they do not depend on each other, and all merge into one render pass that begins with this clear.
             map.clear(frame, &mut texture);
-            for tile in map.plan.tiles.iter().filter(|tile| !tile.casters_of(map.pass).is_empty()) {
+            let mut queries = Queries::default();
+            let tiles = map.plan.tiles.iter().filter(|tile| !tile.is_empty(map.pass));
+            let tiles: Vec<_> =
+                tiles.map(|tile| (tile, TileCasters::seen(tile, map.pass, &mut queries))).collect();
+            let culled = queries.add_to(frame, source.casters);
+            for (tile, casters) in tiles {
                 let target = Target { texture: &mut texture, depth, contents: Contents::Preserve };
-                let casters = tile.casters_of(map.pass).to_vec();
-                let (pass, draws) = self.tile(frame, map, target, tile, source, casters);
+                let (pass, draws) = self.tile(frame, map, target, tile, source, (casters, culled.as_ref()));
                 pass.body(move |ctx| draws.record(ctx));
             }
         });
@@ -157,7 +163,7 @@ impl ShadowMaps {
         target: Target<'_>,
         tile: &TilePlan,
         source: Source<'_, 'f>,
-        casters: Vec<u32>,
+        (casters, culled): (TileCasters, Option<&CulledInstances>),
     ) -> (Pass<'p, 'f, Rendering>, TileDraws<'f>) {
         let buffers = VertexBuffers::published_in(frame);
         let mut pass = frame.render_pass(tile_name(tile));
@@ -179,7 +185,8 @@ impl ShadowMaps {
             view: tile.view,
             caster_view: map.caster_view(tile, views),
             all: source.casters,
-            casters,
+            culled: casters.read_in(&mut pass, culled),
+            casters: casters.listed,
         };
         (pass, draws)
     }
@@ -194,6 +201,8 @@ pub(super) struct TileDraws<'f> {
     pub(super) caster_view: CasterView,
     pub(super) all: &'f dyn ShadowCasters,
     pub(super) casters: Vec<u32>,
+    /// Casters that the GPU has culled.
+    pub(super) culled: Option<CulledTokens>,
 }
 
 impl TileDraws<'_> {
@@ -201,7 +210,11 @@ impl TileDraws<'_> {
     pub(super) fn record(&self, ctx: &mut RenderContext<'_>) -> BodyResult {
         let group = ctx.bind_group(self.layout, &[Bind::BufferRange(self.views, 0..VIEW_BYTES)])?;
         ctx.pass.set_bind_group(0, &group, &[self.view * VIEW_BYTES as u32]);
-        let draws = self.all.draw(&mut ctx.pass, &self.caster_view, &self.casters);
+        let mut draws = 0;
+        if let (Some(culled), Some(gpu)) = (self.culled, self.all.gpu()) {
+            draws += gpu.draw(ctx, &self.caster_view, culled)?;
+        }
+        draws += self.all.draw(&mut ctx.pass, &self.caster_view, &self.casters);
         ctx.report_draws(draws);
         Ok(())
     }

@@ -7,14 +7,16 @@ use shadowgraph_core::{Bind, Buffer, Contents, Frame, Subresource, Texture};
 
 use super::ShadowMaps;
 use super::cache::{CachedMap, Revision};
-use super::contents::{Fill, Work};
+use super::contents::Work;
 use super::draw::{MapTexture, Source, Target, TileDraws};
+use super::queries::Queries;
 use super::reasons::tile_name;
 use super::restore::Restore;
 use super::scroll::Piece;
-use super::store_draws::{StoreDraw, StoreDraws};
+use super::store_draws::{Fills, StoreDraw, TileFill};
 use super::tile::{Tile, plan_tile};
 use crate::casters::CasterPass;
+use crate::culled::CulledInstances;
 use crate::error::Error;
 use crate::vertex_buffers::VertexBuffers;
 
@@ -34,19 +36,24 @@ impl ShadowMaps {
         source: Source<'_, 'f>,
     ) -> Result<(Texture, Vec<Revision>), Error> {
         let cached = self.cached(source.view, map);
-        let tiles: Vec<_> = map.plan.tiles.iter().map(|tile| plan_tile(&cached, map, tile, source)).collect();
+        let mut queries = Queries::default();
+        let plan = |tile| plan_tile(&cached, map, tile, source, &mut queries);
+        let tiles: Vec<_> = map.plan.tiles.iter().map(plan).collect();
+        let fills = Fills::new(&tiles, source, &mut queries);
         let is_defined = map.pass != CasterPass::Tint || !cached.is_new();
         let mut texture = frame.import_texture(map.name, &cached.texture, is_defined);
         for tile in tiles.iter().filter(|tile| !tile.wanted.is_empty()) {
             frame.note(&texture, format_args!("{} {}", tile_name(tile.plan), tile.reason));
         }
         frame.node(map.name, |frame| {
+            let culled = queries.add_to(frame, source.casters);
+            let culled = culled.as_ref();
             self.clear(frame, map, &cached, &mut texture, &tiles);
-            let store = self.update_store(frame, map, &cached, source, &tiles)?;
+            let store = self.update_store(frame, (map, &cached), source, (&tiles, fills), culled)?;
             let mut revisions = Vec::with_capacity(tiles.len());
             for tile in &tiles {
                 let target = (&mut texture, depth, store.as_ref());
-                revisions.push(self.update_tile(frame, map, target, source, tile, &cached));
+                revisions.push(self.update_tile(frame, map, target, source, (tile, culled), &cached));
             }
             Ok((texture, revisions))
         })
@@ -65,7 +72,7 @@ impl ShadowMaps {
             return;
         }
         // True whether this frame is executed or not: a new texture is empty.
-        for tile in tiles.iter().filter(|tile| tile.is_empty(map)) {
+        for tile in tiles.iter().filter(|tile| tile.casters.is_empty()) {
             cached.set_empty(tile.plan.rect, tile.held());
         }
         if map.pass == CasterPass::Tint {
@@ -81,10 +88,10 @@ impl ShadowMaps {
     fn update_store<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        map: &MapTexture<'_>,
-        cached: &Arc<CachedMap>,
+        (map, cached): (&MapTexture<'_>, &Arc<CachedMap>),
         source: Source<'_, 'f>,
-        tiles: &[Tile<'_>],
+        (tiles, fills): (&[Tile<'_>], Fills<'_>),
+        culled: Option<&CulledInstances>,
     ) -> Result<Option<Store>, Error> {
         if !tiles.iter().any(|tile| matches!(tile.work, Work::OverStore(_))) {
             cached.skip_store();
@@ -93,28 +100,14 @@ impl ShadowMaps {
         let restore = self.restore(map.format())?;
         let store = cached.store(&self.device, map.name);
         let mut texture = frame.import_texture(format_args!("static {}", map.name), &store, true);
-        let mut views = Vec::new();
-        let mut draws = Vec::new();
-        for tile in tiles {
-            if let Work::OverStore(fill) = &tile.work
-                && *fill != (Fill { anchor: fill.anchor, ..Fill::default() })
-            {
-                draws.push((tile, fill, StoreDraws::new(tile, fill, source, &mut views)));
-            }
-        }
-        if draws.is_empty() {
+        if fills.draws.is_empty() {
             return Ok(Some(Store { texture, restore }));
         }
-        let bytes: Vec<u8> = bytemuck::cast_slice(&views).to_vec();
+        let bytes: Vec<u8> = bytemuck::cast_slice(&fills.views).to_vec();
         let buffer = frame.upload_buffer(format_args!("views of static {}", map.name), bytes);
-        for (tile, fill, draw) in draws {
-            self.fill_tile(
-                frame,
-                (map, &mut texture, &buffer),
-                source,
-                (tile, fill, draw),
-                (cached, &restore),
-            );
+        for fill in fills.draws {
+            let target = (map, &mut texture, &buffer);
+            self.fill_tile(frame, target, source, (fill, culled), (cached, &restore));
         }
         Ok(Some(Store { texture, restore }))
     }
@@ -125,7 +118,7 @@ impl ShadowMaps {
         frame: &mut Frame<'f>,
         (map, store, views): (&MapTexture<'_>, &mut Texture, &Buffer),
         source: Source<'_, 'f>,
-        (tile, fill, draws): (&Tile<'_>, &Fill, StoreDraws),
+        (TileFill { tile, fill, draws }, culled): (TileFill<'_>, Option<&CulledInstances>),
         (cached, restore): (&Arc<CachedMap>, &Arc<Restore>),
     ) {
         let rect = tile.plan.rect;
@@ -141,11 +134,14 @@ impl ShadowMaps {
             caster_view: map.caster_view(tile.plan, source.views.1),
             all: source.casters,
             casters: Vec::new(),
+            culled: None,
         };
+        let read = |draw: StoreDraw| (draw.casters.read_in(&mut pass, culled), draw);
+        let draws: Vec<_> = draws.into_iter().map(read).collect();
         let stored = tile.stored(fill, source.casters);
         let (cached, restore) = (cached.clone(), restore.clone());
         pass.body(move |ctx| {
-            for StoreDraw { piece: Piece { rect: part, tile_at }, view, clears, casters } in draws.0 {
+            for (culled, StoreDraw { piece: Piece { rect: part, tile_at }, view, clears, casters }) in draws {
                 let ([x, y], [width, height]) = (tile_at.map(|at| at as f32), [rect.width, rect.height]);
                 ctx.pass.set_viewport(x, y, width as f32, height as f32, 0.0, 1.0);
                 ctx.pass.set_scissor_rect(part.x, part.y, part.width, part.height);
@@ -153,7 +149,7 @@ impl ShadowMaps {
                     ctx.pass.set_pipeline(&restore.clear);
                     ctx.pass.draw(0..3, 0..1);
                 }
-                (tile_draws.view, tile_draws.casters) = (view, casters);
+                (tile_draws.view, tile_draws.casters, tile_draws.culled) = (view, casters.listed, culled);
                 tile_draws.record(ctx)?;
             }
             cached.set_stored(rect, stored);
@@ -168,14 +164,14 @@ impl ShadowMaps {
         map: &MapTexture<'_>,
         (texture, depth, store): (&mut Texture, Option<&Texture>, Option<&Store>),
         source: Source<'_, 'f>,
-        tile: &Tile<'_>,
+        (tile, culled): (&Tile<'_>, Option<&CulledInstances>),
         cached: &Arc<CachedMap>,
     ) -> Revision {
         let is_new = cached.is_new();
         let kept = cached.revision(tile.plan.rect).unwrap_or_default();
         let copied = match (&tile.work, store) {
             (Work::Nothing, _) => return kept,
-            (Work::All { .. }, _) if is_new && tile.is_empty(map) => return kept,
+            (Work::All { .. }, _) if is_new && tile.casters.is_empty() => return kept,
             (Work::OverStore(fill), Some(store)) => {
                 let block = tile.restore_block(fill);
                 Some((store, frame.uniform(bytemuck::bytes_of(&block))))
@@ -184,7 +180,8 @@ impl ShadowMaps {
         };
         let contents = if copied.is_some() || is_new { Contents::Preserve } else { map.empty() };
         let target = Target { texture, depth, contents };
-        let (mut pass, draws) = self.tile(frame, map, target, tile.plan, source, tile.casters(map.pass));
+        let casters = (tile.casters.clone(), culled);
+        let (mut pass, draws) = self.tile(frame, map, target, tile.plan, source, casters);
         pass.note(&tile.reason);
         let copied = copied.map(|(Store { texture, restore }, block)| {
             let store = pass.subresource(Subresource::FULL.rect(tile.plan.rect.into())).sample(texture);

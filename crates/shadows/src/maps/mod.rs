@@ -4,6 +4,7 @@ pub(crate) mod cache;
 mod contents;
 mod draw;
 mod kept;
+mod queries;
 mod reasons;
 mod restore;
 mod scroll;

@@ -2,15 +2,20 @@
 
 use std::cell::OnceCell;
 
-use shadowgraph_scene::CullVolume;
+use shadowgraph_scene::{Aabb, CullVolume};
 
 use super::cache::CachedMap;
-use super::contents::{self, Fill, Held, Location, Stored, StoredCaster, Versions, Wanted, Work};
+use super::contents::{
+    self, ALL_STATIC, Fill, Held, Location, Statics, Stored, StoredCaster, VOLUME, Versions, Wanted, Work,
+    number_of,
+};
 use super::draw::{MapTexture, Source};
+use super::queries::{Queries, TileCasters};
 use super::reasons::reason;
 use super::restore::RestoreBlock;
 use super::scroll;
-use crate::casters::{CasterPass, Mobility, ShadowCasters};
+use crate::casters::{CasterPass, Mobility, ShadowCasters, TileKind};
+use crate::gpu_casters::GpuCasters;
 use crate::plan::TilePlan;
 
 /// A tile of a kept map in a frame.
@@ -20,6 +25,8 @@ pub(super) struct Tile<'p> {
     /// The static casters in the whole tile, if they were needed.
     pub(super) whole: Versions,
     pub(super) work: Work,
+    /// The casters that are drawn into the map.
+    pub(super) casters: TileCasters,
     pub(super) reason: String,
 }
 
@@ -29,15 +36,62 @@ pub(super) fn plan_tile<'p>(
     map: &MapTexture<'_>,
     tile: &'p TilePlan,
     source: Source<'_, '_>,
+    queries: &mut Queries,
 ) -> Tile<'p> {
+    let casters = source.casters;
+    let gpu = culled_by(tile, source);
+    let volume = tile.fit.volume();
+    if let Some(gpu) = gpu {
+        cached.renew(tile.rect, gpu.static_version(), |version| !gpu.has_changed(version, &volume));
+    }
+    let wanted = wanted(map.pass, tile, source);
+    cached.with_tile(tile.rect, |held, stored| {
+        let whole = OnceCell::new();
+        let all = || {
+            whole.get_or_init(|| match gpu {
+                Some(gpu) if gpu.any(&volume) => vec![(ALL_STATIC, gpu.static_version())],
+                Some(_) => Vec::new(),
+                None => statics(casters, &volume),
+            })
+        };
+        let count = || gpu.map_or_else(|| all().len(), GpuCasters::static_count);
+        let bounds = |caster| bounds(casters, caster);
+        let work = if map.pass == CasterPass::Depth {
+            contents::work(tile, held, stored, &wanted, Statics { all: &all, count: &count, bounds: &bounds })
+        } else {
+            contents::work_of_tints(held, &wanted)
+        };
+        let static_count = match gpu {
+            Some(gpu) => gpu.static_count(),
+            None => whole.get().map_or(wanted.seen.len(), Vec::len),
+        };
+        let reason = reason(&work, held, &wanted, static_count, casters);
+        let whole = whole.into_inner().unwrap_or_default();
+        let drawn = drawn(map.pass, tile, &work, (&whole, &wanted), queries);
+        Tile { plan: tile, whole, casters: drawn, reason, work, wanted }
+    })
+}
+
+/// Returns the casters, if the GPU culls those of a tile.
+pub(super) fn culled_by<'f>(tile: &TilePlan, source: Source<'_, 'f>) -> Option<&'f dyn GpuCasters> {
+    source.casters.gpu().filter(|_| matches!(tile.kind, TileKind::Cascade(_)))
+}
+
+/// Returns the contents that a frame needs in a tile.
+fn wanted(pass: CasterPass, tile: &TilePlan, source: Source<'_, '_>) -> Wanted {
     let casters = source.casters;
     let location = Location::new(tile, &source.views.1[tile.view as usize], source.origin_world);
     let mut wanted = Wanted { location, seen: Vec::new(), moving: Vec::new() };
     // Opaque casters hide tints.
-    let hides = map.pass == CasterPass::Tint && !tile.tints.is_empty();
-    let hiding = if hides { &tile.casters[..] } else { &[] };
-    for &caster in tile.casters_of(map.pass).iter().chain(hiding) {
-        let is_kept_apart = map.pass == CasterPass::Depth;
+    let hides = pass == CasterPass::Tint && !tile.tints.is_empty();
+    let mut hiding = if hides { tile.casters.clone() } else { Vec::new() };
+    let is_opaque = pass == CasterPass::Depth || hides;
+    let culled = culled_by(tile, source).zip(tile.culled.as_ref()).filter(|_| is_opaque);
+    if let Some((gpu, volume)) = culled {
+        gpu.moving(volume, &mut hiding);
+    }
+    for &caster in tile.casters_of(pass).iter().chain(&hiding) {
+        let is_kept_apart = pass == CasterPass::Depth;
         match casters.version(caster) {
             Some(version) if !is_kept_apart || casters.mobility(caster) == Mobility::Static => {
                 wanted.seen.push((caster, version));
@@ -45,18 +99,36 @@ pub(super) fn plan_tile<'p>(
             version => wanted.moving.push((caster, version)),
         }
     }
-    cached.with_tile(tile.rect, |held, stored| {
-        let whole = OnceCell::new();
-        let work = if map.pass == CasterPass::Depth {
-            let all = || whole.get_or_init(|| statics(casters, &tile.fit.volume()));
-            contents::work(tile, held, stored, &wanted, &all, &|caster| casters.caster_bounds(caster))
-        } else {
-            contents::work_of_tints(held, &wanted)
-        };
-        let static_count = whole.get().map_or(wanted.seen.len(), Vec::len);
-        let reason = reason(&work, held, &wanted, static_count, casters);
-        Tile { plan: tile, whole: whole.into_inner().unwrap_or_default(), reason, work, wanted }
-    })
+    if let Some((gpu, volume)) = culled {
+        wanted.seen.extend([(VOLUME, number_of(volume)), (ALL_STATIC, gpu.static_version())]);
+    }
+    wanted
+}
+
+/// Returns the bounds of a caster, or of all.
+fn bounds(casters: &dyn ShadowCasters, caster: u32) -> Aabb {
+    if caster == ALL_STATIC { casters.bounds() } else { casters.caster_bounds(caster) }
+}
+
+/// Returns the casters that are drawn into the map.
+fn drawn(
+    pass: CasterPass,
+    tile: &TilePlan,
+    work: &Work,
+    (whole, wanted): (&Versions, &Wanted),
+    queries: &mut Queries,
+) -> TileCasters {
+    let moving = wanted.moving.iter().map(|(caster, _)| *caster);
+    match work {
+        Work::Nothing => TileCasters::default(),
+        Work::OverStore(_) => TileCasters::listed(moving.collect()),
+        Work::All { whole: true, .. } => {
+            let mut all = TileCasters::all_static(whole, &tile.fit.volume(), queries);
+            all.listed.extend(moving);
+            all
+        }
+        Work::All { whole: false, .. } => TileCasters::seen(tile, pass, queries),
+    }
 }
 
 /// Returns the static opaque casters in a volume, and their versions.
@@ -71,29 +143,11 @@ pub(super) fn statics(casters: &dyn ShadowCasters, volume: &CullVolume) -> Versi
 }
 
 impl Tile<'_> {
-    /// Returns whether nothing is drawn into a cleared tile.
-    pub(super) fn is_empty(&self, map: &MapTexture<'_>) -> bool {
-        self.casters(map.pass).is_empty()
-    }
-
     pub(super) fn is_whole(&self) -> bool {
         match self.work {
             Work::All { whole, .. } => whole,
             Work::OverStore(_) => true,
             Work::Nothing => false,
-        }
-    }
-
-    /// Returns the casters that are drawn into the map.
-    pub(super) fn casters(&self, pass: CasterPass) -> Vec<u32> {
-        let moving = self.wanted.moving.iter().map(|(caster, _)| *caster);
-        match self.work {
-            Work::Nothing => Vec::new(),
-            Work::OverStore(_) => moving.collect(),
-            Work::All { whole: true, .. } => {
-                self.whole.iter().map(|(caster, _)| *caster).chain(moving).collect()
-            }
-            Work::All { whole: false, .. } => self.plan.casters_of(pass).to_vec(),
         }
     }
 
@@ -110,7 +164,7 @@ impl Tile<'_> {
         let stored = |&(caster, version): &(u32, u64)| StoredCaster {
             caster,
             version,
-            bounds: casters.caster_bounds(caster),
+            bounds: bounds(casters, caster),
         };
         Stored {
             location: self.wanted.location.clone(),

@@ -155,7 +155,17 @@ impl<'a> Planner<'a> {
             let kind = if is_point { TileKind::Face(index) } else { TileKind::Whole };
             let (light, view) = (candidate.light, first_view + index);
             let slope_bias_milli = params.slope_bias_milli(1.0);
-            planned.push(TilePlan { light, view, kind, rect, fit, slope_bias_milli, casters, tints });
+            planned.push(TilePlan {
+                light,
+                view,
+                kind,
+                rect,
+                fit,
+                slope_bias_milli,
+                casters,
+                culled: None,
+                tints,
+            });
         }
         planned
     }

@@ -1,11 +1,13 @@
 //! Planning of the map of cascades.
 
 use glam::DMat3;
+use shadowgraph_scene::CullVolume;
 
 use super::{Planner, placement};
 use crate::atlas::{TileLayout, even_tiles};
 use crate::cascades::{CascadeFit, merged, slices, split_distances};
 use crate::casters::TileKind;
+use crate::gpu_casters::GpuCasters;
 use crate::light_params::LightShadowParams;
 use crate::ortho::OrthoFit;
 use crate::plan::{MapPlan, TilePlan};
@@ -21,7 +23,21 @@ struct Cascades<'s> {
     params: LightShadowParams,
     fits: Vec<CascadeFit>,
     /// The casters of each cascade.
-    casters: Vec<Vec<u32>>,
+    casters: Vec<TileCasters>,
+}
+
+/// The casters of a tile.
+#[derive(Clone, Default)]
+pub(super) struct TileCasters {
+    pub(super) listed: Vec<u32>,
+    pub(super) tints: Vec<u32>,
+    pub(super) culled: Option<CullVolume>,
+}
+
+impl TileCasters {
+    fn is_empty(&self) -> bool {
+        self.listed.is_empty() && self.tints.is_empty() && self.culled.is_none()
+    }
 }
 
 impl<'a> Planner<'a> {
@@ -38,7 +54,7 @@ impl<'a> Planner<'a> {
             let (kept, idle): (Vec<_>, Vec<_>) = lights
                 .into_iter()
                 .map(|light| self.cascades(light, &ends_m, layout.tile_px))
-                .partition(|cascades| cascades.casters.iter().any(|casters| !casters.is_empty()));
+                .partition(|cascades| !cascades.casters.iter().all(TileCasters::is_empty));
             for cascades in &idle {
                 self.reject(cascades.candidate.light, UnshadowedReason::NoCasterInRange);
             }
@@ -82,14 +98,43 @@ impl<'a> Planner<'a> {
         };
         let params = self.light_params(&candidate, true);
         let fits = self.fit_cascades(light_from_world, ends_m, tile_px, &params);
-        let mut casters = self.cull_cascades(&fits, &params);
+        let casters = match self.inputs.casters.gpu() {
+            Some(gpu) => self.volumes(gpu, &fits, &params),
+            None => self.listed(&fits, &params),
+        };
+        Cascades { candidate, params, fits, casters }
+    }
+
+    /// Lists the casters of each cascade.
+    fn listed(&self, fits: &[CascadeFit], params: &LightShadowParams) -> Vec<TileCasters> {
+        let mut casters = self.cull_cascades(fits, params);
         if self.requirements.fits_on_gpu {
             let mut all = casters.concat();
             all.sort_unstable();
             all.dedup();
             casters.fill(all);
         }
-        Cascades { candidate, params, fits, casters }
+        let split = |casters| {
+            let (listed, tints) = self.opaque_and_tints(casters);
+            TileCasters { listed, tints, culled: None }
+        };
+        casters.into_iter().map(split).collect()
+    }
+
+    /// Returns the volumes in which the GPU finds the casters of each cascade.
+    fn volumes(
+        &self,
+        gpu: &dyn GpuCasters,
+        fits: &[CascadeFit],
+        params: &LightShadowParams,
+    ) -> Vec<TileCasters> {
+        let in_volume = |fit: &CascadeFit| {
+            let volume = self.cascade_volume(&fit.fit, params);
+            let mut tints = Vec::new();
+            gpu.tinting(&volume, &mut tints);
+            TileCasters { listed: Vec::new(), tints, culled: gpu.any(&volume).then_some(volume) }
+        };
+        fits.iter().map(in_volume).collect()
     }
 
     /// Fits a box for each cascade.
@@ -145,7 +190,7 @@ impl<'a> Planner<'a> {
         let mut tiles = Vec::new();
         for (cascade, ((fit, casters), rect)) in (0u32..).zip(fits.iter().zip(casters).zip(layout.tiles)) {
             let tile = placement(rect, layout.size_px, &params, settings.depth.step());
-            let (casters, tints) = self.opaque_and_tints(casters);
+            let TileCasters { listed, tints, culled } = casters;
             let bias_scale = settings.bias_scales.get(cascade as usize).copied().unwrap_or(1.0);
             self.plan.views.push(ShadowView {
                 cascade,
@@ -160,7 +205,8 @@ impl<'a> Planner<'a> {
             let (light, view, kind) = (candidate.light, first_view + cascade, TileKind::Cascade(cascade));
             let fit = TileFit::Directional(fit.fit);
             let slope_bias_milli = params.slope_bias_milli(bias_scale);
-            tiles.push(TilePlan { light, view, kind, rect, fit, slope_bias_milli, casters, tints });
+            let casters = listed;
+            tiles.push(TilePlan { light, view, kind, rect, fit, slope_bias_milli, casters, culled, tints });
         }
         if settings.select != CascadeSelection::Map {
             self.plan.views.push(ShadowView::empty());

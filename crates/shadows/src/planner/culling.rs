@@ -1,7 +1,7 @@
 //! Culling of the casters of each tile.
 
 use glam::DVec3;
-use shadowgraph_scene::{Aabb, ConvexVolume};
+use shadowgraph_scene::{Aabb, ConvexVolume, CullVolume};
 
 use super::Planner;
 use crate::cascades::CascadeFit;
@@ -54,12 +54,31 @@ fn both([mut first, second]: [ConvexVolume; 2]) -> ConvexVolume {
 impl Planner<'_> {
     /// Returns the casters of a directional light's tile.
     pub(super) fn cull_directional(&self, fit: &OrthoFit, params: &LightShadowParams) -> Vec<u32> {
+        self.cull(&self.directional_volume(fit, params))
+    }
+
+    /// Returns the volume of the casters of a directional light's tile.
+    fn directional_volume(&self, fit: &OrthoFit, params: &LightShadowParams) -> CullVolume {
         let mut planes = fit.cull_volume();
         if self.inputs.settings.cull.unseen {
-            let to_light = fit.light_from_world.transpose().z_axis;
-            planes.planes.extend(self.visible.towards(to_light, params.radius_m(fit.texel_m, 1.0)).planes);
+            planes.planes.extend(self.seen_volume(fit, params).planes);
         }
-        self.cull(&planes.into())
+        planes.into()
+    }
+
+    /// Returns the volume in which casters darken what is visible.
+    fn seen_volume(&self, fit: &OrthoFit, params: &LightShadowParams) -> ConvexVolume {
+        let to_light = fit.light_from_world.transpose().z_axis;
+        self.visible.towards(to_light, params.radius_m(fit.texel_m, 1.0))
+    }
+
+    /// Returns the volume of the casters of a cascade. Where a pass on the GPU fits the cascade, it is that of all cascades.
+    pub(super) fn cascade_volume(&self, fit: &OrthoFit, params: &LightShadowParams) -> CullVolume {
+        if self.requirements.fits_on_gpu {
+            self.seen_volume(fit, params).into()
+        } else {
+            self.directional_volume(fit, params)
+        }
     }
 
     /// Returns the casters of a tile of a spot or point light.

@@ -45,12 +45,12 @@ impl Node for Forward {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);
-        let (geometry, background) = (view.geometry(), view.clear_color());
+        let (geometry, background) = (view.geometry(frame), view.clear_color());
         let (light, depth) = if ports.is_connected("depth") {
             let depth = ports.texture("depth")?;
-            (self.passes.lit(frame, &buffers, shadows, &depth, geometry, background)?, depth)
+            (self.passes.lit(frame, &buffers, shadows, &depth, &geometry, background)?, depth)
         } else {
-            self.passes.lit_without_prepass(frame, &buffers, shadows, geometry, background)?
+            self.passes.lit_without_prepass(frame, &buffers, shadows, &geometry, background)?
         };
         self.velocity.set(frame, view, (&buffers, &depth), ports)?;
         ports.set("light", light);

@@ -45,8 +45,9 @@ impl Geometry {
         view: &'f RenderView<'f>,
         buffers: &ViewBuffers,
     ) -> Result<(Texture, Option<SurfaceBuffers>), Error> {
-        let geometry = view.geometry();
+        let geometry = &view.geometry(frame);
         let depth = self.prepass.add_to(frame, buffers, geometry);
+        frame.note(&depth, view.casters.culling());
         let surfaces = self.surfaces.as_ref().map(|drawer| match self.samples {
             1 => drawer.surface_buffers(frame, buffers, &depth, geometry),
             _ => drawer.surface_buffers_with_prepass(frame, buffers, geometry),

@@ -40,8 +40,8 @@ impl Node for ShadowDebug {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);
-        let (depth, geometry) = (ports.texture("depth")?, view.geometry());
-        let colors = self.passes.lit(frame, &buffers, shadows, &depth, geometry, [0.0; 4])?;
+        let (depth, geometry) = (ports.texture("depth")?, view.geometry(frame));
+        let colors = self.passes.lit(frame, &buffers, shadows, &depth, &geometry, [0.0; 4])?;
         ports.set("colors", colors);
         Ok(())
     }

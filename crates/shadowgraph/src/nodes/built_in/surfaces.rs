@@ -37,7 +37,7 @@ impl Node for Surfaces {
     ) -> Result<(), Error> {
         if let Some(drawer) = &self.drawer {
             let surfaces =
-                drawer.surface_buffers_with_prepass(frame, &ports.view("view")?, view.geometry())?;
+                drawer.surface_buffers_with_prepass(frame, &ports.view("view")?, &view.geometry(frame))?;
             ports.set("surfaces", surfaces);
         }
         Ok(())

@@ -57,7 +57,7 @@ impl VelocityOutput {
                 self.passes.get_or_init(|| created)
             }
         };
-        let velocity = passes.add_to(frame, buffers, depth, view.geometry());
+        let velocity = passes.add_to(frame, buffers, depth, &view.geometry(frame));
         ports.set(Self::NAME, velocity);
         Ok(())
     }

@@ -1,0 +1,238 @@
+// Culls the instances of a scene for several views at once, and writes an indirect draw for each batch and view.
+//
+//   cull_instances    tests the instances: a bit for each instance and view
+//   rank_chunks       a prefix sum: the number of visible instances before each chunk
+//   write_instances   lists the visible instances of each view, in the order of their numbers
+//   write_draws       the arguments of the draws
+//
+// Compaction keeps the order: images are those of drawing the same instances one after the other.
+#import shadowgraph::draw::Instance
+
+// Neighbours in the order of draws that share all but the instance. 64 bytes.
+struct Batch {
+    // Bounds in the space of the instance.
+    center: vec3f,
+    // The number of the first instance.
+    first: u32,
+    half_size: vec3f,
+    // Number of instances.
+    count: u32,
+    flags: u32,
+    first_index: u32,
+    index_count: u32,
+    base_vertex: i32,
+    // The place of the first visible instance in the list of a view.
+    first_slot: u32,
+    padding: array<u32, 3>,
+}
+
+// Instances of a chunk: the size of a workgroup.
+const CHUNK: u32 = 64u;
+// Threads that share the prefix sum of a view.
+const RANKING: u32 = 256u;
+// Words of the arguments of an indexed indirect draw.
+const ARGUMENTS: u32 = 5u;
+// Relative error of a distance to a plane.
+const ROUNDING: f32 = 4e-6;
+
+// Whether draws begin with the instance of their arguments. If not, lists are bound at an offset for each draw.
+override FIRST_INSTANCE: bool = true;
+
+@group(0) @binding(0) var<storage, read> instances: array<Instance>;
+@group(0) @binding(1) var<storage, read> batches: array<Batch>;
+// Element 0: numbers of views, instances, batches, and slots of a view's list. Then one element for each view: the first plane, the
+// number of planes, flags that an instance must have, and flags that it must not have. Then the planes, as the bits of
+// normal and distance: a point is inside if normal . point + distance >= 0.
+@group(0) @binding(2) var<storage, read> views: array<vec4u>;
+// Two words for each view and chunk.
+@group(0) @binding(3) var<storage, read_write> visible_bits: array<u32>;
+// The number of visible instances before each chunk of each view, and at the end of a view all of them.
+@group(0) @binding(4) var<storage, read_write> ranks: array<u32>;
+// The visible instances of each view.
+@group(0) @binding(5) var<storage, read_write> visible: array<u32>;
+// ARGUMENTS words for each view and batch, then the number of visible instances of each view.
+@group(0) @binding(6) var<storage, read_write> draws: array<u32>;
+
+// A bit for each view that sees an instance of the chunk.
+var<workgroup> viewers: array<u32, CHUNK>;
+var<workgroup> sums: array<u32, RANKING>;
+
+fn view_count() -> u32 {
+    return views[0].x;
+}
+
+fn instance_count() -> u32 {
+    return views[0].y;
+}
+
+fn batch_count() -> u32 {
+    return views[0].z;
+}
+
+fn slot_count() -> u32 {
+    return views[0].w;
+}
+
+fn chunk_count() -> u32 {
+    return (instance_count() + CHUNK - 1u) / CHUNK;
+}
+
+// The index of the first word of bits of a chunk.
+fn first_word(view: u32, chunk: u32) -> u32 {
+    return 2u * (view * chunk_count() + chunk);
+}
+
+// A box with axes that need not be orthogonal.
+struct Box {
+    center: vec3f,
+    axes: mat3x3f,
+}
+
+fn world_bounds(instance: Instance, batch: Batch) -> Box {
+    let center = vec4f(batch.center, 1.0);
+    let rows = array(instance.row_x, instance.row_y, instance.row_z);
+    let axes = mat3x3f(
+        vec3f(rows[0].x, rows[1].x, rows[2].x) * batch.half_size.x,
+        vec3f(rows[0].y, rows[1].y, rows[2].y) * batch.half_size.y,
+        vec3f(rows[0].z, rows[1].z, rows[2].z) * batch.half_size.z,
+    );
+    return Box(vec3f(dot(rows[0], center), dot(rows[1], center), dot(rows[2], center)), axes);
+}
+
+// Whether the box may intersect the volume of a view; never false for one that does.
+fn intersects(box: Box, view: vec4u) -> bool {
+    var is_inside = true;
+    for (var index = view.x; index < view.x + view.y; index++) {
+        let plane = bitcast<vec4f>(views[index]);
+        let reach = abs(plane.xyz * box.axes);
+        let radius = reach.x + reach.y + reach.z;
+        let terms = dot(abs(plane.xyz), abs(box.center)) + abs(plane.w) + radius;
+        is_inside &= dot(plane.xyz, box.center) + plane.w + radius >= -ROUNDING * terms;
+    }
+    return is_inside;
+}
+
+@compute @workgroup_size(64)
+fn cull_instances(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
+        let number = chunk * CHUNK + local;
+        var seen_by = 0u;
+        if number < instance_count() {
+            let instance = instances[number];
+            let batch = batches[instance.flags.x];
+            let flags = batch.flags | instance.flags.y;
+            let box = world_bounds(instance, batch);
+            for (var view = 0u; view < view_count(); view++) {
+                let tested = views[1u + view];
+                let is_wanted = (flags & tested.z) == tested.z && (flags & tested.w) == 0u;
+                seen_by |= u32(is_wanted && intersects(box, tested)) << view;
+            }
+        }
+        viewers[local] = seen_by;
+        workgroupBarrier();
+        if local < 2u * view_count() {
+            let view = local / 2u;
+            let half = local % 2u;
+            var bits = 0u;
+            for (var place = 0u; place < 32u; place++) {
+                bits |= ((viewers[32u * half + place] >> view) & 1u) << place;
+            }
+            visible_bits[first_word(view, chunk) + half] = bits;
+        }
+        workgroupBarrier();
+    }
+}
+
+fn visible_in_chunk(view: u32, chunk: u32) -> u32 {
+    let word = first_word(view, chunk);
+    return countOneBits(visible_bits[word]) + countOneBits(visible_bits[word + 1u]);
+}
+
+@compute @workgroup_size(256)
+fn rank_chunks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let view = workgroup.x;
+    let share = (chunk_count() + RANKING - 1u) / RANKING;
+    let begin = min(local * share, chunk_count());
+    let end = min(begin + share, chunk_count());
+    var sum = 0u;
+    for (var chunk = begin; chunk < end; chunk++) {
+        sum += visible_in_chunk(view, chunk);
+    }
+    sums[local] = sum;
+    workgroupBarrier();
+    for (var step = 1u; step < RANKING; step *= 2u) {
+        var before = 0u;
+        if local >= step {
+            before = sums[local - step];
+        }
+        workgroupBarrier();
+        sums[local] += before;
+        workgroupBarrier();
+    }
+    var rank = sums[local] - sum;
+    let first = view * (chunk_count() + 1u);
+    for (var chunk = begin; chunk < end; chunk++) {
+        ranks[first + chunk] = rank;
+        rank += visible_in_chunk(view, chunk);
+    }
+    if local == RANKING - 1u {
+        ranks[first + chunk_count()] = sums[local];
+    }
+}
+
+// The number of visible instances of a view before one.
+fn rank_of(view: u32, number: u32) -> u32 {
+    let chunk = number / CHUNK;
+    let place = number % CHUNK;
+    var rank = ranks[view * (chunk_count() + 1u) + chunk];
+    if place > 0u {
+        let word = first_word(view, chunk);
+        let low = visible_bits[word];
+        if place < 32u {
+            rank += countOneBits(low & ((1u << place) - 1u));
+        } else {
+            rank += countOneBits(low) + countOneBits(visible_bits[word + 1u] & ((1u << (place - 32u)) - 1u));
+        }
+    }
+    return rank;
+}
+
+@compute @workgroup_size(64)
+fn write_instances(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let view = workgroup.y;
+    for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
+        let bits = visible_bits[first_word(view, chunk) + local / 32u];
+        if (bits & (1u << (local % 32u))) != 0u {
+            let number = chunk * CHUNK + local;
+            let batch = batches[instances[number].flags.x];
+            let slot = batch.first_slot + rank_of(view, number) - rank_of(view, batch.first);
+            visible[view * slot_count() + slot] = number;
+        }
+    }
+}
+
+@compute @workgroup_size(64)
+fn write_draws(@builtin(global_invocation_id) id: vec3u) {
+    let view = id.y;
+    if id.x == 0u {
+        draws[ARGUMENTS * batch_count() * view_count() + view] = rank_of(view, instance_count());
+    }
+    if id.x >= batch_count() {
+        return;
+    }
+    let batch = batches[id.x];
+    let argument = ARGUMENTS * (view * batch_count() + id.x);
+    draws[argument] = batch.index_count;
+    draws[argument + 1u] = rank_of(view, batch.first + batch.count) - rank_of(view, batch.first);
+    draws[argument + 2u] = batch.first_index;
+    draws[argument + 3u] = bitcast<u32>(batch.base_vertex);
+    draws[argument + 4u] = select(0u, batch.first_slot, FIRST_INSTANCE);
+}
