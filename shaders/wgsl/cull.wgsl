@@ -28,6 +28,8 @@ struct Batch {
 
 // Instances of a chunk: the size of a workgroup.
 const CHUNK: u32 = 64u;
+// Elements of the block of views.
+const ELEMENTS: u32 = 1024u;
 // Threads that share the prefix sum of a view.
 const RANKING: u32 = 256u;
 // Words of the arguments of an indexed indirect draw.
@@ -43,7 +45,7 @@ override FIRST_INSTANCE: bool = true;
 // Element 0: numbers of views, instances, batches, and slots of a view's list. Then one element for each view: the first plane, the
 // number of planes, flags that an instance must have, and flags that it must not have. Then the planes, as the bits of
 // normal and distance: a point is inside if normal . point + distance >= 0.
-@group(0) @binding(2) var<storage, read> views: array<vec4u>;
+@group(0) @binding(2) var<uniform> views: array<vec4u, ELEMENTS>;
 // Two words for each view and chunk.
 @group(0) @binding(3) var<storage, read_write> visible_bits: array<u32>;
 // The number of visible instances before each chunk of each view, and at the end of a view all of them.
@@ -101,15 +103,16 @@ fn world_bounds(instance: Instance, batch: Batch) -> Box {
 
 // Whether the box may intersect the volume of a view; never false for one that does.
 fn intersects(box: Box, view: vec4u) -> bool {
-    var is_inside = true;
     for (var index = view.x; index < view.x + view.y; index++) {
         let plane = bitcast<vec4f>(views[index]);
         let reach = abs(plane.xyz * box.axes);
         let radius = reach.x + reach.y + reach.z;
         let terms = dot(abs(plane.xyz), abs(box.center)) + abs(plane.w) + radius;
-        is_inside &= dot(plane.xyz, box.center) + plane.w + radius >= -ROUNDING * terms;
+        if dot(plane.xyz, box.center) + plane.w + radius < -ROUNDING * terms {
+            return false;
+        }
     }
-    return is_inside;
+    return true;
 }
 
 @compute @workgroup_size(64)

@@ -10,11 +10,11 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
-use shadowgraph::{Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph::{Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
-    Comparison, FrameTime, INSTANCES, MovingFrameTime, MovingFrames, Stats, WholeFrame, compare,
-    moving_frames, pass_times, whole_frames,
+    Comparison, FrameTime, INSTANCES, MATERIALS, ManyFrames, MovingFrameTime, MovingFrames, Stats,
+    WholeFrame, compare, frames_of_many, moving_frames, pass_times, whole_frames,
 };
 
 /// Number of frames on a real GPU; each is waited for.
@@ -40,6 +40,14 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         let runs = moving_frames(gpu, &input.options.render_config(), size_px, &counts, args.frames)?;
         drop(measuring);
         return console::print(&moving_table(&runs));
+    }
+    if !args.boxes.is_empty() {
+        let counts: Vec<usize> = args.boxes.iter().map(|&count| count as usize).collect();
+        let (gpu, size_px) = (gpu.as_ref().unwrap_or(&noop), view.size_px);
+        let measuring = Progress::if_slow("measuring");
+        let runs = frames_of_many(gpu, &input.options.render_config(), size_px, &counts, args.frames)?;
+        drop(measuring);
+        return console::print(&boxes_table(&runs));
     }
     if args.whole_frame || args.ablate {
         let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
@@ -82,7 +90,8 @@ fn passes(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions, frames: u32) -
 }
 
 fn heading(args: &BenchArgs, input: &Input) -> String {
-    let scene = if args.moving.is_empty() { args.draw.scene_name() } else { "boxes".into() };
+    let has_scene = args.moving.is_empty() && args.boxes.is_empty();
+    let scene = if has_scene { args.draw.scene_name() } else { "boxes".into() };
     let (size, pipeline) = (&input.options.size, input.options.pipeline.name());
     let samples = if input.options.samples > 1 { ", 4 samples" } else { "" };
     format!(
@@ -159,6 +168,22 @@ fn moving_table(runs: &[MovingFrames]) -> String {
     format!(
         "CPU time of a frame of {INSTANCES} boxes, some of which move; medians of {frames} frames, microseconds\n{}",
         TextTable { alignment: "rrrrr", indent: 2, width: COLUMNS }.format(rows)
+    )
+}
+
+/// Formats the frames of many boxes as a table.
+fn boxes_table(runs: &[ManyFrames]) -> String {
+    let mut rows = vec![["boxes", "culled by", "median", "95th percentile"].map(str::to_owned)];
+    for ManyFrames { boxes, culling, frames } in runs {
+        let stats = Stats::from_samples(frames.iter().map(|time| time.as_secs_f64() * 1e3));
+        let culling = if *culling == Culling::Gpu { "GPU" } else { "CPU" };
+        let [median, high] = [stats.median, stats.p95].map(|ms| format!("{ms:.3}"));
+        rows.push([boxes.to_string(), culling.into(), median, high]);
+    }
+    let frames = runs.first().map_or(0, |run| run.frames.len());
+    format!(
+        "CPU time of a frame of boxes of {MATERIALS} materials with a moving camera, {frames} frames, milliseconds\n{}",
+        TextTable { alignment: "rlrr", indent: 2, width: COLUMNS }.format(rows)
     )
 }
 

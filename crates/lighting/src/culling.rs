@@ -14,6 +14,8 @@ use crate::shader::module;
 
 /// Instances of a chunk: `CHUNK` of `cull.wgsl`.
 const CHUNK: u32 = 64;
+/// Elements of the block of views: `ELEMENTS` of `cull.wgsl`.
+const ELEMENTS: usize = 1024;
 /// The largest number of workgroups of a dimension, which every device has.
 const MAX_WORKGROUPS: u32 = 65_535;
 
@@ -49,7 +51,10 @@ impl CullPass {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: binding < 3 },
+                ty: match binding {
+                    2 => wgpu::BufferBindingType::Uniform,
+                    _ => wgpu::BufferBindingType::Storage { read_only: binding < 2 },
+                },
                 has_dynamic_offset: false,
                 min_binding_size: None,
             },
@@ -118,7 +123,7 @@ impl CullPass {
         let mut draws = frame.create_buffer("draws", BufferDesc::new(inputs.draw_bytes(count)));
         let mut pass = frame.compute_pass("cull");
         pass.note(format_args!("{note}"));
-        let views = Bind::Buffer(pass.storage_buffer(&uploaded));
+        let views = Bind::Buffer(pass.uniform_buffer(&uploaded));
         let mut write =
             |buffer: &mut Buffer| Bind::Buffer(pass.storage_buffer_mut(buffer, Contents::Overwrite));
         let [bits, ranks, list, arguments] =
@@ -141,20 +146,23 @@ impl CullPass {
     }
 }
 
-/// Returns `views` of `cull.wgsl`.
+/// Returns `views` of `cull.wgsl`. Planes that do not fit into the block are left out.
 fn view_bytes(inputs: &CullInputs<'_>, views: &[CullView], origin_world: DVec3) -> Vec<u8> {
     let count = views.len() as u32;
     let mut elements = vec![[count, inputs.instance_count, inputs.batch_count, inputs.slot_count]];
-    let mut first_plane = 1 + count;
+    let mut planes = Vec::new();
     for CullView { volume, required, excluded } in views {
-        let planes = volume.planes.len() as u32;
-        elements.push([first_plane, planes, required.bits(), excluded.bits()]);
-        first_plane += planes;
+        let first_plane = 1 + views.len() + planes.len();
+        let of_view = volume.planes.iter().take(ELEMENTS - first_plane.min(ELEMENTS));
+        planes.extend(of_view.map(|plane| {
+            let distance = plane.distance + plane.normal.dot(origin_world);
+            plane.normal.extend(distance).as_vec4().to_array().map(f32::to_bits)
+        }));
+        let end = 1 + views.len() + planes.len();
+        elements.push([first_plane as u32, (end - first_plane) as u32, required.bits(), excluded.bits()]);
     }
-    for plane in views.iter().flat_map(|view| &view.volume.planes) {
-        let distance = plane.distance + plane.normal.dot(origin_world);
-        elements.push(plane.normal.extend(distance).as_vec4().to_array().map(f32::to_bits));
-    }
+    elements.extend(planes);
+    elements.resize(ELEMENTS, [0; 4]);
     bytemuck::cast_slice(&elements).to_vec()
 }
 

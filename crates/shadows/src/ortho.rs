@@ -1,6 +1,6 @@
 //! The axes of light space, and the box in it that a directional light's tile covers, fixed to whole texels of the world.
 
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
 use shadowgraph_scene::{Aabb, BoundingSphere, ConvexVolume, Plane};
 
 /// A box around a sphere in light space that moves through the world in whole texels only.
@@ -164,6 +164,17 @@ impl OrthoFit {
         }
         planes.push(Plane { normal: axes.z_axis, distance: -self.far_z_m() });
         ConvexVolume { planes }
+    }
+
+    /// Returns the corners of the part of the [culling volume](Self::cull_volume) that reaches to the end of all casters.
+    pub(crate) fn caster_corners(&self, casters: &Aabb) -> [DVec3; 8] {
+        let center = self.center_m();
+        let half = (self.half_extent_m() * self.texel_scale).extend(0.0);
+        let casters = casters.transformed(&DAffine3::from_mat3(self.light_from_world));
+        let far = self.far_z_m();
+        let bounds =
+            Aabb { min: (center - half).with_z(far), max: (center + half).with_z(casters.max.z.max(far)) };
+        bounds.corners().map(|corner| self.light_from_world.transpose() * corner)
     }
 
     /// Returns the far end of the depth range in light space, metres from the world's origin towards the light.

@@ -6,6 +6,7 @@
 //! [`Comparison::ratio_without_planning`] subtracts it.
 
 mod hand_written;
+mod many;
 mod moving;
 mod objects;
 mod stats;
@@ -14,6 +15,7 @@ mod whole;
 #[cfg(test)]
 mod tests;
 
+pub use many::{MATERIALS, ManyFrames, frames_of_many};
 pub use moving::{INSTANCES, MovingFrameTime, MovingFrames, moving_frames};
 pub use stats::Stats;
 pub use whole::{WholeFrame, warm_up, whole_frames, whole_frames_in_turn};

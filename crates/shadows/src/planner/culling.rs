@@ -1,7 +1,7 @@
 //! Culling of the casters of each tile.
 
 use glam::DVec3;
-use shadowgraph_scene::{Aabb, ConvexVolume, CullVolume};
+use shadowgraph_scene::{Aabb, ConvexVolume, CullVolume, Plane};
 
 use super::Planner;
 use crate::cascades::CascadeFit;
@@ -72,13 +72,19 @@ impl Planner<'_> {
         self.visible.towards(to_light, params.radius_m(fit.texel_m, 1.0))
     }
 
-    /// Returns the volume of the casters of a cascade. Where a pass on the GPU fits the cascade, it is that of all cascades.
+    /// Returns the volume of the casters of a cascade, without planes that no caster in its box is behind. Where a pass on the GPU fits
+    /// the cascade, it is that of all cascades.
     pub(super) fn cascade_volume(&self, fit: &OrthoFit, params: &LightShadowParams) -> CullVolume {
         if self.requirements.fits_on_gpu {
-            self.seen_volume(fit, params).into()
-        } else {
-            self.directional_volume(fit, params)
+            return self.seen_volume(fit, params).into();
         }
+        let mut volume = fit.cull_volume();
+        if self.inputs.settings.cull.unseen {
+            let corners = fit.caster_corners(&self.inputs.casters.bounds());
+            let cuts = |plane: &Plane| corners.iter().any(|&corner| plane.signed_distance(corner) < 0.0);
+            volume.planes.extend(self.seen_volume(fit, params).planes.into_iter().filter(cuts));
+        }
+        volume.into()
     }
 
     /// Returns the casters of a tile of a spot or point light.
