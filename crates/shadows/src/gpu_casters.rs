@@ -3,7 +3,7 @@
 use shadowgraph_core::{Error as GraphError, Frame, RenderContext};
 use shadowgraph_scene::{ConvexVolume, CullVolume};
 
-use crate::casters::CasterView;
+use crate::caster_view::CasterView;
 use crate::culled::{CulledInstances, CulledTokens};
 
 /// Casters that the GPU culls for cascades, so that the CPU does not list those of each frame. A scene with hundreds of casters costs less

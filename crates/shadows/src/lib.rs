@@ -18,6 +18,7 @@ mod allocation;
 mod atlas;
 mod budget;
 mod cascades;
+mod caster_view;
 mod casters;
 mod cull;
 mod culled;
@@ -46,9 +47,8 @@ pub use allocation::{AtlasAllocation, AtlasConfig, TileAllocation, TileRequest, 
 pub use atlas::{MAX_ATLAS_TILES, TileLayout, TileRect, even_tiles, smallest_atlas_tile_px};
 pub use budget::{BudgetConfig, QualityController, QualityLevel};
 pub use cascades::{Slice, slice_sphere, split_distances};
-pub use casters::{
-    CasterPass, CasterTarget, CasterView, Mobility, ShadowCasters, TINT_FORMAT, TileKind, caster_view_layout,
-};
+pub use caster_view::{CasterPass, CasterTarget, CasterView, TINT_FORMAT, TileKind, caster_view_layout};
+pub use casters::{Mobility, ShadowCasters};
 pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCasters};
 pub use culled::{CulledGroup, CulledInstances, CulledTokens};
 pub use error::Error;

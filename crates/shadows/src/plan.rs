@@ -8,7 +8,8 @@ use shadowgraph_scene::{Camera, CullVolume, Light};
 
 use crate::allocation::AtlasAllocation;
 use crate::atlas::TileRect;
-use crate::casters::{CasterPass, CasterTarget, CasterView, ShadowCasters, TileKind};
+use crate::caster_view::{CasterPass, CasterTarget, CasterView, TileKind};
+use crate::casters::ShadowCasters;
 use crate::light_params::settings_requirements;
 use crate::lookup_variant::{FEW_LIGHTS, FEW_VIEWS, LookupVariant};
 use crate::receivers::ReceiverRange;

@@ -52,7 +52,7 @@ mod tests {
     use super::*;
     use crate::cull::BoundingSphere;
 
-    fn at(x: f64) -> Aabb {
+    fn bounds_from(x: f64) -> Aabb {
         Aabb { min: DVec3::new(x, 0.0, 0.0), max: DVec3::new(x + 1.0, 1.0, 1.0) }
     }
 
@@ -64,8 +64,8 @@ mod tests {
     #[test]
     fn a_change_counts_where_it_was_and_for_older_versions() {
         let mut changes = StaticChanges::default();
-        changes.add(5, at(0.0));
-        changes.add(7, at(10.0));
+        changes.add(5, bounds_from(0.0));
+        changes.add(7, bounds_from(10.0));
         changes.add(8, Aabb::EMPTY);
         assert_eq!(changes.version(), 7);
         assert!(changes.since(4, &around(0.0)) && !changes.since(5, &around(0.0)));
@@ -77,7 +77,7 @@ mod tests {
     fn what_was_forgotten_may_have_been_anywhere() {
         let mut changes = StaticChanges::default();
         for version in 1..=MAX_CHANGES as u64 + 2 {
-            changes.add(version, at(0.0));
+            changes.add(version, bounds_from(0.0));
         }
         assert!(changes.since(1, &around(20.0)));
         assert!(!changes.since(2, &around(20.0)));

@@ -15,7 +15,7 @@ use super::restore::Restore;
 use super::scroll::Piece;
 use super::store_draws::{Fills, StoreDraw, TileFill};
 use super::tile::{Tile, plan_tile};
-use crate::casters::CasterPass;
+use crate::caster_view::CasterPass;
 use crate::culled::CulledInstances;
 use crate::error::Error;
 use crate::vertex_buffers::VertexBuffers;

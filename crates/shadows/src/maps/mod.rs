@@ -21,7 +21,7 @@ use restore::Restore;
 use shadowgraph_core::{Buffer, Frame, Texture};
 
 use crate::atlas::TileRect;
-use crate::casters::{TINT_FORMAT, caster_view_layout};
+use crate::caster_view::{TINT_FORMAT, caster_view_layout};
 use crate::error::Error;
 use crate::lookup_variant::{FEW_VIEWS, LookupVariant};
 use crate::plan::{PlanState, ShadowInputs, ShadowPlan};

@@ -4,7 +4,8 @@ use shadowgraph_core::{Frame, Pass, Rendering};
 use shadowgraph_scene::{ConvexVolume, CullVolume};
 
 use super::contents::{ALL_STATIC, Versions};
-use crate::casters::{CasterPass, ShadowCasters};
+use crate::caster_view::CasterPass;
+use crate::casters::ShadowCasters;
 use crate::culled::{CulledInstances, CulledTokens};
 use crate::gpu_casters::CasterQuery;
 use crate::plan::TilePlan;

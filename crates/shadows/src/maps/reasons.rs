@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use super::contents::{Because, Held, Wanted, Work};
-use crate::casters::{ShadowCasters, TileKind};
+use crate::caster_view::TileKind;
+use crate::casters::ShadowCasters;
 use crate::plan::TilePlan;
 
 /// Most names that a sentence lists.

@@ -14,7 +14,8 @@ use super::queries::{Queries, TileCasters};
 use super::reasons::reason;
 use super::restore::RestoreBlock;
 use super::scroll;
-use crate::casters::{CasterPass, Mobility, ShadowCasters, TileKind};
+use crate::caster_view::{CasterPass, TileKind};
+use crate::casters::{Mobility, ShadowCasters};
 use crate::gpu_casters::GpuCasters;
 use crate::plan::TilePlan;
 

@@ -3,7 +3,7 @@
 use super::{Planner, placement};
 use crate::allocation::{AtlasConfig, TileRequest, allocate_tiles};
 use crate::atlas::{MAX_ATLAS_TILES, TileRect, even_tiles, smallest_atlas_tile_px};
-use crate::casters::TileKind;
+use crate::caster_view::TileKind;
 use crate::light_params::LightShadowParams;
 use crate::ortho::OrthoFit;
 use crate::plan::{MapPlan, TilePlan};

@@ -6,7 +6,7 @@ use shadowgraph_scene::CullVolume;
 use super::{Planner, placement};
 use crate::atlas::{TileLayout, even_tiles};
 use crate::cascades::{CascadeFit, merged, slices, split_distances};
-use crate::casters::TileKind;
+use crate::caster_view::TileKind;
 use crate::gpu_casters::GpuCasters;
 use crate::light_params::LightShadowParams;
 use crate::ortho::OrthoFit;

@@ -43,7 +43,8 @@ impl ShadowTechnique for NoShadows {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::casters::{CasterView, ShadowCasters};
+    use crate::caster_view::CasterView;
+    use crate::casters::ShadowCasters;
     use crate::settings::ShadowSettings;
     use glam::DVec3;
     use shadowgraph_scene::{Aabb, Camera, CullVolume};
