@@ -1,6 +1,8 @@
 // Culls the instances of a scene for several views at once, and writes an indirect draw for each batch and view.
 //
 //   cull_instances    tests the instances: a bit for each instance and view
+//   cull_seen         the same for what the view saw in its previous frame
+//   cull_hidden       the same for what the depth of that does not hide
 //   rank_chunks       a prefix sum: the number of visible instances before each chunk
 //   write_instances   lists the visible instances of each view, in the order of their numbers
 //   write_draws       the arguments of the draws
@@ -54,6 +56,25 @@ override FIRST_INSTANCE: bool = true;
 @group(0) @binding(5) var<storage, read_write> visible: array<u32>;
 // ARGUMENTS words for each view and batch, then the number of visible instances of each view.
 @group(0) @binding(6) var<storage, read_write> draws: array<u32>;
+
+// The members of the camera's View that are read.
+struct OcclusionView {
+    clip_from_world: mat4x4f,
+    unread: array<vec4f, 9>,
+    size_px: vec2f,
+}
+
+// A bit for each instance that the camera saw in its previous frame; 32 in a texel.
+@group(1) @binding(0) var seen_before: texture_2d<u32>;
+// The same for this frame.
+@group(1) @binding(1) var seen_now: texture_storage_2d<r32uint, write>;
+@group(1) @binding(2) var<uniform> camera: OcclusionView;
+// The farthest depth below each texel, reversed.
+@group(1) @binding(3) var pyramid: texture_2d<f32>;
+
+// Views of cull_hidden.
+const SOLID: u32 = 0u;
+const NEW: u32 = 1u;
 
 // A bit for each view that sees an instance of the chunk.
 var<workgroup> viewers: array<u32, CHUNK>;
@@ -115,6 +136,75 @@ fn intersects(box: Box, view: vec4u) -> bool {
     return true;
 }
 
+// Whether all that a box may draw is behind what the pyramid was made of; never true for a box with a visible pixel.
+fn is_hidden(box: Box) -> bool {
+    var low = vec2f(1e9);
+    var high = vec2f(-1e9);
+    var nearest = 0.0;
+    for (var corner = 0u; corner < 8u; corner++) {
+        let side = vec3f(vec3u(corner, corner >> 1u, corner >> 2u) & vec3u(1u)) * 2.0 - 1.0;
+        let clip = camera.clip_from_world * vec4f(box.center + box.axes * side, 1.0);
+        // In front of the near plane, or next to it.
+        if clip.w <= 0.0 || clip.z >= 0.999 * clip.w {
+            return false;
+        }
+        let position = clip.xyz / clip.w;
+        low = min(low, position.xy);
+        high = max(high, position.xy);
+        nearest = max(nearest, position.z);
+    }
+    let last_px = camera.size_px - 1.0;
+    // A pixel more on all sides, for rounding and jitter.
+    let first = vec2u(clamp((vec2f(low.x, -high.y) * 0.5 + 0.5) * camera.size_px - 1.5, vec2f(0.0), last_px));
+    let last = vec2u(clamp((vec2f(high.x, -low.y) * 0.5 + 0.5) * camera.size_px + 1.5, vec2f(0.0), last_px));
+    let extent = max(last.x - first.x, last.y - first.y);
+    // At most two texels wide.
+    let level = min(32u - countLeadingZeros(extent), textureNumLevels(pyramid) - 1u);
+    let end = max(textureDimensions(pyramid) >> vec2u(level), vec2u(1u)) - 1u;
+    let from_texel = min(first >> vec2u(level), end);
+    let to_texel = min(last >> vec2u(level), end);
+    var farthest = 1.0;
+    // Mesa's software driver takes the size of the level of the first thread for all, so all read the same one.
+    for (var common_level = 0u; common_level < textureNumLevels(pyramid); common_level++) {
+        if common_level == level {
+            for (var y = from_texel.y; y <= to_texel.y; y++) {
+                for (var x = from_texel.x; x <= to_texel.x; x++) {
+                    farthest = min(farthest, textureLoad(pyramid, vec2u(x, y), common_level).r);
+                }
+            }
+        }
+    }
+    return nearest * (1.0 + 1e-5) + 1e-7 < farthest;
+}
+
+// The views whose volume an instance may intersect, a bit for each.
+fn viewers_of(instance: Instance, batch: Batch, box: Box) -> u32 {
+    let flags = batch.flags | instance.flags.y;
+    var seen_by = 0u;
+    for (var view = 0u; view < view_count(); view++) {
+        let tested = views[1u + view];
+        let is_wanted = (flags & tested.z) == tested.z && (flags & tested.w) == 0u;
+        seen_by |= u32(is_wanted && intersects(box, tested)) << view;
+    }
+    return seen_by;
+}
+
+// The bits of one view for half a chunk.
+fn gathered(view: u32, half: u32) -> u32 {
+    var bits = 0u;
+    for (var place = 0u; place < 32u; place++) {
+        bits |= ((viewers[32u * half + place] >> view) & 1u) << place;
+    }
+    return bits;
+}
+
+// The texel of the bits of half a chunk.
+fn seen_texel(chunk: u32, half: u32) -> vec2u {
+    let width = textureDimensions(seen_before).x;
+    let word = 2u * chunk + half;
+    return vec2u(word % width, word / width);
+}
+
 @compute @workgroup_size(64)
 fn cull_instances(
     @builtin(workgroup_id) workgroup: vec3u,
@@ -127,12 +217,58 @@ fn cull_instances(
         if number < instance_count() {
             let instance = instances[number];
             let batch = batches[instance.flags.x];
-            let flags = batch.flags | instance.flags.y;
+            seen_by = viewers_of(instance, batch, world_bounds(instance, batch));
+        }
+        viewers[local] = seen_by;
+        workgroupBarrier();
+        if local < 2u * view_count() {
+            let view = local / 2u;
+            visible_bits[first_word(view, chunk) + local % 2u] = gathered(view, local % 2u);
+        }
+        workgroupBarrier();
+    }
+}
+
+@compute @workgroup_size(64)
+fn cull_seen(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
+        let number = chunk * CHUNK + local;
+        let seen = textureLoad(seen_before, seen_texel(chunk, local / 32u), 0).x;
+        var seen_by = 0u;
+        if number < instance_count() && (seen & (1u << (local % 32u))) != 0u {
+            let instance = instances[number];
+            let batch = batches[instance.flags.x];
+            seen_by = viewers_of(instance, batch, world_bounds(instance, batch));
+        }
+        viewers[local] = seen_by;
+        workgroupBarrier();
+        if local < 2u {
+            visible_bits[first_word(0u, chunk) + local] = gathered(0u, local);
+        }
+        workgroupBarrier();
+    }
+}
+
+@compute @workgroup_size(64)
+fn cull_hidden(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
+        let number = chunk * CHUNK + local;
+        var seen_by = 0u;
+        if number < instance_count() {
+            let instance = instances[number];
+            let batch = batches[instance.flags.x];
             let box = world_bounds(instance, batch);
-            for (var view = 0u; view < view_count(); view++) {
-                let tested = views[1u + view];
-                let is_wanted = (flags & tested.z) == tested.z && (flags & tested.w) == 0u;
-                seen_by |= u32(is_wanted && intersects(box, tested)) << view;
+            seen_by = viewers_of(instance, batch, box);
+            if seen_by != 0u && is_hidden(box) {
+                seen_by = 0u;
             }
         }
         viewers[local] = seen_by;
@@ -140,9 +276,12 @@ fn cull_instances(
         if local < 2u * view_count() {
             let view = local / 2u;
             let half = local % 2u;
-            var bits = 0u;
-            for (var place = 0u; place < 32u; place++) {
-                bits |= ((viewers[32u * half + place] >> view) & 1u) << place;
+            var bits = gathered(view, half);
+            if view == NEW {
+                bits &= ~textureLoad(seen_before, seen_texel(chunk, half), 0).x;
+            }
+            if view == SOLID {
+                textureStore(seen_now, seen_texel(chunk, half), vec4u(bits));
             }
             visible_bits[first_word(view, chunk) + half] = bits;
         }

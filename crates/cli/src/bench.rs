@@ -10,15 +10,19 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
-use shadowgraph::{Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph::scene::Camera;
+use shadowgraph::{CulledView, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
     Comparison, FrameTime, INSTANCES, MATERIALS, ManyFrames, MovingFrameTime, MovingFrames, Stats,
-    WholeFrame, compare, frames_of_many, moving_frames, pass_times, whole_frames,
+    WholeFrame, compare, flying_frames, frames_of_many, moving_frames, pass_times, whole_frames,
 };
 
 /// Number of frames on a real GPU; each is waited for.
 const GPU_FRAMES: u32 = 20;
+
+/// Distance that the camera moves in each frame of `--fly`, metres.
+const FLOWN_M: f64 = 0.05;
 
 /// Measures and prints, a table at a time.
 pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure> {
@@ -49,6 +53,13 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         drop(measuring);
         return console::print(&boxes_table(&runs));
     }
+    if args.fly {
+        let gpu = gpu.as_ref().unwrap_or(&noop);
+        let renderer = &mut renderer(gpu, &input)?;
+        let camera = |frame| flown(&view.camera, frame);
+        let times = flying_frames(gpu, renderer, (view.size_px, &view.shadows), args.frames, camera)?;
+        return console::print(&flying_table(&times, renderer));
+    }
     if args.whole_frame || args.ablate {
         let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
         let frames = args.frames.min(GPU_FRAMES);
@@ -59,7 +70,8 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
             let renderer = &mut renderer(&gpu, &input)?;
             let times = whole_frames(&gpu, renderer, &view, frames)?;
             let passes = passes(&gpu, renderer, &view, frames)?;
-            format!("{}\n{passes}", whole_frame_table(&times, &gpu.adapter.name))
+            let culled = culled_table(&gpu, renderer, &view)?;
+            format!("{}\n{passes}{culled}", whole_frame_table(&times, &gpu.adapter.name))
         };
         drop(measuring);
         return console::print(&tables);
@@ -187,6 +199,27 @@ fn boxes_table(runs: &[ManyFrames]) -> String {
     )
 }
 
+/// Returns the camera of a frame that moves ahead.
+fn flown(camera: &Camera, frame: u32) -> Camera {
+    let step = camera.forward_world() * (FLOWN_M * f64::from(frame));
+    let mut flown = camera.clone();
+    flown.world_from_view.translation += step;
+    flown
+}
+
+/// Formats the frames of a camera that moves.
+fn flying_table(frames: &[Duration], renderer: &Renderer) -> String {
+    let stats = Stats::from_samples(frames.iter().map(|time| time.as_secs_f64() * 1e3));
+    let by = if renderer.casters().culls_on_gpu() { "GPU" } else { "CPU" };
+    format!(
+        "CPU time of a frame with a moving camera, {} instances culled by the {by}, {} frames: median {:.3} ms, 95th percentile {:.3} ms\n",
+        renderer.casters().scene.instance_count(),
+        frames.len(),
+        stats.median,
+        stats.p95
+    )
+}
+
 /// Formats the times of whole frames as a table.
 fn whole_frame_table(frames: &[WholeFrame], device: &str) -> String {
     let row = |name: &str, time: fn(&WholeFrame) -> Duration| {
@@ -203,6 +236,20 @@ fn whole_frame_table(frames: &[WholeFrame], device: &str) -> String {
         frames.len(),
         TextTable { alignment: "lrr", indent: 2, width: COLUMNS }.format(rows)
     )
+}
+
+/// Formats how many instances the views of a frame draw that the GPU culls; empty if the CPU does.
+fn culled_table(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions) -> Result<String, Failure> {
+    let culled = renderer.draw(gpu, view)?.culled;
+    if culled.is_empty() {
+        return Ok(String::new());
+    }
+    let rows = culled.into_iter().map(|CulledView { view, instances }| [view, instances.to_string()]);
+    let rows: Vec<_> =
+        [["culled on the GPU", "instances"].map(str::to_owned)].into_iter().chain(rows).collect();
+    let all = renderer.casters().scene.instance_count();
+    let table = TextTable { alignment: "lr", indent: 2, width: COLUMNS }.format(rows);
+    Ok(format!("\ndrawn of {all} instances, in a frame after the measured ones\n{table}"))
 }
 
 fn ratio(stats: Stats) -> String {

@@ -97,6 +97,11 @@ impl SceneCasters {
         self.culling.on_gpu
     }
 
+    /// Returns the pass that culls instances on the GPU.
+    pub(crate) fn cull_pass(&self) -> &CullPass {
+        &self.cull
+    }
+
     /// Adds the pass that culls instances on the GPU.
     pub(crate) fn cull<'f>(&'f self, frame: &mut Frame<'f>, views: &[CullView]) -> CulledInstances {
         self.cull.add_to(frame, &self.scene, views, self.culling)
@@ -174,6 +179,7 @@ impl ShadowCasters for SceneCasters {
 impl GpuCasters for SceneCasters {
     fn cull<'f>(&'f self, frame: &mut Frame<'f>, queries: &[CasterQuery]) -> CulledInstances {
         let view = |query: &CasterQuery| CullView {
+            name: query.name.clone(),
             volume: query.volume.clone(),
             required: CullFlags::OPAQUE_CASTERS.union(CullFlags::CASTER),
             excluded: if query.only_static { CullFlags::MOVING } else { CullFlags::default() },

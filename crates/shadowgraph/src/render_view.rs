@@ -3,8 +3,8 @@
 use glam::Vec4;
 use shadowgraph_core::{Format, Frame, Texture, TextureDesc};
 use shadowgraph_lighting::{
-    AmbientLight, Backdrop, CullView, CulledGeometry, Geometry, KeyLight, LitOutput, PosePass,
-    PreviousCameras, SkyLight, Tonemap, TonemapSettings, ViewBuffers, ViewUniforms,
+    AmbientLight, Backdrop, CullView, CulledGeometry, Geometry, KeyLight, LitOutput, OcclusionCulling,
+    PosePass, Prepass, PreviousCameras, SkyLight, Tonemap, TonemapSettings, ViewBuffers, ViewUniforms,
 };
 use shadowgraph_scene::gpu::{CullFlags, DrawList};
 use shadowgraph_scene::{Camera, GroundPlane, Light};
@@ -105,15 +105,41 @@ impl<'v> RenderView<'v> {
             return;
         }
         let casters = self.casters;
-        let volume = self.options.camera.frustum(self.options.aspect());
-        let solid = CullFlags::SOLID.union(CullFlags::SEEN);
-        let view = |required| CullView { volume: volume.clone(), required, excluded: CullFlags::default() };
-        let mut views = vec![view(solid)];
+        let solid = self.solid_view();
         let moving = casters.scene.any_moving().then_some(1);
-        views.extend(moving.map(|_| view(solid.union(CullFlags::MOVING))));
+        let required = solid.required.union(CullFlags::MOVING);
+        let mut views = vec![solid];
+        views.extend(moving.map(|_| CullView { required, name: "moving".into(), ..views[0].clone() }));
         let instances = frame.node("cull geometry", |frame| casters.cull(frame, &views));
         let culled = CulledGeometry { instances, solid: 0, moving };
         frame.publish(ViewGeometry { view: self.index, culled });
+    }
+
+    /// Returns the view of all geometry that is not blended.
+    fn solid_view(&self) -> CullView {
+        let name = if self.index == 0 { "camera".into() } else { format!("camera {}", self.index) };
+        CullView {
+            name,
+            volume: self.options.camera.frustum(self.options.aspect()),
+            required: CullFlags::SOLID.union(CullFlags::SEEN),
+            excluded: CullFlags::default(),
+        }
+    }
+
+    /// Adds the depth prepass of what is not hidden, and returns the depth. From then on, [`geometry`](Self::geometry) returns what is
+    /// not hidden.
+    pub(crate) fn add_occluded_prepass<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        (occlusion, prepass): (&'f OcclusionCulling, &'f Prepass),
+        buffers: &ViewBuffers,
+    ) -> Texture {
+        let (geometry, view) = (self.geometry(frame), self.solid_view());
+        let passes = (prepass, self.casters.cull_pass());
+        let note = self.casters.culling();
+        let (depth, culled) = occlusion.add_prepass(frame, passes, buffers, (&geometry, &view), &note);
+        frame.publish(ViewGeometry { view: self.index, culled });
+        depth
     }
 
     /// Adds the shadows of all lights. A technique that reads surface buffers needs `surfaces`.

@@ -47,6 +47,17 @@ pub struct RenderedFrame {
     pub times: Vec<PassTime>,
     /// The lights that should cast shadows and do not, with the reason.
     pub unshadowed: Vec<Unshadowed>,
+    /// How many instances the passes draw that the GPU has culled.
+    pub culled: Vec<CulledView>,
+}
+
+/// How many instances a view draws that the GPU has culled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CulledView {
+    /// The name of the view: `camera`, what of it was seen before or is new, or a tile.
+    pub view: String,
+    /// The number of instances.
+    pub instances: u32,
 }
 
 impl RenderedFrame {

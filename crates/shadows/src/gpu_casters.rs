@@ -51,6 +51,8 @@ pub trait GpuCasters: Sync {
 /// Casters to be found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CasterQuery {
+    /// The name, for statistics.
+    pub name: String,
     /// The volume that they intersect, or are near to.
     pub volume: ConvexVolume,
     /// Whether moving casters are left out.

@@ -2,7 +2,7 @@
 
 use crate::worlds::{SIZE_PX, camera, different_pixels, edit_lights, edit_material, scene, settings};
 use crate::{from_env, gpu, seed};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Instance, Scene};
 use shadowgraph::shadows::{EVSM, PCF, PCSS, SDSM, TechniqueKind};
@@ -53,6 +53,15 @@ fn crowd(random: &mut Random) -> Scene {
         if random.below(5) == 0 {
             at.matrix3.x_axis = -at.matrix3.x_axis;
         }
+        scene.insert_instance(Instance { world_from_local: at, ..like }).unwrap();
+    }
+    // Walls that hide what is behind them.
+    for _ in 0..4 {
+        let Some(like) = scene.instances().nth(1).map(|(_, instance)| instance.clone()) else { continue };
+        let mut at = edits::transform(random);
+        at.translation *= random.between(0.5, 3.0);
+        at.translation.y = 0.0;
+        at.matrix3 *= DMat3::from_diagonal(DVec3::new(8.0, 4.0, 0.3));
         scene.insert_instance(Instance { world_from_local: at, ..like }).unwrap();
     }
     scene

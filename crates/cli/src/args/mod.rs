@@ -170,9 +170,12 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with_all = ["scene", "procedural"])]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub(crate) moving: Vec<u32>,
+    /// Measure the CPU time of frames instead with a camera that moves by 5 cm in each
+    #[arg(long, conflicts_with_all = ["moving", "whole_frame", "ablate"])]
+    pub(crate) fly: bool,
     /// Measure the CPU time of frames of these numbers of boxes instead, culled by the CPU and by the GPU, with a camera that moves
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
-    #[arg(conflicts_with_all = ["scene", "procedural", "moving", "whole_frame", "ablate"])]
+    #[arg(conflicts_with_all = ["scene", "procedural", "moving", "whole_frame", "ablate", "fly"])]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(crate) boxes: Vec<u32>,
 }

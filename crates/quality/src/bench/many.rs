@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3, Vec4};
 use shadowgraph::options::Aov;
 use shadowgraph::{Culling, Gpu, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
+use shadowgraph_shadows::ShadowSettings;
 
 use super::{graph_frame, idle, target};
 use crate::Error;
@@ -40,7 +41,6 @@ pub fn frames_of_many(
     counts: &[usize],
     frames: u32,
 ) -> Result<Vec<ManyFrames>, Error> {
-    let target = target(&gpu.device, size_px)?;
     let kinds = match config.culling {
         Culling::Auto => vec![Culling::Cpu, Culling::Gpu],
         culling => vec![culling],
@@ -51,22 +51,38 @@ pub fn frames_of_many(
         for &culling in &kinds {
             let config = RenderConfig { culling, ..config.clone() };
             let mut renderer = Renderer::with_config(gpu, scene.clone(), &camera(0), Aov::Color, config)?;
-            let mut run = ManyFrames { boxes, culling, frames: Vec::new() };
-            for frame in 0..frames / 10 + 1 + frames {
-                let options = ViewOptions { camera: camera(frame), size_px, shadows: Default::default() };
-                let start = Instant::now();
-                renderer.begin_frame(gpu, &options)?;
-                let view = renderer.view(&options, Some(&target));
-                graph_frame(gpu, &renderer, &view, &mut renderer.graph())?;
-                if frame > frames / 10 {
-                    run.frames.push(start.elapsed());
-                }
-                idle(gpu)?;
-            }
-            all.push(run);
+            let frames = flying_frames(gpu, &mut renderer, (size_px, &Default::default()), frames, camera)?;
+            all.push(ManyFrames { boxes, culling, frames });
         }
     }
     Ok(all)
+}
+
+/// Measures frames of a scene with a camera that moves: `camera` returns that of a frame. A tenth as many frames warm up.
+///
+/// # Errors
+/// For settings out of range.
+pub fn flying_frames(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    (size_px, shadows): ([u32; 2], &ShadowSettings),
+    frames: u32,
+    camera: impl Fn(u32) -> Camera,
+) -> Result<Vec<Duration>, Error> {
+    let target = target(&gpu.device, size_px)?;
+    let mut times = Vec::new();
+    for frame in 0..frames / 10 + 1 + frames {
+        let options = ViewOptions { camera: camera(frame), size_px, shadows: shadows.clone() };
+        let start = Instant::now();
+        renderer.begin_frame(gpu, &options)?;
+        let view = renderer.view(&options, Some(&target));
+        graph_frame(gpu, renderer, &view, &mut renderer.graph())?;
+        if frame > frames / 10 {
+            times.push(start.elapsed());
+        }
+        idle(gpu)?;
+    }
+    Ok(times)
 }
 
 fn scene(boxes: usize) -> Result<Scene, Error> {

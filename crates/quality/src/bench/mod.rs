@@ -15,7 +15,7 @@ mod whole;
 #[cfg(test)]
 mod tests;
 
-pub use many::{MATERIALS, ManyFrames, frames_of_many};
+pub use many::{MATERIALS, ManyFrames, flying_frames, frames_of_many};
 pub use moving::{INSTANCES, MovingFrameTime, MovingFrames, moving_frames};
 pub use stats::Stats;
 pub use whole::{WholeFrame, warm_up, whole_frames, whole_frames_in_turn};

@@ -1,5 +1,7 @@
 //! Draws of instances that the GPU has culled.
 
+use std::ops::Range;
+
 use super::draw_list::{Draw, DrawPipeline, MaterialUse};
 use super::scene::GpuScene;
 
@@ -43,7 +45,15 @@ impl CullInputs<'_> {
     /// Returns the size of the draws of some views, bytes, with the number of visible instances of each.
     #[must_use]
     pub fn draw_bytes(&self, views: u32) -> u64 {
-        u64::from(views) * (u64::from(self.batch_count) * ARGUMENTS_BYTES + NUMBER_BYTES)
+        self.count_bytes(views).end
+    }
+
+    /// Returns the bytes of the draws that have the number of visible instances of each view.
+    #[must_use]
+    pub fn count_bytes(&self, views: u32) -> Range<u64> {
+        let views = u64::from(views);
+        let begin = views * u64::from(self.batch_count) * ARGUMENTS_BYTES;
+        begin..begin + views * NUMBER_BYTES
     }
 }
 

@@ -1,12 +1,13 @@
 //! Images that are drawn and read back.
 
-use shadowgraph_core::{Buffer, Compiled, Executed, Graph, Subresource, Timer};
+use shadowgraph_core::{Buffer, Compiled, Executed, Frame, Graph, ReadBackRequest, Subresource, Timer};
+use shadowgraph_lighting::{CullCount, CullCounts};
 
 use super::Renderer;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::render_view::RenderView;
-use crate::rendered::{RenderedFrame, RenderedImage};
+use crate::rendered::{CulledView, RenderedFrame, RenderedImage};
 use crate::view_options::ViewOptions;
 
 impl Renderer {
@@ -60,16 +61,28 @@ impl Renderer {
             let mut frame = self.graph().frame();
             let output = self.add(&mut frame, &view)?;
             let request = frame.read_back_texture(&output.image, Subresource::FULL);
+            let counts = read_counts(&mut frame);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut graph = self.graph();
             let compiled = graph.compile(frame)?;
             let mut executed = execute(compiled, &mut graph, &mut encoder)?;
             drop(graph);
             let texels = executed.read_back(request).ok_or_else(read_back_error)?;
+            let counts: Vec<_> =
+                counts.into_iter().map(|(views, request)| (views, executed.read_back(request))).collect();
             gpu.queue.submit([encoder.finish()]);
+            let mut culled = Vec::new();
+            for (views, bytes) in counts {
+                let bytes = bytes.ok_or_else(read_back_error)?.wait(&gpu.device)?;
+                let numbers = bytes.as_chunks().0.iter().map(|&number| u32::from_le_bytes(number));
+                culled.extend(
+                    views.into_iter().zip(numbers).map(|(view, instances)| CulledView { view, instances }),
+                );
+            }
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let (plan, times) = (executed.shared_plan(), Vec::new());
-            Ok((RenderedFrame { image, plan, times, unshadowed: output.unshadowed }, output.shadow_buffers))
+            let unshadowed = output.unshadowed;
+            Ok((RenderedFrame { image, plan, times, unshadowed, culled }, output.shadow_buffers))
         });
         self.count_frame();
         drawn
@@ -110,6 +123,16 @@ impl Renderer {
         self.count_frame();
         drawn
     }
+}
+
+/// Requests the numbers of instances of culled views, and returns the names of these.
+fn read_counts(frame: &mut Frame<'_>) -> Vec<(Vec<String>, ReadBackRequest)> {
+    let counts = CullCounts::published_in(frame).0.into_iter();
+    counts
+        .map(|CullCount { views, buffer, bytes }| {
+            (views, frame.read_back_buffer(&buffer, Subresource::FULL.bytes(bytes)))
+        })
+        .collect()
 }
 
 /// Returns the error for a read-back that the frame did not execute.

@@ -4,6 +4,7 @@ use shadowgraph_core::{Frame, Pass, Rendering};
 use shadowgraph_scene::{ConvexVolume, CullVolume};
 
 use super::contents::{ALL_STATIC, Versions};
+use super::reasons::tile_name;
 use crate::caster_view::CasterPass;
 use crate::casters::ShadowCasters;
 use crate::culled::{CulledInstances, CulledTokens};
@@ -25,15 +26,23 @@ pub(super) struct Queries(Vec<CasterQuery>);
 impl TileCasters {
     /// Returns the casters that matter to the view.
     pub(super) fn seen(tile: &TilePlan, pass: CasterPass, queries: &mut Queries) -> Self {
-        let culled = tile.culled_of(pass).map(|volume| queries.push(volume, false));
+        let culled = tile.culled_of(pass).map(|volume| queries.push(tile_name(tile), volume, false));
         Self { listed: tile.casters_of(pass).to_vec(), culled }
     }
 
     /// Returns static casters, which the GPU finds in the volume if they are not listed.
-    pub(super) fn all_static(casters: &Versions, volume: &CullVolume, queries: &mut Queries) -> Self {
+    pub(super) fn all_static(
+        tile: &TilePlan,
+        casters: &Versions,
+        volume: &CullVolume,
+        queries: &mut Queries,
+    ) -> Self {
         let is_culled = casters.iter().any(|(caster, _)| *caster == ALL_STATIC);
         let listed = casters.iter().map(|(caster, _)| *caster).filter(|&caster| caster != ALL_STATIC);
-        Self { listed: listed.collect(), culled: is_culled.then(|| queries.push(volume, true)) }
+        Self {
+            listed: listed.collect(),
+            culled: is_culled.then(|| queries.push(format!("{} static", tile_name(tile)), volume, true)),
+        }
     }
 
     /// Returns casters of a list.
@@ -56,9 +65,9 @@ impl TileCasters {
 }
 
 impl Queries {
-    fn push(&mut self, volume: &CullVolume, only_static: bool) -> u32 {
+    fn push(&mut self, name: String, volume: &CullVolume, only_static: bool) -> u32 {
         let CullVolume { planes: ConvexVolume { planes }, .. } = volume;
-        self.0.push(CasterQuery { volume: ConvexVolume { planes: planes.clone() }, only_static });
+        self.0.push(CasterQuery { name, volume: ConvexVolume { planes: planes.clone() }, only_static });
         self.0.len() as u32 - 1
     }
 

@@ -79,12 +79,12 @@ fn draws(
             TileFit::Directional(fit) if *strip != window => {
                 let volume = fit.texels_volume(strip.first, strip.size, 1.0).into();
                 if is_culled {
-                    TileCasters::all_static(&tile.whole, &volume, queries)
+                    TileCasters::all_static(tile.plan, &tile.whole, &volume, queries)
                 } else {
-                    TileCasters::all_static(&statics(source.casters, &volume), &volume, queries)
+                    TileCasters::all_static(tile.plan, &statics(source.casters, &volume), &volume, queries)
                 }
             }
-            _ => TileCasters::all_static(&tile.whole, &tile.plan.fit.volume(), queries),
+            _ => TileCasters::all_static(tile.plan, &tile.whole, &tile.plan.fit.volume(), queries),
         };
         push(strip, true, &casters);
     }

@@ -124,7 +124,7 @@ fn drawn(
         Work::Nothing => TileCasters::default(),
         Work::OverStore(_) => TileCasters::listed(moving.collect()),
         Work::All { whole: true, .. } => {
-            let mut all = TileCasters::all_static(whole, &tile.fit.volume(), queries);
+            let mut all = TileCasters::all_static(tile, whole, &tile.fit.volume(), queries);
             all.listed.extend(moving);
             all
         }

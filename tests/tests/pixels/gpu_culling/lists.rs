@@ -88,6 +88,7 @@ fn lists_have_the_instances_of_each_volume_in_order() {
         let scene = boxes(&mut random, 700);
         let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene, DVec3::new(7.0, 0.0, -3.0)).unwrap();
         let view = |_| CullView {
+            name: String::new(),
             volume: random_volume(&mut random),
             required: CullFlags::SEEN.union(CullFlags::SOLID),
             excluded: CullFlags::default(),

@@ -1,6 +1,7 @@
 //! Culling of instances on the GPU.
 
 mod lists;
+mod occlusion;
 
 use crate::stage::{box_mesh, material};
 use glam::{DAffine3, DQuat, DVec3, Vec4};

@@ -1,7 +1,7 @@
 //! `geometry`
 
 use shadowgraph_core::{Format, Frame, Texture};
-use shadowgraph_lighting::{Prepass, ViewBuffers};
+use shadowgraph_lighting::{OcclusionCulling, Prepass, ViewBuffers};
 use shadowgraph_shadows::SurfaceBuffers;
 
 use super::velocity::VelocityOutput;
@@ -20,6 +20,8 @@ pub struct Geometry {
     surfaces: Option<SurfaceDrawer>,
     velocity: VelocityOutput,
     samples: u32,
+    /// Culls what is hidden, if the GPU culls.
+    occlusion: Option<OcclusionCulling>,
 }
 
 impl Geometry {
@@ -32,7 +34,9 @@ impl Geometry {
         let surfaces = reads.then(|| SurfaceDrawer::new(context.device, context.layouts)).transpose()?;
         let samples = context.lit.samples;
         let prepass = Prepass::new(context.device, context.layouts, samples)?;
-        Ok(Self { prepass, surfaces, velocity: VelocityOutput::new(context), samples })
+        // A depth pyramid has one sample per pixel.
+        let occlusion = (samples == 1).then(|| OcclusionCulling::new(context.device)).transpose()?;
+        Ok(Self { prepass, surfaces, velocity: VelocityOutput::new(context), samples, occlusion })
     }
 
     /// Adds the passes and returns the depth, and the surfaces if the technique reads them.
@@ -45,9 +49,12 @@ impl Geometry {
         view: &'f RenderView<'f>,
         buffers: &ViewBuffers,
     ) -> Result<(Texture, Option<SurfaceBuffers>), Error> {
-        let geometry = &view.geometry(frame);
-        let depth = self.prepass.add_to(frame, buffers, geometry);
+        let depth = match self.occlusion.as_ref().filter(|_| view.casters.culls_on_gpu()) {
+            Some(occlusion) => view.add_occluded_prepass(frame, (occlusion, &self.prepass), buffers),
+            None => self.prepass.add_to(frame, buffers, &view.geometry(frame)),
+        };
         frame.note(&depth, view.casters.culling());
+        let geometry = &view.geometry(frame);
         let surfaces = self.surfaces.as_ref().map(|drawer| match self.samples {
             1 => drawer.surface_buffers(frame, buffers, &depth, geometry),
             _ => drawer.surface_buffers_with_prepass(frame, buffers, geometry),
