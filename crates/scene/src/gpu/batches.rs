@@ -254,3 +254,19 @@ fn create(device: &wgpu::Device, capacity: u64) -> wgpu::Buffer {
         mapped_at_creation: false,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+
+    #[test]
+    fn batches_have_the_layout_of_the_wgsl_struct() {
+        let module = shadowgraph_shaders::compose("cull.wgsl", &[]).unwrap();
+        shadowgraph_shaders::check_layout!(&module, "Batch", GpuBatch:
+            center, first, half_size, count, flags, first_index, index_count, base_vertex, first_slot, padding,
+        )
+        .unwrap();
+    }
+}
