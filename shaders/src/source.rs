@@ -98,6 +98,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("material_features.wgsl"),
     file!("mesh.wgsl"),
     file!("noise.wgsl"),
+    file!("occluders.wgsl"),
     file!("ray_surfaces.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),

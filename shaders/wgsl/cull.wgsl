@@ -9,6 +9,7 @@
 //
 // Compaction keeps the order: images are those of drawing the same instances one after the other.
 #import shadowgraph::draw::Instance
+#import shadowgraph::occluders::{FINEST, texel_index, top_level}
 
 // Neighbours in the order of draws that share all but the instance. 64 bytes.
 struct Batch {
@@ -69,10 +70,10 @@ struct OcclusionView {
 // The same for this frame.
 @group(1) @binding(1) var seen_now: texture_storage_2d<r32uint, write>;
 @group(1) @binding(2) var<uniform> camera: OcclusionView;
-// The farthest depth below each texel, reversed.
-@group(1) @binding(3) var pyramid: texture_2d<f32>;
+// A depth pyramid.
+@group(1) @binding(3) var<storage, read> occluders: array<f32>;
 
-// Views of cull_hidden.
+// Views of cull_hidden. The instances of all views are among those of the first.
 const SOLID: u32 = 0u;
 const NEW: u32 = 1u;
 
@@ -136,6 +137,11 @@ fn intersects(box: Box, view: vec4u) -> bool {
     return true;
 }
 
+// The farthest depth of a texel of the pyramid.
+fn occluder(level: u32, texel: vec2u) -> f32 {
+    return occluders[texel_index(vec2u(camera.size_px), level, texel)];
+}
+
 // Whether all that a box may draw is behind what the pyramid was made of; never true for a box with a visible pixel.
 fn is_hidden(box: Box) -> bool {
     var low = vec2f(1e9);
@@ -153,40 +159,44 @@ fn is_hidden(box: Box) -> bool {
         high = max(high, position.xy);
         nearest = max(nearest, position.z);
     }
+    let size_px = vec2u(camera.size_px);
     let last_px = camera.size_px - 1.0;
     // A pixel more on all sides, for rounding and jitter.
     let first = vec2u(clamp((vec2f(low.x, -high.y) * 0.5 + 0.5) * camera.size_px - 1.5, vec2f(0.0), last_px));
     let last = vec2u(clamp((vec2f(high.x, -low.y) * 0.5 + 0.5) * camera.size_px + 1.5, vec2f(0.0), last_px));
     let extent = max(last.x - first.x, last.y - first.y);
     // At most two texels wide.
-    let level = min(32u - countLeadingZeros(extent), textureNumLevels(pyramid) - 1u);
-    let end = max(textureDimensions(pyramid) >> vec2u(level), vec2u(1u)) - 1u;
-    let from_texel = min(first >> vec2u(level), end);
-    let to_texel = min(last >> vec2u(level), end);
-    var farthest = 1.0;
-    // Mesa's software driver takes the size of the level of the first thread for all, so all read the same one.
-    for (var common_level = 0u; common_level < textureNumLevels(pyramid); common_level++) {
-        if common_level == level {
-            for (var y = from_texel.y; y <= to_texel.y; y++) {
-                for (var x = from_texel.x; x <= to_texel.x; x++) {
-                    farthest = min(farthest, textureLoad(pyramid, vec2u(x, y), common_level).r);
-                }
-            }
-        }
-    }
+    let level = clamp(32u - countLeadingZeros(extent), FINEST, top_level(size_px));
+    let from_texel = first >> vec2u(level);
+    let to_texel = last >> vec2u(level);
+    let upper = min(occluder(level, from_texel), occluder(level, vec2u(to_texel.x, from_texel.y)));
+    let farthest = min(upper, min(occluder(level, vec2u(from_texel.x, to_texel.y)), occluder(level, to_texel)));
     return nearest * (1.0 + 1e-5) + 1e-7 < farthest;
 }
 
-// The views whose volume an instance may intersect, a bit for each.
-fn viewers_of(instance: Instance, batch: Batch, box: Box) -> u32 {
+// What the tests of an instance find.
+struct Tested {
+    box: Box,
+    // The views whose volume it may intersect, a bit for each.
+    seen_by: u32,
+}
+
+// Tests an instance against the volumes of the views.
+fn tested(number: u32) -> Tested {
+    if number >= instance_count() {
+        return Tested(Box(), 0u);
+    }
+    let instance = instances[number];
+    let batch = batches[instance.flags.x];
+    let box = world_bounds(instance, batch);
     let flags = batch.flags | instance.flags.y;
     var seen_by = 0u;
-    for (var view = 0u; view < view_count(); view++) {
-        let tested = views[1u + view];
-        let is_wanted = (flags & tested.z) == tested.z && (flags & tested.w) == 0u;
-        seen_by |= u32(is_wanted && intersects(box, tested)) << view;
+    for (var index = 0u; index < view_count(); index++) {
+        let view = views[1u + index];
+        let is_wanted = (flags & view.z) == view.z && (flags & view.w) == 0u;
+        seen_by |= u32(is_wanted && intersects(box, view)) << index;
     }
-    return seen_by;
+    return Tested(box, seen_by);
 }
 
 // The bits of one view for half a chunk.
@@ -205,6 +215,13 @@ fn seen_texel(chunk: u32, half: u32) -> vec2u {
     return vec2u(word % width, word / width);
 }
 
+// Writes the bits of a chunk, from those of its threads. Threads whose index is that of a view and half take part.
+fn write_bits(chunk: u32, local: u32) {
+    if local < 2u * view_count() {
+        visible_bits[first_word(local / 2u, chunk) + local % 2u] = gathered(local / 2u, local % 2u);
+    }
+}
+
 @compute @workgroup_size(64)
 fn cull_instances(
     @builtin(workgroup_id) workgroup: vec3u,
@@ -212,19 +229,9 @@ fn cull_instances(
     @builtin(local_invocation_index) local: u32,
 ) {
     for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
-        let number = chunk * CHUNK + local;
-        var seen_by = 0u;
-        if number < instance_count() {
-            let instance = instances[number];
-            let batch = batches[instance.flags.x];
-            seen_by = viewers_of(instance, batch, world_bounds(instance, batch));
-        }
-        viewers[local] = seen_by;
+        viewers[local] = tested(chunk * CHUNK + local).seen_by;
         workgroupBarrier();
-        if local < 2u * view_count() {
-            let view = local / 2u;
-            visible_bits[first_word(view, chunk) + local % 2u] = gathered(view, local % 2u);
-        }
+        write_bits(chunk, local);
         workgroupBarrier();
     }
 }
@@ -236,19 +243,13 @@ fn cull_seen(
     @builtin(local_invocation_index) local: u32,
 ) {
     for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
-        let number = chunk * CHUNK + local;
         let seen = textureLoad(seen_before, seen_texel(chunk, local / 32u), 0).x;
-        var seen_by = 0u;
-        if number < instance_count() && (seen & (1u << (local % 32u))) != 0u {
-            let instance = instances[number];
-            let batch = batches[instance.flags.x];
-            seen_by = viewers_of(instance, batch, world_bounds(instance, batch));
+        viewers[local] = 0u;
+        if (seen & (1u << (local % 32u))) != 0u {
+            viewers[local] = tested(chunk * CHUNK + local).seen_by;
         }
-        viewers[local] = seen_by;
         workgroupBarrier();
-        if local < 2u {
-            visible_bits[first_word(0u, chunk) + local] = gathered(0u, local);
-        }
+        write_bits(chunk, local);
         workgroupBarrier();
     }
 }
@@ -260,31 +261,19 @@ fn cull_hidden(
     @builtin(local_invocation_index) local: u32,
 ) {
     for (var chunk = workgroup.x; chunk < chunk_count(); chunk += workgroups.x) {
-        let number = chunk * CHUNK + local;
-        var seen_by = 0u;
-        if number < instance_count() {
-            let instance = instances[number];
-            let batch = batches[instance.flags.x];
-            let box = world_bounds(instance, batch);
-            seen_by = viewers_of(instance, batch, box);
-            if seen_by != 0u && is_hidden(box) {
-                seen_by = 0u;
-            }
+        let found = tested(chunk * CHUNK + local);
+        viewers[local] = 0u;
+        if (found.seen_by & (1u << SOLID)) != 0u && !is_hidden(found.box) {
+            let seen = textureLoad(seen_before, seen_texel(chunk, local / 32u), 0).x;
+            let is_new = (seen & (1u << (local % 32u))) == 0u;
+            viewers[local] = found.seen_by & ~(u32(!is_new) << NEW);
         }
-        viewers[local] = seen_by;
         workgroupBarrier();
-        if local < 2u * view_count() {
-            let view = local / 2u;
-            let half = local % 2u;
-            var bits = gathered(view, half);
-            if view == NEW {
-                bits &= ~textureLoad(seen_before, seen_texel(chunk, half), 0).x;
-            }
-            if view == SOLID {
-                textureStore(seen_now, seen_texel(chunk, half), vec4u(bits));
-            }
-            visible_bits[first_word(view, chunk) + half] = bits;
+        if local < 2u {
+            let seen = gathered(SOLID, local);
+            textureStore(seen_now, seen_texel(chunk, local), vec4u(seen));
         }
+        write_bits(chunk, local);
         workgroupBarrier();
     }
 }

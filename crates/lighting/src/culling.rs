@@ -102,7 +102,7 @@ enum Test<'t> {
     Depth {
         seen: SeenHistory<'t>,
         camera: &'t Buffer,
-        pyramid: &'t Texture,
+        pyramid: &'t Buffer,
     },
 }
 
@@ -161,15 +161,15 @@ impl CullPass {
         }
     }
 
-    /// Adds the pass for instances that nothing hides. Views [`VISIBLE`](Self::VISIBLE) and [`NEW`](Self::NEW) are those of the camera;
-    /// `pyramid` is that of the depth that has been drawn.
+    /// Adds the pass for instances that nothing hides. The instances of [`NEW`](Self::NEW) and of further views are among those of
+    /// [`VISIBLE`](Self::VISIBLE); `pyramid` is that of the depth that has been drawn.
     pub(crate) fn add_unhidden<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         scene: &'f GpuScene,
         views: &[CullView],
         seen: SeenHistory<'_>,
-        (camera, pyramid): (&Buffer, &Texture),
+        (camera, pyramid): (&Buffer, &Buffer),
         note: &dyn Display,
     ) -> CulledInstances {
         let test = Test::Depth { seen, camera, pyramid };
@@ -242,13 +242,13 @@ impl CullPass {
                 (Some(tested), vec![Bind::Texture(pass.sample(before))])
             }
             Test::Depth { seen, camera, pyramid } => {
-                let entries = [SEEN_BEFORE, SEEN_NOW, buffer(2, UNIFORM), PYRAMID];
+                let entries = [SEEN_BEFORE, SEEN_NOW, buffer(2, UNIFORM), OCCLUDERS];
                 let tested = self.by_depth.get_or_init(|| self.create_tested("cull_hidden", &entries));
                 let bindings = vec![
                     Bind::Texture(pass.sample(seen.before)),
                     Bind::Texture(pass.storage_texture_mut(seen.now, Contents::Overwrite)),
                     Bind::Buffer(pass.uniform_buffer(camera)),
-                    Bind::Texture(pass.sample(pyramid)),
+                    Bind::Buffer(pass.storage_buffer(pyramid)),
                 ];
                 (Some(tested), bindings)
             }
@@ -307,8 +307,8 @@ const SEEN_NOW: wgpu::BindGroupLayoutEntry = wgpu::BindGroupLayoutEntry {
     },
     ..texture(1, wgpu::TextureSampleType::Uint)
 };
-/// `pyramid` of `cull.wgsl`.
-const PYRAMID: wgpu::BindGroupLayoutEntry = texture(3, wgpu::TextureSampleType::Float { filterable: false });
+/// `occluders` of `cull.wgsl`.
+const OCCLUDERS: wgpu::BindGroupLayoutEntry = buffer(3, wgpu::BufferBindingType::Storage { read_only: true });
 
 /// The format of [`SeenHistory`].
 const SEEN_FORMAT: Format = Format::R32Uint;

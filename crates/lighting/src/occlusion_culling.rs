@@ -3,12 +3,13 @@
 use std::fmt::Display;
 
 use shadowgraph_core::{Frame, History, Resize, Texture};
+use shadowgraph_scene::ConvexVolume;
 use shadowgraph_scene::gpu::CullFlags;
 
 use crate::culling::{CullCounts, CullPass, CullView, SeenHistory, seen_desc};
 use crate::error::Error;
 use crate::geometry::{CulledGeometry, Geometry};
-use crate::post::DepthPyramid;
+use crate::occluders::OccluderPyramid;
 use crate::prepass::Prepass;
 use crate::uniforms::ViewBuffers;
 
@@ -16,7 +17,7 @@ use crate::uniforms::ViewBuffers;
 /// does not hide. So nothing visible is ever missing, however the camera moves (Haar and Aaltonen, "GPU-Driven Rendering Pipelines",
 /// SIGGRAPH 2015).
 pub struct OcclusionCulling {
-    pyramid: DepthPyramid,
+    pyramid: OccluderPyramid,
 }
 
 impl OcclusionCulling {
@@ -25,7 +26,7 @@ impl OcclusionCulling {
     /// # Errors
     /// Never with the built-in WGSL.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
-        Ok(Self { pyramid: DepthPyramid::new(device)? })
+        Ok(Self { pyramid: OccluderPyramid::new(device)? })
     }
 
     /// Adds the depth prepass, and returns the depth and the geometry that is not hidden. `view` is the view of all geometry that is not
@@ -52,9 +53,9 @@ impl OcclusionCulling {
 
         let pyramid = frame.node("depth pyramid", |frame| self.pyramid.add_to(frame, &depth));
         let moving = scene.any_moving().then_some(2);
-        let mut views = vec![view.clone(), named("new")];
-        let required = view.required.union(CullFlags::MOVING);
-        views.extend(moving.map(|_| CullView { required, ..named("moving") }));
+        let among = |what, required| CullView { volume: ConvexVolume::default(), required, ..named(what) };
+        let mut views = vec![view.clone(), among("new", view.required)];
+        views.extend(moving.map(|_| among("moving", view.required.union(CullFlags::MOVING))));
         let history = SeenHistory { before: &previous, now: &mut current };
         let instances = frame.node("cull hidden", |frame| {
             cull.add_unhidden(frame, scene, &views, history, (&buffers.view, &pyramid), note)

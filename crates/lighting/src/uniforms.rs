@@ -255,7 +255,7 @@ mod tests {
     use shadowgraph_shaders::{MAPPED, check_layout, compose, layout};
 
     use super::*;
-    use crate::exposure::KeyLight;
+    use crate::key_light::KeyLight;
 
     #[test]
     fn uniforms_have_the_layout_of_the_wgsl_structs() {

@@ -79,10 +79,13 @@ impl<'v> RenderView<'v> {
         ViewBuffers { sky: Some(light), ground_height, ..buffers.clone() }
     }
 
-    /// Returns the visible geometry, for passes of a frame to which [`add_culling`](Self::add_culling) has been added.
-    pub fn geometry(&self, frame: &Frame<'_>) -> Geometry<'_> {
-        let published = frame.published::<ViewGeometry>().ok().filter(|culled| culled.view == self.index);
-        let culled = published.map(|published| published.culled.clone());
+    /// Returns the visible geometry, for passes of `frame`. If the GPU culls, adds the pass that does, unless the frame has it.
+    pub fn geometry(&self, frame: &mut Frame<'v>) -> Geometry<'_> {
+        let culled = self.casters.culls_on_gpu().then(|| self.culled(frame));
+        self.geometry_with(culled)
+    }
+
+    fn geometry_with(&self, culled: Option<CulledGeometry>) -> Geometry<'_> {
         Geometry { scene: &self.casters.scene, draws: &self.draws, culled, size_px: self.options.size_px }
     }
 
@@ -99,10 +102,10 @@ impl<'v> RenderView<'v> {
         self.pose.add_to(frame, &self.casters.scene);
     }
 
-    /// Adds the pass that culls the geometry of the view, if the GPU does.
-    pub fn add_culling(&self, frame: &mut Frame<'v>) {
-        if !self.casters.culls_on_gpu() {
-            return;
+    /// Returns the culled geometry of the view; adds the pass that culls it unless the frame has it.
+    fn culled(&self, frame: &mut Frame<'v>) -> CulledGeometry {
+        if let Some(published) = frame.published::<ViewGeometry>().ok().filter(|of| of.view == self.index) {
+            return published.culled.clone();
         }
         let casters = self.casters;
         let solid = self.solid_view();
@@ -112,7 +115,8 @@ impl<'v> RenderView<'v> {
         views.extend(moving.map(|_| CullView { required, name: "moving".into(), ..views[0].clone() }));
         let instances = frame.node("cull geometry", |frame| casters.cull(frame, &views));
         let culled = CulledGeometry { instances, solid: 0, moving };
-        frame.publish(ViewGeometry { view: self.index, culled });
+        frame.publish(ViewGeometry { view: self.index, culled: culled.clone() });
+        culled
     }
 
     /// Returns the view of all geometry that is not blended.
@@ -134,7 +138,7 @@ impl<'v> RenderView<'v> {
         (occlusion, prepass): (&'f OcclusionCulling, &'f Prepass),
         buffers: &ViewBuffers,
     ) -> Texture {
-        let (geometry, view) = (self.geometry(frame), self.solid_view());
+        let (geometry, view) = (self.geometry_with(None), self.solid_view());
         let passes = (prepass, self.casters.cull_pass());
         let note = self.casters.culling();
         let (depth, culled) = occlusion.add_prepass(frame, passes, buffers, (&geometry, &view), &note);

@@ -10,7 +10,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use shadowgraph_core::{Graph, Plan};
-use shadowgraph_lighting::{AmbientLight, KeyLight, LitOutput, LitTarget, PosePass, PreviousCameras};
+use shadowgraph_lighting::{
+    AmbientLight, KeyLight, KeyLightEstimate, LitOutput, LitTarget, PosePass, PreviousCameras,
+};
 use shadowgraph_scene::gpu::GpuScene;
 use shadowgraph_scene::{Aabb, Camera, Changes, GroundPlane, Scene, origin_near};
 use shadowgraph_shadows::{ShadowTechnique, TechniqueContext, Unshadowed};
@@ -42,6 +44,8 @@ pub struct Renderer {
     pose: PosePass,
     lit_output: LitOutput,
     scene: Scene,
+    key_light: KeyLight,
+    key_light_estimate: KeyLightEstimate,
     aov: Aov,
     /// The camera that shadows are fitted to, if it is not that of the view.
     shadow_camera: Option<Camera>,
@@ -158,14 +162,15 @@ impl Renderer {
             pose: PosePass::new(device)?,
             lit_output,
             scene,
+            key_light: KeyLight::default(),
+            key_light_estimate: KeyLightEstimate::default(),
             aov,
             shadow_camera: None,
             previous_cameras: PreviousCameras::default(),
             frames: 0,
             graph: Mutex::default(),
         };
-        renderer.follow_ground();
-        renderer.choose_culling();
+        renderer.follow_scene();
         Ok(renderer)
     }
 
@@ -217,8 +222,7 @@ impl Renderer {
         (self.scene, self.lit_output) = (scene, lit_output);
         (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
         self.frames = 0;
-        self.follow_ground();
-        self.choose_culling();
+        self.follow_scene();
         Ok(())
     }
 
@@ -308,13 +312,12 @@ impl Renderer {
             gpu_scene.cull(&volume, &mut visible);
         }
         let draws = gpu_scene.draw_list(&visible, options.camera.position_world());
-        let key = KeyLight::estimate(self.scene.lights(), gpu_scene.bounds());
         RenderView {
             index: 0,
             options,
             draws,
-            key_light: key,
-            ambient_light: AmbientLight::for_key_light(key),
+            key_light: self.key_light,
+            ambient_light: AmbientLight::for_key_light(self.key_light),
             lights: self.scene.lights(),
             ground: self.ground(),
             background: self.background(),
@@ -357,18 +360,15 @@ impl Renderer {
         if followed.is_err() {
             self.scene.restore_changes(changes);
         }
-        self.follow_ground();
-        self.choose_culling();
+        self.follow_scene();
         followed
     }
 
-    /// Chooses whether the CPU or the GPU culls.
-    fn choose_culling(&mut self) {
+    /// Chooses what depends on the uploaded scene: what culls, the key light, and where the ground has shadows.
+    fn follow_scene(&mut self) {
+        let bounds = self.casters.scene.bounds();
+        self.key_light = self.key_light_estimate.update(self.scene.lights(), bounds);
         self.casters.culling = self.config.culling.choose(&self.casters.scene);
-    }
-
-    /// Lets shadows cover the ground where the scene casts them.
-    fn follow_ground(&mut self) {
         let casters = self.casters.scene.all_caster_bounds();
         let lights = self.scene.lights();
         self.casters.ground_shadows =

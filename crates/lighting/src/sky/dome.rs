@@ -8,7 +8,7 @@ use shadowgraph_scene::{Light, LightKind};
 
 use super::SkySettings;
 use super::harmonics::irradiance_upwards;
-use crate::exposure::KeyLight;
+use crate::key_light::KeyLight;
 
 /// The least elevation of the sun for the sky's brightness, radians. A low sun of a scene is as bright as a high one, but a low
 /// sun outdoors is much darker than its sky.

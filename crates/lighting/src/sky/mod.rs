@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3, Vec4};
 use shadowgraph_core::{Buffer, Frame};
 use shadowgraph_scene::{GroundPlane, Light, LightKind};
 
-use crate::exposure::KeyLight;
+use crate::key_light::KeyLight;
 use dome::Dome;
 
 /// What is drawn where there is no geometry.

@@ -18,7 +18,6 @@ impl Renderer {
     /// For settings out of range, and for an output that the pipeline does not have.
     pub fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f RenderView<'f>) -> Result<ViewOutput, Error> {
         view.add_pose(frame);
-        view.add_culling(frame);
         let output = self.instance.add(frame, view)?;
         self.previous_cameras.set(view.index, &view.options.camera, view.options.aspect());
         let mut image = self.aov_image(frame, view, &output)?;

@@ -2,6 +2,7 @@
 
 mod lists;
 mod occlusion;
+mod pyramid;
 
 use crate::stage::{box_mesh, material};
 use glam::{DAffine3, DQuat, DVec3, Vec4};

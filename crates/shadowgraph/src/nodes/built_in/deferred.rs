@@ -44,7 +44,8 @@ impl Node for Deferred {
         let (buffers, shadows) = (ports.view("view")?, ports.shadows("shadows")?);
         let (depth, gbuffer) = (ports.texture("depth")?, ports.gbuffer("gbuffer")?);
         let mut light = self.pass.add_to(frame, &buffers, shadows, &depth, &gbuffer, view.clear_color())?;
-        self.forward.blended(frame, &buffers, shadows, &depth, &view.geometry(frame), &mut light)?;
+        let geometry = view.geometry(frame);
+        self.forward.blended(frame, &buffers, shadows, &depth, &geometry, &mut light)?;
         ports.set("light", light);
         Ok(())
     }

@@ -39,7 +39,8 @@ impl Node for GBuffer {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         let (buffers, depth) = (ports.view("view")?, ports.texture("depth")?);
-        let gbuffer = self.pass.add_to(frame, &buffers, &depth, &view.geometry(frame));
+        let geometry = view.geometry(frame);
+        let gbuffer = self.pass.add_to(frame, &buffers, &depth, &geometry);
         self.velocity.set(frame, view, (&buffers, &depth), ports)?;
         ports.set("gbuffer", gbuffer);
         Ok(())

@@ -51,7 +51,10 @@ impl Geometry {
     ) -> Result<(Texture, Option<SurfaceBuffers>), Error> {
         let depth = match self.occlusion.as_ref().filter(|_| view.casters.culls_on_gpu()) {
             Some(occlusion) => view.add_occluded_prepass(frame, (occlusion, &self.prepass), buffers),
-            None => self.prepass.add_to(frame, buffers, &view.geometry(frame)),
+            None => {
+                let geometry = view.geometry(frame);
+                self.prepass.add_to(frame, buffers, &geometry)
+            }
         };
         frame.note(&depth, view.casters.culling());
         let geometry = &view.geometry(frame);

@@ -36,8 +36,8 @@ impl Node for Surfaces {
         ports: &mut Ports<'_, 'f>,
     ) -> Result<(), Error> {
         if let Some(drawer) = &self.drawer {
-            let surfaces =
-                drawer.surface_buffers_with_prepass(frame, &ports.view("view")?, &view.geometry(frame))?;
+            let geometry = view.geometry(frame);
+            let surfaces = drawer.surface_buffers_with_prepass(frame, &ports.view("view")?, &geometry)?;
             ports.set("surfaces", surfaces);
         }
         Ok(())

@@ -57,7 +57,8 @@ impl VelocityOutput {
                 self.passes.get_or_init(|| created)
             }
         };
-        let velocity = passes.add_to(frame, buffers, depth, &view.geometry(frame));
+        let geometry = view.geometry(frame);
+        let velocity = passes.add_to(frame, buffers, depth, &geometry);
         ports.set(Self::NAME, velocity);
         Ok(())
     }
