@@ -1,32 +1,31 @@
 //! `shadowgraph bench`: the cost of a frame.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::ablate::ablate;
 use super::args::BenchArgs;
 use super::commands::{self, Input};
 use super::console;
 use super::failure::Failure;
+use super::fly::fly;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
-use shadowgraph::scene::Camera;
 use shadowgraph::{CulledView, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
     Comparison, FrameTime, INSTANCES, MATERIALS, ManyFrames, MovingFrameTime, MovingFrames, Stats,
-    WholeFrame, compare, flying_frames, frames_of_many, moving_frames, pass_times, whole_frames,
+    WholeFrame, compare, frames_of_many, moving_frames, pass_times, whole_frames,
 };
 
 /// Number of frames on a real GPU; each is waited for.
 const GPU_FRAMES: u32 = 20;
 
-/// Distance that the camera moves in each frame of `--fly`, metres.
-const FLOWN_M: f64 = 0.05;
-
 /// Measures and prints, a table at a time.
 pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure> {
+    let start = Instant::now();
     let input = commands::input(&args.draw.with_default_pipeline(Pipeline::minimal_lit().name()), registry)?;
+    let read = start.elapsed();
     let view = commands::tracked(&commands::view_options(&input)?, &input.options, input.options.time.0)?;
     if cfg!(debug_assertions) {
         console::warning("debug build: measure with `cargo run --release`");
@@ -55,10 +54,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     }
     if args.fly {
         let gpu = gpu.as_ref().unwrap_or(&noop);
-        let renderer = &mut renderer(gpu, &input)?;
-        let camera = |frame| flown(&view.camera, frame);
-        let times = flying_frames(gpu, renderer, (view.size_px, &view.shadows), args.frames, camera)?;
-        return console::print(&flying_table(&times, renderer));
+        return console::print(&fly(gpu, input, &view, args.frames, read)?);
     }
     if args.whole_frame || args.ablate {
         let gpu = gpu.map_or_else(|| Gpu::open(&input.options.adapter).map_err(Failure::no_device), Ok)?;
@@ -67,7 +63,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         let tables = if args.ablate {
             ablate(&gpu, &input, &view, frames)?
         } else {
-            let renderer = &mut renderer(&gpu, &input)?;
+            let renderer = &mut renderer(&gpu, input)?;
             let times = whole_frames(&gpu, renderer, &view, frames)?;
             let passes = passes(&gpu, renderer, &view, frames)?;
             let culled = culled_table(&gpu, renderer, &view)?;
@@ -78,21 +74,22 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     }
     let measuring = Progress::if_slow("measuring");
     let comparison = match input.options.render_config() == RenderConfig::from(Pipeline::minimal_lit()) {
-        true => table(&compare(&noop, &mut renderer(&noop, &input)?, &view, args.frames)?),
+        true => table(&compare(&noop, &mut renderer(&noop, input.clone())?, &view, args.frames)?),
         false => {
             "Only the pipeline minimal_lit with pcf and one sample has hand-written passes to compare with.\n"
                 .into()
         }
     };
     let gpu = gpu.as_ref().unwrap_or(&noop);
-    let passes = passes(gpu, &mut renderer(gpu, &input)?, &view, args.frames.min(GPU_FRAMES))?;
+    let passes = passes(gpu, &mut renderer(gpu, input)?, &view, args.frames.min(GPU_FRAMES))?;
     drop(measuring);
     console::print(&format!("{comparison}\n{passes}"))
 }
 
-fn renderer(gpu: &Gpu, input: &Input) -> Result<Renderer, Failure> {
-    let (scene, aov) = (input.scene.clone(), input.options.aov.clone());
-    Ok(Renderer::with_config(gpu, scene, &input.camera, aov, input.options.render_config())?)
+/// Creates the renderer of a scene.
+pub(super) fn renderer(gpu: &Gpu, input: Input) -> Result<Renderer, Failure> {
+    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
+    Ok(Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?)
 }
 
 fn passes(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions, frames: u32) -> Result<String, Failure> {
@@ -196,27 +193,6 @@ fn boxes_table(runs: &[ManyFrames]) -> String {
     format!(
         "CPU time of a frame of boxes of {MATERIALS} materials with a moving camera, {frames} frames, milliseconds\n{}",
         TextTable { alignment: "rlrr", indent: 2, width: COLUMNS }.format(rows)
-    )
-}
-
-/// Returns the camera of a frame that moves ahead.
-fn flown(camera: &Camera, frame: u32) -> Camera {
-    let step = camera.forward_world() * (FLOWN_M * f64::from(frame));
-    let mut flown = camera.clone();
-    flown.world_from_view.translation += step;
-    flown
-}
-
-/// Formats the frames of a camera that moves.
-fn flying_table(frames: &[Duration], renderer: &Renderer) -> String {
-    let stats = Stats::from_samples(frames.iter().map(|time| time.as_secs_f64() * 1e3));
-    let by = if renderer.casters().culls_on_gpu() { "GPU" } else { "CPU" };
-    format!(
-        "CPU time of a frame with a moving camera, {} instances culled by the {by}, {} frames: median {:.3} ms, 95th percentile {:.3} ms\n",
-        renderer.casters().scene.instance_count(),
-        frames.len(),
-        stats.median,
-        stats.p95
     )
 }
 

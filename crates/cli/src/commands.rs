@@ -19,6 +19,7 @@ use shadowgraph::{Background, Gpu, Registry, RenderedFrame, RenderedImage, Rende
 use shadowgraph_samples::named_scene;
 
 /// The input of every drawing command.
+#[derive(Clone)]
 pub(crate) struct Input {
     pub(crate) options: Options,
     pub(crate) scene: Scene,

@@ -10,6 +10,7 @@ mod commands;
 mod console;
 mod dump;
 mod failure;
+mod fly;
 mod frame_files;
 mod measure;
 mod nodes;

@@ -107,6 +107,8 @@ enum Test<'t> {
 }
 
 impl CullPass {
+    /// The names of the buffers that a pass writes.
+    pub const BUFFERS: [&'static str; 4] = ["visible bits", "ranks", "visible instances", "draws"];
     /// The view of what is visible, in [`add_unhidden`](Self::add_unhidden).
     pub(crate) const VISIBLE: u32 = 0;
     /// The view of what is visible and was not seen before.
@@ -190,11 +192,11 @@ impl CullPass {
         let names: Vec<String> = views.iter().map(|view| view.name.clone()).collect();
         let uploaded = frame.upload_buffer("culled views", view_bytes(&inputs, views, scene.origin_world()));
         let words = |words: u32| BufferDesc::new(4 * u64::from(words));
-        let mut bits = frame.create_buffer("visible bits", words(2 * count * chunks));
-        let mut ranks = frame.create_buffer("ranks", words(count * (chunks + 1)));
-        let mut instances =
-            frame.create_buffer("visible instances", BufferDesc::new(inputs.list_bytes(count)));
-        let mut draws = frame.create_buffer("draws", BufferDesc::new(inputs.draw_bytes(count)));
+        let [bits, ranks, instances, draws] = Self::BUFFERS;
+        let mut bits = frame.create_buffer(bits, words(2 * count * chunks));
+        let mut ranks = frame.create_buffer(ranks, words(count * (chunks + 1)));
+        let mut instances = frame.create_buffer(instances, BufferDesc::new(inputs.list_bytes(count)));
+        let mut draws = frame.create_buffer(draws, BufferDesc::new(inputs.draw_bytes(count)));
         let mut pass = frame.compute_pass("cull");
         pass.note(format_args!("{note}"));
         let views = Bind::Buffer(pass.uniform_buffer(&uploaded));

@@ -1,6 +1,8 @@
 //! What the camera that frames a scene shows, and whether there is a floor under it.
 
-use glam::{DAffine3, DVec3};
+use std::collections::BTreeMap;
+
+use glam::{DAffine3, DMat3, DVec3};
 
 use crate::bounds::Aabb;
 use crate::camera::Camera;
@@ -41,10 +43,19 @@ impl Scene {
 
     /// Returns what a camera frames: everything that is seen but small things far away.
     pub(crate) fn framed(&self) -> Framed<'_> {
+        let mut local_areas = BTreeMap::new();
         let candidates =
             self.instances().filter(|(_, instance)| instance.is_seen()).map(|(key, instance)| {
-                let area =
-                    self.mesh(instance.mesh).map_or(0.0, |mesh| area(mesh, &instance.world_from_local));
+                let mut area_of = |mesh: &Mesh| match similarity(&instance.world_from_local) {
+                    Some(scale) => {
+                        let local_area = *local_areas
+                            .entry(instance.mesh)
+                            .or_insert_with(|| area(mesh, &DAffine3::IDENTITY));
+                        scale * scale * local_area
+                    }
+                    None => area(mesh, &instance.world_from_local),
+                };
+                let area = self.mesh(instance.mesh).map_or(0.0, &mut area_of);
                 Candidate { instance, bounds: self.instance_bounds(key), area }
             });
         let all: Vec<_> = candidates.filter(|candidate| !candidate.bounds.is_empty()).collect();
@@ -112,6 +123,14 @@ pub(crate) fn triangles<'m>(
     })
 }
 
+/// Returns the scale of a transform that scales all directions alike.
+fn similarity(world_from_local: &DAffine3) -> Option<f64> {
+    let axes = world_from_local.matrix3;
+    let squares = DMat3::from_diagonal(DVec3::splat(axes.x_axis.length_squared()));
+    let tolerance = 1e-9 * squares.x_axis.x;
+    (axes.transpose() * axes).abs_diff_eq(squares, tolerance).then(|| axes.x_axis.length())
+}
+
 /// Returns the surface area of an instance, square metres.
 fn area(mesh: &Mesh, world_from_local: &DAffine3) -> f64 {
     triangles(mesh, world_from_local).map(|[a, b, c]| (b - a).cross(c - a).length() * 0.5).sum()
@@ -122,6 +141,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::material::Material;
+    use glam::DQuat;
 
     fn scene(boxes: &[[DVec3; 2]]) -> Scene {
         let mut scene = Scene::default();
@@ -140,6 +160,17 @@ mod tests {
         let bounds = Aabb::from_points(points);
         assert!(bounds.max.abs().max_element() < 1.0 && bounds.min.abs().max_element() < 1.0, "{bounds:?}");
         [bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y]
+    }
+
+    #[test]
+    fn only_transforms_that_keep_angles_have_one_scale() {
+        let turn = DQuat::from_scaled_axis(DVec3::new(0.3, -1.0, 2.0));
+        let transform = |scale| DAffine3::from_scale_rotation_translation(scale, turn, DVec3::X);
+        let scale = similarity(&transform(DVec3::new(3.0, -3.0, 3.0)));
+        assert!(scale.is_some_and(|scale| (scale - 3.0).abs() < 1e-9), "{scale:?}");
+        assert_eq!(similarity(&transform(DVec3::new(3.0, 3.0, 3.001))), None);
+        let sheared = DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::new(0.6, 0.8, 0.0), DVec3::Z));
+        assert_eq!(similarity(&sheared), None);
     }
 
     #[test]

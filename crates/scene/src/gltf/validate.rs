@@ -31,8 +31,11 @@ pub const MAX_BYTES: u64 = 1 << 31;
 pub const MAX_VERTICES: usize = 24_000_000;
 /// The maximum number of indices of a scene, over all of its meshes.
 pub const MAX_INDICES: usize = 100_000_000;
-/// The maximum number of instances of a scene.
-pub const MAX_INSTANCES: usize = 1_000_000;
+/// The maximum number of nodes of a scene, with their copies, and of its instances. [`Scene::insert_instance`] allows more: as many as
+/// the buffers of the device.
+///
+/// [`Scene::insert_instance`]: crate::Scene::insert_instance
+pub const MAX_INSTANCES: usize = 1 << 21;
 /// The maximum number of joints of a skin.
 pub const MAX_JOINTS: usize = 1 << 16;
 /// The maximum number of times and values of keyframes of a scene, over all of its animations.

@@ -44,6 +44,8 @@ pub(super) struct InstanceBuffer {
 /// The buffers, for as many instances as there is space for.
 struct Buffers {
     instances: wgpu::Buffer,
+    /// The size of both buffers, bytes.
+    bytes: u64,
     /// The instances, and their numbers: draws of all instances are drawn by number.
     group: wgpu::BindGroup,
 }
@@ -62,6 +64,11 @@ impl InstanceBuffer {
     /// Returns the buffer.
     pub(super) fn buffer(&self) -> &wgpu::Buffer {
         &self.buffers.instances
+    }
+
+    /// Returns the size of the buffers, bytes.
+    pub(super) fn bytes(&self) -> u64 {
+        self.buffers.bytes
     }
 
     /// Returns the number of instances, with those that do not exist.
@@ -176,8 +183,10 @@ impl InstanceBuffer {
         let (bytes, element) = (size_of_val(&self.data[..]) as u64, size_of::<GpuInstance>() as u64);
         if bytes > self.buffers.instances.size() {
             let limits = device.limits();
-            limits::storage(&limits, "the scene's instances", bytes)?;
             let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) / element;
+            let count = self.data.len();
+            let what = format!("the scene's {count} instances, of which the device allows {most}");
+            limits::storage(&limits, &what, bytes)?;
             // The first upload has the size of the scene; later ones leave space for more.
             let first = self.buffers.instances.size() <= element;
             let capacity = self.data.len() as u64 * if first { 1 } else { 2 };
@@ -225,7 +234,7 @@ fn create(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, capacity: u64) 
             wgpu::BindGroupEntry { binding: 1, resource: numbers.as_entire_binding() },
         ],
     });
-    Buffers { instances, group }
+    Buffers { bytes: instances.size() + numbers.size(), instances, group }
 }
 
 /// Creates the layout of group 3.

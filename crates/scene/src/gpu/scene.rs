@@ -132,6 +132,12 @@ impl GpuScene {
         self.materials.features
     }
 
+    /// Returns the size of the buffers of instances: their transforms, numbers and batches, bytes.
+    #[must_use]
+    pub fn instance_bytes(&self) -> u64 {
+        self.instances.bytes() + self.batches.buffer().size()
+    }
+
     /// Returns the number of triangles of a draw.
     #[must_use]
     pub fn triangle_count(&self, draw: &Draw) -> u32 {

@@ -48,13 +48,11 @@ impl GpuScene {
         for &key in &changes.instances {
             self.update_instance((device, queue), scene, key, &mut edits)?;
         }
-        if !materials.is_empty() || !changes.meshes.is_empty() {
+        // In the first frame, all instances are new.
+        if self.frame > 1 && (!materials.is_empty() || !changes.meshes.is_empty()) {
             self.update_users((device, queue), scene, (&materials, &changes.meshes), &mut edits)?;
         }
-        self.refit(edits);
-        if self.unsorted > self.slots.len() / 4 + MIN_UNSORTED || self.frame == 1 {
-            self.sort();
-        }
+        self.follow_bounds(edits);
         self.update_batches(scene);
         self.batches.flush((device, queue), &self.geometry)?;
         self.geometry.flush(queue);
@@ -290,9 +288,8 @@ impl GpuScene {
         }
     }
 
-    /// Gives the trees the new bounds; builds them again where they are too small or degraded.
-    fn refit(&mut self, Edits { bounds, caster_bounds }: Edits) {
-        let changed: Vec<u32> = bounds.iter().map(|(number, _)| *number).collect();
+    /// Gives the trees the new bounds, and the instances their flags. Sorts all where too many are out of order.
+    fn follow_bounds(&mut self, Edits { bounds, caster_bounds }: Edits) {
         self.versions += 1;
         for &(number, bounds) in &caster_bounds {
             if !self.instances.flags(number).contains(CullFlags::MOVING) {
@@ -305,6 +302,24 @@ impl GpuScene {
         for &(number, bounds) in &bounds {
             self.bounds[number as usize] = bounds;
         }
+        if self.unsorted > self.slots.len() / 4 + MIN_UNSORTED || self.frame == 1 {
+            let mut all: Vec<_> =
+                (0..self.slots.len() as u32).map(|number| self.caster_bounds(number)).collect();
+            caster_bounds.into_iter().for_each(|(number, bounds)| all[number as usize] = bounds);
+            self.sort(&all);
+            (0..self.slots.len() as u32)
+                .for_each(|number| self.instances.set_flags(number, self.flags(number)));
+            return;
+        }
+        let changed: Vec<u32> = bounds.iter().map(|(number, _)| *number).collect();
+        self.refit(bounds, caster_bounds);
+        for number in changed {
+            self.instances.set_flags(number, self.flags(number));
+        }
+    }
+
+    /// Gives the trees new bounds by number; builds them again where they are too small or degraded.
+    fn refit(&mut self, bounds: Vec<(u32, Aabb)>, caster_bounds: Vec<(u32, Aabb)>) {
         let count = self.slots.len();
         for (tree, changed) in [(&mut self.tree, bounds), (&mut self.caster_tree, caster_bounds)] {
             if count > tree.len() {
@@ -321,22 +336,21 @@ impl GpuScene {
                 tree.rebuild();
             }
         }
-        for number in changed {
-            self.instances.set_flags(number, self.flags(number));
-        }
     }
 
-    /// Numbers all instances in the order of draws.
-    fn sort(&mut self) {
+    /// Numbers all instances in the order of draws, and builds the trees. `caster_bounds` are those by number.
+    fn sort(&mut self, caster_bounds: &[Aabb]) {
         let mut slots: Vec<Slot> = std::mem::take(&mut self.slots).into_iter().flatten().collect();
         slots.sort_unstable_by_key(|slot| slot.draw);
         let order: Vec<u32> = slots.iter().map(|slot| slot.draw.instance).collect();
         self.instances.reorder(&order);
         self.bounds = order.iter().map(|number| self.bounds[*number as usize]).collect();
-        let caster_bounds: Vec<_> =
-            order.iter().map(|&number| self.caster_tree.item_bounds(number)).collect();
+        let caster_bounds: Vec<_> = order.iter().map(|number| caster_bounds[*number as usize]).collect();
         self.tree = CullTree::new(&self.bounds);
-        self.caster_tree = CullTree::new(&caster_bounds);
+        self.caster_tree = match caster_bounds == self.bounds {
+            true => self.tree.clone(),
+            false => CullTree::new(&caster_bounds),
+        };
         self.numbers = Numbers::default();
         for slot in &mut slots {
             let number = self.numbers.insert(slot.key);

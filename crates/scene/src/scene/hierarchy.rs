@@ -93,6 +93,9 @@ impl Scene {
     /// # Errors
     /// [`EditError::OutOfRange`] if something is moved over 1e15 m from the world's origin; nothing is moved then.
     pub fn set_time(&mut self, selection: AnimationSelection, time_s: f64) -> Result<(), EditError> {
+        if self.hierarchy.animations.is_empty() {
+            return Ok(());
+        }
         let mut pose = Pose::default();
         pose.set(&self.hierarchy.nodes, self.hierarchy.selected(selection), time_s);
         check_range(&self.hierarchy, &pose, time_s)?;
@@ -118,6 +121,9 @@ impl Scene {
     /// Deforms all meshes that have a skin or morph targets as they are at rest.
     #[cfg(feature = "gltf")]
     pub(crate) fn deform_at_rest(&mut self) -> Result<(), EditError> {
+        if !self.meshes().any(|(_, mesh)| mesh.skin.is_some() || !mesh.morph_targets.is_empty()) {
+            return Ok(());
+        }
         let mut pose = Pose::default();
         pose.set(&self.hierarchy.nodes, [], 0.0);
         let mut moves = self.instance_moves(&pose, 0.0, &vec![true; self.hierarchy.nodes.len()])?;

@@ -186,13 +186,13 @@ fn sparse_indices_out_of_range_are_rejected() {
 }
 
 #[test]
-fn at_most_a_million_instances_are_allowed() {
+fn at_most_two_million_instances_are_allowed() {
     let mut file = File::triangle();
     let primitive = file.json["meshes"][0]["primitives"][0].clone();
-    file.json["meshes"][0]["primitives"] = vec![primitive; 1001].into();
+    file.json["meshes"][0]["primitives"] = vec![primitive; 2098].into();
     file.json["nodes"] = vec![json!({"mesh": 0}); 1000].into();
     file.json["scenes"][0]["nodes"] = (0..1000).collect::<Vec<_>>().into();
-    assert_rejected(&file, &["nodes", "1001000 instances", "up to 1000000"]);
+    assert_rejected(&file, &["nodes", "2098000 instances", "up to 2097152"]);
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn moving_one_of_ten_thousand_instances_changes_one_and_uploads_as_much() {
     let mut edits = Edits::default();
     copied.gpu.update_instance(gpu, &copied.scene, keys[77], &mut edits).unwrap();
     assert_eq!((edits.bounds.len(), copied.gpu.instances.pending()), (1, 1));
-    copied.gpu.refit(edits);
+    copied.gpu.follow_bounds(edits);
     copied.gpu.instances.flush(gpu, &copied.gpu.layouts.draw).unwrap();
     let after = versions(&copied);
     let changed: Vec<_> = (0..keys.len()).filter(|&index| before[index] != after[index]).collect();
