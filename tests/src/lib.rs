@@ -1,6 +1,7 @@
 //! Shared by the tests of the whole workspace: paths, skips, the built program.
 
 pub mod animated;
+pub mod copies;
 pub mod edits;
 pub mod features;
 pub mod gltf_file;

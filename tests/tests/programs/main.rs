@@ -4,6 +4,7 @@
 mod bad_gltf;
 mod dump;
 mod examples;
+mod fly;
 mod measure;
 mod nodes;
 mod pages;
