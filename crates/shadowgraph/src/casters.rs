@@ -215,7 +215,7 @@ impl GpuCasters for SceneCasters {
     }
 
     fn static_count(&self) -> usize {
-        self.scene.instance_count()
+        self.scene.static_caster_count()
     }
 
     fn static_version(&self) -> u64 {

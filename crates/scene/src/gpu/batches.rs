@@ -42,6 +42,11 @@ impl CullFlags {
         self.0 & other.0 == other.0
     }
 
+    /// Returns whether the instance casts shadows and does not move.
+    pub(super) const fn is_static_caster(self) -> bool {
+        self.contains(Self::CASTER) && !self.contains(Self::MOVING)
+    }
+
     /// Returns the flags as a number, as shaders read them.
     #[must_use]
     pub const fn bits(self) -> u32 {

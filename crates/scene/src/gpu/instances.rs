@@ -34,6 +34,8 @@ fn rows(world_from_local: &DAffine3, origin_world: DVec3) -> [Vec4; 3] {
 /// The transforms of all instances, by number.
 pub(super) struct InstanceBuffer {
     data: Vec<GpuInstance>,
+    /// Number of instances that cast shadows and do not move.
+    static_casters: usize,
     /// Numbers of instances that have not been written yet, with duplicates.
     changed: Vec<u32>,
     /// Numbers of instances whose previous transform differs from their own.
@@ -53,7 +55,13 @@ struct Buffers {
 impl InstanceBuffer {
     /// Creates an empty buffer.
     pub(super) fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> Self {
-        Self { data: Vec::new(), changed: Vec::new(), moved: Vec::new(), buffers: create(device, layout, 1) }
+        Self {
+            data: Vec::new(),
+            static_casters: 0,
+            changed: Vec::new(),
+            moved: Vec::new(),
+            buffers: create(device, layout, 1),
+        }
     }
 
     /// Returns the bind group of draws whose instances are their numbers.
@@ -81,6 +89,11 @@ impl InstanceBuffer {
         self.set_flag(number, |flags| flags.x = batch);
     }
 
+    /// Returns the number of instances that cast shadows and do not move.
+    pub(super) fn static_caster_count(&self) -> usize {
+        self.static_casters
+    }
+
     /// Returns the flags of an instance.
     pub(super) fn flags(&self, number: u32) -> CullFlags {
         self.data.get(number as usize).map_or_else(CullFlags::default, |instance| CullFlags(instance.flags.y))
@@ -88,6 +101,8 @@ impl InstanceBuffer {
 
     /// Gives an instance its flags.
     pub(super) fn set_flags(&mut self, number: u32, flags: CullFlags) {
+        self.static_casters -= usize::from(self.flags(number).is_static_caster());
+        self.static_casters += usize::from(flags.is_static_caster());
         self.set_flag(number, |all| all.y = flags.bits());
     }
 
@@ -166,6 +181,8 @@ impl InstanceBuffer {
             numbers[previous as usize] = number;
         }
         self.data = order.iter().map(|&previous| self.data[previous as usize]).collect();
+        let is_static = |instance: &&GpuInstance| CullFlags(instance.flags.y).is_static_caster();
+        self.static_casters = self.data.iter().filter(is_static).count();
         self.moved.iter_mut().for_each(|moved| *moved = numbers[*moved as usize]);
         self.moved.retain(|&moved| moved != u32::MAX);
         self.changed = (0..order.len() as u32).collect();

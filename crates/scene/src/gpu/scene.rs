@@ -132,6 +132,12 @@ impl GpuScene {
         self.materials.features
     }
 
+    /// Returns the number of instances that cast shadows and have not moved within the last 60 frames.
+    #[must_use]
+    pub fn static_caster_count(&self) -> usize {
+        self.instances.static_caster_count()
+    }
+
     /// Returns the size of the buffers of instances: their transforms, numbers and batches, bytes.
     #[must_use]
     pub fn instance_bytes(&self) -> u64 {

@@ -69,6 +69,13 @@ impl Copied {
         self.scene.instances().map(describe).collect()
     }
 
+    fn count_static_casters(&self) -> usize {
+        let numbers = self.scene.instances().map(|(key, _)| self.number(key));
+        let is_static =
+            |number: &u32| !self.gpu.caster_bounds(*number).is_empty() && !self.gpu.is_moving(*number);
+        numbers.filter(is_static).count()
+    }
+
     fn cull(&self, volume: &CullVolume) -> [Vec<InstanceKey>; 2] {
         let (mut seen, mut casters) = (Vec::new(), Vec::new());
         self.gpu.cull(volume, &mut seen);
@@ -365,6 +372,7 @@ proptest! {
             let fresh = Copied::new(copied.scene.clone());
             prop_assert_eq!(copied.instances(), fresh.instances());
             prop_assert_eq!(copied.gpu.all_bounds(), fresh.gpu.all_bounds());
+            prop_assert_eq!(copied.gpu.static_caster_count(), copied.count_static_casters());
             prop_assert_eq!(copied.gpu.all_caster_bounds(), fresh.gpu.all_caster_bounds());
             // A copy keeps the textures of materials that instances used once.
             prop_assert!(copied.gpu.materials.texture_count() >= fresh.gpu.materials.texture_count());
