@@ -63,7 +63,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
         let tables = if args.ablate {
             ablate(&gpu, &input, &view, frames)?
         } else {
-            let renderer = &mut renderer(&gpu, input)?;
+            let renderer = &mut input.renderer(&gpu)?;
             let times = whole_frames(&gpu, renderer, &view, frames)?;
             let passes = passes(&gpu, renderer, &view, frames)?;
             let culled = culled_table(&gpu, renderer, &view)?;
@@ -74,22 +74,16 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     }
     let measuring = Progress::if_slow("measuring");
     let comparison = match input.options.render_config() == RenderConfig::from(Pipeline::minimal_lit()) {
-        true => table(&compare(&noop, &mut renderer(&noop, input.clone())?, &view, args.frames)?),
+        true => table(&compare(&noop, &mut input.clone().renderer(&noop)?, &view, args.frames)?),
         false => {
             "Only the pipeline minimal_lit with pcf and one sample has hand-written passes to compare with.\n"
                 .into()
         }
     };
     let gpu = gpu.as_ref().unwrap_or(&noop);
-    let passes = passes(gpu, &mut renderer(gpu, input)?, &view, args.frames.min(GPU_FRAMES))?;
+    let passes = passes(gpu, &mut input.renderer(gpu)?, &view, args.frames.min(GPU_FRAMES))?;
     drop(measuring);
     console::print(&format!("{comparison}\n{passes}"))
-}
-
-/// Creates the renderer of a scene.
-pub(super) fn renderer(gpu: &Gpu, input: Input) -> Result<Renderer, Failure> {
-    let (aov, config) = (input.options.aov.clone(), input.options.render_config());
-    Ok(Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?)
 }
 
 fn passes(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions, frames: u32) -> Result<String, Failure> {

@@ -26,6 +26,14 @@ pub(crate) struct Input {
     pub(crate) camera: Camera,
 }
 
+impl Input {
+    /// Creates the renderer of the scene.
+    pub(crate) fn renderer(self, gpu: &Gpu) -> Result<Renderer, Failure> {
+        let (aov, config) = (self.options.aov.clone(), self.options.render_config());
+        Ok(Renderer::with_config(gpu, self.scene, &self.camera, aov, config)?)
+    }
+}
+
 /// `shadowgraph render`
 pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
     check_output(&args.output)?;

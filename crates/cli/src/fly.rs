@@ -7,7 +7,6 @@ use shadowgraph::scene::Camera;
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_quality::bench::{Stats, flying_frames};
 
-use super::bench::renderer;
 use super::commands::Input;
 use super::failure::Failure;
 
@@ -23,7 +22,7 @@ pub(crate) fn fly(
     read: Duration,
 ) -> Result<String, Failure> {
     let start = Instant::now();
-    let mut renderer = renderer(gpu, input)?;
+    let mut renderer = input.renderer(gpu)?;
     let uploaded = start.elapsed();
     let camera = |frame| flown(&view.camera, frame);
     let times = flying_frames(gpu, &mut renderer, (view.size_px, &view.shadows), frames, camera)?;

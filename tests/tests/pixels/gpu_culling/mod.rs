@@ -1,5 +1,6 @@
 //! Culling of instances on the GPU.
 
+mod first_instance;
 mod lists;
 mod occlusion;
 mod pyramid;
